@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <tl/expected.hpp>
+
+namespace posewire::render {
+
+/// Up to four joints a vertex; unused places have joint 0 and weight 0.
+using JointIndices = std::array<std::uint8_t, 4>;
+
+/// A triangle mesh in its bind pose, on the CPU. All vertex arrays have one entry per vertex.
+/// Metres, Z-up, X forward, Y left; triangles are counter-clockwise seen from outside.
+struct SkinnedMesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;
+    /// Baked ambient light: 1 is open, 0 is closed.
+    std::vector<float> occlusion;
+    /// 0..22 are segments (MVN's ID − 1), 23..28 twist joints: see joints.h.
+    std::vector<JointIndices> joints;
+    /// Not negative, sum 1, falling from x to w.
+    std::vector<glm::vec4> weights;
+    /// Three a triangle.
+    std::vector<std::uint32_t> indices;
+
+    std::size_t vertexCount() const { return positions.size(); }
+    std::size_t triangleCount() const { return indices.size() / 3; }
+
+    /// What makes the mesh unfit to draw: array sizes that disagree, indices out of range, numbers that are
+    /// not finite, weights that do not sum to 1 within 1e-4. `jointCount` bounds the joint indices.
+    tl::expected<void, std::string> validate(std::size_t jointCount) const;
+};
+
+/// Area-weighted vertex normals of unit length. A vertex without area keeps (0, 0, 1).
+void computeNormals(std::span<const glm::vec3> positions, std::span<const std::uint32_t> indices,
+                    std::span<glm::vec3> normals);
+
+} // namespace posewire::render

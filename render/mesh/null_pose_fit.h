@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/mesh/joints.h"
+#include "render/mesh/mesh.h"
+
+#include <span>
+#include <string>
+
+namespace posewire::render {
+
+/// Stretches a mesh from one null pose to a performer's: v' = Σ wᵢ (o'ᵢ + Sᵢ (v − oᵢ)), with the weights of
+/// twist joints counted for their segments. Null poses have identity orientations, so that a diagonal Sᵢ is
+/// exact: along the bone it is the ratio of the lengths, across it the girth that follows from the stature.
+/// A length that is not finite, zero or beyond all reason counts as the reference's.
+struct NullPoseFitJob {
+    const SkinnedMesh* mesh = nullptr;
+    /// Segment origins that the mesh was made for, metres.
+    std::span<const glm::vec3> reference;
+    /// The performer's segment origins (type 13), metres, Z-up.
+    std::span<const glm::vec3> performer;
+    /// Fitted vertices, in the performer's null-pose frame.
+    std::span<glm::vec3> positions;
+    std::span<glm::vec3> normals;
+    /// The performer's origins as used, with unusable ones replaced: the palette must be made with these.
+    std::span<glm::vec3> origins;
+
+    tl::expected<void, std::string> validate() const;
+    void run() const;
+};
+
+/// The mesh fitted to the performer, by NullPoseFitJob from kReferenceNullPose. `usedOrigins` receives its
+/// `origins`.
+SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer, NullPose& usedOrigins);
+
+} // namespace posewire::render
