@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+namespace posewire::model {
+
+inline constexpr int kBodySegmentCount = 23;
+inline constexpr int kMaxPropCount = 4;
+inline constexpr int kHandSegmentCount = 20;
+inline constexpr int kFingerSegmentCount = 2 * kHandSegmentCount;
+/// Body, four props and both hands: the most items a pose datagram can hold.
+inline constexpr int kMaxSegmentCount = kBodySegmentCount + kMaxPropCount + kFingerSegmentCount;
+
+/// Positions of the body segments in a pose datagram, 0-based. The wire's segment ID is this plus one.
+namespace segment {
+enum Index : int {
+    kPelvis,
+    kL5,
+    kL3,
+    kT12,
+    kT8,
+    kNeck,
+    kHead,
+    kRightShoulder,
+    kRightUpperArm,
+    kRightForeArm,
+    kRightHand,
+    kLeftShoulder,
+    kLeftUpperArm,
+    kLeftForeArm,
+    kLeftHand,
+    kRightUpperLeg,
+    kRightLowerLeg,
+    kRightFoot,
+    kRightToe,
+    kLeftUpperLeg,
+    kLeftLowerLeg,
+    kLeftFoot,
+    kLeftToe,
+};
+} // namespace segment
+
+enum class Side : std::uint8_t { Centre, Right, Left };
+
+/// One row of the segment tables.
+struct Segment {
+    int id = 0;                   ///< on the wire, 1-based
+    std::string_view name;        ///< as sent in type 13: "RightUpperArm"
+    std::string_view displayName; ///< "Right Upper Arm"
+    int parent = -1;              ///< 0-based position of the parent, -1 for the pelvis
+    Side side = Side::Centre;
+};
+
+/// The 23 body segments in wire order (Table 1 of the specification; parents as in every known receiver).
+const std::array<Segment, kBodySegmentCount>& bodySegments();
+
+/// A segment of one hand. `parent` counts within the hand; -1 means the hand segment of the body.
+/// Names lack the side: "Carpus", "FirstMC" … "FifthDP".
+const std::array<Segment, kHandSegmentCount>& handSegments();
+
+/// Body segment index at each place of a type 05 (Unity3D) datagram, and the inverse.
+const std::array<int, kBodySegmentCount>& unityOrder();
+const std::array<int, kBodySegmentCount>& unityPlaces();
+
+/// Which items a pose datagram holds: body, props, left hand, right hand, in this order; absent parts are
+/// skipped.
+struct SegmentLayout {
+    int body = kBodySegmentCount;
+    int props = 0;
+    int fingers = 0; ///< 0, 20 (left hand only) or 40
+
+    constexpr int count() const { return body + props + fingers; }
+    friend constexpr bool operator==(const SegmentLayout&, const SegmentLayout&) = default;
+};
+
+enum class SegmentKind : std::uint8_t { Body, Prop, LeftFinger, RightFinger };
+
+/// What the item at a place of a pose datagram is.
+struct SegmentPlace {
+    SegmentKind kind = SegmentKind::Body;
+    int index = 0; ///< within the kind: body segment, prop number, or place in the hand
+};
+
+/// Judged by position, since the numbering of props differs between revisions. Empty outside the layout.
+std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position);
+
+/// Name for display and lists: "RightUpperArm", "Prop1", "LeftFirstPP"; empty outside the layout.
+std::string_view segmentName(const SegmentLayout& layout, int position);
+std::string_view segmentDisplayName(const SegmentLayout& layout, int position);
+
+/// Position of the parent item; -1 for the pelvis, for props (they are free in space) and outside the layout.
+int segmentParent(const SegmentLayout& layout, int position);
+
+/// Body segment index of a type 13 name; empty for fingers, props and unknown names.
+std::optional<int> findBodySegment(std::string_view name);
+
+/// The same segment on the other side; centre segments are their own mirror.
+int mirrored(int bodySegment);
+
+} // namespace posewire::model
