@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/mesh/mesh.h"
+#include "render/scene.h"
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <tl/expected.hpp>
+
+namespace posewire::render {
+
+/// How much work goes into a picture.
+struct RenderQuality {
+    /// Samples a pixel of multisampling; 0 or 1 is none.
+    int samples = 4;
+    /// Smooths the figures' edges by looking at the finished picture: cheap where multisampling is dear.
+    bool edgeSmoothing = false;
+    /// Texels a side of the light's depth picture, and of the softened shadow on the floor.
+    int shadowMapSize = 2048;
+    int floorShadowSize = 1024;
+
+    bool operator==(const RenderQuality&) const = default;
+};
+
+/// Whether OpenGL is drawn by the processor (llvmpipe, softpipe, swrast).
+bool isSoftwareRenderer(std::string_view rendererName);
+/// What suits a renderer when pictures follow one another: `rendererName` is GL_RENDERER.
+RenderQuality interactiveQuality(std::string_view rendererName);
+/// For a single picture: time does not matter.
+RenderQuality stillQuality();
+
+/// Where to draw: an existing framebuffer object with colour and depth, 0 for the default one.
+struct Viewport {
+    int width = 0;
+    int height = 0;
+    unsigned framebuffer = 0;
+    /// Device pixels a logical pixel: widths of lines and points are scaled by it.
+    float pixelRatio = 1.0F;
+};
+
+/// Draws scenes in the OpenGL context that was current at `create`: any context of 3.3 or newer.
+/// Every call, the destructor included, needs that context current on the calling thread. State that is left
+/// changed: bindings, viewport and enables; a caller that draws too sets its own.
+class Renderer {
+public:
+    /// The error tells what is missing: a version, or the shader compiler's own text.
+    static tl::expected<Renderer, std::string> create();
+
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+    ~Renderer();
+
+    /// GL_RENDERER.
+    const std::string& rendererName() const;
+    const RenderQuality& quality() const;
+    /// Starts as interactiveQuality.
+    void setQuality(const RenderQuality& quality);
+
+    /// `templatePositions` says where each vertex sits on the mannequin in its reference null pose: the suit
+    /// is painted there, so that a fitted mesh keeps its seams. Empty paints without a suit, as for imported
+    /// meshes. MeshId::None where mesh.validate() fails.
+    MeshId uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
+    /// Same mesh, new shape. False leaves what was there.
+    bool replaceMesh(MeshId id, const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
+    void releaseMesh(MeshId id);
+
+    /// Characters whose mesh is unknown or whose palette is short are left out.
+    void draw(const Scene& scene, const Viewport& viewport);
+
+    /// Positions as the vertex shader skins them, in the order of the mesh's own vertices: what SkinJob is
+    /// compared with. Empty where the mesh is unknown or the palette short.
+    std::vector<glm::vec3> skinnedPositions(MeshId id, std::span<const DualQuaternion> palette);
+
+private:
+    struct Impl;
+    explicit Renderer(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> m_impl;
+};
+
+} // namespace posewire::render
