@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/chunk_history.h"
+#include "core/log/packet.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace posewire::log {
+
+class PacketLog;
+
+/// A steady look at a PacketLog: begin() and end() move only in refresh(), whatever the writer does
+/// meanwhile. Each thread has a reader of its own; a reader is cheap, and must not outlive its log.
+///
+/// The bytes of a packet stay valid until the next refresh() or the end of the reader, also where the log
+/// drops them meanwhile: what was looked at is held, chunk by chunk. A packet that was not looked at may be
+/// gone.
+class LogReader {
+public:
+    explicit LogReader(const PacketLog& log);
+
+    /// Moves on to what the log holds now and lets go of what was looked at. True if there are new packets.
+    bool refresh();
+
+    /// Number of the oldest packet there was at the last refresh().
+    [[nodiscard]] std::uint64_t begin() const { return m_begin; }
+    /// One past the newest packet there was at the last refresh().
+    [[nodiscard]] std::uint64_t end() const { return m_end; }
+
+    /// Nothing where the number is outside [begin, end) or the log has dropped the packet since the last
+    /// refresh().
+    [[nodiscard]] std::optional<Packet> packet(std::uint64_t number) {
+        if (number - m_currentFirst < m_currentCount) {
+            return view(number);
+        }
+        return packetElsewhere(number);
+    }
+
+private:
+    struct Entry {
+        std::uint64_t first;
+        std::weak_ptr<const Chunk> chunk;
+        std::shared_ptr<const Chunk> held;
+    };
+
+    std::optional<Packet> packetElsewhere(std::uint64_t number);
+    void letGo();
+
+    [[nodiscard]] Packet view(std::uint64_t number) const {
+        const Record& record = m_current->record(static_cast<std::size_t>(number - m_currentFirst));
+        return {number,        record.stampNs,
+                record.source, record.kernelDropsBefore,
+                record.flags,  {record.data, record.size}};
+    }
+
+    const ChunkHistory* m_history;
+    std::uint64_t m_begin = 0;
+    std::uint64_t m_end = 0;
+    std::uint64_t m_version = 0;
+    std::vector<Entry> m_entries;
+    std::vector<std::size_t> m_heldEntries;
+
+    const Chunk* m_current = nullptr; ///< the chunk of the last packet looked at
+    std::uint64_t m_currentFirst = 0;
+    std::uint64_t m_currentCount = 0;
+};
+
+} // namespace posewire::log

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/log_writer.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace posewire::log {
+
+namespace {
+
+/// Below this many lanes a batch is no batch any more and a new chunk is the better way.
+constexpr std::size_t kFewestLanes = 8;
+
+constexpr std::size_t aligned(std::size_t size) {
+    return (size + 7) & ~std::size_t{7};
+}
+
+std::size_t blockSizeFor(std::size_t chunkSize) {
+    return std::clamp<std::size_t>(chunkSize / 256, 4096, std::size_t{32} << 10);
+}
+
+} // namespace
+
+LogWriter::LogWriter(ChunkHistory& history)
+    : m_history(history),
+      m_blockSize(blockSizeFor(history.limits().chunkSize)),
+      m_spill(new std::byte[kLaneLimit * kSpillSize]) { // left as it is: its pages exist once a packet spills
+    for (std::size_t i = 0; i < kLaneLimit; ++i) {
+        m_lanes[i].spill = {m_spill.get() + i * kSpillSize, kSpillSize};
+    }
+}
+
+std::span<const LogWriter::Lane> LogWriter::lanes() {
+    if (!m_chunk || m_chunk != m_laneChunk) {
+        openLanes();
+    }
+    for (std::size_t i = 0; i < m_laneCount;) {
+        if (m_lanes[i].bytes.size() >= kLaneRoom || refill(i)) {
+            ++i;
+            continue;
+        }
+        // The chunk has no block left: this lane goes on in what the last one has.
+        m_lanes[i].bytes = m_lanes[--m_laneCount].bytes;
+    }
+    if (m_laneCount < kFewestLanes || m_chunk->room() < m_laneCount * sizeof(Record)) {
+        beginChunk();
+        openLanes();
+    }
+    return std::span<const Lane>(m_lanes).first(m_laneCount);
+}
+
+void LogWriter::commit(std::size_t lane, std::size_t size, const Arrival& arrival) {
+    const std::span<std::byte> bytes = m_lanes[lane].bytes;
+    if (size <= bytes.size() && m_chunk == m_laneChunk && m_chunk->room() >= sizeof(Record)) {
+        addRecord(bytes.data(), size, arrival);
+        m_lanes[lane].bytes = bytes.subspan(std::min(aligned(size), bytes.size()));
+        return;
+    }
+    const std::size_t inLane = std::min(size, bytes.size());
+    const std::size_t inSpill = std::min(size - inLane, kSpillSize);
+    std::byte* copy = place(inLane + inSpill);
+    std::memcpy(copy, bytes.data(), inLane);
+    std::memcpy(copy + inLane, m_lanes[lane].spill.data(), inSpill);
+    addRecord(copy, inLane + inSpill, arrival);
+}
+
+void LogWriter::append(std::span<const std::byte> bytes, const Arrival& arrival) {
+    // What is longer than a chunk can hold cannot be a datagram; its beginning is kept.
+    const std::size_t most = m_history.limits().chunkSize - sizeof(Record);
+    Arrival kept = arrival;
+    kept.flags.truncated |= bytes.size() > most;
+    const std::span<const std::byte> head = bytes.first(std::min(bytes.size(), most));
+    std::byte* copy = place(head.size());
+    if (!head.empty()) {
+        std::memcpy(copy, head.data(), head.size());
+    }
+    addRecord(copy, head.size(), kept);
+}
+
+void LogWriter::beginChunk() {
+    m_chunk = m_history.beginChunk(m_next);
+}
+
+void LogWriter::openLanes() {
+    if (!m_chunk) {
+        beginChunk();
+    }
+    m_laneChunk = m_chunk;
+    m_laneCount = 0;
+    while (m_laneCount < kLaneLimit && refill(m_laneCount)) {
+        ++m_laneCount;
+    }
+}
+
+bool LogWriter::refill(std::size_t lane) {
+    // Every block is worth some records, for which there must be room as well.
+    const std::size_t records = kLaneLimit * sizeof(Record);
+    if (m_chunk->room() < m_blockSize + records) {
+        return false;
+    }
+    m_lanes[lane].bytes = {m_chunk->take(m_blockSize), m_blockSize};
+    return true;
+}
+
+std::byte* LogWriter::place(std::size_t size) {
+    if (!m_chunk || m_chunk->room() < aligned(size) + sizeof(Record)) {
+        beginChunk();
+    }
+    return m_chunk->take(aligned(size));
+}
+
+void LogWriter::addRecord(const std::byte* data, std::size_t size, const Arrival& arrival) {
+    m_chunk->addRecord({data, arrival.stampNs, static_cast<std::uint32_t>(size), arrival.source,
+                        arrival.kernelDropsBefore, arrival.flags});
+    ++m_next;
+}
+
+} // namespace posewire::log

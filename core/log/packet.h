@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace posewire::log {
+
+/// Index of a SourceInfo in the SourceTable of the log; dense, from 0.
+enum class SourceId : std::uint32_t {};
+
+enum class Transport : std::uint8_t { Udp, Tcp, File, Performer };
+
+/// Where packets come from. Two packets have the same SourceId exactly if all three members are equal.
+struct SourceInfo {
+    std::string address; ///< "127.0.0.1:40001", "[::1]:40001", a file name, the name of a performer
+    Transport transport = Transport::Udp;
+    std::uint16_t localPort = 0; ///< the port it arrived at; 0 where there is none
+
+    friend bool operator==(const SourceInfo&, const SourceInfo&) = default;
+};
+
+struct PacketFlags {
+    bool truncated = false;       ///< the datagram was longer than what could be received
+    bool stampedByKernel = false; ///< the stamp is the kernel's, else it was taken when the packet was read
+    bool skipped = false;         ///< bytes of a byte stream that belong to no datagram
+
+    friend bool operator==(const PacketFlags&, const PacketFlags&) = default;
+};
+
+/// All that is known about a packet when it arrives, besides its bytes.
+struct Arrival {
+    std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
+    SourceId source{};
+    /// Datagrams that this computer lost for want of buffer room (SO_RXQ_OVFL) on the socket of this packet
+    /// since the packet before it from that socket. It is kept in the log so that a replay tells the same
+    /// story.
+    std::uint32_t kernelDropsBefore = 0;
+    PacketFlags flags;
+};
+
+/// A view of one packet of the log. `bytes` stays valid as long as the LogReader that gave it says.
+struct Packet {
+    std::uint64_t number = 0; ///< position in the log: grows for ever, without gaps, in the order of arrival
+    std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
+    SourceId source{};
+    std::uint32_t kernelDropsBefore = 0; ///< see Arrival
+    PacketFlags flags;
+    std::span<const std::byte> bytes;
+};
+
+} // namespace posewire::log
