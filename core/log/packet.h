@@ -38,7 +38,7 @@ struct Arrival {
     /// since the packet before it from that socket. It is kept in the log so that a replay tells the same
     /// story.
     std::uint32_t kernelDropsBefore = 0;
-    PacketFlags flags;
+    PacketFlags flags{};
 };
 
 /// A view of one packet of the log. `bytes` stays valid as long as the LogReader that gave it says.
@@ -47,7 +47,7 @@ struct Packet {
     std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
     SourceId source{};
     std::uint32_t kernelDropsBefore = 0; ///< see Arrival
-    PacketFlags flags;
+    PacketFlags flags{};
     std::span<const std::byte> bytes;
 };
 
