@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/wire/types.h"
+
+#include <bit>
+#include <cstring>
+
+/// Network byte order (§2.5.11) to and from native values. The caller guarantees the room.
+namespace posewire::wire {
+
+inline std::uint16_t load16(const std::byte* from) {
+    std::uint16_t value;
+    std::memcpy(&value, from, sizeof value);
+    return std::endian::native == std::endian::little ? __builtin_bswap16(value) : value;
+}
+
+inline std::uint32_t load32(const std::byte* from) {
+    std::uint32_t value;
+    std::memcpy(&value, from, sizeof value);
+    return std::endian::native == std::endian::little ? __builtin_bswap32(value) : value;
+}
+
+inline void store16(std::byte* to, std::uint16_t value) {
+    value = std::endian::native == std::endian::little ? __builtin_bswap16(value) : value;
+    std::memcpy(to, &value, sizeof value);
+}
+
+inline void store32(std::byte* to, std::uint32_t value) {
+    value = std::endian::native == std::endian::little ? __builtin_bswap32(value) : value;
+    std::memcpy(to, &value, sizeof value);
+}
+
+inline void loadValue(const std::byte* from, std::uint8_t& value) {
+    value = std::to_integer<std::uint8_t>(*from);
+}
+inline void loadValue(const std::byte* from, std::uint16_t& value) {
+    value = load16(from);
+}
+inline void loadValue(const std::byte* from, std::uint32_t& value) {
+    value = load32(from);
+}
+inline void loadValue(const std::byte* from, std::int32_t& value) {
+    value = static_cast<std::int32_t>(load32(from));
+}
+
+template <std::size_t N>
+void loadValue(const std::byte* from, std::array<float, N>& values) {
+    for (std::size_t i = 0; i < N; ++i) {
+        values[i] = std::bit_cast<float>(load32(from + 4 * i));
+    }
+}
+
+template <std::size_t N>
+void loadValue(const std::byte* from, std::array<char, N>& characters) {
+    std::memcpy(characters.data(), from, N);
+}
+
+inline void storeValue(std::byte* to, std::uint8_t value) {
+    *to = std::byte{value};
+}
+inline void storeValue(std::byte* to, std::uint16_t value) {
+    store16(to, value);
+}
+inline void storeValue(std::byte* to, std::uint32_t value) {
+    store32(to, value);
+}
+inline void storeValue(std::byte* to, std::int32_t value) {
+    store32(to, static_cast<std::uint32_t>(value));
+}
+
+template <std::size_t N>
+void storeValue(std::byte* to, const std::array<float, N>& values) {
+    for (std::size_t i = 0; i < N; ++i) {
+        store32(to + 4 * i, std::bit_cast<std::uint32_t>(values[i]));
+    }
+}
+
+template <std::size_t N>
+void storeValue(std::byte* to, const std::array<char, N>& characters) {
+    std::memcpy(to, characters.data(), N);
+}
+
+} // namespace posewire::wire

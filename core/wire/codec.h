@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/wire/header.h"
+#include "core/wire/messages.h"
+#include "core/wire/notice.h"
+
+namespace posewire::wire {
+
+/// One datagram as values: the wire's own, without conversion.
+struct Datagram {
+    Header header;
+    Body body;
+    std::vector<Notice> notices; ///< what was odd; empty for a datagram as it should be
+};
+
+/// Reads one whole datagram, with all checks. What is odd but readable becomes a notice.
+[[nodiscard]] Result<Datagram> decode(Bytes bytes);
+
+/// The same into an existing value, whose memory is reused: no allocation where the type stays the same.
+/// After a failure `into` holds what was read up to the fault.
+[[nodiscard]] Result<void> decodeInto(Bytes bytes, Datagram& into);
+
+/// Writes a datagram; `into` is replaced and its memory reused. The header is written as it is. Fails with
+/// TooLong where a list or string does not fit its count or the datagram.
+[[nodiscard]] Result<void> encodeInto(const Datagram& datagram, std::vector<std::byte>& into);
+[[nodiscard]] Result<std::vector<std::byte>> encode(const Datagram& datagram);
+
+/// How much of bytes 17–23 a sender fills in.
+enum class HeaderEra : std::uint8_t {
+    Reserved, ///< revisions E to K: zero
+    Counted,  ///< since MVN 2018/2019: counts and payload size
+};
+
+/// Sets type, number of items and, for HeaderEra::Counted, the payload size, from the body. The counts of
+/// body segments, props and fingers are the caller's; for HeaderEra::Reserved they are cleared.
+void completeHeader(Datagram& datagram, HeaderEra era);
+
+/// Bytes of the payload that `body` is written to.
+[[nodiscard]] std::size_t payloadSize(const Body& body);
+
+} // namespace posewire::wire

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <tl/expected.hpp>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace posewire::wire {
+
+/// Why bytes cannot be read as a datagram. The texts are in error.cpp, one for each, in this order.
+enum class ErrorCode : std::uint8_t {
+    HeaderTruncated,  ///< fewer than 24 bytes
+    BadMagic,         ///< does not begin with "MXTP"
+    BadType,          ///< "MXTP" is not followed by two digits
+    PayloadTruncated, ///< the header announces more bytes than there are
+    ItemsTruncated,   ///< the announced items do not fit in the bytes that are there
+    FieldTruncated,   ///< a field runs past the end
+    BadLength,        ///< a string length is negative or runs past the end
+    CountTooLarge,    ///< a count exceeds its maximum or what the remaining bytes can hold
+    BadSequence,      ///< a string is not UTF-8
+    UnterminatedText, ///< a zero-terminated string has no zero
+    TooLong,          ///< longer than any UDP datagram, or a value that its field cannot hold (when encoding)
+};
+
+inline constexpr std::size_t kErrorCodeCount = 11;
+
+/// A fault in one datagram. Offsets and sizes are bytes from the datagram's first byte.
+struct WireError {
+    ErrorCode code = ErrorCode::HeaderTruncated;
+    std::uint8_t type = 0;    ///< message type (decimal digits read as a number), 0 if not known
+    std::uint32_t offset = 0; ///< where the fault arose
+    std::uint32_t need = 0;   ///< what would have been needed there (bytes, or the maximum of a count)
+    std::uint32_t have = 0;   ///< what was there
+
+    friend bool operator==(const WireError&, const WireError&) = default;
+};
+static_assert(std::is_trivially_copyable_v<WireError>);
+
+template <class T>
+using Result = tl::expected<T, WireError>;
+
+/// Stable name for files and scripts, such as "payloadTruncated".
+std::string_view errorName(ErrorCode code);
+
+/// One sentence for a person: what is wrong, where, and how much was needed.
+std::string errorText(const WireError& error);
+
+} // namespace posewire::wire

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/wire/error.h"
+#include "core/wire/field.h"
+
+namespace posewire::wire {
+
+/// The header of every datagram (§2.4.1). Bytes 17–23 are "reserved" in revisions E to K and zero there;
+/// later senders fill them with the counts and the payload size.
+struct Header {
+    std::array<char, 6> id{'M', 'X', 'T', 'P', '0', '0'};
+    std::uint32_t sampleCounter = 0;
+    std::uint8_t datagramCounter = 0x80;
+    std::uint8_t items = 0;
+    std::uint32_t timeCode = 0;
+    std::uint8_t character = 0;
+    std::uint8_t bodySegments = 0;
+    std::uint8_t props = 0;
+    std::uint8_t fingerSegments = 0;
+    std::uint16_t reserved = 0;
+    std::uint16_t payloadSize = 0;
+
+    /// The two digits as a decimal number: "02" is 2, "13" is 13.
+    [[nodiscard]] std::uint8_t type() const {
+        return static_cast<std::uint8_t>((id[4] - '0') * 10 + (id[5] - '0'));
+    }
+    void setType(std::uint8_t type) {
+        id[4] = static_cast<char>('0' + type / 10 % 10);
+        id[5] = static_cast<char>('0' + type % 10);
+    }
+
+    /// Place of this datagram among those of its sample, from 0 (§2.4.1.3).
+    [[nodiscard]] std::uint8_t datagramIndex() const { return datagramCounter & 0x7f; }
+    [[nodiscard]] bool isLast() const { return (datagramCounter & 0x80) != 0; }
+
+    /// Items that the counts of newer senders add up to; 0 for older senders.
+    [[nodiscard]] unsigned countedSegments() const { return bodySegments + props + fingerSegments; }
+
+    friend bool operator==(const Header&, const Header&) = default;
+};
+
+template <>
+struct Layout<Header> {
+    static constexpr auto fields = std::tuple{
+        Field<&Header::id>{{"id", Unit::None, "\"MXTP\" and the message type as two digits", "2.4.1.1"}},
+        Field<&Header::sampleCounter>{
+            {"sample", Unit::Count, "counts sampled frames; shared by all types of a frame", "2.4.1.2"}},
+        Field<&Header::datagramCounter>{{"datagramCounter", Unit::None,
+                                         "index of the datagram in its sample; bit 7 marks the last",
+                                         "2.4.1.3"}},
+        Field<&Header::items>{{"items", Unit::Count, "segments or points in this datagram", "2.4.1.4"}},
+        Field<&Header::timeCode>{
+            {"timeCode", Unit::Milliseconds,
+             "clock of the sender: since the start of a recording, or time of day when live", "2.4.1.5"}},
+        Field<&Header::character>{
+            {"character", Unit::Identifier, "which character the data belong to, from 0", "2.4.1.6"}},
+        Field<&Header::bodySegments>{
+            {"bodySegments", Unit::Count, "body segments; reserved and 0 before MVN 2019", "2.4.1.7"}},
+        Field<&Header::props>{{"props", Unit::Count, "props; reserved and 0 before MVN 2019", "2.4.1.7"}},
+        Field<&Header::fingerSegments>{{"fingerSegments", Unit::Count,
+                                        "finger segments of both hands; reserved and 0 before MVN 2019",
+                                        "2.4.1.7"}},
+        Field<&Header::reserved>{{"reserved", Unit::None, "reserved, 0", "2.4.1.7"}},
+        Field<&Header::payloadSize>{{"payloadSize", Unit::ByteCount,
+                                     "bytes after the header; reserved and 0 for older senders", "2.4.1.7"}},
+    };
+};
+static_assert(kWireSize<Header> == kHeaderSize);
+
+/// True where the bytes begin with "MXTP" and two digits: the start of a datagram of any type.
+[[nodiscard]] bool startsDatagram(Bytes bytes);
+
+/// Reads the header. Fails with HeaderTruncated, BadMagic or BadType.
+[[nodiscard]] Result<Header> decodeHeader(Bytes bytes);
+
+} // namespace posewire::wire

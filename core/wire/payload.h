@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/wire/codec.h"
+#include "core/wire/forms_of.h"
+#include "core/wire/walk.h"
+
+namespace posewire::wire {
+
+/// A cursor at the payload that ends where the datagram or the announced payload ends, whichever comes first.
+[[nodiscard]] inline Cursor payloadCursor(Bytes bytes, const Header& header) {
+    const std::size_t announced = kHeaderSize + header.payloadSize;
+    const std::size_t end = header.payloadSize != 0 ? std::min(bytes.size(), announced) : bytes.size();
+    Cursor cursor{bytes.first(end), kHeaderSize, header.items, {}};
+    cursor.error.type = header.type();
+    return cursor;
+}
+
+namespace detail {
+
+template <class Visitor>
+bool readRaw(Cursor& cursor, Datagram& into, NoticeCode why, Visitor& visitor) {
+    RawBody raw;
+    raw.bytes.assign(cursor.here(), cursor.here() + cursor.left());
+    if constexpr (Visitor::kListens) {
+        visitor.rest(cursor.offset, cursor.left());
+    }
+    cursor.offset = cursor.bytes.size();
+    into.notices.push_back(
+        {why, why == NoticeCode::UnknownType ? 4U : static_cast<std::uint32_t>(kHeaderSize), 1});
+    into.body = std::move(raw);
+    return true;
+}
+
+} // namespace detail
+
+/// Reads the body that into.header announces. False with cursor.error where it cannot be read.
+template <class Visitor>
+bool readBody(Cursor& cursor, Datagram& into, Visitor& visitor) {
+    const std::uint8_t type = into.header.type();
+    const Form form = formOf(into.header, cursor.bytes.subspan(kHeaderSize));
+    if (form == Form::Raw) {
+        return detail::readRaw(cursor, into, NoticeCode::UnknownLayout, visitor);
+    }
+    bool read = false;
+    const bool isKnown = withMessage(into.body, type, [&]<class T>(T& value) {
+        setForm(value, form);
+        read = withForm<T>(form, [&]<Form F>() { return readLayout<T, F>(cursor, value, visitor); });
+    });
+    if (!isKnown) {
+        return detail::readRaw(cursor, into, NoticeCode::UnknownType, visitor);
+    }
+    const std::size_t announced = kHeaderSize + into.header.payloadSize;
+    if (into.header.payloadSize != 0 && cursor.bytes.size() < announced) {
+        cursor.offset = cursor.bytes.size();
+        return cursor.fail(ErrorCode::PayloadTruncated, announced, cursor.bytes.size());
+    }
+    if (read && cursor.left() != 0) {
+        into.notices.push_back({NoticeCode::TrailingBytes, static_cast<std::uint32_t>(cursor.offset),
+                                static_cast<std::uint32_t>(cursor.left())});
+        if constexpr (Visitor::kListens) {
+            visitor.rest(cursor.offset, cursor.left());
+        }
+    }
+    return read;
+}
+
+} // namespace posewire::wire
