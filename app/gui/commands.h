@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model/session.h"
+
+#include <QString>
+
+namespace posewire::gui {
+
+/// What a panel may ask for. Each command is carried out before the next display tick; panels never change the session
+/// themselves.
+class Commands {
+public:
+    virtual ~Commands() = default;
+
+    virtual void select(const model::Selection& selection) = 0;
+    /// Points the camera at a character.
+    virtual void frameCharacter(const model::CharacterKey& key) = 0;
+    virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;
+    [[nodiscard]] virtual bool isCharacterVisible(const model::CharacterKey& key) const = 0;
+    /// Stops the display at the newest packet, or follows the stream again. Receiving goes on.
+    virtual void setPaused(bool isPaused) = 0;
+    virtual void copyText(const QString& text) = 0;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/commands.h"
+
+#include <QWidget>
+
+#include <span>
+
+namespace posewire::gui {
+
+/// The content of one dock.
+class Panel : public QWidget {
+    Q_OBJECT
+
+public:
+    using QWidget::QWidget;
+
+    /// The view has moved; called at most once per display tick (at most ten times a second for tables), and only while visible.
+    virtual void refresh() = 0;
+
+    /// What stands at the right of the dock's title, such as "2 of 2 live"; empty for nothing.
+    [[nodiscard]] virtual QString summary() const { return {}; }
+};
+
+/// One row of the table of docks. To add a dock: a file pair in panels/ and a row in panels.cpp.
+struct PanelInfo {
+    const char* id;    ///< object name of the dock, fixed for scripts
+    const char* title; ///< translated in context "Panel"
+    Qt::DockWidgetArea area;
+    Panel* (*make)(model::SessionView& view, Commands& commands, QWidget* parent);
+};
+
+[[nodiscard]] std::span<const PanelInfo> panelTable();
+
+} // namespace posewire::gui

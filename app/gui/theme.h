@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QApplication>
+#include <QColor>
+#include <QFont>
+
+namespace posewire::gui {
+
+/// Every colour of the window; no other file has one.
+struct Theme {
+    bool isDark = true;
+    QColor window, panel, raised, header;
+    QColor line;
+    QColor text, dim;
+    QColor accent, selection;
+    QColor good, warning, error;
+    QColor axisX, axisY, axisZ;
+    QColor plotFourth; ///< a fourth curve beside x, y, z
+};
+
+enum class ThemeChoice { System, Dark, Light };
+
+/// The theme in use.
+[[nodiscard]] const Theme& theme();
+
+/// Sets palette, Fusion style and style sheet for the whole application.
+void applyTheme(QApplication& application, ThemeChoice choice);
+
+/// Fonts from the desktop's own, sizes from its metrics.
+[[nodiscard]] QFont monospaceFont();
+[[nodiscard]] QFont tabularFont(); ///< the desktop's font; its digits are of equal width or the monospace's are used
+
+/// Health in shape and colour and text: ● good, ▲ warning, ■ error.
+enum class Health { Good, Warning, Error, Unknown };
+[[nodiscard]] QColor healthColour(Health health);
+[[nodiscard]] QString healthSymbol(Health health);
+
+} // namespace posewire::gui

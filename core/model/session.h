@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet_log.h"
+#include "core/model/character_pose.h"
+#include "core/model/detection.h"
+#include "core/model/keys.h"
+#include "core/model/metadata.h"
+#include "core/model/null_pose.h"
+#include "core/model/stream_statistics.h"
+#include "core/log/stream_index.h"
+
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace posewire::model {
+
+/// One message type of one character on the air.
+struct Stream {
+    log::StreamKey key;
+    StreamStatistics statistics;
+    std::uint64_t malformed = 0; ///< datagrams with a header of this stream that could not be decoded
+};
+
+/// One sender.
+struct Source {
+    log::SourceId id{};
+    log::SourceInfo info;
+    std::uint64_t datagrams = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t malformed = 0; ///< begins with MXTP and cannot be decoded
+    std::uint64_t foreign = 0;   ///< does not begin with MXTP
+    std::uint64_t skippedBytes = 0;
+    std::uint64_t kernelDrops = 0;
+    std::int64_t lastStampNs = 0;
+    std::string firstForeignBytes; ///< of the newest foreign datagram, at most 16 bytes
+    Detector detector;
+};
+
+/// One character of a source.
+struct Character {
+    CharacterKey key;
+    std::size_t ordinal = 0; ///< place in the order of first appearance, for default colours
+    Metadata metadata;
+    NullPoseAssembler nullPose;
+    std::int64_t lastStampNs = 0;
+};
+
+/// Where in time the operator looks.
+struct Cursor {
+    enum class Mode : std::uint8_t { Following, Paused };
+    Mode mode = Mode::Following;
+    std::uint64_t packet = 0; ///< paused: the newest packet that counts
+};
+
+/// What is selected; part of the session, so that all panels agree without knowing each other.
+struct Selection {
+    std::optional<log::SourceId> source;
+    std::optional<CharacterKey> character;
+    int segment = -1; ///< position in the pose datagram, -1 for none
+    friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+/// Follows a PacketLog: index, statistics, metadata, null poses. Everything is a view of the log at the cursor; nothing is
+/// kept that could not be read again from the log, except counts. One thread.
+///
+/// Sources, characters and streams are in order of first appearance and are never removed, so that rows do not jump; their
+/// number is bounded by the log's own limits (4,096 sources and streams).
+class Session {
+public:
+    explicit Session(const log::PacketLog& log);
+
+    /// Reads at most `most` new packets; true if there were any. `nowNs` (wall clock) is what ages are measured against.
+    bool follow(std::int64_t nowNs, std::size_t most = 200'000);
+
+    void setCursor(Cursor cursor) { m_cursor = cursor; }
+    void setSelection(const Selection& selection) { m_selection = selection; }
+
+    // What panels read (SessionView is this class as const).
+    [[nodiscard]] const std::deque<Source>& sources() const { return m_sources; }
+    [[nodiscard]] const std::deque<Character>& characters() const { return m_characters; }
+    [[nodiscard]] const std::deque<Stream>& streams() const { return m_streams; }
+    [[nodiscard]] const Source* find(log::SourceId id) const;
+    [[nodiscard]] const Character* find(const CharacterKey& key) const;
+    [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
+
+    [[nodiscard]] const Cursor& cursor() const { return m_cursor; }
+    [[nodiscard]] const Selection& selection() const { return m_selection; }
+    [[nodiscard]] std::int64_t nowNs() const { return m_nowNs; }
+    /// Packets followed so far: one past the newest packet number.
+    [[nodiscard]] std::uint64_t end() const { return m_end; }
+    [[nodiscard]] std::uint64_t begin() const { return m_begin; }
+    [[nodiscard]] log::LogFigures figures() const { return m_log.figures(); }
+
+    /// The newest complete message of a stream at the cursor, decoded; null where there is none or it cannot be decoded.
+    /// Items of a sample that came in several datagrams are joined. Valid until the next follow() or message() of the same stream.
+    struct Message {
+        wire::Datagram datagram;
+        std::int64_t stampNs = 0;
+        std::uint64_t packet = 0;
+    };
+    [[nodiscard]] const Message* message(const CharacterKey& key, std::uint8_t type) const;
+
+    /// The newest pose at the cursor, of type 02, 01 or 05 (whichever is newest; on a tie in this order).
+    [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
+
+    /// Null pose at the cursor: 23 origins in metres; the reference body where none was received.
+    [[nodiscard]] std::vector<Eigen::Vector3d> bodyOrigins(const CharacterKey& key) const;
+
+    /// "Factory", or "Character 1" where no name was sent.
+    [[nodiscard]] std::string displayName(const CharacterKey& key) const;
+    [[nodiscard]] Colour colour(const CharacterKey& key) const;
+
+    /// Seconds since the newest datagram of the character, against nowNs() or, paused, the stamp at the cursor.
+    [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
+
+    /// Stamp that "now" means at the cursor: nowNs() when following, the packet's stamp when paused.
+    [[nodiscard]] std::int64_t cursorStampNs() const;
+
+private:
+    void take(const log::Packet& packet);
+    void takeDatagram(const log::Packet& packet, const wire::Header& header, Source& source);
+    void takeContent(const log::Packet& packet, const wire::Header& header, Character& character);
+    Source& sourceOf(const log::Packet& packet);
+    Character& characterOf(const CharacterKey& key);
+    Stream& streamOf(const log::StreamKey& key);
+    [[nodiscard]] std::uint64_t newestVisible() const;
+
+    struct CachedMessage {
+        std::uint64_t entry = 0; ///< packet number of the newest datagram it was made from
+        bool isValid = false;
+        Message message;
+    };
+    struct CachedPose {
+        std::uint64_t packet = 0;
+        bool isValid = false;
+        CharacterPose pose;
+    };
+
+    const log::PacketLog& m_log;
+    mutable log::LogReader m_reader;
+    log::StreamIndex m_index;
+    std::uint64_t m_begin = 0;
+    std::uint64_t m_end = 0;
+    std::int64_t m_nowNs = 0;
+    Cursor m_cursor;
+    Selection m_selection;
+    std::deque<Source> m_sources;
+    std::deque<Character> m_characters;
+    std::deque<Stream> m_streams;
+    std::map<CharacterKey, std::size_t> m_characterIndex;
+    std::map<log::StreamKey, std::size_t> m_streamIndex;
+    std::map<log::SourceId, std::size_t> m_sourceIndex;
+    mutable std::map<log::StreamKey, CachedMessage> m_messages;
+    mutable std::map<CharacterKey, CachedPose> m_poses;
+    wire::Datagram m_scratch;
+};
+
+/// What a panel may do with the session: read it.
+using SessionView = const Session;
+
+} // namespace posewire::model
