@@ -60,6 +60,11 @@ inline constexpr std::array<TwistJoint, kTwistJointCount> kTwistJoints{{
     {LeftUpperLeg, {0.0F, 0.0F, 1.0F}},
 }};
 
+/// The segment that a joint is or follows.
+constexpr Segment jointSegment(std::size_t joint) {
+    return joint < kSegmentCount ? static_cast<Segment>(joint) : kTwistJoints[joint - kSegmentCount].segment;
+}
+
 /// A segment's parent, or -1 for the pelvis.
 inline constexpr std::array<int, kSegmentCount> kSegmentParents{-1, 0,  1,  2, 3,  4,  5,  4, 7,  8,  9, 4,
                                                                 11, 12, 13, 0, 15, 16, 17, 0, 19, 20, 21};

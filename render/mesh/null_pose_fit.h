@@ -21,6 +21,8 @@ struct NullPoseFitJob {
     std::span<const glm::vec3> performer;
     /// Fitted vertices, in the performer's null-pose frame.
     std::span<glm::vec3> positions;
+    /// The mesh's normals turned by the stretch (by the inverse of its diagonal, the change of weights left
+    /// out): they keep the template's smoothness at any detail.
     std::span<glm::vec3> normals;
     /// The performer's origins as used, with unusable ones replaced: the palette must be made with these.
     std::span<glm::vec3> origins;

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/mesh/generator/primitives.h"
+
+#include <array>
+#include <span>
+#include <variant>
+
+/// The shape of the mannequin as numbers: the left half of a person of 1.75 m in the reference null pose,
+/// metres, Z-up, X forward, Y left, the floor at z = 0.
+namespace posewire::render::mannequin {
+
+/// Height of the shoulder joints and of the arms' axis.
+inline constexpr double kShoulderHeight = 1.4196;
+
+/// A shape blended into, or carved out of, what its part has so far.
+struct Blend {
+    enum class Kind { Add, Carve };
+
+    std::variant<Ellipsoid, Cone> shape;
+    double radius;
+    Kind kind = Kind::Add;
+};
+
+/// A finger: root place, length, sideways slope, radius at root and tip.
+struct Finger {
+    double x;
+    double y;
+    double length;
+    double slope;
+    double rootRadius;
+    double tipRadius;
+};
+
+// place z, then centre x and y, radius x and y
+inline constexpr std::array<LoftStation, 15> kTorsoStations{{
+    {0.826, -0.016, 0.0, 0.036, 0.048},
+    {0.850, -0.015, 0.0, 0.066, 0.102},
+    {0.890, -0.014, 0.0, 0.092, 0.148},
+    {0.935, -0.013, 0.0, 0.1045, 0.163},
+    {0.985, -0.008, 0.0, 0.101, 0.157},
+    {1.035, 0.000, 0.0, 0.093, 0.143},
+    {1.090, 0.009, 0.0, 0.087, 0.130},
+    {1.145, 0.014, 0.0, 0.086, 0.128},
+    {1.205, 0.017, 0.0, 0.091, 0.137},
+    {1.265, 0.018, 0.0, 0.099, 0.151},
+    {1.320, 0.015, 0.0, 0.105, 0.161},
+    {1.370, 0.008, 0.0, 0.101, 0.160},
+    {1.412, -0.001, 0.0, 0.086, 0.142},
+    {1.452, -0.009, 0.0, 0.066, 0.100},
+    {1.490, -0.012, 0.0, 0.052, 0.060},
+}};
+
+// place z, then centre x and y, radius x and y; the top two sink into the pelvis so that no belt line shows
+inline constexpr std::array<LoftStation, 18> kLegStations{{
+    {0.045, -0.004, 0.0840, 0.0340, 0.0290},
+    {0.075, -0.004, 0.0840, 0.0345, 0.0300},
+    {0.115, -0.005, 0.0840, 0.0330, 0.0300},
+    {0.165, -0.006, 0.0840, 0.0355, 0.0335},
+    {0.225, -0.009, 0.0845, 0.0430, 0.0410},
+    {0.290, -0.014, 0.0855, 0.0530, 0.0500},
+    {0.350, -0.016, 0.0860, 0.0590, 0.0560},
+    {0.405, -0.011, 0.0850, 0.0560, 0.0540},
+    {0.455, -0.003, 0.0840, 0.0520, 0.0500},
+    {0.505, 0.004, 0.0840, 0.0545, 0.0510},
+    {0.560, 0.006, 0.0840, 0.0610, 0.0555},
+    {0.630, 0.009, 0.0850, 0.0720, 0.0640},
+    {0.710, 0.008, 0.0870, 0.0815, 0.0725},
+    {0.790, 0.005, 0.0885, 0.0885, 0.0785},
+    {0.865, -0.001, 0.0895, 0.0915, 0.0820},
+    {0.925, -0.003, 0.0865, 0.0830, 0.0745},
+    {0.975, -0.004, 0.0790, 0.0620, 0.0560},
+    {1.020, -0.004, 0.0700, 0.0300, 0.0300},
+}};
+
+// place y, then centre x and z, radius x and z
+inline constexpr std::array<LoftStation, 15> kArmStations{{
+    {0.060, -0.002, kShoulderHeight - 0.012, 0.0260, 0.0260},
+    {0.105, -0.002, kShoulderHeight - 0.006, 0.0440, 0.0430},
+    {0.165, 0.000, kShoulderHeight, 0.0520, 0.0520},
+    {0.215, 0.000, kShoulderHeight, 0.0500, 0.0510},
+    {0.275, 0.002, kShoulderHeight - 0.002, 0.0460, 0.0490},
+    {0.335, 0.002, kShoulderHeight - 0.002, 0.0425, 0.0450},
+    {0.395, 0.000, kShoulderHeight, 0.0395, 0.0395},
+    {0.445, -0.003, kShoulderHeight, 0.0385, 0.0355},
+    {0.485, 0.000, kShoulderHeight, 0.0415, 0.0370},
+    {0.530, 0.003, kShoulderHeight, 0.0430, 0.0375},
+    {0.580, 0.003, kShoulderHeight, 0.0395, 0.0340},
+    {0.630, 0.002, kShoulderHeight, 0.0335, 0.0275},
+    {0.668, 0.001, kShoulderHeight, 0.0290, 0.0225},
+    {0.695, 0.000, kShoulderHeight, 0.0280, 0.0200},
+    {0.715, 0.000, kShoulderHeight, 0.0270, 0.0170},
+}};
+
+// place y, then centre x and z, radius x and z
+inline constexpr std::array<LoftStation, 6> kPalmStations{{
+    {0.672, 0.000, kShoulderHeight, 0.0200, 0.0140},
+    {0.700, 0.001, kShoulderHeight, 0.0290, 0.0175},
+    {0.732, 0.002, kShoulderHeight - 0.001, 0.0380, 0.0160},
+    {0.762, 0.002, kShoulderHeight - 0.002, 0.0425, 0.0148},
+    {0.785, 0.001, kShoulderHeight - 0.003, 0.0420, 0.0130},
+    {0.798, 0.000, kShoulderHeight - 0.004, 0.0380, 0.0100},
+}};
+
+// place x, then centre y and z, radius y and z
+inline constexpr std::array<LoftStation, 12> kFootStations{{
+    {-0.066, 0.0840, 0.0360, 0.0100, 0.0120},
+    {-0.058, 0.0840, 0.0360, 0.0220, 0.0260},
+    {-0.040, 0.0840, 0.0380, 0.0300, 0.0360},
+    {-0.010, 0.0840, 0.0420, 0.0335, 0.0420},
+    {0.030, 0.0835, 0.0430, 0.0345, 0.0430},
+    {0.065, 0.0830, 0.0370, 0.0380, 0.0370},
+    {0.100, 0.0825, 0.0310, 0.0425, 0.0310},
+    {0.140, 0.0825, 0.0255, 0.0465, 0.0255},
+    {0.170, 0.0815, 0.0215, 0.0445, 0.0215},
+    {0.192, 0.0795, 0.0185, 0.0370, 0.0180},
+    {0.207, 0.0775, 0.0160, 0.0250, 0.0130},
+    {0.215, 0.0760, 0.0150, 0.0100, 0.0060},
+}};
+
+inline constexpr LoftShape kTorso{Axis::Z, kTorsoStations, 2.3, 0.020};
+inline constexpr LoftShape kLeg{Axis::Z, kLegStations, 2.0, 0.020};
+inline constexpr LoftShape kArm{Axis::Y, kArmStations, 2.0, 0.012};
+inline constexpr LoftShape kPalm{Axis::Y, kPalmStations, 2.5, 0.008};
+inline constexpr LoftShape kFoot{Axis::X, kFootStations, 2.2, 0.004};
+
+inline constexpr std::array<Blend, 7> kTrunkBlends{{
+    {Ellipsoid{{0.070, 0.066, 1.352}, {0.038, 0.085, 0.058}, {0.0, 0.0, -0.22}}, 0.050}, // pectoral sheet
+    {Ellipsoid{{-0.055, 0.088, 1.368}, {0.032, 0.060, 0.078}, {0.0, 0.0, 0.25}}, 0.050}, // scapula
+    {Ellipsoid{{-0.020, 0.122, 1.300}, {0.062, 0.042, 0.115}}, 0.050},                   // latissimus
+    {Ellipsoid{{-0.062, 0.064, 0.900}, {0.057, 0.070, 0.074}}, 0.045},                   // gluteus
+    {Ellipsoid{{-0.066, 0.000, 0.935}, {0.036, 0.050, 0.060}}, 0.040}, // sacrum, softens the cleft
+    {Cone{{-0.122, 0.0, 1.00}, {-0.124, 0.0, 1.40}, 0.020, 0.020}, 0.050,
+     Blend::Kind::Carve},                                                        // spinal furrow
+    {Cone{{-0.016, 0.030, 1.504}, {-0.008, 0.145, 1.440}, 0.032, 0.032}, 0.050}, // trapezius
+}};
+
+inline constexpr std::array<Blend, 1> kNeckBlends{{
+    {Cone{{-0.014, 0.0, 1.430}, {0.006, 0.0, 1.600}, 0.0580, 0.0535}, 0.050},
+}};
+
+inline constexpr std::array<Blend, 10> kHeadBlends{{
+    {Ellipsoid{{-0.004, 0.0, 1.663}, {0.0975, 0.0770, 0.0870}}, 0.050},                          // cranium
+    {Ellipsoid{{0.020, 0.0, 1.613}, {0.0660, 0.0590, 0.0800}}, 0.050},                           // face
+    {Ellipsoid{{0.042, 0.0, 1.566}, {0.042, 0.040, 0.030}}, 0.045},                              // jaw
+    {Ellipsoid{{0.074, 0.0, 1.554}, {0.014, 0.020, 0.014}}, 0.030},                              // chin
+    {Ellipsoid{{0.066, 0.024, 1.673}, {0.018, 0.034, 0.012}}, 0.035},                            // brow
+    {Ellipsoid{{0.107, 0.033, 1.649}, {0.018, 0.017, 0.013}}, 0.034, Blend::Kind::Carve},        // eye socket
+    {Cone{{0.080, 0.0, 1.664}, {0.0985, 0.0, 1.625}, 0.0062, 0.0098}, 0.017},                    // nose
+    {Ellipsoid{{0.0795, 0.0, 1.590}, {0.010, 0.022, 0.009}}, 0.022},                             // mouth
+    {Ellipsoid{{0.060, 0.044, 1.622}, {0.022, 0.018, 0.022}}, 0.035},                            // cheek
+    {Ellipsoid{{-0.002, 0.0735, 1.636}, {0.0150, 0.0070, 0.0265}, {0.08, -0.18, -0.22}}, 0.012}, // ear
+}};
+
+inline constexpr std::array<Blend, 1> kArmBlends{{
+    {Ellipsoid{{-0.002, 0.178, kShoulderHeight + 0.004}, {0.058, 0.072, 0.055}}, 0.035}, // deltoid
+}};
+
+inline constexpr std::array<Blend, 1> kLegBlends{{
+    {Ellipsoid{{0.049, 0.084, 0.507}, {0.014, 0.024, 0.030}}, 0.030}, // patella
+}};
+
+inline constexpr std::array<Blend, 1> kFootBlends{{
+    {Ellipsoid{{-0.006, 0.084, 0.082}, {0.036, 0.041, 0.016}}, 0.025}, // malleoli
+}};
+
+inline constexpr std::array<Finger, 4> kFingers{{
+    {0.0325, 0.783, 0.072, 0.130, 0.0093, 0.0075},   // index
+    {0.0112, 0.788, 0.081, 0.035, 0.0096, 0.0077},   // middle
+    {-0.0105, 0.785, 0.075, -0.055, 0.0092, 0.0073}, // ring
+    {-0.0305, 0.776, 0.060, -0.165, 0.0082, 0.0065}, // little
+}};
+
+inline constexpr double kFingerBlend = 0.007;
+inline constexpr double kFingerJointBlend = 0.004;
+
+inline constexpr std::array<Cone, 2> kThumb{{
+    {{0.020, 0.706, kShoulderHeight - 0.006}, {0.052, 0.742, kShoulderHeight - 0.012}, 0.0135, 0.0105},
+    {{0.052, 0.742, kShoulderHeight - 0.012}, {0.068, 0.782, kShoulderHeight - 0.017}, 0.0102, 0.0078},
+}};
+
+inline constexpr double kThumbBlend = 0.014;
+inline constexpr double kThumbJointBlend = 0.006;
+
+/// The sole is cut flat at this height, with these fillets for the foot alone and for the whole body.
+inline constexpr double kSoleHeight = 0.0015;
+inline constexpr double kFootSoleFillet = 0.010;
+inline constexpr double kBodySoleFillet = 0.004;
+
+} // namespace posewire::render::mannequin

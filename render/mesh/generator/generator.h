@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/mesh/mannequin.h"
+
+namespace posewire::render::mannequin {
+
+/// Builds the mannequin from its implicit surface: closed, symmetric in y to the last bit, with baked
+/// occlusion and skin weights. Takes up to a second. The result is what readMannequinFile gives back of the
+/// written file.
+SkinnedMesh generate(Detail detail);
+
+} // namespace posewire::render::mannequin

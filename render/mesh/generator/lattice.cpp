@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "render/mesh/generator/lattice.h"
+
+#include "render/mesh/generator/body_tables.h"
+
+#include <algorithm>
+
+namespace posewire::render::mannequin {
+namespace {
+
+double handScale(double y) {
+    return 1.0 - 0.66 * smoothstep(0.50, 0.69, y);
+}
+double headScale(double z) {
+    return 1.0 - 0.50 * smoothstep(1.50, 1.60, z);
+}
+double footScale(double z) {
+    return 1.0 - 0.25 * (1.0 - smoothstep(0.06, 0.16, z));
+}
+
+/// Cells at the mirror plane must be narrower than the gap between the thighs.
+constexpr double kWidestMiddleCell = 0.008;
+constexpr double kMiddleWidth = 0.10;
+
+double middleScale(double y, double step) {
+    const double narrowest = std::min(1.0, kWidestMiddleCell / step);
+    return narrowest + (1.0 - narrowest) * smoothstep(0.0, kMiddleWidth, y);
+}
+
+template <typename Scale>
+std::vector<double> ticks(double from, double to, double step, Scale scale) {
+    std::vector<double> places{from};
+    while (places.back() < to) {
+        places.push_back(places.back() + step * scale(places.back()));
+    }
+    return places;
+}
+
+} // namespace
+
+// The head contracts x to half: without the generous range in x the skull would stick out of the grid.
+Lattice::Lattice(double step) : m_x(ticks(-0.26, 0.30, step, [](double) { return 1.0; })) {
+    const double middle = std::min(step, kWidestMiddleCell) / 2.0;
+    m_y = ticks(middle, 0.90, step, [&](double y) { return handScale(y) * middleScale(y, step); });
+    m_y.insert(m_y.begin(), -middle);
+    m_z = ticks(-0.03, 1.77, step, [](double z) { return headScale(z) * footScale(z); });
+}
+
+glm::dvec3 Lattice::node(std::size_t i, std::size_t j, std::size_t k) const {
+    const double y = m_y[j];
+    const double z = m_z[k];
+    const double hand = handScale(std::abs(y));
+    const double head = headScale(z);
+    return {m_x[i] * hand * head, y * head, kShoulderHeight + (z - kShoulderHeight) * hand};
+}
+
+} // namespace posewire::render::mannequin
