@@ -49,6 +49,7 @@ public:
 
 private:
     void settle();
+    [[nodiscard]] bool hasMoved() const;
 
     NullPose m_arriving;
     NullPose m_settled;
