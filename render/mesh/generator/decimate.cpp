@@ -64,13 +64,13 @@ struct Collapse {
 
 class Decimation {
 public:
-    Decimation(const TriangleSurface& surface, double longestEdge)
+    Decimation(const TriangleSurface& surface, const DecimationTarget& target)
         : m_points(surface.points),
           m_faces(surface.faces),
           m_facesOf(surface.points.size()),
           m_quadrics(surface.points.size()),
           m_stamps(surface.points.size(), 0),
-          m_longestEdge(longestEdge),
+          m_target(target),
           m_alive(surface.faces.size()) {
         for (std::uint32_t f = 0; f < m_faces.size(); ++f) {
             addQuadric(m_faces[f]);
@@ -87,8 +87,8 @@ public:
         }
     }
 
-    void run(std::size_t faceCount) {
-        while (m_alive > faceCount && !m_queue.empty()) {
+    void run() {
+        while (m_alive > m_target.faceCount && !m_queue.empty()) {
             const Collapse next = m_queue.top();
             m_queue.pop();
             if (next.stamp == m_stamps[next.kept] + m_stamps[next.gone] && isAllowed(next)) {
@@ -119,8 +119,9 @@ private:
     void addQuadric(const Triangle& face) {
         const auto& p = m_points;
         const glm::dvec3 area = areaOf(p[face[0]], p[face[1]], p[face[2]]);
-        const double weight = glm::length(area);
-        const glm::dvec3 normal = area / std::max(weight, 1e-15);
+        const double size = glm::length(area);
+        const double weight = size * m_target.importance(p[face[0]]);
+        const glm::dvec3 normal = area / std::max(size, 1e-15);
         for (const std::uint32_t vertex : face) {
             Quadric& quadric = m_quadrics[vertex];
             quadric.addPlane(normal, -glm::dot(normal, p[face[0]]), weight);
@@ -216,7 +217,7 @@ private:
             for (std::size_t i = 0; i < 3; ++i) {
                 before[i] = m_points[face[i]];
                 after[i] = face[i] == moved ? collapse.place : before[i];
-                if (glm::distance(after[i], collapse.place) > m_longestEdge) {
+                if (glm::distance(after[i], collapse.place) > m_target.longestEdge) {
                     return false;
                 }
             }
@@ -265,15 +266,15 @@ private:
     /// Count of a vertex's moves: a proposal made before one is void.
     std::vector<std::uint32_t> m_stamps;
     std::priority_queue<Collapse> m_queue;
-    double m_longestEdge;
+    DecimationTarget m_target;
     std::size_t m_alive;
 };
 
 } // namespace
 
-TriangleSurface decimated(const TriangleSurface& surface, std::size_t faceCount, double longestEdge) {
-    Decimation decimation(surface, longestEdge);
-    decimation.run(faceCount);
+TriangleSurface decimated(const TriangleSurface& surface, const DecimationTarget& target) {
+    Decimation decimation(surface, target);
+    decimation.run();
     return decimation.result();
 }
 

@@ -12,17 +12,22 @@
 namespace posewire::render::mannequin {
 namespace {
 
+/// Faces are looked at more closely than anything else.
+double importanceAt(const glm::dvec3& point) {
+    return 1.0 + 24.0 * smoothstep(1.48, 1.56, point.z) * smoothstep(-0.02, 0.04, point.x);
+}
+
 struct Recipe {
+    /// Of the lattice, metres. Chosen so that no two sheets of the surface share a cell's edge.
     double step;
-    /// Faces of the half to be left by decimation; 0 leaves all.
-    std::size_t faceCount = 0;
-    double longestEdge = 0.0;
+    /// No faces: the surface stays as it was extracted.
+    DecimationTarget target{};
 };
 
 Recipe recipeOf(Detail detail) {
     switch (detail) {
     case Detail::Low:
-        return {0.013, 1750, 0.055};
+        return {0.013, {2000, 0.055, importanceAt}};
     case Detail::Medium:
         return {0.022};
     case Detail::High:
@@ -95,8 +100,8 @@ SkinnedMesh generate(Detail detail) {
     QuadSurface quads = extractSurface(body, recipe.step);
     relaxOntoSurface(body, quads);
     TriangleSurface half = triangulated(quads);
-    if (recipe.faceCount > 0) {
-        half = decimated(half, recipe.faceCount, recipe.longestEdge);
+    if (recipe.target.faceCount > 0) {
+        half = decimated(half, recipe.target);
     }
     return Assembly(body, half).take();
 }
