@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/stream_index.h"
+
+#include "core/wire/header.h"
+
+#include <algorithm>
+#include <ranges>
+
+namespace posewire::log {
+
+namespace {
+
+/// Blocks kept for use again; more go back to the system.
+constexpr std::size_t kSpareLimit = 64;
+
+template <typename Value, typename Member>
+std::optional<std::size_t> newestAtOrBefore(const StreamEntries& entries, Value limit, Member member) {
+    const auto places = std::views::iota(std::size_t{0}, entries.size());
+    const auto later =
+        std::ranges::upper_bound(places, limit, {}, [&](std::size_t at) { return entries[at].*member; });
+    if (later == places.begin()) {
+        return std::nullopt;
+    }
+    return static_cast<std::size_t>(later - places.begin()) - 1;
+}
+
+} // namespace
+
+std::optional<std::size_t> StreamEntries::atOrBeforePacket(std::uint64_t packet) const {
+    return newestAtOrBefore(*this, packet, &StreamEntry::packet);
+}
+
+std::optional<std::size_t> StreamEntries::atOrBeforeStamp(std::int64_t stampNs) const {
+    return newestAtOrBefore(*this, stampNs, &StreamEntry::stampNs);
+}
+
+void StreamEntries::append(StreamEntry entry, Spare& spare) {
+    if (m_size > 0) {
+        entry.stampNs = std::max(entry.stampNs, back().stampNs);
+    }
+    const std::size_t place = m_front + m_size;
+    if (place == m_blocks.size() * kBlock) {
+        if (spare.empty()) {
+            m_blocks.push_back(std::make_unique<Block>());
+        } else {
+            m_blocks.push_back(std::move(spare.back()));
+            spare.pop_back();
+        }
+    }
+    m_blocks[place / kBlock]->entries[place % kBlock] = entry;
+    ++m_size;
+}
+
+void StreamEntries::dropBefore(std::uint64_t packet, Spare& spare) {
+    const std::size_t dropped = packet == 0 ? 0 : atOrBeforePacket(packet - 1).value_or(SIZE_MAX) + 1;
+    m_front += dropped;
+    m_size -= dropped;
+    while (m_front >= kBlock || (m_size == 0 && !m_blocks.empty())) {
+        if (spare.size() < kSpareLimit) {
+            spare.push_back(std::move(m_blocks.front()));
+        }
+        m_blocks.pop_front();
+        m_front -= std::min(m_front, kBlock);
+    }
+}
+
+bool StreamIndex::follow(LogReader& reader, std::uint64_t packetLimit) {
+    dropBefore(reader.begin());
+    const std::uint64_t from = std::max(m_end, reader.begin());
+    const std::uint64_t to = reader.end() - from > packetLimit ? from + packetLimit : reader.end();
+    for (std::uint64_t number = from; number < to; ++number) {
+        if (const auto packet = reader.packet(number)) {
+            add(*packet);
+        }
+    }
+    m_end = std::max(m_end, to);
+    return to == reader.end();
+}
+
+void StreamIndex::add(const Packet& packet) {
+    m_end = packet.number + 1;
+    if (packet.flags.skipped) {
+        return;
+    }
+    const auto header = wire::decodeHeader(packet.bytes);
+    if (!header) {
+        return;
+    }
+    StreamEntries* entries = entriesFor({packet.source, header->character, header->type()});
+    if (entries == nullptr) {
+        ++m_unindexed;
+        return;
+    }
+    entries->append(
+        {packet.number, packet.stampNs, header->sampleCounter, header->datagramIndex(), header->isLast()},
+        m_spare);
+}
+
+void StreamIndex::dropBefore(std::uint64_t begin) {
+    if (begin <= m_begin) {
+        return;
+    }
+    m_begin = begin;
+    const std::size_t streamsBefore = m_streams.size();
+    std::erase_if(m_streams, [&](auto& stream) {
+        stream.second->dropBefore(begin, m_spare);
+        return stream.second->empty();
+    });
+    if (m_streams.size() != streamsBefore) {
+        std::erase_if(m_keys, [&](const StreamKey& key) { return !m_streams.contains(key); });
+        m_lastEntries = nullptr;
+        ++m_version;
+    }
+}
+
+const StreamEntries* StreamIndex::find(const StreamKey& key) const {
+    const auto found = m_streams.find(key);
+    return found == m_streams.end() ? nullptr : found->second.get();
+}
+
+StreamEntries* StreamIndex::entriesFor(const StreamKey& key) {
+    if (m_lastEntries != nullptr && key == m_lastKey) {
+        return m_lastEntries;
+    }
+    auto found = m_streams.find(key);
+    if (found == m_streams.end()) {
+        if (m_streams.size() == kStreamLimit) {
+            return nullptr;
+        }
+        found = m_streams.emplace(key, std::make_unique<StreamEntries>()).first;
+        m_keys.push_back(key);
+        ++m_version;
+    }
+    m_lastKey = key;
+    m_lastEntries = found->second.get();
+    return m_lastEntries;
+}
+
+} // namespace posewire::log

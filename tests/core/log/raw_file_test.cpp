@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/raw_file.h"
+
+#include "tests/core/log/datagram_fixture.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <sstream>
+
+namespace posewire::log {
+namespace {
+
+using ::testing::HasSubstr;
+
+std::string textOf(const ByteVector& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+/// Gives its bytes in pieces of three, then fails.
+class FailingSource final : public ByteSource {
+public:
+    explicit FailingSource(ByteVector bytes) : m_bytes(std::move(bytes)) {}
+
+    tl::expected<std::size_t, FileError> read(std::span<std::byte> into) override {
+        if (m_at == m_bytes.size()) {
+            return tl::unexpected(FileError{"gone"});
+        }
+        const std::size_t count = std::min({into.size(), m_bytes.size() - m_at, std::size_t{3}});
+        std::copy_n(m_bytes.begin() + static_cast<std::ptrdiff_t>(m_at), count, into.begin());
+        m_at += count;
+        return count;
+    }
+    [[nodiscard]] std::string name() const override { return "failing"; }
+
+private:
+    ByteVector m_bytes;
+    std::size_t m_at = 0;
+};
+
+struct Seen {
+    std::uint64_t offset;
+    std::size_t size;
+    bool isSkipped;
+    friend bool operator==(const Seen&, const Seen&) = default;
+};
+
+std::vector<Seen> records(ByteSource& source, tl::expected<void, FileError>& result) {
+    std::vector<Seen> seen;
+    result = readFile(source, [&](const FileRecord& record) {
+        seen.push_back({record.offset, record.bytes.size(), record.isSkipped});
+        EXPECT_FALSE(record.stampNs.has_value());
+        EXPECT_FALSE(record.source.has_value());
+    });
+    return seen;
+}
+
+TEST(RawFile, TellsFormatsByContent) {
+    EXPECT_EQ(fileFormat(textBytes("MXTP02")), FileFormat::Raw);
+    EXPECT_EQ(fileFormat({}), FileFormat::Raw);
+    EXPECT_EQ(fileFormat(textBytes("\xd4\xc3\xb2\xa1")), FileFormat::Pcap);
+    EXPECT_EQ(fileFormat(textBytes("\xa1\xb2\x3c\x4d")), FileFormat::Pcap);
+    EXPECT_EQ(fileFormat(textBytes("\x0a\x0d\x0d\x0a")), FileFormat::Pcapng);
+}
+
+TEST(RawFile, GivesDatagramsWithTheirPlaces) {
+    std::istringstream stream(textOf(joined({poseDatagram(1), textBytes("gap"), poseDatagram(2)})));
+    tl::expected<void, FileError> result;
+    const auto seen = records(*readingFrom(stream, "standard input"), result);
+    EXPECT_TRUE(result.has_value());
+    EXPECT_EQ(seen, (std::vector<Seen>{{0, 760, false}, {760, 3, true}, {763, 760, false}}));
+}
+
+TEST(RawFile, FilesShorterThanAFormatMarkAreRead) {
+    for (const std::string text : {"", "M", "abc"}) {
+        std::istringstream stream(text);
+        tl::expected<void, FileError> result;
+        const auto seen = records(*readingFrom(stream, "x"), result);
+        EXPECT_TRUE(result.has_value());
+        EXPECT_EQ(seen.size(), text.empty() ? 0U : 1U);
+    }
+}
+
+TEST(RawFile, LongFileIsReadInPieces) {
+    std::vector<ByteVector> parts;
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        parts.push_back(poseDatagram(i));
+    }
+    std::istringstream stream(textOf(joined(parts)));
+    tl::expected<void, FileError> result;
+    EXPECT_EQ(records(*readingFrom(stream, "x"), result).size(), 500U);
+}
+
+TEST(RawFile, KeepsWhatCameBeforeAFailure) {
+    FailingSource source(poseDatagram(1));
+    tl::expected<void, FileError> result;
+    const auto seen = records(source, result);
+    ASSERT_FALSE(result.has_value());
+    EXPECT_EQ(result.error().text, "gone");
+    EXPECT_EQ(seen.size(), 1U);
+}
+
+TEST(RawFile, CaptureFormatsAreNamedNotMisread) {
+    std::istringstream stream("\x0a\x0d\x0d\x0a and more");
+    tl::expected<void, FileError> result;
+    EXPECT_TRUE(records(*readingFrom(stream, "walk.pcapng"), result).empty());
+    ASSERT_FALSE(result.has_value());
+    EXPECT_THAT(result.error().text, HasSubstr("walk.pcapng"));
+}
+
+TEST(RawFile, MissingFileAndFolderAreClearErrors) {
+    const auto missing = openFile("no/such/file.bin");
+    ASSERT_FALSE(missing.has_value());
+    EXPECT_THAT(missing.error().text, HasSubstr("no/such/file.bin: no such file"));
+    const auto folder = openFile(std::filesystem::temp_directory_path().string());
+    ASSERT_FALSE(folder.has_value());
+    EXPECT_THAT(folder.error().text, HasSubstr("folder"));
+}
+
+TEST(RawFile, ReadsTheCapturedDatagrams) {
+    const std::filesystem::path folder = POSEWIRE_SOURCE_DIR "/../shared/captures";
+    if (!std::filesystem::exists(folder)) {
+        GTEST_SKIP() << "the captured datagrams are not here: " << folder;
+    }
+    for (const auto& [name, size] :
+         {std::pair{"mxtp01.bin", 668U}, {"mxtp02.bin", 760U}, {"mxtp13.bin", 595U}}) {
+        auto source = openFile((folder / name).string());
+        ASSERT_TRUE(source.has_value()) << source.error().text;
+        tl::expected<void, FileError> result;
+        EXPECT_EQ(records(**source, result), (std::vector<Seen>{{0, size, false}})) << name;
+    }
+}
+
+} // namespace
+} // namespace posewire::log
