@@ -29,8 +29,9 @@ void prepare(CharacterPose& pose, const wire::Header& header, std::size_t items)
     pose.timeCode = header.timeCode;
 }
 
-/// Metres or centimetres, from how far the body segments reach from the pelvis: nobody is five metres tall, and nobody
-/// fits into ten centimetres. Where they do not tell (a tracked object), what the type usually has.
+/// Metres or centimetres, from how far the body segments reach from the pelvis: nobody is five metres tall,
+/// and nobody fits into ten centimetres. Where they do not tell (a tracked object), what the type usually
+/// has.
 template <class Item>
 LengthUnit unitOf(const std::vector<Item>& items, LengthUnit usual) {
     double reach = 0;
@@ -62,8 +63,8 @@ bool read(const wire::PoseQuaternion& message, const wire::Header& header, Chara
 }
 
 /// Chains the local rotations from the pelvis outward over the null pose, parents before children.
-bool read(const wire::PoseUnity& message, const wire::Header& header, std::span<const Eigen::Vector3d> origins,
-          CharacterPose& pose) {
+bool read(const wire::PoseUnity& message, const wire::Header& header,
+          std::span<const Eigen::Vector3d> origins, CharacterPose& pose) {
     prepare(pose, header, kBody);
     if (message.segments.size() < kBody || origins.size() < kBody) {
         return false;
@@ -97,7 +98,8 @@ SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
     return {body, rest - fingers, fingers};
 }
 
-bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose, CharacterPose& pose) {
+bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
+                     CharacterPose& pose) {
     if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {
         return read(*euler, datagram.header, pose);
     }

@@ -22,13 +22,13 @@ struct CharacterPose {
     std::uint64_t packet = 0;
 };
 
-/// Body, props and fingers of a pose datagram: from the header's counts where they add up to the items, else from the
-/// number of items (older senders: 23 body segments, then props, then fingers).
+/// Body, props and fingers of a pose datagram: from the header's counts where they add up to the items, else
+/// from the number of items (older senders: 23 body segments, then props, then fingers).
 [[nodiscard]] SegmentLayout segmentLayout(const wire::Header& header, std::size_t items);
 
-/// Pose from a message of type 01, 02 or 05; false for any other body. Items are placed by their position in the datagram;
-/// for type 05 by the Unity3D order, chained from the pelvis over `nullPose` (23 segment origins, metres), since wire
-/// positions of that type are relative and not always filled in.
+/// Pose from a message of type 01, 02 or 05; false for any other body. Items are placed by their position in
+/// the datagram; for type 05 by the Unity3D order, chained from the pelvis over `nullPose` (23 segment
+/// origins, metres), since wire positions of that type are relative and not always filled in.
 [[nodiscard]] bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
                                    CharacterPose& pose);
 

@@ -21,7 +21,8 @@ std::string_view revisionName(Revision revision) {
     return "";
 }
 
-/// Evidence only ever grows: header counts outweigh message types, and those that only E has outweigh common ones.
+/// Evidence only ever grows: header counts outweigh message types, and those that only E has outweigh common
+/// ones.
 void Detector::addHeader(const wire::Header& header) {
     const auto conclude = [&](Revision revision, const char* evidence) {
         if (m_result.revision < revision) {

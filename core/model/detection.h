@@ -17,9 +17,9 @@ enum class Revision : std::uint8_t { Unknown, E, JOrK, N };
 /// What was concluded about a source, and from what.
 struct Detection {
     Revision revision = Revision::Unknown;
-    std::string revisionEvidence; ///< "header counts and payload size"
+    std::string revisionEvidence;                ///< "header counts and payload size"
     LengthUnit positionUnit = LengthUnit::Metre; ///< of types 02, 21 and 24
-    std::string unitEvidence; ///< "pelvis at 1.05", empty before a pose came
+    std::string unitEvidence;                    ///< "pelvis at 1.05", empty before a pose came
 };
 
 /// Gathers evidence. Looks at few datagrams: each header, and a pose now and then.

@@ -10,14 +10,16 @@
 namespace posewire::model {
 
 const MetadataTag::Value* MetadataTag::at(std::uint64_t packet) const {
-    const auto after = std::upper_bound(values.begin(), values.end(), packet,
-                                        [](std::uint64_t number, const Value& value) { return number < value.packet; });
+    const auto after =
+        std::upper_bound(values.begin(), values.end(), packet,
+                         [](std::uint64_t number, const Value& value) { return number < value.packet; });
     return after == values.begin() ? nullptr : &*std::prev(after);
 }
 
 void Metadata::add(const wire::MetaData& message, std::uint64_t packet, std::int64_t stampNs) {
     for (const wire::Tag& tag : wire::parseTags(message.text).tags) {
-        auto found = std::find_if(m_tags.begin(), m_tags.end(), [&](const auto& known) { return known.name == tag.name; });
+        auto found = std::find_if(m_tags.begin(), m_tags.end(),
+                                  [&](const auto& known) { return known.name == tag.name; });
         if (found == m_tags.end()) {
             if (m_tags.size() == kMaxTags) {
                 continue;
@@ -36,7 +38,8 @@ void Metadata::add(const wire::MetaData& message, std::uint64_t packet, std::int
 }
 
 const MetadataTag* Metadata::find(std::string_view name) const {
-    const auto found = std::find_if(m_tags.begin(), m_tags.end(), [&](const auto& tag) { return tag.name == name; });
+    const auto found =
+        std::find_if(m_tags.begin(), m_tags.end(), [&](const auto& tag) { return tag.name == name; });
     return found == m_tags.end() ? nullptr : &*found;
 }
 

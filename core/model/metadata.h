@@ -20,16 +20,17 @@ struct MetadataTag {
         std::int64_t stampNs = 0;
     };
     std::string name;
-    bool isKnown = false;          ///< specified, or known from real senders
-    std::int64_t lastSeenNs = 0;   ///< when it was last sent, changed or not
-    std::vector<Value> values;     ///< each change, oldest first; never empty
+    bool isKnown = false;        ///< specified, or known from real senders
+    std::int64_t lastSeenNs = 0; ///< when it was last sent, changed or not
+    std::vector<Value> values;   ///< each change, oldest first; never empty
 
     /// The value as of a packet number; null where the tag had not been sent by then.
     [[nodiscard]] const Value* at(std::uint64_t packet) const;
 };
 
-/// Everything that type 12 messages said about one character. A packet may carry any of the tags (§2.6.3), so values
-/// are kept until they change. Bounded: at most kMaxTags tags of kMaxValues values; older values go first.
+/// Everything that type 12 messages said about one character. A packet may carry any of the tags (§2.6.3), so
+/// values are kept until they change. Bounded: at most kMaxTags tags of kMaxValues values; older values go
+/// first.
 class Metadata {
 public:
     static constexpr std::size_t kMaxTags = 64;

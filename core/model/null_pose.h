@@ -6,12 +6,14 @@
 #include <Eigen/Core>
 
 #include <cstdint>
+#include <deque>
 #include <string>
 #include <vector>
 
 namespace posewire::model {
 
-/// A scale message put together from its datagrams (type 13): the null pose, a T-pose with all orientations identity.
+/// A scale message put together from its datagrams (type 13): the null pose, a T-pose with all orientations
+/// identity.
 struct NullPose {
     struct Segment {
         std::string name;
@@ -34,14 +36,16 @@ struct NullPose {
     [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
 };
 
-/// Puts parts together. A message begins with datagram 0; parts may come in any order and more than once; a part without
-/// segments adds to what is there.
+/// Puts parts together. A message begins with datagram 0; parts may come in any order and more than once; a
+/// part without segments adds to what is there.
 class NullPoseAssembler {
 public:
     /// Takes a part with its place from the header's datagram counter.
-    void add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet, std::int64_t stampNs);
+    void add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
+             std::int64_t stampNs);
 
-    /// The newest message that has segments: complete, or, before there is a complete one, what has arrived of the first.
+    /// The newest message that has segments: complete, or, before there is a complete one, what has arrived
+    /// of the first.
     [[nodiscard]] const NullPose* newest() const;
 
     /// The message that is arriving; differs from newest() until it is complete.
@@ -55,6 +59,30 @@ private:
     NullPose m_settled;
     std::vector<wire::NullPose> m_parts;
     std::vector<bool> m_present;
+};
+
+/// The scale messages of one character over time, as far as they differ. Bounded: the oldest go first.
+class NullPoseHistory {
+public:
+    static constexpr std::size_t kMost = 64;
+
+    void add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
+             std::int64_t stampNs);
+
+    /// As of a packet number; null where there was none by then. What is older than the history counts as its
+    /// oldest.
+    [[nodiscard]] const NullPose* at(std::uint64_t packet) const;
+
+    /// The message whose parts are arriving.
+    [[nodiscard]] const NullPose& arriving() const { return m_assembler.arriving(); }
+
+private:
+    struct Version {
+        std::uint64_t firstPacket;
+        NullPose pose;
+    };
+    NullPoseAssembler m_assembler;
+    std::deque<Version> m_versions;
 };
 
 } // namespace posewire::model

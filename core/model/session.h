@@ -2,18 +2,21 @@
 #pragma once
 
 #include "core/log/packet_log.h"
+#include "core/log/stream_index.h"
 #include "core/model/character_pose.h"
 #include "core/model/detection.h"
 #include "core/model/keys.h"
 #include "core/model/metadata.h"
 #include "core/model/null_pose.h"
 #include "core/model/stream_statistics.h"
-#include "core/log/stream_index.h"
 
 #include <deque>
+#include <functional>
 #include <map>
-#include <memory>
 #include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace posewire::model {
 
@@ -35,7 +38,7 @@ struct Source {
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
     std::int64_t lastStampNs = 0;
-    std::string firstForeignBytes; ///< of the newest foreign datagram, at most 16 bytes
+    std::string firstForeignBytes; ///< hexadecimal, of the newest foreign datagram, at most 16 bytes
     Detector detector;
 };
 
@@ -44,7 +47,7 @@ struct Character {
     CharacterKey key;
     std::size_t ordinal = 0; ///< place in the order of first appearance, for default colours
     Metadata metadata;
-    NullPoseAssembler nullPose;
+    NullPoseHistory nullPoses;
     std::int64_t lastStampNs = 0;
 };
 
@@ -63,16 +66,17 @@ struct Selection {
     friend bool operator==(const Selection&, const Selection&) = default;
 };
 
-/// Follows a PacketLog: index, statistics, metadata, null poses. Everything is a view of the log at the cursor; nothing is
-/// kept that could not be read again from the log, except counts. One thread.
+/// Follows a PacketLog: index, statistics, metadata, null poses. Everything is a view of the log at the
+/// cursor; nothing is kept that could not be read again from the log, except counts. One thread.
 ///
-/// Sources, characters and streams are in order of first appearance and are never removed, so that rows do not jump; their
-/// number is bounded by the log's own limits (4,096 sources and streams).
+/// Sources, characters and streams are in order of first appearance and are never removed, so that rows do
+/// not jump; their number is bounded by the log's own limits (4,096 sources and streams).
 class Session {
 public:
     explicit Session(const log::PacketLog& log);
 
-    /// Reads at most `most` new packets; true if there were any. `nowNs` (wall clock) is what ages are measured against.
+    /// Reads at most `most` new packets; true if there were any. `nowNs` (wall clock) is what ages are
+    /// measured against.
     bool follow(std::int64_t nowNs, std::size_t most = 200'000);
 
     void setCursor(Cursor cursor) { m_cursor = cursor; }
@@ -94,8 +98,9 @@ public:
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] log::LogFigures figures() const { return m_log.figures(); }
 
-    /// The newest complete message of a stream at the cursor, decoded; null where there is none or it cannot be decoded.
-    /// Items of a sample that came in several datagrams are joined. Valid until the next follow() or message() of the same stream.
+    /// The newest complete message of a stream at the cursor, decoded; null where there is none or it cannot
+    /// be decoded. Items of a sample that came in several datagrams are joined. Valid until the next follow()
+    /// or message() of the same stream.
     struct Message {
         wire::Datagram datagram;
         std::int64_t stampNs = 0;
@@ -103,8 +108,18 @@ public:
     };
     [[nodiscard]] const Message* message(const CharacterKey& key, std::uint8_t type) const;
 
-    /// The newest pose at the cursor, of type 02, 01 or 05 (whichever is newest; on a tie in this order).
+    /// Reads the messages of a stream from a stamp up to the cursor, oldest first, at most the newest `most`
+    /// of them. Datagrams that cannot be decoded or are one of several of a sample are left out. Returns how
+    /// many were visited.
+    std::size_t visit(const log::StreamKey& key, std::int64_t fromStampNs, std::size_t most,
+                      const std::function<void(const Message&)>& visitor) const;
+
+    /// The newest pose at the cursor, of type 02, 01 or 05: the first of these that is not more than 0.25 s
+    /// older than the newest of them, so that a figure does not jump between types that are sent together.
     [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
+
+    /// The scale message at the cursor; null where none was received.
+    [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
 
     /// Null pose at the cursor: 23 origins in metres; the reference body where none was received.
     [[nodiscard]] std::vector<Eigen::Vector3d> bodyOrigins(const CharacterKey& key) const;
@@ -113,7 +128,8 @@ public:
     [[nodiscard]] std::string displayName(const CharacterKey& key) const;
     [[nodiscard]] Colour colour(const CharacterKey& key) const;
 
-    /// Seconds since the newest datagram of the character, against nowNs() or, paused, the stamp at the cursor.
+    /// Seconds since the newest datagram of the character, against nowNs() or, paused, the stamp at the
+    /// cursor.
     [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
 
     /// Stamp that "now" means at the cursor: nowNs() when following, the packet's stamp when paused.
@@ -121,20 +137,32 @@ public:
 
 private:
     void take(const log::Packet& packet);
-    void takeDatagram(const log::Packet& packet, const wire::Header& header, Source& source);
-    void takeContent(const log::Packet& packet, const wire::Header& header, Character& character);
-    Source& sourceOf(const log::Packet& packet);
-    Character& characterOf(const CharacterKey& key);
-    Stream& streamOf(const log::StreamKey& key);
-    [[nodiscard]] std::uint64_t newestVisible() const;
+    void takeDatagram(const log::Packet& packet, Source& source);
+    void takeContent(const log::Packet& packet, Character& character, Source& source);
+    // Null where there are too many already.
+    Source* sourceOf(const log::Packet& packet);
+    Character* characterOf(const CharacterKey& key);
+    Stream* streamOf(const log::StreamKey& key);
+    [[nodiscard]] std::uint64_t visibleEnd() const;
+    [[nodiscard]] const log::StreamEntries* entries(const log::StreamKey& key) const {
+        return m_index.find(key);
+    }
+    [[nodiscard]] std::size_t visibleCount(const log::StreamEntries& entries) const;
+    bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
+    bool readWhole(const log::StreamEntry& entry, Message& message) const;
 
+    struct StreamOrder {
+        bool operator()(const log::StreamKey& a, const log::StreamKey& b) const {
+            return std::tie(a.source, a.character, a.type) < std::tie(b.source, b.character, b.type);
+        }
+    };
     struct CachedMessage {
-        std::uint64_t entry = 0; ///< packet number of the newest datagram it was made from
+        std::uint64_t packet = UINT64_MAX; ///< the newest datagram it was made from
         bool isValid = false;
         Message message;
     };
     struct CachedPose {
-        std::uint64_t packet = 0;
+        std::uint64_t packet = UINT64_MAX;
         bool isValid = false;
         CharacterPose pose;
     };
@@ -151,11 +179,13 @@ private:
     std::deque<Character> m_characters;
     std::deque<Stream> m_streams;
     std::map<CharacterKey, std::size_t> m_characterIndex;
-    std::map<log::StreamKey, std::size_t> m_streamIndex;
+    std::map<log::StreamKey, std::size_t, StreamOrder> m_streamIndex;
     std::map<log::SourceId, std::size_t> m_sourceIndex;
-    mutable std::map<log::StreamKey, CachedMessage> m_messages;
+    mutable std::map<log::StreamKey, CachedMessage, StreamOrder> m_messages;
     mutable std::map<CharacterKey, CachedPose> m_poses;
     wire::Datagram m_scratch;
+    mutable Message m_part;
+    mutable Message m_visited;
 };
 
 /// What a panel may do with the session: read it.

@@ -10,7 +10,8 @@ namespace posewire::model {
 /// Rates and counts of one stream, from receive stamps alone. O(1) in time and memory for each packet.
 class StreamStatistics {
 public:
-    /// Adds a datagram. `sample` is its sample counter, `beginsSample` true for the first datagram of a sample.
+    /// Adds a datagram. `sample` is its sample counter, `beginsSample` true for the first datagram of a
+    /// sample.
     void add(std::int64_t stampNs, std::size_t bytes, std::uint32_t sample, bool beginsSample);
 
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
@@ -19,8 +20,8 @@ public:
     [[nodiscard]] std::int64_t lastStampNs() const { return m_lastStampNs; }
     [[nodiscard]] std::uint32_t lastSample() const { return m_lastSample; }
 
-    /// Samples a second over the window of the newest samples (at most 256 and at most about 2 s before the newest);
-    /// 0 before the second sample.
+    /// Samples a second over the window of the newest samples (at most 256 and at most about 2 s before the
+    /// newest); 0 before the second sample.
     [[nodiscard]] double rateHz() const;
     /// Bytes a second over the same window.
     [[nodiscard]] double bytesPerSecond() const;
@@ -34,8 +35,9 @@ public:
     };
     [[nodiscard]] Spacing spacing() const;
 
-    /// How often the sample counter moved on by something else than its usual step, which is the most frequent one of the
-    /// last 64. Repeats of type 12 and 13 count no gaps, since their counter stands still.
+    /// How often the sample counter moved on by something else than its usual step, which is the most
+    /// frequent one of the last 64. Repeats of type 12 and 13 count no gaps, since their counter stands
+    /// still.
     [[nodiscard]] std::uint64_t gaps() const { return m_gaps; }
     /// The usual step of the sample counter; 0 before it is known or where there is none.
     [[nodiscard]] std::uint32_t step() const;

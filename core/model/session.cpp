@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
+constexpr std::size_t kMostCharacters = 1024;
+
+bool beginsWithMagic(wire::Bytes bytes) {
+    constexpr std::array<char, 4> magic{'M', 'X', 'T', 'P'};
+    return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
+}
+
+std::string shownBytes(wire::Bytes bytes) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text;
+    for (const std::byte byte : bytes.first(std::min<std::size_t>(bytes.size(), 16))) {
+        text += text.empty() ? "" : " ";
+        text += digits[std::to_integer<unsigned>(byte) >> 4];
+        text += digits[std::to_integer<unsigned>(byte) & 0xf];
+    }
+    return text;
+}
+
+/// Height of the pelvis in the wire's unit, for the detection of units.
+std::optional<double> pelvisHeight(const wire::Datagram& datagram) {
+    if (const auto* pose = std::get_if<wire::PoseQuaternion>(&datagram.body);
+        pose && !pose->segments.empty()) {
+        return pose->segments.front().position[2];
+    }
+    if (const auto* linear = std::get_if<wire::LinearKinematics>(&datagram.body);
+        linear && !linear->segments.empty()) {
+        return linear->segments.front().position[2];
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+Session::Session(const log::PacketLog& log) : m_log(log), m_reader(log) {}
+
+bool Session::follow(std::int64_t nowNs, std::size_t most) {
+    m_nowNs = nowNs;
+    m_reader.refresh();
+    m_begin = m_reader.begin();
+    const std::uint64_t from = std::max(m_end, m_begin);
+    const std::uint64_t to = std::min(m_reader.end(), from + most);
+    for (std::uint64_t number = from; number < to; ++number) {
+        if (const auto packet = m_reader.packet(number)) {
+            take(*packet);
+        }
+    }
+    m_end = std::max(m_end, to);
+    m_index.dropBefore(m_begin);
+    return to > from;
+}
+
+void Session::take(const log::Packet& packet) {
+    Source* source = sourceOf(packet);
+    if (source == nullptr) {
+        return;
+    }
+    source->lastStampNs = packet.stampNs;
+    source->kernelDrops += packet.kernelDropsBefore;
+    source->bytes += packet.bytes.size();
+    if (packet.flags.skipped) {
+        source->skippedBytes += packet.bytes.size();
+        return;
+    }
+    ++source->datagrams;
+    if (!beginsWithMagic(packet.bytes)) {
+        ++source->foreign;
+        source->firstForeignBytes = shownBytes(packet.bytes);
+        return;
+    }
+    const bool isRead = wire::decodeInto(packet.bytes, m_scratch).has_value();
+    if (isRead) {
+        takeDatagram(packet, *source);
+        return;
+    }
+    ++source->malformed;
+    if (const auto header = wire::decodeHeader(packet.bytes)) {
+        const auto stream = m_streamIndex.find({packet.source, header->character, header->type()});
+        if (stream != m_streamIndex.end()) {
+            ++m_streams[stream->second].malformed;
+        }
+    }
+}
+
+void Session::takeDatagram(const log::Packet& packet, Source& source) {
+    const wire::Header& header = m_scratch.header;
+    source.detector.addHeader(header);
+    Stream* stream = streamOf({packet.source, header.character, header.type()});
+    Character* character = characterOf({packet.source, header.character});
+    if (stream == nullptr || character == nullptr) {
+        return;
+    }
+    m_index.add(packet);
+    stream->statistics.add(packet.stampNs, packet.bytes.size(), header.sampleCounter,
+                           header.datagramIndex() == 0);
+    character->lastStampNs = packet.stampNs;
+    takeContent(packet, *character, source);
+}
+
+void Session::takeContent(const log::Packet& packet, Character& character, Source& source) {
+    if (const auto* metadata = std::get_if<wire::MetaData>(&m_scratch.body)) {
+        character.metadata.add(*metadata, packet.number, packet.stampNs);
+    } else if (const auto* part = std::get_if<wire::NullPose>(&m_scratch.body)) {
+        character.nullPoses.add(*part, m_scratch.header.datagramCounter, packet.number, packet.stampNs);
+    } else if (const auto height = pelvisHeight(m_scratch)) {
+        source.detector.addPelvisHeight(*height);
+    }
+}
+
+Source* Session::sourceOf(const log::Packet& packet) {
+    if (const auto found = m_sourceIndex.find(packet.source); found != m_sourceIndex.end()) {
+        return &m_sources[found->second];
+    }
+    const log::SourceInfo* info = m_log.sources().find(packet.source);
+    if (info == nullptr) {
+        return nullptr;
+    }
+    m_sourceIndex.emplace(packet.source, m_sources.size());
+    Source& source = m_sources.emplace_back();
+    source.id = packet.source;
+    source.info = *info;
+    return &source;
+}
+
+Character* Session::characterOf(const CharacterKey& key) {
+    if (const auto found = m_characterIndex.find(key); found != m_characterIndex.end()) {
+        return &m_characters[found->second];
+    }
+    if (m_characters.size() == kMostCharacters) {
+        return nullptr;
+    }
+    m_characterIndex.emplace(key, m_characters.size());
+    Character& character = m_characters.emplace_back();
+    character.key = key;
+    character.ordinal = m_characters.size() - 1;
+    return &character;
+}
+
+Stream* Session::streamOf(const log::StreamKey& key) {
+    if (const auto found = m_streamIndex.find(key); found != m_streamIndex.end()) {
+        return &m_streams[found->second];
+    }
+    if (m_streams.size() == kMostStreams) {
+        return nullptr;
+    }
+    m_streamIndex.emplace(key, m_streams.size());
+    Stream& stream = m_streams.emplace_back();
+    stream.key = key;
+    return &stream;
+}
+
+const Source* Session::find(log::SourceId id) const {
+    const auto found = m_sourceIndex.find(id);
+    return found == m_sourceIndex.end() ? nullptr : &m_sources[found->second];
+}
+
+const Character* Session::find(const CharacterKey& key) const {
+    const auto found = m_characterIndex.find(key);
+    return found == m_characterIndex.end() ? nullptr : &m_characters[found->second];
+}
+
+const Stream* Session::find(const log::StreamKey& key) const {
+    const auto found = m_streamIndex.find(key);
+    return found == m_streamIndex.end() ? nullptr : &m_streams[found->second];
+}
+
+std::uint64_t Session::visibleEnd() const {
+    return m_cursor.mode == Cursor::Mode::Following ? m_end : std::min(m_end, m_cursor.packet + 1);
+}
+
+std::int64_t Session::cursorStampNs() const {
+    if (m_cursor.mode == Cursor::Mode::Following) {
+        return m_nowNs;
+    }
+    const auto packet = m_reader.packet(m_cursor.packet);
+    return packet ? packet->stampNs : m_nowNs;
+}
+
+} // namespace posewire::model
