@@ -53,7 +53,10 @@ Extent walked(Bytes bytes, const Header& header, bool isAtEnd) {
     if (readLayout<T, Form::Standard>(cursor, value, silent)) {
         return known(cursor.offset);
     }
-    if (cursor.error.code == ErrorCode::BadSequence || isAtEnd || bytes.size() >= kMaxDatagramSize) {
+    const bool isHopeless =
+        cursor.error.code == ErrorCode::BadSequence ||
+        (cursor.error.code == ErrorCode::CountTooLarge && cursor.error.need > kMaxNullPosePoints);
+    if (isHopeless || isAtEnd || bytes.size() >= kMaxDatagramSize) {
         return kUnknown;
     }
     return kNeedMore;

@@ -106,12 +106,13 @@ private:
     std::string_view m_section;
 };
 
-void readHeader(Bytes bytes, const Header& header, TreeWriter& writer) {
-    Header copy = header;
-    Cursor cursor{bytes, 0, 0, {}};
+/// As much of the header as there is.
+void readHeader(Bytes bytes, TreeWriter& writer) {
+    Header header;
+    Cursor cursor{bytes.first(std::min(bytes.size(), kHeaderSize)), 0, 0, {}};
     writer.beginGroup("header", {"", Unit::None, "24 bytes, the same for all types", "2.4.1"}, 0);
-    detail::readFixed<Header, Form::Standard>(cursor, copy, writer);
-    writer.endGroup(kHeaderSize);
+    readLayout<Header, Form::Standard>(cursor, header, writer);
+    writer.endGroup(cursor.offset);
 }
 
 } // namespace
@@ -128,18 +129,23 @@ std::int32_t FieldTree::nodeAt(std::uint32_t offset) const {
 
 FieldTree fieldTree(Bytes bytes) {
     FieldTree tree;
+    TreeWriter writer(tree);
+    if (startsDatagram(bytes)) {
+        readHeader(bytes, writer);
+    }
     const auto header = decodeHeader(bytes);
     if (!header) {
         tree.fault = header.error();
         return tree;
     }
-    TreeWriter writer(tree);
-    readHeader(bytes, *header, writer);
     Datagram datagram;
     datagram.header = *header;
     Cursor cursor = payloadCursor(bytes, *header);
     if (readBody(cursor, datagram, writer)) {
         checkValues(bytes, datagram);
+        if (bytes.size() > cursor.bytes.size()) {
+            writer.rest(cursor.bytes.size(), bytes.size() - cursor.bytes.size());
+        }
     } else {
         tree.fault = cursor.error;
         writer.close(cursor.offset);

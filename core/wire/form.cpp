@@ -18,22 +18,31 @@ Form metaDataForm(Bytes payload) {
     return isPrefixed ? Form::Standard : Form::Bare;
 }
 
-Form trackersForm(const Header& header, Bytes payload) {
+/// True for a payload of the short form, or one with a stray byte behind it: less than one more field.
+bool isShort(const Header& header, Bytes payload, std::size_t shortSize) {
     const std::size_t size = header.payloadSize != 0 ? header.payloadSize : payload.size();
-    return size == header.items * kWireSize<Tracker, Form::Short> ? Form::Short : Form::Standard;
+    return size >= shortSize && size - shortSize < sizeof(float);
+}
+
+Form trackersForm(const Header& header, Bytes payload) {
+    const std::size_t shortSize = header.items * kWireSize<Tracker, Form::Short>;
+    return header.items != 0 && isShort(header, payload, shortSize) ? Form::Short : Form::Standard;
 }
 
 Form centreOfMassForm(const Header& header, Bytes payload) {
-    const std::size_t size = header.payloadSize != 0 ? header.payloadSize : payload.size();
-    return size == kWireSize<CentreOfMass, Form::Short> ? Form::Short : Form::Standard;
+    constexpr std::size_t shortSize = kWireSize<CentreOfMass, Form::Short>;
+    return isShort(header, payload, shortSize) ? Form::Short : Form::Standard;
+}
+
+bool isColon(Bytes payload, std::size_t place) {
+    return place < payload.size() && payload[place] == std::byte{':'};
 }
 
 Form timeCodeForm(Bytes payload) {
-    const auto isColon = [&](std::size_t i) { return i < payload.size() && payload[i] == std::byte{':'}; };
     if (payload.size() >= 16 && load32(payload.data()) == 12) {
         return Form::Standard;
     }
-    if (isColon(2) && isColon(5)) {
+    if (isColon(payload, 2) && isColon(payload, 5)) {
         return Form::Bare;
     }
     const bool isPrefixed = payload.size() >= 16 || (payload.size() >= 4 && load32(payload.data()) == 12);
@@ -41,6 +50,17 @@ Form timeCodeForm(Bytes payload) {
 }
 
 } // namespace
+
+std::size_t sentPayload(const Header& header, Bytes payload) {
+    if (header.payloadSize == 0) {
+        return payload.size();
+    }
+    const bool isTimeCode = header.type() == TimeCode::kType;
+    const bool leavesLengthOut = isTimeCode && header.payloadSize == kWireSize<TimeCode, Form::Bare> &&
+                                 payload.size() >= kWireSize<TimeCode> && isColon(payload, 6) &&
+                                 isColon(payload, 9);
+    return leavesLengthOut ? kWireSize<TimeCode> : header.payloadSize;
+}
 
 Form formOf(const Header& header, Bytes payload) {
     switch (header.type()) {

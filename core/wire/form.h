@@ -11,6 +11,10 @@ namespace posewire::wire {
 /// shorter, the announced payload) ends. Never fails: what fits no form is reported when it is read.
 [[nodiscard]] Form formOf(const Header& header, Bytes payload);
 
+/// Bytes of `payload` that belong to the datagram by its header: all where the payload size is left out. At
+/// least one sender counts 12 bytes of a time code and sends the four bytes of its length before them too.
+[[nodiscard]] std::size_t sentPayload(const Header& header, Bytes payload);
+
 /// The form that a value will be written in.
 template <class T>
 [[nodiscard]] Form formOf(const T&) {

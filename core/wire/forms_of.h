@@ -22,14 +22,22 @@ decltype(auto) withForm(Form form, Function&& f) {
     return f.template operator()<Form::Standard>();
 }
 
-/// Notes in the value which form it was read in.
+/// Notes in the value which form it is about to be read in; members that the form leaves out lose what an
+/// earlier datagram left in them.
 template <class T>
 void setForm(T& value, Form form) {
-    if constexpr (std::is_same_v<T, MetaData> || std::is_same_v<T, TimeCode>) {
+    if constexpr (std::is_same_v<T, MetaData>) {
         value.hasLengthPrefix = form == Form::Standard;
+    } else if constexpr (std::is_same_v<T, TimeCode>) {
+        value.hasLengthPrefix = form == Form::Standard;
+        value.length = T{}.length;
     } else if constexpr (std::is_same_v<T, TrackerKinematics>) {
+        if (value.hasInertialData && form == Form::Short) {
+            value.trackers.clear();
+        }
         value.hasInertialData = form == Form::Standard;
     } else if constexpr (std::is_same_v<T, CentreOfMass>) {
+        value.velocity = value.acceleration = Vec3{};
         value.hasDerivatives = form == Form::Standard;
     }
 }

@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/wire/field.h"
+#include "core/wire/messages.h"
+#include "core/wire/metadata_text.h"
+#include "core/wire/utf8.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <limits>
+
+/// JSON values from layouts and back: one overload for each kind of field. Used by core/export only.
+namespace posewire::exporting {
+
+/// Keeps the order of keys and computes in 32-bit floats, so that a float is written with as few digits as
+/// tell it from its neighbours.
+using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, std::int64_t,
+                                  std::uint64_t, float>;
+
+/// Collects where reading went wrong, from the inside out.
+struct FieldFault {
+    std::string path;
+    std::string text;
+
+    bool fail(std::string what) {
+        text = std::move(what);
+        return false;
+    }
+    bool under(std::string_view key) {
+        path = std::string(key) + (path.empty() || path.front() == '[' ? "" : ".") + path;
+        return false;
+    }
+};
+
+// Values to JSON.
+
+inline Json jsonOf(float value) {
+    if (std::isnan(value)) {
+        return "NaN";
+    }
+    if (std::isinf(value)) {
+        return value > 0 ? "Infinity" : "-Infinity";
+    }
+    return value;
+}
+
+template <std::size_t N>
+Json jsonOf(const std::array<float, N>& values) {
+    Json list = Json::array();
+    for (const float value : values) {
+        list.push_back(jsonOf(value));
+    }
+    return list;
+}
+
+/// Text that is not UTF-8 cannot stand in JSON: each byte out of place becomes a question mark.
+inline Json jsonOf(std::string text) {
+    for (std::size_t bad = 0; (bad = wire::firstInvalidUtf8(text)) != text.size();) {
+        text[bad] = '?';
+    }
+    return text;
+}
+
+template <std::size_t N>
+Json jsonOf(const std::array<char, N>& characters) {
+    return jsonOf(std::string(characters.data(), N));
+}
+
+Json jsonOf(std::unsigned_integral auto value) {
+    return value;
+}
+
+template <class T, wire::Form F>
+Json objectOf(const T& value);
+
+template <wire::Form F, class Item>
+Json listOf(const std::vector<Item>& items) {
+    Json list = Json::array();
+    for (const Item& item : items) {
+        list.push_back(objectOf<Item, F>(item));
+    }
+    return list;
+}
+
+/// Adds a message's or item's fields to an object.
+template <class T>
+struct FieldsToJson {
+    const T& value;
+    Json& object;
+
+    template <auto Member>
+    void operator()(const wire::Field<Member>& field) const {
+        object[std::string(field.about.name)] = jsonOf(value.*Member);
+    }
+    template <auto Member, wire::TextKind Kind>
+    void operator()(const wire::Text<Member, Kind>& field) const {
+        object[std::string(field.about.name)] = jsonOf(value.*Member);
+    }
+    template <auto Member, wire::Form ItemForm>
+    void operator()(const wire::Items<Member, ItemForm>& field) const {
+        object[std::string(field.about.name)] = listOf<ItemForm>(value.*Member);
+    }
+    template <auto Member, std::size_t Max>
+    void operator()(const wire::CountedList<Member, Max>& field) const {
+        object[std::string(field.about.name)] = listOf<wire::Form::Standard>(value.*Member);
+    }
+    /// The length before a time code is always the same.
+    void operator()(const wire::Field<&wire::TimeCode::length>&) const {}
+    template <wire::TextKind Kind>
+    void operator()(const wire::Text<&wire::MetaData::text, Kind>&) const {
+        Json tags = Json::array();
+        for (const wire::Tag& tag : wire::parseTags(value.text).tags) {
+            tags.push_back(Json::array({std::string(tag.name), std::string(tag.value)}));
+        }
+        object["tags"] = std::move(tags);
+    }
+};
+
+template <class T, wire::Form F>
+Json objectOf(const T& value) {
+    Json object = Json::object();
+    wire::forEachField<T, F>(FieldsToJson<T>{value, object});
+    return object;
+}
+
+// JSON to values. False where it does not fit; the fault tells where and what is needed.
+
+inline bool readJson(const Json& json, float& value, FieldFault& fault) {
+    if (json.is_number()) {
+        value = json.get<float>();
+        return true;
+    }
+    const auto* text = json.get_ptr<const std::string*>();
+    if (text != nullptr && *text == "NaN") {
+        value = std::numeric_limits<float>::quiet_NaN();
+    } else if (text != nullptr && *text == "Infinity") {
+        value = std::numeric_limits<float>::infinity();
+    } else if (text != nullptr && *text == "-Infinity") {
+        value = -std::numeric_limits<float>::infinity();
+    } else {
+        return fault.fail("needs a number, or \"NaN\", \"Infinity\" or \"-Infinity\"");
+    }
+    return true;
+}
+
+template <std::size_t N>
+bool readJson(const Json& json, std::array<float, N>& values, FieldFault& fault) {
+    if (!json.is_array() || json.size() != N) {
+        return fault.fail("needs " + std::to_string(N) + " numbers in brackets");
+    }
+    for (std::size_t i = 0; i < N; ++i) {
+        if (!readJson(json[i], values[i], fault)) {
+            return fault.under("[" + std::to_string(i) + "]");
+        }
+    }
+    return true;
+}
+
+inline bool readJson(const Json& json, std::string& text, FieldFault& fault) {
+    const auto* string = json.get_ptr<const std::string*>();
+    if (string == nullptr) {
+        return fault.fail("needs a string");
+    }
+    text = *string;
+    return true;
+}
+
+template <std::size_t N>
+bool readJson(const Json& json, std::array<char, N>& characters, FieldFault& fault) {
+    const auto* string = json.get_ptr<const std::string*>();
+    if (string == nullptr || string->size() != N) {
+        return fault.fail("needs a string of " + std::to_string(N) + " characters");
+    }
+    std::copy(string->begin(), string->end(), characters.begin());
+    return true;
+}
+
+template <std::unsigned_integral Integer>
+bool readJson(const Json& json, Integer& value, FieldFault& fault) {
+    constexpr Integer most = std::numeric_limits<Integer>::max();
+    const auto* number = json.get_ptr<const std::uint64_t*>();
+    if (number == nullptr || *number > most) {
+        return fault.fail("needs a whole number from 0 to " + std::to_string(most));
+    }
+    value = static_cast<Integer>(*number);
+    return true;
+}
+
+inline bool readJson(const Json& json, bool& value, FieldFault& fault) {
+    if (!json.is_boolean()) {
+        return fault.fail("needs true or false");
+    }
+    value = json.get<bool>();
+    return true;
+}
+
+/// Reads a member of an object that must be there.
+template <class Value>
+bool readMember(const Json& object, std::string_view key, Value& value, FieldFault& fault) {
+    const auto found = object.find(std::string(key));
+    const bool isThere = found != object.end();
+    const bool isRead = isThere ? readJson(*found, value, fault) : fault.fail("is missing");
+    return isRead || fault.under(key);
+}
+
+template <class T, wire::Form F>
+bool readObject(const Json& json, T& value, FieldFault& fault);
+
+/// Reads a message's or item's fields from an object.
+template <class T>
+struct FieldsFromJson {
+    const Json& object;
+    T& value;
+    FieldFault& fault;
+
+    template <auto Member>
+    bool operator()(const wire::Field<Member>& field) const {
+        return readMember(object, field.about.name, value.*Member, fault);
+    }
+    template <auto Member, wire::TextKind Kind>
+    bool operator()(const wire::Text<Member, Kind>& field) const {
+        return readMember(object, field.about.name, value.*Member, fault);
+    }
+    template <auto Member, wire::Form ItemForm>
+    bool operator()(const wire::Items<Member, ItemForm>& field) const {
+        return readList<ItemForm>(field.about.name, value.*Member);
+    }
+    template <auto Member, std::size_t Max>
+    bool operator()(const wire::CountedList<Member, Max>& field) const {
+        return readList<wire::Form::Standard>(field.about.name, value.*Member);
+    }
+    bool operator()(const wire::Field<&wire::TimeCode::length>&) const { return true; }
+    template <wire::TextKind Kind>
+    bool operator()(const wire::Text<&wire::MetaData::text, Kind>&) const {
+        return readTags();
+    }
+
+private:
+    template <wire::Form F, class Item>
+    bool readList(std::string_view key, std::vector<Item>& items) const {
+        const auto list = object.find(std::string(key));
+        if (list == object.end() || !list->is_array()) {
+            return fault.fail("needs a list") || fault.under(key);
+        }
+        items.resize(list->size());
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            if (!readObject<Item, F>((*list)[i], items[i], fault)) {
+                return fault.under("[" + std::to_string(i) + "]") || fault.under(key);
+            }
+        }
+        return true;
+    }
+    bool readTags() const {
+        const auto tags = object.find("tags");
+        bool isList = tags != object.end() && tags->is_array();
+        std::string text;
+        for (std::size_t i = 0; isList && i < tags->size(); ++i) {
+            const Json& tag = (*tags)[i];
+            isList = tag.is_array() && tag.size() == 2 && tag[0].is_string() && tag[1].is_string();
+            if (isList) {
+                text += tag[0].get<std::string>() + ':' + tag[1].get<std::string>() + '\n';
+            }
+        }
+        value.text = std::move(text);
+        return isList || fault.fail("needs a list of [name, value] pairs") || fault.under("tags");
+    }
+};
+
+template <class T, wire::Form F>
+bool readObject(const Json& json, T& value, FieldFault& fault) {
+    if (!json.is_object()) {
+        return fault.fail("needs an object in braces");
+    }
+    const FieldsFromJson<T> read{json, value, fault};
+    bool isRead = true;
+    wire::forEachField<T, F>([&](const auto& field) { isRead = isRead && read(field); });
+    return isRead;
+}
+
+} // namespace posewire::exporting

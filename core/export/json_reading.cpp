@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/json_reading.h"
+
+#include "core/export/hexadecimal.h"
+#include "core/wire/codec.h"
+#include "core/wire/forms_of.h"
+
+namespace posewire::exporting {
+namespace {
+
+using Kind = JsonFault::Kind;
+
+/// Fields of the header from an object; what is not there keeps its value.
+struct HeaderFromJson {
+    const Json& object;
+    wire::Header& header;
+    FieldFault& fault;
+
+    template <auto Member>
+    bool operator()(const wire::Field<Member>& field) const {
+        return readOptional(field.about.name, header.*Member);
+    }
+    bool operator()(const wire::Field<&wire::Header::id>&) const {
+        std::array<char, 2> digits{};
+        const auto isDigit = [](char character) { return character >= '0' && character <= '9'; };
+        if (!readMember(object, "type", digits, fault)) {
+            return false;
+        }
+        if (!isDigit(digits[0]) || !isDigit(digits[1])) {
+            return fault.fail("needs two digits, such as \"02\"") || fault.under("type");
+        }
+        header.id[4] = digits[0];
+        header.id[5] = digits[1];
+        return true;
+    }
+    bool operator()(const wire::Field<&wire::Header::datagramCounter>&) const {
+        std::uint8_t index = header.datagramIndex();
+        bool isLast = header.isLast();
+        if (!readOptional("datagram", index) || !readOptional("last", isLast)) {
+            return false;
+        }
+        if (index > 0x7f) {
+            return fault.fail("needs a whole number from 0 to 127") || fault.under("datagram");
+        }
+        header.datagramCounter = static_cast<std::uint8_t>(index | (isLast ? 0x80U : 0U));
+        return true;
+    }
+    /// Not part of the object: where it is in use, the whole datagram is there in "bytes".
+    bool operator()(const wire::Field<&wire::Header::reserved>&) const { return true; }
+
+private:
+    template <class Value>
+    bool readOptional(std::string_view key, Value& value) const {
+        return !object.contains(std::string(key)) || readMember(object, key, value, fault);
+    }
+};
+
+bool readHeader(const Json& object, wire::Header& header, FieldFault& fault) {
+    const HeaderFromJson read{object, header, fault};
+    bool isRead = true;
+    wire::forEachField<wire::Header, wire::Form::Standard>(
+        [&](const auto& field) { isRead = isRead && read(field); });
+    return isRead;
+}
+
+/// Bytes of the payload as the object tells them: from the datagram's size, else from the header.
+std::optional<std::uint64_t> toldPayload(const Json& object) {
+    const auto told = [&](const char* key) -> std::optional<std::uint64_t> {
+        const auto found = object.find(key);
+        return found != object.end() && found->is_number_unsigned()
+                   ? std::optional(found->get<std::uint64_t>())
+                   : std::nullopt;
+    };
+    const auto size = told("size");
+    return size && *size >= wire::kHeaderSize ? std::optional(*size - wire::kHeaderSize)
+                                              : told("payloadSize");
+}
+
+bool hasAll(const Json& object, std::initializer_list<const char*> keys) {
+    return std::all_of(keys.begin(), keys.end(), [&](const char* key) { return object.contains(key); });
+}
+
+/// The form a body is in: by its keys, or for texts by their size. Older senders, which leave the payload
+/// size out, are taken at the word of the older specification: no length before a text.
+template <class T>
+wire::Form formOfBody(const Json& body, std::optional<std::uint64_t> payload) {
+    if constexpr (std::is_same_v<T, wire::TrackerKinematics>) {
+        const auto list = body.find("trackers");
+        const bool isShort = list != body.end() && list->is_array() && !list->empty() &&
+                             list->front().is_object() && !hasAll(list->front(), {"acceleration"});
+        return isShort ? wire::Form::Short : wire::Form::Standard;
+    } else if constexpr (std::is_same_v<T, wire::CentreOfMass>) {
+        return hasAll(body, {"velocity"}) ? wire::Form::Standard : wire::Form::Short;
+    } else if constexpr (std::is_same_v<T, wire::TimeCode>) {
+        const bool isBare = payload && (*payload == 0 || *payload == wire::kWireSize<T, wire::Form::Bare>);
+        return isBare ? wire::Form::Bare : wire::Form::Standard;
+    } else {
+        return wire::Form::Standard;
+    }
+}
+
+bool readRaw(const Json& body, wire::RawBody& raw, FieldFault& fault) {
+    std::string text;
+    if (!readMember(body, "raw", text, fault)) {
+        return false;
+    }
+    auto bytes = fromHexadecimal(text);
+    if (!bytes) {
+        return fault.fail("needs two hexadecimal digits for each byte") || fault.under("raw");
+    }
+    raw.bytes = std::move(*bytes);
+    return true;
+}
+
+template <class T>
+bool readMessage(const Json& body, std::optional<std::uint64_t> payload, T& message, FieldFault& fault) {
+    const wire::Form form = formOfBody<T>(body, payload);
+    wire::setForm(message, form);
+    const bool isRead =
+        wire::withForm<T>(form, [&]<wire::Form F>() { return readObject<T, F>(body, message, fault); });
+    if constexpr (std::is_same_v<T, wire::MetaData>) {
+        message.hasLengthPrefix = !payload || (*payload != 0 && *payload != message.text.size());
+    }
+    return isRead;
+}
+
+bool readBody(const Json& object, wire::Datagram& datagram, FieldFault& fault) {
+    const auto body = object.find("body");
+    if (body == object.end() || !body->is_object()) {
+        return fault.fail("needs an object in braces") || fault.under("body");
+    }
+    bool isRead = false;
+    const bool isKnown = !body->contains("raw") &&
+                         wire::withMessage(datagram.body, datagram.header.type(), [&]<class T>(T& message) {
+                             isRead = readMessage(*body, toldPayload(object), message, fault);
+                         });
+    if (!isKnown) {
+        isRead = readRaw(*body, datagram.body.emplace<wire::RawBody>(), fault);
+    }
+    return isRead || fault.under("body");
+}
+
+/// Fills in what the object leaves out of the header.
+void complete(const Json& object, wire::Datagram& datagram) {
+    const wire::Header told = datagram.header;
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    if (object.contains("items")) {
+        datagram.header.items = told.items;
+    }
+    if (object.contains("payloadSize")) {
+        datagram.header.payloadSize = told.payloadSize;
+    }
+}
+
+tl::unexpected<JsonFault> failure(Kind kind, std::string text) {
+    return tl::unexpected(JsonFault{kind, std::move(text)});
+}
+
+} // namespace
+
+tl::expected<std::vector<std::byte>, JsonFault> datagramFromObject(const Json& object) {
+    if (const auto bytes = object.find("bytes"); bytes != object.end()) {
+        const auto* text = bytes->get_ptr<const std::string*>();
+        auto whole = text != nullptr ? fromHexadecimal(*text) : std::nullopt;
+        if (!whole) {
+            return failure(Kind::BadField, "bytes: needs two hexadecimal digits for each byte");
+        }
+        return std::move(*whole);
+    }
+    if (object.contains("skipped")) {
+        return failure(Kind::NotDatagram, "stands for bytes that belong to no datagram");
+    }
+    if (object.contains("error")) {
+        return failure(Kind::NotDatagram, "stands for a datagram that could not be decoded");
+    }
+    wire::Datagram datagram;
+    FieldFault fault;
+    if (!readHeader(object, datagram.header, fault) || !readBody(object, datagram, fault)) {
+        return failure(Kind::BadField, fault.path + ": " + fault.text);
+    }
+    complete(object, datagram);
+    auto encoded = wire::encode(datagram);
+    if (!encoded) {
+        return failure(Kind::BadField, "body: " + wire::errorText(encoded.error()));
+    }
+    return std::move(*encoded);
+}
+
+tl::expected<std::vector<std::byte>, JsonFault> datagramFromJson(std::string_view line) {
+    const Json object = Json::parse(line, nullptr, false);
+    if (!object.is_object()) {
+        return failure(Kind::NotJson, "is not a JSON object");
+    }
+    return datagramFromObject(object);
+}
+
+} // namespace posewire::exporting
