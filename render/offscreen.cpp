@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "render/offscreen.h"
+
+#include "render/gl/framebuffer.h"
+
+#include <algorithm>
+
+#include <epoxy/gl.h>
+
+namespace posewire::render {
+namespace {
+
+/// Upside down is how OpenGL stores pictures.
+void flipRows(Image& image) {
+    const std::size_t stride = image.stride();
+    for (int top = 0, bottom = image.height - 1; top < bottom; ++top, --bottom) {
+        std::uint8_t* upper = image.pixels.data() + stride * static_cast<std::size_t>(top);
+        std::uint8_t* lower = image.pixels.data() + stride * static_cast<std::size_t>(bottom);
+        std::swap_ranges(upper, upper + stride, lower);
+    }
+}
+
+} // namespace
+
+struct OffscreenRenderer::Impl {
+    // The order matters: what belongs to the context has to go before it.
+    OffscreenContext context;
+    Renderer renderer;
+    gl::Framebuffer framebuffer;
+    Image image;
+    bool canInvertRows = false;
+
+    Impl(OffscreenContext ownContext, Renderer ownRenderer)
+        : context(std::move(ownContext)), renderer(std::move(ownRenderer)) {}
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl() { context.makeCurrent(); }
+
+    void resize(int width, int height);
+    void readBack();
+};
+
+void OffscreenRenderer::Impl::resize(int width, int height) {
+    if (framebuffer.width() != width || framebuffer.height() != height) {
+        auto created = gl::Framebuffer::create(width, height);
+        framebuffer = created ? std::move(*created) : gl::Framebuffer();
+    }
+    image.width = framebuffer.width();
+    image.height = framebuffer.height();
+    image.order = PixelOrder::Bgra;
+    image.pixels.resize(image.stride() * static_cast<std::size_t>(image.height));
+}
+
+void OffscreenRenderer::Impl::readBack() {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.name());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    if (canInvertRows) {
+        glPixelStorei(GL_PACK_INVERT_MESA, GL_TRUE);
+    }
+    glReadPixels(0, 0, image.width, image.height, GL_BGRA, GL_UNSIGNED_BYTE, image.pixels.data());
+    if (!canInvertRows) {
+        flipRows(image);
+    }
+}
+
+OffscreenRenderer::OffscreenRenderer(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+OffscreenRenderer::OffscreenRenderer(OffscreenRenderer&&) noexcept = default;
+OffscreenRenderer& OffscreenRenderer::operator=(OffscreenRenderer&&) noexcept = default;
+OffscreenRenderer::~OffscreenRenderer() = default;
+
+tl::expected<OffscreenRenderer, std::string> OffscreenRenderer::create() {
+    tl::expected<OffscreenContext, std::string> context = OffscreenContext::create();
+    if (!context) {
+        return tl::unexpected(context.error());
+    }
+    tl::expected<Renderer, std::string> renderer = Renderer::create();
+    if (!renderer) {
+        return tl::unexpected(renderer.error());
+    }
+    auto impl = std::make_unique<Impl>(std::move(*context), std::move(*renderer));
+    impl->canInvertRows = epoxy_has_gl_extension("GL_MESA_pack_invert");
+    return OffscreenRenderer(std::move(impl));
+}
+
+Renderer& OffscreenRenderer::renderer() {
+    return m_impl->renderer;
+}
+
+const Image& OffscreenRenderer::render(const Scene& scene, int width, int height, float pixelRatio) {
+    m_impl->resize(std::max(width, 1), std::max(height, 1));
+    m_impl->renderer.draw(
+        scene, {m_impl->image.width, m_impl->image.height, m_impl->framebuffer.name(), pixelRatio});
+    m_impl->readBack();
+    return m_impl->image;
+}
+
+Image OffscreenRenderer::takeImage() {
+    return std::exchange(m_impl->image, Image());
+}
+
+} // namespace posewire::render

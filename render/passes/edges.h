@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/gl/program.h"
+#include "render/gl/texture.h"
+#include "render/passes/frame.h"
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+namespace posewire::render {
+
+/// Smooths the edges of the finished picture, only where characters are: the grid, lines and points are
+/// smooth of themselves.
+class EdgePass {
+public:
+    static tl::expected<EdgePass, std::string> create();
+
+    /// The framebuffer must not be multisampled.
+    void draw(const Frame& frame);
+
+private:
+    gl::Program m_program;
+    gl::VertexArray m_noVertices;
+    /// A copy of the picture, as large as the viewport was.
+    gl::Texture m_copy;
+};
+
+} // namespace posewire::render

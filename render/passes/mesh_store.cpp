@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "render/passes/mesh_store.h"
+
+#include <cstddef>
+#include <limits>
+
+#include <epoxy/gl.h>
+
+namespace posewire::render {
+namespace {
+
+/// A joint with less of a vertex than this hardly moves it.
+constexpr float kNoticeableWeight = 0.2F;
+
+struct Vertex {
+    glm::vec3 position;
+    float occlusion;
+    glm::vec3 normal;
+    glm::vec3 templatePosition;
+    JointIndices joints;
+    glm::vec4 weights;
+};
+static_assert(sizeof(Vertex) == 60);
+
+/// The vertices in the order of their first use, those without a triangle last.
+struct Order {
+    std::vector<std::uint32_t> indices;
+    std::vector<std::uint32_t> originals;
+};
+
+Order orderOf(const SkinnedMesh& mesh) {
+    constexpr auto kUnseen = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> renamed(mesh.vertexCount(), kUnseen);
+    Order order;
+    order.indices = orderForVertexReuse(mesh.indices, mesh.vertexCount());
+    const auto use = [&](std::uint32_t vertex) {
+        if (renamed[vertex] == kUnseen) {
+            renamed[vertex] = static_cast<std::uint32_t>(order.originals.size());
+            order.originals.push_back(vertex);
+        }
+        return renamed[vertex];
+    };
+    for (std::uint32_t& index : order.indices) {
+        index = use(index);
+    }
+    for (std::uint32_t vertex = 0; vertex < mesh.vertexCount(); ++vertex) {
+        use(vertex);
+    }
+    return order;
+}
+
+void attachAttributes(GpuMesh& gpu) {
+    using Kind = gl::Attribute::Kind;
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {0, 4, offsetof(Vertex, position), Kind::Float});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {1, 3, offsetof(Vertex, normal), Kind::Float});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {2, 3, offsetof(Vertex, templatePosition), Kind::Float});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {3, 4, offsetof(Vertex, joints), Kind::ByteInteger});
+    gpu.array.attach(gpu.vertices, sizeof(Vertex), {4, 4, offsetof(Vertex, weights), Kind::Float});
+    gpu.array.attachIndices(gpu.indices);
+}
+
+void measure(const SkinnedMesh& mesh, GpuMesh& gpu) {
+    for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+        for (int k = 0; k < 4; ++k) {
+            if (mesh.weights[i][k] >= kNoticeableWeight) {
+                gpu.jointBoxes[mesh.joints[i][static_cast<std::size_t>(k)]].add(mesh.positions[i]);
+            }
+        }
+    }
+    gpu.capsules = segmentCapsules(mesh);
+}
+
+std::optional<GpuMesh> upload(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
+    const bool hasSuit = !templatePositions.empty();
+    if (!mesh.validate(kJointCount) || (hasSuit && templatePositions.size() != mesh.vertexCount())) {
+        return std::nullopt;
+    }
+    Order order = orderOf(mesh);
+    std::vector<Vertex> vertices;
+    vertices.reserve(order.originals.size());
+    for (const std::uint32_t i : order.originals) {
+        vertices.push_back({mesh.positions[i], mesh.occlusion[i], mesh.normals[i],
+                            hasSuit ? templatePositions[i] : mesh.positions[i], mesh.joints[i],
+                            mesh.weights[i]});
+    }
+    GpuMesh gpu;
+    gpu.hasSuit = hasSuit;
+    gpu.vertices = gl::Buffer::create();
+    gpu.vertices.upload(std::span<const Vertex>(vertices), gl::Buffer::Usage::Static);
+    gpu.indices = gl::Buffer::create();
+    gpu.indices.upload(std::span<const std::uint32_t>(order.indices), gl::Buffer::Usage::Static);
+    gpu.indexCount = static_cast<int>(order.indices.size());
+    gpu.vertexCount = static_cast<int>(vertices.size());
+    gpu.originalVertices = std::move(order.originals);
+    gpu.array = gl::VertexArray::create();
+    attachAttributes(gpu);
+    measure(mesh, gpu);
+    return gpu;
+}
+
+std::size_t indexOf(MeshId id) {
+    return static_cast<std::size_t>(id) - 1;
+}
+
+} // namespace
+
+void GpuMesh::draw() const {
+    array.bind();
+    glDrawElements(GL_TRIANGLES, indexCount, GL_UNSIGNED_INT, nullptr);
+}
+
+MeshId MeshStore::add(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
+    std::optional<GpuMesh> gpu = upload(mesh, templatePositions);
+    if (!gpu) {
+        return MeshId::None;
+    }
+    m_meshes.push_back(std::move(gpu));
+    return static_cast<MeshId>(m_meshes.size());
+}
+
+bool MeshStore::replace(MeshId id, const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
+    if (find(id) == nullptr) {
+        return false;
+    }
+    std::optional<GpuMesh> gpu = upload(mesh, templatePositions);
+    if (!gpu) {
+        return false;
+    }
+    m_meshes[indexOf(id)] = std::move(gpu);
+    return true;
+}
+
+void MeshStore::remove(MeshId id) {
+    if (find(id) != nullptr) {
+        m_meshes[indexOf(id)].reset();
+    }
+}
+
+const GpuMesh* MeshStore::find(MeshId id) const {
+    const std::size_t index = indexOf(id);
+    return index < m_meshes.size() && m_meshes[index] ? &*m_meshes[index] : nullptr;
+}
+
+} // namespace posewire::render

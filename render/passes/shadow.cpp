@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "render/passes/shadow.h"
+
+#include "render/passes/shader_sources.h"
+#include "shader_files.h"
+
+#include <algorithm>
+
+#include <epoxy/gl.h>
+
+namespace posewire::render {
+namespace {
+
+/// As many as floor_shadow.frag has room for.
+constexpr std::size_t kMaxCapsules = 12;
+/// Higher above the floor than this a segment darkens it too little to be seen.
+constexpr float kContactHeight = 0.30F;
+
+/// The segments that nearly touch the floor, as pairs of vec4 (from and radius, to), the lowest first.
+std::vector<glm::vec4> contacts(const DrawnCharacter& character) {
+    std::vector<Capsule> near;
+    for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
+        const Capsule capsule =
+            posed(character.mesh->capsules[segment], character.instance->palette[segment]);
+        const float height = std::min(capsule.from.z, capsule.to.z) - capsule.radius;
+        if (capsule.radius > 0.0F && height < kContactHeight && height > -1.0F) {
+            near.push_back(capsule);
+        }
+    }
+    const auto byHeight = [](const Capsule& a, const Capsule& b) {
+        return std::min(a.from.z, a.to.z) < std::min(b.from.z, b.to.z);
+    };
+    std::ranges::sort(near, byHeight);
+    std::vector<glm::vec4> packed;
+    for (std::size_t i = 0; i < std::min(near.size(), kMaxCapsules); ++i) {
+        packed.emplace_back(near[i].from, near[i].radius);
+        packed.emplace_back(near[i].to, 0.0F);
+    }
+    return packed;
+}
+
+bool castsShadow(const DrawnCharacter& character) {
+    return !character.isGhost() && !character.inLight.isEmpty();
+}
+
+} // namespace
+
+tl::expected<ShadowPass, std::string> ShadowPass::create(const RenderQuality& quality) {
+    ShadowPass pass;
+    auto depth = createProgram({"depth", shaders::depthVert(), shaders::depthFrag(), true});
+    auto floor = createProgram({"floor shadow", shaders::screenVert(), shaders::floorShadowFrag()});
+    if (!depth || !floor) {
+        return tl::unexpected(!depth ? depth.error() : floor.error());
+    }
+    pass.m_depthProgram = std::move(*depth);
+    pass.m_floorProgram = std::move(*floor);
+    pass.m_depth =
+        gl::Texture::create2D(gl::Texture::Format::Depth24, quality.shadowMapSize, quality.shadowMapSize);
+    pass.m_floor =
+        gl::Texture::create2D(gl::Texture::Format::Rg8, quality.floorShadowSize, quality.floorShadowSize);
+    auto depthTarget = gl::Framebuffer::over(pass.m_depth, true);
+    auto floorTarget = gl::Framebuffer::over(pass.m_floor, false);
+    if (!depthTarget || !floorTarget) {
+        return tl::unexpected(!depthTarget ? depthTarget.error() : floorTarget.error());
+    }
+    pass.m_depthTarget = std::move(*depthTarget);
+    pass.m_floorTarget = std::move(*floorTarget);
+    pass.m_depthSampler = gl::DepthSampler::create();
+    pass.m_noVertices = gl::VertexArray::create();
+    return pass;
+}
+
+void ShadowPass::draw(const Frame& frame) {
+    drawDepth(frame);
+    drawFloorShadow(frame);
+    m_depth.bind(kShadowMapUnit);
+    m_floor.bind(kFloorShadowUnit);
+}
+
+void ShadowPass::drawDepth(const Frame& frame) {
+    m_depthTarget.bind();
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glEnable(GL_CULL_FACE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    m_depthProgram.use();
+    for (const DrawnCharacter& character : frame.characters) {
+        if (castsShadow(character)) {
+            m_depthProgram.set("paletteBase", character.paletteBase);
+            character.shadowMesh->draw();
+        }
+    }
+}
+
+void ShadowPass::drawFloorShadow(const Frame& frame) {
+    if (frame.block.style.y < 0.5F) {
+        return;
+    }
+    m_floorTarget.bind();
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glClearColor(0.0F, 0.0F, 0.0F, 0.0F);
+    glClear(GL_COLOR_BUFFER_BIT);
+    m_floorProgram.use();
+    m_floorProgram.set("mapSize", static_cast<float>(m_floor.width()));
+    m_depth.bind(kShadowDepthUnit);
+    m_depthSampler.bind(kShadowDepthUnit);
+    m_noVertices.bind();
+    // Where two characters' rectangles overlap, each adds what it hides.
+    glEnable(GL_BLEND);
+    glBlendFunc(GL_ONE, GL_ONE);
+    glBlendEquation(GL_MAX);
+    for (const DrawnCharacter& character : frame.characters) {
+        if (castsShadow(character)) {
+            const std::vector<glm::vec4> capsules = contacts(character);
+            const Bounds& box = character.inLight;
+            m_floorProgram.set("capsuleCount", static_cast<int>(capsules.size() / 2));
+            m_floorProgram.set("capsules", std::span<const glm::vec4>(capsules));
+            m_floorProgram.set("region",
+                               glm::vec4(box.min.x, box.min.y, box.max.x - box.min.x, box.max.y - box.min.y));
+            glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+        }
+    }
+    glBlendEquation(GL_FUNC_ADD);
+    glDisable(GL_BLEND);
+    gl::DepthSampler::unbind(kShadowDepthUnit);
+}
+
+} // namespace posewire::render

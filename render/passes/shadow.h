@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/gl/framebuffer.h"
+#include "render/gl/program.h"
+#include "render/passes/frame.h"
+
+#include <string>
+
+#include <tl/expected.hpp>
+
+namespace posewire::render {
+
+/// The scene's depth seen from the key light, and from it the softened shadow on the floor together with the
+/// darkening where a body nearly touches it. Both stay bound for the passes that follow.
+class ShadowPass {
+public:
+    static tl::expected<ShadowPass, std::string> create(const RenderQuality& quality);
+
+    /// Leaves another framebuffer bound.
+    void draw(const Frame& frame);
+
+private:
+    void drawDepth(const Frame& frame);
+    void drawFloorShadow(const Frame& frame);
+
+    gl::Program m_depthProgram;
+    gl::Program m_floorProgram;
+    gl::Texture m_depth;
+    gl::Texture m_floor;
+    gl::Framebuffer m_depthTarget;
+    gl::Framebuffer m_floorTarget;
+    gl::DepthSampler m_depthSampler;
+    gl::VertexArray m_noVertices;
+};
+
+} // namespace posewire::render

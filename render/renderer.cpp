@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "render/renderer.h"
+
+#include "render/gl/framebuffer.h"
+#include "render/passes/edges.h"
+#include "render/passes/frame.h"
+#include "render/passes/marks.h"
+#include "render/passes/palettes.h"
+#include "render/passes/shader_sources.h"
+#include "render/passes/shadow.h"
+#include "render/passes/skinned.h"
+#include "render/passes/surroundings.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include <epoxy/gl.h>
+
+namespace posewire::render {
+namespace {
+
+constexpr int kLowestVersion = 33;
+
+std::string glText(GLenum name) {
+    const GLubyte* text = glGetString(name);
+    return text == nullptr ? std::string()
+                           : reinterpret_cast<const char*>(text); // NOLINT: the API's own type
+}
+
+int integer(GLenum name) {
+    GLint value = 0;
+    glGetIntegerv(name, &value);
+    return value;
+}
+
+/// Moves the value of a result out, or keeps its error.
+template <typename T>
+bool take(tl::expected<T, std::string>&& result, std::optional<T>& into, std::string& error) {
+    if (!result) {
+        error = std::move(result.error());
+        return false;
+    }
+    into = std::move(*result);
+    return true;
+}
+
+} // namespace
+
+struct Renderer::Impl {
+    std::string name;
+    RenderQuality quality;
+    MeshStore meshes;
+    gl::Buffer frameBuffer;
+    Palettes palettes;
+    std::optional<ShadowPass> shadow;
+    std::optional<SkinnedPass> skinned;
+    std::optional<SurroundingsPass> surroundings;
+    std::optional<EdgePass> edges;
+    std::optional<MarksPass> marks;
+    /// Only where the quality asks for samples and the target has none.
+    gl::Framebuffer multisampled;
+
+    /// The framebuffer to draw into for a viewport.
+    unsigned target(const Viewport& viewport, bool& isMultisampled);
+    void drawPasses(const Frame& frame, bool isMultisampled);
+};
+
+unsigned Renderer::Impl::target(const Viewport& viewport, bool& isMultisampled) {
+    glBindFramebuffer(GL_FRAMEBUFFER, viewport.framebuffer);
+    isMultisampled = integer(GL_SAMPLES) > 1;
+    const int samples = std::min(quality.samples, integer(GL_MAX_SAMPLES));
+    if (isMultisampled || samples < 2) {
+        return viewport.framebuffer;
+    }
+    if (multisampled.width() != viewport.width || multisampled.height() != viewport.height ||
+        multisampled.samples() != samples) {
+        auto created = gl::Framebuffer::create(viewport.width, viewport.height, samples);
+        if (!created) {
+            // Without smoothing is better than without a picture.
+            return viewport.framebuffer;
+        }
+        multisampled = std::move(*created);
+    }
+    isMultisampled = true;
+    return multisampled.name();
+}
+
+void Renderer::Impl::drawPasses(const Frame& frame, bool isMultisampled) {
+    glClear(GL_DEPTH_BUFFER_BIT);
+    skinned->drawSolid(frame);
+    surroundings->draw(frame);
+    skinned->drawGhosts(frame);
+    if (quality.edgeSmoothing && !isMultisampled) {
+        edges->draw(frame);
+    }
+    marks->draw(frame);
+}
+
+Renderer::Renderer(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+tl::expected<Renderer, std::string> Renderer::create() {
+    const int version = epoxy_gl_version();
+    if (!epoxy_is_desktop_gl() || version < kLowestVersion) {
+        return tl::unexpected("OpenGL 3.3 is needed; this driver (" + glText(GL_RENDERER) + ") offers " +
+                              glText(GL_VERSION));
+    }
+    auto impl = std::make_unique<Impl>();
+    impl->name = glText(GL_RENDERER);
+    impl->quality = interactiveQuality(impl->name);
+    impl->frameBuffer = gl::Buffer::create();
+    impl->palettes = Palettes::create();
+    std::string error;
+    const bool isComplete = take(ShadowPass::create(impl->quality), impl->shadow, error) &&
+                            take(SkinnedPass::create(), impl->skinned, error) &&
+                            take(SurroundingsPass::create(), impl->surroundings, error) &&
+                            take(EdgePass::create(), impl->edges, error) &&
+                            take(MarksPass::create(), impl->marks, error);
+    if (!isComplete) {
+        return tl::unexpected(error);
+    }
+    return Renderer(std::move(impl));
+}
+
+const std::string& Renderer::rendererName() const {
+    return m_impl->name;
+}
+
+const RenderQuality& Renderer::quality() const {
+    return m_impl->quality;
+}
+
+void Renderer::setQuality(const RenderQuality& quality) {
+    if (quality == m_impl->quality) {
+        return;
+    }
+    RenderQuality wanted = quality;
+    const int largest = integer(GL_MAX_TEXTURE_SIZE);
+    wanted.shadowMapSize = std::clamp(wanted.shadowMapSize, 16, largest);
+    wanted.floorShadowSize = std::clamp(wanted.floorShadowSize, 16, largest);
+    const bool keepsShadow = wanted.shadowMapSize == m_impl->quality.shadowMapSize &&
+                             wanted.floorShadowSize == m_impl->quality.floorShadowSize;
+    if (!keepsShadow) {
+        auto shadow = ShadowPass::create(wanted);
+        if (!shadow) {
+            return;
+        }
+        m_impl->shadow = std::move(*shadow);
+    }
+    m_impl->quality = wanted;
+}
+
+MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
+    return m_impl->meshes.add(mesh, templatePositions);
+}
+
+bool Renderer::replaceMesh(MeshId id, const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
+    return m_impl->meshes.replace(id, mesh, templatePositions);
+}
+
+void Renderer::releaseMesh(MeshId id) {
+    m_impl->meshes.remove(id);
+}
+
+void Renderer::draw(const Scene& scene, const Viewport& viewport) {
+    if (viewport.width < 1 || viewport.height < 1) {
+        return;
+    }
+    const Frame frame = planFrame(scene, viewport, m_impl->meshes, m_impl->quality.shadowMapSize);
+    m_impl->frameBuffer.upload(std::span<const FrameBlock>(&frame.block, 1), gl::Buffer::Usage::Stream);
+    m_impl->frameBuffer.bindUniform(kFrameBinding);
+    m_impl->palettes.upload(frame);
+    m_impl->palettes.bind();
+    m_impl->marks->upload(scene);
+    glDisable(GL_SCISSOR_TEST);
+    glDisable(GL_STENCIL_TEST);
+    glFrontFace(GL_CCW);
+    glCullFace(GL_BACK);
+    m_impl->shadow->draw(frame);
+
+    bool isMultisampled = false;
+    const unsigned target = m_impl->target(viewport, isMultisampled);
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    glViewport(0, 0, viewport.width, viewport.height);
+    m_impl->drawPasses(frame, isMultisampled);
+    if (target != viewport.framebuffer) {
+        m_impl->multisampled.resolveTo(viewport.framebuffer);
+        glBindFramebuffer(GL_FRAMEBUFFER, viewport.framebuffer);
+    }
+    glBindVertexArray(0);
+    glUseProgram(0);
+    glActiveTexture(GL_TEXTURE0);
+}
+
+std::vector<glm::vec3> Renderer::skinnedPositions(MeshId id, std::span<const DualQuaternion> palette) {
+    const GpuMesh* mesh = m_impl->meshes.find(id);
+    if (mesh == nullptr || palette.size() < kJointCount) {
+        return {};
+    }
+    m_impl->palettes.upload(palette.first(kJointCount));
+    m_impl->palettes.bind();
+    const std::vector<glm::vec3> recorded = m_impl->skinned->record(*mesh);
+    std::vector<glm::vec3> positions(recorded.size());
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+        positions[mesh->originalVertices[i]] = recorded[i];
+    }
+    return positions;
+}
+
+} // namespace posewire::render

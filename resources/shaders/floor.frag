@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+in vec2 floorPosition;
+
+uniform sampler2D floorShadow;
+
+out vec4 fragment;
+
+// How much of the pixel the nearest grid line covers, for lines `width` pixels wide every `spacing` metres. Lines that
+// come closer than a few pixels fade out instead of making patterns.
+float gridLines(vec2 at, vec2 footprint, float spacing, float width) {
+    vec2 period = spacing / max(footprint, vec2(1e-6));
+    vec2 pixels = abs(fract(at / spacing - 0.5) - 0.5) * period;
+    vec2 covered = clamp(0.5 * width + 0.5 - pixels, 0.0, 1.0) * smoothstep(3.0, 14.0, period);
+    return max(covered.x, covered.y);
+}
+
+// The triangle at the origin that points along x: 0.25 m long; distance inside in metres.
+float originTriangle(vec2 at) {
+    vec2 edge = vec2(0.4472, 0.8944);
+    return min(at.x, dot(vec2(0.25 - at.x, -abs(at.y)), edge));
+}
+
+void main() {
+    vec2 footprint = vec2(length(vec2(dFdx(floorPosition.x), dFdy(floorPosition.x))),
+                          length(vec2(dFdx(floorPosition.y), dFdy(floorPosition.y))));
+    float away = distance(floorPosition, floorFade.xy);
+    float fade = 1.0 - smoothstep(floorFade.z, floorFade.w, away);
+
+    float minor = gridLines(floorPosition, footprint, 0.25, style.x);
+    float major = gridLines(floorPosition, footprint, 1.0, 1.25 * style.x);
+    vec3 colour = floorColour.rgb;
+    colour = mix(colour, gridMinor.rgb, 0.75 * minor);
+    colour = mix(colour, gridMajor.rgb, 0.9 * major);
+    float pixel = max(max(footprint.x, footprint.y), 1e-6);
+    float triangle = clamp(originTriangle(floorPosition) / pixel + 0.5, 0.0, 1.0) * style.z;
+    colour = mix(colour, originColour.rgb, triangle);
+
+    vec4 inLight = lightViewProjection * vec4(floorPosition, 0.0, 1.0);
+    vec2 hidden = texture(floorShadow, 0.5 * inLight.xy + 0.5).rg * shadowRange.w;
+    float dark = 1.0 - (1.0 - 0.80 * hidden.x) * (1.0 - 0.75 * hidden.y);
+    colour = mix(colour, shadowColour.rgb * (0.55 + 0.45 * colour / max(floorColour.rgb, vec3(0.01))), dark);
+
+    // From below it must not hide the characters.
+    float cover = fade * (eye.z > 0.0 || eye.w < 0.5 && viewDirection.z < 0.0 ? 1.0 : 0.25);
+    fragment = vec4(colour + dither(gl_FragCoord.xy), cover);
+}

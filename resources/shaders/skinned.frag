@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+in vec3 worldPosition;
+in vec3 worldNormal;
+in vec3 suitPosition;
+in vec2 occlusionAndSelection;
+
+uniform sampler2DShadow shadowMap;
+uniform vec3 colour;
+uniform float hasSuit;
+uniform float dim;
+uniform float opacity;
+uniform float hatched;
+
+out vec4 fragment;
+
+// 1 in the light. Four bilinear comparisons about the point soften the edge by three texels.
+float lit(vec3 position, vec3 normal) {
+    vec4 inLight = lightViewProjection * vec4(position + 0.012 * normal, 1.0);
+    vec3 at = 0.5 * inLight.xyz + 0.5;
+    at.z -= 0.004 / shadowRange.y;
+    float texel = shadowRange.z;
+    float sum = texture(shadowMap, at + vec3(-0.4, -1.1, 0.0) * texel) +
+                texture(shadowMap, at + vec3(1.1, -0.4, 0.0) * texel) +
+                texture(shadowMap, at + vec3(0.4, 1.1, 0.0) * texel) +
+                texture(shadowMap, at + vec3(-1.1, 0.4, 0.0) * texel);
+    return mix(1.0, 0.25 * sum, shadowRange.w);
+}
+
+vec3 shade(Paint paint, vec3 normal, vec3 view, float occlusion) {
+    float visible = lit(worldPosition, normal);
+    float hemisphere = 0.5 * normal.z + 0.5;
+    float facing = dot(normal, light.xyz);
+    float key = max(facing, 0.0) * visible;
+    float fillLight = max(dot(normal, fill.xyz), 0.0);
+    vec3 ambient = mix(vec3(0.27, 0.27, 0.28), vec3(0.53, 0.54, 0.56), hemisphere);
+    vec3 result = paint.colour * (occlusion * (ambient + 0.10 * fillLight) + vec3(0.63, 0.62, 0.60) * key);
+
+    vec3 middle = normalize(light.xyz + view);
+    float shine = max(dot(normal, middle), 0.0);
+    float shine2 = shine * shine;
+    float shine4 = shine2 * shine2;
+    float shine8 = shine4 * shine4;
+    float sharp = shine8 * shine8 * shine8 * shine8 * shine8;
+    float grazing = 1.0 - max(dot(normal, view), 0.0);
+    float rim = grazing * grazing * grazing;
+    result += paint.gloss * visible * step(0.0, facing) * (0.13 * sharp + 0.045 * shine8);
+    result += 0.11 * rim * occlusion * (0.35 + 0.65 * hemisphere);
+    return pow(clamp(result, 0.0, 1.0), vec3(1.0 / 1.15));
+}
+
+void main() {
+    vec3 normal = normalize(worldNormal);
+    vec3 view = towardsEye(worldPosition);
+    float metresPerPixel = length(fwidth(suitPosition)) * 0.7;
+    Paint paint = Paint(colour * 0.86 + 0.10, 1.0);
+    if (hasSuit > 0.5) {
+        paint = paintSuit(suitPosition, colour, metresPerPixel);
+    }
+    float selection = occlusionAndSelection.y;
+    float selected = smoothstep(0.42, 0.58, selection);
+    paint.colour = mix(paint.colour, selectionColour.rgb, 0.62 * selected);
+    vec3 result = shade(paint, normal, view, occlusionAndSelection.x);
+    // A bright edge where the segment ends, and a glow that no shadow hides.
+    float border = 1.0 - smoothstep(0.0, 0.16, abs(selection - 0.5));
+    result = mix(result, selectionColour.rgb * 0.5 + 0.5, 0.55 * border * step(0.02, selection));
+    result += 0.10 * selected * selectionColour.rgb;
+
+    vec3 background = backgroundAt(gl_FragCoord.xy);
+    float grey = dot(result, vec3(0.30, 0.59, 0.11));
+    result = mix(result, mix(vec3(grey), background, 0.35), dim);
+    float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * style.x)) - 0.5) * 9.0 * style.x;
+    float gap = smoothstep(1.9 * style.x - 0.5, 1.9 * style.x + 0.5, stripe);
+    result = mix(result, background, 0.78 * hatched * gap);
+    fragment = vec4(result + dither(gl_FragCoord.xy), opacity);
+}
