@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "render/mesh/import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/matrix.hpp>
+
+namespace posewire::render {
+namespace {
+
+constexpr std::size_t kMostBones = 256;
+constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
+                            aiProcess_JoinIdenticalVertices | aiProcess_GlobalScale |
+                            aiProcess_ValidateDataStructure;
+
+/// assimp hands scenes over with Y up.
+const glm::mat4 kZUpFromYUp(glm::vec4(1.0F, 0.0F, 0.0F, 0.0F), glm::vec4(0.0F, 0.0F, 1.0F, 0.0F),
+                            glm::vec4(0.0F, -1.0F, 0.0F, 0.0F), glm::vec4(0.0F, 0.0F, 0.0F, 1.0F));
+
+/// assimp stores matrices by rows.
+glm::mat4 matrixOf(const aiMatrix4x4& m) {
+    return {{m.a1, m.b1, m.c1, m.d1},
+            {m.a2, m.b2, m.c2, m.d2},
+            {m.a3, m.b3, m.c3, m.d3},
+            {m.a4, m.b4, m.c4, m.d4}};
+}
+
+glm::vec3 vectorOf(const aiVector3D& v) {
+    return {v.x, v.y, v.z};
+}
+
+/// The rotation of a matrix with its scale taken out.
+glm::quat rotationOf(const glm::mat4& m) {
+    glm::mat3 axes(m);
+    for (int i = 0; i < 3; ++i) {
+        const float length = glm::length(axes[i]);
+        if (!(length > 0.0F)) {
+            return {1.0F, 0.0F, 0.0F, 0.0F};
+        }
+        axes[i] /= length;
+    }
+    return glm::normalize(glm::quat_cast(axes));
+}
+
+struct Influence {
+    std::uint8_t bone;
+    float weight;
+};
+
+class Conversion {
+public:
+    explicit Conversion(const aiScene& scene) : m_scene(scene) {}
+
+    tl::expected<ImportedCharacter, std::string> run() {
+        for (unsigned i = 0; i < m_scene.mNumMeshes; ++i) {
+            for (unsigned b = 0; b < m_scene.mMeshes[i]->mNumBones; ++b) {
+                m_boneIndex.emplace(m_scene.mMeshes[i]->mBones[b]->mName.C_Str(), -1);
+            }
+        }
+        if (m_boneIndex.empty()) {
+            return tl::make_unexpected("the file has no mesh with bones");
+        }
+        if (m_boneIndex.size() > kMostBones) {
+            return tl::make_unexpected("the file has more than 256 bones");
+        }
+        addBones(*m_scene.mRootNode, kZUpFromYUp, -1);
+        if (m_character.bones.size() != m_boneIndex.size()) {
+            return tl::make_unexpected("a bone of the file has no node");
+        }
+        for (unsigned i = 0; i < m_scene.mNumMeshes; ++i) {
+            addMesh(*m_scene.mMeshes[i]);
+        }
+        if (const auto sound = m_character.mesh.validate(m_character.bones.size()); !sound) {
+            return tl::make_unexpected(sound.error());
+        }
+        return std::move(m_character);
+    }
+
+private:
+    void addBones(const aiNode& node, const glm::mat4& worldFromParent, int parentBone) {
+        const glm::mat4 worldFromNode = worldFromParent * matrixOf(node.mTransformation);
+        const auto entry = m_boneIndex.find(node.mName.C_Str());
+        if (entry != m_boneIndex.end() && entry->second < 0) {
+            entry->second = static_cast<int>(m_character.bones.size());
+            m_character.bones.push_back(
+                {entry->first, parentBone, glm::vec3(worldFromNode[3]), rotationOf(worldFromNode)});
+            m_worldFromBone.push_back(worldFromNode);
+            parentBone = entry->second;
+        }
+        for (unsigned i = 0; i < node.mNumChildren; ++i) {
+            addBones(*node.mChildren[i], worldFromNode, parentBone);
+        }
+    }
+
+    void addMesh(const aiMesh& source) {
+        if (source.mNumBones == 0 || source.mPrimitiveTypes != aiPrimitiveType_TRIANGLE ||
+            !source.HasNormals()) {
+            return;
+        }
+        const auto first = static_cast<std::uint32_t>(m_character.mesh.vertexCount());
+        collectInfluences(source);
+        for (unsigned v = 0; v < source.mNumVertices; ++v) {
+            addVertex(source, v);
+        }
+        for (unsigned f = 0; f < source.mNumFaces; ++f) {
+            const aiFace& face = source.mFaces[f];
+            for (unsigned i = 0; face.mNumIndices == 3 && i < 3; ++i) {
+                m_character.mesh.indices.push_back(first + face.mIndices[i]);
+            }
+        }
+    }
+
+    void collectInfluences(const aiMesh& source) {
+        m_influences.assign(source.mNumVertices, {});
+        m_worldFromMesh.assign(m_character.bones.size(), glm::mat4(1.0F));
+        for (unsigned b = 0; b < source.mNumBones; ++b) {
+            const aiBone& bone = *source.mBones[b];
+            const auto index = static_cast<std::size_t>(m_boneIndex.at(bone.mName.C_Str()));
+            m_worldFromMesh[index] = m_worldFromBone[index] * matrixOf(bone.mOffsetMatrix);
+            if (b == 0) {
+                m_firstBone = static_cast<std::uint8_t>(index);
+            }
+            for (unsigned w = 0; w < bone.mNumWeights; ++w) {
+                const aiVertexWeight& weight = bone.mWeights[w];
+                if (weight.mVertexId < source.mNumVertices && weight.mWeight > 0.0F &&
+                    std::isfinite(weight.mWeight)) {
+                    m_influences[weight.mVertexId].push_back(
+                        {static_cast<std::uint8_t>(index), weight.mWeight});
+                }
+            }
+        }
+    }
+
+    /// The four largest, with sum 1: files need not keep either.
+    void addWeights(std::vector<Influence>& influences) {
+        if (influences.empty()) {
+            influences.push_back({m_firstBone, 1.0F});
+        }
+        std::stable_sort(influences.begin(), influences.end(),
+                         [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
+        influences.resize(std::min<std::size_t>(influences.size(), 4));
+        float sum = 0.0F;
+        for (const Influence& influence : influences) {
+            sum += influence.weight;
+        }
+        JointIndices joints{};
+        glm::vec4 weights(0.0F);
+        for (std::size_t i = 0; i < influences.size(); ++i) {
+            joints[i] = influences[i].bone;
+            weights[static_cast<int>(i)] = influences[i].weight / sum;
+        }
+        m_character.mesh.joints.push_back(joints);
+        m_character.mesh.weights.push_back(weights);
+    }
+
+    /// Skinned by the rest pose: that is the one meaning of a vertex that all formats agree on.
+    void addVertex(const aiMesh& source, unsigned v) {
+        SkinnedMesh& mesh = m_character.mesh;
+        addWeights(m_influences[v]);
+        glm::mat4 worldFromMesh(0.0F);
+        for (std::size_t i = 0; i < 4; ++i) {
+            worldFromMesh +=
+                mesh.weights.back()[static_cast<int>(i)] * m_worldFromMesh[mesh.joints.back()[i]];
+        }
+        mesh.positions.emplace_back(worldFromMesh * glm::vec4(vectorOf(source.mVertices[v]), 1.0F));
+        const glm::vec3 normal =
+            glm::transpose(glm::inverse(glm::mat3(worldFromMesh))) * vectorOf(source.mNormals[v]);
+        const float length = glm::length(normal);
+        const bool hasLength = std::isfinite(length) && length > 0.0F;
+        mesh.normals.push_back(hasLength ? normal / length : glm::vec3(0.0F, 0.0F, 1.0F));
+        const float red = source.HasVertexColors(0) ? source.mColors[0][v].r : 1.0F;
+        mesh.occlusion.push_back(std::isfinite(red) ? std::clamp(red, 0.0F, 1.0F) : 1.0F);
+    }
+
+    const aiScene& m_scene;
+    ImportedCharacter m_character;
+    std::map<std::string, int> m_boneIndex;
+    std::vector<glm::mat4> m_worldFromBone;
+    // Of the mesh being added:
+    std::vector<std::vector<Influence>> m_influences;
+    std::vector<glm::mat4> m_worldFromMesh;
+    std::uint8_t m_firstBone = 0;
+};
+
+tl::expected<ImportedCharacter, std::string> converted(const Assimp::Importer& importer,
+                                                       const aiScene* scene) {
+    if (scene == nullptr || scene->mRootNode == nullptr) {
+        const std::string reason = importer.GetErrorString();
+        return tl::make_unexpected(reason.empty() ? std::string("the file cannot be read as a mesh")
+                                                  : reason);
+    }
+    return Conversion(*scene).run();
+}
+
+void configure(Assimp::Importer& importer) {
+    // Else every FBX joint is split into several nodes.
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+}
+
+} // namespace
+
+tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& path) {
+    Assimp::Importer importer;
+    configure(importer);
+    return converted(importer, importer.ReadFile(path, kSteps));
+}
+
+tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std::byte> bytes,
+                                                             const std::string& extension) {
+    Assimp::Importer importer;
+    configure(importer);
+    return converted(importer,
+                     importer.ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, extension.c_str()));
+}
+
+} // namespace posewire::render
