@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/cli/output.h"
+
+#include <functional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace posewire::cli {
+
+/// What the exit status says; the same for every command.
+enum class ExitStatus : int {
+    Fine = 0,
+    Faults = 1,   ///< the input had faults, or a threshold was exceeded
+    Unusable = 2, ///< wrong usage, or the input or output could not be opened
+};
+
+/// The worse of the two.
+[[nodiscard]] constexpr ExitStatus worse(ExitStatus a, ExitStatus b) {
+    return a < b ? b : a;
+}
+
+/// Where a command writes: results to one place, complaints to another.
+struct Console {
+    Output& out;
+    std::function<void(const std::string&)> complain; ///< one line: what, where, what to do
+};
+
+/// One command of the program: its place in the command line, and what it does once that is parsed.
+struct Command {
+    CLI::App* parser = nullptr;
+    std::function<ExitStatus(Console&)> run;
+};
+
+Command addDecodeCommand(CLI::App& program);
+Command addEncodeCommand(CLI::App& program);
+Command addReferenceCommand(CLI::App& program);
+
+} // namespace posewire::cli

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/command.h"
+#include "app/cli/field_listing.h"
+#include "app/cli/input.h"
+#include "core/export/json.h"
+#include "core/log/raw_file.h"
+#include "core/wire/codec.h"
+#include "core/wire/type_table.h"
+
+#include <CLI/CLI.hpp>
+
+namespace posewire::cli {
+namespace {
+
+struct DecodeOptions {
+    std::vector<std::string> files;
+    bool asJson = false;
+};
+
+/// Writes one file's records and counts what is wrong with them.
+class RecordWriter {
+public:
+    RecordWriter(Output& out, bool asJson) : m_out(out), m_asJson(asJson) {}
+
+    void operator()(const log::FileRecord& record) {
+        if (!m_out.isWanted()) {
+            return;
+        }
+        if (record.isSkipped) {
+            skip(record);
+            return;
+        }
+        endSkipped();
+        if (!wire::decode(record.bytes)) {
+            m_firstFault = m_faults == 0 ? record.offset : m_firstFault;
+            ++m_faults;
+        }
+        const exporting::DatagramPlace place = placeOf(record);
+        m_out.write(m_asJson ? exporting::datagramJson(place, record.bytes) + '\n' : listed(place, record));
+    }
+
+    /// To be called after the last record.
+    void endSkipped() {
+        if (m_skipped != 0) {
+            const exporting::DatagramPlace place{m_index++, m_skippedFrom, std::nullopt, std::nullopt};
+            m_out.write(m_asJson
+                            ? exporting::skippedJson(place, m_skipped) + '\n'
+                            : "#" + std::to_string(place.index) + "  offset " + std::to_string(place.offset) +
+                                  "  " + std::to_string(m_skipped) + " bytes that belong to no datagram\n\n");
+            m_allSkipped += m_skipped;
+            m_skipped = 0;
+        }
+    }
+
+    /// One line about what was wrong; empty where nothing was.
+    [[nodiscard]] std::string complaint(const std::string& name) const {
+        std::string text;
+        if (m_faults != 0) {
+            text = std::to_string(m_faults) + " of " + std::to_string(m_datagrams) +
+                   " datagrams could not be decoded, the first at byte " + std::to_string(m_firstFault);
+        }
+        if (m_allSkipped != 0) {
+            text +=
+                (text.empty() ? "" : "; ") + std::to_string(m_allSkipped) + " bytes belong to no datagram";
+        }
+        return text.empty() ? text : name + ": " + text + "; the output says what is wrong with each";
+    }
+
+private:
+    void skip(const log::FileRecord& record) {
+        m_skippedFrom = m_skipped == 0 ? record.offset : m_skippedFrom;
+        m_skipped += record.bytes.size();
+    }
+    exporting::DatagramPlace placeOf(const log::FileRecord& record) {
+        ++m_datagrams;
+        return {m_index++, record.offset, record.stampNs,
+                record.source ? std::optional(record.source->address) : std::nullopt};
+    }
+    static std::string listed(const exporting::DatagramPlace& place, const log::FileRecord& record) {
+        const auto header = wire::decodeHeader(record.bytes);
+        return "#" + std::to_string(place.index) + "  offset " + std::to_string(place.offset) + "  " +
+               std::to_string(record.bytes.size()) + " bytes" +
+               (header ? "  " + wire::typeTitle(header->type()) : "") +
+               (place.source ? "  from " + *place.source : "") + '\n' + fieldListing(record.bytes) + '\n';
+    }
+
+    Output& m_out;
+    bool m_asJson;
+    std::uint64_t m_index = 0;
+    std::uint64_t m_datagrams = 0;
+    std::uint64_t m_faults = 0;
+    std::uint64_t m_firstFault = 0;
+    std::uint64_t m_skipped = 0;
+    std::uint64_t m_skippedFrom = 0;
+    std::uint64_t m_allSkipped = 0;
+};
+
+ExitStatus decodeFile(const std::string& path, bool asJson, Console& console) {
+    const auto source = openInput(path);
+    if (!source) {
+        console.complain(source.error().text);
+        return ExitStatus::Unusable;
+    }
+    RecordWriter writer(console.out, asJson);
+    const auto result = log::readFile(**source, std::ref(writer));
+    writer.endSkipped();
+    if (!result) {
+        console.complain(result.error().text);
+        return ExitStatus::Unusable;
+    }
+    const std::string complaint = writer.complaint((*source)->name());
+    if (complaint.empty()) {
+        return ExitStatus::Fine;
+    }
+    console.complain(complaint);
+    return ExitStatus::Faults;
+}
+
+ExitStatus decode(const DecodeOptions& options, Console& console) {
+    ExitStatus status = ExitStatus::Fine;
+    for (const std::string& path : options.files) {
+        if (!options.asJson && options.files.size() > 1) {
+            console.out.write(path + "\n\n");
+        }
+        status = worse(status, decodeFile(path, options.asJson, console));
+    }
+    return status;
+}
+
+} // namespace
+
+Command addDecodeCommand(CLI::App& program) {
+    auto options = std::make_shared<DecodeOptions>();
+    CLI::App* parser =
+        program.add_subcommand("decode", "Show the datagrams of files, field by field or as JSON Lines");
+    parser
+        ->add_option("FILE", options->files,
+                     "datagrams back to back, or pcap or pcapng; - for standard input")
+        ->required();
+    parser->add_flag("--json", options->asJson, "one JSON object a line for each datagram");
+    return {parser, [options](Console& console) { return decode(*options, console); }};
+}
+
+} // namespace posewire::cli

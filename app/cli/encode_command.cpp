@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/command.h"
+#include "app/cli/input.h"
+#include "app/cli/line_reader.h"
+#include "core/export/json.h"
+
+#include <CLI/CLI.hpp>
+
+namespace posewire::cli {
+namespace {
+
+struct EncodeOptions {
+    std::string input;
+    std::string output = "-";
+};
+
+class LineEncoder {
+public:
+    LineEncoder(Output& out, Console& console, std::string name)
+        : m_out(out), m_console(console), m_name(std::move(name)) {}
+
+    void encode(std::string_view line, std::size_t number) {
+        if (line.find_first_not_of(" \t") == std::string_view::npos) {
+            return;
+        }
+        const auto bytes = exporting::datagramFromJson(line);
+        if (bytes) {
+            m_out.write(*bytes);
+        } else if (bytes.error().kind == exporting::JsonFault::Kind::NotDatagram) {
+            ++m_withoutDatagram;
+        } else {
+            m_console.complain(m_name + ": line " + std::to_string(number) + ": " + bytes.error().text +
+                               "; the line is left out");
+            m_hasFaults = true;
+        }
+    }
+
+    [[nodiscard]] ExitStatus conclude() {
+        if (m_withoutDatagram != 0) {
+            m_console.complain(m_name + ": " + std::to_string(m_withoutDatagram) +
+                               " lines stand for no datagram (an error, or skipped bytes) and are left out");
+        }
+        return m_hasFaults || m_withoutDatagram != 0 ? ExitStatus::Faults : ExitStatus::Fine;
+    }
+
+private:
+    Output& m_out;
+    Console& m_console;
+    std::string m_name;
+    std::size_t m_withoutDatagram = 0;
+    bool m_hasFaults = false;
+};
+
+ExitStatus encodeLines(log::ByteSource& source, Output& out, Console& console) {
+    LineReader lines(source);
+    LineEncoder encoder(out, console, source.name());
+    while (out.isWanted()) {
+        const auto line = lines.next();
+        if (!line) {
+            console.complain(line.error().text);
+            return ExitStatus::Unusable;
+        }
+        if (!*line) {
+            break;
+        }
+        encoder.encode(**line, lines.lineNumber());
+    }
+    const ExitStatus status = encoder.conclude();
+    if (const auto finished = out.finish(); !finished) {
+        console.complain(finished.error());
+        return ExitStatus::Unusable;
+    }
+    return status;
+}
+
+ExitStatus encode(const EncodeOptions& options, Console& console) {
+    const auto source = openInput(options.input);
+    if (!source) {
+        console.complain(source.error().text);
+        return ExitStatus::Unusable;
+    }
+    auto out = Output::open(options.output);
+    if (!out) {
+        console.complain(out.error());
+        return ExitStatus::Unusable;
+    }
+    return encodeLines(**source, *out, console);
+}
+
+} // namespace
+
+Command addEncodeCommand(CLI::App& program) {
+    auto options = std::make_shared<EncodeOptions>();
+    CLI::App* parser =
+        program.add_subcommand("encode", "Turn the output of decode --json back into datagrams");
+    parser->add_option("FILE", options->input, "JSON Lines; - for standard input")->required();
+    parser
+        ->add_option("-o,--output", options->output,
+                     "where the datagrams go, back to back; - for standard output")
+        ->capture_default_str();
+    return {parser, [options](Console& console) { return encode(*options, console); }};
+}
+
+} // namespace posewire::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/log/byte_source.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace posewire::cli {
+
+/// Reads a source line by line.
+class LineReader {
+public:
+    /// No datagram needs a longer line; a longer one is cut off here, so that memory stays bounded.
+    static constexpr std::size_t kLongestLine = std::size_t{4} << 20;
+
+    explicit LineReader(log::ByteSource& source) : m_source(source) {}
+
+    /// The next line without its end, valid until the next call; nothing at the end of the source.
+    tl::expected<std::optional<std::string_view>, log::FileError> next();
+
+    /// Of the line given out last, from 1.
+    [[nodiscard]] std::size_t lineNumber() const { return m_lineNumber; }
+
+private:
+    tl::expected<bool, log::FileError> fill();
+
+    log::ByteSource& m_source;
+    std::string m_kept;
+    std::size_t m_start = 0;
+    std::size_t m_lineNumber = 0;
+    bool m_isAtEnd = false;
+};
+
+} // namespace posewire::cli
