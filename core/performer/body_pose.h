@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/reference_body.h"
+#include "core/model/spaces.h"
+
+#include <array>
+
+namespace posewire::performer {
+
+/// Where the 23 body segments are.
+using BodyPose = std::array<model::SegmentPose, model::kBodySegmentCount>;
+
+/// How each segment is turned against its parent; the pelvis against the world.
+struct LocalRotations {
+    std::array<Eigen::Quaterniond, model::kBodySegmentCount> values;
+
+    LocalRotations() { values.fill(Eigen::Quaterniond::Identity()); }
+    Eigen::Quaterniond& operator[](int segment) { return values[static_cast<std::size_t>(segment)]; }
+    const Eigen::Quaterniond& operator[](int segment) const {
+        return values[static_cast<std::size_t>(segment)];
+    }
+};
+
+/// Forward kinematics with the pelvis at `root`.
+BodyPose posed(const model::ReferenceBody& body, const Eigen::Vector3d& root,
+               const LocalRotations& rotations);
+
+/// Poses again, from their parents, the segments `first` to `last`: one limb after its rotations changed.
+struct SegmentRange {
+    int first = 0;
+    int last = 0;
+};
+void poseRange(const model::ReferenceBody& body, const LocalRotations& rotations, SegmentRange range,
+               BodyPose& pose);
+
+/// Rotations about the axes, in degrees, as motions are written down.
+Eigen::Quaterniond aboutX(double degrees);
+Eigen::Quaterniond aboutY(double degrees);
+Eigen::Quaterniond aboutZ(double degrees);
+
+/// +1 on the left, -1 on the right: the sign of y.
+inline double sideSign(model::Side side) {
+    return side == model::Side::Left ? 1.0 : -1.0;
+}
+
+/// The segments of one arm and one leg, by side.
+struct LimbSegments {
+    int shoulder, upperArm, foreArm, hand, upperLeg, lowerLeg, foot, toe;
+};
+const LimbSegments& limbs(model::Side side);
+
+} // namespace posewire::performer

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+#include "core/performer/performer.h"
+
+#include "core/performer/messages.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+namespace posewire::performer {
+namespace {
+
+constexpr double kMetaDataPeriod = 1.0; // s
+constexpr double kScalePeriod = 5.0;
+
+constexpr std::array<std::uint8_t, 7> kTypesOfE{1, 2, 3, 4, 10, 11, 12};
+constexpr std::array<std::uint8_t, 12> kTypesOfLater{1, 2, 3, 5, 12, 13, 20, 21, 22, 23, 24, 25};
+/// Deprecated, but still numbered: sent by later revisions if asked for by number.
+constexpr std::array<std::uint8_t, 3> kDeprecatedTypes{4, 10, 11};
+
+std::span<const std::uint8_t> tableOf(Revision revision) {
+    return revision == Revision::E ? std::span<const std::uint8_t>(kTypesOfE)
+                                   : std::span<const std::uint8_t>(kTypesOfLater);
+}
+
+bool has(std::span<const std::uint8_t> types, std::uint8_t type) {
+    return std::ranges::find(types, type) != types.end();
+}
+
+bool isAllowed(Revision revision, std::uint8_t type) {
+    return has(tableOf(revision), type) || (revision != Revision::E && has(kDeprecatedTypes, type));
+}
+
+MessageDialect dialectOf(Revision revision) {
+    MessageDialect dialect;
+    switch (revision) {
+    case Revision::E:
+        dialect.pointIds = model::PointIdCoding::By100;
+        dialect.prefixesMetaData = false;
+        [[fallthrough]];
+    case Revision::J:
+    case Revision::K:
+        dialect.firstPropId = 25;
+        dialect.prefixesTimeCode = false;
+        dialect.sendsMassDerivatives = false;
+        dialect.sendsRealTags = false;
+        break;
+    case Revision::N:
+        break;
+    }
+    return dialect;
+}
+
+/// Whether something with a period falls into the time of a frame; always into that of frame 0.
+bool isDue(std::uint64_t index, double rateHz, double period) {
+    const double framesPerPeriod = std::max(1.0, rateHz * period);
+    const auto periods = [&](std::uint64_t frame) {
+        return std::floor(static_cast<double>(frame) / framesPerPeriod + 1e-9);
+    };
+    return index == 0 || periods(index) > periods(index - 1);
+}
+
+model::SegmentLayout layoutOf(const PerformerSettings& settings) {
+    const bool hasFingers = settings.fingers && settings.revision == Revision::N;
+    return {model::kBodySegmentCount, settings.props, hasFingers ? model::kFingerSegmentCount : 0};
+}
+
+std::uint64_t timeOfDayMs(const PerformerSettings& settings, std::uint64_t index) {
+    constexpr std::uint64_t kMsPerDay = 86'400'000;
+    const double elapsed = std::floor(static_cast<double>(index) * 1000.0 / settings.rateHz + 0.5);
+    return (settings.startTimeOfDayMs + static_cast<std::uint64_t>(elapsed)) % kMsPerDay;
+}
+
+void fillHeader(const Character& character, Revision revision, wire::Datagram& datagram) {
+    const model::SegmentLayout& layout = character.layout();
+    datagram.header.character = static_cast<std::uint8_t>(character.id());
+    datagram.header.bodySegments = static_cast<std::uint8_t>(layout.body);
+    datagram.header.props = static_cast<std::uint8_t>(layout.props);
+    datagram.header.fingerSegments = static_cast<std::uint8_t>(layout.fingers);
+    completeHeader(datagram, revision == Revision::N ? wire::HeaderEra::Counted : wire::HeaderEra::Reserved);
+}
+
+} // namespace
+
+std::vector<std::uint8_t> typesOf(Revision revision) {
+    const auto types = tableOf(revision);
+    return {types.begin(), types.end()};
+}
+
+std::optional<std::string> findProblem(const PerformerSettings& settings) {
+    if (settings.characters < 1 || settings.characters > kMaxCharacters) {
+        return "The number of characters must be from 1 to " + std::to_string(kMaxCharacters) + ".";
+    }
+    if (!(settings.rateHz >= 1.0 && settings.rateHz <= 1000.0)) {
+        return "The rate must be from 1 to 1000 frames a second.";
+    }
+    if (settings.props < 0 || settings.props > model::kMaxPropCount) {
+        return "A character can have up to " + std::to_string(model::kMaxPropCount) + " props.";
+    }
+    const auto names = motionNames();
+    if (std::ranges::find(names, settings.motion) == names.end()) {
+        return "There is no motion \"" + settings.motion + "\".";
+    }
+    for (const std::uint8_t type : settings.types) {
+        if (!isAllowed(settings.revision, type)) {
+            return "A sender of this revision has no message type " + std::to_string(type) + ".";
+        }
+    }
+    return std::nullopt;
+}
+
+Performer::Performer(PerformerSettings settings)
+    : m_settings(std::move(settings)),
+      m_types(m_settings.types.empty() ? typesOf(m_settings.revision) : m_settings.types) {
+    m_characters.reserve(static_cast<std::size_t>(m_settings.characters));
+    for (int id = 0; id < m_settings.characters; ++id) {
+        m_characters.emplace_back(CharacterSettings{id, m_settings.characters, m_settings.seed,
+                                                    m_settings.motion, layoutOf(m_settings)},
+                                  m_settings.rateHz);
+    }
+}
+
+bool Performer::sends(std::uint8_t type) const {
+    return has(m_types, type);
+}
+
+void Performer::add(const Character& character, wire::Body body, std::vector<wire::Datagram>& into) const {
+    wire::Datagram& datagram = into.emplace_back();
+    datagram.body = std::move(body);
+    fillHeader(character, m_settings.revision, datagram);
+}
+
+void Performer::addInformation(const Character& character, std::vector<wire::Datagram>& into,
+                               bool withScale) const {
+    const MessageDialect dialect = dialectOf(m_settings.revision);
+    if (withScale && sends(10)) {
+        add(character, scaleInformation(character), into);
+    }
+    if (withScale && sends(11)) {
+        add(character, propInformation(character, dialect), into);
+    }
+    if (sends(12)) {
+        add(character, metaData(character, m_settings.characters, dialect), into);
+    }
+    if (!withScale || !sends(13)) {
+        return;
+    }
+    std::vector<wire::NullPose> parts = nullPoseParts(character);
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+        add(character, std::move(parts[part]), into);
+        const bool isLast = part + 1 == parts.size();
+        into.back().header.datagramCounter = static_cast<std::uint8_t>(part | (isLast ? 0x80U : 0U));
+    }
+}
+
+void Performer::addFrameTypes(Character& character, std::uint64_t index,
+                              std::vector<wire::Datagram>& into) const {
+    const MessageDialect dialect = dialectOf(m_settings.revision);
+    const CharacterMoment& moment = character.at(index);
+    const auto body = [&](std::uint8_t type) -> wire::Body {
+        switch (type) {
+        case 1:
+            return poseEuler(character, moment, dialect);
+        case 2:
+            return poseQuaternion(character, moment, dialect);
+        case 3:
+            return pointPositions(character, moment, dialect);
+        case 4:
+            return tagPositions(static_cast<double>(index) / m_settings.rateHz);
+        case 5:
+            return poseUnity(moment);
+        case 20:
+            return jointAngles(moment);
+        case 21:
+            return linearKinematics(character, moment, dialect);
+        case 22:
+            return angularKinematics(character, moment, dialect);
+        case 23:
+            return trackerKinematics(moment);
+        case 24:
+            return centreOfMassMessage(moment, dialect);
+        default:
+            return timeCode(timeOfDayMs(m_settings, index), dialect);
+        }
+    };
+    for (const std::uint8_t type : {1, 2, 3, 4, 5, 20, 21, 22, 23, 24, 25}) {
+        if (!sends(type)) {
+            continue;
+        }
+        add(character, body(type), into);
+        into.back().header.sampleCounter = m_settings.firstSample + static_cast<std::uint32_t>(index);
+        into.back().header.timeCode = static_cast<std::uint32_t>(timeOfDayMs(m_settings, index));
+    }
+}
+
+std::vector<wire::Datagram> Performer::characterInformation() const {
+    std::vector<wire::Datagram> datagrams;
+    for (const Character& character : m_characters) {
+        addInformation(character, datagrams, true);
+    }
+    return datagrams;
+}
+
+void Performer::frameInto(std::uint64_t index, std::vector<wire::Datagram>& into) {
+    into.clear();
+    const bool withScale = isDue(index, m_settings.rateHz, kScalePeriod);
+    const bool withMetaData = withScale || isDue(index, m_settings.rateHz, kMetaDataPeriod);
+    for (Character& character : m_characters) {
+        if (withMetaData) {
+            addInformation(character, into, withScale);
+        }
+        addFrameTypes(character, index, into);
+    }
+}
+
+std::vector<wire::Datagram> Performer::frame(std::uint64_t index) {
+    std::vector<wire::Datagram> datagrams;
+    frameInto(index, datagrams);
+    return datagrams;
+}
+
+} // namespace posewire::performer

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "core/performer/walk_motion.h"
+
+#include "core/performer/easing.h"
+#include "core/performer/leg.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::performer {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using model::Side;
+using namespace model::segment;
+
+/// All walk at the same speed, so that they never catch up with each other; stature shows in the cadence.
+constexpr double kSpeed = 1.22; // m/s
+constexpr double kHalfWidth = 4.5;
+constexpr int kPerGroup = 4;
+constexpr double kGroupSpacing = 5.0;
+
+enum Key : std::uint64_t {
+    kAmplitude,
+    kArmSwing,
+    kArmAbduction,
+    kLimpSide,
+    kLimp,
+    kPhase,
+    kToeOut,
+    kWanderFirst = 100
+};
+
+WalkStyle styleFor(const KeyedRandom& random) {
+    WalkStyle style;
+    style.amplitude = std::sqrt(kSpeed / kFreeSpeed) * random.uniform(kAmplitude, 0.96, 1.04);
+    style.armSwing = random.uniform(kArmSwing, 0.9, 1.25);
+    style.armAbduction = random.uniform(kArmAbduction, 72.0, 79.0);
+    style.toeOut = random.uniform(kToeOut, 3.0, 7.0);
+    style.stepFactor[random.uniform(kLimpSide) < 0.5 ? 0 : 1] = random.uniform(kLimp, 0.98, 1.0);
+    return style;
+}
+
+KeyedRandom randomOf(const MotionSettings& settings) {
+    return KeyedRandom(settings.seed).fork(static_cast<std::uint64_t>(settings.character)).fork(0x77616c6bU);
+}
+
+FigureOfEight pathFor(const MotionSettings& settings) {
+    const int group = settings.character / kPerGroup;
+    return FigureOfEight(kHalfWidth, Vector2d(0.0, kGroupSpacing * group));
+}
+
+double startShareFor(const MotionSettings& settings) {
+    const int group = settings.character / kPerGroup;
+    const int groupSize = std::clamp(settings.characterCount - kPerGroup * group, 1, kPerGroup);
+    return 0.5 * (settings.character % kPerGroup) / groupSize;
+}
+
+/// A place of the straight walk (x along the path from its start, y to its left), bent along the path.
+Vector3d bent(const PathPlace& place, double y, double z) {
+    const Vector2d left(-std::sin(place.heading), std::cos(place.heading));
+    const Vector2d floor = place.position + y * left;
+    return {floor.x(), floor.y(), z};
+}
+
+Quaterniond turned(double heading) {
+    return aboutZ(heading * model::kDegreesPerRadian);
+}
+
+/// Half of what would balance the turn, in degrees, inwards.
+double leanFor(const PathPlace& place) {
+    return 0.5 * std::atan(kSpeed * kSpeed * place.curvature / model::kGravity) * model::kDegreesPerRadian;
+}
+
+} // namespace
+
+WalkMotion::WalkMotion(const MotionSettings& settings)
+    : m_body(settings.body), m_path(pathFor(settings)), m_clip(settings.body, styleFor(randomOf(settings))) {
+    const KeyedRandom random = randomOf(settings);
+    // Everybody starts a little after the crossing, the first one on the way to the near lobe.
+    m_startDistance = m_path.length() * (startShareFor(settings) + 0.04);
+    m_startPhase = random.uniform(kPhase);
+    m_strideTime = m_clip.strideLength() / kSpeed;
+    for (std::size_t index = 0; index < m_wander.size(); ++index) {
+        const bool isHead = index >= 3;
+        m_wander[index] = Wander(random.fork(kWanderFirst + index), 0.06, 0.9, isHead ? 1.2 : 0.5);
+    }
+}
+
+double WalkMotion::phaseAt(double seconds) const {
+    return m_startPhase + seconds / m_strideTime;
+}
+
+double WalkMotion::sinceHeelStrike(Side side, double seconds) const {
+    return WalkClip::sidePhase(side, phaseAt(seconds)) * m_strideTime;
+}
+
+void WalkMotion::addLife(double seconds, const PathPlace& place, double distance,
+                         LocalRotations& rotations) const {
+    // The head looks where the body will be 0.4 s later.
+    constexpr double kMostLead = 18.0;
+    const double ahead = m_path.at(distance + 0.4 * kSpeed).heading - place.heading;
+    const double turn = std::remainder(ahead, 2.0 * std::numbers::pi) * model::kDegreesPerRadian;
+    const double lead = kMostLead * std::tanh(turn / kMostLead);
+    const double lean = leanFor(place);
+    rotations[kNeck] = aboutZ(0.4 * lead) * aboutX(0.3 * lean) * rotations[kNeck];
+    rotations[kHead] = aboutZ(0.6 * lead + m_wander[5].at(seconds)) *
+                       aboutX(0.3 * lean + m_wander[3].at(seconds)) * aboutY(m_wander[4].at(seconds)) *
+                       rotations[kHead];
+    for (const int index : {kL3, kT8}) {
+        rotations[index] = rotations[index] * aboutZ(m_wander[2].at(seconds)) *
+                           aboutX(m_wander[0].at(seconds)) * aboutY(m_wander[1].at(seconds));
+    }
+}
+
+void WalkMotion::plant(Side side, const BodyPose& straight, double distance, double heading, double phase,
+                       LocalRotations& rotations, BodyPose& pose) const {
+    const LimbSegments& leg = limbs(side);
+    const Vector3d ball =
+        straight[static_cast<std::size_t>(leg.toe)].position + m_clip.footCorrection(side, phase);
+    // The foot turns with the path at the ball, about which it also rolls off: so the ball stays where it is.
+    const PathPlace place = m_path.at(distance + ball.x());
+    LegGoal goal;
+    goal.foot = turned(place.heading) * straight[static_cast<std::size_t>(leg.foot)].orientation;
+    goal.ankle = bent(place, ball.y(), ball.z()) - goal.foot * m_body.offset(leg.toe);
+    goal.upperLegWish = turned(heading) * straight[static_cast<std::size_t>(leg.upperLeg)].orientation;
+    reach(m_body, side, goal, rotations, pose);
+}
+
+BodyPose WalkMotion::sample(double seconds) const {
+    const double phase = phaseAt(seconds);
+    const double distance = m_startDistance + kSpeed * seconds;
+    LocalRotations rotations = m_clip.rotations(phase);
+    const Vector3d root = m_clip.root(phase);
+    const BodyPose straight = posed(m_body, root, rotations);
+
+    const PathPlace place = m_path.at(distance + root.x());
+    const double lean = leanFor(place);
+    addLife(seconds, place, distance + root.x(), rotations);
+    rotations[kPelvis] = turned(place.heading) * aboutX(-0.25 * lean) * rotations[kPelvis];
+    const double inward = 0.4 * lean * model::kRadiansPerDegree * root.z();
+    // A little lower than the curves say: bent along the path, the outer leg has to reach farther.
+    const double drop = 0.002 + 10.0 * inward * inward;
+    BodyPose pose = posed(m_body, bent(place, root.y() + inward, root.z() - drop), rotations);
+    for (const Side side : {Side::Right, Side::Left}) {
+        plant(side, straight, distance, place.heading, phase, rotations, pose);
+    }
+    return pose;
+}
+
+} // namespace posewire::performer
