@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Qt>
+
+namespace posewire::gui {
+
+/// What a cell may have besides its text; CellDelegate paints it.
+inline constexpr int kDotRole = Qt::UserRole + 1;    ///< QColor: a filled circle before the text
+inline constexpr int kSwatchRole = Qt::UserRole + 2; ///< QColor: a square before the text
+inline constexpr int kSuffixRole = Qt::UserRole + 3; ///< QString: dim text after the text
+inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it
+
+} // namespace posewire::gui

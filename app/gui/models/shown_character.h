@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model/session.h"
+
+#include <QColor>
+#include <QString>
+
+#include <optional>
+
+namespace posewire::gui {
+
+/// The character that panels for one character show: the selected one, else the first that appeared (of the
+/// selected source, where a source is selected). Nothing where there is none.
+[[nodiscard]] std::optional<model::CharacterKey> shownCharacter(model::SessionView& view);
+
+/// The selection with another character; the segment goes with the character.
+[[nodiscard]] model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key);
+
+[[nodiscard]] QString characterName(model::SessionView& view, const model::CharacterKey& key);
+[[nodiscard]] QColor characterColour(model::SessionView& view, const model::CharacterKey& key);
+
+/// The newest packet that the cursor lets through; 0 where there is none.
+[[nodiscard]] std::uint64_t newestVisiblePacket(model::SessionView& view);
+
+} // namespace posewire::gui

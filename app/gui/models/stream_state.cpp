@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/stream_state.h"
+
+#include "app/gui/models/text.h"
+#include "core/wire/type_table.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("StreamState", text);
+}
+
+State silent(double age) {
+    return {Health::Warning, tr("silent %1").arg(duration(age))};
+}
+
+State stale(double age) {
+    return {Health::Error, tr("stale %1").arg(duration(age))};
+}
+
+/// Slow streams are given the time of two and a half samples before they are silent.
+State ageState(double age, double rateHz) {
+    const double patience = rateHz > 0 ? 2.5 / rateHz : 0.0;
+    if (age >= std::max(kStaleAge, patience)) {
+        return stale(age);
+    }
+    if (age >= std::max(kSilentAge, patience)) {
+        return silent(age);
+    }
+    return {};
+}
+
+State countState(std::uint64_t malformed, std::uint64_t gaps) {
+    if (malformed != 0) {
+        return {Health::Error, tr("%1 malformed").arg(grouped(malformed))};
+    }
+    return {gaps == 0 ? Health::Good : Health::Warning, grouped(gaps)};
+}
+
+double ageOf(model::SessionView& view, std::int64_t stampNs) {
+    return std::max(0.0, static_cast<double>(view.cursorStampNs() - stampNs) * 1e-9);
+}
+
+} // namespace
+
+QString State::display() const {
+    return health == Health::Unknown ? text : healthSymbol(health) + QLatin1Char(' ') + text;
+}
+
+double streamAge(model::SessionView& view, const model::Stream& stream) {
+    return ageOf(view, stream.statistics.lastStampNs());
+}
+
+State streamState(model::SessionView& view, const model::Stream& stream) {
+    if (wire::isSampled(stream.key.type)) {
+        const State age = ageState(streamAge(view, stream), stream.statistics.rateHz());
+        if (age.health != Health::Unknown) {
+            return age;
+        }
+    }
+    return countState(stream.malformed, stream.statistics.gaps());
+}
+
+State characterState(model::SessionView& view, const model::Character& character) {
+    const State age = ageState(view.ageSeconds(character.key), 0.0);
+    if (age.health != Health::Unknown) {
+        return age;
+    }
+    std::uint64_t malformed = 0;
+    std::uint64_t gaps = 0;
+    for (const model::Stream& stream : view.streams()) {
+        if (stream.key.source == character.key.source && stream.key.character == character.key.character) {
+            malformed += stream.malformed;
+            gaps += stream.statistics.gaps();
+        }
+    }
+    return countState(malformed, gaps);
+}
+
+State sourceState(model::SessionView& view, const model::Source& source) {
+    const State age = ageState(ageOf(view, source.lastStampNs), 0.0);
+    if (age.health != Health::Unknown) {
+        return age;
+    }
+    if (source.kernelDrops != 0) {
+        return {Health::Error, tr("%1 dropped here").arg(grouped(source.kernelDrops))};
+    }
+    if (source.malformed != 0) {
+        return {Health::Error, tr("%1 malformed").arg(grouped(source.malformed))};
+    }
+    if (source.foreign != 0) {
+        return {Health::Warning, tr("%1 foreign").arg(grouped(source.foreign))};
+    }
+    return {};
+}
+
+bool isLive(model::SessionView& view, const model::Character& character) {
+    return view.ageSeconds(character.key) < kStaleAge;
+}
+
+} // namespace posewire::gui

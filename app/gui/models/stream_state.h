@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/theme.h"
+#include "core/model/session.h"
+
+#include <QString>
+
+namespace posewire::gui {
+
+/// Without data for this long a stream is silent, and for the second it is stale (seconds).
+inline constexpr double kSilentAge = 0.25;
+inline constexpr double kStaleAge = 1.0;
+
+/// Whether a stream, character or source is well, in one cell: shape, colour and text.
+struct State {
+    Health health = Health::Unknown;
+    QString text;
+
+    /// "▲ 31", or the text alone where health is unknown.
+    [[nodiscard]] QString display() const;
+};
+
+/// Seconds since the newest datagram of a stream; at least 0, also when the cursor lies before it.
+[[nodiscard]] double streamAge(model::SessionView& view, const model::Stream& stream);
+
+/// Age first, then malformed datagrams, then gaps. Types that are sent now and then (12, 13) never get stale.
+[[nodiscard]] State streamState(model::SessionView& view, const model::Stream& stream);
+[[nodiscard]] State characterState(model::SessionView& view, const model::Character& character);
+[[nodiscard]] State sourceState(model::SessionView& view, const model::Source& source);
+
+/// True while data keep coming: no older than kStaleAge.
+[[nodiscard]] bool isLive(model::SessionView& view, const model::Character& character);
+
+} // namespace posewire::gui

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/text.h"
+
+#include <QDateTime>
+
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::int64_t kNsPerMs = 1'000'000;
+
+QString padded(std::int64_t value, int digits) {
+    return QString::number(value).rightJustified(digits, QLatin1Char('0'));
+}
+
+} // namespace
+
+QString grouped(std::uint64_t value) {
+    QString digits = QString::number(value);
+    for (auto at = digits.size() - 3; at > 0; at -= 3) {
+        digits.insert(at, QChar(0x202f));
+    }
+    return digits;
+}
+
+QString fixed(double value, int decimals) {
+    if (!std::isfinite(value)) {
+        return QStringLiteral("–");
+    }
+    const bool roundsToZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
+    QString text = QString::number(roundsToZero ? 0.0 : std::abs(value), 'f', decimals);
+    return value < 0 && !roundsToZero ? QStringLiteral("−") + text : text;
+}
+
+QString signedFixed(double value, int decimals) {
+    const QString text = fixed(value, decimals);
+    const bool roundsToZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
+    return value > 0 && std::isfinite(value) && !roundsToZero ? QLatin1Char('+') + text : text;
+}
+
+QString milliClock(std::int64_t milliseconds) {
+    const std::int64_t size = std::abs(milliseconds);
+    const QString text = padded(size / 3'600'000, 2) + QLatin1Char(':') + padded(size / 60'000 % 60, 2) +
+                         QLatin1Char(':') + padded(size / 1000 % 60, 2) + QLatin1Char('.') +
+                         padded(size % 1000, 3);
+    return milliseconds < 0 ? QStringLiteral("−") + text : text;
+}
+
+QString clockDifference(double milliseconds) {
+    if (!std::isfinite(milliseconds)) {
+        return fixed(milliseconds, 0);
+    }
+    if (std::abs(milliseconds) < 1000) {
+        return signedFixed(milliseconds, 1) + QStringLiteral(" ms");
+    }
+    const QString text = milliClock(std::llround(milliseconds));
+    return milliseconds > 0 ? QLatin1Char('+') + text : text;
+}
+
+QString timeOfDay(std::int64_t stampNs) {
+    return QDateTime::fromMSecsSinceEpoch(stampNs / kNsPerMs).toString(QStringLiteral("HH:mm:ss.zzz"));
+}
+
+QString duration(double seconds) {
+    if (seconds < 10) {
+        return fixed(seconds, 1) + QStringLiteral(" s");
+    }
+    if (seconds < 120) {
+        return fixed(std::floor(seconds), 0) + QStringLiteral(" s");
+    }
+    if (seconds < 7200) {
+        return fixed(std::floor(seconds / 60), 0) + QStringLiteral(" min");
+    }
+    return fixed(std::floor(seconds / 3600), 0) + QStringLiteral(" h");
+}
+
+QString megabytes(std::uint64_t bytes) {
+    return grouped((bytes + (std::uint64_t{1} << 19)) >> 20) + QStringLiteral(" MB");
+}
+
+} // namespace posewire::gui

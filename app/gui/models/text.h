@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QString>
+
+#include <cstdint>
+
+/// How figures are written everywhere in the window: fixed decimals, a true minus, thousands set apart.
+namespace posewire::gui {
+
+/// 153402 as "153 402", with narrow no-break spaces.
+[[nodiscard]] QString grouped(std::uint64_t value);
+
+/// "−0.05"; "–" where the value is not finite. A value that rounds to zero has no sign.
+[[nodiscard]] QString fixed(double value, int decimals);
+
+/// The same with "+" before values above zero.
+[[nodiscard]] QString signedFixed(double value, int decimals);
+
+/// Milliseconds as a clock, "00:10:39.175"; hours may exceed 24.
+[[nodiscard]] QString milliClock(std::int64_t milliseconds);
+
+/// A difference of clocks: "+3.1 ms" below a second, else "−00:00:01.508".
+[[nodiscard]] QString clockDifference(double milliseconds);
+
+/// Time of day of a stamp (nanoseconds since 1970 UTC) in the computer's own zone, "10:42:17.508".
+[[nodiscard]] QString timeOfDay(std::int64_t stampNs);
+
+/// "0.4 s", "3.2 s", "12 min", "3 h": as long as a duration is interesting to the digit.
+[[nodiscard]] QString duration(double seconds);
+
+/// "211 MB": binary megabytes, as the limit is set in.
+[[nodiscard]] QString megabytes(std::uint64_t bytes);
+
+} // namespace posewire::gui
