@@ -19,7 +19,7 @@ RenderQuality interactiveQuality(std::string_view rendererName) {
         quality.samples = 0;
         quality.edgeSmoothing = true;
         quality.shadowMapSize = 1024;
-        quality.floorShadowSize = 384;
+        quality.floorShadowSize = 512;
     }
     return quality;
 }

@@ -21,7 +21,7 @@ constexpr SceneColours kDark{
     .axisX = rgb(0xeb4034),
     .axisY = rgb(0x3cbe5a),
     .axisZ = rgb(0x4082f6),
-    .outline = {0.05F, 0.06F, 0.07F, 0.45F},
+    .outline = {0.05F, 0.06F, 0.07F, 0.35F},
 };
 
 constexpr SceneColours kLight{
@@ -36,7 +36,7 @@ constexpr SceneColours kLight{
     .axisX = rgb(0xeb4034),
     .axisY = rgb(0x3cbe5a),
     .axisZ = rgb(0x4082f6),
-    .outline = {0.10F, 0.12F, 0.15F, 0.40F},
+    .outline = {0.10F, 0.12F, 0.15F, 0.26F},
 };
 
 } // namespace

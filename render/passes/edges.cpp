@@ -13,7 +13,7 @@ namespace posewire::render {
 namespace {
 
 /// As far as edges.frag looks about, in pixels.
-constexpr float kReach = 5.0F;
+constexpr float kReach = 6.0F;
 
 struct Region {
     int x;
@@ -22,13 +22,14 @@ struct Region {
     int height;
 };
 
-Region regionOf(const Bounds& onScreen, const Viewport& viewport) {
+/// The pixels of a part of the picture and of `margin` about it.
+Region regionOf(const Bounds& onScreen, const Viewport& viewport, float margin) {
     const auto pixel = [](float device, int size) {
         return (0.5F * device + 0.5F) * static_cast<float>(size);
     };
-    const auto first = [](float at) { return std::max(static_cast<int>(std::floor(at - kReach)), 0); };
-    const auto last = [](float at, int size) {
-        return std::min(static_cast<int>(std::ceil(at + kReach)), size);
+    const auto first = [&](float at) { return std::max(static_cast<int>(std::floor(at - margin)), 0); };
+    const auto last = [&](float at, int size) {
+        return std::min(static_cast<int>(std::ceil(at + margin)), size);
     };
     const int x = first(pixel(onScreen.min.x, viewport.width));
     const int y = first(pixel(onScreen.min.y, viewport.height));
@@ -55,15 +56,15 @@ void EdgePass::draw(const Frame& frame) {
         m_copy = gl::Texture::create2D(gl::Texture::Format::Bgra8, viewport.width, viewport.height);
     }
     m_copy.bind(kPictureUnit);
+    // All copies before all drawing: overlapping regions must not be smoothed twice.
     std::vector<Region> regions;
     for (const DrawnCharacter& character : frame.characters) {
-        if (!character.onScreen.isEmpty()) {
-            regions.push_back(regionOf(character.onScreen, viewport));
+        // Stripes are smooth of themselves, and would be taken for edges.
+        if (!character.onScreen.isEmpty() && !character.instance->hatched) {
+            const Region seen = regionOf(character.onScreen, viewport, 2.0F + kReach);
+            m_copy.copyFromFramebuffer(seen.x, seen.y, seen.width, seen.height);
+            regions.push_back(regionOf(character.onScreen, viewport, 2.0F));
         }
-    }
-    // All copies before all drawing: overlapping regions must not be smoothed twice.
-    for (const Region& region : regions) {
-        m_copy.copyFromFramebuffer(region.x, region.y, region.width, region.height);
     }
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);

@@ -17,6 +17,12 @@ constexpr float kShadowMargin = 0.30F;
 /// The light's picture grows in these steps, so that shadows do not shimmer while a character moves.
 constexpr float kShadowStep = 0.5F;
 
+constexpr float kFloorOpacityFromBelow = 0.25F;
+
+bool isAboveFloor(const Camera& camera) {
+    return camera.projection == Projection::Perspective ? camera.eye().z > 0.0F : camera.pitch > 0.0F;
+}
+
 bool isFinite(const glm::vec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
@@ -158,7 +164,8 @@ Frame planFrame(const Scene& scene, const Viewport& viewport, const MeshStore& m
     block.viewport = {width, height, 1.0F / width, 1.0F / height};
     const float reach = std::clamp(2.0F + 0.9F * camera.distance, 2.5F, 90.0F);
     block.floorFade = {camera.target.x, camera.target.y, 0.30F * reach, reach};
-    block.style = {viewport.pixelRatio, scene.showFloor ? 1.0F : 0.0F, scene.showOrigin ? 1.0F : 0.0F, 0.0F};
+    block.style = {viewport.pixelRatio, scene.showFloor ? 1.0F : 0.0F, scene.showOrigin ? 1.0F : 0.0F,
+                   isAboveFloor(camera) ? 1.0F : kFloorOpacityFromBelow};
     block.shadowRange = {1.0F, 1.0F, 1.0F, 0.0F};
     fillColours(block, scene.colours);
     fitLight(frame, shadowMapSize);

@@ -104,6 +104,7 @@ void ShadowPass::drawFloorShadow(const Frame& frame) {
     glClear(GL_COLOR_BUFFER_BIT);
     m_floorProgram.use();
     m_floorProgram.set("mapSize", static_cast<float>(m_floor.width()));
+    m_depth.bind(kShadowMapUnit);
     m_depth.bind(kShadowDepthUnit);
     m_depthSampler.bind(kShadowDepthUnit);
     m_noVertices.bind();

@@ -32,7 +32,8 @@ void SurroundingsPass::draw(const Frame& frame) {
     m_background.set("region", glm::vec4(-1.0F, -1.0F, 2.0F, 2.0F));
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     if (frame.scene->showFloor) {
-        glEnable(GL_BLEND);
+        const bool isSeenThrough = frame.block.style.w < 1.0F;
+        (isSeenThrough ? glEnable : glDisable)(GL_BLEND);
         // The picture stays opaque.
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
         m_floor.use();

@@ -37,10 +37,11 @@ void main() {
 
     vec4 inLight = lightViewProjection * vec4(floorPosition, 0.0, 1.0);
     vec2 hidden = texture(floorShadow, 0.5 * inLight.xy + 0.5).rg * shadowRange.w;
-    float dark = 1.0 - (1.0 - 0.80 * hidden.x) * (1.0 - 0.75 * hidden.y);
+    float dark = 1.0 - (1.0 - 0.82 * hidden.x) * (1.0 - 0.90 * hidden.y);
     colour = mix(colour, shadowColour.rgb * (0.55 + 0.45 * colour / max(floorColour.rgb, vec3(0.01))), dark);
 
-    // From below it must not hide the characters.
-    float cover = fade * (eye.z > 0.0 || eye.w < 0.5 && viewDirection.z < 0.0 ? 1.0 : 0.25);
-    fragment = vec4(colour + dither(gl_FragCoord.xy), cover);
+    // The fade is into the background that belongs there, so that nothing has to be blended. From below the floor
+    // must not hide the characters.
+    colour = mix(backgroundAt(gl_FragCoord.xy), colour, fade);
+    fragment = vec4(colour + dither(gl_FragCoord.xy), style.w);
 }

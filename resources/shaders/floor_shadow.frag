@@ -2,6 +2,7 @@
 // The shadow on the floor, softened once in the light's picture instead of for every pixel of the screen. Red: how
 // much of the key light is hidden; green: how much of the sky is hidden by what nearly touches the floor.
 uniform sampler2D shadowDepth;
+uniform sampler2DShadow shadowMap;
 uniform int capsuleCount;
 // Pairs: from and radius, to and nothing.
 uniform vec4 capsules[24];
@@ -16,7 +17,7 @@ const vec2 kDisc[kTaps] = vec2[kTaps](
     vec2(-0.6029, -0.1067), vec2(0.5712, -0.3633), vec2(-0.1876, 0.7116), vec2(-0.3660, -0.7012),
     vec2(0.7896, 0.2880), vec2(-0.8071, 0.3706), vec2(0.3530, -0.8660), vec2(0.3417, 0.9177));
 // Half the angle of the light as its tangent: the penumbra grows by this much a metre.
-const float kLightSize = 0.035;
+const float kLightSize = 0.022;
 
 // Whether the light meets something before the floor; nothing was drawn where the depth is 1.
 float blocks(float there, float floorDepth) {
@@ -34,13 +35,14 @@ float hiddenKey(vec3 at) {
         depth += isBlocker * there;
     }
     float distance = (at.z - depth / max(blockers, 1.0)) * shadowRange.y;
-    float radius = max(kLightSize * distance, 0.010) / shadowRange.x;
+    float radius = max(blockers > 0.0 ? kLightSize * distance : 0.0, 0.012) / shadowRange.x;
+    // Beyond the light's picture the depth would be cut off at 1, and compared with nothing.
+    float compared = min(at.z - 0.002 / shadowRange.y, 0.99999);
     float hidden = 0.0;
     for (int i = 0; i < kTaps; ++i) {
-        float there = texture(shadowDepth, at.xy + radius * kDisc[i]).r;
-        hidden += blocks(there, at.z);
+        hidden += 1.0 - texture(shadowMap, vec3(at.xy + radius * kDisc[i], compared));
     }
-    return min(blockers, 1.0) * hidden / float(kTaps);
+    return hidden / float(kTaps);
 }
 
 // Share of the hemisphere over a floor point that a ball hides: (r / d)^2 cos, at the capsule's nearest point.

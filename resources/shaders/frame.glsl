@@ -11,7 +11,7 @@ layout(std140) uniform Frame {
     vec4 viewport;         // width, height, 1 / width, 1 / height in device pixels
     vec4 floorFade;        // centre x, y; radii where the fade begins and ends
     vec4 shadowRange;      // metres across the light's picture, metres deep, texel as share, 1 with shadows
-    vec4 style;            // device pixels a logical pixel, floor drawn, origin drawn, unused
+    vec4 style;            // device pixels a logical pixel, floor drawn, origin drawn, opacity of the floor
     vec4 backgroundTop;
     vec4 backgroundBottom;
     vec4 floorColour;

@@ -32,8 +32,8 @@ vec3 shade(Paint paint, vec3 normal, vec3 view, float occlusion) {
     float facing = dot(normal, light.xyz);
     float key = max(facing, 0.0) * visible;
     float fillLight = max(dot(normal, fill.xyz), 0.0);
-    vec3 ambient = mix(vec3(0.27, 0.27, 0.28), vec3(0.53, 0.54, 0.56), hemisphere);
-    vec3 result = paint.colour * (occlusion * (ambient + 0.10 * fillLight) + vec3(0.63, 0.62, 0.60) * key);
+    vec3 ambient = mix(vec3(0.23, 0.23, 0.24), vec3(0.50, 0.51, 0.53), hemisphere);
+    vec3 result = paint.colour * (occlusion * (ambient + 0.09 * fillLight) + vec3(0.71, 0.70, 0.68) * key);
 
     vec3 middle = normalize(light.xyz + view);
     float shine = max(dot(normal, middle), 0.0);
@@ -45,7 +45,9 @@ vec3 shade(Paint paint, vec3 normal, vec3 view, float occlusion) {
     float rim = grazing * grazing * grazing;
     result += paint.gloss * visible * step(0.0, facing) * (0.13 * sharp + 0.045 * shine8);
     result += 0.11 * rim * occlusion * (0.35 + 0.65 * hemisphere);
-    return pow(clamp(result, 0.0, 1.0), vec3(1.0 / 1.15));
+    // Lifts the middle as a power of 1 / 1.15 does, at a third of its price.
+    result = clamp(result, 0.0, 1.0);
+    return result * (1.22 - 0.22 * result);
 }
 
 void main() {
@@ -58,18 +60,21 @@ void main() {
     }
     float selection = occlusionAndSelection.y;
     float selected = smoothstep(0.42, 0.58, selection);
-    paint.colour = mix(paint.colour, selectionColour.rgb, 0.62 * selected);
-    vec3 result = shade(paint, normal, view, occlusionAndSelection.x);
-    // A bright edge where the segment ends, and a glow that no shadow hides.
-    float border = 1.0 - smoothstep(0.0, 0.16, abs(selection - 0.5));
-    result = mix(result, selectionColour.rgb * 0.5 + 0.5, 0.55 * border * step(0.02, selection));
-    result += 0.10 * selected * selectionColour.rgb;
+    vec3 pale = 0.5 * selectionColour.rgb + 0.5;
+    paint.colour = mix(paint.colour, pale, 0.55 * selected);
+    // The baked occlusion is of skin that touches: as it is, creases and fingers would turn black.
+    vec3 result = shade(paint, normal, view, 0.35 + 0.65 * occlusionAndSelection.x);
+    // Blue grows towards the sides, and a line runs where the segment ends: both show on a suit of any colour.
+    float side = 1.0 - max(dot(normal, view), 0.0);
+    result = mix(result, selectionColour.rgb, selected * (0.25 + 0.55 * side));
+    float border = abs(selection - 0.5) / max(fwidth(selection), 1e-4);
+    result = mix(result, pale, step(0.02, selection) * (1.0 - smoothstep(0.6 * style.x, 1.6 * style.x, border)));
 
     vec3 background = backgroundAt(gl_FragCoord.xy);
     float grey = dot(result, vec3(0.30, 0.59, 0.11));
     result = mix(result, mix(vec3(grey), background, 0.35), dim);
-    float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (9.0 * style.x)) - 0.5) * 9.0 * style.x;
-    float gap = smoothstep(1.9 * style.x - 0.5, 1.9 * style.x + 0.5, stripe);
-    result = mix(result, background, 0.78 * hatched * gap);
+    float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (11.0 * style.x)) - 0.5) * 11.0 * style.x;
+    float gap = smoothstep(2.6 * style.x - 0.7, 2.6 * style.x + 0.7, stripe);
+    result = mix(result, background, 0.72 * hatched * gap);
     fragment = vec4(result + dither(gl_FragCoord.xy), opacity);
 }

@@ -49,9 +49,9 @@ Paint paintSuit(vec3 at, vec3 suitColour, float metresPerPixel) {
     seam = min(seam, side < 0.2 && at.z > 0.95 && at.z < 1.2 ? abs(at.z - 1.0275) : 9.0);
     seam = min(seam, side < 0.175 && at.z > 1.1 && at.z < 1.35 ? abs(at.z - 1.2394) : 9.0);
     // Narrower than a pixel it gets fainter instead of breaking up.
-    float half_ = 0.0022;
-    float strength = 0.8 * min(1.0, 2.0 * half_ / max(metresPerPixel, 1e-5));
-    float line = 1.0 - smoothstep(half_ - 0.5 * pixel, half_ + pixel, seam);
+    const float kHalfWidth = 0.0019;
+    float strength = 0.8 * min(1.0, 2.0 * kHalfWidth / max(metresPerPixel, 1e-5));
+    float line = 1.0 - smoothstep(kHalfWidth - 0.6 * pixel, kHalfWidth + 0.8 * pixel, seam);
     paint.colour = mix(paint.colour, kSeam, strength * line);
     paint.gloss *= 1.0 - 0.7 * line;
     return paint;
