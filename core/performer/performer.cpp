@@ -19,6 +19,9 @@ constexpr std::array<std::uint8_t, 12> kTypesOfLater{1, 2, 3, 5, 12, 13, 20, 21,
 /// Deprecated, but still numbered: sent by later revisions if asked for by number.
 constexpr std::array<std::uint8_t, 3> kDeprecatedTypes{4, 10, 11};
 
+/// Those that every frame carries, in sending order.
+constexpr std::array<std::uint8_t, 11> kFrameTypes{1, 2, 3, 4, 5, 20, 21, 22, 23, 24, 25};
+
 std::span<const std::uint8_t> tableOf(Revision revision) {
     return revision == Revision::E ? std::span<const std::uint8_t>(kTypesOfE)
                                    : std::span<const std::uint8_t>(kTypesOfLater);
@@ -184,7 +187,7 @@ void Performer::addFrameTypes(Character& character, std::uint64_t index,
             return timeCode(timeOfDayMs(m_settings, index), dialect);
         }
     };
-    for (const std::uint8_t type : {1, 2, 3, 4, 5, 20, 21, 22, 23, 24, 25}) {
+    for (const std::uint8_t type : kFrameTypes) {
         if (!sends(type)) {
             continue;
         }
