@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/datagram_sender.h"
+
+#include <QHostAddress>
+#include <QHostInfo>
+#include <QTcpSocket>
+#include <QUdpSocket>
+
+#include <algorithm>
+
+namespace posewire::net {
+
+namespace {
+
+constexpr int kPatienceMs = 5000;
+/// A TCP receiver that takes nothing makes the sender wait from here on.
+constexpr qint64 kMostUnsent = 1 << 20;
+
+NetResult<QHostAddress> lookUp(const Endpoint& endpoint) {
+    const QString host =
+        QString::fromStdString(endpoint.host.empty() ? std::string("127.0.0.1") : endpoint.host);
+    if (QHostAddress address(host); !address.isNull()) {
+        return address;
+    }
+    const QHostInfo info = QHostInfo::fromName(host);
+    if (info.addresses().isEmpty()) {
+        return netError(NetError::Kind::HostNotFound, "no computer named " + endpoint.host +
+                                                          " was found; check the name or use its address");
+    }
+    const auto addresses = info.addresses();
+    const auto ipv4 = std::ranges::find(addresses, QAbstractSocket::IPv4Protocol, &QHostAddress::protocol);
+    return ipv4 == addresses.end() ? addresses.front() : *ipv4;
+}
+
+} // namespace
+
+/// One target.
+class DatagramSender::Channel {
+public:
+    virtual ~Channel() = default;
+    /// False where the datagram was not taken and nothing can be done about it.
+    virtual NetResult<bool> send(const char* bytes, qint64 size) = 0;
+    virtual NetResult<void> flush() = 0;
+};
+
+class DatagramSender::UdpChannel final : public Channel {
+public:
+    UdpChannel(QHostAddress address, quint16 port) : m_address(std::move(address)), m_port(port) {}
+
+    NetResult<bool> send(const char* bytes, qint64 size) override {
+        return m_socket.writeDatagram(bytes, size, m_address, m_port) == size;
+    }
+    NetResult<void> flush() override { return {}; }
+
+private:
+    QUdpSocket m_socket;
+    QHostAddress m_address;
+    quint16 m_port;
+};
+
+class DatagramSender::TcpChannel final : public Channel {
+public:
+    explicit TcpChannel(Endpoint endpoint) : m_endpoint(std::move(endpoint)) {}
+
+    NetResult<void> connect(const QHostAddress& address) {
+        m_socket.connectToHost(address, m_endpoint.port);
+        if (!m_socket.waitForConnected(kPatienceMs)) {
+            return netError(NetError::Kind::NotConnected,
+                            "cannot connect to " + textOf(m_endpoint) +
+                                " by TCP: " + m_socket.errorString().toStdString() +
+                                "; start the receiver first and check address and port");
+        }
+        m_socket.setSocketOption(QAbstractSocket::LowDelayOption, 1);
+        return {};
+    }
+
+    NetResult<bool> send(const char* bytes, qint64 size) override {
+        if (m_socket.write(bytes, size) != size) {
+            return ended();
+        }
+        m_socket.flush();
+        while (m_socket.bytesToWrite() > kMostUnsent) {
+            if (!m_socket.waitForBytesWritten(kPatienceMs)) {
+                return ended();
+            }
+        }
+        return m_socket.state() == QAbstractSocket::ConnectedState ? NetResult<bool>(true) : ended();
+    }
+
+    NetResult<void> flush() override {
+        while (m_socket.bytesToWrite() > 0) {
+            if (!m_socket.waitForBytesWritten(kPatienceMs)) {
+                return ended();
+            }
+        }
+        return {};
+    }
+
+private:
+    [[nodiscard]] tl::unexpected<NetError> ended() const {
+        return netError(NetError::Kind::NotConnected, "the TCP connection to " + textOf(m_endpoint) +
+                                                          " ended: " + m_socket.errorString().toStdString() +
+                                                          "; start the receiver again and connect anew");
+    }
+
+    Endpoint m_endpoint;
+    QTcpSocket m_socket;
+};
+
+DatagramSender::DatagramSender() = default;
+DatagramSender::DatagramSender(DatagramSender&&) noexcept = default;
+DatagramSender& DatagramSender::operator=(DatagramSender&&) noexcept = default;
+DatagramSender::~DatagramSender() = default;
+
+NetResult<DatagramSender> DatagramSender::connect(const std::vector<SendTarget>& targets) {
+    DatagramSender sender;
+    for (const SendTarget& target : targets) {
+        const auto address = lookUp(target.endpoint);
+        if (!address) {
+            return tl::unexpected(address.error());
+        }
+        if (target.transport == SendTarget::Transport::Udp) {
+            sender.m_channels.push_back(std::make_unique<UdpChannel>(*address, target.endpoint.port));
+            continue;
+        }
+        auto channel = std::make_unique<TcpChannel>(target.endpoint);
+        if (auto connected = channel->connect(*address); !connected) {
+            return tl::unexpected(connected.error());
+        }
+        sender.m_channels.push_back(std::move(channel));
+    }
+    return sender;
+}
+
+NetResult<void> DatagramSender::send(std::span<const std::byte> datagram) {
+    const char* bytes = reinterpret_cast<const char*>(datagram.data());
+    for (const auto& channel : m_channels) {
+        const auto taken = channel->send(bytes, static_cast<qint64>(datagram.size()));
+        if (!taken) {
+            return tl::unexpected(taken.error());
+        }
+        ++(*taken ? m_sent : m_refused);
+    }
+    return {};
+}
+
+NetResult<void> DatagramSender::flush() {
+    for (const auto& channel : m_channels) {
+        if (auto flushed = channel->flush(); !flushed) {
+            return flushed;
+        }
+    }
+    return {};
+}
+
+} // namespace posewire::net

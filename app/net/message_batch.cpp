@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/message_batch.h"
+
+#include <cstring>
+#include <ctime>
+
+namespace posewire::net {
+
+MessageBatch::MessageBatch() {
+    for (std::size_t i = 0; i < m_messages.size(); ++i) {
+        msghdr& header = m_messages[i].msg_hdr;
+        header.msg_name = &m_senders[i];
+        header.msg_iov = m_parts[i].data();
+        header.msg_iovlen = m_parts[i].size();
+        header.msg_control = m_controls[i].bytes.data();
+    }
+}
+
+std::size_t MessageBatch::receive(int descriptor, std::span<const log::LogWriter::Lane> lanes) {
+    for (std::size_t i = 0; i < lanes.size(); ++i) {
+        m_parts[i][0] = {lanes[i].bytes.data(), lanes[i].bytes.size()};
+        m_parts[i][1] = {lanes[i].spill.data(), lanes[i].spill.size()};
+        msghdr& header = m_messages[i].msg_hdr;
+        header.msg_namelen = sizeof(sockaddr_in6);
+        header.msg_controllen = kControlSize;
+    }
+    const int count =
+        ::recvmmsg(descriptor, m_messages.data(), static_cast<unsigned>(lanes.size()), MSG_DONTWAIT, nullptr);
+    return count < 0 ? 0 : static_cast<std::size_t>(count);
+}
+
+Received MessageBatch::received(std::size_t index) {
+    msghdr& header = m_messages[index].msg_hdr;
+    Received received;
+    received.size = m_messages[index].msg_len;
+    received.isTruncated = (header.msg_flags & MSG_TRUNC) != 0;
+    for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
+         control = CMSG_NXTHDR(&header, control)) {
+        if (control->cmsg_level != SOL_SOCKET) {
+            continue;
+        }
+        if (control->cmsg_type == SO_TIMESTAMPNS) {
+            timespec stamp{};
+            std::memcpy(&stamp, CMSG_DATA(control), sizeof stamp);
+            received.stampNs = std::int64_t{stamp.tv_sec} * 1'000'000'000 + stamp.tv_nsec;
+        } else if (control->cmsg_type == SO_RXQ_OVFL) {
+            std::memcpy(&received.drops, CMSG_DATA(control), sizeof received.drops);
+        }
+    }
+    return received;
+}
+
+} // namespace posewire::net

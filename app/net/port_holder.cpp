@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/port_holder.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+namespace posewire::net {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+unsigned long portOf(const std::string& hexadecimal) {
+    return std::strtoul(hexadecimal.c_str(), nullptr, 16);
+}
+
+/// Targets of the links in /proc/PID/fd that belong to sockets bound to the port, from one of the kernel's
+/// tables.
+void collectSockets(const char* table, std::uint16_t port, std::vector<std::string>& sockets) {
+    std::ifstream file(table);
+    std::string line;
+    std::getline(file, line); // the headings
+    while (std::getline(file, line)) {
+        std::istringstream columns(line);
+        std::string slot, local, skipped, inode;
+        columns >> slot >> local;
+        for (int i = 0; i < 7; ++i) {
+            columns >> skipped; // remote, state, queues, timer, retransmits, user, timeout
+        }
+        columns >> inode;
+        const std::size_t colon = local.rfind(':');
+        if (columns && colon != std::string::npos && portOf(local.substr(colon + 1)) == port) {
+            sockets.push_back("socket:[" + inode + "]");
+        }
+    }
+}
+
+bool holdsAnyOf(const fs::path& process, const std::vector<std::string>& sockets) {
+    std::error_code denied;
+    for (fs::directory_iterator entry(process / "fd", denied), end; !denied && entry != end;
+         entry.increment(denied)) {
+        std::error_code vanished;
+        const std::string target = fs::read_symlink(entry->path(), vanished).string();
+        if (!vanished && std::ranges::find(sockets, target) != sockets.end()) {
+            return true;
+        }
+    }
+    return false;
+}
+
+} // namespace
+
+std::optional<Process> holderOfUdpPort(std::uint16_t port) {
+    std::vector<std::string> sockets;
+    collectSockets("/proc/net/udp", port, sockets);
+    collectSockets("/proc/net/udp6", port, sockets);
+    if (sockets.empty()) {
+        return std::nullopt;
+    }
+    std::error_code missing;
+    for (fs::directory_iterator entry("/proc", missing), end; !missing && entry != end;
+         entry.increment(missing)) {
+        const std::string id = entry->path().filename().string();
+        if (id.find_first_not_of("0123456789") == std::string::npos && holdsAnyOf(entry->path(), sockets)) {
+            std::ifstream file(entry->path() / "comm");
+            Process process{{}, std::strtoll(id.c_str(), nullptr, 10)};
+            std::getline(file, process.name);
+            return process;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace posewire::net

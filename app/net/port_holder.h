@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace posewire::net {
+
+struct Process {
+    std::string name;
+    std::int64_t id = 0;
+};
+
+/// The process that listens on a UDP port of this computer. Nothing where the system does not tell: other
+/// systems than Linux, and processes of other users.
+[[nodiscard]] std::optional<Process> holderOfUdpPort(std::uint16_t port);
+
+} // namespace posewire::net

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/receive_loop.h"
+
+#include "app/net/qt_receive_loop.h"
+#ifdef __linux__
+#include "app/net/recvmmsg_loop.h"
+#endif
+
+namespace posewire::net {
+
+std::unique_ptr<ReceiveLoop> makeReceiveLoop(ReceivePath path, const ReceiveContext& context) {
+#ifdef __linux__
+    if (path == ReceivePath::Native) {
+        return makeRecvmmsgLoop(context);
+    }
+#endif
+    return makeQtReceiveLoop(context);
+}
+
+} // namespace posewire::net

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/recvmmsg_loop.h"
+
+#include "app/net/message_batch.h"
+#include "app/net/source_cache.h"
+#include "app/net/udp_binding.h"
+
+#include <QEventLoop>
+
+#include <fcntl.h>
+#include <linux/sock_diag.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <thread>
+
+namespace posewire::net {
+
+namespace {
+
+/// After so many naps without a datagram the loop waits for one instead: an idle monitor uses no processor
+/// time.
+constexpr int kNapsUntilIdle = 200;
+/// So many batches are taken from one socket before the others have their turn.
+constexpr int kBatchesPerTurn = 64;
+/// The kernel's drop counters are read once in so many rounds, about ten times a second.
+constexpr int kRoundsPerDropCheck = 100;
+
+/// A descriptor that is closed with its owner.
+class Descriptor {
+public:
+    explicit Descriptor(int descriptor = -1) : m_descriptor(descriptor) {}
+    Descriptor(Descriptor&& other) noexcept : m_descriptor(std::exchange(other.m_descriptor, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    ~Descriptor() {
+        if (m_descriptor >= 0) {
+            ::close(m_descriptor);
+        }
+    }
+    [[nodiscard]] int get() const { return m_descriptor; }
+
+private:
+    int m_descriptor;
+};
+
+struct Socket {
+    Descriptor descriptor;
+    SourceCache sources;
+    std::uint32_t dropsOfLastPacket = 0; ///< as the kernel counts them for the socket
+    std::uint32_t dropsCounted = 0;      ///< so many of them are in the counters
+    MessageBatch batch{};
+};
+
+class RecvmmsgLoop final : public ReceiveLoop {
+public:
+    explicit RecvmmsgLoop(const ReceiveContext& context)
+        : m_context(context), m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+
+    NetResult<std::vector<Endpoint>> open(const ReceiveOptions& options) override;
+    void run() override;
+    void wake() override;
+
+private:
+    bool drainAll();
+    std::size_t drain(Socket& socket);
+    void commit(Socket& socket, std::size_t index);
+    void countDrops(Socket& socket, std::uint32_t drops);
+    void checkDrops();
+    void rest(bool wasBusy);
+    void waitForSomething();
+
+    ReceiveContext m_context;
+    Descriptor m_wake;
+    std::chrono::nanoseconds m_nap{};
+    std::vector<std::unique_ptr<Socket>> m_sockets;
+    int m_idleNaps = 0;
+    int m_roundsSinceDropCheck = 0;
+    std::int64_t m_lookedNs = 0; ///< when the sockets were last looked at, monotonic
+};
+
+void enable(int descriptor, int option) {
+    const int on = 1;
+    ::setsockopt(descriptor, SOL_SOCKET, option, &on,
+                 sizeof on); // where it is refused, stamps come from the clock
+}
+
+NetResult<std::vector<Endpoint>> RecvmmsgLoop::open(const ReceiveOptions& options) {
+    const QEventLoop dispatcher; // Qt's sockets want one in their thread, if only to be opened
+    m_nap = options.nap;
+    std::vector<Endpoint> endpoints;
+    std::int64_t smallest = INT64_MAX;
+    for (const Endpoint& endpoint : options.endpoints) {
+        const auto bound = bindUdp(endpoint, options.bufferBytes);
+        if (!bound) {
+            m_sockets.clear();
+            return tl::unexpected(bound.error());
+        }
+        smallest = std::min<std::int64_t>(smallest, receiveBufferBytes(**bound));
+        endpoints.push_back({endpoint.host, (*bound)->localPort()});
+        // A descriptor of our own, on which Qt's notifiers have no hold; Qt's goes at the end of this turn.
+        Descriptor descriptor(::fcntl(static_cast<int>((*bound)->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
+        enable(descriptor.get(), SO_TIMESTAMPNS);
+        enable(descriptor.get(), SO_RXQ_OVFL);
+        m_sockets.push_back(std::unique_ptr<Socket>(
+            new Socket{std::move(descriptor), SourceCache(m_context.log.sources(), endpoints.back().port)}));
+    }
+    m_context.counters.receiveBufferBytes = smallest == INT64_MAX ? 0 : smallest;
+    return endpoints;
+}
+
+void RecvmmsgLoop::run() {
+    m_lookedNs = m_context.clock.monotonicNs();
+    while (!isStopping()) {
+        rest(drainAll());
+    }
+    drainAll();
+    checkDrops();
+}
+
+void RecvmmsgLoop::wake() {
+    const std::uint64_t one = 1;
+    [[maybe_unused]] const auto written =
+        ::write(m_wake.get(), &one, sizeof one); // full is as good as written
+}
+
+/// True if there was anything.
+bool RecvmmsgLoop::drainAll() {
+    std::size_t count = 0;
+    for (const auto& socket : m_sockets) {
+        count += drain(*socket);
+    }
+    if (!m_context.queue.isEmpty()) {
+        count += m_context.queue.moveTo(m_context.log);
+    }
+    if (++m_roundsSinceDropCheck >= kRoundsPerDropCheck) {
+        checkDrops();
+    }
+    return count > 0;
+}
+
+std::size_t RecvmmsgLoop::drain(Socket& socket) {
+    log::LogWriter& writer = m_context.log.writer();
+    std::size_t total = 0;
+    for (int turn = 0; turn < kBatchesPerTurn; ++turn) {
+        const auto lanes = writer.lanes();
+        const std::size_t count = socket.batch.receive(socket.descriptor.get(), lanes);
+        for (std::size_t i = 0; i < count; ++i) {
+            commit(socket, i);
+        }
+        total += count;
+        if (count > 0) {
+            writer.publish();
+            add<std::uint64_t>(m_context.counters.datagrams, count);
+        }
+        if (count < lanes.size()) {
+            break;
+        }
+    }
+    return total;
+}
+
+void RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
+    const Received received = socket.batch.received(index);
+    log::Arrival arrival;
+    arrival.source = socket.sources.idOf(socket.batch.sender(index));
+    arrival.flags.truncated = received.isTruncated;
+    arrival.flags.stampedByKernel = received.stampNs != 0;
+    arrival.stampNs = received.stampNs != 0 ? received.stampNs : m_context.clock.wallNs();
+    if (received.drops != socket.dropsOfLastPacket && received.drops != 0) {
+        arrival.kernelDropsBefore = received.drops - socket.dropsOfLastPacket;
+        socket.dropsOfLastPacket = received.drops;
+        countDrops(socket, received.drops);
+    }
+    m_context.log.writer().commit(index, received.size, arrival);
+    add<std::uint64_t>(m_context.counters.bytes, received.size);
+}
+
+/// `drops` is what the kernel has counted so far; a packet may tell less than the counter that was read
+/// before it.
+void RecvmmsgLoop::countDrops(Socket& socket, std::uint32_t drops) {
+    const auto more = static_cast<std::int32_t>(drops - socket.dropsCounted);
+    if (more > 0) {
+        socket.dropsCounted = drops;
+        add<std::uint64_t>(m_context.counters.kernelDropped, static_cast<std::uint64_t>(more));
+    }
+}
+
+/// Loss shows in a packet only when the next one comes; the socket itself tells at once.
+void RecvmmsgLoop::checkDrops() {
+    m_roundsSinceDropCheck = 0;
+    for (const auto& socket : m_sockets) {
+        std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
+        socklen_t size = sizeof info;
+        if (::getsockopt(socket->descriptor.get(), SOL_SOCKET, SO_MEMINFO, info.data(), &size) == 0) {
+            countDrops(*socket, info[SK_MEMINFO_DROPS]);
+        }
+    }
+}
+
+void RecvmmsgLoop::rest(bool wasBusy) {
+    m_idleNaps = wasBusy ? 0 : m_idleNaps + 1;
+    if (m_idleNaps > kNapsUntilIdle) {
+        checkDrops();
+        waitForSomething();
+        m_lookedNs = m_context.clock.monotonicNs();
+        return;
+    }
+    std::this_thread::sleep_for(m_nap);
+    const std::int64_t nowNs = m_context.clock.monotonicNs();
+    const std::int64_t delayNs = nowNs - std::exchange(m_lookedNs, nowNs);
+    if (delayNs > m_context.counters.longestDelayNs.load(std::memory_order_relaxed)) {
+        m_context.counters.longestDelayNs.store(delayNs, std::memory_order_relaxed);
+    }
+}
+
+void RecvmmsgLoop::waitForSomething() {
+    std::vector<pollfd> watched{{m_wake.get(), POLLIN, 0}};
+    for (const auto& socket : m_sockets) {
+        watched.push_back({socket->descriptor.get(), POLLIN, 0});
+    }
+    ::poll(watched.data(), watched.size(), -1);
+    std::uint64_t wakes = 0;
+    [[maybe_unused]] const auto read = ::read(m_wake.get(), &wakes, sizeof wakes);
+}
+
+} // namespace
+
+std::unique_ptr<ReceiveLoop> makeRecvmmsgLoop(const ReceiveContext& context) {
+    return std::make_unique<RecvmmsgLoop>(context);
+}
+
+} // namespace posewire::net

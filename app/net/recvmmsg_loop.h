@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/receive_loop.h"
+
+namespace posewire::net {
+
+/// Linux: many datagrams with one system call, written by the kernel straight into the log, with its stamps
+/// and its count of what it had to drop.
+[[nodiscard]] std::unique_ptr<ReceiveLoop> makeRecvmmsgLoop(const ReceiveContext& context);
+
+} // namespace posewire::net
