@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "core/wire/extent.h"
+#include "tests/core/wire/expected_datagrams.h"
+#include "tests/core/wire/golden_fixture.h"
+
+namespace posewire::wire::test {
+namespace {
+
+using State = Extent::State;
+
+class GoldenExtent : public GoldenTest {
+protected:
+    /// Neither the header nor the content tells how long these are.
+    [[nodiscard]] bool isUntold() const { return isNamed({"12_metadata_bare", "77_unknown_reserved"}); }
+
+    /// What the datagram's own words make of its size.
+    [[nodiscard]] std::size_t toldSize() const {
+        return isNamed({"25_time_code_miscounted"}) ? bytes().size() - 4 : bytes().size();
+    }
+
+    static std::vector<std::byte> followedBy(std::vector<std::byte> bytes, const std::string& next) {
+        const auto& more = posewire::test::golden(next).bytes;
+        bytes.insert(bytes.end(), more.begin(), more.end());
+        return bytes;
+    }
+};
+INSTANTIATE_TEST_SUITE_P(All, GoldenExtent, testing::ValuesIn(goldenNames()), goldenTestName);
+
+TEST_P(GoldenExtent, IsNeverToldWrongFromAnyPrefixOfAStream) {
+    for (const char* next : {"02_quaternion_reserved", "25_time_code_bare", "77_unknown_counted"}) {
+        const std::vector<std::byte> stream = followedBy(bytes(), next);
+        bool isTold = false;
+        for (std::size_t length = 0; length <= stream.size(); ++length) {
+            const Extent extent = datagramExtent(Bytes(stream).first(length), false);
+            if (isUntold()) {
+                EXPECT_EQ(extent.state, length < kHeaderSize ? State::NeedMore : extent.state);
+                EXPECT_NE(extent.state, State::Known);
+                continue;
+            }
+            ASSERT_TRUE(extent.state == State::NeedMore || extent.state == State::Known) << length;
+            EXPECT_TRUE(!isTold || extent.state == State::Known) << "forgotten at " << length;
+            isTold = extent.state == State::Known;
+            EXPECT_TRUE(!isTold || extent.size == toldSize()) << length << " before " << next;
+        }
+        EXPECT_NE(isTold, isUntold()) << "before " << next;
+    }
+}
+
+TEST_P(GoldenExtent, IsToldByTheHeaderAloneWhereItHasThePayloadSize) {
+    const Header header = expectedDatagram(name()).header;
+    if (header.payloadSize != 0) {
+        EXPECT_EQ(datagramExtent(first(kHeaderSize), false), (Extent{State::Known, toldSize()}));
+    }
+}
+
+TEST_P(GoldenExtent, IsToldAtTheEndOfTheStream) {
+    const Extent expected = isUntold() ? Extent{State::Unknown, 0} : Extent{State::Known, toldSize()};
+    EXPECT_EQ(datagramExtent(bytes(), true), expected);
+}
+
+TEST(Extent, IsForeignForWhatDoesNotBeginADatagram) {
+    for (const std::string_view text : {"X", "MXP", "MXTPx", "MXTP0x", "{\"type\":\"transport\"}"}) {
+        EXPECT_EQ(datagramExtent(std::as_bytes(std::span(text)), false).state, State::Foreign) << text;
+    }
+}
+
+TEST(Extent, WaitsForMoreOfWhatMayBeginADatagram) {
+    for (const std::string_view text : {"", "M", "MXTP", "MXTP0", "MXTP02"}) {
+        EXPECT_EQ(datagramExtent(std::as_bytes(std::span(text)), false).state, State::NeedMore) << text;
+    }
+}
+
+TEST(Extent, IsUnknownForACountThatNoDatagramCanHold) {
+    std::vector<std::byte> bytes = posewire::test::golden("13_null_pose_reserved").bytes;
+    std::fill_n(bytes.begin() + kHeaderSize, 4, std::byte{0xff});
+    EXPECT_EQ(datagramExtent(bytes, false).state, State::Unknown);
+}
+
+TEST(Extent, IsUnknownBeyondTheLongestDatagram) {
+    Datagram datagram;
+    datagram.header.setType(2);
+    datagram.header.payloadSize = 65535;
+    EXPECT_EQ(datagramExtent(*encode(datagram), false).state, State::Unknown);
+}
+
+} // namespace
+} // namespace posewire::wire::test

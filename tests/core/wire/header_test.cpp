@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "core/wire/codec.h"
+#include "core/wire/type_table.h"
+#include "tests/support/golden.h"
+
+#include <gtest/gtest.h>
+
+namespace posewire::wire {
+namespace {
+
+Bytes asBytes(std::string_view text) {
+    return std::as_bytes(std::span(text));
+}
+
+TEST(Header, ReadsEveryFieldFromItsPlace) {
+    constexpr std::array<unsigned char, 24> sent{'M',  'X',  'T',  'P', '2',  '3',  0x01, 0x02,
+                                                 0x03, 0x04, 0x85, 7,   0x05, 0x06, 0x07, 0x08,
+                                                 9,    10,   11,   12,  0x0d, 0x0e, 0x0f, 0x10};
+    const auto header = decodeHeader(std::as_bytes(std::span(sent)));
+    ASSERT_TRUE(header);
+    EXPECT_EQ(header->type(), 23);
+    EXPECT_EQ(header->sampleCounter, 0x01020304U);
+    EXPECT_EQ(header->datagramIndex(), 5);
+    EXPECT_TRUE(header->isLast());
+    EXPECT_EQ(header->items, 7);
+    EXPECT_EQ(header->timeCode, 0x05060708U);
+    EXPECT_EQ(header->character, 9);
+    EXPECT_EQ(header->bodySegments, 10);
+    EXPECT_EQ(header->props, 11);
+    EXPECT_EQ(header->fingerSegments, 12);
+    EXPECT_EQ(header->countedSegments(), 33U);
+    EXPECT_EQ(header->reserved, 0x0d0e);
+    EXPECT_EQ(header->payloadSize, 0x0f10);
+}
+
+TEST(Header, RejectsFewerThan24Bytes) {
+    const auto header = decodeHeader(asBytes("MXTP02"));
+    ASSERT_FALSE(header);
+    EXPECT_EQ(header.error(), (WireError{ErrorCode::HeaderTruncated, 0, 6, 24, 6}));
+}
+
+TEST(Header, RejectsWhatIsNotMxtpAtItsFirstByte) {
+    const auto header = decodeHeader(asBytes("{\"type\":\"transport\",\"value\":\"record\"}"));
+    ASSERT_FALSE(header);
+    EXPECT_EQ(header.error().code, ErrorCode::BadMagic);
+    EXPECT_EQ(header.error().offset, 0U);
+}
+
+TEST(Header, RejectsATypeThatIsNotTwoDigits) {
+    for (const std::string_view text : {"MXTP0x..................", "MXTP:0..................", "MXTP//"}) {
+        const auto header = decodeHeader(asBytes(text));
+        ASSERT_FALSE(header) << text;
+        EXPECT_EQ(header.error().code, ErrorCode::BadType) << text;
+        EXPECT_EQ(header.error().offset, 4U) << text;
+    }
+}
+
+TEST(Header, GivesANoticeWhereReservedBytesAreInUse) {
+    auto bytes = posewire::test::golden("02_quaternion_counted").bytes;
+    bytes[20] = std::byte{1};
+    const auto datagram = decode(bytes);
+    ASSERT_TRUE(datagram);
+    EXPECT_EQ(datagram->notices, (std::vector{Notice{NoticeCode::ReservedUsed, 20, 1}}));
+    EXPECT_EQ(*encode(*datagram), bytes);
+}
+
+TEST(Header, GivesANoticeWhereCountsAndItemsDisagree) {
+    auto bytes = posewire::test::golden("02_quaternion_counted").bytes;
+    bytes[18] = std::byte{2};
+    const auto datagram = decode(bytes);
+    ASSERT_TRUE(datagram);
+    EXPECT_EQ(datagram->notices, (std::vector{Notice{NoticeCode::CountDisagrees, 11, 1}}));
+}
+
+TEST(Header, MakesNothingOfCountsInTypesThatCarryNoSegments) {
+    for (const char* name : {"20_joints_counted", "23_trackers_68_counted", "12_metadata_counted"}) {
+        const auto datagram = decode(posewire::test::golden(name).bytes);
+        ASSERT_TRUE(datagram) << name;
+        EXPECT_TRUE(datagram->notices.empty()) << name;
+    }
+}
+
+TEST(TypeTable, NamesTheFifteenTypes) {
+    constexpr std::array types{1, 2, 3, 4, 5, 10, 11, 12, 13, 20, 21, 22, 23, 24, 25};
+    ASSERT_EQ(typeTable().size(), types.size());
+    for (std::size_t i = 0; i < types.size(); ++i) {
+        EXPECT_EQ(typeTable()[i].type, types[i]);
+        EXPECT_FALSE(typeTable()[i].name.empty());
+    }
+    EXPECT_EQ(findType(77), nullptr);
+    EXPECT_EQ(typeTitle(2), "02 Pose, quaternion");
+    EXPECT_EQ(typeTitle(77), "77 unknown type");
+    EXPECT_FALSE(isSampled(12));
+    EXPECT_TRUE(isSampled(2));
+}
+
+} // namespace
+} // namespace posewire::wire
