@@ -65,14 +65,14 @@ std::optional<float> intersectSide(const Ray& ray, const Capsule& capsule) {
     const float axisRay = glm::dot(axis, ray.direction);
     const float axisOffset = glm::dot(axis, offset);
     const float a = axisAxis - axisRay * axisRay;
-    if (!(a > 1e-8F * axisAxis)) {
-        return std::nullopt;
-    }
     const float b = axisAxis * glm::dot(ray.direction, offset) - axisOffset * axisRay;
     const float c =
         axisAxis * (glm::dot(offset, offset) - capsule.radius * capsule.radius) - axisOffset * axisOffset;
+    if (c <= 0.0F && axisOffset >= 0.0F && axisOffset <= axisAxis) {
+        return 0.0F;
+    }
     const float discriminant = b * b - a * c;
-    if (!(discriminant >= 0.0F)) {
+    if (!(a > 1e-8F * axisAxis) || !(discriminant >= 0.0F)) {
         return std::nullopt;
     }
     const float distance = (-b - std::sqrt(discriminant)) / a;

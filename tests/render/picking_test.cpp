@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "render/picking.h"
+
+#include "render/mesh/mannequin.h"
+#include "tests/render/poses.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace posewire::render::testing {
+namespace {
+
+const SegmentCapsules& mannequinCapsules() {
+    static const SegmentCapsules kCapsules = segmentCapsules(loadMannequin(Detail::Low));
+    return kCapsules;
+}
+
+Ray towards(const glm::vec3& eye, const glm::vec3& point) {
+    return {eye, glm::normalize(point - eye)};
+}
+
+TEST(Capsule, IsHitOnItsSideAndOnItsEnds) {
+    const Capsule capsule{{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, 0.1F};
+    EXPECT_NEAR(intersect({{2, 0, 0.5F}, {-1, 0, 0}}, capsule).value_or(-1.0F), 1.9F, 1e-5F);
+    EXPECT_NEAR(intersect({{0, 0, 3}, {0, 0, -1}}, capsule).value_or(-1.0F), 1.9F, 1e-5F);
+    EXPECT_NEAR(intersect({{2, 0, 1.05F}, {-1, 0, 0}}, capsule).value_or(-1.0F), 2.0F - std::sqrt(0.0075F),
+                1e-4F);
+    EXPECT_NEAR(intersect({{0, 0, 0.5F}, {1, 0, 0}}, capsule).value_or(-1.0F), 0.0F, 1e-6F);
+    EXPECT_FALSE(intersect({{2, 0.11F, 0.5F}, {-1, 0, 0}}, capsule).has_value());
+    EXPECT_FALSE(intersect({{2, 0, 0.5F}, {1, 0, 0}}, capsule).has_value());
+    EXPECT_FALSE(intersect({{2, 0, 0.5F}, {-1, 0, 0}}, Capsule{}).has_value());
+}
+
+TEST(SegmentCapsules, LieAboutEverySegment) {
+    for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
+        const Capsule& capsule = mannequinCapsules()[segment];
+        EXPECT_GT(capsule.radius, 0.01F) << kJointNames[segment];
+        EXPECT_LT(capsule.radius, 0.25F) << kJointNames[segment];
+    }
+}
+
+TEST(Picking, FindsLimbsInAnyPose) {
+    const Pose pose = placed(lungePose(), {1.0F, 2.0F, 0.0F}, 0.8F);
+    const std::vector<DualQuaternion> palette = paletteOf(pose);
+    const std::array<PickTarget, 1> targets{{{7, &mannequinCapsules(), palette}}};
+    struct Case {
+        Segment segment;
+        Segment child;
+        /// In the character's own frame, where nothing is in the way.
+        glm::vec3 from;
+    };
+    const glm::quat turn = glm::angleAxis(0.8F, glm::vec3(0.0F, 0.0F, 1.0F));
+    for (const auto& [segment, child, from] :
+         {Case{LeftForeArm, LeftHand, {0.0F, 1.0F, 0.0F}}, Case{RightForeArm, RightHand, {1.0F, 0.0F, 0.2F}},
+          Case{LeftLowerLeg, LeftFoot, {1.0F, 0.0F, 0.0F}},
+          Case{RightLowerLeg, RightFoot, {-0.3F, -1.0F, 0.3F}}}) {
+        const glm::vec3 middle = 0.5F * (pose.positions[segment] + pose.positions[child]);
+        const auto pick = pickSegment(towards(middle + 3.0F * (turn * from), middle), targets);
+        ASSERT_TRUE(pick.has_value()) << kJointNames[segment];
+        EXPECT_EQ(pick->id, 7U);
+        EXPECT_EQ(pick->segment, static_cast<int>(segment))
+            << kJointNames[static_cast<std::size_t>(pick->segment)];
+    }
+}
+
+TEST(Picking, PrefersTheNearerCharacter) {
+    const std::vector<DualQuaternion> near = paletteOf(placed(tPose(), {1.0F, 0.0F, 0.0F}));
+    const std::vector<DualQuaternion> far = paletteOf(tPose());
+    const std::array<PickTarget, 2> targets{
+        {{1, &mannequinCapsules(), far}, {2, &mannequinCapsules(), near}}};
+    const auto pick = pickSegment({{5.0F, 0.0F, 1.65F}, {-1.0F, 0.0F, 0.0F}}, targets);
+    ASSERT_TRUE(pick.has_value());
+    EXPECT_EQ(pick->id, 2U);
+    EXPECT_EQ(pick->segment, Head);
+    EXPECT_NEAR(pick->distance, 3.9F, 0.05F);
+}
+
+TEST(Picking, FindsNothingBesideTheBody) {
+    const std::vector<DualQuaternion> palette = paletteOf(tPose());
+    const std::array<PickTarget, 3> targets{
+        {{1, &mannequinCapsules(), palette}, {2, nullptr, palette}, {3, &mannequinCapsules(), {}}}};
+    EXPECT_FALSE(pickSegment({{5.0F, 0.5F, 0.8F}, {-1.0F, 0.0F, 0.0F}}, targets).has_value());
+    EXPECT_FALSE(pickSegment({{5.0F, 0.0F, 1.6F}, {1.0F, 0.0F, 0.0F}}, targets).has_value());
+}
+
+} // namespace
+} // namespace posewire::render::testing

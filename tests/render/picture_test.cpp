@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "render/mesh/null_pose_fit.h"
+#include "tests/render/studio.h"
+
+#include <gtest/gtest-spi.h>
+
+namespace posewire::render::testing {
+namespace {
+
+class Picture : public Studio {
+protected:
+    /// Two characters side by side, as the operator sees them.
+    void addPair() {
+        const Pose standing = placed(grounded(standingPose(), mesh()), {-0.3F, -0.75F, 0.0F}, 0.35F);
+        const Pose lunging = placed(grounded(lungePose(), mesh()), {0.1F, 0.65F, 0.0F});
+        add(standing, kBlue);
+        add(lunging, kOrange);
+        m_poses = {standing, lunging};
+        look(0.25F, {0.0F, 0.0F, 0.85F}, 5.2F);
+    }
+
+    const std::vector<Pose>& poses() const { return m_poses; }
+
+private:
+    std::vector<Pose> m_poses;
+};
+
+TEST_F(Picture, ShowsTheTPose) {
+    add(grounded(tPose(), mesh()));
+    expectMatchesBaseline(shoot(), "t_pose");
+}
+
+TEST_F(Picture, ShowsTheTPoseOnDark) {
+    add(grounded(tPose(), mesh()));
+    scene.colours = darkSceneColours();
+    expectMatchesBaseline(shoot(), "t_pose_dark");
+}
+
+TEST_F(Picture, ShowsALunge) {
+    add(grounded(lungePose(), mesh()));
+    look(0.57F, {0.0F, 0.0F, 0.75F}, 4.0F);
+    expectMatchesBaseline(shoot(), "lunge");
+}
+
+TEST_F(Picture, ShowsASquat) {
+    add(grounded(squatPose(), mesh()), kOrange);
+    look(0.785F, {0.1F, 0.0F, 0.55F}, 3.6F);
+    expectMatchesBaseline(shoot(), "squat");
+}
+
+TEST_F(Picture, ShowsBentElbowsFromBehind) {
+    add(grounded(elbowPose(), mesh()));
+    look(2.4F, {0.05F, 0.0F, 0.6F}, 3.6F);
+    expectMatchesBaseline(shoot(), "elbows_behind");
+}
+
+TEST_F(Picture, ShowsLocalAxesThroughTheBody) {
+    addPair();
+    for (const Pose& pose : poses()) {
+        addAxes(pose);
+    }
+    scene.colours = darkSceneColours();
+    expectMatchesBaseline(shoot(), "axes_dark");
+}
+
+TEST_F(Picture, FadesAndStripesStaleCharacters) {
+    addPair();
+    characters[0].dim = 0.6F;
+    characters[0].hatched = true;
+    characters[1].dim = 0.6F;
+    expectMatchesBaseline(shoot(), "stale");
+}
+
+TEST_F(Picture, MarksTheSelectedSegment) {
+    addPair();
+    characters[0].selectedSegment = RightForeArm;
+    characters[1].selectedSegment = T8;
+    scene.colours = darkSceneColours();
+    expectMatchesBaseline(shoot(), "selected_dark");
+}
+
+TEST_F(Picture, ShowsAGhostBesideALiveCharacter) {
+    addPair();
+    characters[0].opacity = 0.35F;
+    expectMatchesBaseline(shoot(), "ghost");
+}
+
+TEST_F(Picture, DrawsLinesAndPoints) {
+    addPair();
+    std::vector<PointInstance> points;
+    std::vector<LineInstance> lines;
+    for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
+        points.push_back({poses()[0].positions[segment], {1.0F, 0.8F, 0.2F, 1.0F}});
+        const int parent = kSegmentParents[segment];
+        if (parent >= 0) {
+            lines.push_back({poses()[1].positions[segment],
+                             poses()[1].positions[static_cast<std::size_t>(parent)],
+                             {0.1F, 0.2F, 0.3F, 1.0F}});
+        }
+    }
+    scene.points = points;
+    scene.lines = lines;
+    expectMatchesBaseline(shoot(), "lines_and_points");
+}
+
+TEST_F(Picture, ShowsTheFloorFromAboveOrthographically) {
+    addPair();
+    scene.camera = facing(scene.camera, StandardView::Top);
+    scene.camera.projection = Projection::Orthographic;
+    scene.camera.target = {0.0F, 0.0F, 0.0F};
+    expectMatchesBaseline(shoot(), "top");
+}
+
+TEST_F(Picture, KeepsTheSuitOnAFittedPerformer) {
+    NullPose child = kReferenceNullPose;
+    for (glm::vec3& origin : child) {
+        origin *= 0.68F;
+    }
+    NullPose used{};
+    const SkinnedMesh fitted = fitToNullPose(mesh(), child, used);
+    const MeshId id = renderer().uploadMesh(fitted, mesh().positions);
+    const Pose pose = poseFrom({}, used);
+    const std::vector<DualQuaternion> palette = paletteOf(pose, used);
+    SkinnedInstance& instance = add(tPose(), {0.70F, 0.30F, 0.55F});
+    instance.mesh = id;
+    instance.palette = palette;
+    look(0.30F, {0.0F, 0.0F, 0.6F}, 3.4F);
+    expectMatchesBaseline(shoot(), "fitted_child");
+}
+
+TEST_F(Picture, IsMultisampledAtStillQuality) {
+    addPair();
+    renderer().setQuality(stillQuality());
+    expectMatchesBaseline(shoot(), "still_quality");
+}
+
+TEST_F(Picture, IsTheSameToTheBitInASecondContext) {
+    addPair();
+    addAxes(poses()[0]);
+    const Image first = shoot();
+    auto second = OffscreenRenderer::create();
+    ASSERT_TRUE(second.has_value()) << second.error();
+    ASSERT_EQ(second->renderer().uploadMesh(mesh(), mesh().positions), meshId());
+    const Image& again = second->render(scene, kWidth, kHeight);
+    EXPECT_EQ(first.pixels, again.pixels);
+}
+
+TEST_F(Picture, FailsWithoutItsBaseline) {
+    static Image image;
+    image = shoot(32, 24);
+    if (std::getenv("POSEWIRE_UPDATE_BASELINES") != nullptr) {
+        GTEST_SKIP() << "baselines are being rewritten";
+    }
+    EXPECT_NONFATAL_FAILURE(expectMatchesBaseline(image, "there_is_no_such_baseline"), "no baseline");
+}
+
+TEST_F(Picture, FailsWhereTheBaselineShowsSomethingElse) {
+    static Image image;
+    look(0.40F, {0.0F, 0.0F, 0.9F}, 4.6F);
+    image = shoot();
+    if (std::getenv("POSEWIRE_UPDATE_BASELINES") != nullptr) {
+        GTEST_SKIP() << "baselines are being rewritten";
+    }
+    EXPECT_NONFATAL_FAILURE(expectMatchesBaseline(image, "t_pose"), "% of the pixels");
+}
+
+} // namespace
+} // namespace posewire::render::testing
