@@ -106,8 +106,7 @@ public:
                 surface.points.push_back(m_points[i]);
             }
         }
-        for (std::uint32_t f = 0; f < m_faces.size(); ++f) {
-            const auto& [a, b, c] = m_faces[f];
+        for (const auto& [a, b, c] : m_faces) {
             if (a != b) {
                 surface.faces.push_back({newIndex[a], newIndex[b], newIndex[c]});
             }

@@ -111,6 +111,20 @@ TEST_F(NullPoseFitTest, ReachesTheWristsOfLongArms) {
     EXPECT_NEAR(extent.low.y, extentOf(m_template).low.y - 0.05F, 1e-3F);
 }
 
+TEST_F(NullPoseFitTest, SpreadsALongerForearmOverTheBone) {
+    NullPose performer = kReferenceNullPose;
+    performer[LeftHand].y += 0.047F;
+    performer[RightHand].y -= 0.047F;
+    const SkinnedMesh fitted = fit(performer);
+    for (std::size_t i = 0; i < fitted.vertexCount(); ++i) {
+        const float y = std::abs(m_template.positions[i].y);
+        if (y > 0.51F && y < 0.65F) {
+            const float expected = 0.450F + (y - 0.450F) * 1.2F;
+            ASSERT_NEAR(std::abs(fitted.positions[i].y), expected, 1e-4F);
+        }
+    }
+}
+
 TEST_F(NullPoseFitTest, KeepsUnitNormals) {
     const SkinnedMesh fitted = fit(scaled(0.8F));
     std::vector<glm::vec3> byArea(fitted.vertexCount());

@@ -217,6 +217,20 @@ TEST_F(SkinTest, DoesNotDependOnTheSignsOfOrientations) {
     }
 }
 
+TEST_F(SkinTest, BlendsPalettesOfAnySign) {
+    auto palette = bentPose().palette();
+    SkinnedMesh expected = m_mesh;
+    SkinJob{&m_mesh, palette, expected.positions, expected.normals}.run();
+    for (std::size_t i = 0; i < kJointCount; i += 2) {
+        palette[i] = {-palette[i].real, -palette[i].dual};
+    }
+    SkinnedMesh output = m_mesh;
+    SkinJob{&m_mesh, palette, output.positions, output.normals}.run();
+    for (std::size_t i = 0; i < output.vertexCount(); ++i) {
+        ASSERT_LT(glm::distance(output.positions[i], expected.positions[i]), 1e-5F);
+    }
+}
+
 TEST_F(SkinTest, KeepsTheForearmThickUnderPronation) {
     // Linear blending pinches the elbow to a candy wrapper here.
     Pose pose;
