@@ -9,13 +9,13 @@ using Eigen::Vector3d;
 struct Mass {
     double share;  ///< as tabulated; head, trunk and limbs together make 1.0 but for rounding
     int farPoint;  ///< local ID of the point that the segment reaches to
-    double centre; ///< share of the way to it
+    double centre; ///< share of the way to it; the rib cage reaches far below the joint at which T8 begins
 };
 
 constexpr std::array<Mass, model::kBodySegmentCount> kMasses{{
     {0.142, 2, 0.5},                                                             // pelvis
     {0.046, 2, 0.5},   {0.046, 2, 0.5},    {0.047, 2, 0.5},                      // L5, L3, T12
-    {0.160, 2, 0.5},   {0.020, 2, 0.5},    {0.061, 2, 0.5},                      // T8, neck, head
+    {0.160, 2, -0.3},  {0.020, 2, 0.5},    {0.061, 2, 0.5},                      // T8, neck, head
     {0.028, 2, 0.5},   {0.028, 2, 0.436},  {0.016, 2, 0.430}, {0.006, 2, 0.506}, // right arm
     {0.028, 2, 0.5},   {0.028, 2, 0.436},  {0.016, 2, 0.430}, {0.006, 2, 0.506}, // left arm
     {0.100, 2, 0.433}, {0.0465, 2, 0.433}, {0.0115, 2, 0.5},  {0.003, 2, 0.5},   // right leg

@@ -109,9 +109,10 @@ void StandMotion::addWave(const Moment& moment, LocalRotations& rotations) const
         rotations[segment] = rotations[segment].slerp(moment.wave, goal);
     };
     towards(arm.shoulder, aboutX(-8.0));
-    towards(arm.upperArm, aboutZ(12.0) * aboutX(-8.0) * aboutY(-60.0));
-    towards(arm.foreArm, aboutX(-75.0 + swing));
-    towards(arm.hand, aboutX(handSwing));
+    // Turned outwards about its own length, so that a bent elbow points the forearm up and the palm forward.
+    towards(arm.upperArm, aboutZ(12.0) * aboutX(-8.0) * aboutY(-82.0));
+    towards(arm.foreArm, aboutZ(75.0 + swing));
+    towards(arm.hand, aboutZ(handSwing));
     rotations[kHead] = rotations[kHead] * aboutZ(-12.0 * moment.wave);
 }
 
