@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/cell_delegate.h"
+
+#include "app/gui/models/roles.h"
+#include "app/gui/theme.h"
+
+#include <QApplication>
+#include <QPainter>
+#include <QPainterPath>
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+/// A steady rate is a flat line, not its noise blown up.
+constexpr float kLeastSpread = 0.2F;
+
+bool isNumber(const QModelIndex& index) {
+    return (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
+}
+
+/// Paints the mark before the text and returns its width with the space after it.
+int paintMark(QPainter& painter, const QRect& rect, const QColor& colour, bool isDot) {
+    const int side = std::max(7, painter.fontMetrics().ascent() * 3 / 4);
+    const QRectF mark(rect.left(), rect.center().y() - side / 2.0 + 0.5, side, side);
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colour);
+    if (isDot) {
+        painter.drawEllipse(mark);
+    } else {
+        painter.drawRoundedRect(mark, 2, 2);
+    }
+    painter.restore();
+    return side + side * 2 / 3;
+}
+
+} // namespace
+
+int CellDelegate::margin(const QFontMetrics& metrics) {
+    return std::max(4, metrics.height() / 3);
+}
+
+int CellDelegate::rowHeight(const QFontMetrics& metrics) {
+    return metrics.height() + metrics.height() * 8 / 15;
+}
+
+QSize CellDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const {
+    QStyleOptionViewItem filled = option;
+    initStyleOption(&filled, index);
+    const QString suffix = index.data(kSuffixRole).toString();
+    const int width = filled.fontMetrics.horizontalAdvance(filled.text + suffix);
+    return {width + 2 * margin(filled.fontMetrics), rowHeight(filled.fontMetrics)};
+}
+
+void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
+                         const QModelIndex& index) const {
+    QStyleOptionViewItem option = given;
+    initStyleOption(&option, index);
+    const QStyle* style = option.widget != nullptr ? option.widget->style() : QApplication::style();
+    QStyleOptionViewItem background = option;
+    background.text.clear();
+    background.icon = {};
+    background.state.setFlag(QStyle::State_HasFocus, false);
+    style->drawControl(QStyle::CE_ItemViewItem, &background, painter, option.widget);
+
+    const int space = margin(option.fontMetrics);
+    QRect rect = option.rect.adjusted(space, 0, -space, 0);
+    if (option.features.testFlag(QStyleOptionViewItem::HasCheckIndicator)) {
+        const QRect box =
+            style->subElementRect(QStyle::SE_ItemViewItemCheckIndicator, &option, option.widget);
+        rect.setLeft(box.right() + space);
+    }
+    painter->save();
+    painter->setClipRect(option.rect);
+    if (isNumber(index)) {
+        QFont font = tabularFont();
+        font.setPixelSize(QFontInfo(option.font).pixelSize());
+        option.font = font;
+    }
+    painter->setFont(option.font);
+    const QVariant series = index.data(kSeriesRole);
+    if (series.isValid()) {
+        const QVariant colour = index.data(Qt::ForegroundRole);
+        painter->setPen(QPen(colour.isValid() ? colour.value<QColor>() : theme().accent, 1.3));
+        const int inset = option.rect.height() / 5;
+        paintSeries(*painter, QRectF(rect.adjusted(0, inset, 0, -inset)), series.value<QList<float>>());
+    } else {
+        paintText(*painter, rect, option, index);
+    }
+    painter->restore();
+}
+
+void CellDelegate::paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& series) const {
+    float least = std::numeric_limits<float>::max();
+    float most = 0;
+    for (const float value : series) {
+        if (std::isfinite(value)) {
+            least = std::min(least, value);
+            most = std::max(most, value);
+        }
+    }
+    const float spread = std::max(most - least, std::max(kLeastSpread * most, 1e-6F));
+    const float bottom = (most + least - spread) / 2;
+    // The newest value stands at the right edge; a short history leaves the left empty.
+    constexpr double kPlaces = 120;
+    const double step = rect.width() / (kPlaces - 1);
+    QPainterPath path;
+    bool isDown = false;
+    for (qsizetype i = 0; i < series.size(); ++i) {
+        if (!std::isfinite(series[i])) {
+            isDown = false;
+            continue;
+        }
+        const QPointF point(rect.right() - step * static_cast<double>(series.size() - 1 - i),
+                            rect.bottom() - rect.height() * (series[i] - bottom) / spread);
+        isDown ? path.lineTo(point) : path.moveTo(point);
+        isDown = true;
+    }
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
+    painter.drawPath(path);
+}
+
+void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option,
+                             const QModelIndex& index) const {
+    const QVariant dot = index.data(kDotRole);
+    const QVariant swatch = index.data(kSwatchRole);
+    const QString suffix = index.data(kSuffixRole).toString();
+    const QFontMetrics metrics = painter.fontMetrics();
+    const QColor colour = index.data(Qt::ForegroundRole).isValid()
+                              ? index.data(Qt::ForegroundRole).value<QColor>()
+                              : theme().text;
+    const QString shown = metrics.elidedText(option.text, Qt::ElideRight, rect.width());
+    if (isNumber(index) && swatch.isValid()) {
+        const int side = std::max(7, metrics.ascent() * 3 / 4);
+        rect.setLeft(
+            std::max(rect.left(), rect.right() - metrics.horizontalAdvance(shown) - side - side * 2 / 3));
+    }
+    if (dot.isValid() || swatch.isValid()) {
+        const QVariant& mark = dot.isValid() ? dot : swatch;
+        rect.setLeft(rect.left() + paintMark(painter, rect, mark.value<QColor>(), dot.isValid()));
+    }
+    painter.setPen(colour);
+    if (isNumber(index)) {
+        painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
+        return;
+    }
+    const int suffixWidth = suffix.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + suffix);
+    const QString text =
+        metrics.elidedText(option.text, Qt::ElideRight, std::max(0, rect.width() - suffixWidth));
+    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
+    if (suffixWidth > 0) {
+        rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
+        painter.setPen(theme().dim);
+        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, suffix);
+    }
+}
+
+} // namespace posewire::gui

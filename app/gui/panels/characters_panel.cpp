@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/characters_panel.h"
+
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/stream_state.h"
+
+#include <QItemSelectionModel>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(parent),
+      m_view(view),
+      m_commands(commands),
+      m_model(view, commands),
+      m_table(new TableView(tr("Characters"), this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins({});
+    layout->addWidget(m_table);
+    m_table->setModel(&m_model);
+    m_table->setRootIsDecorated(true);
+    m_table->setColumnSamples({QString(), QStringLiteral("240 / 239.9"), QStringLiteral("■ stale 59 s")});
+    m_table->setEmptyText(
+        tr("No character on the air.\nIn MVN: Options > Preferences > Network Streamer, add this "
+           "computer with port 9763 and tick the stream."));
+    connect(&m_model, &QAbstractItemModel::rowsInserted, this, &CharactersPanel::expandNew);
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            &CharactersPanel::select);
+    connect(m_table, &QAbstractItemView::doubleClicked, this, &CharactersPanel::frame);
+    connect(m_table, &TableView::copyRequested, this,
+            [this](const QString& text) { m_commands.copyText(text); });
+}
+
+void CharactersPanel::refresh() {
+    m_isFollowing = true;
+    m_model.refresh();
+    followSelection();
+    m_isFollowing = false;
+}
+
+QString CharactersPanel::summary() const {
+    const auto& characters = m_view.characters();
+    if (characters.empty()) {
+        return {};
+    }
+    const auto live = std::ranges::count_if(
+        characters, [this](const model::Character& character) { return isLive(m_view, character); });
+    return tr("%1 of %2 live").arg(live).arg(characters.size());
+}
+
+void CharactersPanel::expandNew(const QModelIndex& parent, int first, int last) {
+    if (parent.isValid() && parent.parent().isValid()) {
+        return; // streams of a character: whether they show is up to the operator by now
+    }
+    for (int row = first; row <= last; ++row) {
+        m_table->expandRecursively(m_model.index(row, 0, parent));
+    }
+}
+
+void CharactersPanel::followSelection() {
+    const model::Selection& selection = m_view.selection();
+    if (selection == m_followed) {
+        return;
+    }
+    m_followed = selection;
+    const QModelIndex current = m_table->currentIndex();
+    const bool isAlreadyThere = selection.character ? m_model.character(current) == selection.character
+                                                    : m_model.source(current) == selection.source;
+    if (isAlreadyThere) {
+        return;
+    }
+    const QModelIndex wanted = selection.character ? m_model.indexOf(*selection.character) : QModelIndex();
+    m_table->setCurrentIndex(wanted);
+    if (!wanted.isValid()) {
+        m_table->clearSelection();
+    }
+}
+
+void CharactersPanel::select(const QModelIndex& index) {
+    if (m_isFollowing || !index.isValid()) {
+        return;
+    }
+    const auto key = m_model.character(index);
+    model::Selection selection = key ? selectionOf(m_view, *key) : model::Selection{};
+    selection.source = m_model.source(index);
+    m_commands.select(selection);
+}
+
+void CharactersPanel::frame(const QModelIndex& index) {
+    if (const auto key = m_model.character(index)) {
+        m_commands.frameCharacter(*key);
+    }
+}
+
+} // namespace posewire::gui

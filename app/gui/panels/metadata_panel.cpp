@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/metadata_panel.h"
+
+#include "app/gui/models/shown_character.h"
+
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(parent), m_view(view), m_model(view), m_table(new TableView(tr("Metadata"), this)) {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins({});
+    layout->addWidget(m_table);
+    m_table->setModel(&m_model);
+    m_table->setRootIsDecorated(true);
+    m_table->setColumnSamples({QStringLiteral("timeOffset mm"), QString(), QStringLiteral("12 s · 1 mm")});
+    m_table->setEmptyText(
+        tr("No character selected.\nMetadata (type 12) shows here as soon as a character is on "
+           "the air."));
+    connect(m_table, &TableView::copyRequested, this,
+            [&commands](const QString& text) { commands.copyText(text); });
+}
+
+void MetadataPanel::refresh() {
+    m_model.refresh();
+}
+
+QString MetadataPanel::summary() const {
+    const auto key = shownCharacter(m_view);
+    return key ? characterName(m_view, *key) : QString();
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panel.h"
+
+#include "app/gui/panels/characters_panel.h"
+#include "app/gui/panels/metadata_panel.h"
+#include "app/gui/panels/statistics_panel.h"
+#include "app/gui/panels/timecode_panel.h"
+#include "app/gui/panels/trackers_panel.h"
+
+#include <array>
+
+namespace posewire::gui {
+
+namespace {
+
+template <class T>
+Panel* make(model::SessionView& view, Commands& commands, QWidget* parent) {
+    return new T(view, commands, parent);
+}
+
+constexpr std::array<PanelInfo, 5> kPanels{{
+    {"characters", QT_TRANSLATE_NOOP("Panel", "Characters"), Qt::LeftDockWidgetArea, make<CharactersPanel>},
+    {"metadata", QT_TRANSLATE_NOOP("Panel", "Metadata"), Qt::LeftDockWidgetArea, make<MetadataPanel>},
+    {"timecode", QT_TRANSLATE_NOOP("Panel", "Time code"), Qt::LeftDockWidgetArea, make<TimecodePanel>},
+    {"statistics", QT_TRANSLATE_NOOP("Panel", "Statistics"), Qt::RightDockWidgetArea, make<StatisticsPanel>},
+    {"trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), Qt::RightDockWidgetArea, make<TrackersPanel>},
+}};
+
+} // namespace
+
+std::span<const PanelInfo> panelTable() {
+    return kPanels;
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/table_view.h"
+
+#include "app/gui/models/roles.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme.h"
+
+#include <QContextMenuEvent>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QPainter>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+TableView::TableView(const QString& name, QWidget* parent) : QTreeView(parent) {
+    setAccessibleName(name);
+    setItemDelegate(new CellDelegate(this));
+    setUniformRowHeights(true);
+    setAlternatingRowColors(true);
+    setFrameShape(QFrame::NoFrame);
+    setRootIsDecorated(false);
+    setAllColumnsShowFocus(true);
+    setSelectionMode(QAbstractItemView::SingleSelection);
+    setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
+    setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+    setTabKeyNavigation(false);
+    setExpandsOnDoubleClick(false);
+    header()->setStretchLastSection(false);
+    header()->setSectionsMovable(false);
+    header()->setMinimumSectionSize(0);
+    header()->setHighlightSections(false);
+}
+
+void TableView::setColumnSamples(std::vector<QString> samples) {
+    m_samples = std::move(samples);
+    fitColumns();
+}
+
+void TableView::setEmptyText(const QString& text) {
+    if (text != m_emptyText) {
+        m_emptyText = text;
+        setAccessibleDescription(text);
+        viewport()->update();
+    }
+}
+
+int TableView::sampleWidth(int column) const {
+    const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+    const QFontMetrics metrics(tabularFont());
+    const int margins = 2 * CellDelegate::margin(fontMetrics());
+    // The style sheet pads header sections by 6 pixels at either side.
+    const int headerWidth = isHeaderHidden() ? 0 : fontMetrics().horizontalAdvance(title) + 14;
+    const QString& sample = m_samples[static_cast<std::size_t>(column)];
+    return std::max(metrics.horizontalAdvance(sample) + margins, headerWidth);
+}
+
+void TableView::fitColumns() {
+    if (model() == nullptr || m_samples.empty()) {
+        return;
+    }
+    setIndentation(fontMetrics().height());
+    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
+        if (!m_samples[static_cast<std::size_t>(column)].isEmpty()) {
+            header()->resizeSection(column, sampleWidth(column));
+        }
+    }
+    fitOpenColumn();
+}
+
+void TableView::fitOpenColumn() {
+    const auto open = std::ranges::find(m_samples, QString());
+    if (model() == nullptr || open == m_samples.end()) {
+        return;
+    }
+    const int column = static_cast<int>(open - m_samples.begin());
+    const int others = header()->length() - header()->sectionSize(column);
+    const int least = fontMetrics().averageCharWidth() * 12;
+    header()->resizeSection(column, std::max(least, viewport()->width() - others));
+}
+
+int TableView::heightForRows(int rows) const {
+    const int row = CellDelegate::rowHeight(fontMetrics());
+    return row * (rows + (isHeaderHidden() ? 0 : 1)) + 2;
+}
+
+void TableView::paintEvent(QPaintEvent* event) {
+    QTreeView::paintEvent(event);
+    if (m_emptyText.isEmpty() || model() == nullptr || model()->rowCount() != 0) {
+        return;
+    }
+    QPainter painter(viewport());
+    painter.setPen(theme().dim);
+    const int space = 2 * CellDelegate::margin(fontMetrics());
+    painter.drawText(viewport()->rect().adjusted(space, space, -space, -space),
+                     Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
+}
+
+QString TableView::cellText(const QModelIndex& index) const {
+    const QString text = index.data(Qt::DisplayRole).toString();
+    const QString suffix = index.data(kSuffixRole).toString();
+    return suffix.isEmpty() ? text : text + QLatin1Char(' ') + suffix;
+}
+
+QString TableView::rowText(const QModelIndex& index) const {
+    QStringList cells;
+    for (int column = 0; column < model()->columnCount(index.parent()); ++column) {
+        cells += cellText(index.siblingAtColumn(column));
+    }
+    return cells.join(QLatin1Char('\t'));
+}
+
+void TableView::addRows(QString& text, const QModelIndex& parent) const {
+    for (int row = 0; row < model()->rowCount(parent); ++row) {
+        const QModelIndex index = model()->index(row, 0, parent);
+        text += rowText(index) + QLatin1Char('\n');
+        addRows(text, index);
+    }
+}
+
+QString TableView::allText() const {
+    QStringList titles;
+    for (int column = 0; column < model()->columnCount(); ++column) {
+        titles += model()->headerData(column, Qt::Horizontal).toString();
+    }
+    QString text = titles.join(QLatin1Char('\t')) + QLatin1Char('\n');
+    addRows(text, {});
+    return text;
+}
+
+void TableView::contextMenuEvent(QContextMenuEvent* event) {
+    const bool isByKey = event->reason() == QContextMenuEvent::Keyboard;
+    const QModelIndex index = isByKey ? currentIndex() : indexAt(event->pos());
+    QMenu menu(this);
+    QAction* cell = menu.addAction(tr("Copy cell"));
+    QAction* row = menu.addAction(tr("Copy row"));
+    QAction* all = menu.addAction(tr("Copy all as text"));
+    cell->setEnabled(index.isValid());
+    row->setEnabled(index.isValid());
+    const QString texts[] = {index.isValid() ? cellText(index) : QString(),
+                             index.isValid() ? rowText(index) : QString()};
+    const QPoint at = isByKey ? viewport()->mapToGlobal(visualRect(index).center()) : event->globalPos();
+    const QAction* chosen = menu.exec(at);
+    if (chosen == cell || chosen == row) {
+        emit copyRequested(chosen == cell ? texts[0] : texts[1]);
+    } else if (chosen == all) {
+        emit copyRequested(allText());
+    }
+}
+
+void TableView::keyPressEvent(QKeyEvent* event) {
+    if (event->matches(QKeySequence::Copy)) {
+        if (currentIndex().isValid()) {
+            emit copyRequested(rowText(currentIndex()));
+        }
+        event->accept();
+        return;
+    }
+    QTreeView::keyPressEvent(event);
+}
+
+void TableView::changeEvent(QEvent* event) {
+    QTreeView::changeEvent(event);
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
+        fitColumns();
+    }
+}
+
+void TableView::resizeEvent(QResizeEvent* event) {
+    QTreeView::resizeEvent(event);
+    fitOpenColumn();
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QTreeView>
+
+#include <vector>
+
+namespace posewire::gui {
+
+/// The one way in which docks show a model: rows of the theme's height, cells by CellDelegate, columns as
+/// wide as a sample of what may stand in them, a sentence where there are no rows, copying by keyboard and
+/// menu.
+class TableView : public QTreeView {
+    Q_OBJECT
+
+public:
+    /// `name` is what screen readers call the table.
+    explicit TableView(const QString& name, QWidget* parent = nullptr);
+
+    /// One sample for each column, as long as its content may become; an empty one takes the room left.
+    void setColumnSamples(std::vector<QString> samples);
+
+    /// What to do where the table is empty.
+    void setEmptyText(const QString& text);
+    [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
+
+    /// Height that shows `rows` rows and the header.
+    [[nodiscard]] int heightForRows(int rows) const;
+
+    /// Rows as lines, cells set apart by tabs: what the copy commands give.
+    [[nodiscard]] QString cellText(const QModelIndex& index) const;
+    [[nodiscard]] QString rowText(const QModelIndex& index) const;
+    [[nodiscard]] QString allText() const;
+
+signals:
+    void copyRequested(const QString& text);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void fitColumns();
+    void fitOpenColumn();
+    [[nodiscard]] int sampleWidth(int column) const;
+    void addRows(QString& text, const QModelIndex& parent) const;
+
+    std::vector<QString> m_samples;
+    QString m_emptyText;
+};
+
+} // namespace posewire::gui
