@@ -7,10 +7,10 @@ out vec4 fragment;
 
 // How much of the pixel the nearest grid line covers, for lines `width` pixels wide every `spacing` metres. Lines that
 // come closer than a few pixels fade out instead of making patterns.
-float gridLines(vec2 at, vec2 footprint, float spacing, float width) {
-    vec2 period = spacing / max(footprint, vec2(1e-6));
-    vec2 pixels = abs(fract(at / spacing - 0.5) - 0.5) * period;
-    vec2 covered = clamp(0.5 * width + 0.5 - pixels, 0.0, 1.0) * smoothstep(3.0, 14.0, period);
+float gridLines(vec2 at, vec2 pixelsPerMetre, float spacing, float width) {
+    vec2 period = spacing * pixelsPerMetre;
+    vec2 pixels = abs(fract(at * (1.0 / spacing) - 0.5) - 0.5) * period;
+    vec2 covered = clamp(0.5 * width + 0.5 - pixels, 0.0, 1.0) * clamp((period - 4.0) * 0.1, 0.0, 1.0);
     return max(covered.x, covered.y);
 }
 
@@ -21,18 +21,19 @@ float originTriangle(vec2 at) {
 }
 
 void main() {
-    vec2 footprint = vec2(length(vec2(dFdx(floorPosition.x), dFdy(floorPosition.x))),
-                          length(vec2(dFdx(floorPosition.y), dFdy(floorPosition.y))));
+    vec2 across = dFdx(floorPosition);
+    vec2 down = dFdy(floorPosition);
+    vec2 pixelsPerMetre = inversesqrt(max(across * across + down * down, vec2(1e-12)));
     float away = distance(floorPosition, floorFade.xy);
     float fade = 1.0 - smoothstep(floorFade.z, floorFade.w, away);
 
-    float minor = gridLines(floorPosition, footprint, 0.25, style.x);
-    float major = gridLines(floorPosition, footprint, 1.0, 1.25 * style.x);
+    float minor = gridLines(floorPosition, pixelsPerMetre, 0.25, style.x);
+    float major = gridLines(floorPosition, pixelsPerMetre, 1.0, 1.25 * style.x);
     vec3 colour = floorColour.rgb;
     colour = mix(colour, gridMinor.rgb, 0.75 * minor);
     colour = mix(colour, gridMajor.rgb, 0.9 * major);
-    float pixel = max(max(footprint.x, footprint.y), 1e-6);
-    float triangle = clamp(originTriangle(floorPosition) / pixel + 0.5, 0.0, 1.0) * style.z;
+    float sharpness = min(pixelsPerMetre.x, pixelsPerMetre.y);
+    float triangle = clamp(originTriangle(floorPosition) * sharpness + 0.5, 0.0, 1.0) * style.z;
     colour = mix(colour, originColour.rgb, triangle);
 
     vec4 inLight = lightViewProjection * vec4(floorPosition, 0.0, 1.0);
