@@ -41,14 +41,28 @@ function(posewire_library name)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
 endfunction()
 
-# posewire_test(name SOURCES … LIBRARIES … [LABELS …]): a GoogleTest program; each case is a ctest case.
+# posewire_test(name SOURCES … LIBRARIES … [LABELS …] [ENVIRONMENT …]): a GoogleTest program; each case is a ctest case.
+# LABELS is "bytes" for what handles input from outside, "threads" for what runs several threads, "bytes-threads" for both:
+# packaging/test builds these again with sanitizers, as the targets byte_tests and thread_tests.
 function(posewire_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;ENVIRONMENT" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE POSEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${ARG_LABELS}" ENVIRONMENT "${ARG_ENVIRONMENT}" TIMEOUT 300)
+  set(properties TIMEOUT 300)
+  if(ARG_LABELS)
+    list(APPEND properties LABELS "${ARG_LABELS}")
+  endif()
+  if(ARG_ENVIRONMENT)
+    list(APPEND properties ENVIRONMENT "${ARG_ENVIRONMENT}")
+  endif()
+  foreach(kind bytes threads)
+    string(REGEX REPLACE "s$" "_tests" group ${kind})
+    if("${ARG_LABELS}" MATCHES ${kind})
+      add_dependencies(${group} ${name})
+    endif()
+  endforeach()
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
 endfunction()
 include(GoogleTest)
