@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/extent.h"
 
-#include "core/wire/messages.h"
+#include "core/wire/form.h"
 #include "core/wire/walk.h"
 
 #include <initializer_list>
@@ -128,7 +128,13 @@ Extent datagramExtent(Bytes bytes, bool isAtEnd) {
         return isAtEnd ? kUnknown : kNeedMore;
     }
     if (header->payloadSize != 0) {
-        return known(kHeaderSize + header->payloadSize);
+        const Bytes payload = bytes.subspan(kHeaderSize);
+        const bool isBareTimeCode =
+            header->type() == TimeCode::kType && header->payloadSize == kWireSize<TimeCode, Form::Bare>;
+        if (isBareTimeCode && payload.size() < header->payloadSize && !isAtEnd) {
+            return kNeedMore; // the first bytes tell whether the sender left the length out of its count
+        }
+        return known(kHeaderSize + sentPayload(*header, payload));
     }
     return computed(bytes, *header, isAtEnd);
 }

@@ -45,7 +45,8 @@ Form timeCodeForm(Bytes payload) {
     if (isColon(payload, 2) && isColon(payload, 5)) {
         return Form::Bare;
     }
-    const bool isPrefixed = payload.size() >= 16 || (payload.size() >= 4 && load32(payload.data()) == 12);
+    const bool isPrefixed = payload.size() >= 16 || (isColon(payload, 6) && isColon(payload, 9)) ||
+                            (payload.size() >= 4 && load32(payload.data()) == 12);
     return isPrefixed ? Form::Standard : Form::Bare;
 }
 
@@ -57,8 +58,7 @@ std::size_t sentPayload(const Header& header, Bytes payload) {
     }
     const bool isTimeCode = header.type() == TimeCode::kType;
     const bool leavesLengthOut = isTimeCode && header.payloadSize == kWireSize<TimeCode, Form::Bare> &&
-                                 payload.size() >= kWireSize<TimeCode> && isColon(payload, 6) &&
-                                 isColon(payload, 9);
+                                 isColon(payload, 6) && isColon(payload, 9);
     return leavesLengthOut ? kWireSize<TimeCode> : header.payloadSize;
 }
 

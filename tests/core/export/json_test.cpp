@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/json.h"
+#include "core/wire/byte_order.h"
+#include "core/wire/codec.h"
+#include "tests/support/golden.h"
+
+#include <gmock/gmock.h>
+
+namespace posewire::exporting {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+
+std::vector<std::byte> withWord(const std::string& name, std::size_t place, std::uint32_t word) {
+    std::vector<std::byte> bytes = posewire::test::golden(name).bytes;
+    wire::store32(bytes.data() + place, word);
+    return bytes;
+}
+
+std::string jsonOf(const std::vector<std::byte>& bytes) {
+    return datagramJson({}, bytes);
+}
+
+TEST(DatagramJson, IsWordForWordWhatTheGoldensExpect) {
+    for (const auto& golden : posewire::test::goldens()) {
+        const auto expected =
+            posewire::test::readBytes(POSEWIRE_SOURCE_DIR "/tests/golden/" + golden.name + ".json");
+        ASSERT_FALSE(expected.empty()) << golden.name;
+        const std::string text(reinterpret_cast<const char*>(expected.data()), expected.size());
+        EXPECT_EQ(jsonOf(golden.bytes) + "\n", text) << golden.name;
+    }
+}
+
+TEST(DatagramJson, SaysWhereTheDatagramWasFound) {
+    const DatagramPlace place{7, 4096, 1700000000123456789, "10.0.0.2:40001"};
+    EXPECT_THAT(datagramJson(place, posewire::test::golden("24_centre_12_counted").bytes),
+                StartsWith(R"({"index":7,"offset":4096,"size":36,"stampNs":1700000000123456789,)"
+                           R"("source":"10.0.0.2:40001","type":"24",)"));
+}
+
+TEST(DatagramJson, WritesFloatsThatReadBackToTheSame32Bits) {
+    const std::vector<std::pair<std::uint32_t, std::string>> values{
+        {0x3dcccccd, "0.1"},           {0x80000000, "-0.0"},      {0x00000001, "1e-45"},
+        {0x7f7fffff, "3.4028235e+38"}, {0x7fc00000, "\"NaN\""},   {0x7f800000, "\"Infinity\""},
+        {0xff800000, "\"-Infinity\""}, {0x4b800000, "1.6777216e+07"}};
+    for (const auto& [bits, text] : values) {
+        const auto bytes = withWord("24_centre_12_counted", 24, bits);
+        const std::string json = jsonOf(bytes);
+        EXPECT_THAT(json, HasSubstr("\"position\":[" + text + ",-1.5,0.25]"));
+        EXPECT_THAT(json, Not(HasSubstr("\"bytes\"")));
+        EXPECT_EQ(*datagramFromJson(json), bytes);
+    }
+}
+
+TEST(DatagramJson, KeepsTheWholeDatagramWhereTheValuesWouldNotGiveItBack) {
+    const std::vector<std::vector<std::byte>> odd{
+        withWord("24_centre_12_counted", 24, 0x7fc00001),      // another NaN
+        withWord("24_centre_12_counted", 20, 0x0100000c),      // reserved bytes in use
+        withWord("25_time_code_counted", 28, 0xfffefdfc),      // not UTF-8
+        withWord("12_metadata_counted", 28 + 42, 0x62626262)}; // no newline at the end
+    for (const auto& bytes : odd) {
+        const std::string json = jsonOf(bytes);
+        EXPECT_THAT(json, HasSubstr("],\"bytes\":\"4d58545"));
+        EXPECT_EQ(*datagramFromJson(json), bytes);
+    }
+}
+
+TEST(DatagramJson, HasAnErrorInsteadOfABody) {
+    const auto& whole = posewire::test::golden("24_centre_12_counted").bytes;
+    const std::vector<std::byte> cut(whole.begin(), whole.end() - 2);
+    EXPECT_EQ(
+        jsonOf(cut),
+        R"_({"index":0,"offset":0,"size":34,"stampNs":null,"source":null,"type":"24","sample":16909060,)_"
+        R"_("datagram":0,"last":true,"items":1,"timeCode":27837,"character":3,"bodySegments":23,"props":0,)_"
+        R"_("fingerSegments":0,"payloadSize":12,"error":{"code":"payloadTruncated","offset":34,"need":36,)_"
+        R"_("have":34,"text":"shorter than its header announces (byte 34: needs 36 bytes, has 34)"},)_"
+        R"_("notices":[]})_");
+}
+
+TEST(DatagramJson, KeepsTheHeaderFieldsThatCouldBeRead) {
+    const auto& whole = posewire::test::golden("02_quaternion_counted").bytes;
+    const auto cutAt = [&](std::size_t size) { return jsonOf({whole.begin(), whole.begin() + size}); };
+    EXPECT_THAT(cutAt(5), HasSubstr(R"("source":null,"error":{"code":"headerTruncated")"));
+    EXPECT_THAT(cutAt(6), HasSubstr(R"("source":null,"type":"02","error":)"));
+    EXPECT_THAT(cutAt(13), HasSubstr(R"("last":true,"items":23,"error":)"));
+    EXPECT_THAT(cutAt(23), HasSubstr(R"("fingerSegments":0,"error":)"));
+}
+
+TEST(DatagramJson, ShowsForeignBytesAsAnErrorWithoutAHeader) {
+    const std::string_view text = R"({"type":"transport","value":"record"})";
+    EXPECT_THAT(
+        datagramJson({}, std::as_bytes(std::span(text))),
+        StartsWith(
+            R"({"index":0,"offset":0,"size":37,"stampNs":null,"source":null,"error":{"code":"badMagic")"));
+}
+
+TEST(DatagramJson, KeepsATextWithControlCharactersOnOneLine) {
+    wire::Datagram datagram;
+    datagram.body = wire::MetaData{true, std::string("name:a\0\t\"\\\n", 11)};
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    const auto bytes = *wire::encode(datagram);
+    EXPECT_THAT(jsonOf(bytes), HasSubstr(R"({"tags":[["name","a\u0000\t\"\\"]]})"));
+    EXPECT_EQ(*datagramFromJson(jsonOf(bytes)), bytes);
+}
+
+TEST(SkippedJson, IsWordForWordAsPromised) {
+    EXPECT_EQ(skippedJson({3, 1000, {}, {}}, 17), R"({"index":3,"offset":1000,"size":17,"skipped":true})");
+}
+
+} // namespace
+} // namespace posewire::exporting
