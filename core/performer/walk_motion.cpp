@@ -18,7 +18,7 @@ using namespace model::segment;
 
 /// All walk at the same speed, so that they never catch up with each other; stature shows in the cadence.
 constexpr double kSpeed = 1.22; // m/s
-constexpr double kHalfWidth = 4.5;
+constexpr double kHalfWidth = 3.8;
 constexpr int kPerGroup = 4;
 constexpr double kGroupSpacing = 5.0;
 
@@ -55,7 +55,9 @@ FigureOfEight pathFor(const MotionSettings& settings) {
 double startShareFor(const MotionSettings& settings) {
     const int group = settings.character / kPerGroup;
     const int groupSize = std::clamp(settings.characterCount - kPerGroup * group, 1, kPerGroup);
-    return 0.5 * (settings.character % kPerGroup) / groupSize;
+    const int place = settings.character % kPerGroup;
+    // Every other one starts in the other lobe. Whoever passes the crossing does so at a time of his own.
+    return 0.5 * place / groupSize + (place % 2 == 1 ? 0.5 : 0.0);
 }
 
 /// A place of the straight walk (x along the path from its start, y to its left), bent along the path.
@@ -115,37 +117,41 @@ void WalkMotion::addLife(double seconds, const PathPlace& place, double distance
     }
 }
 
-void WalkMotion::plant(Side side, const BodyPose& straight, double distance, double heading, double phase,
-                       LocalRotations& rotations, BodyPose& pose) const {
+void WalkMotion::plant(Side side, const Stride& straight, LocalRotations& rotations, BodyPose& pose) const {
     const LimbSegments& leg = limbs(side);
-    const Vector3d ball =
-        straight[static_cast<std::size_t>(leg.toe)].position + m_clip.footCorrection(side, phase);
+    const auto at = [&](int segment) -> const model::SegmentPose& {
+        return straight.pose[static_cast<std::size_t>(segment)];
+    };
+    const Vector3d ball = at(leg.toe).position + m_clip.footCorrection(side, straight.phase);
     // The foot turns with the path at the ball, about which it also rolls off: so the ball stays where it is.
-    const PathPlace place = m_path.at(distance + ball.x());
+    const PathPlace place = m_path.at(straight.distance + ball.x());
     LegGoal goal;
-    goal.foot = turned(place.heading) * straight[static_cast<std::size_t>(leg.foot)].orientation;
+    goal.foot = turned(place.heading) * at(leg.foot).orientation;
     goal.ankle = bent(place, ball.y(), ball.z()) - goal.foot * m_body.offset(leg.toe);
-    goal.upperLegWish = turned(heading) * straight[static_cast<std::size_t>(leg.upperLeg)].orientation;
+    goal.upperLegWish = turned(straight.heading) * at(leg.upperLeg).orientation;
     reach(m_body, side, goal, rotations, pose);
 }
 
 BodyPose WalkMotion::sample(double seconds) const {
-    const double phase = phaseAt(seconds);
-    const double distance = m_startDistance + kSpeed * seconds;
-    LocalRotations rotations = m_clip.rotations(phase);
-    const Vector3d root = m_clip.root(phase);
-    const BodyPose straight = posed(m_body, root, rotations);
+    Stride straight;
+    straight.phase = phaseAt(seconds);
+    straight.distance = m_startDistance + kSpeed * seconds;
+    LocalRotations rotations = m_clip.rotations(straight.phase);
+    const Vector3d root = m_clip.root(straight.phase);
+    straight.pose = posed(m_body, root, rotations);
 
-    const PathPlace place = m_path.at(distance + root.x());
+    const double distance = straight.distance + root.x();
+    const PathPlace place = m_path.at(distance);
+    straight.heading = place.heading;
     const double lean = leanFor(place);
-    addLife(seconds, place, distance + root.x(), rotations);
+    addLife(seconds, place, distance, rotations);
     rotations[kPelvis] = turned(place.heading) * aboutX(-0.25 * lean) * rotations[kPelvis];
     const double inward = 0.4 * lean * model::kRadiansPerDegree * root.z();
     // A little lower than the curves say: bent along the path, the outer leg has to reach farther.
     const double drop = 0.002 + 10.0 * inward * inward;
     BodyPose pose = posed(m_body, bent(place, root.y() + inward, root.z() - drop), rotations);
     for (const Side side : {Side::Right, Side::Left}) {
-        plant(side, straight, distance, place.heading, phase, rotations, pose);
+        plant(side, straight, rotations, pose);
     }
     return pose;
 }

@@ -8,7 +8,7 @@
 
 namespace posewire::performer {
 
-/// Walks a figure of eight at even speed. Up to four characters share one eight, spread over half a lap, so
+/// Walks a figure of eight at even speed. Up to four characters share one eight, spread over the lap so
 /// that they pass the crossing one after the other; further groups walk eights of their own beside it.
 ///
 /// The straight clip is bent along the path: whatever rests on the floor there rests on it here. The legs are
@@ -25,8 +25,14 @@ public:
 private:
     double phaseAt(double seconds) const;
     void addLife(double seconds, const PathPlace& place, double distance, LocalRotations& rotations) const;
-    void plant(model::Side side, const BodyPose& straight, double distance, double heading, double phase,
-               LocalRotations& rotations, BodyPose& pose) const;
+    /// The straight walk at one time.
+    struct Stride {
+        double phase = 0.0;
+        double distance = 0.0; ///< along the path, of the straight walk's origin
+        double heading = 0.0;  ///< of the path at the pelvis
+        BodyPose pose;
+    };
+    void plant(model::Side side, const Stride& straight, LocalRotations& rotations, BodyPose& pose) const;
 
     model::ReferenceBody m_body;
     FigureOfEight m_path;
