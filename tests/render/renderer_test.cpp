@@ -2,8 +2,11 @@
 #include "tests/render/studio.h"
 
 #include "render/gl/program.h"
+#include "render/passes/mesh_store.h"
 
+#include <algorithm>
 #include <array>
+#include <deque>
 #include <limits>
 #include <thread>
 
@@ -182,6 +185,43 @@ TEST_F(RendererTest, GivesTheCompilersOwnText) {
     ASSERT_FALSE(program.has_value());
     EXPECT_NE(program.error().find("program broken, fragment shader"), std::string::npos) << program.error();
     EXPECT_NE(program.error().find("undeclared"), std::string::npos) << program.error();
+}
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+std::vector<Triangle> sortedTriangles(std::span<const std::uint32_t> indices) {
+    std::vector<Triangle> triangles;
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
+    }
+    std::ranges::sort(triangles);
+    return triangles;
+}
+
+/// Vertices that have to be skinned per triangle where the last 24 are remembered.
+double missesPerTriangle(std::span<const std::uint32_t> indices) {
+    std::deque<std::uint32_t> cache;
+    std::size_t misses = 0;
+    for (const std::uint32_t vertex : indices) {
+        if (std::ranges::find(cache, vertex) == cache.end()) {
+            ++misses;
+            cache.push_back(vertex);
+            if (cache.size() > 24) {
+                cache.pop_front();
+            }
+        }
+    }
+    return 3.0 * static_cast<double>(misses) / static_cast<double>(indices.size());
+}
+
+TEST(VertexReuse, KeepsEveryTriangleAndSkinsVerticesAboutOnce) {
+    const SkinnedMesh mesh = loadMannequin(Detail::Medium);
+    const std::vector<std::uint32_t> ordered = orderForVertexReuse(mesh.indices, mesh.vertexCount());
+    EXPECT_EQ(sortedTriangles(ordered), sortedTriangles(mesh.indices));
+    EXPECT_LT(missesPerTriangle(ordered), 0.75);
+    EXPECT_TRUE(orderForVertexReuse({}, 0).empty());
+    RecordProperty("before", std::to_string(missesPerTriangle(mesh.indices)));
+    RecordProperty("after", std::to_string(missesPerTriangle(ordered)));
 }
 
 TEST(RenderQualityTest, SparesSoftwareRenderersAndUsesGraphicsProcessors) {
