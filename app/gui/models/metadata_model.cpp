@@ -22,6 +22,14 @@ QVariant rightAligned() {
     return QVariant::fromValue(Qt::AlignRight | Qt::AlignVCenter);
 }
 
+QString changesText(std::size_t changes, const QString& age) {
+    if (changes == 0) {
+        return age;
+    }
+    return changes == 1 ? MetadataModel::tr("%1 · 1 change").arg(age)
+                        : MetadataModel::tr("%1 · %2 changes").arg(age).arg(changes);
+}
+
 QVariant swatchOf(const std::string& tagName, const std::string& value) {
     const auto colour = tagName == "color" ? model::parseColour(value) : std::nullopt;
     return colour ? QVariant(QColor::fromRgbF(colour->red, colour->green, colour->blue)) : QVariant();
@@ -198,9 +206,7 @@ QVariant MetadataModel::tagSent(const model::MetadataTag& tag, int role) const {
     const double age = static_cast<double>(m_view.cursorStampNs() - tag.lastSeenNs) * 1e-9;
     switch (role) {
     case Qt::DisplayRole:
-        return changes == 0 ? duration(std::max(0.0, age))
-                            : tr("%1 · %n change(s)", nullptr, static_cast<int>(changes))
-                                  .arg(duration(std::max(0.0, age)));
+        return changesText(changes, duration(std::max(0.0, age)));
     case Qt::ForegroundRole:
         return theme().dim;
     case Qt::ToolTipRole:

@@ -49,8 +49,11 @@ void StatisticsPanel::refresh() {
 }
 
 QString StatisticsPanel::summary() const {
-    return m_view.streams().empty() ? QString()
-                                    : tr("%n stream(s)", nullptr, static_cast<int>(m_view.streams().size()));
+    const std::size_t count = m_view.streams().size();
+    if (count == 0) {
+        return {};
+    }
+    return count == 1 ? tr("1 stream") : tr("%1 streams").arg(count);
 }
 
 void StatisticsPanel::select(const QModelIndex& index) {

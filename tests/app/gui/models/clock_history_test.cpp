@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/clock_facts.h"
+#include "app/gui/models/clock_history.h"
+
+#include "tests/app/gui/models/stage.h"
+
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+class ClockHistoryTest : public testing::Test {
+protected:
+    /// Poses of a sender whose clock runs at `speed`, `hz` frames a second of its own.
+    void sendPoses(std::uint32_t from, std::uint32_t to, double speed = 1.0, double hz = 100.0) {
+        for (std::uint32_t sample = from; sample < to; ++sample) {
+            const double seconds = sample / hz;
+            m_stage.send(smallPose(), sample,
+                         m_firstMs + static_cast<std::uint32_t>(std::lround(seconds * 1000)),
+                         Stage::kStart + static_cast<std::int64_t>(seconds / speed * 1e9));
+        }
+    }
+    void follow() {
+        m_stage.follow();
+        m_clock.follow(m_stage.session, m_stage.key());
+    }
+
+    Stage m_stage;
+    ClockHistory m_clock;
+    std::uint32_t m_firstMs = 36'000'000;
+};
+
+TEST_F(ClockHistoryTest, ShowsDashesBeforeAnythingCame) {
+    m_clock.follow(m_stage.session, std::nullopt);
+    EXPECT_FALSE(m_clock.headerMs().has_value());
+    EXPECT_EQ(clockText(m_clock, ClockChoice::Header), QStringLiteral("--:--:--.---"));
+    EXPECT_EQ(clockText(m_clock, ClockChoice::Type25), QStringLiteral("--:--:--.---"));
+}
+
+TEST_F(ClockHistoryTest, ShowsTheHeaderClockAndItsFrameRate) {
+    sendPoses(0, 201);
+    follow();
+    EXPECT_EQ(clockText(m_clock, ClockChoice::Header), "10:00:02.000");
+    EXPECT_EQ(m_clock.frameHz(), 100.0);
+    EXPECT_FALSE(m_clock.lastJump().has_value());
+    EXPECT_FALSE(m_clock.drift().has_value());
+}
+
+TEST_F(ClockHistoryTest, FindsTheDriftOfTheSender) {
+    sendPoses(0, 6000, 1.0 + 150e-6);
+    follow();
+    ASSERT_TRUE(m_clock.drift().has_value());
+    EXPECT_NEAR(m_clock.drift()->ppm, 150, 3 * m_clock.drift()->error + 0.5);
+    EXPECT_LT(m_clock.drift()->error, 2.0);
+}
+
+TEST_F(ClockHistoryTest, SeesAJumpOfTheTimeCodeAndWhenItCame) {
+    sendPoses(0, 300);
+    m_firstMs -= 508;
+    sendPoses(300, 600);
+    follow();
+    ASSERT_TRUE(m_clock.lastJump().has_value());
+    EXPECT_NEAR(m_clock.lastJump()->milliseconds, -508, 1);
+    EXPECT_EQ(m_clock.lastJump()->stampNs, Stage::kStart + 3 * Stage::kSecond);
+    EXPECT_EQ(m_clock.frameHz(), 100.0);
+}
+
+TEST_F(ClockHistoryTest, TakesMissingSamplesForNoJump) {
+    sendPoses(0, 300);
+    sendPoses(340, 600);
+    follow();
+    EXPECT_FALSE(m_clock.lastJump().has_value());
+}
+
+TEST_F(ClockHistoryTest, ComparesType25WithItsOwnHeader) {
+    sendPoses(0, 10);
+    wire::TimeCode code;
+    std::ranges::copy(std::string_view("10:42:17.511"), code.text.begin());
+    m_stage.send(code, 10, (10 * 3600 + 42 * 60 + 17) * 1000 + 508, m_stage.now);
+    follow();
+    EXPECT_EQ(clockText(m_clock, ClockChoice::Type25), "10:42:17.511");
+    ASSERT_TRUE(m_clock.offsetMs().has_value());
+    EXPECT_DOUBLE_EQ(*m_clock.offsetMs(), 3.0);
+}
+
+TEST_F(ClockHistoryTest, KeepsTheOffsetShortAcrossMidnight) {
+    sendPoses(0, 10);
+    wire::TimeCode code;
+    std::ranges::copy(std::string_view("00:00:00.100"), code.text.begin());
+    m_stage.send(code, 10, 86'399'900, m_stage.now);
+    follow();
+    EXPECT_DOUBLE_EQ(*m_clock.offsetMs(), 200.0);
+}
+
+TEST_F(ClockHistoryTest, IgnoresAType25ThatIsNoTimeCode) {
+    sendPoses(0, 10);
+    wire::TimeCode code;
+    std::ranges::copy(std::string_view("ten to eight"), code.text.begin());
+    m_stage.send(code, 10, 5, m_stage.now);
+    follow();
+    EXPECT_FALSE(m_clock.type25().has_value());
+    EXPECT_FALSE(m_clock.offsetMs().has_value());
+}
+
+TEST_F(ClockHistoryTest, ReadsAtTheCursor) {
+    sendPoses(0, 400);
+    follow();
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 100});
+    follow();
+    EXPECT_EQ(clockText(m_clock, ClockChoice::Header), "10:00:01.000");
+    EXPECT_EQ(m_clock.lastStampNs(), Stage::kStart + Stage::kSecond);
+}
+
+} // namespace
+
+} // namespace posewire::gui

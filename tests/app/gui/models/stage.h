@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/commands.h"
+#include "core/log/packet_log.h"
+#include "core/model/session.h"
+#include "core/performer/performer.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <set>
+#include <string>
+
+namespace posewire::gui {
+
+/// Carries out commands at once and remembers what was asked for.
+class ImmediateCommands : public Commands {
+public:
+    explicit ImmediateCommands(model::Session& session) : m_session(session) {}
+
+    void select(const model::Selection& selection) override {
+        m_session.setSelection(selection);
+        ++selections;
+    }
+    void frameCharacter(const model::CharacterKey& key) override { framed.push_back(key); }
+    void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
+        if (isVisible) {
+            m_hidden.erase(key);
+        } else {
+            m_hidden.insert(key);
+        }
+    }
+    [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const override {
+        return !m_hidden.contains(key);
+    }
+    void setPaused(bool) override {}
+    void copyText(const QString& text) override { copied = text; }
+
+    int selections = 0;
+    std::vector<model::CharacterKey> framed;
+    QString copied;
+
+private:
+    model::Session& m_session;
+    std::set<model::CharacterKey> m_hidden;
+};
+
+/// A log to which tests send datagrams at stamps of their choosing, and a session that follows it.
+struct Stage {
+    static constexpr std::int64_t kMillisecond = 1'000'000;
+    static constexpr std::int64_t kSecond = 1'000'000'000;
+    static constexpr std::int64_t kStart = 1'700'000'000 * kSecond;
+    static constexpr const char* kAddress = "192.168.10.21:52011";
+
+    log::SourceId source(const std::string& address = kAddress) {
+        return log.sources().intern({address, log::Transport::Udp, 9763});
+    }
+    model::CharacterKey key(std::uint8_t character = 0) { return {source(), character}; }
+
+    void sendBytes(wire::Bytes bytes, std::int64_t stampNs, const std::string& address = kAddress) {
+        log::Arrival arrival;
+        arrival.stampNs = stampNs;
+        arrival.source = source(address);
+        log.writer().append(bytes, arrival);
+        log.writer().publish();
+        now = std::max(now, stampNs);
+    }
+
+    void send(const wire::Datagram& datagram, std::int64_t stampNs, const std::string& address = kAddress) {
+        const auto bytes = wire::encode(datagram);
+        ASSERT_TRUE(bytes.has_value());
+        sendBytes(*bytes, stampNs, address);
+    }
+
+    /// One message of its own; `timeCode` in ms.
+    void send(wire::Body body, std::uint32_t sample, std::uint32_t timeCode, std::int64_t stampNs) {
+        wire::Datagram datagram;
+        datagram.body = std::move(body);
+        datagram.header.sampleCounter = sample;
+        datagram.header.timeCode = timeCode;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        send(datagram, stampNs);
+    }
+
+    void sendMetadata(const std::string& text, std::int64_t stampNs) {
+        wire::MetaData metadata;
+        metadata.text = text;
+        send(metadata, 0, 0, stampNs);
+    }
+
+    /// Frames [from, to) of a performer at its own rate; `isSent` may leave frames out.
+    void perform(performer::Performer& performer, std::uint64_t from, std::uint64_t to,
+                 const std::function<bool(std::uint64_t)>& isSent = {}) {
+        for (std::uint64_t frame = from; frame < to; ++frame) {
+            if (isSent && !isSent(frame)) {
+                continue;
+            }
+            const double seconds = static_cast<double>(frame) / performer.settings().rateHz;
+            for (const wire::Datagram& datagram : performer.frame(frame)) {
+                send(datagram, kStart + static_cast<std::int64_t>(seconds * 1e9));
+            }
+        }
+    }
+
+    void follow() { session.follow(now); }
+
+    log::PacketLog log{{.memoryCap = std::size_t{64} << 20, .chunkSize = std::size_t{1} << 20}};
+    model::Session session{log};
+    ImmediateCommands commands{session};
+    std::int64_t now = kStart;
+};
+
+/// Settings of a sender; no types means all.
+inline performer::PerformerSettings sending(int characters, std::vector<std::uint8_t> types = {},
+                                            double rateHz = 240.0) {
+    performer::PerformerSettings settings;
+    settings.characters = characters;
+    settings.types = std::move(types);
+    settings.rateHz = rateHz;
+    return settings;
+}
+
+/// A pose with one segment, for tests that want a stream and not its content.
+inline wire::PoseQuaternion smallPose() {
+    wire::PoseQuaternion pose;
+    pose.segments.push_back({1, {0, 0, 1}, {1, 0, 0, 0}});
+    return pose;
+}
+
+} // namespace posewire::gui
