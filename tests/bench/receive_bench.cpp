@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What receiving, stamping and keeping a datagram costs, against a recvmmsg loop that does nothing with the
+// bytes.
+//   receive_bench [--check] [--brief]
+// Both are measured in turn, so that a slow spell of the computer hits both; the ratio of the medians counts.
+#include "app/net/receive_loop.h"
+#include "tests/bench/udp_bench.h"
+
+#include <QCoreApplication>
+
+#include <poll.h>
+
+#include <atomic>
+#include <cstring>
+#include <thread>
+
+namespace {
+
+using namespace posewire;
+using namespace posewire::bench;
+
+constexpr double kLimit = 1.3;
+constexpr std::size_t kBacklog = 1200; ///< fits into the socket's buffer
+constexpr std::size_t kBatch = 32;
+
+struct Plan {
+    int drainRuns = 15;
+    int drainRounds = 60;
+    int liveRuns = 7;
+    double liveSeconds = 2;
+};
+
+/// recvmmsg into the same few buffers again and again.
+class BareLoop {
+public:
+    BareLoop() {
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            m_parts[i] = {m_bytes[i].data(), m_bytes[i].size()};
+            m_messages[i].msg_hdr.msg_iov = &m_parts[i];
+            m_messages[i].msg_hdr.msg_iovlen = 1;
+        }
+    }
+    std::size_t drain(int descriptor) {
+        std::size_t total = 0;
+        while (true) {
+            const int count = ::recvmmsg(descriptor, m_messages.data(), kBatch, MSG_DONTWAIT, nullptr);
+            total += count > 0 ? static_cast<std::size_t>(count) : 0;
+            if (count < static_cast<int>(kBatch)) {
+                return total;
+            }
+        }
+    }
+
+private:
+    std::array<std::array<std::byte, 2304>, kBatch> m_bytes{};
+    std::array<iovec, kBatch> m_parts{};
+    std::array<mmsghdr, kBatch> m_messages{};
+};
+
+/// Everything a receive loop needs, with a log that lives from round to round.
+struct Bench {
+    log::PacketLog log;
+    log::SystemClock clock;
+    net::PacketQueue queue;
+    net::ReceiveCounters counters;
+
+    std::unique_ptr<net::ReceiveLoop> open(std::uint16_t& port,
+                                           std::chrono::microseconds nap = std::chrono::microseconds(1000)) {
+        auto loop = net::makeReceiveLoop(net::ReceivePath::Native, {log, clock, queue, counters});
+        net::ReceiveOptions options;
+        options.endpoints = {net::Endpoint{"127.0.0.1", 0}};
+        options.nap = nap;
+        const auto endpoints = loop->open(options);
+        if (!endpoints) {
+            std::fprintf(stderr, "receive_bench: %s\n", endpoints.error().text.c_str());
+            std::exit(2);
+        }
+        port = endpoints->front().port;
+        return loop;
+    }
+};
+
+/// CPU nanoseconds a datagram, with a backlog laid into the socket first.
+double drainBare(int rounds) {
+    BareLoop loop;
+    double cpu = 0;
+    std::size_t received = 0;
+    for (int i = 0; i < rounds; ++i) {
+        const PlainSocket socket;
+        LoopbackSender(socket.port()).send(kBacklog);
+        const double begin = threadCpuSeconds();
+        received += loop.drain(socket.descriptor());
+        cpu += threadCpuSeconds() - begin;
+    }
+    return cpu * 1e9 / static_cast<double>(received);
+}
+
+double drainOurs(Bench& bench, int rounds) {
+    double cpu = 0;
+    const std::uint64_t before = bench.counters.datagrams;
+    for (int i = 0; i < rounds; ++i) {
+        std::uint16_t port = 0;
+        const auto loop = bench.open(port);
+        LoopbackSender(port).send(kBacklog);
+        loop->stop(); // it then takes what is there, once
+        const double begin = threadCpuSeconds();
+        loop->run();
+        cpu += threadCpuSeconds() - begin;
+    }
+    return cpu * 1e9 / static_cast<double>(bench.counters.datagrams - before);
+}
+
+/// CPU nanoseconds a datagram of a thread that receives 24,000 a second in bursts each millisecond.
+double liveBare(double duration) {
+    const PlainSocket socket;
+    std::atomic<bool> isStopping = false;
+    double nanoseconds = 0;
+    std::thread receiver([&] {
+        BareLoop loop;
+        std::size_t received = 0;
+        const double begin = threadCpuSeconds();
+        while (!isStopping) {
+            pollfd watched{socket.descriptor(), POLLIN, 0};
+            ::poll(&watched, 1, 50);
+            received += loop.drain(socket.descriptor());
+        }
+        nanoseconds =
+            (threadCpuSeconds() - begin) * 1e9 / static_cast<double>(std::max<std::size_t>(1, received));
+    });
+    LoopbackSender(socket.port()).sendPaced(24'000, duration, 0.001);
+    isStopping = true;
+    receiver.join();
+    return nanoseconds;
+}
+
+double liveOurs(Bench& bench, double duration) {
+    std::atomic<net::ReceiveLoop*> running = nullptr;
+    std::atomic<std::uint16_t> portOfLoop = 0;
+    double nanoseconds = 0;
+    std::thread receiver([&] {
+        std::uint16_t port = 0;
+        const auto loop = bench.open(port);
+        portOfLoop = port;
+        running = loop.get();
+        running.notify_one();
+        const std::uint64_t before = bench.counters.datagrams;
+        const double begin = threadCpuSeconds();
+        loop->run();
+        const auto received = static_cast<double>(bench.counters.datagrams - before);
+        nanoseconds = (threadCpuSeconds() - begin) * 1e9 / std::max(1.0, received);
+    });
+    running.wait(nullptr);
+    LoopbackSender(portOfLoop).sendPaced(24'000, duration, 0.001);
+    running.load()->stop();
+    receiver.join();
+    return nanoseconds;
+}
+
+int drain(const Plan& plan, bool isChecked) {
+    Bench bench;
+    std::vector<double> bare;
+    std::vector<double> ours;
+    for (int i = 0; i < plan.drainRuns; ++i) {
+        bare.push_back(drainBare(plan.drainRounds));
+        ours.push_back(drainOurs(bench, plan.drainRounds));
+        std::fprintf(stderr, "drain: bare %.0f ns, ours %.0f ns a datagram, log %zu MiB\n", bare.back(),
+                     ours.back(), bench.log.figures().memoryAllocated >> 20);
+    }
+    return verdict("receive_drain", median(ours) / median(bare), kLimit, isChecked);
+}
+
+int live(const Plan& plan, bool isChecked) {
+    Bench bench;
+    std::vector<double> bare;
+    std::vector<double> ours;
+    for (int i = 0; i < plan.liveRuns; ++i) {
+        bare.push_back(liveBare(plan.liveSeconds));
+        ours.push_back(liveOurs(bench, plan.liveSeconds));
+        std::fprintf(stderr, "live: bare %.0f ns, ours %.0f ns a datagram\n", bare.back(), ours.back());
+    }
+    return verdict("receive_live_24000", median(ours) / median(bare), kLimit, isChecked);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    const QCoreApplication application(argc, argv);
+    Plan plan;
+    bool isChecked = false;
+    for (int i = 1; i < argc; ++i) {
+        isChecked |= std::strcmp(argv[i], "--check") == 0;
+        if (std::strcmp(argv[i], "--brief") == 0) {
+            plan = {.drainRuns = 1, .drainRounds = 3, .liveRuns = 1, .liveSeconds = 0.2};
+        }
+    }
+    const int drained = drain(plan, isChecked);
+    const int lived = live(plan, isChecked);
+    return std::max(drained, lived);
+}
