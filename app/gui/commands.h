@@ -7,8 +7,8 @@
 
 namespace posewire::gui {
 
-/// What a panel may ask for. Each command is carried out before the next display tick; panels never change the session
-/// themselves.
+/// What a panel may ask for. Each command is carried out before the next display tick; panels never change
+/// the session themselves.
 class Commands {
 public:
     virtual ~Commands() = default;

@@ -16,7 +16,8 @@ class Panel : public QWidget {
 public:
     using QWidget::QWidget;
 
-    /// The view has moved; called at most once per display tick (at most ten times a second for tables), and only while visible.
+    /// The view has moved; called at most once per display tick (at most ten times a second for tables), and
+    /// only while visible.
     virtual void refresh() = 0;
 
     /// What stands at the right of the dock's title, such as "2 of 2 live"; empty for nothing.

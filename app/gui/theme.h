@@ -29,7 +29,8 @@ void applyTheme(QApplication& application, ThemeChoice choice);
 
 /// Fonts from the desktop's own, sizes from its metrics.
 [[nodiscard]] QFont monospaceFont();
-[[nodiscard]] QFont tabularFont(); ///< the desktop's font; its digits are of equal width or the monospace's are used
+[[nodiscard]] QFont
+tabularFont(); ///< the desktop's font; its digits are of equal width or the monospace's are used
 
 /// Health in shape and colour and text: ● good, ▲ warning, ■ error.
 enum class Health { Good, Warning, Error, Unknown };

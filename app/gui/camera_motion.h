@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "render/camera.h"
+
+#include <QPointF>
+#include <QSizeF>
+
+namespace posewire::gui {
+
+/// The operator's camera: what the pointer does to it, and keeping moving characters in the picture until the
+/// operator pans or zooms.
+class CameraMotion {
+public:
+    [[nodiscard]] const render::Camera& camera() const { return m_camera; }
+
+    /// Pointer movements and positions in logical pixels of a view of the given size.
+    void orbit(const QPointF& movement);
+    void pan(const QPointF& movement, const QSizeF& view);
+    /// Towards what is under the pointer; steps of a mouse wheel, positive comes closer.
+    void zoom(double steps, const QPointF& pointer, const QSizeF& view);
+
+    void face(render::StandardView view) { m_camera = render::facing(m_camera, view); }
+    void setProjection(render::Projection projection) { m_camera.projection = projection; }
+
+    /// Shows all of `bounds` at once, and goes on showing what follow() is given.
+    void frame(const render::Bounds& bounds, float aspect);
+    /// Shows `bounds` and stays there.
+    void show(const render::Bounds& bounds, float aspect);
+    /// Moves gently towards showing `bounds`; the first bounds are shown at once. Nothing after a pan or
+    /// zoom.
+    void follow(const render::Bounds& bounds, float aspect, double seconds);
+
+    [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
+
+private:
+    render::Camera m_camera;
+    bool m_isFollowing = true;
+    bool m_hasFramed = false;
+};
+
+/// −1 … 1, y up.
+[[nodiscard]] glm::vec2 screenPoint(const QPointF& pointer, const QSizeF& view);
+[[nodiscard]] QPointF pointerAt(const glm::vec2& screen, const QSizeF& view);
+
+} // namespace posewire::gui

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/receiving_state.h"
+#include "core/model/session.h"
+
+#include <QString>
+
+namespace posewire::gui {
+
+/// What someone who helps from afar wants to know, as plain text: program, system, ports, sources, streams.
+[[nodiscard]] QString diagnosticsText(const model::Session& session, const ReceivingState& receiving,
+                                      const QString& rendererName);
+
+} // namespace posewire::gui

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/dialogs.h"
+
+#include "app/gui/actions.h"
+#include "app/gui/theme.h"
+
+#include <QCoreApplication>
+#include <QDialogButtonBox>
+#include <QKeySequence>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTextBrowser>
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+AddPortDialog::AddPortDialog(std::function<QString(const UdpPort&)> problemOf, QWidget* parent)
+    : QDialog(parent),
+      m_problemOf(std::move(problemOf)),
+      m_edit(new QLineEdit(this)),
+      m_problem(new QLabel(this)) {
+    setWindowTitle(tr("Add UDP port"));
+    auto* column = new QVBoxLayout(this);
+    auto* label = new QLabel(tr("&Port to listen on, or address:port"), this);
+    label->setBuddy(m_edit);
+    m_edit->setPlaceholderText(QString::number(kDefaultPort));
+    m_problem->setWordWrap(true);
+    m_problem->setMinimumWidth(fontMetrics().averageCharWidth() * 56);
+    // The room is there from the beginning, so that the dialog does not jump under the pointer.
+    m_problem->setMinimumHeight(3 * fontMetrics().lineSpacing());
+    m_problem->setAlignment(Qt::AlignTop);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+    buttons->button(QDialogButtonBox::Ok)->setText(tr("Listen"));
+    column->addWidget(label);
+    column->addWidget(m_edit);
+    column->addWidget(m_problem);
+    column->addWidget(buttons);
+    connect(buttons, &QDialogButtonBox::accepted, this, &AddPortDialog::accept);
+    connect(buttons, &QDialogButtonBox::rejected, this, &AddPortDialog::reject);
+    connect(m_edit, &QLineEdit::textChanged, m_problem, &QLabel::clear);
+    QPalette palette = m_problem->palette();
+    palette.setColor(QPalette::WindowText, theme().error);
+    m_problem->setPalette(palette);
+}
+
+void AddPortDialog::accept() {
+    const QString text = m_edit->text().trimmed();
+    const auto port = parseUdpPort(text.isEmpty() ? m_edit->placeholderText() : text);
+    const QString problem =
+        port ? m_problemOf(*port) : tr("'%1' is not a port from 1 to 65535, nor address:port.").arg(text);
+    if (problem.isEmpty()) {
+        m_port = *port;
+        QDialog::accept();
+        return;
+    }
+    m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') + problem);
+}
+
+void showText(const QString& title, const QString& markdown, QWidget* parent) {
+    auto* dialog = new QDialog(parent);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    dialog->setWindowTitle(title);
+    auto* browser = new QTextBrowser(dialog);
+    browser->setFrameShape(QFrame::NoFrame);
+    browser->setOpenExternalLinks(true);
+    browser->setMarkdown(markdown);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
+    QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
+    auto* column = new QVBoxLayout(dialog);
+    column->addWidget(browser);
+    column->addWidget(buttons);
+    const QFontMetrics metrics = dialog->fontMetrics();
+    dialog->resize(metrics.averageCharWidth() * 110, metrics.lineSpacing() * 38);
+    dialog->show();
+}
+
+QString shortcutsText() {
+    QString text = QCoreApplication::translate("Dialogs", "| Key | What it does |\n|---|---|\n");
+    for (const ActionInfo& info : actionTable()) {
+        const QKeySequence keys(QLatin1String(info.shortcut), QKeySequence::PortableText);
+        if (!keys.isEmpty()) {
+            QString name = QCoreApplication::translate("Action", info.text);
+            name.remove(QLatin1Char('&'));
+            text += QStringLiteral("| %1 | %2 |\n").arg(keys.toString(QKeySequence::NativeText), name);
+        }
+    }
+    return text +
+           QCoreApplication::translate(
+               "Dialogs",
+               "\nIn the viewport: drag to orbit, Shift or the middle button to pan, the wheel to zoom "
+               "towards the pointer; click to select a segment, double click to frame a character.\n");
+}
+
+QString aboutText() {
+    return QCoreApplication::translate(
+               "Dialogs", "# Posewire %1\n\nNetwork monitor for MVN motion-capture streams.\n\n"
+                          "The application is free software under the GNU General Public License, version 3 "
+                          "or later; its core and renderer are under the MIT licence.\n\nQt %2\n")
+        .arg(QCoreApplication::applicationVersion(), QLatin1String(qVersion()));
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/options.h"
+
+#include <QDialog>
+
+#include <functional>
+#include <optional>
+
+class QLabel;
+class QLineEdit;
+
+namespace posewire::gui {
+
+/// Asks for a port to listen on and tells inside what is wrong with it, before anything is changed.
+class AddPortDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    /// `problemOf` says what would keep a port from being opened; empty for nothing.
+    AddPortDialog(std::function<QString(const UdpPort&)> problemOf, QWidget* parent);
+
+    /// What was entered and can be opened, once accepted.
+    [[nodiscard]] const UdpPort& port() const { return m_port; }
+
+    void accept() override;
+
+private:
+    std::function<QString(const UdpPort&)> m_problemOf;
+    QLineEdit* m_edit;
+    QLabel* m_problem;
+    UdpPort m_port;
+};
+
+/// A window with text to read, in Markdown; deletes itself when closed.
+void showText(const QString& title, const QString& markdown, QWidget* parent);
+
+/// All keys of actionTable(), in Markdown.
+[[nodiscard]] QString shortcutsText();
+[[nodiscard]] QString aboutText();
+
+} // namespace posewire::gui

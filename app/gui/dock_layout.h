@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QByteArray>
+#include <QMainWindow>
+#include <QString>
+#include <QStringList>
+
+#include <tl/expected.hpp>
+
+#include <map>
+#include <vector>
+
+namespace posewire::gui {
+
+/// Which docks stand where. Docks that are not named are closed.
+struct DockLayout {
+    /// One place in an area, from top to bottom (at the bottom: from left to right); several docks are tabs.
+    struct Place {
+        Qt::DockWidgetArea area = Qt::LeftDockWidgetArea;
+        QStringList docks;
+        int share = 1; ///< of the area's length, against the other places
+    };
+    QString name;
+    std::vector<Place> places;
+    std::map<Qt::DockWidgetArea, double>
+        extents; ///< width of an area, height at the bottom, as a share of the window
+};
+
+/// The names of the layouts that ship.
+[[nodiscard]] QStringList layoutNames();
+
+/// From JSON as in resources/layouts; the error says what is wrong with it.
+[[nodiscard]] tl::expected<DockLayout, QString> parseLayout(const QByteArray& json);
+
+/// A layout that ships, whatever the case of its name, or a file.
+[[nodiscard]] tl::expected<DockLayout, QString> findLayout(const QString& nameOrFile);
+
+/// Puts the window's docks, known by their object names, where the layout says. Names of docks that this
+/// program does not have are left out.
+void applyLayout(const DockLayout& layout, QMainWindow& window);
+
+} // namespace posewire::gui

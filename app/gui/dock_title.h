@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QWidget>
+
+class QDockWidget;
+class QLabel;
+class QToolButton;
+
+namespace posewire::gui {
+
+/// The title of a dock: its name, a short summary at the right, and under the pointer what floats and closes
+/// it.
+class DockTitle final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit DockTitle(QDockWidget* dock);
+
+    void setSummary(const QString& summary);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void enterEvent(QEnterEvent* event) override;
+    void leaveEvent(QEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void restyle();
+    void showButtons(bool isShown);
+
+    QLabel* m_title;
+    QLabel* m_summary;
+    QToolButton* m_float;
+    QToolButton* m_close;
+};
+
+} // namespace posewire::gui

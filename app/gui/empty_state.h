@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/receiving_state.h"
+#include "app/gui/theme.h"
+#include "core/model/session.h"
+
+#include <QString>
+#include <QStringList>
+
+namespace posewire::gui {
+
+/// What the viewport says while there is no character to see. Nothing where `title` is empty.
+struct EmptyState {
+    Health level = Health::Unknown;
+    QString title;
+    QStringList lines;
+};
+
+/// `addresses` are this computer's, as a sender would be told.
+[[nodiscard]] EmptyState emptyState(const model::Session& session, const ReceivingState& receiving,
+                                    const QStringList& addresses);
+
+/// IPv4 addresses of this computer that another can reach; the loopback's where there are no others.
+[[nodiscard]] QStringList reachableAddresses();
+
+} // namespace posewire::gui

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/health_bar.h"
+
+#include "app/gui/character_health.h"
+#include "app/gui/colour_text.h"
+#include "app/gui/models/text.h"
+
+#include <QHBoxLayout>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+QString perSecondText(double bytesPerSecond) {
+    return HealthBar::tr("%1 MB/s").arg(fixed(bytesPerSecond / 1e6, 2));
+}
+
+/// From the first packet that is kept to the newest.
+double historySeconds(const model::Session& session) {
+    std::int64_t first = 0;
+    for (const model::Stream& stream : session.streams()) {
+        const std::int64_t stamp = stream.statistics.firstStampNs();
+        first = first == 0 ? stamp : std::min(first, stamp);
+    }
+    return first == 0 ? 0.0 : static_cast<double>(session.nowNs() - first) * 1e-9;
+}
+
+QString historyText(const model::Session& session) {
+    const log::LogFigures figures = session.figures();
+    QString text = HealthBar::tr("%1 of %2")
+                       .arg(megabytes(figures.memoryInUse).section(QLatin1Char(' '), 0, 0),
+                            megabytes(figures.memoryCap));
+    // What the cap has pushed out is no longer history: only while all is kept does the first packet date it.
+    if (figures.begin == 0 && figures.end != 0) {
+        text.prepend(duration(historySeconds(session)) + QStringLiteral(" · "));
+    }
+    return HealthBar::tr("history %1").arg(text);
+}
+
+} // namespace
+
+HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* parent)
+    : QWidget(parent),
+      m_session(session),
+      m_commands(commands),
+      m_entriesLayout(new QHBoxLayout),
+      m_rate(new ColourText(ColourText::Look::Plain, this)),
+      m_history(new ColourText(ColourText::Look::Plain, this)),
+      m_dropped(new ColourText(ColourText::Look::Plain, this)) {
+    setObjectName(QStringLiteral("healthBar"));
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(6, 1, 6, 1);
+    row->setSpacing(8);
+    // More characters than there is room for are cut off at the right and must not widen the window.
+    auto* entries = new QWidget(this);
+    entries->setLayout(m_entriesLayout);
+    entries->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    m_entriesLayout->setContentsMargins(0, 0, 0, 0);
+    m_entriesLayout->setSpacing(2);
+    m_entriesLayout->setSizeConstraint(QLayout::SetNoConstraint);
+    m_entriesLayout->addStretch(1);
+    row->addWidget(entries, 1);
+    for (ColourText* text : {m_rate, m_history, m_dropped}) {
+        row->addWidget(text);
+    }
+    m_dropped->setToolTip(tr("Datagrams that this computer received but had no buffer room for."));
+    m_history->setToolTip(
+        tr("How far back the packets kept in memory reach, and how much memory they may take."));
+}
+
+void HealthBar::refresh(const ReceivingState& receiving) {
+    refreshCharacters();
+    m_rate->setContent(Health::Unknown,
+                       tr("%1 datagrams/s · %2")
+                           .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
+                                perSecondText(receiving.bytesPerSecond)));
+    m_history->setContent(Health::Unknown, historyText(m_session));
+    m_dropped->setContent(receiving.kernelDropped == 0 ? Health::Good : Health::Error,
+                          tr("dropped here %1").arg(grouped(receiving.kernelDropped)));
+}
+
+void HealthBar::refreshCharacters() {
+    while (m_entries.size() < m_session.characters().size()) {
+        addEntry();
+    }
+    for (std::size_t i = 0; i < m_entries.size(); ++i) {
+        const model::CharacterKey& key = m_session.characters()[i].key;
+        const CharacterHealth health = characterHealth(m_session, key);
+        const QString words = health.level == Health::Good ? tr("good") : health.words;
+        m_entries[i]->setContent(health.level, QString::fromStdString(m_session.displayName(key)) +
+                                                   QLatin1Char(' ') + words);
+    }
+}
+
+void HealthBar::addEntry() {
+    auto* entry = new ColourText(ColourText::Look::Plain, this);
+    entry->setClickable(true);
+    entry->setToolTip(tr("Select and show this character"));
+    const std::size_t index = m_entries.size();
+    connect(entry, &ColourText::clicked, this, [this, index] { activate(index); });
+    m_entriesLayout->insertWidget(static_cast<int>(index), entry);
+    m_entries.push_back(entry);
+}
+
+void HealthBar::activate(std::size_t entry) {
+    const model::CharacterKey& key = m_session.characters()[entry].key;
+    m_commands.select({key.source, key, -1});
+    m_commands.setCharacterVisible(key, true);
+    m_commands.frameCharacter(key);
+}
+
+} // namespace posewire::gui

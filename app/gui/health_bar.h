@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/commands.h"
+#include "app/gui/receiving_state.h"
+
+#include <QWidget>
+
+#include <vector>
+
+class QHBoxLayout;
+
+namespace posewire::gui {
+
+class ColourText;
+
+/// The bottom line: each character in a word, what this computer receives, keeps and drops.
+class HealthBar final : public QWidget {
+    Q_OBJECT
+
+public:
+    HealthBar(model::SessionView& session, Commands& commands, QWidget* parent = nullptr);
+
+    void refresh(const ReceivingState& receiving);
+
+private:
+    void refreshCharacters();
+    void addEntry();
+    void activate(std::size_t entry);
+
+    model::SessionView& m_session;
+    Commands& m_commands;
+    QHBoxLayout* m_entriesLayout;
+    std::vector<ColourText*> m_entries; ///< one for each character, in the session's order
+    ColourText* m_rate;
+    ColourText* m_history;
+    ColourText* m_dropped;
+};
+
+} // namespace posewire::gui

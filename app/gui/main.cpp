@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/icons.h"
+#include "app/gui/main_window.h"
+#include "app/gui/options.h"
+#include "app/gui/process_age.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QTimer>
+
+#include <cstdio>
+#include <functional>
+
+namespace {
+
+using namespace posewire;
+using namespace posewire::gui;
+
+/// Calls once, after the window has been painted for the first time.
+class FirstPaint final : public QObject {
+public:
+    FirstPaint(QWidget* window, std::function<void()> call) : QObject(window), m_call(std::move(call)) {
+        window->installEventFilter(this);
+    }
+
+    bool eventFilter(QObject* object, QEvent* event) override {
+        if (event->type() == QEvent::Paint) {
+            object->removeEventFilter(this);
+            QTimer::singleShot(0, this, m_call);
+        }
+        return false;
+    }
+
+private:
+    std::function<void()> m_call;
+};
+
+void nameApplication() {
+    QCoreApplication::setOrganizationName(QStringLiteral("Posewire"));
+    QCoreApplication::setApplicationName(QStringLiteral("posewire"));
+    QCoreApplication::setApplicationVersion(QStringLiteral(POSEWIRE_VERSION));
+}
+
+/// Help, version and errors need no display: they are dealt with before a window system is asked for.
+tl::expected<Options, EarlyExit> readOptions(int& argc, char** argv) {
+    const QCoreApplication application(argc, argv);
+    return parseOptions(QCoreApplication::arguments());
+}
+
+int leave(const EarlyExit& exit) {
+    std::fputs(qUtf8Printable(exit.text), exit.status == 0 ? stdout : stderr);
+    return exit.status;
+}
+
+Settings startSettings(SettingsFile& file, const Options& options, QString* problem) {
+    Settings settings = file.read(problem);
+    if (options.resetsLayout) {
+        settings.docks.clear();
+        settings.window = {};
+        settings.isMaximized = false;
+    }
+    if (!options.layout.isEmpty()) {
+        settings.layout = options.layout;
+        settings.docks.clear();
+    }
+    settings.theme = options.theme.value_or(settings.theme);
+    return settings;
+}
+
+/// What takes its time waits until the window can be seen.
+void openSources(MainWindow& window, const Options& options) {
+    SessionDriver& driver = window.driver();
+    std::vector<UdpPort> ports = options.udpPorts;
+    if (ports.empty() && (options.file.isEmpty() || options.demoCharacters > 0)) {
+        ports.push_back({});
+    }
+    for (const UdpPort& port : ports) {
+        driver.receiving().addPort(port);
+    }
+    if (options.demoCharacters > 0) {
+        driver.setDemo(options.demoCharacters);
+    }
+    if (!options.file.isEmpty()) {
+        if (const QString problem = driver.openFile(options.file); !problem.isEmpty()) {
+            window.say(problem);
+        }
+    }
+}
+
+/// Takes the picture once the viewport has one to show; after some seconds without, as it is.
+void takeScreenshot(MainWindow& window, const QString& path, int attempts) {
+    constexpr int kAgainMs = 50;
+    if (attempts > 0 && window.viewport().failure().isEmpty() && !window.viewport().isSettled()) {
+        QTimer::singleShot(kAgainMs, &window,
+                           [&window, path, attempts] { takeScreenshot(window, path, attempts - 1); });
+        return;
+    }
+    const bool isSaved = window.grab().save(path);
+    if (!isSaved) {
+        std::fprintf(stderr, "posewire: %s could not be written\n", qUtf8Printable(path));
+    }
+    QCoreApplication::exit(isSaved ? 0 : 1);
+}
+
+void begin(MainWindow& window, const Options& options) {
+    if (options.printsStartupTime) {
+        std::printf("window on screen after %.0f ms\n", processAgeMs());
+        std::fflush(stdout);
+    }
+    openSources(window, options);
+    window.viewport().start();
+    window.driver().start();
+    if (!options.screenshotFile.isEmpty()) {
+        constexpr int kAttempts = 100;
+        QTimer::singleShot(static_cast<int>(options.screenshotAfterSeconds * 1000), &window,
+                           [&window, options] { takeScreenshot(window, options.screenshotFile, kAttempts); });
+    }
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    nameApplication();
+    const auto options = readOptions(argc, argv);
+    if (!options) {
+        return leave(options.error());
+    }
+    QApplication application(argc, argv);
+    SettingsFile file(options->settingsFile);
+    QString problem;
+    const Settings settings = startSettings(file, *options, &problem);
+    applyTheme(application, settings.theme);
+    QApplication::setWindowIcon(applicationIcon());
+
+    const log::SystemClock clock;
+    SessionDriver driver(clock);
+    MainWindow window(driver, file, settings);
+    if (options->size.isValid()) {
+        window.resize(options->size);
+    }
+    new FirstPaint(&window, [&] { begin(window, *options); });
+    window.show();
+    if (!problem.isEmpty()) {
+        window.say(problem);
+    }
+    return QApplication::exec();
+}

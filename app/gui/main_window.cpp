@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/main_window.h"
+
+#include "app/gui/diagnostics.h"
+#include "app/gui/dialogs.h"
+#include "app/gui/dock_layout.h"
+#include "app/gui/dock_title.h"
+#include "app/gui/health_bar.h"
+#include "app/gui/icons.h"
+#include "app/gui/transport_bar.h"
+#include "app/gui/viewport_buttons.h"
+#include "core/wire/reference.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QLabel>
+#include <QScreen>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Raised when docks or tool bars change so that an old state would not fit.
+constexpr int kStateVersion = 1;
+constexpr int kMessageMs = 12'000;
+constexpr QSize kDefaultSize(1600, 1000);
+
+} // namespace
+
+MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings)
+    : m_driver(driver),
+      m_file(file),
+      m_settings(settings),
+      m_viewport(new ViewportWidget(driver.session(), driver, this)) {
+    setWindowTitle(QStringLiteral("Posewire"));
+    setDockOptions(AllowNestedDocks | AllowTabbedDocks | AnimatedDocks);
+    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    setCentralWidget(m_viewport);
+    new ViewportButtons(m_viewport);
+    m_actions = makeMenus(*this, *menuBar());
+    makeBars();
+    makeDocks();
+    listDocks();
+    connectDriver();
+    restore();
+}
+
+void MainWindow::makeBars() {
+    auto* name = new QLabel(QStringLiteral("Posewire"), this);
+    QFont font = name->font();
+    font.setWeight(QFont::Bold);
+    name->setFont(font);
+    name->setContentsMargins(12, 0, 6, 0);
+    menuBar()->setCornerWidget(name, Qt::TopLeftCorner);
+    m_layoutButton = new QToolButton(this);
+    m_layoutButton->setProperty("flat", true);
+    m_layoutButton->setMenu(menuAt(*menuBar(), QStringLiteral("&View/&Layout")));
+    m_layoutButton->setPopupMode(QToolButton::InstantPopup);
+    m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
+    menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
+
+    m_transport = new TransportBar(m_driver.session(),
+                                   {m_actions["pause"], m_actions["live"], m_actions["addUdpPort"]}, this);
+    auto* bar = new QToolBar(tr("Transport"), this);
+    bar->setObjectName(QStringLiteral("transportBar"));
+    bar->setMovable(false);
+    bar->toggleViewAction()->setVisible(false);
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    m_transport->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    bar->addWidget(m_transport);
+    addToolBar(Qt::TopToolBarArea, bar);
+
+    m_health = new HealthBar(m_driver.session(), m_driver, this);
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->addWidget(m_health, 1);
+}
+
+void MainWindow::makeDocks() {
+    for (const PanelInfo& info : panelTable()) {
+        auto* dock = new QDockWidget(QCoreApplication::translate("Panel", info.title), this);
+        dock->setObjectName(QLatin1String(info.id));
+        Panel* panel = info.make(m_driver.session(), m_driver, dock);
+        dock->setWidget(panel);
+        auto* title = new DockTitle(dock);
+        dock->setTitleBarWidget(title);
+        addDockWidget(info.area, dock);
+        m_docks.push_back({dock, title, panel});
+        connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool isVisible) {
+            if (isVisible) {
+                panel->refresh();
+            }
+        });
+    }
+}
+
+void MainWindow::listDocks() {
+    QMenu* menu = menuAt(*menuBar(), QStringLiteral("&View"));
+    QAction* before = menu->actions().value(0);
+    for (const Dock& dock : m_docks) {
+        menu->insertAction(before, dock.dock->toggleViewAction());
+    }
+    menu->insertSeparator(before);
+}
+
+void MainWindow::connectDriver() {
+    connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
+    connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::refreshPanels);
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
+    connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
+    connect(&m_driver, &SessionDriver::visibilityChanged, m_viewport, &ViewportWidget::setCharacterVisible);
+    connect(&m_driver, &SessionDriver::pausedChanged, m_actions["pause"], &QAction::setChecked);
+    connect(&m_driver, &SessionDriver::demoChanged, m_actions["demo"], &QAction::setChecked);
+    connect(m_viewport, &ViewportWidget::optionsChanged, this, [this] {
+        m_actions["orthographic"]->setChecked(m_viewport->projection() == render::Projection::Orthographic);
+    });
+    showReceiving();
+}
+
+void MainWindow::restore() {
+    const QRect place = onScreen(m_settings.window);
+    if (place.isEmpty()) {
+        const QRect room = screen()->availableGeometry();
+        resize(kDefaultSize.boundedTo(room.size()));
+    } else {
+        setGeometry(place);
+    }
+    if (m_settings.isMaximized) {
+        setWindowState(windowState() | Qt::WindowMaximized);
+    }
+    m_layoutButton->setText(tr("Layout: %1 ▾").arg(m_settings.layout));
+    m_actions[QStringLiteral("theme") +
+              themeName(m_settings.theme).replace(0, 1, themeName(m_settings.theme).at(0).toUpper())]
+        ->setChecked(true);
+}
+
+/// Sizes of docks only hold once the window has its own.
+void MainWindow::showEvent(QShowEvent* event) {
+    QMainWindow::showEvent(event);
+    if (m_isRestored) {
+        return;
+    }
+    m_isRestored = true;
+    if (m_settings.docks.isEmpty() || !restoreState(m_settings.docks, kStateVersion)) {
+        useLayout(m_settings.layout);
+    }
+    for (const Dock& dock : m_docks) {
+        if (dock.dock->isFloating() && onScreen(dock.dock->geometry()).isEmpty()) {
+            dock.dock->setFloating(false);
+        }
+    }
+}
+
+QRect onScreen(const QRect& window) {
+    constexpr int kGrabbable = 80;
+    if (window.width() < kGrabbable || window.height() < kGrabbable) {
+        return {};
+    }
+    for (const QScreen* screen : QGuiApplication::screens()) {
+        const QRect room = screen->availableGeometry();
+        const QRect seen = room.intersected(window);
+        if (seen.width() >= kGrabbable && seen.height() >= kGrabbable && window.top() >= room.top()) {
+            return {window.topLeft(), window.size().boundedTo(room.size())};
+        }
+    }
+    return {};
+}
+
+Settings MainWindow::settings() const {
+    Settings settings = m_settings;
+    settings.window = normalGeometry().isEmpty() ? geometry() : normalGeometry();
+    settings.isMaximized = isMaximized();
+    settings.docks = saveState(kStateVersion);
+    return settings;
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
+        qWarning("Settings were not saved: %s", qUtf8Printable(problem));
+    }
+    event->accept();
+}
+
+void MainWindow::refreshPanels() {
+    for (const Dock& dock : m_docks) {
+        // A dock behind another as a tab is not hidden, but nothing of it can be seen.
+        if (dock.panel->isVisible() && !dock.panel->visibleRegion().isEmpty()) {
+            dock.panel->refresh();
+            dock.title->setSummary(dock.panel->summary());
+        }
+    }
+}
+
+void MainWindow::showReceiving() {
+    const ReceivingState& state = m_driver.receiving().state();
+    m_transport->setReceiving(state);
+    m_health->refresh(state);
+    m_viewport->setReceiving(state);
+}
+
+void MainWindow::openFile() {
+    const QString path = QFileDialog::getOpenFileName(this, tr("Open a file of MXTP datagrams"));
+    if (path.isEmpty()) {
+        return;
+    }
+    if (const QString problem = m_driver.openFile(path); !problem.isEmpty()) {
+        say(problem);
+    }
+}
+
+void MainWindow::saveScreenshot() {
+    const QPixmap picture = grab();
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save screenshot"),
+                                                      QStringLiteral("posewire.png"), tr("Pictures (*.png)"));
+    if (!path.isEmpty()) {
+        say(picture.save(path) ? tr("Saved %1").arg(path) : tr("%1 could not be written").arg(path));
+    }
+}
+
+void MainWindow::addUdpPort() {
+    AddPortDialog dialog(&Receiving::problemOf, this);
+    if (dialog.exec() == QDialog::Accepted) {
+        m_driver.receiving().addPort(dialog.port());
+        showReceiving();
+    }
+}
+
+void MainWindow::useTheme(ThemeChoice choice) {
+    m_settings.theme = choice;
+    applyTheme(*qApp, choice);
+}
+
+void MainWindow::useLayout(const QString& nameOrFile) {
+    const auto layout = findLayout(nameOrFile);
+    if (!layout) {
+        say(layout.error());
+        return;
+    }
+    applyLayout(*layout, *this);
+    m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
+    m_layoutButton->setText(tr("Layout: %1 ▾").arg(layout->name));
+    refreshPanels();
+}
+
+void MainWindow::dockAll() {
+    for (const Dock& dock : m_docks) {
+        dock.dock->setFloating(false);
+    }
+    if (onScreen(geometry()).isEmpty()) {
+        move(screen()->availableGeometry().topLeft());
+    }
+}
+
+void MainWindow::nextDock() {
+    std::vector<QWidget*> stops{m_viewport};
+    std::size_t current = 0;
+    for (const Dock& dock : m_docks) {
+        if (!dock.panel->isVisible()) {
+            continue;
+        }
+        if (dock.dock->isAncestorOf(QApplication::focusWidget())) {
+            current = stops.size();
+        }
+        stops.push_back(dock.panel);
+    }
+    QWidget* next = stops[(current + 1) % stops.size()];
+    const QList<QWidget*> children = next->findChildren<QWidget*>();
+    const auto focusable = std::ranges::find_if(children, [](const QWidget* child) {
+        return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;
+    });
+    (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
+}
+
+void MainWindow::toggleFullScreen() {
+    setWindowState(windowState() ^ Qt::WindowFullScreen);
+    m_actions["fullScreen"]->setChecked(isFullScreen());
+}
+
+void MainWindow::copyDiagnostics() {
+    m_driver.copyText(
+        diagnosticsText(m_driver.session(), m_driver.receiving().state(), m_viewport->rendererName()));
+    say(tr("Diagnostics copied"));
+}
+
+void MainWindow::showShortcuts() {
+    showText(tr("Keyboard shortcuts"), shortcutsText(), this);
+}
+
+void MainWindow::showReference() {
+    showText(tr("Protocol reference"), QString::fromStdString(wire::protocolReference()), this);
+}
+
+void MainWindow::showAbout() {
+    showText(tr("About Posewire"), aboutText(), this);
+}
+
+void MainWindow::say(const QString& text) {
+    statusBar()->showMessage(text, kMessageMs);
+}
+
+} // namespace posewire::gui

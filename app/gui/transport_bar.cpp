@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/transport_bar.h"
+
+#include "app/gui/colour_text.h"
+#include "app/gui/icons.h"
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+
+#include <QAction>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QStyle>
+#include <QToolButton>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr double kTimeScale = 1.3;
+
+QToolButton* framedButton(QAction* action, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setProperty("framed", true);
+    button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+    button->setToolTip(action->toolTip());
+    QObject::connect(button, &QToolButton::clicked, action, &QAction::trigger);
+    return button;
+}
+
+} // namespace
+
+TransportBar::TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent)
+    : QWidget(parent),
+      m_session(session),
+      m_pause(framedButton(actions.pause, this)),
+      m_live(framedButton(actions.live, this)),
+      m_add(framedButton(actions.addPort, this)),
+      m_time(new QLabel(this)),
+      m_detail(new QLabel(this)),
+      m_pillLayout(new QHBoxLayout) {
+    setObjectName(QStringLiteral("transport"));
+    m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    m_live->setProperty("framed", false);
+    m_add->setText(tr("Source"));
+    m_time->setAccessibleName(tr("Time of day of what is shown"));
+    m_detail->setForegroundRole(QPalette::PlaceholderText);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(12, 6, 12, 7);
+    row->setSpacing(10);
+    row->addWidget(m_pause);
+    row->addWidget(m_live);
+    row->addSpacing(6);
+    row->addWidget(m_time);
+    row->addWidget(m_detail, 1);
+    m_pillLayout->setSpacing(8);
+    row->addLayout(m_pillLayout);
+    row->addWidget(m_add);
+    m_detail->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    restyle();
+    refresh();
+}
+
+void TransportBar::restyle() {
+    m_add->setIcon(themedIcon(QStringLiteral("add")));
+    QFont font = monospaceFont();
+    font.setPointSizeF(font.pointSizeF() * kTimeScale);
+    m_time->setFont(font);
+    m_detail->setFont(tabularFont());
+    m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
+    showMode();
+}
+
+void TransportBar::showMode() {
+    m_pause->setIcon(themedIcon(m_isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
+    m_pause->setText(m_isPaused ? tr("Go live   Space") : tr("Pause   Space"));
+    m_live->setText(m_isPaused ? tr("▮▮ PAUSED") : tr("● LIVE"));
+    m_live->setToolTip(m_isPaused
+                           ? tr("The display stands still; receiving goes on. Click to follow again (End).")
+                           : tr("The display follows the stream."));
+    m_live->setProperty("live", !m_isPaused);
+    m_live->style()->unpolish(m_live);
+    m_live->style()->polish(m_live);
+}
+
+void TransportBar::refresh() {
+    const bool isPaused = m_session.cursor().mode == model::Cursor::Mode::Paused;
+    if (isPaused != m_isPaused) {
+        m_isPaused = isPaused;
+        showMode();
+    }
+    const auto key = shownCharacter(m_session);
+    const model::CharacterPose* pose = key ? m_session.pose(*key) : nullptr;
+    if (pose == nullptr) {
+        m_time->setText(m_session.nowNs() == 0 ? QStringLiteral("--:--:--.---")
+                                               : timeOfDay(m_session.cursorStampNs()));
+        m_detail->setText(m_session.end() == 0 ? tr("nothing received yet") : tr("no pose"));
+        return;
+    }
+    m_time->setText(timeOfDay(pose->stampNs));
+    m_detail->setText(tr("received · sample %1").arg(grouped(pose->sample)));
+}
+
+void TransportBar::setReceiving(const ReceivingState& receiving) {
+    const std::size_t count = receiving.ports.size() + (receiving.file.isEmpty() ? 0 : 1);
+    while (m_pills.size() < count) {
+        m_pills.push_back(new ColourText(ColourText::Look::Pill, this));
+        m_pillLayout->addWidget(m_pills.back());
+    }
+    for (std::size_t i = 0; i < receiving.ports.size(); ++i) {
+        const PortState& state = receiving.ports[i];
+        const bool isOpen = state.problem.isEmpty();
+        m_pills[i]->setContent(isOpen ? Health::Unknown : Health::Error, displayText(state.port));
+        m_pills[i]->setToolTip(
+            isOpen ? tr("Listening; receive buffer %1")
+                         .arg(megabytes(static_cast<std::uint64_t>(receiving.receiveBufferBytes)))
+                   : state.problem);
+    }
+    if (!receiving.file.isEmpty()) {
+        m_pills[count - 1]->setContent(Health::Unknown, receiving.file);
+        m_pills[count - 1]->setToolTip(tr("File"));
+    }
+}
+
+void TransportBar::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange) {
+        restyle();
+    }
+    QWidget::changeEvent(event);
+}
+
+void TransportBar::resizeEvent(QResizeEvent* event) {
+    m_detail->setVisible(width() > 50 * fontMetrics().averageCharWidth() * 2);
+    QWidget::resizeEvent(event);
+}
+
+void TransportBar::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.fillRect(rect(), theme().window);
+    painter.fillRect(QRect(0, height() - 1, width(), 1), theme().line);
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/commands.h"
+#include "app/gui/receiving_state.h"
+
+#include <QWidget>
+
+#include <vector>
+
+class QAction;
+class QHBoxLayout;
+class QLabel;
+class QToolButton;
+
+namespace posewire::gui {
+
+class ColourText;
+
+/// The line above the viewport: time stopped or running, which moment is shown, where the data come from.
+class TransportBar final : public QWidget {
+    Q_OBJECT
+
+public:
+    /// `pause` stops and goes on, `live` goes to the end, `addPort` is for one more source.
+    struct Actions {
+        QAction* pause;
+        QAction* live;
+        QAction* addPort;
+    };
+    TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);
+
+    void refresh();
+    void setReceiving(const ReceivingState& receiving);
+
+protected:
+    void changeEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void restyle();
+    void showMode();
+
+    model::SessionView& m_session;
+    QToolButton* m_pause;
+    QToolButton* m_live;
+    QToolButton* m_add;
+    QLabel* m_time;
+    QLabel* m_detail;
+    QHBoxLayout* m_pillLayout;
+    std::vector<ColourText*> m_pills;
+    bool m_isPaused = false;
+};
+
+} // namespace posewire::gui
