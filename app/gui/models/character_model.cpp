@@ -355,8 +355,7 @@ QVariant CharacterModel::streamData(const model::Stream& stream, int column, int
     const auto nominal = nominalHz(stream);
     if (role == Qt::DisplayRole) {
         const QString measured = fixed(stream.statistics.rateHz(), 1);
-        return nominal ? QStringLiteral("%1 / %2").arg(QString::number(*nominal, 'g', 5), measured)
-                       : measured;
+        return nominal ? QStringLiteral("%1/%2").arg(QString::number(*nominal, 'g', 5), measured) : measured;
     }
     if (role == Qt::ToolTipRole) {
         return nominal ? tr("Nominal rate, from the sender's time code and sample counter / measured by "

@@ -22,12 +22,8 @@ QVariant rightAligned() {
     return QVariant::fromValue(Qt::AlignRight | Qt::AlignVCenter);
 }
 
-QString changesText(std::size_t changes, const QString& age) {
-    if (changes == 0) {
-        return age;
-    }
-    return changes == 1 ? MetadataModel::tr("%1 · 1 change").arg(age)
-                        : MetadataModel::tr("%1 · %2 changes").arg(age).arg(changes);
+QString changesText(std::size_t changes) {
+    return changes == 1 ? MetadataModel::tr("1 change") : MetadataModel::tr("%1 changes").arg(changes);
 }
 
 QVariant swatchOf(const std::string& tagName, const std::string& value) {
@@ -167,12 +163,20 @@ QVariant MetadataModel::data(const QModelIndex& index, int role) const {
     }
 }
 
+QVariant MetadataModel::nameSuffix(const model::MetadataTag& tag) const {
+    const std::size_t changes = earlierValues(tag);
+    if (!tag.isKnown) {
+        return changes == 0 ? tr("unknown") : tr("unknown · %1").arg(changesText(changes));
+    }
+    return changes == 0 ? QVariant() : changesText(changes);
+}
+
 QVariant MetadataModel::tagName(const model::MetadataTag& tag, int role) const {
     switch (role) {
     case Qt::DisplayRole:
         return textOf(tag.name);
     case kSuffixRole:
-        return tag.isKnown ? QVariant() : tr("unknown tag");
+        return nameSuffix(tag);
     case Qt::ForegroundRole:
         return theme().dim;
     case Qt::ToolTipRole:
@@ -202,11 +206,10 @@ QVariant MetadataModel::tagValue(const model::MetadataTag& tag, int role) const 
 }
 
 QVariant MetadataModel::tagSent(const model::MetadataTag& tag, int role) const {
-    const std::size_t changes = earlierValues(tag);
     const double age = static_cast<double>(m_view.cursorStampNs() - tag.lastSeenNs) * 1e-9;
     switch (role) {
     case Qt::DisplayRole:
-        return changesText(changes, duration(std::max(0.0, age)));
+        return duration(std::max(0.0, age));
     case Qt::ForegroundRole:
         return theme().dim;
     case Qt::ToolTipRole:
@@ -251,7 +254,7 @@ QVariant MetadataModel::factData(const Property& fact, int column, int role) con
                                             : QVariant();
     }
     if (column == kSent) {
-        return {};
+        return role == kSpanRole ? QVariant(true) : QVariant();
     }
     const PropertyValue value = fact.read();
     switch (role) {
@@ -283,7 +286,7 @@ QVariant MetadataModel::headerData(int section, Qt::Orientation orientation, int
     case kValue:
         return tr("Value");
     default:
-        return tr("Sent before");
+        return tr("Sent");
     }
 }
 

@@ -37,6 +37,7 @@ private:
     void fitHistories();
     [[nodiscard]] std::size_t earlierValues(const model::MetadataTag& tag) const;
     [[nodiscard]] const model::MetadataTag* tag(int row) const;
+    [[nodiscard]] QVariant nameSuffix(const model::MetadataTag& tag) const;
     [[nodiscard]] QVariant tagName(const model::MetadataTag& tag, int role) const;
     [[nodiscard]] QVariant tagValue(const model::MetadataTag& tag, int role) const;
     [[nodiscard]] QVariant tagSent(const model::MetadataTag& tag, int role) const;

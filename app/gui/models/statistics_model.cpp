@@ -172,7 +172,7 @@ QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
                    ? QVariant(characterColour(m_view, {shown.key.source, shown.key.character}))
                    : QVariant();
     case kSeriesRole:
-        return index.column() == kTrend
+        return index.column() == kTrend && wire::isSampled(shown.key.type)
                    ? QVariant::fromValue(m_trends[static_cast<std::size_t>(index.row())].rates)
                    : QVariant();
     case Qt::ForegroundRole:

@@ -77,7 +77,8 @@ State characterState(model::SessionView& view, const model::Character& character
     for (const model::Stream& stream : view.streams()) {
         if (stream.key.source == character.key.source && stream.key.character == character.key.character) {
             malformed += stream.malformed;
-            gaps += stream.statistics.gaps();
+            // What is missing of one sample is missing in each of its types: the worst stream counts.
+            gaps = std::max(gaps, stream.statistics.gaps());
         }
     }
     return countState(malformed, gaps);

@@ -70,6 +70,15 @@ PropertyValue fieldNorm(const TrackerModel& trackers, const wire::Tracker& track
     return {figures, isDisturbed ? Health::Warning : Health::Unknown, toolTip};
 }
 
+PropertyValue flags(const TrackerModel& trackers, const wire::Tracker& tracker) {
+    PropertyValue state = trackers.state(tracker);
+    if (state.text.isEmpty()) {
+        state.text = state.health == Health::Good ? tr("none") : tr("after 1 s");
+    }
+    state.toolTip = trackers.headerData(TrackerModel::kState, Qt::Horizontal, Qt::ToolTipRole).toString();
+    return state;
+}
+
 } // namespace
 
 std::vector<Property> trackerFacts(const TrackerModel& trackers) {
@@ -86,7 +95,8 @@ std::vector<Property> trackerFacts(const TrackerModel& trackers) {
             row(tr("Acceleration m/s²"), acceleration),
             row(tr("Angular velocity rad/s"), angularVelocity),
             row(tr("Magnetic field"), magneticField),
-            row(tr("Field norm · dip"), fieldNorm)};
+            row(tr("Field norm · dip"), fieldNorm),
+            row(tr("Flags"), flags)};
 }
 
 } // namespace posewire::gui

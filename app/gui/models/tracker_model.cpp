@@ -19,15 +19,15 @@ struct ColumnText {
 
 constexpr std::array<ColumnText, TrackerModel::kColumnCount> kColumns{{
     {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Tracker"), ""},
-    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Free m/s²"),
+    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "|f| m/s²"),
      QT_TRANSLATE_NOOP("posewire::gui::TrackerModel",
                        "Norm of the free acceleration: gravity taken away, global")},
-    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Acc. m/s²"),
+    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "|a| m/s²"),
      QT_TRANSLATE_NOOP("posewire::gui::TrackerModel",
                        "Norm of the acceleration: 9.81 at rest, in the tracker's axes")},
-    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Gyro rad/s"),
+    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "|ω| rad/s"),
      QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Norm of the angular velocity, in the tracker's axes")},
-    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Mag."),
+    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "|m|"),
      QT_TRANSLATE_NOOP("posewire::gui::TrackerModel",
                        "Norm of the magnetic field, without unit: about 1 where it is undisturbed")},
     {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Flags"),
@@ -151,7 +151,7 @@ QVariant TrackerModel::data(const QModelIndex& index, int role) const {
             const PropertyValue value = state(shown);
             return value.health == Health::Unknown
                        ? QString()
-                       : healthSymbol(value.health) + QLatin1Char(' ') + value.text;
+                       : (healthSymbol(value.health) + QLatin1Char(' ') + value.text).trimmed();
         }
         return text(shown, index.column());
     case Qt::ForegroundRole: {

@@ -30,6 +30,8 @@ public:
     [[nodiscard]] const TrackerHistory& history() const { return m_history; }
     /// False in the form of type 23 that has neither acceleration nor angular velocity.
     [[nodiscard]] bool hasInertialData() const { return m_hasInertialData; }
+    /// What is wrong with a tracker; good and without text where nothing is.
+    [[nodiscard]] PropertyValue state(const wire::Tracker& tracker) const;
 
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
     [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
@@ -39,7 +41,6 @@ public:
 private:
     void fitRows(std::size_t count);
     [[nodiscard]] QString text(const wire::Tracker& tracker, int column) const;
-    [[nodiscard]] PropertyValue state(const wire::Tracker& tracker) const;
 
     model::SessionView& m_view;
     std::optional<model::CharacterKey> m_key;

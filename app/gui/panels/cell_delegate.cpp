@@ -5,8 +5,10 @@
 #include "app/gui/theme.h"
 
 #include <QApplication>
+#include <QHeaderView>
 #include <QPainter>
 #include <QPainterPath>
+#include <QTreeView>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +22,11 @@ constexpr float kLeastSpread = 0.2F;
 
 bool isNumber(const QModelIndex& index) {
     return (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
+}
+
+int widthOf(const QStyleOptionViewItem& option, int column) {
+    const auto* view = qobject_cast<const QTreeView*>(option.widget);
+    return view == nullptr ? 0 : view->header()->sectionSize(column);
 }
 
 /// Paints the mark before the text and returns its width with the space after it.
@@ -42,7 +49,7 @@ int paintMark(QPainter& painter, const QRect& rect, const QColor& colour, bool i
 } // namespace
 
 int CellDelegate::margin(const QFontMetrics& metrics) {
-    return std::max(4, metrics.height() / 3);
+    return std::max(4, metrics.height() * 2 / 5);
 }
 
 int CellDelegate::rowHeight(const QFontMetrics& metrics) {
@@ -89,7 +96,13 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         painter->setPen(QPen(colour.isValid() ? colour.value<QColor>() : theme().accent, 1.3));
         const int inset = option.rect.height() / 5;
         paintSeries(*painter, QRectF(rect.adjusted(0, inset, 0, -inset)), series.value<QList<float>>());
-    } else {
+    } else if (index.data(kSpanRole).toBool()) {
+        const QModelIndex before = index.siblingAtColumn(index.column() - 1);
+        rect.setLeft(rect.left() - widthOf(option, before.column()));
+        option.text = before.data().toString();
+        painter->setClipRect(rect);
+        paintText(*painter, rect, option, before);
+    } else if (!index.siblingAtColumn(index.column() + 1).data(kSpanRole).toBool()) {
         paintText(*painter, rect, option, index);
     }
     painter->restore();
@@ -150,14 +163,13 @@ void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionVi
         painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
         return;
     }
-    const int suffixWidth = suffix.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + suffix);
-    const QString text =
-        metrics.elidedText(option.text, Qt::ElideRight, std::max(0, rect.width() - suffixWidth));
-    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
-    if (suffixWidth > 0) {
-        rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
+    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
+                     metrics.elidedText(option.text, Qt::ElideRight, rect.width()));
+    rect.setLeft(rect.left() + metrics.horizontalAdvance(option.text + QLatin1Char(' ')));
+    if (!suffix.isEmpty() && rect.width() > 0) {
         painter.setPen(theme().dim);
-        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, suffix);
+        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
+                         metrics.elidedText(suffix, Qt::ElideRight, rect.width()));
     }
 }
 

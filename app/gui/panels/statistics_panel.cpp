@@ -25,8 +25,8 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, Q
     layout->addWidget(m_facts);
     m_table->setModel(&m_streams);
     const QString number = QStringLiteral("9999.99");
-    m_table->setColumnSamples({QStringLiteral("● Character 02"), QStringLiteral("9999.9"),
-                               QStringLiteral("00000000"), QStringLiteral("▲ 9 999"), number, number, number,
+    m_table->setColumnSamples({QStringLiteral("● Mira Lindqvist 02"), QStringLiteral("9999.9"),
+                               QStringLiteral("0000000"), QStringLiteral("▲ 9999"), number, number, number,
                                number, QStringLiteral("9999.9"), QStringLiteral("99 999 999"),
                                QStringLiteral("■ 9999")});
     m_table->setEmptyText(tr("No stream on the air.\nRates, spacing and gaps of every stream show here."));

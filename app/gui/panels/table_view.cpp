@@ -32,6 +32,7 @@ TableView::TableView(const QString& name, QWidget* parent) : QTreeView(parent) {
     header()->setSectionsMovable(false);
     header()->setMinimumSectionSize(0);
     header()->setHighlightSections(false);
+    header()->setTextElideMode(Qt::ElideRight);
 }
 
 void TableView::setColumnSamples(std::vector<QString> samples) {
@@ -61,7 +62,7 @@ void TableView::fitColumns() {
     if (model() == nullptr || m_samples.empty()) {
         return;
     }
-    setIndentation(fontMetrics().height());
+    setIndentation(fontMetrics().height() * 4 / 5);
     for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
         if (!m_samples[static_cast<std::size_t>(column)].isEmpty()) {
             header()->resizeSection(column, sampleWidth(column));
@@ -77,7 +78,7 @@ void TableView::fitOpenColumn() {
     }
     const int column = static_cast<int>(open - m_samples.begin());
     const int others = header()->length() - header()->sectionSize(column);
-    const int least = fontMetrics().averageCharWidth() * 12;
+    const int least = fontMetrics().averageCharWidth() * 8;
     header()->resizeSection(column, std::max(least, viewport()->width() - others));
 }
 

@@ -18,6 +18,8 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
       m_facts(clockFacts(m_clock)),
       m_large(new ClockWidget(this)),
       m_table(new TableView(tr("Clocks of the sender"), this)) {
+    setBackgroundRole(QPalette::Base);
+    setAutoFillBackground(true);
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins({});
     layout->setSpacing(0);

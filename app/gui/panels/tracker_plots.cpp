@@ -17,7 +17,8 @@ namespace {
 constexpr double kSecondsShown = static_cast<double>(TrackerHistory::kPlotNs) * 1e-9;
 /// Hatches in the accelerations; as many again in the norms. Further gaps still break the curves.
 constexpr std::size_t kMostHatches = 32;
-/// A gap of one sample is narrower than a pixel: hatches are at least this wide (s).
+/// Shorter gaps (s) are hardly a pixel wide: they are marked at the bottom instead, where dense loss shows as
+/// a line and does not hide the curves.
 constexpr double kLeastHatch = 0.06;
 constexpr double kLeastAcceleration = 1.0; ///< m/s², half the least range shown
 constexpr double kLeastNormRange = 0.1;
@@ -50,6 +51,7 @@ TrackerPlots::TrackerPlots(QWidget* parent) : QWidget(parent), m_plot(new QCusto
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins({});
     layout->addWidget(m_plot);
+    m_plot->setMinimumSize(fontMetrics().height() * 4, fontMetrics().height() * 4);
     m_plot->plotLayout()->clear();
     m_plot->plotLayout()->setRowSpacing(0);
     addTitle(0, tr("Free acceleration m/s²"));
@@ -63,6 +65,8 @@ TrackerPlots::TrackerPlots(QWidget* parent) : QWidget(parent), m_plot(new QCusto
         QCPAxisRect* axes = i < 3 ? accelerations : norms;
         m_graphs.push_back(m_plot->addGraph(axes->axis(QCPAxis::atBottom), axes->axis(QCPAxis::atLeft)));
     }
+    m_marks = m_plot->addGraph(accelerations->axis(QCPAxis::atBottom), accelerations->axis(QCPAxis::atLeft));
+    m_marks->setLineStyle(QCPGraph::lsNone);
     auto* margins = new QCPMarginGroup(m_plot);
     accelerations->setMarginGroup(QCP::msLeft | QCP::msRight, margins);
     norms->setMarginGroup(QCP::msLeft | QCP::msRight, margins);
@@ -97,6 +101,8 @@ void TrackerPlots::applyColours() {
     for (std::size_t i = 0; i < m_graphs.size(); ++i) {
         m_graphs[i]->setPen(QPen(curves[i], 1.2));
     }
+    m_marks->setScatterStyle(
+        QCPScatterStyle(QCPScatterStyle::ssTriangle, colours.warning, colours.warning, 5));
     QFont small = font();
     small.setPointSizeF(small.pointSizeF() * 0.88);
     for (QCPTextElement* title : m_titles) {
@@ -118,12 +124,20 @@ void TrackerPlots::applyColours() {
     for (QCPItemRect* item : m_hatches) {
         item->setBrush(QBrush(colours.warning, Qt::BDiagPattern));
     }
-    m_plot->replot(QCustomPlot::rpQueuedReplot);
+    replot();
+}
+
+void TrackerPlots::replot() {
+    // Without a place on the screen there is nothing to paint on; being shown paints by itself.
+    if (m_plot->isVisible() && !m_plot->size().isEmpty()) {
+        m_plot->setBufferDevicePixelRatio(devicePixelRatioF());
+        m_plot->replot(QCustomPlot::rpQueuedReplot);
+    }
 }
 
 void TrackerPlots::show(const TrackerHistory& history) {
     std::array<QVector<QCPGraphData>, 4> curves;
-    std::vector<std::pair<double, double>> gaps;
+    std::vector<Gap> gaps;
     double before = 0;
     for (const TrackerHistory::Point& point : history.points()) {
         const double time = static_cast<double>(point.stampNs - history.lastStampNs()) * 1e-9;
@@ -145,11 +159,25 @@ void TrackerPlots::show(const TrackerHistory& history) {
     const std::span graphs(m_graphs);
     fitRange(m_axes[0]->axis(QCPAxis::atLeft), valuesOf(graphs.first(3)), 2 * kLeastAcceleration);
     fitRange(m_axes[1]->axis(QCPAxis::atLeft), valuesOf(graphs.last(1)), kLeastNormRange);
-    hatch(gaps);
-    m_plot->replot(QCustomPlot::rpQueuedReplot);
+    mark(gaps);
+    replot();
 }
 
-void TrackerPlots::hatch(const std::vector<std::pair<double, double>>& gaps) {
+void TrackerPlots::mark(const std::vector<Gap>& gaps) {
+    std::vector<Gap> wide;
+    QVector<QCPGraphData> marks;
+    for (const Gap& gap : gaps) {
+        if (gap.second - gap.first >= kLeastHatch) {
+            wide.push_back(gap);
+        } else {
+            marks.append({(gap.first + gap.second) / 2, m_axes[0]->axis(QCPAxis::atLeft)->range().lower});
+        }
+    }
+    m_marks->data()->set(marks, true);
+    hatch(wide);
+}
+
+void TrackerPlots::hatch(const std::vector<Gap>& gaps) {
     const std::size_t count = std::min(gaps.size(), kMostHatches);
     while (m_hatches.size() < 2 * count) {
         QCPAxisRect* axes = m_axes[m_hatches.size() % 2];
@@ -170,9 +198,8 @@ void TrackerPlots::hatch(const std::vector<std::pair<double, double>>& gaps) {
         m_hatches[i]->setVisible(gap < count);
         if (gap < count) {
             const auto [begin, end] = gaps[gaps.size() - count + gap];
-            const double wide = std::max(end - begin, kLeastHatch);
-            m_hatches[i]->topLeft->setCoords((begin + end - wide) / 2, 0);
-            m_hatches[i]->bottomRight->setCoords((begin + end + wide) / 2, 1);
+            m_hatches[i]->topLeft->setCoords(begin, 0);
+            m_hatches[i]->bottomRight->setCoords(end, 1);
         }
     }
 }

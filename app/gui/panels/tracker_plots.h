@@ -5,6 +5,7 @@
 
 #include <QWidget>
 
+#include <utility>
 #include <vector>
 
 class QCustomPlot;
@@ -17,7 +18,8 @@ class QCPTextElement;
 namespace posewire::gui {
 
 /// The last ten seconds of a tracker: free acceleration x y z above, norm of the magnetic field below, on one
-/// time axis that ends at the cursor. Where samples are missing, curves break and the gap is hatched.
+/// time axis that ends at the cursor. Where samples are missing, curves break; the gap is hatched, or marked
+/// at the bottom where it is too short for that.
 class TrackerPlots : public QWidget {
     Q_OBJECT
 
@@ -34,14 +36,18 @@ protected:
 
 private:
     void applyColours();
+    void replot();
     void addTitle(int row, const QString& text);
     [[nodiscard]] QCPAxisRect* addAxes(int row);
-    void hatch(const std::vector<std::pair<double, double>>& gaps);
+    using Gap = std::pair<double, double>; ///< from, to (s)
+    void mark(const std::vector<Gap>& gaps);
+    void hatch(const std::vector<Gap>& gaps);
 
     QCustomPlot* m_plot;
     std::vector<QCPTextElement*> m_titles;
     std::vector<QCPAxisRect*> m_axes;
     std::vector<QCPGraph*> m_graphs; ///< x, y, z, norm
+    QCPGraph* m_marks = nullptr;     ///< gaps too short to be hatched
     std::vector<QCPItemRect*> m_hatches;
 };
 

@@ -23,8 +23,7 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     layOut();
     m_table->setModel(&m_trackers);
     const QString number = QStringLiteral("99.99");
-    m_table->setColumnSamples({QStringLiteral("Right Upper Arm m"), number, number, number, number,
-                               QStringLiteral("▲ magnetic disturbance")});
+    m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()});
     m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
                              "Kinematics (type 23)."));
     m_factTable->setModel(&m_facts);

@@ -101,7 +101,7 @@ TEST_F(CharacterModelTest, ShowsNominalBesideMeasuredRate) {
         refresh();
     }
     const QModelIndex rate = m_model.index(0, CharacterModel::kRate, character(0));
-    EXPECT_EQ(text(rate), "60 / 60.0");
+    EXPECT_EQ(text(rate), "60/60.0");
     EXPECT_EQ(text(character(0).siblingAtColumn(CharacterModel::kRate)), "60.0");
 }
 

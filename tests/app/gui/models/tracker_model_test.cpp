@@ -78,7 +78,7 @@ TEST_F(TrackerModelTest, FlagsADisturbedFieldAgainstItsOwnMedian) {
         sendTracker(atRest(), sample);
     }
     refresh();
-    EXPECT_EQ(text(0, TrackerModel::kState), QStringLiteral("● "));
+    EXPECT_EQ(text(0, TrackerModel::kState), QStringLiteral("●"));
     wire::Tracker disturbed = atRest();
     disturbed.magneticField = {0.72F, 0, -0.96F};
     sendTracker(disturbed, 300);
@@ -87,7 +87,7 @@ TEST_F(TrackerModelTest, FlagsADisturbedFieldAgainstItsOwnMedian) {
     disturbed.magneticField = {0.66F, 0, -0.88F};
     sendTracker(disturbed, 301);
     refresh();
-    EXPECT_EQ(text(0, TrackerModel::kState), QStringLiteral("● "));
+    EXPECT_EQ(text(0, TrackerModel::kState), QStringLiteral("●"));
 }
 
 TEST_F(TrackerModelTest, FlagsSaturationOfASingleSampleForTenSeconds) {
@@ -102,7 +102,7 @@ TEST_F(TrackerModelTest, FlagsSaturationOfASingleSampleForTenSeconds) {
         sendTracker(atRest(), sample);
     }
     refresh();
-    EXPECT_EQ(text(0, TrackerModel::kState), QStringLiteral("● "));
+    EXPECT_EQ(text(0, TrackerModel::kState), QStringLiteral("●"));
 }
 
 TEST_F(TrackerModelTest, KeepsTenSecondsOfTheShownTrackerWithItsGaps) {

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panel.h"
+#include "app/gui/panels/characters_panel.h"
+#include "app/gui/panels/metadata_panel.h"
+#include "app/gui/panels/statistics_panel.h"
+#include "app/gui/panels/timecode_panel.h"
+#include "app/gui/panels/trackers_panel.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <gmock/gmock.h>
+
+#include <QTest>
+
+#include <memory>
+
+namespace posewire::gui {
+
+namespace {
+
+class PanelsTest : public testing::Test {
+protected:
+    template <class T>
+    std::unique_ptr<T> open() {
+        auto panel = std::make_unique<T>(m_stage.session, m_stage.commands, nullptr);
+        panel->resize(360, 420);
+        panel->show();
+        refresh(*panel);
+        return panel;
+    }
+    void refresh(Panel& panel) {
+        m_stage.follow();
+        panel.refresh();
+    }
+    static TableView* table(Panel& panel) { return panel.findChild<TableView*>(); }
+
+    Stage m_stage;
+};
+
+TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnow) {
+    std::vector<std::string> ids;
+    for (const PanelInfo& info : panelTable()) {
+        ids.emplace_back(info.id);
+        const std::unique_ptr<Panel> panel(info.make(m_stage.session, m_stage.commands, nullptr));
+        panel->refresh();
+        EXPECT_NE(std::string(info.title), "");
+    }
+    EXPECT_THAT(ids, testing::ElementsAre("characters", "metadata", "timecode", "statistics", "trackers"));
+}
+
+TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {
+    EXPECT_TRUE(table(*open<CharactersPanel>())->emptyText().contains("Network Streamer"));
+    EXPECT_TRUE(table(*open<MetadataPanel>())->emptyText().contains("No character selected"));
+    EXPECT_TRUE(table(*open<TrackersPanel>())->emptyText().contains("type 23"));
+    EXPECT_EQ(open<CharactersPanel>()->summary(), "");
+    EXPECT_EQ(open<TrackersPanel>()->summary(), "");
+    const auto timecode = open<TimecodePanel>();
+    EXPECT_EQ(timecode->findChild<ClockWidget*>()->text(), "--:--:--.---");
+}
+
+TEST_F(PanelsTest, EveryTableHasANameForScreenReaders) {
+    for (const PanelInfo& info : panelTable()) {
+        const std::unique_ptr<Panel> panel(info.make(m_stage.session, m_stage.commands, nullptr));
+        for (const TableView* view : panel->findChildren<TableView*>()) {
+            EXPECT_FALSE(view->accessibleName().isEmpty()) << info.id;
+        }
+    }
+}
+
+TEST_F(PanelsTest, SummariesTellTheStateInAFewWords) {
+    performer::Performer performer(sending(2, {2, 12, 23}));
+    m_stage.perform(performer, 0, 60);
+    EXPECT_EQ(open<CharactersPanel>()->summary(), "2 of 2 live");
+    EXPECT_EQ(open<StatisticsPanel>()->summary(), "6 streams");
+    EXPECT_EQ(open<TrackersPanel>()->summary(), QStringLiteral("Pelvis · 1"));
+    EXPECT_EQ(open<MetadataPanel>()->summary(),
+              QString::fromStdString(m_stage.session.displayName(m_stage.key())));
+    m_stage.now += 5 * Stage::kSecond;
+    EXPECT_EQ(open<CharactersPanel>()->summary(), "0 of 2 live");
+}
+
+TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
+    performer::Performer performer(sending(2, {2, 12}));
+    m_stage.perform(performer, 0, 10);
+    const auto panel = open<CharactersPanel>();
+    TableView* view = table(*panel);
+    const QModelIndex second = view->model()->index(1, 0, view->model()->index(0, 0));
+    EXPECT_TRUE(view->isExpanded(second));
+    QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
+    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(1));
+    EXPECT_EQ(m_stage.session.selection().source, m_stage.source());
+    QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
+    ASSERT_EQ(m_stage.commands.framed.size(), 1U);
+    EXPECT_EQ(m_stage.commands.framed.front(), m_stage.key(1));
+}
+
+TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
+    performer::Performer performer(sending(2, {2, 12}));
+    m_stage.perform(performer, 0, 10);
+    const auto panel = open<CharactersPanel>();
+    m_stage.session.setSelection({m_stage.source(), m_stage.key(1), 3});
+    refresh(*panel);
+    EXPECT_EQ(table(*panel)->currentIndex().row(), 1);
+    EXPECT_EQ(m_stage.commands.selections, 0);
+    EXPECT_EQ(m_stage.session.selection().segment, 3);
+}
+
+TEST_F(PanelsTest, KeepsWhatTheOperatorCollapsed) {
+    performer::Performer performer(sending(1, {2}));
+    m_stage.perform(performer, 0, 10);
+    const auto panel = open<CharactersPanel>();
+    TableView* view = table(*panel);
+    const QModelIndex character = view->model()->index(0, 0, view->model()->index(0, 0));
+    view->collapse(character);
+    performer::Performer more(sending(1, {2, 21, 22}));
+    m_stage.perform(more, 10, 20);
+    refresh(*panel);
+    EXPECT_EQ(view->model()->rowCount(character), 3);
+    EXPECT_FALSE(view->isExpanded(character));
+}
+
+TEST_F(PanelsTest, PickingATrackerSelectsItsSegmentAndBack) {
+    performer::Performer performer(sending(1, {2, 23}));
+    m_stage.perform(performer, 0, 60);
+    const auto panel = open<TrackersPanel>();
+    TableView* view = table(*panel);
+    view->setFocus();
+    QTest::keyClick(view, Qt::Key_Down);
+    EXPECT_EQ(m_stage.session.selection().segment, 4);
+    EXPECT_EQ(m_stage.session.selection().character, m_stage.key());
+    m_stage.session.setSelection({m_stage.source(), m_stage.key(), 10});
+    refresh(*panel);
+    EXPECT_EQ(panel->summary(), QStringLiteral("Right Hand · 11"));
+    EXPECT_EQ(m_stage.commands.selections, 1);
+}
+
+TEST_F(PanelsTest, CopiesARowByKeyboard) {
+    m_stage.sendMetadata("name:Factory\n", Stage::kStart);
+    const auto panel = open<MetadataPanel>();
+    TableView* view = table(*panel);
+    view->setCurrentIndex(view->model()->index(0, 0));
+    QTest::keySequence(view, QKeySequence::Copy);
+    EXPECT_TRUE(m_stage.commands.copied.startsWith("name\tFactory"));
+    EXPECT_TRUE(view->allText().contains("Revision"));
+}
+
+TEST_F(PanelsTest, ClockFillsTheScreenAndLeavesItByEscape) {
+    m_stage.send(smallPose(), 1, 639'175, Stage::kStart);
+    const auto panel = open<TimecodePanel>();
+    auto* clock = panel->findChild<ClockWidget*>();
+    EXPECT_EQ(clock->text(), "00:10:39.175");
+    QTest::keyClick(clock, Qt::Key_F);
+    ASSERT_NE(panel->fullScreenClock(), nullptr);
+    EXPECT_TRUE(panel->fullScreenClock()->isFullScreen());
+    EXPECT_EQ(panel->fullScreenClock()->text(), "00:10:39.175");
+    QTest::keyClick(const_cast<ClockWidget*>(panel->fullScreenClock()), Qt::Key_Escape);
+    EXPECT_EQ(panel->fullScreenClock(), nullptr);
+    QTest::mouseDClick(clock, Qt::LeftButton);
+    EXPECT_NE(panel->fullScreenClock(), nullptr);
+}
+
+TEST_F(PanelsTest, ShowsThePastWhilePaused) {
+    performer::Performer performer(sending(1, {2, 12, 23}));
+    m_stage.perform(performer, 0, 240);
+    const auto timecode = open<TimecodePanel>();
+    const auto trackers = open<TrackersPanel>();
+    const QString live = timecode->findChild<ClockWidget*>()->text();
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 200});
+    refresh(*timecode);
+    refresh(*trackers);
+    const QString then = timecode->findChild<ClockWidget*>()->text();
+    EXPECT_NE(then, live);
+    m_stage.perform(performer, 240, 480);
+    refresh(*timecode);
+    EXPECT_EQ(timecode->findChild<ClockWidget*>()->text(), then);
+}
+
+} // namespace
+
+} // namespace posewire::gui
