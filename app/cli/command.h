@@ -39,5 +39,6 @@ struct Command {
 Command addDecodeCommand(CLI::App& program);
 Command addEncodeCommand(CLI::App& program);
 Command addReferenceCommand(CLI::App& program);
+Command addSendCommand(CLI::App& program);
 
 } // namespace posewire::cli

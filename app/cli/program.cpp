@@ -25,13 +25,18 @@ std::string chosenName(const CLI::App& program) {
     return "posewire-cli" + (chosen.empty() ? "" : " " + chosen.front()->get_name());
 }
 
+std::string wordingOf(const CLI::App& program, const CLI::ParseError& what) {
+    const std::vector<std::string> unknown = program.remaining(true);
+    return unknown.empty() ? oneLine(what.what()) : unknown.front() + " is not known here";
+}
+
 /// Help and version go to standard output with status 0; anything else is wrong usage.
 ExitStatus answer(const CLI::App& program, const CLI::ParseError& what) {
     if (what.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
         return program.exit(what, std::cout, std::cerr) == 0 ? ExitStatus::Fine : ExitStatus::Unusable;
     }
     const std::string name = chosenName(program);
-    std::cerr << name << ": " << oneLine(what.what()) << "; see " << name << " --help\n";
+    std::cerr << name << ": " << wordingOf(program, what) << "; see " << name << " --help\n";
     return ExitStatus::Unusable;
 }
 
@@ -60,7 +65,7 @@ int runProgram(int argumentCount, const char* const* arguments) {
     program.footer(
         "Exit status: 0 fine; 1 the input had faults; 2 wrong usage or a file that cannot be opened.");
     const std::vector<Command> commands{addDecodeCommand(program), addEncodeCommand(program),
-                                        addReferenceCommand(program)};
+                                        addSendCommand(program), addReferenceCommand(program)};
     try {
         program.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& what) {

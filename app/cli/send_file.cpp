@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/datagram_pacer.h"
+#include "app/cli/input.h"
+#include "app/cli/send_options.h"
+#include "app/net/send_schedule.h"
+#include "core/log/raw_file.h"
+
+#include <limits>
+
+namespace posewire::cli {
+namespace {
+
+/// Sends records when they are due, as long as nothing goes wrong.
+class RecordSender {
+public:
+    RecordSender(const SendOptions& options, net::DatagramSender& sender)
+        : m_sender(sender),
+          m_schedule(m_clock),
+          m_pacer(1.0 / options.performer.rateHz, options.speed),
+          m_endNs(options.durationSeconds > 0.0 ? static_cast<std::int64_t>(options.durationSeconds * 1e9)
+                                                : std::numeric_limits<std::int64_t>::max()) {}
+
+    void operator()(const log::FileRecord& record) {
+        if (m_isDone) {
+            return;
+        }
+        if (record.isSkipped) {
+            m_skipped += record.bytes.size();
+            return;
+        }
+        const std::int64_t due = m_pacer.due(record.bytes, record.stampNs);
+        m_isDone = due >= m_endNs;
+        if (m_isDone) {
+            return;
+        }
+        m_schedule.waitUntil(due);
+        ++m_datagrams;
+        if (const auto sent = m_sender.send(record.bytes); !sent) {
+            m_failure = sent.error().text;
+            m_isDone = true;
+        }
+    }
+
+    void beginAgain() { m_pacer.beginAgain(); }
+    [[nodiscard]] bool isDone() const { return m_isDone; }
+    [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
+    [[nodiscard]] std::uint64_t skipped() const { return m_skipped; }
+    [[nodiscard]] const std::string& failure() const { return m_failure; }
+
+private:
+    net::DatagramSender& m_sender;
+    log::SystemClock m_clock;
+    net::SendSchedule m_schedule;
+    DatagramPacer m_pacer;
+    std::int64_t m_endNs;
+    std::uint64_t m_datagrams = 0;
+    std::uint64_t m_skipped = 0;
+    std::string m_failure;
+    bool m_isDone = false;
+};
+
+tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSender& sender) {
+    const auto source = openInput(path);
+    if (!source) {
+        return tl::unexpected(source.error());
+    }
+    return log::readFile(**source, std::ref(sender));
+}
+
+ExitStatus conclude(const std::string& path, const RecordSender& sender, Console& console) {
+    if (!sender.failure().empty()) {
+        console.complain(sender.failure());
+        return ExitStatus::Unusable;
+    }
+    if (sender.datagrams() == 0) {
+        console.complain(path + ": has no datagrams; is it a recording of MXTP?");
+        return ExitStatus::Faults;
+    }
+    if (sender.skipped() != 0) {
+        console.complain(path + ": " + std::to_string(sender.skipped()) +
+                         " bytes belong to no datagram and were not sent; decode shows where");
+        return ExitStatus::Faults;
+    }
+    return ExitStatus::Fine;
+}
+
+} // namespace
+
+ExitStatus sendFile(const SendOptions& options, net::DatagramSender& sender, Console& console) {
+    RecordSender records(options, sender);
+    bool isToBegin = true;
+    while (isToBegin) {
+        const std::uint64_t before = records.datagrams();
+        if (const auto result = sendOnce(options.file, records); !result) {
+            console.complain(result.error().text);
+            return ExitStatus::Unusable;
+        }
+        const bool hadSome = records.datagrams() != before;
+        isToBegin = options.loops && hadSome && !records.isDone() && options.file != "-";
+        records.beginAgain();
+    }
+    return conclude(options.file, records, console);
+}
+
+} // namespace posewire::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/cli/command.h"
+#include "app/net/datagram_sender.h"
+#include "core/performer/performer.h"
+
+#include <tl/expected.hpp>
+
+namespace posewire::cli {
+
+/// What `send` was asked for, as typed.
+struct SendOptions {
+    std::vector<std::string> to{"127.0.0.1:9763"};
+    bool overTcp = false;
+    std::string types = "all";
+    std::string revision = "N";
+    double durationSeconds = 0.0; ///< 0: without end
+    performer::PerformerSettings performer;
+
+    std::string file; ///< empty: the performer
+    double speed = 1.0;
+    bool loops = false;
+};
+
+/// The rest is what was meant by it, or one line about what is wrong with it.
+using Complaint = std::string;
+[[nodiscard]] tl::expected<std::vector<net::SendTarget>, Complaint> targetsOf(const SendOptions& options);
+[[nodiscard]] tl::expected<performer::PerformerSettings, Complaint> performerOf(const SendOptions& options);
+
+/// Both send until they are through or `durationSeconds` have passed.
+ExitStatus sendPerformance(const SendOptions& options, const performer::PerformerSettings& settings,
+                           net::DatagramSender& sender, Console& console);
+ExitStatus sendFile(const SendOptions& options, net::DatagramSender& sender, Console& console);
+
+} // namespace posewire::cli
