@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/cli/program_run.h"
+#include "tests/support/golden.h"
+
+#include <QProcess>
+
+#include <gmock/gmock.h>
+
+namespace posewire::cli::test {
+namespace {
+
+using posewire::test::golden;
+using posewire::test::goldens;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+TEST(DecodeCommand, WritesEveryGoldenWordForWord) {
+    for (const auto& golden : goldens()) {
+        const ProgramRun run = runProgram({"decode", "--json", fileWith(asText(golden.bytes))});
+        EXPECT_EQ(run.status, 0) << golden.name << run.err;
+        EXPECT_EQ(run.out, textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/" + golden.name + ".json"));
+    }
+}
+
+TEST(DecodeCommand, ReadsStandardInput) {
+    const auto& bytes = golden("24_centre_36_counted").bytes;
+    const ProgramRun run = runProgram({"decode", "--json", "-"}, asText(bytes));
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.out, textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/24_centre_36_counted.json"));
+}
+
+TEST(DecodeCommand, CountsObjectsAndBytesThroughTheFile) {
+    const std::string file = asText(golden("24_centre_12_counted").bytes) +
+                             asText(golden("25_time_code_counted").bytes) +
+                             asText(golden("24_centre_12_counted").bytes);
+    const ProgramRun run = runProgram({"decode", "--json", fileWith(file)});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, StartsWith(R"({"index":0,"offset":0,"size":36,)"));
+    EXPECT_THAT(run.out, HasSubstr("\n"
+                                   R"({"index":1,"offset":36,"size":40,)"));
+    EXPECT_THAT(run.out, HasSubstr("\n"
+                                   R"({"index":2,"offset":76,"size":36,)"));
+}
+
+TEST(DecodeCommand, ShowsBytesThatBelongToNoDatagramAsOneObject) {
+    const std::string datagram = asText(golden("24_centre_12_counted").bytes);
+    const std::string garbage(200'000, 'x');
+    const ProgramRun run = runProgram({"decode", "--json", "-"}, datagram + garbage + datagram);
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.out, HasSubstr("\n"
+                                   R"({"index":1,"offset":36,"size":200000,"skipped":true})"
+                                   "\n"));
+    EXPECT_THAT(run.out, HasSubstr("\n"
+                                   R"({"index":2,"offset":200036,"size":36,)"));
+    EXPECT_EQ(
+        run.err,
+        "posewire-cli decode: standard input: 200000 bytes belong to no datagram; the output says what is "
+        "wrong with each\n");
+}
+
+TEST(DecodeCommand, ShowsADatagramWithAFaultAndEndsWithStatusOne) {
+    const auto& whole = golden("24_centre_12_counted").bytes;
+    const ProgramRun run = runProgram({"decode", "--json", "-"}, asText({whole.begin(), whole.end() - 1}));
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.out, HasSubstr(R"("payloadSize":12,"error":{"code":"payloadTruncated","offset":35,)"));
+    EXPECT_THAT(run.err, HasSubstr("1 of 1 datagrams could not be decoded, the first at byte 0"));
+}
+
+TEST(DecodeCommand, HasNothingToSayAboutAnEmptyFile) {
+    const ProgramRun run = runProgram({"decode", "--json", "-"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.out + run.err, "");
+}
+
+TEST(DecodeCommand, GoesOnToTheNextFileWhereOneIsMissing) {
+    const std::string good = fileWith(asText(golden("24_centre_12_counted").bytes));
+    const ProgramRun run = runProgram({"decode", "--json", "/no/such/file", good});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_EQ(run.out, textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/24_centre_12_counted.json"));
+}
+
+TEST(DecodeCommand, ListsEveryFieldForPeople) {
+    const ProgramRun run = runProgram({"decode", fileWith(asText(golden("12_metadata_counted").bytes))});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, StartsWith("#0  offset 0  74 bytes  12 Metadata\n"));
+    EXPECT_THAT(run.out, HasSubstr("payloadSize                   50  bytes\n"));
+    EXPECT_THAT(run.out, HasSubstr("name:J\u00f6rg: take 2\\nxmid:0080A1B2\\ncolor:e96417\\n"));
+}
+
+TEST(DecodeCommand, ListsFaultsAndNoticesForPeople) {
+    const auto& whole = golden("25_time_code_wrong_length").bytes;
+    EXPECT_THAT(runProgram({"decode", "-"}, asText(whole)).out,
+                HasSubstr("  notice: length before the time code is not 12 (byte 24)\n"));
+    EXPECT_THAT(runProgram({"decode", "-"}, asText({whole.begin(), whole.end() - 1})).out,
+                HasSubstr("  error: shorter than its header announces (byte 39: needs 40 bytes, has 39)\n"));
+}
+
+TEST(DecodeCommand, EndsQuietlyWhenItsReaderHasSeenEnough) {
+    std::string many;
+    for (int i = 0; i < 2000; ++i) {
+        many += asText(golden("02_quaternion_counted").bytes);
+    }
+    QProcess process;
+    process.start(
+        "/bin/sh",
+        {"-c", QString(POSEWIRE_CLI " decode --json %1 | head -c 10; :").arg(fileWith(many).c_str())});
+    ASSERT_TRUE(process.waitForFinished(60000));
+    EXPECT_EQ(process.readAllStandardOutput().toStdString(), R"({"index":0)");
+    EXPECT_EQ(process.readAllStandardError().toStdString(), "");
+}
+
+TEST(DecodeCommand, ShowsTheRecordedMetadataWordForWord) {
+    const auto bytes = posewire::test::capture("mxtp12.bin");
+    if (bytes.empty()) {
+        GTEST_SKIP() << "NOT TESTED: the recorded datagrams are not at hand";
+    }
+    EXPECT_EQ(
+        runProgram({"decode", "--json", "-"}, asText(bytes)).out,
+        R"({"index":0,"offset":0,"size":82,"stampNs":null,"source":null,"type":"12","sample":0,"datagram":0,)"
+        R"("last":true,"items":1,"timeCode":0,"character":0,"bodySegments":23,"props":0,"fingerSegments":0,)"
+        R"("payloadSize":58,"body":{"tags":[["color","e96417"],["count","1"],["name","Factory"],)"
+        R"(["timeOffset","-3600000"]]},"notices":[]})"
+        "\n");
+}
+
+} // namespace
+} // namespace posewire::cli::test

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/line_reader.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace posewire::cli {
+namespace {
+
+std::vector<std::string> linesOf(const std::string& text) {
+    std::istringstream stream(text);
+    const auto source = log::readingFrom(stream, "test");
+    LineReader reader(*source);
+    std::vector<std::string> lines;
+    while (true) {
+        const auto line = reader.next();
+        if (!line || !*line) {
+            return lines;
+        }
+        lines.emplace_back(**line);
+        EXPECT_EQ(reader.lineNumber(), lines.size());
+    }
+}
+
+TEST(LineReader, SplitsAtEveryLineEnd) {
+    EXPECT_EQ(linesOf(""), (std::vector<std::string>{}));
+    EXPECT_EQ(linesOf("a\n\nb\r\nc"), (std::vector<std::string>{"a", "", "b", "c"}));
+    EXPECT_EQ(linesOf("a\n"), (std::vector<std::string>{"a"}));
+}
+
+TEST(LineReader, KeepsLinesWholeAcrossReads) {
+    std::string text;
+    std::vector<std::string> expected;
+    for (std::size_t size = 0; size < 300'000; size += 65'535) {
+        expected.emplace_back(size, 'x');
+        text += expected.back() + "\n";
+    }
+    EXPECT_EQ(linesOf(text), expected);
+}
+
+TEST(LineReader, CutsALineThatWouldNotEnd) {
+    const std::vector<std::string> lines = linesOf(std::string(LineReader::kLongestLine + 10, 'x'));
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0].size(), LineReader::kLongestLine);
+    EXPECT_EQ(lines[1].size(), 10U);
+}
+
+} // namespace
+} // namespace posewire::cli

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/cli/program_run.h"
+
+#include "tests/support/golden.h"
+
+#include <QProcess>
+#include <QProcessEnvironment>
+#include <QTemporaryDir>
+
+#include <fstream>
+
+namespace posewire::cli::test {
+
+ProgramRun runProgram(const std::vector<std::string>& arguments, const std::string& input) {
+    QProcess process;
+    QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+    environment.remove("DISPLAY");
+    environment.remove("WAYLAND_DISPLAY");
+    process.setProcessEnvironment(environment);
+    QStringList list;
+    for (const std::string& argument : arguments) {
+        list << QString::fromStdString(argument);
+    }
+    process.start(POSEWIRE_CLI, list);
+    process.write(input.data(), static_cast<qint64>(input.size()));
+    process.closeWriteChannel();
+    if (!process.waitForFinished(60000) || process.exitStatus() != QProcess::NormalExit) {
+        return {};
+    }
+    return {process.exitCode(), process.readAllStandardOutput().toStdString(),
+            process.readAllStandardError().toStdString()};
+}
+
+std::string fileWith(const std::string& content) {
+    static const QTemporaryDir folder;
+    static int number = 0;
+    const std::string path = folder.filePath(QString::number(++number)).toStdString();
+    std::ofstream(path, std::ios::binary) << content;
+    return path;
+}
+
+std::string asText(const std::vector<std::byte>& bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string textOfFile(const std::string& path) {
+    return asText(posewire::test::readBytes(path));
+}
+
+} // namespace posewire::cli::test

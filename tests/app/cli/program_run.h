@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace posewire::cli::test {
+
+/// What came of running posewire-cli.
+struct ProgramRun {
+    int status = -1;
+    std::string out;
+    std::string err;
+};
+
+/// Runs the built program with these arguments and standard input, without a display.
+[[nodiscard]] ProgramRun runProgram(const std::vector<std::string>& arguments, const std::string& input = {});
+
+/// A file with that content that is gone after the test program; its path.
+[[nodiscard]] std::string fileWith(const std::string& content);
+
+[[nodiscard]] std::string asText(const std::vector<std::byte>& bytes);
+[[nodiscard]] std::string textOfFile(const std::string& path);
+
+} // namespace posewire::cli::test

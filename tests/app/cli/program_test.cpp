@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/cli/program_run.h"
+
+#include <gmock/gmock.h>
+
+namespace posewire::cli::test {
+namespace {
+
+using testing::ContainsRegex;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// One line: what, where, what to do.
+void expectOneClearLine(const ProgramRun& run) {
+    EXPECT_THAT(run.err, StartsWith("posewire-cli"));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(run.err.empty() ? 'x' : run.err.back(), '\n');
+}
+
+TEST(Program, ShowsHelpWithoutADisplay) {
+    const ProgramRun run = runProgram({"--help"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.err, "");
+    for (const char* command : {"decode", "encode", "send", "reference"}) {
+        EXPECT_THAT(run.out, HasSubstr(command));
+        EXPECT_EQ(runProgram({command, "--help"}).status, 0);
+        EXPECT_THAT(runProgram({command, "--help"}).out, HasSubstr(std::string("posewire-cli ") + command));
+    }
+}
+
+TEST(Program, ShowsItsVersionWithoutADisplay) {
+    const ProgramRun run = runProgram({"--version"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, ContainsRegex("^posewire-cli [0-9]+\\.[0-9]+\\.[0-9]+\n$"));
+}
+
+TEST(Program, EndsWithStatusTwoOnWrongUsage) {
+    const std::vector<std::vector<std::string>> wrong{{},
+                                                      {"--foo"},
+                                                      {"decoed"},
+                                                      {"decode"},
+                                                      {"decode", "--foo", "-"},
+                                                      {"encode"},
+                                                      {"encode", "a", "b"},
+                                                      {"send", "--characters", "x"},
+                                                      {"send", "--tcp", "--udp"},
+                                                      {"send", "--types", "99"},
+                                                      {"send", "--revision", "Q"},
+                                                      {"send", "--motion", "fly"},
+                                                      {"send", "--to", "a:b"},
+                                                      {"send", "--loop"},
+                                                      {"send", "--rate", "0"},
+                                                      {"send", "--characters", "0"},
+                                                      {"reference", "x"}};
+    for (const auto& arguments : wrong) {
+        const ProgramRun run = runProgram(arguments);
+        EXPECT_EQ(run.status, 2) << testing::PrintToString(arguments);
+        EXPECT_EQ(run.out, "") << testing::PrintToString(arguments);
+        expectOneClearLine(run);
+    }
+}
+
+TEST(Program, EndsWithStatusTwoWhereAFileCannotBeOpened) {
+    const std::vector<std::vector<std::string>> wrong{
+        {"decode", "/no/such/file"},
+        {"decode", "/"},
+        {"encode", "/no/such/file"},
+        {"encode", "-", "-o", "/no/such/folder/file"},
+        {"send", "--to", "127.0.0.1:9", "--file", "/no/such/file"}};
+    for (const auto& arguments : wrong) {
+        const ProgramRun run = runProgram(arguments);
+        EXPECT_EQ(run.status, 2) << testing::PrintToString(arguments);
+        expectOneClearLine(run);
+    }
+    EXPECT_THAT(runProgram({"decode", "/no/such/file"}).err, HasSubstr("/no/such/file: no such file"));
+}
+
+TEST(Program, NamesTheOptionThatItDoesNotKnow) {
+    EXPECT_EQ(runProgram({"decode", "--jsno", "-"}).err,
+              "posewire-cli decode: --jsno is not known here; see posewire-cli decode --help\n");
+}
+
+TEST(Program, PrintsTheProtocolReference) {
+    const ProgramRun run = runProgram({"reference"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, StartsWith("# MXTP protocol reference\n"));
+    EXPECT_THAT(run.out, HasSubstr("## 25 Time code"));
+}
+
+} // namespace
+} // namespace posewire::cli::test

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/cli/program_run.h"
+#include "tests/support/golden.h"
+
+#include <QTcpServer>
+#include <QTcpSocket>
+#include <QUdpSocket>
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+namespace posewire::cli::test {
+namespace {
+
+using posewire::test::goldens;
+
+/// Listens while the program runs; small sends wait in the socket until they are looked at.
+class Listener {
+public:
+    Listener() { m_socket.bind(QHostAddress::LocalHost, 0); }
+
+    [[nodiscard]] std::string place() const { return "127.0.0.1:" + std::to_string(m_socket.localPort()); }
+    std::vector<std::string> datagrams() {
+        std::vector<std::string> all;
+        while (m_socket.hasPendingDatagrams() || m_socket.waitForReadyRead(0)) {
+            std::string bytes(static_cast<std::size_t>(m_socket.pendingDatagramSize()), '\0');
+            m_socket.readDatagram(bytes.data(), static_cast<qint64>(bytes.size()));
+            all.push_back(std::move(bytes));
+        }
+        return all;
+    }
+
+private:
+    QUdpSocket m_socket;
+};
+
+TEST(SendCommand, SendsEveryDatagramOfAFileOnceAndUnchanged) {
+    std::string file;
+    std::vector<std::string> expected;
+    for (const auto& golden : goldens()) {
+        if (golden.bytes.size() > 60) { // a socket's buffer holds all of them
+            expected.push_back(asText(golden.bytes));
+            file += expected.back();
+        }
+    }
+    Listener listener;
+    const ProgramRun run =
+        runProgram({"send", "--to", listener.place(), "--file", fileWith(file), "--speed", "1000"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out, "sent " + std::to_string(expected.size()) + " datagrams\n");
+    EXPECT_TRUE(listener.datagrams() == expected);
+}
+
+TEST(SendCommand, PerformsTheTypesAndCharactersThatWereAskedFor) {
+    Listener listener;
+    const ProgramRun run = runProgram({"send", "--to", listener.place(), "--types", "02,12", "--characters",
+                                       "3", "--rate", "100", "--duration", "0.05"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    std::multiset<std::string> types;
+    std::set<char> characters;
+    for (const std::string& bytes : listener.datagrams()) {
+        types.insert(bytes.substr(0, 6));
+        characters.insert(bytes.at(16));
+    }
+    EXPECT_EQ(types.count("MXTP02"), 5U * 3);
+    EXPECT_EQ(types.count("MXTP12"), 3U);
+    EXPECT_EQ(types.size(), 18U);
+    EXPECT_EQ(characters, (std::set<char>{0, 1, 2}));
+}
+
+TEST(SendCommand, SendsTheSameBytesForTheSameSeed) {
+    const auto sent = [](const std::string& seed) {
+        Listener listener;
+        EXPECT_EQ(runProgram({"send", "--to", listener.place(), "--seed", seed, "--duration", "0.01"}).status,
+                  0);
+        return listener.datagrams();
+    };
+    const auto first = sent("7");
+    EXPECT_FALSE(first.empty());
+    EXPECT_TRUE(sent("7") == first);
+    EXPECT_FALSE(sent("8") == first);
+}
+
+TEST(SendCommand, LoopsUntilItsTimeIsOver) {
+    Listener listener;
+    const std::string file = asText(posewire::test::golden("02_quaternion_counted").bytes);
+    const ProgramRun run = runProgram({"send", "--to", listener.place(), "--file", fileWith(file), "--loop",
+                                       "--rate", "1000", "--duration", "0.02"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(listener.datagrams().size(), 20U);
+}
+
+TEST(SendCommand, SendsToSeveralPlaces) {
+    Listener first;
+    Listener second;
+    const std::string file = fileWith(asText(posewire::test::golden("02_quaternion_counted").bytes));
+    EXPECT_EQ(runProgram({"send", "--to", first.place(), "--to", second.place(), "--file", file}).out,
+              "sent 2 datagrams\n");
+    EXPECT_EQ(first.datagrams().size(), 1U);
+    EXPECT_EQ(second.datagrams().size(), 1U);
+}
+
+TEST(SendCommand, ConnectsByTcpAndSendsBackToBack) {
+    QTcpServer server;
+    ASSERT_TRUE(server.listen(QHostAddress::LocalHost, 0));
+    std::string file;
+    for (const auto& golden : goldens()) {
+        file += asText(golden.bytes);
+    }
+    const ProgramRun run =
+        runProgram({"send", "--tcp", "--to", "127.0.0.1:" + std::to_string(server.serverPort()), "--file",
+                    fileWith(file), "--speed", "1000"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    ASSERT_TRUE(server.waitForNewConnection(5000));
+    QTcpSocket* connection = server.nextPendingConnection();
+    QByteArray received;
+    while (connection->waitForReadyRead(1000)) {
+        received += connection->readAll();
+    }
+    EXPECT_TRUE(received.toStdString() == file);
+}
+
+TEST(SendCommand, SaysWhatIsWrongWithAFileWithoutDatagrams) {
+    const ProgramRun run =
+        runProgram({"send", "--to", "127.0.0.1:9", "--file", fileWith("nothing of the kind")});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.err, testing::HasSubstr("has no datagrams"));
+}
+
+} // namespace
+} // namespace posewire::cli::test
