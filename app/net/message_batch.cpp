@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/message_batch.h"
 
+#include <algorithm>
 #include <cstring>
 #include <ctime>
 
@@ -29,23 +30,25 @@ std::size_t MessageBatch::receive(int descriptor, std::span<const log::LogWriter
     return count < 0 ? 0 : static_cast<std::size_t>(count);
 }
 
-Received MessageBatch::received(std::size_t index) {
-    msghdr& header = m_messages[index].msg_hdr;
+Received MessageBatch::received(std::size_t index) const {
+    const msghdr& header = m_messages[index].msg_hdr;
     Received received;
     received.size = m_messages[index].msg_len;
     received.isTruncated = (header.msg_flags & MSG_TRUNC) != 0;
-    for (cmsghdr* control = CMSG_FIRSTHDR(&header); control != nullptr;
-         control = CMSG_NXTHDR(&header, control)) {
-        if (control->cmsg_level != SOL_SOCKET) {
-            continue;
-        }
-        if (control->cmsg_type == SO_TIMESTAMPNS) {
+    // By hand: CMSG_NXTHDR is a call into the library for each message, of which there are very many here.
+    const std::byte* const controls = m_controls[index].bytes.data();
+    for (std::size_t at = 0; at + sizeof(cmsghdr) <= header.msg_controllen;) {
+        cmsghdr control{};
+        std::memcpy(&control, controls + at, sizeof control);
+        const std::byte* const data = controls + at + CMSG_LEN(0);
+        if (control.cmsg_level == SOL_SOCKET && control.cmsg_type == SO_TIMESTAMPNS) {
             timespec stamp{};
-            std::memcpy(&stamp, CMSG_DATA(control), sizeof stamp);
+            std::memcpy(&stamp, data, sizeof stamp);
             received.stampNs = std::int64_t{stamp.tv_sec} * 1'000'000'000 + stamp.tv_nsec;
-        } else if (control->cmsg_type == SO_RXQ_OVFL) {
-            std::memcpy(&received.drops, CMSG_DATA(control), sizeof received.drops);
+        } else if (control.cmsg_level == SOL_SOCKET && control.cmsg_type == SO_RXQ_OVFL) {
+            std::memcpy(&received.drops, data, sizeof received.drops);
         }
+        at += std::max(CMSG_ALIGN(control.cmsg_len), sizeof(cmsghdr));
     }
     return received;
 }

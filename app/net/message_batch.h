@@ -34,7 +34,7 @@ public:
     /// on an error.
     std::size_t receive(int descriptor, std::span<const log::LogWriter::Lane> lanes);
 
-    [[nodiscard]] Received received(std::size_t index);
+    [[nodiscard]] Received received(std::size_t index) const;
     [[nodiscard]] const sockaddr_in6& sender(std::size_t index) const { return m_senders[index]; }
 
 private:

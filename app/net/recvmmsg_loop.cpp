@@ -26,7 +26,7 @@ namespace {
 /// time.
 constexpr int kNapsUntilIdle = 200;
 /// So many batches are taken from one socket before the others have their turn.
-constexpr int kBatchesPerTurn = 64;
+constexpr int kBatchesPerTurn = 256;
 /// The kernel's drop counters are read once in so many rounds, about ten times a second.
 constexpr int kRoundsPerDropCheck = 100;
 
@@ -67,7 +67,8 @@ public:
 private:
     bool drainAll();
     std::size_t drain(Socket& socket);
-    void commit(Socket& socket, std::size_t index);
+    /// Bytes of the datagram.
+    std::size_t commit(Socket& socket, std::size_t index);
     void countDrops(Socket& socket, std::uint32_t drops);
     void checkDrops();
     void rest(bool wasBusy);
@@ -148,13 +149,15 @@ std::size_t RecvmmsgLoop::drain(Socket& socket) {
     for (int turn = 0; turn < kBatchesPerTurn; ++turn) {
         const auto lanes = writer.lanes();
         const std::size_t count = socket.batch.receive(socket.descriptor.get(), lanes);
+        std::size_t bytes = 0;
         for (std::size_t i = 0; i < count; ++i) {
-            commit(socket, i);
+            bytes += commit(socket, i);
         }
         total += count;
         if (count > 0) {
             writer.publish();
             add<std::uint64_t>(m_context.counters.datagrams, count);
+            add<std::uint64_t>(m_context.counters.bytes, bytes);
         }
         if (count < lanes.size()) {
             break;
@@ -163,7 +166,7 @@ std::size_t RecvmmsgLoop::drain(Socket& socket) {
     return total;
 }
 
-void RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
+std::size_t RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
     const Received received = socket.batch.received(index);
     log::Arrival arrival;
     arrival.source = socket.sources.idOf(socket.batch.sender(index));
@@ -176,7 +179,7 @@ void RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
         countDrops(socket, received.drops);
     }
     m_context.log.writer().commit(index, received.size, arrival);
-    add<std::uint64_t>(m_context.counters.bytes, received.size);
+    return received.size;
 }
 
 /// `drops` is what the kernel has counted so far; a packet may tell less than the counter that was read

@@ -50,11 +50,12 @@ std::size_t hashOf(const sockaddr_in6& address) {
 
 } // namespace
 
-log::SourceId SourceCache::idOf(const sockaddr_in6& address) {
+log::SourceId SourceCache::look(const sockaddr_in6& address) {
     Entry& entry = m_entries[hashOf(address)];
     if (std::memcmp(&entry.address, &address, sizeof address) != 0) {
         entry = {address, m_table->intern({senderText(address), log::Transport::Udp, m_localPort})};
     }
+    m_last = entry;
     return entry.id;
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 namespace posewire::net {
 
@@ -17,7 +18,9 @@ public:
     SourceCache(log::SourceTable& table, std::uint16_t localPort) : m_table(&table), m_localPort(localPort) {}
 
     /// `address` is IPv4 or IPv6; of anything else all senders are one.
-    log::SourceId idOf(const sockaddr_in6& address);
+    log::SourceId idOf(const sockaddr_in6& address) {
+        return std::memcmp(&m_last.address, &address, sizeof address) == 0 ? m_last.id : look(address);
+    }
 
 private:
     struct Entry {
@@ -25,8 +28,11 @@ private:
         log::SourceId id{};
     };
 
+    log::SourceId look(const sockaddr_in6& address);
+
     log::SourceTable* m_table;
     std::uint16_t m_localPort;
+    Entry m_last;
     std::array<Entry, 64> m_entries; ///< a place for each hash; the newcomer takes it over
 };
 

@@ -27,31 +27,73 @@ void Chunk::addRecord(const Record& record) {
     ++m_recordCount;
 }
 
+void Chunk::touch() {
+    constexpr std::size_t kPage = 4096;
+    for (std::size_t at = 0; at < m_size; at += kPage) {
+        *const_cast<volatile std::byte*>(m_memory + at) = std::byte{0};
+    }
+}
+
 std::shared_ptr<Chunk> ChunkPool::take() {
     std::unique_ptr<Chunk> chunk;
     {
-        const std::lock_guard lock(m_mutex);
-        if (!m_spare.empty()) {
+        std::unique_lock lock(m_mutex);
+        m_changed.wait(lock, [this] { return !m_spare.empty() || !m_isMakingSpare || m_existing < m_limit; });
+        if (m_spare.empty()) {
+            ++m_existing;
+        } else {
             chunk = std::move(m_spare.back());
             m_spare.pop_back();
         }
     }
+    m_changed.notify_all();
     if (chunk) {
         chunk->clear();
     } else {
         chunk = std::make_unique<Chunk>(m_chunkSize);
-        m_existing.fetch_add(1, std::memory_order_relaxed);
     }
     return {chunk.release(),
             [pool = shared_from_this()](Chunk* used) { pool->give(std::unique_ptr<Chunk>(used)); }};
 }
 
+void ChunkPool::keepReady() {
+    std::unique_lock lock(m_mutex);
+    while (true) {
+        m_changed.wait(lock, [this] { return m_isClosed || needsSpare(); });
+        if (m_isClosed) {
+            return;
+        }
+        m_isMakingSpare = true;
+        ++m_existing;
+        lock.unlock();
+        auto chunk = std::make_unique<Chunk>(m_chunkSize);
+        chunk->touch();
+        lock.lock();
+        m_spare.push_back(std::move(chunk));
+        m_isMakingSpare = false;
+        m_changed.notify_all();
+    }
+}
+
+void ChunkPool::close() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_isClosed = true;
+    }
+    m_changed.notify_all();
+}
+
+std::size_t ChunkPool::existing() const {
+    const std::lock_guard lock(m_mutex);
+    return m_existing;
+}
+
 void ChunkPool::give(std::unique_ptr<Chunk> chunk) {
     const std::lock_guard lock(m_mutex);
-    if (m_spare.size() < m_spareLimit) {
+    if (m_spare.size() < m_limit) {
         m_spare.push_back(std::move(chunk));
     } else {
-        m_existing.fetch_sub(1, std::memory_order_relaxed);
+        --m_existing;
     }
 }
 

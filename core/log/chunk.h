@@ -3,7 +3,7 @@
 
 #include "core/log/packet.h"
 
-#include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -37,6 +37,10 @@ public:
     Chunk(const Chunk&) = delete;
     Chunk& operator=(const Chunk&) = delete;
 
+    /// Makes the system provide all of the memory now. The first touch of fresh memory costs more than
+    /// everything else that is done with a packet.
+    void touch();
+
     /// Forgets everything; the memory stays.
     void clear() {
         m_recordCount = 0;
@@ -64,26 +68,36 @@ private:
 };
 
 /// Chunks that nobody holds any more, to be used again: memory stays flat, and its pages are there already.
-/// Safe from any thread; a chunk may come back from a reader's.
+/// While it still grows a thread gets the next chunk ready. Safe from any thread; a chunk may come back from
+/// a reader's.
 class ChunkPool : public std::enable_shared_from_this<ChunkPool> {
 public:
-    ChunkPool(std::size_t chunkSize, std::size_t spareLimit)
-        : m_chunkSize(chunkSize), m_spareLimit(spareLimit) {}
+    /// Makes no more than `limit` chunks, as long as readers do not hold on to old ones.
+    ChunkPool(std::size_t chunkSize, std::size_t limit) : m_chunkSize(chunkSize), m_limit(limit) {}
 
-    /// An empty chunk, used before where there is one; comes back by itself with its last owner.
+    /// An empty chunk, used or made ready before where there is one; comes back by itself with its last
+    /// owner.
     [[nodiscard]] std::shared_ptr<Chunk> take();
 
+    /// What the thread does: has a spare chunk ready whenever the last one was taken. Returns after close().
+    void keepReady();
+    void close();
+
     /// Chunks that exist: in the log, held by readers, spare.
-    [[nodiscard]] std::size_t existing() const { return m_existing.load(std::memory_order_relaxed); }
+    [[nodiscard]] std::size_t existing() const;
 
 private:
     void give(std::unique_ptr<Chunk> chunk);
+    [[nodiscard]] bool needsSpare() const { return m_spare.empty() && m_existing + 1 < m_limit; }
 
     const std::size_t m_chunkSize;
-    const std::size_t m_spareLimit;
-    std::mutex m_mutex;
+    const std::size_t m_limit;
+    mutable std::mutex m_mutex; ///< guards all that follows
+    std::condition_variable m_changed;
     std::vector<std::unique_ptr<Chunk>> m_spare;
-    std::atomic<std::size_t> m_existing = 0;
+    std::size_t m_existing = 0;
+    bool m_isMakingSpare = false;
+    bool m_isClosed = false;
 };
 
 } // namespace posewire::log

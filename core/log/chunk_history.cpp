@@ -23,6 +23,13 @@ ChunkHistory::ChunkHistory(LogLimits limits)
       m_chunkLimit(m_limits.memoryCap / m_limits.chunkSize),
       m_pool(std::make_shared<ChunkPool>(m_limits.chunkSize, m_chunkLimit)) {}
 
+ChunkHistory::~ChunkHistory() {
+    m_pool->close();
+    if (m_preparer.joinable()) {
+        m_preparer.join();
+    }
+}
+
 std::shared_ptr<Chunk> ChunkHistory::beginChunk(std::uint64_t first) {
     std::vector<Held> dropped; // given back outside the lock
     {
@@ -34,6 +41,9 @@ std::shared_ptr<Chunk> ChunkHistory::beginChunk(std::uint64_t first) {
     }
     dropped.clear();
     std::shared_ptr<Chunk> chunk = m_pool->take();
+    if (!m_preparer.joinable()) {
+        m_preparer = std::thread([pool = m_pool] { pool->keepReady(); });
+    }
     const std::lock_guard lock(m_mutex);
     m_chunks.push_back({first, chunk});
     m_chunkCount.store(m_chunks.size(), std::memory_order_relaxed);

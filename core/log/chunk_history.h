@@ -9,6 +9,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 namespace posewire::log {
@@ -37,6 +38,9 @@ public:
     };
 
     explicit ChunkHistory(LogLimits limits);
+    ~ChunkHistory();
+    ChunkHistory(const ChunkHistory&) = delete;
+    ChunkHistory& operator=(const ChunkHistory&) = delete;
 
     /// Writer: the next chunk, which begins at packet `first`; the oldest ones go where the cap demands it.
     std::shared_ptr<Chunk> beginChunk(std::uint64_t first);
@@ -69,6 +73,7 @@ private:
     std::atomic<std::size_t> m_chunkCount = 0;
     std::atomic<std::uint64_t> m_version = 0;
     std::atomic<std::uint64_t> m_begin = 0;
+    std::thread m_preparer;                           ///< gets the next chunk ready; begins with the first
     alignas(64) std::atomic<std::uint64_t> m_end = 0; // written with every batch: on a cache line of its own
 };
 

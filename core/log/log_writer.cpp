@@ -9,10 +9,21 @@ namespace posewire::log {
 namespace {
 
 /// Below this many lanes a batch is no batch any more and a new chunk is the better way.
-constexpr std::size_t kFewestLanes = 8;
+constexpr std::size_t kFewestLanes = 4;
 
 constexpr std::size_t aligned(std::size_t size) {
     return (size + 7) & ~std::size_t{7};
+}
+
+/// The kernel is about to write there: having the memory come while other packets are looked at hides its
+/// latency.
+void prefetchForWriting(const std::byte* begin, std::size_t size) {
+#if defined(__GNUC__)
+    constexpr std::size_t kCacheLine = 64;
+    for (std::size_t at = 0; at < size; at += kCacheLine) {
+        __builtin_prefetch(begin + at, 1);
+    }
+#endif
 }
 
 std::size_t blockSizeFor(std::size_t chunkSize) {
@@ -54,6 +65,8 @@ void LogWriter::commit(std::size_t lane, std::size_t size, const Arrival& arriva
     if (size <= bytes.size() && m_chunk == m_laneChunk && m_chunk->room() >= sizeof(Record)) {
         addRecord(bytes.data(), size, arrival);
         m_lanes[lane].bytes = bytes.subspan(std::min(aligned(size), bytes.size()));
+        prefetchForWriting(m_lanes[lane].bytes.data(),
+                           std::min({size, m_lanes[lane].bytes.size(), kLaneRoom}));
         return;
     }
     const std::size_t inLane = std::min(size, bytes.size());

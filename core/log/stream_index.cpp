@@ -4,7 +4,6 @@
 #include "core/wire/header.h"
 
 #include <algorithm>
-#include <ranges>
 
 namespace posewire::log {
 
@@ -15,13 +14,16 @@ constexpr std::size_t kSpareLimit = 64;
 
 template <typename Value, typename Member>
 std::optional<std::size_t> newestAtOrBefore(const StreamEntries& entries, Value limit, Member member) {
-    const auto places = std::views::iota(std::size_t{0}, entries.size());
-    const auto later =
-        std::ranges::upper_bound(places, limit, {}, [&](std::size_t at) { return entries[at].*member; });
-    if (later == places.begin()) {
-        return std::nullopt;
+    std::size_t first = 0; // entries before it are not later than the limit
+    for (std::size_t end = entries.size(); first < end;) {
+        const std::size_t middle = first + (end - first) / 2;
+        if (limit < entries[middle].*member) {
+            end = middle;
+        } else {
+            first = middle + 1;
+        }
     }
-    return static_cast<std::size_t>(later - places.begin()) - 1;
+    return first == 0 ? std::nullopt : std::optional(first - 1);
 }
 
 } // namespace
