@@ -62,9 +62,9 @@ Extent walked(Bytes bytes, const Header& header, bool isAtEnd) {
     return kNeedMore;
 }
 
-Extent metaDataExtent(Bytes bytes) {
+Extent metaDataExtent(Bytes bytes, bool isAtEnd) {
     if (bytes.size() < kHeaderSize + 4) {
-        return kNeedMore;
+        return isAtEnd ? kUnknown : kNeedMore;
     }
     const auto length = static_cast<std::int32_t>(load32(bytes.data() + kHeaderSize));
     const bool isPrefixed = length >= 0 && length <= static_cast<std::int32_t>(kMaxDatagramSize);
@@ -91,7 +91,7 @@ Extent computed(Bytes bytes, const Header& header, bool isAtEnd) {
     case PropInformation::kType:
         return walked<PropInformation>(bytes, header, isAtEnd);
     case MetaData::kType:
-        return metaDataExtent(bytes);
+        return metaDataExtent(bytes, isAtEnd);
     case NullPose::kType:
         return walked<NullPose>(bytes, header, isAtEnd);
     case JointAngles::kType:

@@ -53,6 +53,12 @@ TEST_P(GoldenExtent, IsToldAtTheEndOfTheStream) {
     EXPECT_EQ(datagramExtent(bytes(), true), expected);
 }
 
+TEST_P(GoldenExtent, DoesNotWaitForMoreAtTheEndOfTheStream) {
+    for (std::size_t length = 0; length <= bytes().size(); ++length) {
+        EXPECT_NE(datagramExtent(first(length), true).state, State::NeedMore) << length;
+    }
+}
+
 TEST(Extent, IsForeignForWhatDoesNotBeginADatagram) {
     for (const std::string_view text : {"X", "MXP", "MXTPx", "MXTP0x", "{\"type\":\"transport\"}"}) {
         EXPECT_EQ(datagramExtent(std::as_bytes(std::span(text)), false).state, State::Foreign) << text;
