@@ -20,7 +20,7 @@ class LogWriter {
 public:
     /// Few: the kernel writes to so many places in turn, and more of them than the processor follows cost
     /// more than the system calls they save.
-    static constexpr std::size_t kLaneLimit = 16;
+    static constexpr std::size_t kLaneLimit = 8;
     /// A lane has at least this much room; the largest legal datagram, 67 items of type 02, has 2,168 bytes.
     static constexpr std::size_t kLaneRoom = 2304;
     /// Room for what does not fit into a lane: a lane and its spill take any datagram of UDP.

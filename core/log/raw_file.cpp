@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/raw_file.h"
 
+#include "core/log/capture_file.h"
 #include "core/log/tcp_framer.h"
 
 #include <algorithm>
@@ -108,11 +109,9 @@ tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& vi
         return readRawFile(whole, visit);
     case FileFormat::Pcap:
     case FileFormat::Pcapng:
-        break;
+        return readCaptureFile(whole, visit);
     }
-    return tl::unexpected(FileError{
-        source.name() + ": is a packet capture (pcap), which this version cannot read; extract the UDP "
-                        "payloads into a file of raw datagrams"});
+    return {};
 }
 
 } // namespace posewire::log

@@ -29,8 +29,7 @@ using FileVisitor = std::function<void(const FileRecord&)>;
 /// Datagrams back to back, as on TCP.
 tl::expected<void, FileError> readRawFile(ByteSource& source, const FileVisitor& visit);
 
-/// Reads a file of any format that is known, found by its content. A format whose reader is missing is an
-/// error.
+/// Reads a file of any format that is known, found by its content.
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit);
 
 } // namespace posewire::log

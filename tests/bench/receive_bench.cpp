@@ -90,12 +90,10 @@ struct Bench {
     net::PacketQueue queue;
     net::ReceiveCounters counters;
 
-    std::unique_ptr<net::ReceiveLoop> open(std::uint16_t& port,
-                                           std::chrono::microseconds nap = std::chrono::microseconds(1000)) {
+    std::unique_ptr<net::ReceiveLoop> open(std::uint16_t& port) {
         auto loop = net::makeReceiveLoop(net::ReceivePath::Native, {log, clock, queue, counters});
         net::ReceiveOptions options;
         options.endpoints = {net::Endpoint{"127.0.0.1", 0}};
-        options.nap = nap;
         const auto endpoints = loop->open(options);
         if (!endpoints) {
             std::fprintf(stderr, "receive_bench: %s\n", endpoints.error().text.c_str());

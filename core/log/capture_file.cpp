@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/capture_file.h"
+
+#include "core/log/udp_payload.h"
+#include "core/wire/byte_order.h"
+
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace posewire::log {
+namespace {
+
+constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
+/// No packet and no block of a sound file is longer.
+constexpr std::uint32_t kLongestBlock = 16U << 20;
+
+/// Takes a file apart into pieces of known size.
+class PieceReader {
+public:
+    explicit PieceReader(ByteSource& source) : m_source(source) {}
+
+    bool bigEndian = false;
+
+    /// So many bytes, valid until the next call; fewer only at the end of the file.
+    tl::expected<std::span<const std::byte>, FileError> take(std::size_t size) {
+        m_offset += m_bytes.size();
+        m_bytes.resize(size);
+        std::size_t filled = 0;
+        while (filled < size) {
+            const auto count = m_source.read(std::span(m_bytes).subspan(filled));
+            if (!count) {
+                return tl::unexpected(count.error());
+            }
+            if (*count == 0) {
+                break;
+            }
+            filled += *count;
+        }
+        m_bytes.resize(filled);
+        return std::span<const std::byte>(m_bytes);
+    }
+    /// In the file, of the first byte of the piece taken last.
+    [[nodiscard]] std::uint64_t offset() const { return m_offset; }
+
+    [[nodiscard]] std::uint16_t read16(const std::byte* from) const {
+        const std::uint16_t value = wire::load16(from);
+        return bigEndian ? value : __builtin_bswap16(value);
+    }
+    [[nodiscard]] std::uint32_t read32(const std::byte* from) const {
+        const std::uint32_t value = wire::load32(from);
+        return bigEndian ? value : __builtin_bswap32(value);
+    }
+    [[nodiscard]] tl::unexpected<FileError> damaged(const char* what) const {
+        return tl::unexpected(FileError{m_source.name() + ": is damaged at byte " + std::to_string(m_offset) +
+                                        " (" + what + "); what comes before it was read"});
+    }
+
+private:
+    ByteSource& m_source;
+    std::vector<std::byte> m_bytes;
+    std::uint64_t m_offset = 0;
+};
+
+/// A captured frame and where it stands in the file.
+struct CapturedFrame {
+    std::uint32_t linkType = 0;
+    std::span<const std::byte> bytes;
+    std::uint64_t offset = 0;
+    std::optional<std::int64_t> stampNs;
+};
+
+void visitFrame(const CapturedFrame& frame, const FileVisitor& visit) {
+    constexpr std::string_view magic = "MXTP";
+    const auto payload = udpPayloadOf(frame.linkType, frame.bytes);
+    if (!payload || payload->isLaterFragment || payload->bytes.size() < magic.size() ||
+        std::memcmp(payload->bytes.data(), magic.data(), magic.size()) != 0) {
+        return;
+    }
+    visit({frame.offset + payload->offset, payload->bytes, false, frame.stampNs, payload->source});
+}
+
+tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic, const FileVisitor& visit) {
+    const auto header = reader.take(20); // after the magic number
+    if (!header) {
+        return tl::unexpected(header.error());
+    }
+    if (header->size() < 20) {
+        return {};
+    }
+    reader.bigEndian = magic == 0xa1b2c3d4U || magic == 0xa1b23c4dU;
+    const bool hasNanoseconds = magic == 0xa1b23c4dU || magic == 0x4d3cb2a1U;
+    const std::uint32_t linkType =
+        reader.read32(header->data() + 16) & 0x0fffffffU; // the top bits tell of checksums
+    while (true) {
+        const auto record = reader.take(16);
+        if (!record) {
+            return tl::unexpected(record.error());
+        }
+        if (record->size() < 16) {
+            return {};
+        }
+        const std::int64_t seconds = reader.read32(record->data());
+        const std::int64_t fraction = reader.read32(record->data() + 4);
+        const std::uint32_t size = reader.read32(record->data() + 8);
+        if (size > kLongestBlock) {
+            return reader.damaged("a packet of impossible length");
+        }
+        const auto bytes = reader.take(size);
+        if (!bytes) {
+            return tl::unexpected(bytes.error());
+        }
+        if (bytes->size() < size) {
+            return {};
+        }
+        const std::int64_t stampNs = seconds * kNanosecondsPerSecond + fraction * (hasNanoseconds ? 1 : 1000);
+        visitFrame({linkType, *bytes, reader.offset(), stampNs}, visit);
+    }
+}
+
+struct Interface {
+    std::uint32_t linkType = 0;
+    std::uint8_t resolution = 6; ///< if_tsresol: 10^-n seconds, or 2^-n with the top bit
+    std::int64_t offsetSeconds = 0;
+};
+
+/// Split so that nothing overflows: whole seconds, then the rest.
+std::int64_t nanoseconds(std::uint64_t stamp, const Interface& interface) {
+    const std::uint64_t exponent = interface.resolution & 0x7fU;
+    std::uint64_t perSecond = 1;
+    if ((interface.resolution & 0x80U) != 0) {
+        perSecond = std::uint64_t{1} << std::min<std::uint64_t>(exponent, 63);
+    } else {
+        for (std::uint64_t i = 0; i < std::min<std::uint64_t>(exponent, 19); ++i) {
+            perSecond *= 10;
+        }
+    }
+    const auto seconds =
+        static_cast<std::int64_t>(stamp / perSecond % 0x200000000U) + interface.offsetSeconds;
+    const double rest = static_cast<double>(stamp % perSecond) / static_cast<double>(perSecond);
+    const std::int64_t fraction =
+        perSecond <= 1'000'000'000U && 1'000'000'000U % perSecond == 0
+            ? static_cast<std::int64_t>(stamp % perSecond * (1'000'000'000U / perSecond))
+            : static_cast<std::int64_t>(rest * 1e9);
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(seconds) * kNanosecondsPerSecond) + fraction;
+}
+
+class PcapngReader {
+public:
+    PcapngReader(PieceReader& reader, const FileVisitor& visit) : m_reader(reader), m_visit(visit) {}
+
+    /// The first four bytes, a section header's type, have been taken.
+    tl::expected<void, FileError> read() {
+        auto more = readSectionHeader();
+        while (more && *more) {
+            more = readBlock();
+        }
+        return more ? tl::expected<void, FileError>{} : tl::unexpected(more.error());
+    }
+
+private:
+    using More = tl::expected<bool, FileError>; ///< false at the end of the file
+
+    More readBlock() {
+        const auto type = m_reader.take(4);
+        if (!type || type->size() < 4) {
+            return type ? More(false) : tl::unexpected(type.error());
+        }
+        constexpr std::uint32_t sectionHeader = 0x0a0d0d0a; // reads the same in both byte orders
+        const std::uint32_t number = m_reader.read32(type->data());
+        if (number == sectionHeader) {
+            return readSectionHeader();
+        }
+        const auto length = m_reader.take(4);
+        if (!length || length->size() < 4) {
+            return length ? More(false) : tl::unexpected(length.error());
+        }
+        return readBody(number, m_reader.read32(length->data()), 8);
+    }
+
+    /// A new section: byte order and interfaces begin anew.
+    More readSectionHeader() {
+        const auto start = m_reader.take(8);
+        if (!start || start->size() < 8) {
+            return start ? More(false) : tl::unexpected(start.error());
+        }
+        const std::uint32_t order = wire::load32(start->data() + 4);
+        if (order != 0x1a2b3c4dU && order != 0x4d3c2b1aU) {
+            return m_reader.damaged("no byte order");
+        }
+        m_reader.bigEndian = order == 0x1a2b3c4dU;
+        m_interfaces.clear();
+        return readBody(0, m_reader.read32(start->data()), 12);
+    }
+
+    /// What is left of a block of `length` bytes after the first `taken`.
+    More readBody(std::uint32_t type, std::uint32_t length, std::uint32_t taken) {
+        if (length < taken + 4 || length % 4 != 0 || length > kLongestBlock) {
+            return m_reader.damaged("a block of impossible length");
+        }
+        const auto rest = m_reader.take(length - taken);
+        if (!rest || rest->size() < length - taken) {
+            return rest ? More(false) : tl::unexpected(rest.error());
+        }
+        const auto body = rest->first(rest->size() - 4); // the length is repeated at the end
+        switch (type) {
+        case 1:
+            addInterface(body);
+            break;
+        case 3:
+            visitSimple(body);
+            break;
+        case 6:
+            visitEnhanced(body);
+            break;
+        default:
+            break;
+        }
+        return true;
+    }
+
+    void addInterface(std::span<const std::byte> body) {
+        Interface interface;
+        if (body.size() >= 8) {
+            interface.linkType = m_reader.read16(body.data());
+            readOptions(body.subspan(8), interface);
+        }
+        m_interfaces.push_back(interface);
+    }
+
+    void readOptions(std::span<const std::byte> options, Interface& interface) const {
+        constexpr std::uint16_t resolution = 9;
+        constexpr std::uint16_t offset = 14;
+        while (options.size() >= 4) {
+            const std::uint16_t code = m_reader.read16(options.data());
+            const std::size_t length = m_reader.read16(options.data() + 2);
+            const auto value = options.subspan(4);
+            if (code == 0 || value.size() < length) {
+                return;
+            }
+            if (code == resolution && length >= 1) {
+                interface.resolution = std::to_integer<std::uint8_t>(value[0]);
+            } else if (code == offset && length >= 8) {
+                const std::uint64_t first = m_reader.read32(value.data());
+                const std::uint64_t second = m_reader.read32(value.data() + 4);
+                interface.offsetSeconds = static_cast<std::int64_t>(
+                    m_reader.bigEndian ? first << 32 | second : second << 32 | first);
+            }
+            options = value.subspan(std::min(value.size(), (length + 3) / 4 * 4));
+        }
+    }
+
+    void visitSimple(std::span<const std::byte> body) const {
+        if (body.size() >= 4 && !m_interfaces.empty()) {
+            const std::size_t size = std::min<std::size_t>(m_reader.read32(body.data()), body.size() - 4);
+            visitFrame(
+                {m_interfaces.front().linkType, body.subspan(4, size), m_reader.offset() + 4, std::nullopt},
+                m_visit);
+        }
+    }
+
+    void visitEnhanced(std::span<const std::byte> body) const {
+        const std::size_t fixed = 20;
+        if (body.size() < fixed || m_reader.read32(body.data()) >= m_interfaces.size()) {
+            return;
+        }
+        const Interface& interface = m_interfaces[m_reader.read32(body.data())];
+        const std::uint64_t stamp =
+            std::uint64_t{m_reader.read32(body.data() + 4)} << 32 | m_reader.read32(body.data() + 8);
+        const std::size_t size =
+            std::min<std::size_t>(m_reader.read32(body.data() + 12), body.size() - fixed);
+        visitFrame({interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
+                    nanoseconds(stamp, interface)},
+                   m_visit);
+    }
+
+    PieceReader& m_reader;
+    const FileVisitor& m_visit;
+    std::vector<Interface> m_interfaces;
+};
+
+} // namespace
+
+tl::expected<void, FileError> readCaptureFile(ByteSource& source, const FileVisitor& visit) {
+    PieceReader reader(source);
+    const auto magic = reader.take(4);
+    if (!magic) {
+        return tl::unexpected(magic.error());
+    }
+    switch (fileFormat(*magic)) {
+    case FileFormat::Pcap:
+        return readPcap(reader, wire::load32(magic->data()), visit);
+    case FileFormat::Pcapng:
+        return PcapngReader(reader, visit).read();
+    case FileFormat::Raw:
+        break;
+    }
+    return tl::unexpected(FileError{source.name() + ": is no packet capture; pcap and pcapng are known"});
+}
+
+} // namespace posewire::log

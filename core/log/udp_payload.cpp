@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/udp_payload.h"
+
+#include "core/wire/byte_order.h"
+
+#include <algorithm>
+#include <array>
+
+namespace posewire::log {
+namespace {
+
+using Frame = std::span<const std::byte>;
+
+constexpr std::uint16_t kIpv4 = 0x0800;
+constexpr std::uint16_t kIpv6 = 0x86dd;
+constexpr std::uint8_t kUdp = 17;
+constexpr std::size_t kUdpHeader = 8;
+
+std::uint8_t byteAt(Frame frame, std::size_t place) {
+    return std::to_integer<std::uint8_t>(frame[place]);
+}
+std::uint16_t wordAt(Frame frame, std::size_t place) {
+    return wire::load16(frame.data() + place);
+}
+
+/// Where the network layer begins.
+struct Network {
+    std::size_t offset;
+};
+
+/// Follows an EtherType that stands at `place`, over VLAN tags.
+std::optional<Network> afterEtherType(Frame frame, std::size_t place) {
+    while (frame.size() >= place + 2) {
+        const std::uint16_t type = wordAt(frame, place);
+        if (type == kIpv4 || type == kIpv6) {
+            return Network{place + 2};
+        }
+        if (type != 0x8100 && type != 0x88a8) {
+            return std::nullopt;
+        }
+        place += 4;
+    }
+    return std::nullopt;
+}
+
+/// LINKTYPE_ values as registered for pcap and pcapng.
+std::optional<Network> networkOf(std::uint32_t linkType, Frame frame) {
+    switch (linkType) {
+    case 0:   // BSD loopback: an address family of four bytes; the version of IP tells the rest
+    case 108: // OpenBSD loopback
+        return Network{4};
+    case 1: // Ethernet
+        return afterEtherType(frame, 12);
+    case 12: // raw IP, by three numbers
+    case 14:
+    case 101:
+    case 228: // IPv4
+    case 229: // IPv6
+        return Network{0};
+    case 113: // Linux cooked
+        return afterEtherType(frame, 14);
+    case 276: // Linux cooked, version 2
+        return frame.size() >= 20 && (wordAt(frame, 0) == kIpv4 || wordAt(frame, 0) == kIpv6)
+                   ? std::optional(Network{20})
+                   : std::nullopt;
+    default:
+        return std::nullopt;
+    }
+}
+
+/// Where UDP begins, and between whom.
+struct Transported {
+    std::size_t offset = 0;
+    std::size_t end = 0;
+    std::string address;
+    bool isLaterFragment = false;
+};
+
+std::string ipv4Text(Frame address) {
+    std::string text;
+    for (const std::byte part : address) {
+        text += (text.empty() ? "" : ".") + std::to_string(std::to_integer<unsigned>(part));
+    }
+    return text;
+}
+
+/// RFC 5952: small letters, the longest run of two or more zero groups left out.
+std::string ipv6Text(Frame address) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::size_t longestStart = 8;
+    std::size_t longest = 1;
+    for (std::size_t i = 0; i < 8; ++i) {
+        std::size_t end = i;
+        while (end < 8 && wordAt(address, 2 * end) == 0) {
+            ++end;
+        }
+        if (end - i > longest) {
+            longest = end - i;
+            longestStart = i;
+        }
+    }
+    std::string text;
+    for (std::size_t i = 0; i < 8; ++i) {
+        if (i == longestStart) {
+            text += "::";
+            i += longest - 1;
+            continue;
+        }
+        text += text.empty() || text.back() == ':' ? "" : ":";
+        const unsigned group = wordAt(address, 2 * i);
+        for (int shift = 12; shift >= 0; shift -= 4) {
+            if (shift == 0 || group >> shift != 0) {
+                text += digits[group >> shift & 15U];
+            }
+        }
+    }
+    return text;
+}
+
+std::optional<Transported> throughIpv4(Frame frame, std::size_t start) {
+    const Frame packet = frame.subspan(start);
+    if (packet.size() < 20) {
+        return std::nullopt;
+    }
+    const std::size_t headerSize = (byteAt(packet, 0) & 15U) * 4U;
+    const std::size_t totalSize = wordAt(packet, 2);
+    if (headerSize < 20 || packet.size() < headerSize || byteAt(packet, 9) != kUdp) {
+        return std::nullopt;
+    }
+    // A total size of 0 is what a card leaves there that cuts the packet itself.
+    const std::size_t size = totalSize >= headerSize ? std::min(totalSize, packet.size()) : packet.size();
+    const std::size_t fragmentOffset = wordAt(packet, 6) & 0x1fffU;
+    return Transported{start + headerSize, start + size, ipv4Text(packet.subspan(12, 4)),
+                       fragmentOffset != 0};
+}
+
+std::optional<Transported> throughIpv6(Frame frame, std::size_t start) {
+    const Frame packet = frame.subspan(start);
+    if (packet.size() < 40) {
+        return std::nullopt;
+    }
+    const std::size_t size = std::min<std::size_t>(40U + wordAt(packet, 4), packet.size());
+    Transported found{0, start + size, '[' + ipv6Text(packet.subspan(8, 16)) + ']', false};
+    std::uint8_t next = byteAt(packet, 6);
+    std::size_t place = 40;
+    constexpr std::array<std::uint8_t, 4> extensions{0, 43, 44,
+                                                     60}; // hop by hop, routing, fragment, destination
+    while (std::find(extensions.begin(), extensions.end(), next) != extensions.end() && size >= place + 8) {
+        const bool isFragment = next == 44;
+        found.isLaterFragment |= isFragment && wordAt(packet, place + 2) >> 3 != 0;
+        next = byteAt(packet, place);
+        place += isFragment ? 8U : 8U + 8U * byteAt(packet, place + 1);
+    }
+    found.offset = start + place;
+    return next == kUdp && place <= size ? std::optional(std::move(found)) : std::nullopt;
+}
+
+std::optional<Transported> throughIp(Frame frame, std::size_t start) {
+    if (frame.size() <= start) {
+        return std::nullopt;
+    }
+    switch (byteAt(frame, start) >> 4) {
+    case 4:
+        return throughIpv4(frame, start);
+    case 6:
+        return throughIpv6(frame, start);
+    default:
+        return std::nullopt;
+    }
+}
+
+} // namespace
+
+std::optional<UdpPayload> udpPayloadOf(std::uint32_t linkType, Frame frame) {
+    const auto network = networkOf(linkType, frame);
+    auto found = network ? throughIp(frame, network->offset) : std::nullopt;
+    if (!found) {
+        return std::nullopt;
+    }
+    const Frame segment = frame.subspan(found->offset, found->end - found->offset);
+    if (found->isLaterFragment) {
+        return UdpPayload{found->offset, segment, {}, true};
+    }
+    if (segment.size() < kUdpHeader) {
+        return std::nullopt;
+    }
+    const std::size_t udpSize = wordAt(segment, 4);
+    const std::size_t size = udpSize >= kUdpHeader ? std::min(udpSize, segment.size()) : segment.size();
+    SourceInfo source{found->address + ':' + std::to_string(wordAt(segment, 0)), Transport::Udp,
+                      wordAt(segment, 2)};
+    return UdpPayload{found->offset + kUdpHeader, segment.subspan(kUdpHeader, size - kUdpHeader),
+                      std::move(source), false};
+}
+
+} // namespace posewire::log
