@@ -85,7 +85,7 @@ std::string ipv4Text(Frame address) {
 }
 
 /// RFC 5952: small letters, the longest run of two or more zero groups left out.
-std::string ipv6Text(Frame address) {
+std::string bracedIpv6Text(Frame address) {
     constexpr std::string_view digits = "0123456789abcdef";
     std::size_t longestStart = 8;
     std::size_t longest = 1;
@@ -99,14 +99,14 @@ std::string ipv6Text(Frame address) {
             longestStart = i;
         }
     }
-    std::string text;
+    std::string text = "[";
     for (std::size_t i = 0; i < 8; ++i) {
         if (i == longestStart) {
             text += "::";
             i += longest - 1;
             continue;
         }
-        text += text.empty() || text.back() == ':' ? "" : ":";
+        text += text.size() == 1 || text.back() == ':' ? "" : ":";
         const unsigned group = wordAt(address, 2 * i);
         for (int shift = 12; shift >= 0; shift -= 4) {
             if (shift == 0 || group >> shift != 0) {
@@ -114,7 +114,7 @@ std::string ipv6Text(Frame address) {
             }
         }
     }
-    return text;
+    return text + ']';
 }
 
 std::optional<Transported> throughIpv4(Frame frame, std::size_t start) {
@@ -140,7 +140,7 @@ std::optional<Transported> throughIpv6(Frame frame, std::size_t start) {
         return std::nullopt;
     }
     const std::size_t size = std::min<std::size_t>(40U + wordAt(packet, 4), packet.size());
-    Transported found{0, start + size, '[' + ipv6Text(packet.subspan(8, 16)) + ']', false};
+    Transported found{0, start + size, bracedIpv6Text(packet.subspan(8, 16)), false};
     std::uint8_t next = byteAt(packet, 6);
     std::size_t place = 40;
     constexpr std::array<std::uint8_t, 4> extensions{0, 43, 44,
