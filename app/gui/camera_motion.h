@@ -6,6 +6,8 @@
 #include <QPointF>
 #include <QSizeF>
 
+#include <span>
+
 namespace posewire::gui {
 
 /// The operator's camera: what the pointer does to it, and keeping moving characters in the picture until the
@@ -23,13 +25,12 @@ public:
     void face(render::StandardView view) { m_camera = render::facing(m_camera, view); }
     void setProjection(render::Projection projection) { m_camera.projection = projection; }
 
-    /// Shows all of `bounds` at once, and goes on showing what follow() is given.
-    void frame(const render::Bounds& bounds, float aspect);
-    /// Shows `bounds` and stays there.
-    void show(const render::Bounds& bounds, float aspect);
-    /// Moves gently towards showing `bounds`; the first bounds are shown at once. Nothing after a pan or
-    /// zoom.
-    void follow(const render::Bounds& bounds, float aspect, double seconds);
+    /// Shows all boxes at once, and goes on showing what follow() is given. Without boxes nothing changes.
+    void frame(std::span<const render::Bounds> boxes, float aspect);
+    /// Shows a box and stays there.
+    void show(const render::Bounds& box, float aspect);
+    /// Moves gently towards showing all boxes; the first ones are shown at once. Nothing after a pan or zoom.
+    void follow(std::span<const render::Bounds> boxes, float aspect, double seconds);
 
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
 
@@ -38,6 +39,11 @@ private:
     bool m_isFollowing = true;
     bool m_hasFramed = false;
 };
+
+/// The camera moved, not turned, so that the boxes fill the picture and stand in its middle; unchanged
+/// without boxes.
+[[nodiscard]] render::Camera fitted(render::Camera camera, std::span<const render::Bounds> boxes,
+                                    float aspect);
 
 /// −1 … 1, y up.
 [[nodiscard]] glm::vec2 screenPoint(const QPointF& pointer, const QSizeF& view);

@@ -63,7 +63,15 @@ void DockTitle::restyle() {
     }
     m_float->setIcon(themedIcon(QStringLiteral("float"), theme().dim));
     m_close->setIcon(themedIcon(QStringLiteral("close"), theme().dim));
-    setFixedHeight(fontMetrics().height() + 13);
+    updateGeometry();
+}
+
+QSize DockTitle::sizeHint() const {
+    return {QWidget::sizeHint().width(), fontMetrics().height() + 13};
+}
+
+QSize DockTitle::minimumSizeHint() const {
+    return {m_title->sizeHint().width() + 18, sizeHint().height()};
 }
 
 void DockTitle::setSummary(const QString& summary) {

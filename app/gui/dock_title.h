@@ -19,6 +19,10 @@ public:
 
     void setSummary(const QString& summary);
 
+    /// QDockWidget makes as much room as is said here, whatever the widget's fixed height.
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
 protected:
     void paintEvent(QPaintEvent* event) override;
     void enterEvent(QEnterEvent* event) override;

@@ -6,6 +6,7 @@
 #include "app/gui/models/text.h"
 
 #include <QHBoxLayout>
+#include <QLabel>
 
 #include <algorithm>
 
@@ -46,6 +47,7 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
       m_session(session),
       m_commands(commands),
       m_entriesLayout(new QHBoxLayout),
+      m_message(new QLabel(this)),
       m_rate(new ColourText(ColourText::Look::Plain, this)),
       m_history(new ColourText(ColourText::Look::Plain, this)),
       m_dropped(new ColourText(ColourText::Look::Plain, this)) {
@@ -62,12 +64,25 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     m_entriesLayout->setSizeConstraint(QLayout::SetNoConstraint);
     m_entriesLayout->addStretch(1);
     row->addWidget(entries, 1);
+    row->addWidget(m_message, 1);
+    m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_message->setVisible(false);
+    m_messageTimer.setSingleShot(true);
+    connect(&m_messageTimer, &QTimer::timeout, m_message, &QLabel::hide);
     for (ColourText* text : {m_rate, m_history, m_dropped}) {
         row->addWidget(text);
     }
     m_dropped->setToolTip(tr("Datagrams that this computer received but had no buffer room for."));
     m_history->setToolTip(
         tr("How far back the packets kept in memory reach, and how much memory they may take."));
+}
+
+void HealthBar::say(const QString& text) {
+    constexpr int kMessageMs = 12'000;
+    m_message->setText(text);
+    m_message->setToolTip(text);
+    m_message->setVisible(true);
+    m_messageTimer.start(kMessageMs);
 }
 
 void HealthBar::refresh(const ReceivingState& receiving) {

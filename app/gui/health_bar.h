@@ -4,11 +4,13 @@
 #include "app/gui/commands.h"
 #include "app/gui/receiving_state.h"
 
+#include <QTimer>
 #include <QWidget>
 
 #include <vector>
 
 class QHBoxLayout;
+class QLabel;
 
 namespace posewire::gui {
 
@@ -23,6 +25,9 @@ public:
 
     void refresh(const ReceivingState& receiving);
 
+    /// Shows a line for a while, beside the rest.
+    void say(const QString& text);
+
 private:
     void refreshCharacters();
     void addEntry();
@@ -32,6 +37,8 @@ private:
     Commands& m_commands;
     QHBoxLayout* m_entriesLayout;
     std::vector<ColourText*> m_entries; ///< one for each character, in the session's order
+    QLabel* m_message;
+    QTimer m_messageTimer;
     ColourText* m_rate;
     ColourText* m_history;
     ColourText* m_dropped;

@@ -29,7 +29,6 @@ namespace {
 
 /// Raised when docks or tool bars change so that an old state would not fit.
 constexpr int kStateVersion = 1;
-constexpr int kMessageMs = 12'000;
 constexpr QSize kDefaultSize(1600, 1000);
 
 } // namespace
@@ -304,7 +303,7 @@ void MainWindow::showAbout() {
 }
 
 void MainWindow::say(const QString& text) {
-    statusBar()->showMessage(text, kMessageMs);
+    m_health->say(text);
 }
 
 } // namespace posewire::gui

@@ -44,6 +44,7 @@ struct SceneFrame {
     int width = 1; ///< device pixels
     int height = 1;
     float pixelRatio = 1.0F;
+    std::int64_t builtNs = 0; ///< the session's time
 
     [[nodiscard]] float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };

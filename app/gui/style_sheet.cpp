@@ -13,11 +13,15 @@ namespace {
 
 constexpr const char* kSheet = R"(
 QMainWindow, QDialog, QMessageBox { background: @window; }
-QMainWindow::separator { background: @line; width: 1px; height: 1px; }
+QMainWindow::separator { background: @window; width: 3px; height: 3px; }
 QMainWindow::separator:hover { background: @accent; }
 QToolTip { background: @raised; color: @text; border: 1px solid @line; padding: 4px 6px; }
 
-QMenuBar { background: @window; border-bottom: 1px solid @line; padding: 2px 4px; }
+QMenuBar { background: @window; border: none; border-bottom: 1px solid @line; padding: 2px 4px; }
+QToolBar { background: @window; border: none; padding: 0; margin: 0; spacing: 0; }
+QStatusBar { background: @window; border-top: 1px solid @line; }
+QStatusBar::item { border: none; }
+QDockWidget { border: none; }
 QMenuBar::item { background: transparent; padding: @menuv 9px; border-radius: 4px; }
 QMenuBar::item:selected { background: @raised; }
 QMenu { background: @raised; border: 1px solid @line; padding: 5px 0; }
@@ -53,6 +57,7 @@ QToolButton[live="false"] { background: @raised; color: @dim; border: 1px solid 
   padding: @buttonv 10px; font-weight: 600; }
 QToolButton[live="false"]:hover { color: @text; border-color: @good; }
 QToolButton[flat="true"] { background: transparent; border: 1px solid transparent; border-radius: 4px; padding: 1px; }
+QToolButton[flat="true"]::menu-indicator { image: none; width: 0; }
 QToolButton[flat="true"]:hover { background: @raised; border-color: @line; }
 QToolButton[flat="true"]:focus { border-color: @accent; }
 QLineEdit, QSpinBox, QPlainTextEdit, QTextEdit, QTextBrowser { background: @panel; color: @text; border: 1px solid @line;

@@ -4,6 +4,7 @@
 #include "app/gui/colour_text.h"
 #include "app/gui/icons.h"
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 
 #include <QAction>
@@ -13,6 +14,8 @@
 #include <QPainter>
 #include <QStyle>
 #include <QToolButton>
+
+#include <algorithm>
 
 namespace posewire::gui {
 
@@ -69,26 +72,38 @@ void TransportBar::restyle() {
     m_time->setFont(font);
     m_detail->setFont(tabularFont());
     m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
-    showMode();
+    showMode(modeNow());
 }
 
-void TransportBar::showMode() {
-    m_pause->setIcon(themedIcon(m_isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
-    m_pause->setText(m_isPaused ? tr("Go live   Space") : tr("Pause   Space"));
-    m_live->setText(m_isPaused ? tr("▮▮ PAUSED") : tr("● LIVE"));
-    m_live->setToolTip(m_isPaused
+TransportBar::Mode TransportBar::modeNow() const {
+    if (m_session.cursor().mode == model::Cursor::Mode::Paused) {
+        return Mode::Paused;
+    }
+    const bool isAnyLive =
+        std::ranges::any_of(m_session.characters(), [this](const model::Character& character) {
+            return isLive(m_session, character);
+        });
+    return isAnyLive ? Mode::Live : Mode::Waiting;
+}
+
+void TransportBar::showMode(Mode mode) {
+    m_mode = mode;
+    const bool isPaused = mode == Mode::Paused;
+    m_pause->setIcon(themedIcon(isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
+    m_pause->setText(isPaused ? tr("Go live   Space") : tr("Pause   Space"));
+    m_live->setText(isPaused ? tr("▮▮ PAUSED") : mode == Mode::Live ? tr("● LIVE") : tr("○ WAITING"));
+    m_live->setToolTip(isPaused
                            ? tr("The display stands still; receiving goes on. Click to follow again (End).")
-                           : tr("The display follows the stream."));
-    m_live->setProperty("live", !m_isPaused);
+                       : mode == Mode::Live ? tr("The display follows the stream.")
+                                            : tr("The display follows the stream, but nothing arrives."));
+    m_live->setProperty("live", mode == Mode::Live);
     m_live->style()->unpolish(m_live);
     m_live->style()->polish(m_live);
 }
 
 void TransportBar::refresh() {
-    const bool isPaused = m_session.cursor().mode == model::Cursor::Mode::Paused;
-    if (isPaused != m_isPaused) {
-        m_isPaused = isPaused;
-        showMode();
+    if (const Mode mode = modeNow(); mode != m_mode) {
+        showMode(mode);
     }
     const auto key = shownCharacter(m_session);
     const model::CharacterPose* pose = key ? m_session.pose(*key) : nullptr;

@@ -39,8 +39,12 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    /// Waiting: it would follow, but nothing arrives.
+    enum class Mode { Live, Waiting, Paused };
+
+    [[nodiscard]] Mode modeNow() const;
     void restyle();
-    void showMode();
+    void showMode(Mode mode);
 
     model::SessionView& m_session;
     QToolButton* m_pause;
@@ -50,7 +54,7 @@ private:
     QLabel* m_detail;
     QHBoxLayout* m_pillLayout;
     std::vector<ColourText*> m_pills;
-    bool m_isPaused = false;
+    Mode m_mode = Mode::Waiting;
 };
 
 } // namespace posewire::gui

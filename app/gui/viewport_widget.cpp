@@ -24,21 +24,19 @@ constexpr double kWheelStep = 120.0;
 
 render::Bounds paddedBounds(const Figure& figure) {
     render::Bounds bounds = figure.bounds;
-    if (!bounds.isEmpty()) {
-        bounds.min -= glm::vec3(kMargin, kMargin, 0.5F * kMargin);
-        bounds.max += glm::vec3(kMargin, kMargin, 1.6F * kMargin);
-    }
+    bounds.min -= glm::vec3(kMargin, kMargin, 0.5F * kMargin);
+    bounds.max += glm::vec3(kMargin, kMargin, 1.6F * kMargin);
     return bounds;
 }
 
-render::Bounds boundsOf(const SceneFrame& frame) {
-    render::Bounds bounds;
+std::vector<render::Bounds> boxesOf(const SceneFrame& frame) {
+    std::vector<render::Bounds> boxes;
     for (const Figure& figure : frame.figures) {
-        if (const render::Bounds one = paddedBounds(figure); !one.isEmpty()) {
-            bounds.add(one);
+        if (!figure.bounds.isEmpty()) {
+            boxes.push_back(paddedBounds(figure));
         }
     }
-    return bounds;
+    return boxes;
 }
 
 } // namespace
@@ -99,6 +97,7 @@ void ViewportWidget::drawNext() {
     m_builder->build(m_options, *frame);
     followCharacters(*frame);
     frame->camera = m_motion.camera();
+    frame->builtNs = m_session.nowNs();
     m_isOutdated = false;
     m_drawing = frame;
     m_presenter->present(std::move(frame));
@@ -107,7 +106,7 @@ void ViewportWidget::drawNext() {
 void ViewportWidget::followCharacters(SceneFrame& frame) {
     const double seconds = static_cast<double>(m_session.nowNs() - m_followedNs) * 1e-9;
     m_followedNs = m_session.nowNs();
-    m_motion.follow(boundsOf(frame), aspect(), seconds);
+    m_motion.follow(boxesOf(frame), aspect(), seconds);
 }
 
 void ViewportWidget::onPresented() {
@@ -146,6 +145,12 @@ void ViewportWidget::updateOverlay() {
     }
 }
 
+bool ViewportWidget::isSettled() const {
+    constexpr std::int64_t kFreshNs = 250'000'000;
+    const bool isIdle = !m_isOutdated && m_drawing == nullptr;
+    return m_shown != nullptr && (isIdle || m_session.nowNs() - m_shown->builtNs < kFreshNs);
+}
+
 QString ViewportWidget::rendererName() const {
     return m_presenter == nullptr ? QString() : m_presenter->rendererName();
 }
@@ -177,7 +182,7 @@ void ViewportWidget::face(render::StandardView view) {
 
 void ViewportWidget::frameAll() {
     if (m_shown != nullptr) {
-        m_motion.frame(boundsOf(*m_shown), aspect());
+        m_motion.frame(boxesOf(*m_shown), aspect());
         outdate();
     }
 }
@@ -187,7 +192,7 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
         return;
     }
     for (const Figure& figure : m_shown->figures) {
-        if (figure.key == key) {
+        if (figure.key == key && !figure.bounds.isEmpty()) {
             m_motion.show(paddedBounds(figure), aspect());
             outdate();
         }

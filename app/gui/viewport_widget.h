@@ -44,10 +44,8 @@ public:
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible);
     [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const;
 
-    /// True once a picture of what was last asked for is on screen.
-    [[nodiscard]] bool isSettled() const {
-        return m_shown != nullptr && !m_isOutdated && m_drawing == nullptr;
-    }
+    /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
+    [[nodiscard]] bool isSettled() const;
     [[nodiscard]] const ViewportOverlay& overlay() const { return *m_overlay; }
     [[nodiscard]] QString rendererName() const;
     /// Why there is no picture; empty where there is one.
