@@ -23,7 +23,7 @@ QVariant rightAligned() {
 }
 
 QString changesText(std::size_t changes) {
-    return changes == 1 ? MetadataModel::tr("1 change") : MetadataModel::tr("%1 changes").arg(changes);
+    return changes == 1 ? MetadataModel::tr("· 1 change") : MetadataModel::tr("· %1 changes").arg(changes);
 }
 
 QVariant swatchOf(const std::string& tagName, const std::string& value) {
@@ -166,7 +166,7 @@ QVariant MetadataModel::data(const QModelIndex& index, int role) const {
 QVariant MetadataModel::nameSuffix(const model::MetadataTag& tag) const {
     const std::size_t changes = earlierValues(tag);
     if (!tag.isKnown) {
-        return changes == 0 ? tr("unknown") : tr("unknown · %1").arg(changesText(changes));
+        return changes == 0 ? tr("· unknown") : tr("· unknown %1").arg(changesText(changes));
     }
     return changes == 0 ? QVariant() : changesText(changes);
 }

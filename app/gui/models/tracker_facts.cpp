@@ -20,7 +20,7 @@ QString tr(const char* text) {
 QString components(std::span<const float> values, int decimals) {
     QString text;
     for (const float value : values) {
-        text += fixed(value, decimals).rightJustified(text.isEmpty() ? 0 : decimals + 5, QChar(0x2007));
+        text += fixed(value, decimals).rightJustified(text.isEmpty() ? 0 : decimals + 6, QChar(0x2007));
     }
     return text;
 }

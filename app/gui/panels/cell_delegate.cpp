@@ -163,10 +163,15 @@ void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionVi
         painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
         return;
     }
-    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
-                     metrics.elidedText(option.text, Qt::ElideRight, rect.width()));
-    rect.setLeft(rect.left() + metrics.horizontalAdvance(option.text + QLatin1Char(' ')));
-    if (!suffix.isEmpty() && rect.width() > 0) {
+    // A short suffix, such as an ID, is what tells equal names apart: the text gives way. A long one gives
+    // way itself.
+    const int suffixWidth = suffix.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + suffix);
+    const int reserved = suffixWidth <= rect.width() / 4 ? suffixWidth : 0;
+    const QString text =
+        metrics.elidedText(option.text, Qt::ElideRight, std::max(0, rect.width() - reserved));
+    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
+    rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
+    if (suffixWidth > 0 && rect.width() > 0) {
         painter.setPen(theme().dim);
         painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
                          metrics.elidedText(suffix, Qt::ElideRight, rect.width()));

@@ -32,13 +32,13 @@ ClockWidget::ClockWidget(QWidget* parent) : QWidget(parent) {
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 
-void ClockWidget::setClock(const QString& text, const QString& caption, bool isStale) {
-    if (text == m_text && caption == m_caption && isStale == m_isStale) {
+void ClockWidget::setClock(const QString& text, const QString& caption, Run run) {
+    if (text == m_text && caption == m_caption && run == m_run) {
         return;
     }
     m_text = text;
     m_caption = caption;
-    m_isStale = isStale;
+    m_run = run;
     setAccessibleDescription(m_text + QLatin1Char(' ') + m_caption);
     update();
 }
@@ -64,10 +64,10 @@ void ClockWidget::paintEvent(QPaintEvent*) {
     QFont large = monospaceFont();
     large.setPixelSize(fittingPixelSize(large, m_text, figures.size()));
     painter.setFont(large);
-    painter.setPen(m_isStale ? theme().dim : theme().text);
+    painter.setPen(m_run == Run::Running ? theme().text : theme().dim);
     painter.drawText(figures, Qt::AlignCenter, m_text);
     painter.setFont(small);
-    painter.setPen(m_isStale ? theme().error : theme().dim);
+    painter.setPen(m_run == Run::Stale ? theme().error : theme().dim);
     const QRect below(space, figures.bottom() + 1, width() - 2 * space, captionHeight);
     painter.drawText(below, Qt::AlignCenter,
                      QFontMetrics(small).elidedText(m_caption, Qt::ElideRight, below.width()));

@@ -12,8 +12,9 @@ class ClockWidget : public QWidget {
 public:
     explicit ClockWidget(QWidget* parent = nullptr);
 
-    /// `caption` stands below the figures; a stale clock is dimmed and says so there.
-    void setClock(const QString& text, const QString& caption, bool isStale);
+    /// A clock that does not run is dimmed; `caption`, below the figures, says why.
+    enum class Run { Running, Stale, None };
+    void setClock(const QString& text, const QString& caption, Run run);
     [[nodiscard]] const QString& text() const { return m_text; }
 
     [[nodiscard]] QSize sizeHint() const override;
@@ -33,7 +34,7 @@ protected:
 private:
     QString m_text;
     QString m_caption;
-    bool m_isStale = false;
+    Run m_run = Run::None;
 };
 
 } // namespace posewire::gui

@@ -14,7 +14,7 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
     layout->addWidget(m_table);
     m_table->setModel(&m_model);
     m_table->setRootIsDecorated(true);
-    m_table->setColumnSamples({QStringLiteral("mmmm 22 changes"), QString(), QStringLiteral("99 min")});
+    m_table->setColumnSamples({QStringLiteral("name · 22 changes"), QString(), QStringLiteral("99 min")});
     m_table->setEmptyText(
         tr("No character selected.\nMetadata (type 12) shows here as soon as a character is on "
            "the air."));

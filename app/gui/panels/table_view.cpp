@@ -32,6 +32,7 @@ TableView::TableView(const QString& name, QWidget* parent) : QTreeView(parent) {
     header()->setSectionsMovable(false);
     header()->setMinimumSectionSize(0);
     header()->setHighlightSections(false);
+    setCornerWidget(new QWidget(this)); // else the style draws a box between the scroll bars
     header()->setTextElideMode(Qt::ElideRight);
 }
 
@@ -51,7 +52,8 @@ void TableView::setEmptyText(const QString& text) {
 int TableView::sampleWidth(int column) const {
     const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
     const QFontMetrics metrics(tabularFont());
-    const int margins = 2 * CellDelegate::margin(fontMetrics());
+    // Some room beyond the text, since hinting may draw it wider than it was measured.
+    const int margins = 2 * CellDelegate::margin(fontMetrics()) + 5;
     // The style sheet pads header sections by 6 pixels at either side.
     const int headerWidth = isHeaderHidden() ? 0 : fontMetrics().horizontalAdvance(title) + 14;
     const QString& sample = m_samples[static_cast<std::size_t>(column)];

@@ -77,20 +77,26 @@ QString TimecodePanel::caption() const {
     if (m_choice == ClockChoice::Type25 && !m_clock.type25()) {
         return tr("No type 25 on the air. In MVN: Network Streamer > Time Code");
     }
-    const double age = static_cast<double>(m_view.cursorStampNs() - m_clock.lastStampNs()) * 1e-9;
-    if (m_clock.headerMs() && age >= kStaleAge) {
-        return tr("stale %1").arg(duration(age));
+    if (m_clock.headerMs() && age() >= kStaleAge) {
+        return tr("stale %1").arg(duration(age()));
     }
     return characterName(m_view, *key);
 }
 
+double TimecodePanel::age() const {
+    return static_cast<double>(m_view.cursorStampNs() - m_clock.lastStampNs()) * 1e-9;
+}
+
 void TimecodePanel::showClock() {
     const QString text = clockText(m_clock, m_choice);
-    const double age = static_cast<double>(m_view.cursorStampNs() - m_clock.lastStampNs()) * 1e-9;
-    const bool isStale = m_clock.headerMs() && age >= kStaleAge;
-    m_large->setClock(text, caption(), isStale);
+    const bool hasTime =
+        m_choice == ClockChoice::Header ? m_clock.headerMs().has_value() : m_clock.type25().has_value();
+    const ClockWidget::Run run = !hasTime             ? ClockWidget::Run::None
+                                 : age() >= kStaleAge ? ClockWidget::Run::Stale
+                                                      : ClockWidget::Run::Running;
+    m_large->setClock(text, caption(), run);
     if (m_fullScreen) {
-        m_fullScreen->setClock(text, caption(), isStale);
+        m_fullScreen->setClock(text, caption(), run);
     }
 }
 

@@ -30,6 +30,7 @@ private:
     QToolButton* addChoice(const QString& text, ClockChoice choice);
     void showClock();
     [[nodiscard]] QString caption() const;
+    [[nodiscard]] double age() const; ///< of the newest sample, s
 
     model::SessionView& m_view;
     ClockHistory m_clock;

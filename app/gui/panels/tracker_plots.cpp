@@ -166,11 +166,12 @@ void TrackerPlots::show(const TrackerHistory& history) {
 void TrackerPlots::mark(const std::vector<Gap>& gaps) {
     std::vector<Gap> wide;
     QVector<QCPGraphData> marks;
+    const QCPRange range = m_axes[0]->axis(QCPAxis::atLeft)->range();
     for (const Gap& gap : gaps) {
         if (gap.second - gap.first >= kLeastHatch) {
             wide.push_back(gap);
         } else {
-            marks.append({(gap.first + gap.second) / 2, m_axes[0]->axis(QCPAxis::atLeft)->range().lower});
+            marks.append({(gap.first + gap.second) / 2, range.lower + 0.04 * range.size()});
         }
     }
     m_marks->data()->set(marks, true);

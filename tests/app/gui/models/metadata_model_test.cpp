@@ -44,7 +44,7 @@ TEST_F(MetadataModelTest, ShowsEveryTagAndMarksUnknownOnesInWords) {
     refresh();
     EXPECT_EQ(value("name"), "Factory");
     EXPECT_EQ(value("mood"), "fine:today");
-    EXPECT_EQ(row("mood").data(kSuffixRole).toString(), "unknown");
+    EXPECT_EQ(row("mood").data(kSuffixRole).toString(), QStringLiteral("· unknown"));
     EXPECT_FALSE(row("name").data(kSuffixRole).isValid());
     const QModelIndex colour = row("color").siblingAtColumn(MetadataModel::kValue);
     EXPECT_EQ(colour.data(kSwatchRole).value<QColor>().name(), "#e96417");
@@ -59,7 +59,7 @@ TEST_F(MetadataModelTest, KeepsEarlierValuesBelowTheTagNewestFirst) {
     ASSERT_EQ(m_model.rowCount(name), 2);
     EXPECT_EQ(m_model.index(0, MetadataModel::kValue, name).data().toString(), "Bea");
     EXPECT_EQ(m_model.index(1, MetadataModel::kValue, name).data().toString(), "Ana");
-    EXPECT_EQ(name.data(kSuffixRole).toString(), "2 changes");
+    EXPECT_EQ(name.data(kSuffixRole).toString(), QStringLiteral("· 2 changes"));
     EXPECT_EQ(name.siblingAtColumn(MetadataModel::kSent).data().toString(), "0.0 s");
 }
 

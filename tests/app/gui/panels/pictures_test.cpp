@@ -7,6 +7,7 @@
 
 #include <QApplication>
 #include <QDir>
+#include <QElapsedTimer>
 #include <QImage>
 #include <QPainter>
 
@@ -89,14 +90,19 @@ protected:
             panels.back()->resize(info.area == Qt::LeftDockWidgetArea ? 330 : 390, isTall ? 640 : 300);
             panels.back()->show();
         }
+        qint64 refreshNs = 0;
         for (int tick = 0; tick < ticks; ++tick) {
             play(tick);
             m_stage.now = std::max(m_stage.now, Stage::kStart + (tick + 1) * 100 * Stage::kMillisecond);
             m_stage.follow();
+            QElapsedTimer timer;
+            timer.start();
             for (const auto& panel : panels) {
                 panel->refresh();
             }
+            refreshNs += timer.nsecsElapsed();
         }
+        RecordProperty("microsecondsPerRefresh", static_cast<int>(refreshNs / ticks / 1000));
         const QDir folder(POSEWIRE_PICTURE_FOLDER);
         ASSERT_TRUE(folder.mkpath("."));
         std::vector<QImage> images;
@@ -136,6 +142,18 @@ TEST_P(PicturesTest, Busy) {
             m_stage.session.setSelection({m_stage.source(), m_stage.key(), 10});
         },
         120);
+}
+
+TEST_P(PicturesTest, TwoMinutes) {
+    performer::Performer performer(sending(2, {2, 23, 25}, 30.0));
+    photographAll(
+        "long",
+        [&](int tick) {
+            const auto frame = static_cast<std::uint64_t>(tick) * 3;
+            m_stage.perform(performer, frame, frame + 3,
+                            [](std::uint64_t n) { return !(n / 30 % 41 == 17) && n % 1000 != 998; });
+        },
+        1300);
 }
 
 TEST_P(PicturesTest, Overloaded) {
