@@ -26,6 +26,14 @@ std::string shownBytes(wire::Bytes bytes) {
     return text;
 }
 
+std::string_view hostOf(const log::SourceInfo& info) {
+    return std::string_view(info.address).substr(0, info.address.rfind(':'));
+}
+
+bool isSameHost(const log::SourceInfo& a, const log::SourceInfo& b) {
+    return a.transport == b.transport && a.transport != log::Transport::File && hostOf(a) == hostOf(b);
+}
+
 /// Height of the pelvis in the wire's unit, for the detection of units.
 std::optional<double> pelvisHeight(const wire::Datagram& datagram) {
     if (const auto* pose = std::get_if<wire::PoseQuaternion>(&datagram.body);
@@ -95,7 +103,7 @@ void Session::takeDatagram(const log::Packet& packet, Source& source) {
     const wire::Header& header = m_scratch.header;
     source.detector.addHeader(header);
     Stream* stream = streamOf({packet.source, header.character, header.type()});
-    Character* character = characterOf({packet.source, header.character});
+    Character* character = characterOf({packet.source, header.character}, packet.number);
     if (stream == nullptr || character == nullptr) {
         return;
     }
@@ -103,6 +111,7 @@ void Session::takeDatagram(const log::Packet& packet, Source& source) {
     stream->statistics.add(packet.stampNs, packet.bytes.size(), header.sampleCounter,
                            header.datagramIndex() == 0);
     character->lastStampNs = packet.stampNs;
+    character->lastPacket = packet.number;
     takeContent(packet, *character, source);
 }
 
@@ -131,17 +140,20 @@ Source* Session::sourceOf(const log::Packet& packet) {
     return &source;
 }
 
-Character* Session::characterOf(const CharacterKey& key) {
+Character* Session::characterOf(const CharacterKey& key, std::uint64_t packetNumber) {
     if (const auto found = m_characterIndex.find(key); found != m_characterIndex.end()) {
         return &m_characters[found->second];
     }
     if (m_characters.size() == kMostCharacters) {
         return nullptr;
     }
+    const auto before = lastOfSameHost(key);
     m_characterIndex.emplace(key, m_characters.size());
     Character& character = m_characters.emplace_back();
     character.key = key;
-    character.ordinal = m_characters.size() - 1;
+    character.firstPacket = packetNumber;
+    character.before = before;
+    character.ordinal = before ? find(*before)->ordinal : m_characters.size() - 1;
     return &character;
 }
 
@@ -156,6 +168,34 @@ Stream* Session::streamOf(const log::StreamKey& key) {
     Stream& stream = m_streams.emplace_back();
     stream.key = key;
     return &stream;
+}
+
+std::optional<CharacterKey> Session::lastOfSameHost(const CharacterKey& key) const {
+    const Source* own = find(key.source);
+    const Character* newest = nullptr;
+    for (const Character& other : m_characters) {
+        const Source* source = find(other.key.source);
+        if (other.key.character == key.character && own != nullptr && source != nullptr &&
+            isSameHost(own->info, source->info) &&
+            (newest == nullptr || other.lastPacket > newest->lastPacket)) {
+            newest = &other;
+        }
+    }
+    return newest != nullptr ? std::optional(newest->key) : std::nullopt;
+}
+
+const Character* Session::predecessor(const CharacterKey& key) const {
+    const Character* character = find(key);
+    const Character* before = character != nullptr && character->before ? find(*character->before) : nullptr;
+    return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
+}
+
+bool Session::isSuperseded(const CharacterKey& key) const {
+    const std::uint64_t end = visibleEnd();
+    return std::any_of(m_characters.begin(), m_characters.end(), [&](const Character& other) {
+        const Character* before = other.firstPacket < end ? predecessor(other.key) : nullptr;
+        return before != nullptr && before->key == key;
+    });
 }
 
 const Source* Session::find(log::SourceId id) const {

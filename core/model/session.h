@@ -49,6 +49,9 @@ struct Character {
     Metadata metadata;
     NullPoseHistory nullPoses;
     std::int64_t lastStampNs = 0;
+    std::uint64_t firstPacket = 0;
+    std::uint64_t lastPacket = 0;
+    std::optional<CharacterKey> before; ///< see Session::predecessor
 };
 
 /// Where in time the operator looks.
@@ -89,6 +92,15 @@ public:
     [[nodiscard]] const Source* find(log::SourceId id) const;
     [[nodiscard]] const Character* find(const CharacterKey& key) const;
     [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
+
+    /// A sender that starts again has another port, and some senders use a port for each kind of message. So
+    /// a character of the same host with the same ID that fell silent before this one came is the same
+    /// person: what this one has not sent yet is taken from there. Null where there is none, or where both
+    /// turned out to send at the same time.
+    [[nodiscard]] const Character* predecessor(const CharacterKey& key) const;
+
+    /// True where another source has taken over at the cursor; its character is shown instead of this one.
+    [[nodiscard]] bool isSuperseded(const CharacterKey& key) const;
 
     [[nodiscard]] const Cursor& cursor() const { return m_cursor; }
     [[nodiscard]] const Selection& selection() const { return m_selection; }
@@ -141,9 +153,11 @@ private:
     void takeContent(const log::Packet& packet, Character& character, Source& source);
     // Null where there are too many already.
     Source* sourceOf(const log::Packet& packet);
-    Character* characterOf(const CharacterKey& key);
+    Character* characterOf(const CharacterKey& key, std::uint64_t packetNumber);
     Stream* streamOf(const log::StreamKey& key);
     [[nodiscard]] std::uint64_t visibleEnd() const;
+    [[nodiscard]] std::optional<CharacterKey> lastOfSameHost(const CharacterKey& key) const;
+    [[nodiscard]] std::string_view metadataValue(const CharacterKey& key, std::string_view tag) const;
     [[nodiscard]] const log::StreamEntries* entries(const log::StreamKey& key) const {
         return m_index.find(key);
     }

@@ -79,7 +79,8 @@ const Session::Message* Session::message(const CharacterKey& key, std::uint8_t t
     const log::StreamEntries* stream = entries(streamKey);
     const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
     if (count == 0) {
-        return nullptr;
+        const Character* before = predecessor(key);
+        return before != nullptr ? message(before->key, type) : nullptr;
     }
     CachedMessage& cached = m_messages[streamKey];
     const std::uint64_t newest = (*stream)[count - 1].packet;
@@ -135,7 +136,9 @@ const CharacterPose* Session::pose(const CharacterKey& key) const {
 const NullPose* Session::nullPose(const CharacterKey& key) const {
     const Character* character = find(key);
     const std::uint64_t end = visibleEnd();
-    return character != nullptr && end != 0 ? character->nullPoses.at(end - 1) : nullptr;
+    const NullPose* pose = character != nullptr && end != 0 ? character->nullPoses.at(end - 1) : nullptr;
+    const Character* before = pose == nullptr ? predecessor(key) : nullptr;
+    return before != nullptr ? nullPose(before->key) : pose;
 }
 
 std::vector<Eigen::Vector3d> Session::bodyOrigins(const CharacterKey& key) const {
@@ -150,22 +153,24 @@ std::vector<Eigen::Vector3d> Session::bodyOrigins(const CharacterKey& key) const
     return origins;
 }
 
-std::string Session::displayName(const CharacterKey& key) const {
+std::string_view Session::metadataValue(const CharacterKey& key, std::string_view tag) const {
     const Character* character = find(key);
     const std::uint64_t end = visibleEnd();
-    const std::string_view name =
-        character != nullptr && end != 0 ? character->metadata.value("name", end - 1) : std::string_view();
+    const std::string_view value =
+        character != nullptr && end != 0 ? character->metadata.value(tag, end - 1) : std::string_view();
+    const Character* before = value.empty() ? predecessor(key) : nullptr;
+    return before != nullptr ? metadataValue(before->key, tag) : value;
+}
+
+std::string Session::displayName(const CharacterKey& key) const {
+    const std::string_view name = metadataValue(key, "name");
     return name.empty() ? "Character " + std::to_string(key.character) : std::string(name);
 }
 
 Colour Session::colour(const CharacterKey& key) const {
+    const auto sent = parseColour(metadataValue(key, "color"));
     const Character* character = find(key);
-    const std::uint64_t end = visibleEnd();
-    if (character == nullptr || end == 0) {
-        return defaultColour(0);
-    }
-    const auto sent = parseColour(character->metadata.value("color", end - 1));
-    return sent ? *sent : defaultColour(character->ordinal);
+    return sent ? *sent : defaultColour(character != nullptr ? character->ordinal : 0);
 }
 
 double Session::ageSeconds(const CharacterKey& key) const {
