@@ -77,9 +77,9 @@ struct Transported {
 };
 
 std::string ipv4Text(Frame address) {
-    std::string text;
-    for (const std::byte part : address) {
-        text += (text.empty() ? "" : ".") + std::to_string(std::to_integer<unsigned>(part));
+    std::string text = std::to_string(byteAt(address, 0));
+    for (std::size_t i = 1; i < 4; ++i) {
+        text.append(1, '.').append(std::to_string(byteAt(address, i)));
     }
     return text;
 }

@@ -101,12 +101,12 @@ TEST(RawFile, KeepsWhatCameBeforeAFailure) {
     EXPECT_EQ(seen.size(), 1U);
 }
 
-TEST(RawFile, CaptureFormatsAreNamedNotMisread) {
-    std::istringstream stream("\x0a\x0d\x0d\x0a and more");
+TEST(RawFile, ADamagedCaptureIsNamedNotMisread) {
+    std::istringstream stream("\x0a\x0d\x0d\x0a and more of the same");
     tl::expected<void, FileError> result;
     EXPECT_TRUE(records(*readingFrom(stream, "walk.pcapng"), result).empty());
     ASSERT_FALSE(result.has_value());
-    EXPECT_THAT(result.error().text, HasSubstr("walk.pcapng"));
+    EXPECT_THAT(result.error().text, HasSubstr("walk.pcapng: is damaged"));
 }
 
 TEST(RawFile, MissingFileAndFolderAreClearErrors) {
