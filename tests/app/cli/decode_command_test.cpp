@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/app/cli/program_run.h"
+#include "tests/core/log/capture_fixture.h"
 #include "tests/support/golden.h"
 
 #include <QProcess>
@@ -93,6 +94,21 @@ TEST(DecodeCommand, ListsFaultsAndNoticesForPeople) {
                 HasSubstr("  notice: length before the time code is not 12 (byte 24)\n"));
     EXPECT_THAT(runProgram({"decode", "-"}, asText({whole.begin(), whole.end() - 1})).out,
                 HasSubstr("  error: shorter than its header announces (byte 39: needs 40 bytes, has 39)\n"));
+}
+
+TEST(DecodeCommand, ReadsPcapAndPcapngByTheirContent) {
+    const log::ByteVector frame = log::ethernet(log::ipv4(log::udp(golden("24_centre_12_counted").bytes)));
+    const auto pcap = log::pcap({{1700000000, 123456789, frame}}, 0xa1b23c4d, 1, false);
+    const auto pcapng = log::joined({log::sectionHeader(false), log::interfaceBlock(1, 9, false),
+                                     log::enhancedPacket(0, 1700000000123456789, frame, false)});
+    for (const auto& [file, offset] : {std::pair(pcap, 82), std::pair(pcapng, 130)}) {
+        const ProgramRun run = runProgram({"decode", "--json", fileWith(asText(file))});
+        EXPECT_EQ(run.status, 0) << run.err;
+        EXPECT_THAT(run.out,
+                    StartsWith(R"({"index":0,"offset":)" + std::to_string(offset) +
+                               R"(,"size":36,"stampNs":1700000000123456789,"source":"10.0.0.2:40001",)"));
+        EXPECT_TRUE(runProgram({"encode", "-"}, run.out).out == asText(golden("24_centre_12_counted").bytes));
+    }
 }
 
 TEST(DecodeCommand, EndsQuietlyWhenItsReaderHasSeenEnough) {
