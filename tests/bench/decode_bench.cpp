@@ -75,7 +75,7 @@ int main(int argumentCount, char** arguments) {
     const auto isGiven = [&](std::string_view name) {
         return std::find(options.begin(), options.end(), name) != options.end();
     };
-    const std::size_t rounds = isGiven("--brief") ? 2'000 : 100'000;
+    const std::size_t rounds = isGiven("--brief") ? 500 : 10'000;
     const auto all = datagrams();
     std::vector<double> decoding;
     std::vector<double> swapping;
@@ -83,7 +83,7 @@ int main(int argumentCount, char** arguments) {
     wire::Datagram into;
     std::vector<std::uint32_t> words(kWords);
     bool isRight = all.front().size() == kDatagramSize;
-    for (int run = 0; run < 31; ++run) {
+    for (int run = 0; run < 301; ++run) {
         swapping.push_back(timed(rounds, all, [&](const std::vector<std::byte>& bytes) {
             swapWords(bytes.data(), words.data());
             keep(*words.data());
