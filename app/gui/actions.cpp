@@ -42,9 +42,9 @@ void face(Window& window) {
 
 template <int index>
 void selectCharacter(Window& window) {
-    const auto& characters = window.driver().session().characters();
+    const auto characters = window.driver().session().currentCharacters();
     if (index < static_cast<int>(characters.size())) {
-        const model::CharacterKey& key = characters[index].key;
+        const model::CharacterKey& key = characters[index]->key;
         window.driver().select({key.source, key, -1});
     }
 }

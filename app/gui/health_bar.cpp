@@ -9,6 +9,7 @@
 #include <QLabel>
 
 #include <algorithm>
+#include <limits>
 
 namespace posewire::gui {
 
@@ -18,14 +19,15 @@ QString perSecondText(double bytesPerSecond) {
     return HealthBar::tr("%1 MB/s").arg(fixed(bytesPerSecond / 1e6, 2));
 }
 
-/// From the first packet that is kept to the newest.
+/// From the first packet to the newest.
 double historySeconds(const model::Session& session) {
-    std::int64_t first = 0;
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    std::int64_t last = 0;
     for (const model::Stream& stream : session.streams()) {
-        const std::int64_t stamp = stream.statistics.firstStampNs();
-        first = first == 0 ? stamp : std::min(first, stamp);
+        first = std::min(first, stream.statistics.firstStampNs());
+        last = std::max(last, stream.statistics.lastStampNs());
     }
-    return first == 0 ? 0.0 : static_cast<double>(session.nowNs() - first) * 1e-9;
+    return last <= first ? 0.0 : static_cast<double>(last - first) * 1e-9;
 }
 
 QString historyText(const model::Session& session) {
@@ -47,6 +49,8 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
       m_session(session),
       m_commands(commands),
       m_entriesLayout(new QHBoxLayout),
+      m_entriesArea(new QWidget(this)),
+      m_more(new ColourText(ColourText::Look::Plain, m_entriesArea)),
       m_message(new QLabel(this)),
       m_rate(new ColourText(ColourText::Look::Plain, this)),
       m_history(new ColourText(ColourText::Look::Plain, this)),
@@ -55,15 +59,16 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(6, 1, 6, 1);
     row->setSpacing(8);
-    // More characters than there is room for are cut off at the right and must not widen the window.
-    auto* entries = new QWidget(this);
-    entries->setLayout(m_entriesLayout);
-    entries->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+    // More characters than there is room for must not widen the window.
+    m_entriesArea->setLayout(m_entriesLayout);
+    m_entriesArea->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     m_entriesLayout->setContentsMargins(0, 0, 0, 0);
     m_entriesLayout->setSpacing(2);
     m_entriesLayout->setSizeConstraint(QLayout::SetNoConstraint);
+    m_entriesLayout->addWidget(m_more);
     m_entriesLayout->addStretch(1);
-    row->addWidget(entries, 1);
+    m_more->setToolTip(tr("More characters than there is room for: the characters dock lists them all"));
+    row->addWidget(m_entriesArea, 1);
     row->addWidget(m_message, 1);
     m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_message->setVisible(false);
@@ -97,16 +102,40 @@ void HealthBar::refresh(const ReceivingState& receiving) {
 }
 
 void HealthBar::refreshCharacters() {
-    while (m_entries.size() < m_session.characters().size()) {
+    m_shown.clear();
+    for (const model::Character* character : m_session.currentCharacters()) {
+        m_shown.push_back(character->key);
+    }
+    while (m_entries.size() < m_shown.size()) {
         addEntry();
     }
-    for (std::size_t i = 0; i < m_entries.size(); ++i) {
-        const model::CharacterKey& key = m_session.characters()[i].key;
-        const CharacterHealth health = characterHealth(m_session, key);
+    for (std::size_t i = 0; i < m_shown.size(); ++i) {
+        const CharacterHealth health = characterHealth(m_session, m_shown[i]);
         const QString words = health.level == Health::Good ? tr("good") : health.words;
-        m_entries[i]->setContent(health.level, QString::fromStdString(m_session.displayName(key)) +
+        m_entries[i]->setContent(health.level, QString::fromStdString(m_session.displayName(m_shown[i])) +
                                                    QLatin1Char(' ') + words);
     }
+    fitEntries();
+}
+
+/// Shows as many entries as have room, and says how many have none.
+void HealthBar::fitEntries() {
+    const int spacing = m_entriesLayout->spacing();
+    const int reserve = m_more->fontMetrics().horizontalAdvance(QStringLiteral("+ 0 000 more")) + 2 * spacing;
+    int used = 0;
+    std::size_t fitting = 0;
+    for (; fitting < m_shown.size(); ++fitting) {
+        const bool isLast = fitting + 1 == m_shown.size();
+        used += m_entries[fitting]->sizeHint().width() + spacing;
+        if (fitting != 0 && used + (isLast ? 0 : reserve) > m_entriesArea->width()) {
+            break;
+        }
+    }
+    for (std::size_t i = 0; i < m_entries.size(); ++i) {
+        m_entries[i]->setVisible(i < fitting);
+    }
+    m_more->setVisible(fitting < m_shown.size());
+    m_more->setContent(Health::Unknown, tr("+ %1 more").arg(grouped(m_shown.size() - fitting)));
 }
 
 void HealthBar::addEntry() {
@@ -120,7 +149,7 @@ void HealthBar::addEntry() {
 }
 
 void HealthBar::activate(std::size_t entry) {
-    const model::CharacterKey& key = m_session.characters()[entry].key;
+    const model::CharacterKey key = m_shown[entry];
     m_commands.select({key.source, key, -1});
     m_commands.setCharacterVisible(key, true);
     m_commands.frameCharacter(key);

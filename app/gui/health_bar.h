@@ -30,13 +30,17 @@ public:
 
 private:
     void refreshCharacters();
+    void fitEntries();
     void addEntry();
     void activate(std::size_t entry);
 
     model::SessionView& m_session;
     Commands& m_commands;
     QHBoxLayout* m_entriesLayout;
-    std::vector<ColourText*> m_entries; ///< one for each character, in the session's order
+    QWidget* m_entriesArea;
+    std::vector<ColourText*> m_entries;       ///< as many as there ever were characters to show
+    std::vector<model::CharacterKey> m_shown; ///< whom the first of them show, in the session's order
+    ColourText* m_more;                       ///< how many there is no room for
     QLabel* m_message;
     QTimer m_messageTimer;
     ColourText* m_rate;

@@ -68,7 +68,8 @@ float dimFor(double ageSeconds) {
 void SceneBuilder::build(const ViewOptions& options, SceneFrame& frame) {
     frame.colours = themedSceneColours();
     const model::Selection& selection = m_session.selection();
-    for (const model::Character& character : m_session.characters()) {
+    for (const model::Character* shown : m_session.currentCharacters()) {
+        const model::Character& character = *shown;
         const model::CharacterPose* pose = m_session.pose(character.key);
         if (pose == nullptr || options.hidden.contains(character.key)) {
             continue;

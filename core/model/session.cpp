@@ -152,8 +152,13 @@ Character* Session::characterOf(const CharacterKey& key, std::uint64_t packetNum
     Character& character = m_characters.emplace_back();
     character.key = key;
     character.firstPacket = packetNumber;
-    character.before = before;
-    character.ordinal = before ? find(*before)->ordinal : m_characters.size() - 1;
+    character.ordinal = m_characters.size() - 1;
+    if (before) {
+        Character& previous = m_characters[m_characterIndex.at(*before)];
+        previous.after = key;
+        character.before = before;
+        character.ordinal = previous.ordinal;
+    }
     return &character;
 }
 
@@ -190,12 +195,28 @@ const Character* Session::predecessor(const CharacterKey& key) const {
     return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
 }
 
-bool Session::isSuperseded(const CharacterKey& key) const {
+CharacterKey Session::current(const CharacterKey& key) const {
     const std::uint64_t end = visibleEnd();
-    return std::any_of(m_characters.begin(), m_characters.end(), [&](const Character& other) {
-        const Character* before = other.firstPacket < end ? predecessor(other.key) : nullptr;
-        return before != nullptr && before->key == key;
-    });
+    CharacterKey current = key;
+    for (const Character* character = find(key); character != nullptr && character->after;) {
+        const Character* next = find(*character->after);
+        if (next->firstPacket >= end || next->firstPacket <= character->lastPacket) {
+            break;
+        }
+        current = next->key;
+        character = next;
+    }
+    return current;
+}
+
+std::vector<const Character*> Session::currentCharacters() const {
+    std::vector<const Character*> shown;
+    for (const Character& character : m_characters) {
+        if (!isSuperseded(character.key)) {
+            shown.push_back(&character);
+        }
+    }
+    return shown;
 }
 
 const Source* Session::find(log::SourceId id) const {

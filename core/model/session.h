@@ -52,6 +52,7 @@ struct Character {
     std::uint64_t firstPacket = 0;
     std::uint64_t lastPacket = 0;
     std::optional<CharacterKey> before; ///< see Session::predecessor
+    std::optional<CharacterKey> after;  ///< who has this one as `before`
 };
 
 /// Where in time the operator looks.
@@ -100,7 +101,13 @@ public:
     [[nodiscard]] const Character* predecessor(const CharacterKey& key) const;
 
     /// True where another source has taken over at the cursor; its character is shown instead of this one.
-    [[nodiscard]] bool isSuperseded(const CharacterKey& key) const;
+    [[nodiscard]] bool isSuperseded(const CharacterKey& key) const { return current(key) != key; }
+
+    /// The one that is shown for a character: itself, or the newest that has taken over.
+    [[nodiscard]] CharacterKey current(const CharacterKey& key) const;
+
+    /// Everybody who is to be shown at the cursor, in order of first appearance.
+    [[nodiscard]] std::vector<const Character*> currentCharacters() const;
 
     [[nodiscard]] const Cursor& cursor() const { return m_cursor; }
     [[nodiscard]] const Selection& selection() const { return m_selection; }

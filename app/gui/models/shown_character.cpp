@@ -8,16 +8,16 @@ namespace posewire::gui {
 std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
     const model::Selection& selection = view.selection();
     if (selection.character && view.find(*selection.character) != nullptr) {
-        return selection.character;
+        return view.current(*selection.character);
     }
-    const auto& characters = view.characters();
-    const auto first = std::ranges::find_if(characters, [&](const model::Character& character) {
-        return !selection.source || character.key.source == *selection.source;
+    const auto characters = view.currentCharacters();
+    const auto first = std::ranges::find_if(characters, [&](const model::Character* character) {
+        return !selection.source || character->key.source == *selection.source;
     });
     if (first == characters.end()) {
         return std::nullopt;
     }
-    return first->key;
+    return (*first)->key;
 }
 
 model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key) {

@@ -43,6 +43,24 @@ State countState(std::uint64_t malformed, std::uint64_t gaps) {
     return {gaps == 0 ? Health::Good : Health::Warning, grouped(gaps)};
 }
 
+/// Another source has taken over: nothing is wrong, and nothing more will come.
+State ended() {
+    return {Health::Unknown, tr("ended")};
+}
+
+bool hasEnded(model::SessionView& view, const model::Source& source) {
+    bool hasCharacters = false;
+    for (const model::Character& character : view.characters()) {
+        if (character.key.source == source.id) {
+            hasCharacters = true;
+            if (!view.isSuperseded(character.key)) {
+                return false;
+            }
+        }
+    }
+    return hasCharacters;
+}
+
 double ageOf(model::SessionView& view, std::int64_t stampNs) {
     return std::max(0.0, static_cast<double>(view.cursorStampNs() - stampNs) * 1e-9);
 }
@@ -58,6 +76,9 @@ double streamAge(model::SessionView& view, const model::Stream& stream) {
 }
 
 State streamState(model::SessionView& view, const model::Stream& stream) {
+    if (view.isSuperseded({stream.key.source, stream.key.character})) {
+        return ended();
+    }
     if (wire::isSampled(stream.key.type)) {
         const State age = ageState(streamAge(view, stream), stream.statistics.rateHz());
         if (age.health != Health::Unknown) {
@@ -68,6 +89,9 @@ State streamState(model::SessionView& view, const model::Stream& stream) {
 }
 
 State characterState(model::SessionView& view, const model::Character& character) {
+    if (view.isSuperseded(character.key)) {
+        return ended();
+    }
     const State age = ageState(view.ageSeconds(character.key), 0.0);
     if (age.health != Health::Unknown) {
         return age;
@@ -85,6 +109,9 @@ State characterState(model::SessionView& view, const model::Character& character
 }
 
 State sourceState(model::SessionView& view, const model::Source& source) {
+    if (hasEnded(view, source)) {
+        return ended();
+    }
     const State age = ageState(ageOf(view, source.lastStampNs), 0.0);
     if (age.health != Health::Unknown) {
         return age;
