@@ -71,6 +71,9 @@ CharacterHealth characterHealth(const model::Session& session, const model::Char
     if (totals.gaps > 0) {
         return {Health::Warning, countText(totals.gaps, "gap", "gaps"), age};
     }
+    if (totals.rateHz <= 0) {
+        return {Health::Good, tr("one sample"), age};
+    }
     return {Health::Good, tr("%1 Hz").arg(totals.rateHz, 0, 'f', 0), age};
 }
 

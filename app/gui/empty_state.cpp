@@ -16,14 +16,15 @@ QString tr(const char* text) {
     return QCoreApplication::translate("EmptyState", text);
 }
 
-/// "47 45 54 20  GET ".
-QString bytesText(const std::string& bytes) {
-    const QByteArray data = QByteArray::fromStdString(bytes);
+/// "47 45 54 20   GET ", of the first half: a line that fits.
+QString bytesText(const std::string& hexadecimal) {
+    constexpr qsizetype kShown = 8;
+    const QByteArray data = QByteArray::fromHex(QByteArray::fromStdString(hexadecimal)).left(kShown);
     QString readable;
     for (const char byte : data) {
-        readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QChar(u'·');
+        readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
     }
-    return QString::fromLatin1(data.toHex(' ')) + QStringLiteral("   ") + readable;
+    return QString::fromLatin1(data.toHex(' ')) + QStringLiteral("   \"") + readable + QLatin1Char('"');
 }
 
 QString openPorts(const ReceivingState& receiving) {

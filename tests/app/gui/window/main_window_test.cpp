@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/main_window.h"
+
+#include "app/gui/actions.h"
+#include "app/gui/dock_layout.h"
+#include "app/gui/transport_bar.h"
+
+#include <QDockWidget>
+#include <QScreen>
+#include <QTemporaryDir>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <set>
+
+namespace posewire::gui {
+namespace {
+
+class MainWindowTest : public testing::Test {
+protected:
+    std::unique_ptr<MainWindow> makeWindow(const Settings& settings = {}) {
+        auto window = std::make_unique<MainWindow>(driver, file, settings);
+        window->resize(1280, 800);
+        window->show();
+        QTest::qWait(1);
+        return window;
+    }
+    static QDockWidget* dock(MainWindow& window, const QString& name) {
+        return window.findChild<QDockWidget*>(name);
+    }
+
+    QTemporaryDir folder;
+    SettingsFile file{folder.filePath("settings.json")};
+    log::SystemClock clock;
+    SessionDriver driver{clock};
+};
+
+TEST_F(MainWindowTest, HasADockForEveryRowOfTheTable) {
+    const auto window = makeWindow();
+    ASSERT_FALSE(panelTable().empty());
+    for (const PanelInfo& info : panelTable()) {
+        QDockWidget* found = dock(*window, info.id);
+        ASSERT_NE(found, nullptr) << info.id;
+        EXPECT_FALSE(found->windowTitle().isEmpty());
+    }
+    EXPECT_NE(window->findChild<ViewportWidget*>("viewport"), nullptr);
+}
+
+TEST_F(MainWindowTest, RestoresDocksAsTheyWereInANewWindow) {
+    Settings kept;
+    {
+        const auto window = makeWindow();
+        dock(*window, "metadata")->close();
+        window->addDockWidget(Qt::RightDockWidgetArea, dock(*window, "characters"));
+        kept = window->settings();
+    }
+    const auto window = makeWindow(kept);
+    EXPECT_TRUE(dock(*window, "metadata")->isHidden());
+    EXPECT_FALSE(dock(*window, "characters")->isHidden());
+    EXPECT_EQ(window->dockWidgetArea(dock(*window, "characters")), Qt::RightDockWidgetArea);
+}
+
+TEST_F(MainWindowTest, FallsBackToItsLayoutWhereTheKeptDocksMakeNoSense) {
+    Settings settings;
+    settings.docks = "no state of docks";
+    const auto window = makeWindow(settings);
+    EXPECT_FALSE(dock(*window, "characters")->isHidden());
+}
+
+TEST_F(MainWindowTest, WritesItsSettingsWhenItCloses) {
+    makeWindow()->close();
+    QString problem;
+    EXPECT_FALSE(file.read(&problem).docks.isEmpty());
+    EXPECT_TRUE(problem.isEmpty());
+}
+
+TEST_F(MainWindowTest, DockAllBringsFloatingDocksBack) {
+    const auto window = makeWindow();
+    dock(*window, "statistics")->setFloating(true);
+    dock(*window, "statistics")->move(-5000, -5000);
+    window->dockAll();
+    EXPECT_FALSE(dock(*window, "statistics")->isFloating());
+}
+
+TEST_F(MainWindowTest, ResetLayoutOpensWhatWasClosedAndDocksWhatFloats) {
+    const auto window = makeWindow();
+    dock(*window, "characters")->close();
+    dock(*window, "trackers")->setFloating(true);
+    window->resetLayout();
+    EXPECT_FALSE(dock(*window, "characters")->isHidden());
+    EXPECT_FALSE(dock(*window, "trackers")->isFloating());
+}
+
+TEST_F(MainWindowTest, LayoutsOpenTheirDocksAndCloseTheOthers) {
+    const auto window = makeWindow();
+    window->useLayout("Check");
+    EXPECT_FALSE(dock(*window, "characters")->isHidden());
+    EXPECT_TRUE(dock(*window, "statistics")->isHidden());
+    EXPECT_EQ(window->settings().layout, "Check");
+}
+
+TEST_F(MainWindowTest, AnUnknownLayoutChangesNothing) {
+    const auto window = makeWindow();
+    window->useLayout("no-such-layout");
+    EXPECT_FALSE(dock(*window, "statistics")->isHidden());
+    EXPECT_EQ(window->settings().layout, "Debug");
+}
+
+TEST_F(MainWindowTest, EveryEntryOfTheMenusDoesSomethingAndNoKeyIsUsedTwice) {
+    std::set<QString> ids;
+    std::map<QString, QString> keys;
+    for (const ActionInfo& info : actionTable()) {
+        if (QString(info.id).isEmpty()) {
+            continue;
+        }
+        EXPECT_NE(info.run, nullptr) << info.id;
+        EXPECT_TRUE(ids.insert(info.id).second) << info.id << " is there twice";
+        if (const QString key = info.shortcut; !key.isEmpty()) {
+            EXPECT_TRUE(keys.emplace(key, info.id).second) << info.id << " shares its key with another";
+            EXPECT_FALSE(QKeySequence(key, QKeySequence::PortableText).isEmpty()) << info.id;
+        }
+    }
+    const auto window = makeWindow();
+    for (const QString& id : ids) {
+        EXPECT_NE(window->findChild<QAction*>(id), nullptr) << id.toStdString();
+    }
+}
+
+TEST_F(MainWindowTest, SpacePausesAndEndGoesBackToLive) {
+    const auto window = makeWindow();
+    QTest::keyClick(window.get(), Qt::Key_Space);
+    EXPECT_TRUE(driver.isPaused());
+    QTest::keyClick(window.get(), Qt::Key_End);
+    EXPECT_FALSE(driver.isPaused());
+}
+
+TEST_F(MainWindowTest, F6GoesThroughTheDocksAndBackToTheViewport) {
+    const auto window = makeWindow();
+    window->viewport().setFocus();
+    std::set<QWidget*> visited;
+    for (std::size_t i = 0; i <= panelTable().size(); ++i) {
+        window->nextDock();
+        visited.insert(window->focusWidget());
+    }
+    EXPECT_EQ(visited.size(), panelTable().size() + 1);
+    EXPECT_TRUE(visited.contains(&window->viewport()));
+}
+
+TEST(OnScreen, RefusesPlacesThatCannotBeSeen) {
+    const QRect room = QGuiApplication::primaryScreen()->availableGeometry();
+    EXPECT_TRUE(onScreen({}).isEmpty());
+    EXPECT_TRUE(onScreen(QRect(room.right() + 500, 10, 800, 600)).isEmpty());
+    EXPECT_TRUE(onScreen(QRect(room.left(), room.top() - 400, 800, 600)).isEmpty());
+    const QRect inside(room.left() + 10, room.top() + 10, 300, 200);
+    EXPECT_EQ(onScreen(inside), inside);
+    EXPECT_LE(onScreen(QRect(room.topLeft(), QSize(90'000, 90'000))).width(), room.width());
+}
+
+} // namespace
+} // namespace posewire::gui

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/raw_file_import.h"
+
+#include "tests/app/gui/models/stage.h"
+
+#include <QFile>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+namespace posewire::gui {
+namespace {
+
+class RawFileImport : public testing::Test {
+protected:
+    void writeFile(const std::vector<std::uint32_t>& timeCodes) const {
+        QFile file(path);
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        for (const std::uint32_t timeCode : timeCodes) {
+            wire::Datagram datagram;
+            datagram.body = smallPose();
+            datagram.header.timeCode = timeCode;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            const auto bytes = wire::encode(datagram);
+            ASSERT_TRUE(bytes);
+            file.write(reinterpret_cast<const char*>(bytes->data()), static_cast<qint64>(bytes->size()));
+        }
+    }
+    std::vector<std::int64_t> stamps() {
+        std::vector<std::int64_t> result;
+        log::LogReader reader(log);
+        reader.refresh();
+        for (std::uint64_t number = reader.begin(); number != reader.end(); ++number) {
+            result.push_back(reader.packet(number)->stampNs);
+        }
+        return result;
+    }
+
+    QTemporaryDir folder;
+    QString path = folder.filePath("take.bin");
+    log::PacketLog log{{.memoryCap = std::size_t{4} << 20, .chunkSize = std::size_t{1} << 20}};
+};
+
+TEST_F(RawFileImport, SpacesDatagramsByTheirTimeCodesWithTheNewestAtTheEnd) {
+    writeFile({1000, 1000, 1010, 1030});
+    ASSERT_EQ(importRawFile(path, log, Stage::kStart), "");
+    const std::int64_t ms = Stage::kMillisecond;
+    EXPECT_EQ(stamps(), (std::vector<std::int64_t>{Stage::kStart - 30 * ms, Stage::kStart - 30 * ms,
+                                                   Stage::kStart - 20 * ms, Stage::kStart}));
+}
+
+TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {
+    writeFile({1000, 1020, 5, 15});
+    ASSERT_EQ(importRawFile(path, log, Stage::kStart), "");
+    const auto found = stamps();
+    EXPECT_TRUE(std::ranges::is_sorted(found));
+    EXPECT_EQ(found.back(), Stage::kStart);
+}
+
+TEST_F(RawFileImport, SaysWhyAFileCannotBeRead) {
+    EXPECT_NE(importRawFile(folder.filePath("none.bin"), log, 0), "");
+    writeFile({});
+    EXPECT_NE(importRawFile(path, log, 0), "");
+    EXPECT_TRUE(stamps().empty());
+}
+
+} // namespace
+} // namespace posewire::gui
