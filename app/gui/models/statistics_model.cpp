@@ -87,11 +87,13 @@ void StatisticsModel::addTrend() {
     for (std::size_t row = 0; row < m_trends.size(); ++row) {
         Trend& trend = m_trends[row];
         const std::uint64_t datagrams = stream(static_cast<int>(row)).statistics.datagrams();
+        // A stream that has just appeared was there for a part of the second only.
+        const bool isNew = trend.datagrams == 0;
         const std::uint64_t arrived = datagrams - std::exchange(trend.datagrams, datagrams);
         for (std::int64_t i = 1; i < std::min<std::int64_t>(passed, kTrendSeconds); ++i) {
             trend.rates.append(std::numeric_limits<float>::quiet_NaN());
         }
-        if (passed == 1) {
+        if (passed == 1 && !isNew) {
             trend.rates.append(static_cast<float>(arrived));
         } else if (passed != 0) {
             trend.rates.append(std::numeric_limits<float>::quiet_NaN());

@@ -42,12 +42,12 @@ void CharactersPanel::refresh() {
 }
 
 QString CharactersPanel::summary() const {
-    const auto& characters = m_view.characters();
+    const auto characters = m_view.currentCharacters();
     if (characters.empty()) {
         return {};
     }
     const auto live = std::ranges::count_if(
-        characters, [this](const model::Character& character) { return isLive(m_view, character); });
+        characters, [this](const model::Character* character) { return isLive(m_view, *character); });
     return tr("%1 of %2 live").arg(live).arg(characters.size());
 }
 

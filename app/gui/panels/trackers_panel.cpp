@@ -61,7 +61,13 @@ void TrackersPanel::refresh() {
     m_isFollowing = true;
     m_trackers.refresh();
     m_facts.refresh();
-    m_detail->setVisible(m_trackers.shown() != nullptr);
+    const bool hasTracker = m_trackers.shown() != nullptr;
+    if (hasTracker && !m_isDivided) {
+        m_isDivided = true;
+        m_detail->show();
+        m_splitter->setSizes({1, 3}); // shares; plots need the room, the table scrolls
+    }
+    m_detail->setVisible(hasTracker);
     if (m_detail->isVisible()) {
         m_plots->show(m_trackers.history());
     }

@@ -39,6 +39,7 @@ private:
     TableView* m_factTable;
     TrackerPlots* m_plots;
     bool m_isFollowing = false;
+    bool m_isDivided = false; ///< from then on the operator's division counts
 };
 
 } // namespace posewire::gui

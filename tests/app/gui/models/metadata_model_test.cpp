@@ -51,8 +51,8 @@ TEST_F(MetadataModelTest, ShowsEveryTagAndMarksUnknownOnesInWords) {
 }
 
 TEST_F(MetadataModelTest, KeepsEarlierValuesBelowTheTagNewestFirst) {
-    for (const char* name : {"Ana", "Bea", "Cleo"}) {
-        m_stage.sendMetadata(std::string("name:") + name + "\n", m_stage.now + Stage::kSecond);
+    for (const char* text : {"name:Ana\n", "name:Bea\n", "name:Cleo\n"}) {
+        m_stage.sendMetadata(text, m_stage.now + Stage::kSecond);
         refresh();
     }
     const QModelIndex name = row("name");
