@@ -137,6 +137,10 @@ public:
     /// older than the newest of them, so that a figure does not jump between types that are sent together.
     [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
 
+    /// What type 12 messages said about a character, or about its predecessor where it has sent none itself.
+    /// The character must be one of this session.
+    [[nodiscard]] const Metadata& metadata(const CharacterKey& key) const;
+
     /// The scale message at the cursor; null where none was received.
     [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
 

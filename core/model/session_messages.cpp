@@ -153,6 +153,16 @@ std::vector<Eigen::Vector3d> Session::bodyOrigins(const CharacterKey& key) const
     return origins;
 }
 
+const Metadata& Session::metadata(const CharacterKey& key) const {
+    const Character* character = find(key);
+    for (const Character* other = character; other != nullptr; other = predecessor(other->key)) {
+        if (!other->metadata.tags().empty()) {
+            return other->metadata;
+        }
+    }
+    return character->metadata;
+}
+
 std::string_view Session::metadataValue(const CharacterKey& key, std::string_view tag) const {
     const Character* character = find(key);
     const std::uint64_t end = visibleEnd();

@@ -58,7 +58,7 @@ void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {
     if (!key) {
         return;
     }
-    const auto tags = m_view.find(*key)->metadata.tags();
+    const auto tags = m_view.metadata(*key).tags();
     beginInsertRows({}, 0, static_cast<int>(tags.size() + m_facts.size()) - 1);
     m_key = key;
     for (const model::MetadataTag& tag : tags) {
@@ -68,7 +68,7 @@ void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {
 }
 
 bool MetadataModel::insertTags() {
-    const auto tags = m_view.find(*m_key)->metadata.tags();
+    const auto tags = m_view.metadata(*m_key).tags();
     const std::size_t first = m_earlier.size();
     if (first == tags.size()) {
         return false;
@@ -109,7 +109,7 @@ std::size_t MetadataModel::earlierValues(const model::MetadataTag& tag) const {
 
 const model::MetadataTag* MetadataModel::tag(int row) const {
     const bool isTag = m_key && row >= 0 && static_cast<std::size_t>(row) < m_earlier.size();
-    return isTag ? &m_view.find(*m_key)->metadata.tags()[static_cast<std::size_t>(row)] : nullptr;
+    return isTag ? &m_view.metadata(*m_key).tags()[static_cast<std::size_t>(row)] : nullptr;
 }
 
 QModelIndex MetadataModel::index(int row, int column, const QModelIndex& parent) const {

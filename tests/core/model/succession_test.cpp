@@ -31,6 +31,7 @@ TEST_F(SuccessionTest, TakesWhatItHasNotSentFromTheSenderBefore) {
     EXPECT_NEAR(m_session.colour(newest).red, 0xe9 / 255.0, 1e-6);
     ASSERT_NE(m_session.pose(newest), nullptr);
     EXPECT_NEAR(m_session.pose(newest)->segments[0].position.x(), 3, 1e-6);
+    EXPECT_EQ(m_session.metadata(newest).tags().size(), 2U);
     EXPECT_TRUE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
     EXPECT_TRUE(m_session.isSuperseded(keyOf("10.0.0.5:1001")));
     EXPECT_FALSE(m_session.isSuperseded(newest));
