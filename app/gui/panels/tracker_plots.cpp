@@ -58,6 +58,9 @@ TrackerPlots::TrackerPlots(QWidget* parent) : QWidget(parent), m_plot(new QCusto
     QCPAxisRect* accelerations = addAxes(1);
     addTitle(2, tr("Magnetic field, norm"));
     QCPAxisRect* norms = addAxes(3);
+    // Fast for thin lines; and a plot must not make the whole window paint at once, out of turn.
+    m_plot->setPlottingHint(QCP::phFastPolylines);
+    m_plot->setPlottingHint(QCP::phImmediateRefresh, false);
     m_plot->plotLayout()->setRowStretchFactor(1, 3);
     m_plot->plotLayout()->setRowStretchFactor(3, 2);
     accelerations->axis(QCPAxis::atBottom)->setTickLabels(false);
@@ -99,7 +102,7 @@ void TrackerPlots::applyColours() {
     m_plot->setBackground(colours.panel);
     const std::array<QColor, 4> curves{colours.axisX, colours.axisY, colours.axisZ, colours.plotFourth};
     for (std::size_t i = 0; i < m_graphs.size(); ++i) {
-        m_graphs[i]->setPen(QPen(curves[i], 1.2));
+        m_graphs[i]->setPen(QPen(curves[i], 1));
     }
     m_marks->setScatterStyle(
         QCPScatterStyle(QCPScatterStyle::ssTriangle, colours.warning, colours.warning, 5));
