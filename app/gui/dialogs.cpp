@@ -11,6 +11,8 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTextBrowser>
+#include <QTextDocument>
+#include <QTextTable>
 #include <QVBoxLayout>
 
 namespace posewire::gui {
@@ -57,6 +59,29 @@ void AddPortDialog::accept() {
     m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') + problem);
 }
 
+namespace {
+
+/// Markdown's tables come with raised white borders.
+void styleTables(QTextDocument& document) {
+    constexpr qreal kPadding = 4;
+    for (QTextFrame* frame : document.rootFrame()->childFrames()) {
+        auto* table = qobject_cast<QTextTable*>(frame);
+        if (table == nullptr) {
+            continue;
+        }
+        QTextTableFormat format = table->format();
+        format.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
+        format.setBorderBrush(theme().line);
+        format.setBorder(1);
+        format.setBorderCollapse(true);
+        format.setCellPadding(kPadding);
+        format.setCellSpacing(0);
+        table->setFormat(format);
+    }
+}
+
+} // namespace
+
 void showText(const QString& title, const QString& markdown, QWidget* parent) {
     auto* dialog = new QDialog(parent);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
@@ -65,13 +90,14 @@ void showText(const QString& title, const QString& markdown, QWidget* parent) {
     browser->setFrameShape(QFrame::NoFrame);
     browser->setOpenExternalLinks(true);
     browser->setMarkdown(markdown);
+    styleTables(*browser->document());
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
     auto* column = new QVBoxLayout(dialog);
     column->addWidget(browser);
     column->addWidget(buttons);
     const QFontMetrics metrics = dialog->fontMetrics();
-    dialog->resize(metrics.averageCharWidth() * 110, metrics.lineSpacing() * 38);
+    dialog->resize(metrics.averageCharWidth() * 130, metrics.lineSpacing() * 44);
     dialog->show();
 }
 

@@ -80,7 +80,7 @@ void SceneBuilder::build(const ViewOptions& options, SceneFrame& frame) {
         figure.selectedSegment =
             isSelected && selection.segment < model::kBodySegmentCount ? selection.segment : -1;
         if (options.axes == AxesMode::All || (options.axes == AxesMode::Selected && isSelected)) {
-            addAxes(*pose, isSelected ? selection.segment : -1, frame);
+            addAxes(*pose, isSelected ? selection.segment : -1, 1.0F - figure.dim, frame);
         }
         addFingers(*pose, figure.colour, frame);
     }
@@ -103,7 +103,8 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     frame.figures.push_back(std::move(figure));
 }
 
-void SceneBuilder::addAxes(const model::CharacterPose& pose, int selectedSegment, SceneFrame& frame) const {
+void SceneBuilder::addAxes(const model::CharacterPose& pose, int selectedSegment, float strength,
+                           SceneFrame& frame) const {
     const std::size_t count =
         std::min(pose.segments.size(), static_cast<std::size_t>(pose.layout.body + pose.layout.props));
     for (std::size_t i = 0; i < count; ++i) {
@@ -114,7 +115,8 @@ void SceneBuilder::addAxes(const model::CharacterPose& pose, int selectedSegment
         const bool isSelected = static_cast<int>(i) == selectedSegment;
         const float length = isBody ? kBodyAxesLength : kPropAxesLength;
         frame.axes.push_back({vectorOf(pose.segments[i].position), rotationOf(pose.segments[i].orientation),
-                              isSelected ? 1.6F * length : length, isSelected ? 1.0F : kUnselectedAxesAlpha});
+                              isSelected ? 1.6F * length : length,
+                              strength * (isSelected ? 1.0F : kUnselectedAxesAlpha)});
     }
 }
 

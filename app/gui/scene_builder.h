@@ -33,7 +33,9 @@ public:
 
 private:
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
-    void addAxes(const model::CharacterPose& pose, int selectedSegment, SceneFrame& frame) const;
+    /// `strength` below 1 for data that have faded.
+    void addAxes(const model::CharacterPose& pose, int selectedSegment, float strength,
+                 SceneFrame& frame) const;
     void addFingers(const model::CharacterPose& pose, const glm::vec3& colour, SceneFrame& frame) const;
 
     const model::Session& m_session;

@@ -61,8 +61,14 @@ void SoftwarePresenter::paintEvent(QPaintEvent* /*event*/) {
         painter.fillRect(rect(), theme().panel);
         return;
     }
-    // While the window is being resized the picture in hand has another size; stretching it beats a hole.
-    painter.drawImage(rect(), m_picture);
+    const QSize pixels(qRound(width() * devicePixelRatioF()), qRound(height() * devicePixelRatioF()));
+    if (m_picture.size() == pixels) {
+        m_picture.setDevicePixelRatio(devicePixelRatioF());
+        painter.drawImage(QPointF(), m_picture);
+    } else {
+        // While the window is being resized the picture in hand has another size; stretching it beats a hole.
+        painter.drawImage(rect(), m_picture);
+    }
 }
 
 } // namespace posewire::gui
