@@ -399,7 +399,7 @@ QVariant CharacterModel::headerData(int section, Qt::Orientation orientation, in
     }
     switch (section) {
     case kName:
-        return tr("Source / character / stream");
+        return tr("Character, stream");
     case kRate:
         return tr("Hz");
     default:
