@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/character_model.h"
 
+#include "app/gui/models/columns.h"
 #include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
@@ -49,10 +50,6 @@ const model::Stream* leadingStream(model::SessionView& view, const model::Charac
         }
     }
     return fastest;
-}
-
-QVariant numberAlignment() {
-    return QVariant::fromValue(Qt::AlignRight | Qt::AlignVCenter);
 }
 
 QVariant stateData(const State& state, int role) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/statistics_model.h"
 
+#include "app/gui/models/columns.h"
 #include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
@@ -18,14 +19,9 @@ namespace {
 constexpr std::int64_t kNsPerSecond = 1'000'000'000;
 constexpr double kMsPerNs = 1e-6;
 
-struct ColumnText {
-    const char* title;
-    const char* toolTip;
-};
-
 constexpr std::array<ColumnText, StatisticsModel::kColumnCount> kColumns{{
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Stream"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Character and message type")},
+     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Character and message type"), false},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Hz"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
                        "Samples a second as they arrive at this computer, not as they were sent")},
@@ -52,10 +48,6 @@ constexpr std::array<ColumnText, StatisticsModel::kColumnCount> kColumns{{
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
                        "Datagrams that begin with MXTP and cannot be decoded")},
 }};
-
-QVariant numberAlignment() {
-    return QVariant::fromValue(Qt::AlignRight | Qt::AlignVCenter);
-}
 
 } // namespace
 
@@ -193,20 +185,9 @@ QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant StatisticsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation != Qt::Horizontal || section < 0 || section >= kColumnCount) {
-        return {};
-    }
-    const ColumnText& column = kColumns[static_cast<std::size_t>(section)];
-    switch (role) {
-    case Qt::DisplayRole:
-        return tr(column.title);
-    case Qt::ToolTipRole:
-        return tr(column.toolTip);
-    case Qt::TextAlignmentRole:
-        return section == kStream ? QVariant() : numberAlignment();
-    default:
-        return {};
-    }
+    return orientation == Qt::Horizontal
+               ? columnHeader(kColumns, "posewire::gui::StatisticsModel", section, role)
+               : QVariant();
 }
 
 } // namespace posewire::gui

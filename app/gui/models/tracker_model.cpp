@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/tracker_model.h"
 
+#include "app/gui/models/columns.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "core/model/segments.h"
@@ -12,13 +13,8 @@ namespace posewire::gui {
 
 namespace {
 
-struct ColumnText {
-    const char* title;
-    const char* toolTip;
-};
-
 constexpr std::array<ColumnText, TrackerModel::kColumnCount> kColumns{{
-    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Tracker"), ""},
+    {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "Tracker"), "", false},
     {QT_TRANSLATE_NOOP("posewire::gui::TrackerModel", "|f| m/s²"),
      QT_TRANSLATE_NOOP("posewire::gui::TrackerModel",
                        "Norm of the free acceleration: gravity taken away, global")},
@@ -35,12 +31,9 @@ constexpr std::array<ColumnText, TrackerModel::kColumnCount> kColumns{{
          "posewire::gui::TrackerModel",
          "Magnetic disturbance: the norm is more than 15 % off its own median of the last minute. "
          "Saturation: a component of the acceleration was above 156 m/s² or of the angular velocity "
-         "above 34 rad/s in the last 10 s; full scale is assumed to be 16 g and 2000 °/s.")},
+         "above 34 rad/s in the last 10 s; full scale is assumed to be 16 g and 2000 °/s."),
+     false},
 }};
-
-QVariant numberAlignment() {
-    return QVariant::fromValue(Qt::AlignRight | Qt::AlignVCenter);
-}
 
 } // namespace
 
@@ -168,20 +161,9 @@ QVariant TrackerModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant TrackerModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation != Qt::Horizontal || section < 0 || section >= kColumnCount) {
-        return {};
-    }
-    const ColumnText& column = kColumns[static_cast<std::size_t>(section)];
-    switch (role) {
-    case Qt::DisplayRole:
-        return tr(column.title);
-    case Qt::ToolTipRole:
-        return column.toolTip[0] == '\0' ? QVariant() : tr(column.toolTip);
-    case Qt::TextAlignmentRole:
-        return section == kName || section == kState ? QVariant() : numberAlignment();
-    default:
-        return {};
-    }
+    return orientation == Qt::Horizontal
+               ? columnHeader(kColumns, "posewire::gui::TrackerModel", section, role)
+               : QVariant();
 }
 
 } // namespace posewire::gui
