@@ -25,10 +25,14 @@ namespace {
 /// After so many naps without a datagram the loop waits for one instead: an idle monitor uses no processor
 /// time.
 constexpr int kNapsUntilIdle = 200;
+/// Below this, naps cost more than they save.
+constexpr std::chrono::microseconds kShortestNap{500};
+/// What the kernel charges a socket's buffer for a datagram of usual size (measured for 760 bytes).
+constexpr std::size_t kBufferPerDatagram = 2304;
 /// So many batches are taken from one socket before the others have their turn.
 constexpr int kBatchesPerTurn = 256;
 /// The kernel's drop counters are read once in so many rounds, about ten times a second.
-constexpr int kRoundsPerDropCheck = 100;
+constexpr int kRoundsPerDropCheck = 16;
 
 /// A descriptor that is closed with its owner.
 class Descriptor {
@@ -65,17 +69,19 @@ public:
     void wake() override;
 
 private:
-    bool drainAll();
+    std::size_t drainAll();
     std::size_t drain(Socket& socket);
     /// Bytes of the datagram.
     std::size_t commit(Socket& socket, std::size_t index);
     void countDrops(Socket& socket, std::uint32_t drops);
     void checkDrops();
-    void rest(bool wasBusy);
+    void rest(std::size_t received);
+    void adaptNap(std::size_t received);
     void waitForSomething();
 
     ReceiveContext m_context;
     Descriptor m_wake;
+    std::chrono::nanoseconds m_longestNap{};
     std::chrono::nanoseconds m_nap{};
     std::vector<std::unique_ptr<Socket>> m_sockets;
     int m_idleNaps = 0;
@@ -91,6 +97,7 @@ void enable(int descriptor, int option) {
 
 NetResult<std::vector<Endpoint>> RecvmmsgLoop::open(const ReceiveOptions& options) {
     const QEventLoop dispatcher; // Qt's sockets want one in their thread, if only to be opened
+    m_longestNap = options.nap;
     m_nap = options.nap;
     std::vector<Endpoint> endpoints;
     std::int64_t smallest = INT64_MAX;
@@ -128,8 +135,8 @@ void RecvmmsgLoop::wake() {
         ::write(m_wake.get(), &one, sizeof one); // full is as good as written
 }
 
-/// True if there was anything.
-bool RecvmmsgLoop::drainAll() {
+/// How many packets there were.
+std::size_t RecvmmsgLoop::drainAll() {
     std::size_t count = 0;
     for (const auto& socket : m_sockets) {
         count += drain(*socket);
@@ -140,7 +147,7 @@ bool RecvmmsgLoop::drainAll() {
     if (++m_roundsSinceDropCheck >= kRoundsPerDropCheck) {
         checkDrops();
     }
-    return count > 0;
+    return count;
 }
 
 std::size_t RecvmmsgLoop::drain(Socket& socket) {
@@ -204,8 +211,22 @@ void RecvmmsgLoop::checkDrops() {
     }
 }
 
-void RecvmmsgLoop::rest(bool wasBusy) {
-    m_idleNaps = wasBusy ? 0 : m_idleNaps + 1;
+/// Naps as long as it may, and never so long that what arrives at this rate fills more than an eighth of the
+/// buffer.
+void RecvmmsgLoop::adaptNap(std::size_t received) {
+    const auto room =
+        static_cast<std::size_t>(m_context.counters.receiveBufferBytes.load(std::memory_order_relaxed));
+    if (received * kBufferPerDatagram > room / 8) {
+        m_nap = std::max<std::chrono::nanoseconds>(
+            m_nap / 2, std::min<std::chrono::nanoseconds>(kShortestNap, m_longestNap));
+    } else {
+        m_nap = std::min(m_nap + m_nap / 4, m_longestNap);
+    }
+}
+
+void RecvmmsgLoop::rest(std::size_t received) {
+    m_idleNaps = received != 0 ? 0 : m_idleNaps + 1;
+    adaptNap(received);
     if (m_idleNaps > kNapsUntilIdle) {
         checkDrops();
         waitForSomething();

@@ -31,10 +31,10 @@ struct ReceiveOptions {
     ReceivePath path = ReceivePath::Native;
     /// Of the kernel's buffer of each socket: asked for. See ReceiveCounters for what was granted.
     int bufferBytes = 4 << 20;
-    /// The thread sleeps so long after each emptying of the sockets: the cheapest way to receive, at the
-    /// price of this delay. Waking costs as much as receiving dozens of datagrams; below a millisecond naps
-    /// cost more than they save.
-    std::chrono::microseconds nap{1500};
+    /// The thread sleeps at most so long after each emptying of the sockets, and less where much arrives: the
+    /// cheapest way to receive, at the price of this delay, since waking costs as much as receiving dozens of
+    /// datagrams. Stamps are the kernel's and do not suffer.
+    std::chrono::microseconds nap{6000};
 };
 
 /// Written by the receiving thread, to be read by any.
