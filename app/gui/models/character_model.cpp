@@ -97,32 +97,21 @@ bool CharacterModel::insertSources() {
 }
 
 bool CharacterModel::insertCharacters() {
-    int parent = kNone;
-    std::vector<std::size_t> entries;
-    for (std::size_t entry = 0; entry < m_characterNodes.size(); ++entry) {
-        const int wanted = m_characterNodes[entry] == kNone ? parentOfCharacter(entry) : kNone;
-        if (wanted != kNone && (parent == kNone || parent == wanted)) {
-            parent = wanted;
-            entries.push_back(entry);
-        }
-    }
-    if (entries.empty()) {
-        return false;
-    }
-    const int first = static_cast<int>(m_nodes[static_cast<std::size_t>(parent)].children.size());
-    beginInsertRows(indexOfNode(parent), first, first + static_cast<int>(entries.size()) - 1);
-    for (const std::size_t entry : entries) {
-        addCharacter(entry, parent);
-    }
-    endInsertRows();
-    return true;
+    return insertChildren(m_characterNodes, &CharacterModel::parentOfCharacter,
+                          &CharacterModel::addCharacter);
 }
 
 bool CharacterModel::insertStreams() {
+    return insertChildren(m_streamNodes, &CharacterModel::parentOfStream, &CharacterModel::addStream);
+}
+
+bool CharacterModel::insertChildren(const std::vector<int>& nodes,
+                                    int (CharacterModel::*parentOf)(std::size_t) const,
+                                    void (CharacterModel::*add)(std::size_t, int)) {
     int parent = kNone;
     std::vector<std::size_t> entries;
-    for (std::size_t entry = 0; entry < m_streamNodes.size(); ++entry) {
-        const int wanted = m_streamNodes[entry] == kNone ? parentOfStream(entry) : kNone;
+    for (std::size_t entry = 0; entry < nodes.size(); ++entry) {
+        const int wanted = nodes[entry] == kNone ? (this->*parentOf)(entry) : kNone;
         if (wanted != kNone && (parent == kNone || parent == wanted)) {
             parent = wanted;
             entries.push_back(entry);
@@ -134,7 +123,7 @@ bool CharacterModel::insertStreams() {
     const int first = static_cast<int>(m_nodes[static_cast<std::size_t>(parent)].children.size());
     beginInsertRows(indexOfNode(parent), first, first + static_cast<int>(entries.size()) - 1);
     for (const std::size_t entry : entries) {
-        addStream(entry, parent);
+        (this->*add)(entry, parent);
     }
     endInsertRows();
     return true;

@@ -58,6 +58,9 @@ private:
     bool insertSources();
     bool insertCharacters();
     bool insertStreams();
+    /// Adds the entries without a node that have the same parent as the first of them.
+    bool insertChildren(const std::vector<int>& nodes, int (CharacterModel::*parentOf)(std::size_t) const,
+                        void (CharacterModel::*add)(std::size_t, int));
     int addNode(Kind kind, std::size_t entry, int parent);
     void addSource(std::size_t entry);
     void addCharacter(std::size_t entry, int parent);

@@ -259,10 +259,9 @@ QVariant MetadataModel::factData(const Property& fact, int column, int role) con
     const PropertyValue value = fact.read();
     switch (role) {
     case Qt::DisplayRole:
-        return value.health == Health::Unknown ? value.text
-                                               : healthSymbol(value.health) + QLatin1Char(' ') + value.text;
+        return value.display();
     case Qt::ForegroundRole:
-        return value.health == Health::Unknown ? QVariant() : healthColour(value.health);
+        return value.colour();
     case Qt::ToolTipRole:
         return value.toolTip.isEmpty() ? QVariant(value.text) : value.toolTip;
     default:

@@ -8,10 +8,9 @@ namespace {
 QVariant valueData(const PropertyValue& value, int role) {
     switch (role) {
     case Qt::DisplayRole:
-        return value.health == Health::Unknown ? value.text
-                                               : healthSymbol(value.health) + QLatin1Char(' ') + value.text;
+        return value.display();
     case Qt::ForegroundRole:
-        return value.health == Health::Unknown ? QVariant() : healthColour(value.health);
+        return value.colour();
     case Qt::ToolTipRole:
         return value.toolTip.isEmpty() ? QVariant() : value.toolTip;
     case Qt::TextAlignmentRole:
@@ -22,6 +21,14 @@ QVariant valueData(const PropertyValue& value, int role) {
 }
 
 } // namespace
+
+QString PropertyValue::display() const {
+    return health == Health::Unknown ? text : healthSymbol(health) + QLatin1Char(' ') + text;
+}
+
+QVariant PropertyValue::colour() const {
+    return health == Health::Unknown ? QVariant() : healthColour(health);
+}
 
 PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
     : QAbstractTableModel(parent), m_properties(std::move(properties)) {}

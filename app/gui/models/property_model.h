@@ -15,6 +15,11 @@ struct PropertyValue {
     QString text;
     Health health = Health::Unknown; ///< other than Unknown: shown with its symbol and colour
     QString toolTip = {};
+
+    /// "▲ 31", or the text alone where health is unknown.
+    [[nodiscard]] QString display() const;
+    /// Of the health; nothing where it is unknown.
+    [[nodiscard]] QVariant colour() const;
 };
 
 /// A row with a fixed label and a value that is read anew.
