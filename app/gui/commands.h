@@ -14,6 +14,12 @@ public:
     virtual ~Commands() = default;
 
     virtual void select(const model::Selection& selection) = 0;
+    /// Selects a packet with its source and character. Nothing happens where there is no such packet.
+    virtual void selectPacket(std::uint64_t number) = 0;
+    virtual void setMarked(std::uint64_t packet, bool isMarked) = 0;
+    virtual void setComment(std::uint64_t packet, const QString& comment) = 0;
+    /// What the list of packets shows; empty for all.
+    virtual void setDisplayFilter(const QString& filter) = 0;
     /// Points the camera at a character.
     virtual void frameCharacter(const model::CharacterKey& key) = 0;
     virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;

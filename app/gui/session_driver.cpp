@@ -85,6 +85,41 @@ void SessionDriver::setDemo(int characters) {
 
 void SessionDriver::select(const model::Selection& selection) {
     m_session.setSelection(selection);
+    announceChange();
+}
+
+void SessionDriver::selectPacket(std::uint64_t number) {
+    const auto packet = m_session.packet(number);
+    const model::PacketDigest* digest = m_session.digests().find(number);
+    if (!packet || digest == nullptr) {
+        return;
+    }
+    const bool hasCharacter = digest->type != 0;
+    model::Selection selection{packet->source, std::nullopt, -1, number};
+    if (hasCharacter) {
+        selection.character = model::CharacterKey{packet->source, digest->character};
+    }
+    const model::Selection& before = m_session.selection();
+    selection.segment = before.character == selection.character ? before.segment : -1;
+    select(selection);
+}
+
+void SessionDriver::setMarked(std::uint64_t packet, bool isMarked) {
+    m_session.setMarked(packet, isMarked);
+    announceChange();
+}
+
+void SessionDriver::setComment(std::uint64_t packet, const QString& comment) {
+    m_session.setComment(packet, comment.toStdString());
+    announceChange();
+}
+
+void SessionDriver::setDisplayFilter(const QString& filter) {
+    m_session.setDisplayFilter(filter.toStdString());
+    announceChange();
+}
+
+void SessionDriver::announceChange() {
     m_isChanged = true;
     m_tableTickNs = 0;
 }
@@ -116,8 +151,7 @@ void SessionDriver::setPaused(bool isPaused) {
         cursor = {model::Cursor::Mode::Paused, end == 0 ? 0 : end - 1};
     }
     m_session.setCursor(cursor);
-    m_isChanged = true;
-    m_tableTickNs = 0;
+    announceChange();
     emit pausedChanged(isPaused);
 }
 

@@ -43,6 +43,10 @@ public:
 
     // Commands
     void select(const model::Selection& selection) override;
+    void selectPacket(std::uint64_t number) override;
+    void setMarked(std::uint64_t packet, bool isMarked) override;
+    void setComment(std::uint64_t packet, const QString& comment) override;
+    void setDisplayFilter(const QString& filter) override;
     void frameCharacter(const model::CharacterKey& key) override;
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override;
     [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const override;
@@ -60,6 +64,9 @@ signals:
     void visibilityChanged(const model::CharacterKey& key, bool isVisible);
 
 private:
+    /// What panels show has changed otherwise than by new packets.
+    void announceChange();
+
     const log::Clock& m_clock;
     log::PacketLog m_log;
     model::Session m_session;

@@ -2,18 +2,12 @@
 #include "core/model/session.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace posewire::model {
 namespace {
 
 constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
 constexpr std::size_t kMostCharacters = 1024;
-
-bool beginsWithMagic(wire::Bytes bytes) {
-    constexpr std::array<char, 4> magic{'M', 'X', 'T', 'P'};
-    return bytes.size() >= magic.size() && std::memcmp(bytes.data(), magic.data(), magic.size()) == 0;
-}
 
 std::string shownBytes(wire::Bytes bytes) {
     constexpr std::string_view digits = "0123456789abcdef";
@@ -64,10 +58,14 @@ bool Session::follow(std::int64_t nowNs, std::size_t most) {
     }
     m_end = std::max(m_end, to);
     m_index.dropBefore(m_begin);
+    m_digests.dropBefore(m_begin);
     return to > from;
 }
 
 void Session::take(const log::Packet& packet) {
+    const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_scratch).has_value();
+    const PacketDigest digest = m_digester.add(packet, isRead ? &m_scratch : nullptr);
+    m_digests.append(packet.number, digest);
     Source* source = sourceOf(packet);
     if (source == nullptr) {
         return;
@@ -75,27 +73,29 @@ void Session::take(const log::Packet& packet) {
     source->lastStampNs = packet.stampNs;
     source->kernelDrops += packet.kernelDropsBefore;
     source->bytes += packet.bytes.size();
-    if (packet.flags.skipped) {
-        source->skippedBytes += packet.bytes.size();
-        return;
-    }
-    ++source->datagrams;
-    if (!beginsWithMagic(packet.bytes)) {
+    source->datagrams += digest.kind == PacketKind::Skipped ? 0 : 1;
+    switch (digest.kind) {
+    case PacketKind::Datagram:
+        takeDatagram(packet, *source);
+        break;
+    case PacketKind::Malformed:
+        takeMalformed(packet, *source, digest);
+        break;
+    case PacketKind::Foreign:
         ++source->foreign;
         source->firstForeignBytes = shownBytes(packet.bytes);
-        return;
+        break;
+    case PacketKind::Skipped:
+        source->skippedBytes += packet.bytes.size();
+        break;
     }
-    const bool isRead = wire::decodeInto(packet.bytes, m_scratch).has_value();
-    if (isRead) {
-        takeDatagram(packet, *source);
-        return;
-    }
-    ++source->malformed;
-    if (const auto header = wire::decodeHeader(packet.bytes)) {
-        const auto stream = m_streamIndex.find({packet.source, header->character, header->type()});
-        if (stream != m_streamIndex.end()) {
-            ++m_streams[stream->second].malformed;
-        }
+}
+
+void Session::takeMalformed(const log::Packet& packet, Source& source, const PacketDigest& digest) {
+    ++source.malformed;
+    const auto stream = m_streamIndex.find({packet.source, digest.character, digest.type});
+    if (stream != m_streamIndex.end()) {
+        ++m_streams[stream->second].malformed;
     }
 }
 
@@ -217,6 +217,22 @@ std::vector<const Character*> Session::currentCharacters() const {
         }
     }
     return shown;
+}
+
+void Session::setMarked(std::uint64_t packet, bool isMarked) {
+    if (isMarked) {
+        m_annotations.marks.insert(packet);
+    } else {
+        m_annotations.marks.erase(packet);
+    }
+}
+
+void Session::setComment(std::uint64_t packet, std::string comment) {
+    if (comment.empty()) {
+        m_annotations.comments.erase(packet);
+    } else {
+        m_annotations.comments[packet] = std::move(comment);
+    }
 }
 
 const Source* Session::find(log::SourceId id) const {

@@ -3,11 +3,13 @@
 
 #include "core/log/packet_log.h"
 #include "core/log/stream_index.h"
+#include "core/model/annotations.h"
 #include "core/model/character_pose.h"
 #include "core/model/detection.h"
 #include "core/model/keys.h"
 #include "core/model/metadata.h"
 #include "core/model/null_pose.h"
+#include "core/model/packet_digest.h"
 #include "core/model/stream_statistics.h"
 
 #include <deque>
@@ -64,9 +66,10 @@ struct Cursor {
 
 /// What is selected; part of the session, so that all panels agree without knowing each other.
 struct Selection {
-    std::optional<log::SourceId> source;
-    std::optional<CharacterKey> character;
-    int segment = -1; ///< position in the pose datagram, -1 for none
+    std::optional<log::SourceId> source{};
+    std::optional<CharacterKey> character{};
+    int segment = -1;                      ///< position in the pose datagram, -1 for none
+    std::optional<std::uint64_t> packet{}; ///< its number in the log; nothing: the newest one
     friend bool operator==(const Selection&, const Selection&) = default;
 };
 
@@ -85,6 +88,11 @@ public:
 
     void setCursor(Cursor cursor) { m_cursor = cursor; }
     void setSelection(const Selection& selection) { m_selection = selection; }
+    /// What packets are listed; in the filter language, empty for all. It is not checked here.
+    void setDisplayFilter(std::string filter) { m_displayFilter = std::move(filter); }
+    void setMarked(std::uint64_t packet, bool isMarked);
+    /// An empty comment takes the comment away.
+    void setComment(std::uint64_t packet, std::string comment);
 
     // What panels read (SessionView is this class as const).
     [[nodiscard]] const std::deque<Source>& sources() const { return m_sources; }
@@ -111,11 +119,22 @@ public:
 
     [[nodiscard]] const Cursor& cursor() const { return m_cursor; }
     [[nodiscard]] const Selection& selection() const { return m_selection; }
+    [[nodiscard]] const std::string& displayFilter() const { return m_displayFilter; }
+    [[nodiscard]] const Annotations& annotations() const { return m_annotations; }
     [[nodiscard]] std::int64_t nowNs() const { return m_nowNs; }
     /// Packets followed so far: one past the newest packet number.
     [[nodiscard]] std::uint64_t end() const { return m_end; }
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] log::LogFigures figures() const { return m_log.figures(); }
+
+    /// For readers on other threads.
+    [[nodiscard]] const log::PacketLog& log() const { return m_log; }
+    /// Nothing where the log has dropped it. The bytes are valid until the next follow().
+    [[nodiscard]] std::optional<log::Packet> packet(std::uint64_t number) const {
+        return m_reader.packet(number);
+    }
+    /// One for every packet from begin() to end().
+    [[nodiscard]] const PacketDigests& digests() const { return m_digests; }
 
     /// The newest complete message of a stream at the cursor, decoded; null where there is none or it cannot
     /// be decoded. Items of a sample that came in several datagrams are joined. Valid until the next follow()
@@ -161,6 +180,7 @@ public:
 private:
     void take(const log::Packet& packet);
     void takeDatagram(const log::Packet& packet, Source& source);
+    void takeMalformed(const log::Packet& packet, Source& source, const PacketDigest& digest);
     void takeContent(const log::Packet& packet, Character& character, Source& source);
     // Null where there are too many already.
     Source* sourceOf(const log::Packet& packet);
@@ -200,6 +220,10 @@ private:
     std::int64_t m_nowNs = 0;
     Cursor m_cursor;
     Selection m_selection;
+    std::string m_displayFilter;
+    Annotations m_annotations;
+    PacketDigester m_digester;
+    PacketDigests m_digests;
     std::deque<Source> m_sources;
     std::deque<Character> m_characters;
     std::deque<Stream> m_streams;

@@ -29,29 +29,11 @@ void StreamStatistics::add(std::int64_t stampNs, std::size_t bytes, std::uint32_
 }
 
 void StreamStatistics::addStep(std::uint32_t moved) {
-    if (moved == 0) {
-        return;
-    }
     const std::uint32_t usual = step();
-    if (usual != 0 && moved != usual) {
+    if (moved != 0 && usual != 0 && moved != usual) {
         ++m_gaps;
     }
-    m_steps[m_stepCount % kSteps] = moved;
-    ++m_stepCount;
-}
-
-/// Boyer and Moore's majority vote: a step is usual only if more than half of the last ones are it.
-std::uint32_t StreamStatistics::step() const {
-    const auto count = static_cast<std::ptrdiff_t>(std::min<std::uint64_t>(m_stepCount, kSteps));
-    std::uint32_t candidate = 0;
-    int lead = 0;
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        const std::uint32_t value = m_steps[static_cast<std::size_t>(i)];
-        candidate = lead == 0 ? value : candidate;
-        lead += value == candidate ? 1 : -1;
-    }
-    const auto begin = m_steps.begin();
-    return count >= 4 && 2 * std::count(begin, begin + count, candidate) > count ? candidate : 0;
+    m_step.add(moved);
 }
 
 std::size_t StreamStatistics::windowSize() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/sample_step.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -40,11 +42,10 @@ public:
     /// still.
     [[nodiscard]] std::uint64_t gaps() const { return m_gaps; }
     /// The usual step of the sample counter; 0 before it is known or where there is none.
-    [[nodiscard]] std::uint32_t step() const;
+    [[nodiscard]] std::uint32_t step() const { return m_step.value(); }
 
 private:
     static constexpr std::size_t kWindow = 256;
-    static constexpr std::size_t kSteps = 64;
     struct Arrival {
         std::int64_t stampNs;
         std::uint64_t bytesSoFar;
@@ -53,7 +54,7 @@ private:
     [[nodiscard]] const Arrival& arrival(std::size_t back) const {
         return m_arrivals[(m_samples - 1 - back) % kWindow];
     }
-    void addStep(std::uint32_t step);
+    void addStep(std::uint32_t moved);
 
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;
@@ -62,9 +63,8 @@ private:
     std::int64_t m_firstStampNs = 0;
     std::int64_t m_lastStampNs = 0;
     std::uint32_t m_lastSample = 0;
-    std::uint64_t m_stepCount = 0;
+    SampleStep m_step;
     std::array<Arrival, kWindow> m_arrivals{};
-    std::array<std::uint32_t, kSteps> m_steps{};
 };
 
 } // namespace posewire::model

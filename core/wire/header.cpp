@@ -14,9 +14,12 @@ constexpr std::string_view kMagic = "MXTP";
 
 } // namespace
 
+bool startsWithMagic(Bytes bytes) {
+    return bytes.size() >= kMagic.size() && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0;
+}
+
 bool startsDatagram(Bytes bytes) {
-    return bytes.size() >= 6 && std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) == 0 &&
-           isDigit(bytes[4]) && isDigit(bytes[5]);
+    return bytes.size() >= 6 && startsWithMagic(bytes) && isDigit(bytes[4]) && isDigit(bytes[5]);
 }
 
 Result<Header> decodeHeader(Bytes bytes) {

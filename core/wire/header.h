@@ -68,6 +68,9 @@ struct Layout<Header> {
 };
 static_assert(kWireSize<Header> == kHeaderSize);
 
+/// True where the bytes begin with "MXTP": what does not is foreign.
+[[nodiscard]] bool startsWithMagic(Bytes bytes);
+
 /// True where the bytes begin with "MXTP" and two digits: the start of a datagram of any type.
 [[nodiscard]] bool startsDatagram(Bytes bytes);
 

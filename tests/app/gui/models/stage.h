@@ -23,6 +23,18 @@ public:
         m_session.setSelection(selection);
         ++selections;
     }
+    void selectPacket(std::uint64_t number) override {
+        model::Selection selection = m_session.selection();
+        selection.packet = number;
+        select(selection);
+    }
+    void setMarked(std::uint64_t packet, bool isMarked) override { m_session.setMarked(packet, isMarked); }
+    void setComment(std::uint64_t packet, const QString& comment) override {
+        m_session.setComment(packet, comment.toStdString());
+    }
+    void setDisplayFilter(const QString& filter) override {
+        m_session.setDisplayFilter(filter.toStdString());
+    }
     void frameCharacter(const model::CharacterKey& key) override { framed.push_back(key); }
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         if (isVisible) {
