@@ -43,12 +43,27 @@ std::string hexadecimal(std::uint32_t value) {
     return "0x" + std::string(buffer.data(), end);
 }
 
+/// Names of the components of a vector, by how many it has.
+template <std::size_t N>
+std::string componentName(std::size_t index) {
+    if constexpr (N == 3) {
+        return std::string(1, "xyz"[index]);
+    } else if constexpr (N == 4) {
+        constexpr std::array<const char*, 4> names{"re", "i", "j", "k"};
+        return names[index];
+    } else {
+        return std::to_string(index / 3 + 1) + ',' + std::to_string(index % 3 + 1);
+    }
+}
+
 /// Writes every field down.
+template <bool kTellsCuts>
 class TreeWriter {
 public:
     static constexpr bool kListens = true;
 
-    explicit TreeWriter(FieldTree& tree) : m_tree(tree) {}
+    TreeWriter(FieldTree& tree, FieldDetail detail)
+        : m_tree(tree), m_hasParts(detail == FieldDetail::Parts) {}
 
     template <class Value>
     void field(const About& about, std::size_t offset, std::size_t size, const Value& value) {
@@ -58,14 +73,34 @@ public:
         } else {
             node.value = shown(value);
         }
+        if constexpr (std::is_integral_v<Value>) {
+            node.number = static_cast<double>(value);
+        }
+        if (m_hasParts) {
+            const auto self = static_cast<std::int32_t>(m_tree.nodes.size()) - 1;
+            m_parents.push_back(self);
+            divide(about, offset, size, value);
+            m_parents.pop_back();
+        }
     }
     void count(const About& about, std::size_t offset, std::size_t count) {
-        add(std::string(about.name) + " count",
-            {"", Unit::Count, "number of items that follow", about.section}, offset, 4)
-            .value = std::to_string(count);
+        FieldNode& node = add(std::string(about.name) + " count",
+                              {"", Unit::Count, "number of items that follow", about.section}, offset, 4);
+        node.value = std::to_string(count);
+        node.number = static_cast<double>(count);
+    }
+    void cut(const About& about, std::size_t offset, std::size_t present,
+             const WireError& error) requires(kTellsCuts) {
+        if (m_tree.cutNode >= 0) {
+            return;
+        }
+        FieldNode& node = add(std::string(about.name), about, offset, present);
+        node.kind = NodeKind::Cut;
+        m_tree.cutNode = static_cast<std::int32_t>(m_tree.nodes.size()) - 1;
+        m_tree.cutError = error;
     }
     void beginGroup(std::string name, const About& about, std::size_t offset) {
-        add(std::move(name), about, offset, 0);
+        add(std::move(name), about, offset, 0).kind = NodeKind::Group;
         m_parents.push_back(static_cast<std::int32_t>(m_tree.nodes.size()) - 1);
     }
     void endGroup(std::size_t offset) {
@@ -73,46 +108,156 @@ public:
         group.length = static_cast<std::uint32_t>(offset) - group.offset;
         m_parents.pop_back();
     }
-    void beginList(const About& about, std::size_t offset, std::size_t) {
+    void beginList(const About& about, std::size_t offset, std::size_t count) {
         m_section = about.section;
         beginGroup(std::string(about.name), about, offset);
+        m_tree.nodes.back().index = static_cast<std::uint32_t>(count);
     }
     void endList(std::size_t offset) { endGroup(offset); }
     void beginItem(std::size_t index, std::size_t offset) {
         beginGroup(std::to_string(index + 1), {"", Unit::None, "", m_section}, offset);
+        m_tree.nodes.back().kind = NodeKind::Item;
+        m_tree.nodes.back().index = static_cast<std::uint32_t>(index);
     }
     void endItem(std::size_t offset) { endGroup(offset); }
     void rest(std::size_t offset, std::size_t size) {
-        add("bytes", {"", Unit::None, "no field stands on these bytes", ""}, offset, size).value =
-            std::to_string(size);
+        FieldNode& node = add("bytes", {"", Unit::None, "no field stands on these bytes", ""}, offset, size);
+        node.value = std::to_string(size);
+        node.kind = NodeKind::Unread;
     }
+    [[nodiscard]] std::size_t end() const { return m_end; }
     /// Ends the groups that a fault left open.
     void close(std::size_t offset) {
         while (!m_parents.empty()) {
-            endGroup(offset);
+            endGroup(std::max(offset, m_end));
+        }
+    }
+    /// What a fault left unread, once all groups are closed.
+    void unread(std::size_t size) {
+        if (m_end < size) {
+            FieldNode& node = add("unread", {"", Unit::None, "not read because of the fault before", ""},
+                                  m_end, size - m_end);
+            node.value = std::to_string(size - m_end) + " bytes";
+            node.kind = NodeKind::Unread;
         }
     }
 
 private:
+    FieldNode& part(std::string name, const About& about, std::size_t offset, std::size_t size) {
+        FieldNode& node = add(std::move(name), about, offset, size);
+        node.kind = NodeKind::Part;
+        return node;
+    }
+    template <std::size_t N>
+    void divide(const About& about, std::size_t offset, std::size_t, const std::array<float, N>& values) {
+        m_tree.nodes.back().components = N;
+        for (std::size_t i = 0; i < N; ++i) {
+            FieldNode& node = part(componentName<N>(i), about, offset + 4 * i, 4);
+            node.value = shown(values[i]);
+            node.number = values[i];
+        }
+    }
+    template <std::size_t N>
+    void divide(const About& about, std::size_t offset, std::size_t, const std::array<char, N>& text) {
+        if constexpr (N == 6) {
+            part("magic", {"", Unit::None, "every datagram begins with MXTP", about.section}, offset, 4)
+                .value = std::string(text.data(), 4);
+            FieldNode& type =
+                part("type", {"", Unit::Identifier, "message type", about.section}, offset + 4, 2);
+            type.value = std::string(text.data() + 4, 2);
+        }
+    }
+    void divide(const About& about, std::size_t offset, std::size_t, std::uint8_t value) {
+        if (about.name == "datagramCounter") {
+            FieldNode& index =
+                part("index",
+                     {"", Unit::Count, "place among the datagrams of the sample, bits 0 to 6", about.section},
+                     offset, 1);
+            index.value = std::to_string(value & 0x7f);
+            index.number = value & 0x7f;
+            part("last", {"", Unit::None, "the last datagram of its sample, bit 7", about.section}, offset, 1)
+                .value = (value & 0x80) != 0 ? "yes" : "no";
+        }
+    }
+    void divide(const About& about, std::size_t offset, std::size_t size, const std::string& text) {
+        std::size_t at = offset;
+        if (size == text.size() + 4) {
+            FieldNode& length =
+                part("length", {"", Unit::ByteCount, "bytes of the text that follow", about.section}, at, 4);
+            length.value = std::to_string(text.size());
+            length.number = static_cast<double>(text.size());
+            at += 4;
+        }
+        if (about.name != "text") {
+            return;
+        }
+        for (std::size_t begin = 0; begin < text.size();) {
+            const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
+            const std::size_t colon = std::min(text.find(':', begin), end);
+            const std::size_t stop = text[end - 1] == '\n' ? end - 1 : end;
+            FieldNode& line =
+                part(text.substr(begin, std::min(colon, stop) - begin),
+                     {"", Unit::None, "one tag of the text", about.section}, at + begin, end - begin);
+            line.value = colon < stop ? text.substr(colon + 1, stop - colon - 1) : std::string();
+            begin = end;
+        }
+    }
+    void divide(const About&, std::size_t, std::size_t, std::integral auto) {}
+
     FieldNode& add(std::string name, const About& about, std::size_t offset, std::size_t size) {
         const std::int32_t parent = m_parents.empty() ? -1 : m_parents.back();
-        return m_tree.nodes.emplace_back(FieldNode{std::move(name), "", static_cast<std::uint32_t>(offset),
-                                                   static_cast<std::uint32_t>(size), parent, about.unit,
-                                                   about.text, about.section});
+        m_end = std::max(m_end, offset + size);
+        FieldNode& node = m_tree.nodes.emplace_back();
+        node.name = std::move(name);
+        node.offset = static_cast<std::uint32_t>(offset);
+        node.length = static_cast<std::uint32_t>(size);
+        node.parent = parent;
+        node.unit = about.unit;
+        node.text = about.text;
+        node.section = about.section;
+        return node;
     }
 
     FieldTree& m_tree;
     std::vector<std::int32_t> m_parents;
     std::string_view m_section;
+    std::size_t m_end = 0; ///< one past the last byte that has a node
+    bool m_hasParts;
 };
 
 /// As much of the header as there is.
-void readHeader(Bytes bytes, TreeWriter& writer) {
+template <class Writer>
+void readHeader(Bytes bytes, Writer& writer) {
     Header header;
     Cursor cursor{bytes.first(std::min(bytes.size(), kHeaderSize)), 0, 0, {}};
     writer.beginGroup("header", {"", Unit::None, "24 bytes, the same for all types", "2.4.1"}, 0);
     readLayout<Header, Form::Standard>(cursor, header, writer);
-    writer.endGroup(cursor.offset);
+    writer.close(cursor.offset);
+}
+
+template <class Writer>
+void writeTree(Bytes bytes, FieldTree& tree, Writer& writer) {
+    if (startsDatagram(bytes)) {
+        readHeader(bytes, writer);
+    }
+    const auto header = decodeHeader(bytes);
+    if (!header) {
+        tree.fault = header.error();
+        return;
+    }
+    Datagram datagram;
+    datagram.header = *header;
+    Cursor cursor = payloadCursor(bytes, *header);
+    if (readBody(cursor, datagram, writer)) {
+        checkValues(bytes, datagram);
+        if (bytes.size() > cursor.bytes.size()) {
+            writer.rest(cursor.bytes.size(), bytes.size() - cursor.bytes.size());
+        }
+    } else {
+        tree.fault = cursor.error;
+        writer.close(writer.end());
+    }
+    tree.notices = std::move(datagram.notices);
 }
 
 } // namespace
@@ -127,30 +272,29 @@ std::int32_t FieldTree::nodeAt(std::uint32_t offset) const {
     return found;
 }
 
-FieldTree fieldTree(Bytes bytes) {
-    FieldTree tree;
-    TreeWriter writer(tree);
-    if (startsDatagram(bytes)) {
-        readHeader(bytes, writer);
-    }
-    const auto header = decodeHeader(bytes);
-    if (!header) {
-        tree.fault = header.error();
-        return tree;
-    }
-    Datagram datagram;
-    datagram.header = *header;
-    Cursor cursor = payloadCursor(bytes, *header);
-    if (readBody(cursor, datagram, writer)) {
-        checkValues(bytes, datagram);
-        if (bytes.size() > cursor.bytes.size()) {
-            writer.rest(cursor.bytes.size(), bytes.size() - cursor.bytes.size());
+std::string FieldTree::path(std::int32_t node) const {
+    std::string path;
+    for (; node >= 0; node = nodes[static_cast<std::size_t>(node)].parent) {
+        const FieldNode& step = nodes[static_cast<std::size_t>(node)];
+        if (step.kind == NodeKind::Item) {
+            path.insert(0, '[' + std::to_string(step.index) + ']');
+        } else {
+            path.insert(0, '.' + step.name);
         }
-    } else {
-        tree.fault = cursor.error;
-        writer.close(cursor.offset);
     }
-    tree.notices = std::move(datagram.notices);
+    return path.empty() ? path : path.substr(1);
+}
+
+FieldTree fieldTree(Bytes bytes, FieldDetail detail) {
+    FieldTree tree;
+    if (detail == FieldDetail::Fields) {
+        TreeWriter<false> writer(tree, detail);
+        writeTree(bytes, tree, writer);
+    } else {
+        TreeWriter<true> writer(tree, detail);
+        writeTree(bytes, tree, writer);
+        writer.unread(bytes.size());
+    }
     return tree;
 }
 

@@ -35,6 +35,13 @@ struct SilentVisitor {
     static constexpr bool kListens = false;
 };
 
+/// A visitor that also wants to know which field the bytes did not suffice for, and what there is of an item
+/// that is cut off.
+template <class Visitor>
+concept HearsCuts = requires(Visitor& visitor, const About& about, const WireError& error) {
+    visitor.cut(about, std::size_t{}, std::size_t{}, error);
+};
+
 template <class T, Form F, class Visitor>
 bool readLayout(Cursor& cursor, T& value, Visitor& visitor);
 
@@ -56,11 +63,22 @@ void readFixed(Cursor& cursor, T& value, Visitor& visitor) {
     cursor.offset += kWireSize<T, F>;
 }
 
+/// Tells of the field that reading ended in; `claimed` bytes from `start` are the field's own. Always false.
+template <class Visitor>
+bool tellCut(const Cursor& cursor, const About& about, std::size_t start, std::size_t claimed,
+             Visitor& visitor) {
+    if constexpr (HearsCuts<Visitor>) {
+        visitor.cut(about, start, std::min(claimed, cursor.bytes.size() - start), cursor.error);
+    }
+    return false;
+}
+
 template <auto Member, class T, class Visitor>
 bool readField(Cursor& cursor, const Field<Member>& field, T& value, Visitor& visitor) {
     constexpr std::size_t size = sizeof(MemberValue<Member>);
     if (cursor.left() < size) {
-        return cursor.fail(ErrorCode::FieldTruncated, size, cursor.left());
+        cursor.fail(ErrorCode::FieldTruncated, size, cursor.left());
+        return tellCut(cursor, field.about, cursor.offset, size, visitor);
     }
     loadValue(cursor.here(), value.*Member);
     if constexpr (Visitor::kListens) {
@@ -110,12 +128,26 @@ template <auto Member, TextKind Kind, class T, class Visitor>
 bool readField(Cursor& cursor, const Text<Member, Kind>& field, T& value, Visitor& visitor) {
     const std::size_t start = cursor.offset;
     if (!readText(cursor, Kind, value.*Member)) {
-        return false;
+        // Of a text that runs past the end only its length is certain; of others what was looked at.
+        const bool isLength = cursor.error.code == ErrorCode::BadLength;
+        const bool isSequence = cursor.error.code == ErrorCode::BadSequence;
+        const std::size_t claimed = isLength     ? 4
+                                    : isSequence ? cursor.offset + 1 - start
+                                                 : cursor.bytes.size() - start;
+        return tellCut(cursor, field.about, start, claimed, visitor);
     }
     if constexpr (Visitor::kListens) {
         visitor.field(field.about, start, cursor.offset - start, value.*Member);
     }
     return true;
+}
+
+/// Shows the fields that are there of an item that is cut off.
+template <class Item, Form F, class Visitor>
+void tellPartOfItem(Cursor cursor, std::size_t index, Visitor& visitor) {
+    Item item;
+    visitor.beginItem(index, cursor.offset);
+    readLayout<Item, F>(cursor, item, visitor);
 }
 
 /// Reads `count` items into `list`; what was read before a fault stays.
@@ -139,6 +171,9 @@ bool readItems(Cursor& cursor, const About& about, std::size_t count, std::vecto
             }
         }
         if (whole < count) {
+            if constexpr (HearsCuts<Visitor>) {
+                tellPartOfItem<Item, ItemForm>(cursor, whole, visitor);
+            }
             return cursor.fail(ErrorCode::ItemsTruncated, (count - whole) * size, cursor.left());
         }
     } else {
@@ -171,12 +206,14 @@ template <auto Member, std::size_t Max, class T, class Visitor>
 bool readField(Cursor& cursor, const CountedList<Member, Max>& field, T& value, Visitor& visitor) {
     using Item = typename MemberValue<Member>::value_type;
     if (cursor.left() < 4) {
-        return cursor.fail(ErrorCode::FieldTruncated, 4, cursor.left());
+        cursor.fail(ErrorCode::FieldTruncated, 4, cursor.left());
+        return tellCut(cursor, field.about, cursor.offset, 4, visitor);
     }
     const std::uint32_t count = load32(cursor.here());
     const std::size_t room = std::min(Max, (cursor.left() - 4) / kWireSize<Item>);
     if (count > room) {
-        return cursor.fail(ErrorCode::CountTooLarge, count, room);
+        cursor.fail(ErrorCode::CountTooLarge, count, room);
+        return tellCut(cursor, field.about, cursor.offset, 4, visitor);
     }
     if constexpr (Visitor::kListens) {
         visitor.count(field.about, cursor.offset, count);
