@@ -12,6 +12,8 @@ namespace posewire::model {
 struct Annotations {
     std::set<std::uint64_t> marks;
     std::map<std::uint64_t, std::string> comments; ///< UTF-8, never empty
+
+    friend bool operator==(const Annotations&, const Annotations&) = default;
 };
 
 } // namespace posewire::model

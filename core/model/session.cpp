@@ -65,6 +65,9 @@ bool Session::follow(std::int64_t nowNs, std::size_t most) {
 void Session::take(const log::Packet& packet) {
     const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_scratch).has_value();
     const PacketDigest digest = m_digester.add(packet, isRead ? &m_scratch : nullptr);
+    if (m_digests.end() == 0) {
+        m_firstStampNs = packet.stampNs;
+    }
     m_digests.append(packet.number, digest);
     Source* source = sourceOf(packet);
     if (source == nullptr) {

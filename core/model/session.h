@@ -125,6 +125,8 @@ public:
     /// Packets followed so far: one past the newest packet number.
     [[nodiscard]] std::uint64_t end() const { return m_end; }
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
+    /// Of the first packet that was followed, also where the log has dropped it; 0 before there is one.
+    [[nodiscard]] std::int64_t firstStampNs() const { return m_firstStampNs; }
     [[nodiscard]] log::LogFigures figures() const { return m_log.figures(); }
 
     /// For readers on other threads.
@@ -218,6 +220,7 @@ private:
     std::uint64_t m_begin = 0;
     std::uint64_t m_end = 0;
     std::int64_t m_nowNs = 0;
+    std::int64_t m_firstStampNs = 0;
     Cursor m_cursor;
     Selection m_selection;
     std::string m_displayFilter;
