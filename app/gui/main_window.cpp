@@ -89,6 +89,7 @@ void MainWindow::makeDocks() {
         dock->setObjectName(QLatin1String(info.id));
         Panel* panel = info.make(m_driver.session(), m_driver, dock);
         dock->setWidget(panel);
+        panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
         auto* title = new DockTitle(dock);
         dock->setTitleBarWidget(title);
         addDockWidget(info.area, dock);
@@ -179,6 +180,13 @@ Settings MainWindow::settings() const {
     settings.window = normalGeometry().isEmpty() ? geometry() : normalGeometry();
     settings.isMaximized = isMaximized();
     settings.docks = saveState(kStateVersion);
+    for (const Dock& dock : m_docks) {
+        if (const QJsonObject state = dock.panel->state(); !state.isEmpty()) {
+            settings.panels[dock.dock->objectName()] = state;
+        } else {
+            settings.panels.remove(dock.dock->objectName());
+        }
+    }
     return settings;
 }
 

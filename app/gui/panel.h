@@ -3,6 +3,7 @@
 
 #include "app/gui/commands.h"
 
+#include <QJsonObject>
 #include <QWidget>
 
 #include <span>
@@ -22,6 +23,11 @@ public:
 
     /// What stands at the right of the dock's title, such as "2 of 2 live"; empty for nothing.
     [[nodiscard]] virtual QString summary() const { return {}; }
+
+    /// What the operator set here and wants to find again in the next run; empty for nothing.
+    [[nodiscard]] virtual QJsonObject state() const { return {}; }
+    /// Takes such a state; what it does not understand it leaves.
+    virtual void restoreState(const QJsonObject& /*state*/) {}
 };
 
 /// One row of the table of docks. To add a dock: a file pair in panels/ and a row in panels.cpp.

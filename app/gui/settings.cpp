@@ -37,6 +37,7 @@ Settings settingsOf(const QJsonObject& object) {
                        window["height"].toInt()};
     settings.isMaximized = window["maximized"].toBool();
     settings.docks = QByteArray::fromBase64(object["docks"].toString().toLatin1());
+    settings.panels = object["panels"].toObject();
     return settings;
 }
 
@@ -50,7 +51,8 @@ QJsonObject objectOf(const Settings& settings) {
             {"theme", themeName(settings.theme)},
             {"layout", settings.layout},
             {"window", window},
-            {"docks", QString::fromLatin1(settings.docks.toBase64())}};
+            {"docks", QString::fromLatin1(settings.docks.toBase64())},
+            {"panels", settings.panels}};
 }
 
 } // namespace

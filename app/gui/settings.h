@@ -4,6 +4,7 @@
 #include "app/gui/theme.h"
 
 #include <QByteArray>
+#include <QJsonObject>
 #include <QRect>
 #include <QString>
 
@@ -15,7 +16,8 @@ struct Settings {
     QString layout = QStringLiteral("Debug"); ///< the layout last chosen; docks may have been moved since
     QRect window;                             ///< logical pixels; empty for the default
     bool isMaximized = false;
-    QByteArray docks; ///< QMainWindow::saveState; empty for the layout as shipped
+    QByteArray docks;   ///< QMainWindow::saveState; empty for the layout as shipped
+    QJsonObject panels; ///< Panel::state() by the name of the dock
 };
 
 /// Reads and writes settings as JSON with the number of their schema.

@@ -25,10 +25,12 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, Q
     layout->addWidget(m_facts);
     m_table->setModel(&m_streams);
     const QString number = QStringLiteral("9999.99");
-    m_table->setColumnSamples({QStringLiteral("● Mira Lindqvist 02"), QStringLiteral("9999.9"),
-                               QStringLiteral("0000000"), QStringLiteral("▲ 9999"), number, number, number,
-                               number, QStringLiteral("9999.9"), QStringLiteral("99 999 999"),
-                               QStringLiteral("■ 9999")});
+    m_table->setColumnSamples({QString(), QStringLiteral("9999.9"), QStringLiteral("0000000"),
+                               QStringLiteral("▲ 9999"), number, number, number, number,
+                               QStringLiteral("9999.9"), QStringLiteral("99 999 999"),
+                               QStringLiteral("■ 9999")},
+                              QStringLiteral("● Mira Lindqvist 02"));
+    m_table->setOptionalColumns(StatisticsModel::kDeviation);
     m_table->setEmptyText(tr("No stream on the air.\nRates, spacing and gaps of every stream show here."));
     m_facts->setModel(&m_receiver);
     m_facts->setHeaderHidden(true);
@@ -54,6 +56,15 @@ QString StatisticsPanel::summary() const {
         return {};
     }
     return count == 1 ? tr("1 stream") : tr("%1 streams").arg(count);
+}
+
+QJsonObject StatisticsPanel::state() const {
+    const QJsonArray columns = m_table->chosenColumns();
+    return columns.isEmpty() ? QJsonObject() : QJsonObject{{"columns", columns}};
+}
+
+void StatisticsPanel::restoreState(const QJsonObject& state) {
+    m_table->setChosenColumns(state["columns"].toArray());
 }
 
 void StatisticsPanel::select(const QModelIndex& index) {

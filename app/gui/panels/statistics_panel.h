@@ -16,6 +16,8 @@ public:
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QJsonObject state() const override;
+    void restoreState(const QJsonObject& state) override;
 
 private:
     void select(const QModelIndex& index);

@@ -36,8 +36,9 @@ TableView::TableView(const QString& name, QWidget* parent) : QTreeView(parent) {
     header()->setTextElideMode(Qt::ElideRight);
 }
 
-void TableView::setColumnSamples(std::vector<QString> samples) {
+void TableView::setColumnSamples(std::vector<QString> samples, const QString& leastOpen) {
     m_samples = std::move(samples);
+    m_leastOpen = leastOpen.isEmpty() ? QStringLiteral("12345678") : leastOpen;
     fitColumns();
 }
 
@@ -49,15 +50,17 @@ void TableView::setEmptyText(const QString& text) {
     }
 }
 
-int TableView::sampleWidth(int column) const {
-    const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    const QFontMetrics metrics(tabularFont());
+int TableView::textWidth(const QString& text) const {
     // Some room beyond the text, since hinting may draw it wider than it was measured.
     const int margins = 2 * CellDelegate::margin(fontMetrics()) + 5;
+    return QFontMetrics(tabularFont()).horizontalAdvance(text) + margins;
+}
+
+int TableView::sampleWidth(int column) const {
+    const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
     // The style sheet pads header sections by 6 pixels at either side.
     const int headerWidth = isHeaderHidden() ? 0 : fontMetrics().horizontalAdvance(title) + 14;
-    const QString& sample = m_samples[static_cast<std::size_t>(column)];
-    return std::max(metrics.horizontalAdvance(sample) + margins, headerWidth);
+    return std::max(textWidth(m_samples[static_cast<std::size_t>(column)]), headerWidth);
 }
 
 void TableView::fitColumns() {
@@ -66,7 +69,7 @@ void TableView::fitColumns() {
     }
     setIndentation(fontMetrics().height() * 4 / 5);
     for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
-        if (!m_samples[static_cast<std::size_t>(column)].isEmpty()) {
+        if (!m_samples[static_cast<std::size_t>(column)].isEmpty() && !isColumnHidden(column)) {
             header()->resizeSection(column, sampleWidth(column));
         }
     }
@@ -79,9 +82,76 @@ void TableView::fitOpenColumn() {
         return;
     }
     const int column = static_cast<int>(open - m_samples.begin());
+    leaveOutWhatDoesNotFit(column);
     const int others = header()->length() - header()->sectionSize(column);
-    const int least = fontMetrics().averageCharWidth() * 8;
-    header()->resizeSection(column, std::max(least, viewport()->width() - others));
+    header()->resizeSection(column, std::max(textWidth(m_leastOpen), viewport()->width() - others));
+}
+
+void TableView::leaveOutWhatDoesNotFit(int open) {
+    if (m_firstOptional < 0 || m_isChosen) {
+        return;
+    }
+    int width = textWidth(m_leastOpen);
+    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
+        width += column == open ? 0 : sampleWidth(column);
+        if (column >= m_firstOptional) {
+            setColumnHidden(column, width > viewport()->width());
+        }
+    }
+}
+
+void TableView::setOptionalColumns(int first) {
+    m_firstOptional = first;
+    header()->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(header(), &QWidget::customContextMenuRequested, this, &TableView::showHeaderMenu);
+    fitColumns();
+}
+
+QJsonArray TableView::chosenColumns() const {
+    QJsonArray columns;
+    for (int column = 0; m_isChosen && column < static_cast<int>(m_samples.size()); ++column) {
+        if (!isColumnHidden(column)) {
+            columns.append(column);
+        }
+    }
+    return columns;
+}
+
+void TableView::setChosenColumns(const QJsonArray& columns) {
+    m_isChosen = !columns.isEmpty();
+    for (int column = 1; m_isChosen && column < static_cast<int>(m_samples.size()); ++column) {
+        setColumnHidden(column, !columns.contains(column));
+    }
+    fitColumns();
+}
+
+void TableView::showHeaderMenu(const QPoint& at) {
+    QMenu menu(this);
+    QAction* fitting = menu.addAction(tr("As many columns as fit"));
+    fitting->setCheckable(true);
+    fitting->setChecked(!m_isChosen);
+    menu.addSeparator();
+    QList<QAction*> actions;
+    for (int column = 1; column < static_cast<int>(m_samples.size()); ++column) {
+        QAction* action = menu.addAction(model()->headerData(column, Qt::Horizontal).toString());
+        action->setCheckable(true);
+        action->setChecked(!isColumnHidden(column));
+        actions.append(action);
+    }
+    const QAction* chosen = menu.exec(header()->mapToGlobal(at));
+    if (chosen == nullptr) {
+        return;
+    }
+    QJsonArray columns;
+    if (chosen != fitting) {
+        columns.append(0);
+        for (int i = 0; i < actions.size(); ++i) {
+            if (actions[i]->isChecked()) {
+                columns.append(i + 1);
+            }
+        }
+    }
+    setChosenColumns(columns);
 }
 
 int TableView::heightForRows(int rows) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QJsonArray>
 #include <QTreeView>
 
 #include <vector>
@@ -17,8 +18,17 @@ public:
     /// `name` is what screen readers call the table.
     explicit TableView(const QString& name, QWidget* parent = nullptr);
 
-    /// One sample for each column, as long as its content may become; an empty one takes the room left.
-    void setColumnSamples(std::vector<QString> samples);
+    /// One sample for each column, as long as its content may become; an empty one takes the room left, but
+    /// never less than `leastOpen` needs.
+    void setColumnSamples(std::vector<QString> samples, const QString& leastOpen = {});
+
+    /// From this column on, those that do not fit are left out, as long as the operator has not chosen
+    /// columns by the menu of the header.
+    void setOptionalColumns(int first);
+
+    /// The columns that the operator chose; empty for as many as fit.
+    [[nodiscard]] QJsonArray chosenColumns() const;
+    void setChosenColumns(const QJsonArray& columns);
 
     /// What to do where the table is empty.
     void setEmptyText(const QString& text);
@@ -45,10 +55,16 @@ protected:
 private:
     void fitColumns();
     void fitOpenColumn();
+    void leaveOutWhatDoesNotFit(int open);
+    void showHeaderMenu(const QPoint& at);
+    [[nodiscard]] int textWidth(const QString& text) const;
     [[nodiscard]] int sampleWidth(int column) const;
     void addRows(QString& text, const QModelIndex& parent) const;
 
     std::vector<QString> m_samples;
+    QString m_leastOpen;
+    int m_firstOptional = -1;
+    bool m_isChosen = false;
     QString m_emptyText;
 };
 

@@ -38,6 +38,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     written.window = {10, 20, 900, 700};
     written.isMaximized = true;
     written.docks = QByteArray("\x00\xff\x01 docks", 9);
+    written.panels["statistics"] = QJsonObject{{"columns", QJsonArray{0, 3}}};
     ASSERT_EQ(file.write(written), "");
     const Settings read = file.read(&problem);
     EXPECT_TRUE(problem.isEmpty()) << problem.toStdString();
@@ -46,6 +47,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.window, written.window);
     EXPECT_TRUE(read.isMaximized);
     EXPECT_EQ(read.docks, written.docks);
+    EXPECT_EQ(read.panels, written.panels);
 }
 
 TEST_F(SettingsFileTest, SetsABrokenFileAsideEachTimeUnderANewName) {
