@@ -9,6 +9,7 @@
 
 #include <gmock/gmock.h>
 
+#include <QHeaderView>
 #include <QTest>
 
 #include <memory>
