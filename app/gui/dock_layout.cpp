@@ -17,6 +17,7 @@ namespace posewire::gui {
 
 namespace {
 
+constexpr int kLeastCharacters = 48;
 constexpr double kDefaultExtent = 0.22;
 
 const std::array<std::pair<const char*, Qt::DockWidgetArea>, 3> kAreas{
@@ -83,8 +84,10 @@ void sizeArea(const DockLayout& layout, Qt::DockWidgetArea area, QMainWindow& wi
     if (widgets.isEmpty()) {
         return;
     }
-    window.resizeDocks({widgets.front()}, {static_cast<int>(across * share)},
-                       isBottom ? Qt::Vertical : Qt::Horizontal);
+    // A share of a small window would cut its tables: a column of docks has room for words, up to a third.
+    const int words = isBottom ? 0 : window.fontMetrics().averageCharWidth() * kLeastCharacters;
+    const int extentNow = std::max(static_cast<int>(across * share), std::min(words, across / 3));
+    window.resizeDocks({widgets.front()}, {extentNow}, isBottom ? Qt::Vertical : Qt::Horizontal);
     window.resizeDocks(widgets, lengths, orientationOf(area));
 }
 
