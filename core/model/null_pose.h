@@ -29,17 +29,28 @@ struct NullPose {
     std::vector<Segment> segments;
     std::vector<Point> points;
     unsigned partsReceived = 0;
-    unsigned partsExpected = 0; ///< 0 as long as the last part has not arrived
-    std::int64_t stampNs = 0;   ///< of the newest part
-    std::uint64_t packet = 0;   ///< number of the newest part
+    unsigned partsExpected = 0;         ///< 0 as long as the last part has not arrived
+    std::vector<unsigned> missingParts; ///< places from 0, below the last one that is known of
+    std::uint64_t message = 0;          ///< counts the messages of its sender, from 1
+    std::int64_t firstStampNs = 0;      ///< of the part that came first
+    std::uint64_t firstPacket = 0;      ///< number of the part that came first
+    std::int64_t stampNs = 0;           ///< of the newest part
+    std::uint64_t packet = 0;           ///< number of the newest part
 
     [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
 };
+
+/// Whether two messages contradict each other: another list of segments, or a segment or point that both have
+/// elsewhere or under another name. Points that only one of them has are no difference: parts get lost.
+[[nodiscard]] bool isDifferentBody(const NullPose& a, const NullPose& b);
 
 /// Puts parts together. A message begins with datagram 0; parts may come in any order and more than once; a
 /// part without segments adds to what is there.
 class NullPoseAssembler {
 public:
+    /// A part that is repeated within this time is the network's doing and no new message.
+    static constexpr std::int64_t kDuplicateNs = 100'000'000;
+
     /// Takes a part with its place from the header's datagram counter.
     void add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
              std::int64_t stampNs);
@@ -52,6 +63,7 @@ public:
     [[nodiscard]] const NullPose& arriving() const { return m_arriving; }
 
 private:
+    void begin(std::uint64_t packet, std::int64_t stampNs);
     void settle();
     [[nodiscard]] bool hasMoved() const;
 
@@ -59,6 +71,28 @@ private:
     NullPose m_settled;
     std::vector<wire::NullPose> m_parts;
     std::vector<bool> m_present;
+};
+
+/// One scale message as it came, whether it said anything new or not.
+struct NullPoseMessage {
+    std::uint64_t firstPacket = 0;
+    std::int64_t firstStampNs = 0;
+    std::int64_t stampNs = 0; ///< of its newest part
+    unsigned partsReceived = 0;
+    unsigned partsExpected = 0;
+    std::vector<unsigned> missingParts; ///< places from 0
+    [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
+};
+
+/// What was known of a character's null pose at one moment. Valid until the history grows.
+struct NullPoseRecord {
+    const NullPose* pose = nullptr;          ///< null where there was none by then
+    const NullPose* before = nullptr;        ///< the newest that said something else, null where none did
+    std::int64_t changedNs = 0;              ///< when `pose` was said first
+    const NullPoseMessage* newest = nullptr; ///< the newest message, maybe still arriving
+    std::uint64_t messages = 0;              ///< begun so far
+    std::size_t incompleteMessages = 0;      ///< of the newest 64, without the newest
+    std::int64_t repetitionNs = 0;           ///< median time between messages, 0 where unknown
 };
 
 /// The scale messages of one character over time, as far as they differ. Bounded: the oldest go first.
@@ -72,6 +106,8 @@ public:
     /// As of a packet number; null where there was none by then. What is older than the history counts as its
     /// oldest.
     [[nodiscard]] const NullPose* at(std::uint64_t packet) const;
+    /// The same with its circumstances.
+    [[nodiscard]] NullPoseRecord record(std::uint64_t packet) const;
 
     /// The message whose parts are arriving.
     [[nodiscard]] const NullPose& arriving() const { return m_assembler.arriving(); }
@@ -79,10 +115,17 @@ public:
 private:
     struct Version {
         std::uint64_t firstPacket;
+        std::int64_t firstStampNs;
         NullPose pose;
     };
+    void note();
+    void keep(const NullPose& pose, std::uint64_t packet, std::int64_t stampNs);
+    [[nodiscard]] const Version* versionAt(std::uint64_t packet) const;
+
     NullPoseAssembler m_assembler;
     std::deque<Version> m_versions;
+    std::deque<NullPoseMessage> m_messages;
+    std::uint64_t m_messageCount = 0;
 };
 
 } // namespace posewire::model

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/message_parts.h"
+#include "core/model/null_pose_measures.h"
 #include "core/model/reference_body.h"
 #include "core/model/session.h"
 
@@ -146,8 +147,9 @@ std::vector<Eigen::Vector3d> Session::bodyOrigins(const CharacterKey& key) const
     const auto& reference = referenceOrigins();
     std::vector<Eigen::Vector3d> origins(reference.begin(), reference.end());
     if (pose != nullptr && pose->segments.size() >= origins.size()) {
+        const BodyPlaces places = bodyPlaces(*pose);
         for (std::size_t i = 0; i < origins.size(); ++i) {
-            origins[i] = pose->segments[i].position.allFinite() ? pose->segments[i].position : origins[i];
+            origins[i] = originOf(*pose, places, static_cast<int>(i)).value_or(origins[i]);
         }
     }
     return origins;

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// Words that findings about scale messages are made of. Used by core/model only.
+namespace posewire::model {
+
+/// As many things are named one by one; of more only their number.
+inline constexpr std::size_t kListed = 4;
+
+/// "a, b and c"; beyond `most` "a, b and 7 more".
+inline std::string listed(const std::vector<std::string>& names, std::size_t most = kListed) {
+    const bool isCut = names.size() > most;
+    const std::size_t shown = isCut ? most - 1 : names.size();
+    std::string text;
+    for (std::size_t i = 0; i < shown; ++i) {
+        text += i == 0 ? "" : i + 1 == shown && !isCut ? " and " : ", ";
+        text += names[i];
+    }
+    return isCut ? text + " and " + std::to_string(names.size() - shown) + " more" : text;
+}
+
+inline std::string quoted(std::string_view name) {
+    return "\"" + std::string(name) + "\"";
+}
+
+/// "1 part", "3 parts".
+inline std::string counted(std::size_t count, std::string_view noun) {
+    return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+}
+
+inline std::string fixedText(double value, int decimals) {
+    const double unit = std::pow(10.0, decimals);
+    const auto rounded = static_cast<long long>(std::llround(std::abs(value) * unit));
+    std::string digits = std::to_string(rounded);
+    if (decimals > 0) {
+        const auto least = static_cast<std::size_t>(decimals) + 1;
+        digits.insert(0, digits.size() < least ? least - digits.size() : 0, '0');
+        digits.insert(digits.size() - static_cast<std::size_t>(decimals), ".");
+    }
+    return value < 0 && rounded != 0 ? "−" + digits : digits;
+}
+
+inline std::string seconds(std::int64_t ns) {
+    return fixedText(static_cast<double>(ns) * 1e-9, 1) + " s";
+}
+
+/// "1.684 m".
+inline std::string metresText(double metres) {
+    return fixedText(metres, 3) + " m";
+}
+
+/// "+12 mm": with a sign.
+inline std::string millimetresText(double metres) {
+    const std::string text = fixedText(metres * 1000.0, 1) + " mm";
+    return metres > 0 ? "+" + text : text;
+}
+
+} // namespace posewire::model
