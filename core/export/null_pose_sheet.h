@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/null_pose.h"
+#include "core/wire/messages.h"
+
+#include <string>
+
+/// The scale messages of one character as a file: what was sent, nothing computed. Floats are written with as
+/// few digits as tell each from its neighbours, so that they read back to the same 32 bits.
+namespace posewire::exporting {
+
+/// What is written; what was not sent is null.
+struct NullPoseSheet {
+    std::string character; ///< its name
+    const model::NullPose* pose = nullptr;
+    const wire::ScaleInformation* scale = nullptr; ///< type 10
+    const wire::PropInformation* props = nullptr;  ///< type 11
+};
+
+/// One table (RFC 4180, UTF-8, lines end with CR LF) with the columns
+///
+///     kind,segment,point,name,flags,x,y,z,m11,m12,m13,m21,m22,m23,m31,m32,m33
+///
+/// kind is `segment` (type 13: segment counts from 1, name, x y z in metres, Z-up), `point` (type 13:
+/// segment, point, name, flags as 0x00000000, x y z from the segment's origin), `scale` (type 10: segment, x
+/// y z the offset, m11 to m33 the matrix as sent) or `prop` (type 11: segment, name). Cells that a kind has
+/// no value for are empty. What is no number is NaN, Infinity or -Infinity.
+[[nodiscard]] std::string nullPoseCsv(const NullPoseSheet& sheet);
+
+/// One object, indented by two spaces:
+///
+///     {"character": "…", "stampNs": …, "packet": …, "partsReceived": …, "partsExpected": …,
+///      "segments": [{"id": 1, "name": "Pelvis", "position": [x, y, z]}, …],
+///      "points": [{"segment": 1, "point": 13, "name": "pSacrum", "flags": 0, "position": [x, y, z]}, …],
+///      "scale": [{"id": 1, "offset": [x, y, z], "matrix": [9]}, …],
+///      "props": [{"id": 24, "name": "Prop1"}, …]}
+///
+/// Without a null pose the keys from "stampNs" to "points" are missing, without type 10 or 11 "scale" and
+/// "props". stampNs are nanoseconds since 1970 UTC, of the newest part. What is no number is one of the
+/// strings "NaN", "Infinity" and "-Infinity".
+[[nodiscard]] std::string nullPoseJson(const NullPoseSheet& sheet);
+
+} // namespace posewire::exporting
