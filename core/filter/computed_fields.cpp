@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "core/filter/field.h"
+
+#include <algorithm>
+
+namespace posewire::filter {
+namespace {
+
+constexpr double kSecondsPerNs = 1e-9;
+
+using model::PacketKind;
+
+/// A field that every packet has, one value each.
+template <auto Read>
+bool always(Subject& subject, std::size_t index, Value& value) {
+    value.number = static_cast<double>(Read(subject.candidate));
+    return index == 0;
+}
+
+template <auto Read>
+bool fromHeader(Subject& subject, std::size_t index, Value& value) {
+    const wire::Header* header = subject.header();
+    if (header == nullptr || index != 0) {
+        return false;
+    }
+    value.number = static_cast<double>(Read(*header));
+    return true;
+}
+
+bool readDelta(Subject& subject, std::size_t index, Value& value) {
+    value.number = static_cast<double>(subject.candidate.digest.deltaS);
+    return index == 0 && value.number >= 0;
+}
+
+bool readType(Subject& subject, std::size_t index, Value& value) {
+    const model::PacketDigest& digest = subject.candidate.digest;
+    value.number = digest.type;
+    const bool isKnown = digest.kind == PacketKind::Datagram ||
+                         (digest.kind == PacketKind::Malformed && subject.header() != nullptr);
+    return index == 0 && isKnown;
+}
+
+bool readSource(Subject& subject, std::size_t index, Value& value) {
+    const log::SourceInfo* source = subject.candidate.source;
+    value.text = source != nullptr ? std::string_view(source->address) : std::string_view();
+    return index == 0 && source != nullptr;
+}
+
+bool readTransport(Subject& subject, std::size_t index, Value& value) {
+    const log::SourceInfo* source = subject.candidate.source;
+    value.text = source != nullptr ? kTransportNames[static_cast<std::size_t>(source->transport)] : "";
+    return index == 0 && source != nullptr;
+}
+
+bool readPort(Subject& subject, std::size_t index, Value& value) {
+    const log::SourceInfo* source = subject.candidate.source;
+    value.number = source != nullptr ? source->localPort : 0;
+    return index == 0 && value.number != 0;
+}
+
+bool readTime(Subject& subject, std::size_t index, Value& value) {
+    const Candidate& candidate = subject.candidate;
+    value.number = static_cast<double>(candidate.packet.stampNs - candidate.firstStampNs) * kSecondsPerNs;
+    return index == 0;
+}
+
+bool readUtc(Subject& subject, std::size_t index, Value& value) {
+    value.number = static_cast<double>(subject.candidate.packet.stampNs) * kSecondsPerNs;
+    return index == 0;
+}
+
+bool readError(Subject& subject, std::size_t index, Value& value) {
+    const Candidate& candidate = subject.candidate;
+    const PacketKind kind = candidate.digest.kind;
+    if (index != 0 || (kind != PacketKind::Malformed && kind != PacketKind::Foreign)) {
+        return false;
+    }
+    if (candidate.fault != nullptr) {
+        value.text = wire::errorName(candidate.fault->code);
+        return true;
+    }
+    static thread_local wire::Datagram scratch; // its memory is reused: no allocation for each packet
+    const auto decoded = wire::decodeInto(candidate.packet.bytes, scratch);
+    value.text = decoded ? std::string_view() : wire::errorName(decoded.error().code);
+    return true;
+}
+
+bool readNotice(Subject& subject, std::size_t index, Value& value) {
+    const wire::Datagram* datagram = subject.candidate.datagram;
+    if (datagram == nullptr) {
+        value.text = {};
+        return index == 0 && subject.candidate.digest.hasNotices;
+    }
+    if (index >= datagram->notices.size()) {
+        return false;
+    }
+    value.text = wire::noticeName(datagram->notices[index].code);
+    return true;
+}
+
+struct Row {
+    std::string_view name;
+    Kind kind;
+    std::string_view unit;
+    std::string_view text;
+    ReadPacket read;
+    bool isTrueByValue = false;
+};
+
+template <PacketKind Wanted>
+bool isKind(const Candidate& candidate) {
+    return candidate.digest.kind == Wanted;
+}
+
+constexpr auto kGap = [](const Candidate& c) { return c.digest.gap; };
+constexpr auto kDuplicate = [](const Candidate& c) -> bool { return c.digest.isDuplicate; };
+constexpr auto kReordered = [](const Candidate& c) -> bool { return c.digest.isReordered; };
+constexpr auto kRestart = [](const Candidate& c) -> bool { return c.digest.isRestart; };
+constexpr auto kTruncated = [](const Candidate& c) -> bool { return c.packet.flags.truncated; };
+constexpr auto kProblem = [](const Candidate& c) { return c.digest.isProblem(); };
+constexpr auto kSize = [](const Candidate& c) { return c.packet.bytes.size(); };
+constexpr auto kNumber = [](const Candidate& c) { return c.packet.number; };
+constexpr auto kDrops = [](const Candidate& c) { return c.packet.kernelDropsBefore; };
+constexpr auto kIndex = [](const wire::Header& header) { return header.datagramIndex(); };
+constexpr auto kLast = [](const wire::Header& header) { return header.isLast(); };
+
+constexpr std::array kRows{
+    Row{"type", Kind::Type, "", "message type: 02 and 2 are the same", readType},
+    Row{"source", Kind::Text, "", "where the packet came from: address and port, or file", readSource},
+    Row{"time", Kind::Number, "s", "since the first packet", readTime},
+    Row{"utc", Kind::Time, "s", "when it came: a time such as \"2026-01-31T12:00:00\"", readUtc},
+    Row{"number", Kind::Number, "", "of the packet, in the order of arrival", always<kNumber>},
+    Row{"size", Kind::Number, "bytes", "of the packet", always<kSize>},
+    Row{"delta", Kind::Number, "s", "since the packet before it in its stream", readDelta},
+    Row{"gap", Kind::Number, "", "samples that are missing just before it", always<kGap>, true},
+    Row{"duplicate", Kind::Flag, "", "the same sample and datagram came before", always<kDuplicate>},
+    Row{"reordered", Kind::Flag, "", "came after a packet with a higher sample", always<kReordered>},
+    Row{"restart", Kind::Flag, "", "the counter of the sender has begun anew", always<kRestart>},
+    Row{"drops", Kind::Number, "", "datagrams that this computer lost just before it", always<kDrops>, true},
+    Row{"problem", Kind::Flag, "", "anything that an operator should look at", always<kProblem>},
+    Row{"notice", Kind::Text, "", "what is odd but readable, such as \"notFinite\"", readNotice},
+    Row{"error", Kind::Text, "", "why it cannot be read, such as \"itemsTruncated\"", readError},
+    Row{"malformed", Kind::Flag, "", "begins with MXTP and cannot be read",
+        always<isKind<PacketKind::Malformed>>},
+    Row{"foreign", Kind::Flag, "", "does not begin with MXTP", always<isKind<PacketKind::Foreign>>},
+    Row{"skipped", Kind::Flag, "", "bytes that belong to no datagram", always<isKind<PacketKind::Skipped>>},
+    Row{"truncated", Kind::Flag, "", "was longer than what could be received", always<kTruncated>},
+    Row{"datagram", Kind::Number, "", "index of the datagram in its sample, from 0", fromHeader<kIndex>},
+    Row{"last", Kind::Flag, "", "the last datagram of its sample", fromHeader<kLast>},
+    Row{"transport", Kind::Transport, "", "udp, tcp, file or performer", readTransport},
+    Row{"port", Kind::Number, "", "of this computer, that the packet arrived at", readPort},
+};
+
+} // namespace
+
+const wire::Header* Subject::header() {
+    if (candidate.datagram != nullptr) {
+        return &candidate.datagram->header;
+    }
+    const PacketKind kind = candidate.digest.kind;
+    if (!m_isHeaderRead && (kind == PacketKind::Datagram || kind == PacketKind::Malformed)) {
+        if (const auto header = wire::decodeHeader(candidate.packet.bytes)) {
+            m_header = *header;
+        }
+    }
+    m_isHeaderRead = true;
+    return m_header ? &*m_header : nullptr;
+}
+
+std::vector<FieldInfo> computedFields() {
+    std::vector<FieldInfo> fields;
+    for (const Row& row : kRows) {
+        FieldInfo info;
+        info.name = row.name;
+        info.kind = row.kind;
+        info.unit = row.unit;
+        info.text = row.text;
+        info.readPacket = row.read;
+        info.isTrueByValue = row.isTrueByValue;
+        info.isDecoded = row.read == &readNotice;
+        fields.push_back(std::move(info));
+    }
+    return fields;
+}
+
+const std::vector<FieldInfo>& fieldTable() {
+    static const auto table = [] {
+        auto fields = computedFields();
+        for (FieldInfo& field : wireFields()) {
+            fields.push_back(std::move(field));
+        }
+        return fields;
+    }();
+    return table;
+}
+
+} // namespace posewire::filter

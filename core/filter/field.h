@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/filter/filter.h"
+
+#include <array>
+#include <optional>
+#include <span>
+#include <vector>
+
+/// The fields that a filter can ask for, and how each is read from a packet.
+namespace posewire::filter {
+
+enum class Kind : std::uint8_t {
+    Number,
+    Text,
+    Vector,    ///< three, four or nine numbers, asked for by component
+    Flag,      ///< true or false
+    Type,      ///< a message type: a number that also has a name
+    Segment,   ///< a number that also has a name
+    Transport, ///< a word
+    Time,      ///< seconds since 1970 UTC, or a date and time
+};
+
+/// One value as read; text lives as long as the packet.
+struct Value {
+    double number = 0;
+    std::string_view text;
+};
+
+/// A packet while it is looked at; the header of one that was not decoded is read at most once.
+struct Subject {
+    explicit Subject(const Candidate& from) : candidate(from) {}
+
+    /// Null where there is none.
+    [[nodiscard]] const wire::Header* header();
+
+    const Candidate& candidate;
+
+private:
+    bool m_isHeaderRead = false;
+    std::optional<wire::Header> m_header;
+};
+
+/// A datagram's layout: which message in which form. Each has its own set of fields.
+inline constexpr std::size_t kShapes = std::variant_size_v<wire::Body> + 4;
+[[nodiscard]] std::size_t shapeOf(const wire::Datagram& datagram);
+
+/// Places of fields within a shape: the message itself, then its lists in wire order.
+inline constexpr std::size_t kLists = 3;
+
+/// Number of items of a list; the message itself is one.
+[[nodiscard]] std::size_t itemCount(const wire::Datagram& datagram, std::size_t shape, std::size_t list);
+
+/// Reads a field of the item at `item`; `component` counts the numbers of a vector.
+using ReadItem = Value (*)(const wire::Datagram& datagram, std::size_t item, std::size_t component);
+/// Reads the value at `index` of a packet's field; false where there is none. Most have one value at most.
+using ReadPacket = bool (*)(Subject& subject, std::size_t index, Value& value);
+
+/// Where a field of the payload stands: null where it does not.
+using Places = std::array<std::array<ReadItem, kLists>, kShapes>;
+
+/// A field as people know it. Several tables may have one of the same name and kind; it means all of them.
+struct FieldInfo {
+    std::string name;      ///< "position"
+    std::string qualifier; ///< the list it is in, "header", or empty
+    Kind kind = Kind::Number;
+    std::size_t components = 1;
+    bool isFloat = false;       ///< constants are rounded to 32 bits to compare with it
+    bool isTrueByValue = false; ///< standing alone it means "not zero" instead of "there is one"
+    bool isDecoded = false;     ///< a packet field that is compared by what decoding found
+    std::string_view unit;
+    std::string_view text;
+    std::vector<std::uint8_t> types; ///< message types that have it, in order; empty for packet fields
+    ReadPacket readPacket = nullptr; ///< of a packet field
+    Places places{};                 ///< of a field of the payload
+    std::optional<Places> named{};   ///< for segments: reads the number that stands for a name
+
+    [[nodiscard]] bool isOfItems() const { return readPacket == nullptr; }
+};
+
+/// All fields: the computed ones, those of the header, those of the messages.
+[[nodiscard]] const std::vector<FieldInfo>& fieldTable();
+
+/// Those of the computed fields, for packets rather than the wire.
+[[nodiscard]] std::vector<FieldInfo> computedFields();
+/// Those that the layouts of core/wire declare, found by walking them.
+[[nodiscard]] std::vector<FieldInfo> wireFields();
+
+/// What the name of a segment stands for: its id of the body, from 1, or a number of a prop or finger;
+/// nothing where it is no name. Case does not count.
+[[nodiscard]] std::optional<double> segmentNumber(std::string_view name);
+/// All names, in the order of their numbers, from 1.
+[[nodiscard]] std::span<const std::string_view> segmentNames();
+
+/// The words of Kind::Transport, in the order of log::Transport.
+inline constexpr std::array<std::string_view, 4> kTransportNames{"udp", "tcp", "file", "performer"};
+
+} // namespace posewire::filter

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "core/filter/field_lookup.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <numeric>
+
+namespace posewire::filter {
+namespace {
+
+constexpr std::array<std::string_view, 3> kVec{"x", "y", "z"};
+constexpr std::array<std::string_view, 4> kQuat{"w", "x", "y", "z"};
+constexpr std::array<std::string_view, 9> kMat{"1", "2", "3", "4", "5", "6", "7", "8", "9"};
+
+std::span<const std::string_view> componentNames(std::size_t components) {
+    return components == 3   ? std::span<const std::string_view>(kVec)
+           : components == 4 ? std::span<const std::string_view>(kQuat)
+           : components == 9 ? std::span<const std::string_view>(kMat)
+                             : std::span<const std::string_view>();
+}
+
+bool isNamed(const FieldInfo& field, std::string_view name) {
+    const std::size_t qualifier = field.qualifier.size();
+    return name == field.name ||
+           (qualifier != 0 && name.size() == qualifier + 1 + field.name.size() &&
+            name.starts_with(field.qualifier) && name[qualifier] == '.' && name.ends_with(field.name));
+}
+
+void collect(std::string_view name, std::optional<std::string_view> component, FieldMatch& match) {
+    for (const FieldInfo& field : fieldTable()) {
+        if (!isNamed(field, name)) {
+            continue;
+        }
+        if (!component) {
+            match.fields.push_back(&field);
+            continue;
+        }
+        const auto names = componentNames(field.components);
+        const auto found = std::find(names.begin(), names.end(), *component);
+        if (found != names.end()) {
+            // Vectors and quaternions count their components differently: those of one length go together.
+            const auto place = static_cast<std::size_t>(found - names.begin());
+            if (match.fields.empty() || match.fields.front()->components == field.components) {
+                match.fields.push_back(&field);
+                match.component = place;
+                match.hasComponent = true;
+            }
+        }
+    }
+}
+
+/// Levenshtein, without case.
+std::size_t distance(std::string_view a, std::string_view b) {
+    const auto fold = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : static_cast<int>(c); };
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t change = diagonal + (fold(a[i - 1]) == fold(b[j - 1]) ? 0 : 1);
+            diagonal = std::exchange(row[j], std::min({change, row[j] + 1, row[j - 1] + 1}));
+        }
+    }
+    return row.back();
+}
+
+constexpr std::size_t kLongestName = 64;
+
+} // namespace
+
+FieldMatch findFields(std::string_view name) {
+    FieldMatch match;
+    if (name == "tag" || (name.starts_with("tag.") && name.size() > 4)) {
+        match.isTag = true;
+        match.tag = name.substr(std::min<std::size_t>(name.size(), 4));
+        return match;
+    }
+    collect(name, std::nullopt, match);
+    const std::size_t dot = name.rfind('.');
+    if (match.fields.empty() && dot != std::string_view::npos) {
+        collect(name.substr(0, dot), name.substr(dot + 1), match);
+    }
+    return match;
+}
+
+std::string_view componentName(std::size_t components, std::size_t component) {
+    const auto names = componentNames(components);
+    return component < names.size() ? names[component] : std::string_view();
+}
+
+std::string askedName(const FieldInfo& field) {
+    const bool isShared = std::any_of(fieldTable().begin(), fieldTable().end(), [&](const FieldInfo& other) {
+        return &other != &field && other.name == field.name && other.kind == field.kind &&
+               (other.readPacket != nullptr) != (field.readPacket != nullptr);
+    });
+    return isShared && field.readPacket == nullptr && !field.qualifier.empty()
+               ? field.qualifier + '.' + field.name
+               : field.name;
+}
+
+std::string nearestOf(std::string_view word, std::span<const std::string_view> words) {
+    std::string_view best;
+    std::size_t least = std::min<std::size_t>(word.size() / 3 + 1, 3) + 1;
+    for (const std::string_view known : words) {
+        const std::size_t far = word.size() <= kLongestName ? distance(word, known) : least;
+        if (far < least) {
+            least = far;
+            best = known;
+        }
+    }
+    return std::string(best);
+}
+
+std::string nearestField(std::string_view name) {
+    const std::string_view last = name.substr(name.rfind('.') + 1);
+    const bool hasComponent = name.size() > last.size() && last.size() == 1;
+    const std::string_view base = hasComponent ? name.substr(0, name.size() - 2) : name;
+    std::vector<std::string_view> names{"tag"};
+    for (const FieldInfo& field : fieldTable()) {
+        names.push_back(field.name);
+    }
+    const std::string found = nearestOf(base, names);
+    const auto completed = found + '.' + std::string(last);
+    return hasComponent && !findFields(completed).fields.empty() ? completed : found;
+}
+
+std::optional<double> numberOf(std::string_view word) {
+    const bool isNegative = word.starts_with('-');
+    if (isNegative || word.starts_with('+')) {
+        word.remove_prefix(1);
+    }
+    const char* end = word.data() + word.size();
+    if (word.starts_with("0x") || word.starts_with("0X")) {
+        std::uint64_t value = 0;
+        const auto result = std::from_chars(word.data() + 2, end, value, 16);
+        const bool isNumber = result.ec == std::errc() && result.ptr == end && word.size() > 2;
+        return isNumber ? std::optional(isNegative ? -static_cast<double>(value) : static_cast<double>(value))
+                        : std::nullopt;
+    }
+    double value = 0;
+    const auto result = std::from_chars(word.data(), end, value);
+    if (result.ec != std::errc() || result.ptr != end || std::isnan(value) || word.empty()) {
+        return std::nullopt;
+    }
+    return isNegative ? -value : value;
+}
+
+} // namespace posewire::filter

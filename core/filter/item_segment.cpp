@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "core/filter/item_segment.h"
+
+#include "core/filter/field.h"
+#include "core/model/character_pose.h"
+#include "core/model/segments.h"
+
+#include <algorithm>
+
+namespace posewire::filter {
+namespace {
+
+constexpr model::SegmentLayout kAll{model::kBodySegmentCount, model::kMaxPropCount,
+                                    model::kFingerSegmentCount};
+
+char lower(char character) {
+    return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
+}
+
+int numberAt(const model::SegmentPlace& place) {
+    switch (place.kind) {
+    case model::SegmentKind::Body:
+        return place.index + 1;
+    case model::SegmentKind::Prop:
+        return model::kBodySegmentCount + place.index + 1;
+    case model::SegmentKind::LeftFinger:
+        return model::kBodySegmentCount + model::kMaxPropCount + place.index + 1;
+    case model::SegmentKind::RightFinger:
+        return model::kBodySegmentCount + model::kMaxPropCount + model::kHandSegmentCount + place.index + 1;
+    }
+    return 0;
+}
+
+} // namespace
+
+std::span<const std::string_view> segmentNames() {
+    static const auto names = [] {
+        std::array<std::string_view, model::kMaxSegmentCount> all;
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            all[i] = model::segmentName(kAll, static_cast<int>(i));
+        }
+        return all;
+    }();
+    return names;
+}
+
+std::optional<double> segmentNumber(std::string_view name) {
+    const auto names = segmentNames();
+    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view known) {
+        return std::equal(known.begin(), known.end(), name.begin(), name.end(),
+                          [](char a, char b) { return lower(a) == lower(b); });
+    });
+    return found == names.end() ? std::nullopt
+                                : std::optional(static_cast<double>(found - names.begin() + 1));
+}
+
+double namedSegment(std::uint32_t id, const ItemPlace& place) {
+    const bool isOfBody = id >= 1 && id <= model::kBodySegmentCount;
+    if (place.isUnityOrder) {
+        return isOfBody ? model::unityOrder()[id - 1] + 1 : 0;
+    }
+    if (isOfBody) {
+        return id;
+    }
+    const auto layout = model::segmentLayout(place.header, place.items);
+    const auto at = model::placeOf(layout, static_cast<int>(place.item));
+    return at && at->kind != model::SegmentKind::Body ? numberAt(*at) : 0;
+}
+
+double namedSegment(const wire::NullPoseSegment& segment, const ItemPlace&) {
+    return segmentNumber(segment.name).value_or(0);
+}
+
+} // namespace posewire::filter

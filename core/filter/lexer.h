@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace posewire::filter {
+
+enum class TokenKind : std::uint8_t {
+    End,
+    Word,   ///< a name, a number, or anything else that runs together: 0x1f, LeftHand, 192.168.1.20:4001
+    Quoted, ///< text in double quotes
+    Open,
+    Close,
+    OpenSet,
+    CloseSet,
+    Comma,
+    Range, ///< ..
+    And,
+    Or,
+    Not,
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    In,
+    Contains,
+    Matches,
+    Unfinished, ///< text without a closing quote
+    Unknown,    ///< a character that means nothing here
+};
+
+/// A piece of a filter's text; the place is in bytes.
+struct Token {
+    TokenKind kind = TokenKind::End;
+    std::size_t offset = 0;
+    std::size_t length = 0;
+
+    [[nodiscard]] std::size_t end() const { return offset + length; }
+    [[nodiscard]] std::string_view in(std::string_view text) const { return text.substr(offset, length); }
+};
+
+/// Splits a text; the last token is End. Never fails: what means nothing is Unknown.
+[[nodiscard]] std::vector<Token> tokens(std::string_view text);
+
+/// What stands between the quotes of a Quoted token, with \" and \\ resolved.
+[[nodiscard]] std::string unquoted(std::string_view quoted);
+
+/// The text in quotes.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+} // namespace posewire::filter

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "core/filter/program.h"
+
+#include <algorithm>
+
+namespace posewire::filter {
+namespace {
+
+using Failure = tl::unexpected<FilterError>;
+using Parsed = tl::expected<std::uint32_t, FilterError>;
+using Join = Program::Join;
+
+/// The operator that a token stands for; nothing where it is none.
+std::optional<Operator> operatorOf(TokenKind kind) {
+    switch (kind) {
+    case TokenKind::Equal:
+        return Operator::Equal;
+    case TokenKind::NotEqual:
+        return Operator::NotEqual;
+    case TokenKind::Less:
+        return Operator::Less;
+    case TokenKind::LessEqual:
+        return Operator::LessEqual;
+    case TokenKind::Greater:
+        return Operator::Greater;
+    case TokenKind::GreaterEqual:
+        return Operator::GreaterEqual;
+    case TokenKind::In:
+        return Operator::In;
+    case TokenKind::Contains:
+        return Operator::Contains;
+    case TokenKind::Matches:
+        return Operator::Matches;
+    default:
+        return std::nullopt;
+    }
+}
+
+class Parser {
+public:
+    explicit Parser(std::string_view text) : m_text(text), m_tokens(tokens(text)) {}
+
+    tl::expected<Program, FilterError> run() {
+        auto root = any(0);
+        if (!root) {
+            return Failure(root.error());
+        }
+        if (here().kind != TokenKind::End) {
+            return Failure(unexpected("`&&` or `||`"));
+        }
+        m_program.root = withItems(*root);
+        return std::move(m_program);
+    }
+
+private:
+    [[nodiscard]] const Token& here() const { return m_tokens[m_at]; }
+    bool take(TokenKind kind) {
+        const bool isIt = here().kind == kind;
+        m_at += isIt ? 1 : 0;
+        return isIt;
+    }
+    /// What stands here, and what should.
+    [[nodiscard]] FilterError unexpected(std::string_view wanted) const {
+        const Token& token = here();
+        std::string text = "Here belongs " + std::string(wanted) + ".";
+        if (token.kind == TokenKind::End) {
+            text = "The filter ends early: " + std::string(wanted) + " is missing.";
+        } else if (token.kind == TokenKind::Unfinished) {
+            text = "This text has no closing quote.";
+        } else if (token.in(m_text) == "=") {
+            text = "Compare with `==`.";
+        } else if (token.in(m_text) == "&" || token.in(m_text) == "|") {
+            text = "Join conditions with `" + std::string(2, token.in(m_text).front()) + "`.";
+        }
+        return {token.offset, token.length, std::move(text)};
+    }
+
+    Parsed any(std::size_t depth) { return joined(depth, TokenKind::Or); }
+
+    /// Operands of ||, or those of && (which bind tighter).
+    Parsed joined(std::size_t depth, TokenKind sign) {
+        Program::Node node;
+        node.join = sign == TokenKind::Or ? Join::Or : Join::And;
+        node.isOfItems = true;
+        do {
+            auto operand = sign == TokenKind::Or ? joined(depth, TokenKind::And) : one(depth);
+            if (!operand) {
+                return operand;
+            }
+            node.isOfItems = node.isOfItems && m_program.nodes[*operand].isOfItems;
+            node.children.push_back(*operand);
+        } while (take(sign));
+        return node.children.size() == 1 ? node.children.front() : m_program.add(std::move(node));
+    }
+
+    Parsed one(std::size_t depth) {
+        if (depth > Filter::kDeepest) {
+            return Failure(
+                FilterError{here().offset, here().length, "Too many parentheses within each other."});
+        }
+        if (take(TokenKind::Not)) {
+            auto operand = one(depth + 1);
+            return operand ? m_program.add({Join::Not, 0, {*operand}, false}) : operand;
+        }
+        if (take(TokenKind::Open)) {
+            auto inner = any(depth + 1);
+            if (inner && !take(TokenKind::Close)) {
+                return Failure(unexpected("`)`"));
+            }
+            return inner;
+        }
+        return condition();
+    }
+
+    Parsed condition() {
+        if (here().kind != TokenKind::Word) {
+            return Failure(unexpected("a field, such as `type`"));
+        }
+        WrittenCondition written;
+        written.field = here();
+        written.fieldName = here().in(m_text);
+        written.operatorToken = m_tokens[++m_at];
+        if (const auto op = operatorOf(here().kind)) {
+            ++m_at;
+            written.op = *op;
+            auto taken = *op == Operator::In ? members(written) : value(written);
+            if (!taken) {
+                return Failure(taken.error());
+            }
+        }
+        auto condition = understood(written);
+        if (!condition) {
+            return Failure(condition.error());
+        }
+        m_program.needsDatagram = m_program.needsDatagram || condition->needsDatagram;
+        const bool isOfItems = condition->isOfItems();
+        m_program.conditions.push_back(std::move(*condition));
+        const auto index = static_cast<std::uint32_t>(m_program.conditions.size() - 1);
+        return m_program.add({Join::Condition, index, {}, isOfItems});
+    }
+
+    tl::expected<Constant, FilterError> constant() {
+        const Token token = here();
+        if (token.kind != TokenKind::Word && token.kind != TokenKind::Quoted) {
+            return Failure(unexpected("a value, such as 2 or \"text\""));
+        }
+        ++m_at;
+        const bool isQuoted = token.kind == TokenKind::Quoted;
+        return Constant{token, isQuoted ? unquoted(token.in(m_text)) : std::string(token.in(m_text)),
+                        isQuoted};
+    }
+
+    tl::expected<void, FilterError> value(WrittenCondition& written) {
+        auto only = constant();
+        if (!only) {
+            return Failure(only.error());
+        }
+        written.constants.emplace_back(*only, *only);
+        return {};
+    }
+
+    /// One value or range.
+    tl::expected<void, FilterError> member(WrittenCondition& written) {
+        auto from = constant();
+        if (!from) {
+            return Failure(from.error());
+        }
+        auto to = take(TokenKind::Range) ? constant() : from;
+        if (!to) {
+            return Failure(to.error());
+        }
+        written.constants.emplace_back(std::move(*from), std::move(*to));
+        return {};
+    }
+
+    /// A range, or members in braces.
+    tl::expected<void, FilterError> members(WrittenCondition& written) {
+        if (!take(TokenKind::OpenSet)) {
+            if (here().kind != TokenKind::Word && here().kind != TokenKind::Quoted) {
+                return Failure(unexpected("a set such as {1, 2}, or a range such as 1..5"));
+            }
+            return member(written);
+        }
+        do {
+            if (auto taken = member(written); !taken) {
+                return taken;
+            }
+        } while (take(TokenKind::Comma));
+        return take(TokenKind::CloseSet) ? tl::expected<void, FilterError>()
+                                         : Failure(unexpected("`,` or `}`"));
+    }
+
+    /// Puts conditions on items under AnyItem: those that && joins speak of one item together, and so does an
+    /// || among them; an && in parentheses, and what is negated, speaks of an item of its own.
+    std::uint32_t withItems(std::uint32_t index) {
+        Program::Node node = m_program.nodes[index];
+        const bool isAnd = node.join == Join::And;
+        if (node.isOfItems && !isAnd) {
+            return m_program.add({Join::AnyItem, 0, {index}, false});
+        }
+        Program::Node gathered{Join::And, 0, {}, true};
+        std::vector<std::uint32_t> children;
+        for (const std::uint32_t child : node.children) {
+            const Program::Node& below = m_program.nodes[child];
+            if (isAnd && below.isOfItems && below.join != Join::And) {
+                gathered.children.push_back(child);
+            } else {
+                children.push_back(withItems(child));
+            }
+        }
+        if (!gathered.children.empty()) {
+            const std::uint32_t all = m_program.add(std::move(gathered));
+            children.push_back(m_program.add({Join::AnyItem, 0, {all}, false}));
+        }
+        m_program.nodes[index].children = std::move(children);
+        return index;
+    }
+
+    std::string_view m_text;
+    std::vector<Token> m_tokens;
+    std::size_t m_at = 0;
+    Program m_program;
+};
+
+} // namespace
+
+tl::expected<Program, FilterError> parsed(std::string_view text) {
+    return Parser(text).run();
+}
+
+} // namespace posewire::filter

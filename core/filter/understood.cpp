@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+#include "core/filter/condition.h"
+#include "core/filter/field_lookup.h"
+#include "core/filter/utc_time.h"
+#include "core/wire/type_table.h"
+
+#include <re2/re2.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace posewire::filter {
+namespace {
+
+using Failure = tl::unexpected<FilterError>;
+
+Failure failure(const Token& token, std::string text) {
+    return Failure(FilterError{token.offset, token.length, std::move(text)});
+}
+
+bool isNan(const Constant& constant) {
+    return !constant.isQuoted && (constant.text == "NaN" || constant.text == "nan");
+}
+
+std::optional<double> typeNumber(const Constant& constant) {
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        if (info.name == constant.text) {
+            return info.type;
+        }
+    }
+    return numberOf(constant.text);
+}
+
+/// The number that a constant means to a field; nothing where it fits no such field.
+std::optional<double> numberFor(const FieldInfo& field, const Constant& constant) {
+    switch (field.kind) {
+    case Kind::Number:
+    case Kind::Vector:
+        return constant.isQuoted ? std::nullopt : numberOf(constant.text);
+    case Kind::Flag:
+        return constant.text == "true"    ? std::optional(1.0)
+               : constant.text == "false" ? std::optional(0.0)
+                                          : numberOf(constant.text);
+    case Kind::Type:
+        return typeNumber(constant);
+    case Kind::Segment: {
+        const auto named = segmentNumber(constant.text);
+        return named ? named : numberOf(constant.text);
+    }
+    case Kind::Time: {
+        const auto seconds = numberOf(constant.text);
+        return seconds ? seconds : utcSeconds(constant.text);
+    }
+    case Kind::Text:
+    case Kind::Transport:
+        break;
+    }
+    return std::nullopt;
+}
+
+bool isTextKind(Kind kind) {
+    return kind == Kind::Text || kind == Kind::Transport;
+}
+
+std::string_view kindName(Kind kind) {
+    switch (kind) {
+    case Kind::Text:
+        return "text";
+    case Kind::Flag:
+        return "true or false";
+    case Kind::Type:
+        return "a message type such as 02";
+    case Kind::Segment:
+        return "a segment such as LeftHand or 15";
+    case Kind::Transport:
+        return "one of udp, tcp, file and performer";
+    case Kind::Time:
+        return "a UTC time such as \"2026-01-31T12:00:00\"";
+    case Kind::Number:
+    case Kind::Vector:
+        break;
+    }
+    return "a number";
+}
+
+bool needsText(Operator op) {
+    return op == Operator::Contains || op == Operator::Matches;
+}
+
+bool ordersOnly(Operator op) {
+    return op >= Operator::Less && op <= Operator::GreaterEqual;
+}
+
+/// Whether a field can be asked this.
+bool suits(const FieldInfo& field, bool hasComponent, const WrittenCondition& written) {
+    if (written.op == Operator::IsThere) {
+        return true;
+    }
+    if (isTextKind(field.kind)) {
+        const bool hasRange = std::any_of(written.constants.begin(), written.constants.end(), [](auto& pair) {
+            return pair.first.token.offset != pair.second.token.offset;
+        });
+        const bool isKnown = field.kind == Kind::Text || needsText(written.op) ||
+                             std::all_of(written.constants.begin(), written.constants.end(), [](auto& pair) {
+                                 return std::find(kTransportNames.begin(), kTransportNames.end(),
+                                                  pair.first.text) != kTransportNames.end();
+                             });
+        return !ordersOnly(written.op) && !hasRange && isKnown;
+    }
+    const bool asksNan = (written.op == Operator::Equal || written.op == Operator::NotEqual) &&
+                         isNan(written.constants.front().first);
+    if (asksNan) {
+        return field.kind == Kind::Number || field.kind == Kind::Vector;
+    }
+    const bool fit = std::all_of(written.constants.begin(), written.constants.end(), [&](const auto& pair) {
+        return numberFor(field, pair.first) && numberFor(field, pair.second);
+    });
+    return !needsText(written.op) && (field.kind != Kind::Vector || hasComponent) && fit;
+}
+
+/// Why none of the fields suits; judged by the first of them.
+FilterError complaint(const FieldMatch& match, const WrittenCondition& written) {
+    const FieldInfo& field = *match.fields.front();
+    const std::string name(written.fieldName);
+    if (field.kind == Kind::Vector && !match.hasComponent) {
+        std::string names;
+        for (std::size_t i = 0; i < field.components; ++i) {
+            names += (i == 0 ? "" : ", ") + std::string(componentName(field.components, i));
+        }
+        return {written.field.offset, written.field.length,
+                "`" + name + "` has the components " + names + ": write `" + name + "." +
+                    std::string(componentName(field.components, field.components - 1)) + "`."};
+    }
+    const Token& op = written.operatorToken;
+    if (needsText(written.op)) {
+        return {op.offset, op.length,
+                "`" + name + "` is no text: compare it with ==, !=, <, <=, > or >=, or use `in`."};
+    }
+    if (isTextKind(field.kind) && ordersOnly(written.op)) {
+        return {op.offset, op.length,
+                "`" + name + "` is text: it can be asked for with ==, !=, `in`, `contains` and `matches`."};
+    }
+    for (const auto& pair : written.constants) {
+        for (const Constant* constant : {&pair.first, &pair.second}) {
+            if (isTextKind(field.kind) || !numberFor(field, *constant)) {
+                const std::string near =
+                    field.kind == Kind::Segment ? nearestOf(constant->text, segmentNames()) : std::string();
+                return {constant->token.offset, constant->token.length,
+                        "`" + name + "` is compared with " + std::string(kindName(field.kind)) +
+                            (near.empty() ? "." : "; did you mean `" + near + "`?")};
+            }
+        }
+    }
+    return {op.offset, op.length, "`" + name + "` cannot be compared like this."};
+}
+
+tl::expected<void, FilterError> setTexts(const WrittenCondition& written, Test& test) {
+    test.comparesText = true;
+    for (const auto& pair : written.constants) {
+        test.texts.push_back(pair.first.text);
+    }
+    if (written.op == Operator::Contains) {
+        for (char& character : test.texts.front()) {
+            character =
+                character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
+        }
+    }
+    if (written.op == Operator::Matches) {
+        constexpr std::int64_t kMostMemory = 1 << 20;
+        re2::RE2::Options options;
+        options.set_log_errors(false);
+        options.set_max_mem(kMostMemory);
+        const auto pattern = std::make_shared<const re2::RE2>(test.texts.front(), options);
+        if (!pattern->ok()) {
+            return failure(written.constants.front().first.token,
+                           "This is no regular expression that can be used: " + pattern->error() + ".");
+        }
+        test.pattern = pattern;
+    }
+    return {};
+}
+
+double rounded(const FieldInfo& field, double number) {
+    if (!field.isFloat || std::abs(number) > static_cast<double>(std::numeric_limits<float>::max())) {
+        return number;
+    }
+    return static_cast<double>(static_cast<float>(number));
+}
+
+tl::expected<void, FilterError> setNumbers(const FieldInfo& field, const WrittenCondition& written,
+                                           Test& test) {
+    test.comparesNan = written.op != Operator::In && isNan(written.constants.front().first);
+    for (const auto& [from, to] : written.constants) {
+        if (!test.comparesNan) {
+            const Test::Range range{rounded(field, *numberFor(field, from)),
+                                    rounded(field, *numberFor(field, to))};
+            if (range.first > range.second) {
+                return failure({TokenKind::Word, from.token.offset, to.token.end() - from.token.offset},
+                               "This range ends before it begins: write the smaller value first.");
+            }
+            test.ranges.push_back(range);
+        }
+    }
+    return {};
+}
+
+bool isName(const FieldInfo& field, const WrittenCondition& written) {
+    return field.kind == Kind::Segment && !written.constants.empty() &&
+           segmentNumber(written.constants.front().first.text).has_value();
+}
+
+void setPlaces(const FieldMatch& match, const WrittenCondition& written, const FieldInfo& first,
+               Condition& condition) {
+    for (const FieldInfo* field : match.fields) {
+        if (!field->isOfItems() || field->kind != first.kind || field->components != first.components) {
+            continue;
+        }
+        const Places& places = isName(*field, written) && field->named ? *field->named : field->places;
+        for (std::size_t shape = 0; shape < kShapes; ++shape) {
+            for (std::size_t list = 0; list < kLists; ++list) {
+                if (places[shape][list] != nullptr) {
+                    condition.places[shape][list] = places[shape][list];
+                }
+            }
+        }
+    }
+}
+
+tl::expected<Condition, FilterError> tagCondition(const FieldMatch& match, const WrittenCondition& written) {
+    Condition condition;
+    condition.isTag = condition.needsDatagram = true;
+    condition.tag = match.tag;
+    condition.test.op = written.op;
+    if (ordersOnly(written.op)) {
+        return failure(written.operatorToken,
+                       "Tags are text: ask with ==, !=, `in`, `contains` and `matches`.");
+    }
+    if (written.op != Operator::IsThere) {
+        if (auto set = setTexts(written, condition.test); !set) {
+            return Failure(set.error());
+        }
+    }
+    return condition;
+}
+
+/// A flag alone, and a number whose absence is 0, mean that they are not 0.
+void setTruth(const FieldInfo& field, Condition& condition) {
+    if (condition.test.op == Operator::IsThere && (field.kind == Kind::Flag || field.isTrueByValue)) {
+        condition.test.op = Operator::NotEqual;
+        condition.test.ranges = {{0, 0}};
+    }
+}
+
+} // namespace
+
+tl::expected<Condition, FilterError> understood(const WrittenCondition& written) {
+    const FieldMatch match = findFields(written.fieldName);
+    if (match.isTag) {
+        return tagCondition(match, written);
+    }
+    if (match.fields.empty()) {
+        const std::string near = nearestField(written.fieldName);
+        return failure(written.field, "There is no field `" + std::string(written.fieldName) + "`" +
+                                          (near.empty() ? "." : "; did you mean `" + near + "`?"));
+    }
+    const auto found = std::find_if(match.fields.begin(), match.fields.end(), [&](const FieldInfo* field) {
+        return suits(*field, match.hasComponent, written);
+    });
+    if (found == match.fields.end()) {
+        return Failure(complaint(match, written));
+    }
+    const FieldInfo& field = **found;
+    Condition condition;
+    condition.test.op = written.op;
+    condition.readPacket = field.readPacket;
+    condition.needsDatagram = field.isOfItems() || (field.isDecoded && written.op != Operator::IsThere);
+    if (field.isOfItems()) {
+        setPlaces(match, written, field, condition);
+        condition.firstComponent = match.hasComponent ? match.component : 0;
+        condition.components = match.hasComponent ? 1 : field.components;
+    }
+    if (written.op != Operator::IsThere) {
+        auto set = isTextKind(field.kind) ? setTexts(written, condition.test)
+                                          : setNumbers(field, written, condition.test);
+        if (!set) {
+            return Failure(set.error());
+        }
+    }
+    setTruth(field, condition);
+    return condition;
+}
+
+} // namespace posewire::filter

@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: MIT
+#include "core/filter/field.h"
+
+#include "core/filter/item_segment.h"
+#include "core/wire/form.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace posewire::filter {
+namespace {
+
+using wire::Datagram;
+using wire::Form;
+
+constexpr std::size_t kBodies = std::variant_size_v<wire::Body>;
+
+/// The forms besides the standard one have numbers of their own, after all standard ones.
+template <class T>
+constexpr std::size_t otherShape() {
+    constexpr std::array<bool, 4> isThis{std::is_same_v<T, wire::MetaData>, std::is_same_v<T, wire::TimeCode>,
+                                         std::is_same_v<T, wire::TrackerKinematics>,
+                                         std::is_same_v<T, wire::CentreOfMass>};
+    return kBodies + static_cast<std::size_t>(std::find(isThis.begin(), isThis.end(), true) - isThis.begin());
+}
+
+template <class V>
+constexpr Kind kKindOf = std::is_arithmetic_v<V> ? Kind::Number : Kind::Text;
+template <std::size_t N>
+constexpr Kind kKindOf<std::array<float, N>> = Kind::Vector;
+
+template <class V>
+constexpr std::size_t kComponentsOf = 1;
+template <std::size_t N>
+constexpr std::size_t kComponentsOf<std::array<float, N>> = N;
+
+template <class V>
+Value valueOf(const V& value, std::size_t component) {
+    if constexpr (kKindOf<V> == Kind::Vector) {
+        return {value[component], {}};
+    } else if constexpr (std::is_arithmetic_v<V>) {
+        return {static_cast<double>(value), {}};
+    } else {
+        return {0, {value.data(), value.size()}};
+    }
+}
+
+template <class T>
+const T& bodyOf(const Datagram& datagram) {
+    return *std::get_if<T>(&datagram.body);
+}
+
+template <class T, auto Member>
+Value readOwn(const Datagram& datagram, std::size_t, std::size_t component) {
+    return valueOf(bodyOf<T>(datagram).*Member, component);
+}
+template <class T, auto List>
+Value readCount(const Datagram& datagram, std::size_t, std::size_t) {
+    return {static_cast<double>((bodyOf<T>(datagram).*List).size()), {}};
+}
+template <class T, auto List, auto Member>
+Value readListed(const Datagram& datagram, std::size_t item, std::size_t component) {
+    return valueOf((bodyOf<T>(datagram).*List)[item].*Member, component);
+}
+template <class T, auto List>
+Value readSegment(const Datagram& datagram, std::size_t item, std::size_t) {
+    return {segmentId((bodyOf<T>(datagram).*List)[item], item), {}};
+}
+template <class T, auto List>
+Value readNamedSegment(const Datagram& datagram, std::size_t item, std::size_t) {
+    const ItemPlace place{datagram.header, item, (bodyOf<T>(datagram).*List).size(),
+                          std::is_same_v<T, wire::PoseUnity>};
+    return {namedSegment((bodyOf<T>(datagram).*List)[item], place), {}};
+}
+template <auto Member>
+bool readHeader(Subject& subject, std::size_t index, Value& value) {
+    const wire::Header* header = subject.header();
+    if (header == nullptr || index != 0) {
+        return false;
+    }
+    value = valueOf(header->*Member, 0);
+    return true;
+}
+
+using CountItems = std::size_t (*)(const Datagram&);
+using Counts = std::array<std::array<CountItems, kLists>, kShapes>;
+
+struct Found {
+    std::vector<FieldInfo> fields;
+    Counts counts{};
+};
+
+/// Where the walk is.
+struct Spot {
+    std::size_t shape = 0;
+    std::size_t list = 0;
+    std::uint8_t type = 0;
+    std::string_view qualifier;
+};
+
+struct Reading {
+    Kind kind;
+    std::size_t components;
+    ReadItem read;
+    ReadItem readNamed = nullptr;
+};
+
+void add(Found& found, const Spot& spot, const wire::About& about, const Reading& reading) {
+    const auto isSame = [&](const FieldInfo& field) {
+        return field.name == about.name && field.qualifier == spot.qualifier && field.kind == reading.kind &&
+               field.components == reading.components;
+    };
+    auto field = std::find_if(found.fields.begin(), found.fields.end(), isSame);
+    if (field == found.fields.end()) {
+        FieldInfo info;
+        info.name = about.name;
+        info.qualifier = spot.qualifier;
+        info.kind = reading.kind;
+        info.components = reading.components;
+        info.isFloat = reading.kind == Kind::Vector;
+        info.unit = wire::unitSymbol(about.unit);
+        info.text = about.text;
+        field = found.fields.insert(field, std::move(info));
+    }
+    if (field->types.empty() || field->types.back() != spot.type) {
+        field->types.push_back(spot.type);
+    }
+    field->places[spot.shape][spot.list] = reading.read;
+    if (reading.readNamed != nullptr) {
+        field->named = field->named.value_or(Places{});
+        (*field->named)[spot.shape][spot.list] = reading.readNamed;
+    }
+}
+
+template <class T, auto List>
+class ItemWalker {
+public:
+    ItemWalker(Found& found, const Spot& spot) : m_found(found), m_spot(spot) {}
+
+    template <auto Member>
+    void operator()(const wire::Field<Member>& field) {
+        addMember<Member>(field.about);
+    }
+    template <auto Member, wire::TextKind TextOf>
+    void operator()(const wire::Text<Member, TextOf>& field) {
+        addMember<Member>(field.about);
+    }
+
+private:
+    template <auto Member>
+    void addMember(const wire::About& about) {
+        using V = wire::MemberValue<Member>;
+        constexpr ReadItem read = &readListed<T, List, Member>;
+        if (about.name == "segment") {
+            add(m_found, m_spot, about, {Kind::Segment, 1, read, read});
+        } else {
+            add(m_found, m_spot, about, {kKindOf<V>, kComponentsOf<V>, read});
+        }
+    }
+
+    Found& m_found;
+    Spot m_spot;
+};
+
+template <class T>
+class MessageWalker {
+public:
+    MessageWalker(Found& found, std::size_t shape) : m_found(found), m_spot{shape, 0, T::kType, {}} {
+        m_found.counts[shape][0] = [](const Datagram&) -> std::size_t { return 1; };
+    }
+
+    template <auto Member>
+    void operator()(const wire::Field<Member>& field) {
+        addOwn<Member>(field.about);
+    }
+    template <auto Member, wire::TextKind TextOf>
+    void operator()(const wire::Text<Member, TextOf>& field) {
+        addOwn<Member>(field.about);
+    }
+    template <auto Member, Form ItemForm>
+    void operator()(const wire::Items<Member, ItemForm>& field) {
+        addList<Member, ItemForm>(field.about);
+    }
+    template <auto Member, std::size_t Max>
+    void operator()(const wire::CountedList<Member, Max>& field) {
+        addList<Member, Form::Standard>(field.about);
+    }
+
+private:
+    template <auto Member>
+    void addOwn(const wire::About& about) {
+        using V = wire::MemberValue<Member>;
+        add(m_found, m_spot, about, {kKindOf<V>, kComponentsOf<V>, &readOwn<T, Member>});
+    }
+    template <auto List, Form ItemForm>
+    void addList(const wire::About& about) {
+        using Item = typename wire::MemberValue<List>::value_type;
+        add(m_found, m_spot, about, {Kind::Number, 1, &readCount<T, List>});
+        Spot spot = m_spot;
+        spot.list = ++m_lists;
+        spot.qualifier = about.name;
+        m_found.counts[spot.shape][spot.list] = [](const Datagram& datagram) {
+            return (bodyOf<T>(datagram).*List).size();
+        };
+        wire::forEachField<Item, ItemForm>(ItemWalker<T, List>(m_found, spot));
+        if constexpr (requires(const Item& item) { segmentId(item, 0); }) {
+            constexpr wire::About segment{"segment", wire::Unit::Identifier,
+                                          "the segment that the item is about, by id or name", ""};
+            add(m_found, spot, segment,
+                {Kind::Segment, 1, &readSegment<T, List>, &readNamedSegment<T, List>});
+        }
+    }
+
+    Found& m_found;
+    Spot m_spot;
+    std::size_t m_lists = 0;
+};
+
+class HeaderWalker {
+public:
+    explicit HeaderWalker(Found& found) : m_found(found) {}
+
+    template <auto Member>
+    void operator()(const wire::Field<Member>& field) {
+        FieldInfo info;
+        info.name = field.about.name;
+        info.qualifier = "header";
+        info.kind = kKindOf<wire::MemberValue<Member>>;
+        info.unit = wire::unitSymbol(field.about.unit);
+        info.text = field.about.text;
+        info.readPacket = &readHeader<Member>;
+        m_found.fields.push_back(std::move(info));
+    }
+
+private:
+    Found& m_found;
+};
+
+template <std::size_t I>
+void walkMessage(Found& found) {
+    using T = std::variant_alternative_t<I, wire::Body>;
+    wire::forEachField<T, Form::Standard>(MessageWalker<T>(found, I));
+    if constexpr (requires { wire::Layout<T, Form::Bare>::fields; }) {
+        wire::forEachField<T, Form::Bare>(MessageWalker<T>(found, otherShape<T>()));
+    }
+    if constexpr (requires { wire::Layout<T, Form::Short>::fields; }) {
+        wire::forEachField<T, Form::Short>(MessageWalker<T>(found, otherShape<T>()));
+    }
+}
+
+Found walkAll() {
+    Found found;
+    wire::forEachField<wire::Header, Form::Standard>(HeaderWalker(found));
+    [&]<std::size_t... I>(std::index_sequence<I...>) {
+        (walkMessage<I + 1>(found), ...);
+    }
+    (std::make_index_sequence<kBodies - 1>{});
+    return found;
+}
+
+const Found& walked() {
+    static const Found found = walkAll();
+    return found;
+}
+
+} // namespace
+
+std::size_t shapeOf(const Datagram& datagram) {
+    const auto shapeFor = [&]<class T>(const T& value) {
+        return wire::formOf(value) == Form::Standard ? datagram.body.index() : otherShape<T>();
+    };
+    if (const auto* metaData = std::get_if<wire::MetaData>(&datagram.body)) {
+        return shapeFor(*metaData);
+    }
+    if (const auto* timeCode = std::get_if<wire::TimeCode>(&datagram.body)) {
+        return shapeFor(*timeCode);
+    }
+    if (const auto* trackers = std::get_if<wire::TrackerKinematics>(&datagram.body)) {
+        return shapeFor(*trackers);
+    }
+    if (const auto* centre = std::get_if<wire::CentreOfMass>(&datagram.body)) {
+        return shapeFor(*centre);
+    }
+    return datagram.body.index();
+}
+
+std::size_t itemCount(const Datagram& datagram, std::size_t shape, std::size_t list) {
+    const CountItems count = walked().counts[shape][list];
+    return count != nullptr ? count(datagram) : 0;
+}
+
+std::vector<FieldInfo> wireFields() {
+    return walked().fields;
+}
+
+} // namespace posewire::filter
