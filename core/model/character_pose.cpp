@@ -52,9 +52,10 @@ bool read(const wire::PoseEuler& message, const wire::Header& header, CharacterP
     return true;
 }
 
-bool read(const wire::PoseQuaternion& message, const wire::Header& header, CharacterPose& pose) {
+bool read(const wire::PoseQuaternion& message, const wire::Header& header, std::optional<LengthUnit> declared,
+          CharacterPose& pose) {
     prepare(pose, header, message.segments.size());
-    const LengthUnit unit = unitOf(message.segments, LengthUnit::Metre);
+    const LengthUnit unit = declared ? *declared : unitOf(message.segments, LengthUnit::Metre);
     for (std::size_t i = 0; i < message.segments.size(); ++i) {
         const wire::SegmentQuaternion& item = message.segments[i];
         place(pose, i, poseFromQuaternion({item.position, item.orientation}, unit));
@@ -64,7 +65,7 @@ bool read(const wire::PoseQuaternion& message, const wire::Header& header, Chara
 
 /// Chains the local rotations from the pelvis outward over the null pose, parents before children.
 bool read(const wire::PoseUnity& message, const wire::Header& header,
-          std::span<const Eigen::Vector3d> origins, CharacterPose& pose) {
+          std::span<const Eigen::Vector3d> origins, LengthUnit unit, CharacterPose& pose) {
     prepare(pose, header, kBody);
     if (message.segments.size() < kBody || origins.size() < kBody) {
         return false;
@@ -72,7 +73,7 @@ bool read(const wire::PoseUnity& message, const wire::Header& header,
     const auto& places = unityPlaces();
     for (std::size_t i = 0; i < kBody; ++i) {
         const auto& item = message.segments[static_cast<std::size_t>(places[i])];
-        const SegmentPose local = poseFromUnity({item.position, item.orientation});
+        const SegmentPose local = poseFromUnity({item.position, item.orientation}, unit);
         const int parent = bodySegments()[i].parent;
         if (parent < 0) {
             place(pose, i, local);
@@ -99,15 +100,15 @@ SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
 }
 
 bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
-                     CharacterPose& pose) {
+                     CharacterPose& pose, std::optional<LengthUnit> declaredUnit) {
     if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {
         return read(*euler, datagram.header, pose);
     }
     if (const auto* quaternion = std::get_if<wire::PoseQuaternion>(&datagram.body)) {
-        return read(*quaternion, datagram.header, pose);
+        return read(*quaternion, datagram.header, declaredUnit, pose);
     }
     if (const auto* unity = std::get_if<wire::PoseUnity>(&datagram.body)) {
-        return read(*unity, datagram.header, nullPose, pose);
+        return read(*unity, datagram.header, nullPose, declaredUnit.value_or(LengthUnit::Metre), pose);
     }
     return false;
 }

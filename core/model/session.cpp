@@ -136,10 +136,14 @@ Source* Session::sourceOf(const log::Packet& packet) {
     if (info == nullptr) {
         return nullptr;
     }
+    const auto before = std::find_if(m_sources.rbegin(), m_sources.rend(),
+                                     [&](const Source& other) { return isSameHost(other.info, *info); });
+    const SourceOverride inherited = before != m_sources.rend() ? before->overrides : SourceOverride{};
     m_sourceIndex.emplace(packet.source, m_sources.size());
     Source& source = m_sources.emplace_back();
     source.id = packet.source;
     source.info = *info;
+    source.overrides = inherited;
     return &source;
 }
 
@@ -220,6 +224,19 @@ std::vector<const Character*> Session::currentCharacters() const {
         }
     }
     return shown;
+}
+
+void Session::setOverride(log::SourceId source, const SourceOverride& overrides) {
+    const auto found = m_sourceIndex.find(source);
+    if (found == m_sourceIndex.end()) {
+        return;
+    }
+    m_sources[found->second].overrides = overrides;
+    for (auto& [key, cached] : m_poses) {
+        if (key.source == source) {
+            cached.packet = UINT64_MAX;
+        }
+    }
 }
 
 void Session::setMarked(std::uint64_t packet, bool isMarked) {

@@ -42,6 +42,18 @@ struct Source {
     std::int64_t lastStampNs = 0;
     std::string firstForeignBytes; ///< hexadecimal, of the newest foreign datagram, at most 16 bytes
     Detector detector;
+    SourceOverride overrides{};
+
+    /// As declared, else as detected.
+    [[nodiscard]] Revision revision() const {
+        return overrides.revision.value_or(detector.result().revision);
+    }
+    [[nodiscard]] LengthUnit positionUnit() const {
+        return overrides.positionUnit.value_or(detector.result().positionUnit);
+    }
+    [[nodiscard]] std::vector<Contradiction> contradictions() const {
+        return detector.contradictions(overrides);
+    }
 };
 
 /// One character of a source.
@@ -90,6 +102,9 @@ public:
     void setSelection(const Selection& selection) { m_selection = selection; }
     /// What packets are listed; in the filter language, empty for all. It is not checked here.
     void setDisplayFilter(std::string filter) { m_displayFilter = std::move(filter); }
+    /// What the operator declares about a source counts instead of what was detected, also for the sources
+    /// that follow it on the same host. Nothing happens where there is no such source.
+    void setOverride(log::SourceId source, const SourceOverride& overrides);
     void setMarked(std::uint64_t packet, bool isMarked);
     /// An empty comment takes the comment away.
     void setComment(std::uint64_t packet, std::string comment);

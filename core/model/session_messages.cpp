@@ -126,7 +126,9 @@ const CharacterPose* Session::pose(const CharacterKey& key) const {
     CachedPose& cached = m_poses[key];
     if (cached.packet != best->packet) {
         const auto origins = bodyOrigins(key);
-        cached.isValid = poseFromMessage(best->datagram, origins, cached.pose);
+        const Source* source = find(key.source);
+        const auto unit = source != nullptr ? source->overrides.positionUnit : std::nullopt;
+        cached.isValid = poseFromMessage(best->datagram, origins, cached.pose, unit);
         cached.packet = best->packet;
         cached.pose.stampNs = best->stampNs;
         cached.pose.packet = best->packet;
