@@ -2,6 +2,7 @@
 #include "app/gui/panel.h"
 
 #include "app/gui/panels/characters_panel.h"
+#include "app/gui/panels/inspector_panel.h"
 #include "app/gui/panels/metadata_panel.h"
 #include "app/gui/panels/statistics_panel.h"
 #include "app/gui/panels/timecode_panel.h"
@@ -18,11 +19,12 @@ Panel* make(model::SessionView& view, Commands& commands, QWidget* parent) {
     return new T(view, commands, parent);
 }
 
-constexpr std::array<PanelInfo, 5> kPanels{{
+constexpr std::array<PanelInfo, 6> kPanels{{
     {"characters", QT_TRANSLATE_NOOP("Panel", "Characters"), Qt::LeftDockWidgetArea, make<CharactersPanel>},
     {"metadata", QT_TRANSLATE_NOOP("Panel", "Metadata"), Qt::LeftDockWidgetArea, make<MetadataPanel>},
     {"timecode", QT_TRANSLATE_NOOP("Panel", "Time code"), Qt::LeftDockWidgetArea, make<TimecodePanel>},
     {"statistics", QT_TRANSLATE_NOOP("Panel", "Statistics"), Qt::RightDockWidgetArea, make<StatisticsPanel>},
+    {"inspector", QT_TRANSLATE_NOOP("Panel", "Inspector"), Qt::RightDockWidgetArea, make<InspectorPanel>},
     {"trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), Qt::RightDockWidgetArea, make<TrackersPanel>},
 }};
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/theme.h"
+#include "core/log/packet.h"
+#include "core/model/packet_digest.h"
+#include "core/model/points.h"
+#include "core/model/spaces.h"
+#include "core/wire/field_tree.h"
+
+#include <QString>
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace posewire::gui {
+
+/// Something wrong or odd in a packet, at the bytes where it arose.
+struct FieldProblem {
+    Health level = Health::Warning; ///< Unknown: a remark
+    QString text;
+    std::uint32_t offset = 0;
+    std::uint32_t length = 0;
+    std::int32_t node = -1; ///< of the tree, -1 where it concerns the whole packet
+};
+
+/// One packet taken apart: a copy of its bytes, the tree of its fields with what they need to be explained,
+/// and what is wrong with it. Nodes are indices in tree().nodes.
+class FieldDocument {
+public:
+    FieldDocument() = default;
+    /// `unit` is that of positions in types 02, 21 and 24 of this sender.
+    FieldDocument(const log::Packet& packet, model::LengthUnit unit);
+
+    [[nodiscard]] bool isEmpty() const { return m_bytes.empty(); }
+    [[nodiscard]] std::uint64_t number() const { return m_number; }
+    [[nodiscard]] std::int64_t stampNs() const { return m_stampNs; }
+    [[nodiscard]] log::SourceId source() const { return m_source; }
+    [[nodiscard]] model::PacketKind kind() const { return m_kind; }
+    [[nodiscard]] bool hasHeader() const { return m_hasHeader; }
+    [[nodiscard]] std::uint8_t type() const { return m_header.type(); }
+    [[nodiscard]] const wire::Header& header() const { return m_header; }
+    [[nodiscard]] model::LengthUnit unit() const { return m_unit; }
+    [[nodiscard]] model::PointIdCoding coding() const { return m_coding; }
+    [[nodiscard]] const std::vector<std::byte>& bytes() const { return m_bytes; }
+    [[nodiscard]] const wire::FieldTree& tree() const { return m_tree; }
+    [[nodiscard]] const std::vector<FieldProblem>& problems() const { return m_problems; }
+
+    [[nodiscard]] const wire::FieldNode& node(std::int32_t index) const {
+        return m_tree.nodes[static_cast<std::size_t>(index)];
+    }
+    [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(m_tree.nodes.size()); }
+    /// Of -1: those at the top.
+    [[nodiscard]] std::span<const std::int32_t> children(std::int32_t node) const;
+    /// The child of that name; -1 where there is none.
+    [[nodiscard]] std::int32_t child(std::int32_t node, std::string_view name) const;
+    /// The item that a node belongs to (or is); -1 where it is in none.
+    [[nodiscard]] std::int32_t itemOf(std::int32_t node) const;
+    /// The innermost node on a byte; of those that share it (bits) the whole.
+    [[nodiscard]] std::int32_t nodeAt(std::uint32_t offset) const;
+    /// The node of that path; -1 where there is none.
+    [[nodiscard]] std::int32_t find(const std::string& path) const;
+
+    /// Position in a pose datagram of the segment that a node is about, -1 where it is about none.
+    [[nodiscard]] int segmentOf(std::int32_t node) const;
+    /// The item about a segment; -1 where there is none.
+    [[nodiscard]] std::int32_t nodeOfSegment(int segment) const;
+    /// Items of its segment list, for names by position.
+    [[nodiscard]] const model::SegmentLayout& layout() const { return m_layout; }
+
+    /// The worst that is wrong with the node itself, and with what is below it.
+    [[nodiscard]] Health health(std::int32_t node) const { return m_own[static_cast<std::size_t>(node)]; }
+    [[nodiscard]] Health worstWithin(std::int32_t node) const {
+        return m_within[static_cast<std::size_t>(node)];
+    }
+
+    /// Same fields on the same bytes: rows of a table can stay.
+    [[nodiscard]] bool hasSameRows(const FieldDocument& other) const;
+
+private:
+    void arrange();
+    void readContext();
+    void findProblems(const log::Packet& packet);
+    void addFault();
+    void addNotice(const wire::Notice& notice);
+    void markNodes();
+    [[nodiscard]] bool isAffected(wire::NoticeCode code, std::int32_t node) const;
+
+    std::vector<std::byte> m_bytes;
+    std::uint64_t m_number = 0;
+    std::int64_t m_stampNs = 0;
+    log::SourceId m_source{};
+    model::PacketKind m_kind = model::PacketKind::Datagram;
+    bool m_hasHeader = false;
+    wire::Header m_header;
+    model::LengthUnit m_unit = model::LengthUnit::Metre;
+    model::PointIdCoding m_coding = model::PointIdCoding::By256;
+    model::SegmentLayout m_layout;
+    wire::FieldTree m_tree;
+    std::vector<std::int32_t> m_children;
+    std::vector<std::uint32_t> m_firstChild; ///< of each node in m_children; one more, for the top, in front
+    std::vector<FieldProblem> m_problems;
+    std::vector<Health> m_own;
+    std::vector<Health> m_within;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/field_model.h"
+
+#include "app/gui/models/columns.h"
+#include "app/gui/models/field_text.h"
+#include "app/gui/models/roles.h"
+
+#include <unordered_map>
+
+namespace posewire::gui {
+
+namespace {
+
+using wire::NodeKind;
+
+constexpr std::array<ColumnText, FieldModel::kColumnCount> kColumns{{
+    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Field"), "", false},
+    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Value"),
+     QT_TRANSLATE_NOOP("posewire::gui::FieldModel",
+                       "Z-up metres, degrees, clocks and names, whatever the wire has"),
+     true},
+    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "On the wire"),
+     QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "As sent: shortest digits that read back the same"),
+     true},
+    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Other"),
+     QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "The same field of the packet to compare with"), true},
+    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Difference"),
+     QT_TRANSLATE_NOOP("posewire::gui::FieldModel",
+                       "This less other; of vectors the distance, of orientations the angle"),
+     true},
+    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Meaning"), "", false},
+    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Section"),
+     QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Of the specification"), false},
+}};
+
+std::size_t at(std::int32_t node) {
+    return static_cast<std::size_t>(node);
+}
+
+bool isStructure(NodeKind kind) {
+    return kind == NodeKind::Group || kind == NodeKind::Item;
+}
+
+} // namespace
+
+FieldModel::FieldModel(QObject* parent) : QAbstractItemModel(parent) {
+    arrange();
+}
+
+void FieldModel::setDocument(std::shared_ptr<const FieldDocument> document) {
+    if (m_other == nullptr && m_document->hasSameRows(*document) && !document->isEmpty()) {
+        m_document = std::move(document);
+        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+        return;
+    }
+    beginResetModel();
+    m_document = std::move(document);
+    match();
+    arrange();
+    endResetModel();
+}
+
+void FieldModel::setOther(std::shared_ptr<const FieldDocument> other) {
+    beginResetModel();
+    m_other = std::move(other);
+    match();
+    arrange();
+    endResetModel();
+}
+
+void FieldModel::setOnlyDifferences(bool isOnly) {
+    if (isOnly != m_onlyDifferences) {
+        beginResetModel();
+        m_onlyDifferences = isOnly;
+        arrange();
+        endResetModel();
+    }
+}
+
+void FieldModel::match() {
+    const std::int32_t count = m_document->count();
+    m_counterparts.assign(at(count), -1);
+    m_differs.assign(at(count), false);
+    m_differences = 0;
+    if (m_other == nullptr) {
+        return;
+    }
+    std::unordered_map<std::string, std::int32_t> places;
+    for (std::int32_t i = 0; i < m_other->count(); ++i) {
+        places.emplace(m_other->tree().path(i), i);
+    }
+    for (std::int32_t i = 0; i < count; ++i) {
+        const auto found = places.find(m_document->tree().path(i));
+        m_counterparts[at(i)] = found == places.end() ? -1 : found->second;
+        if (!isStructure(m_document->node(i).kind) && !differenceText(i).isEmpty()) {
+            m_differences += m_document->node(i).kind == NodeKind::Part ? 0 : 1;
+            for (std::int32_t k = i; k >= 0; k = m_document->node(k).parent) {
+                m_differs[at(k)] = true;
+            }
+        }
+    }
+}
+
+void FieldModel::arrange() {
+    const std::int32_t count = m_document->count();
+    m_rows.assign(at(count + 1), {});
+    m_rowOf.assign(at(count), -1);
+    for (std::int32_t i = 0; i < count; ++i) {
+        const bool isShown = m_other == nullptr || !m_onlyDifferences || m_differs[at(i)];
+        if (isShown) {
+            auto& rows = m_rows[at(m_document->node(i).parent + 1)];
+            m_rowOf[at(i)] = static_cast<int>(rows.size());
+            rows.push_back(i);
+        }
+    }
+}
+
+std::int32_t FieldModel::node(const QModelIndex& index) const {
+    return index.isValid() ? static_cast<std::int32_t>(index.internalId()) : -1;
+}
+
+QModelIndex FieldModel::indexOf(std::int32_t node, int column) const {
+    const bool isShown = node >= 0 && node < m_document->count() && m_rowOf[at(node)] >= 0;
+    return isShown ? createIndex(m_rowOf[at(node)], column, static_cast<quintptr>(node)) : QModelIndex();
+}
+
+QModelIndex FieldModel::index(int row, int column, const QModelIndex& parent) const {
+    if (!hasIndex(row, column, parent)) {
+        return {};
+    }
+    const auto& rows = m_rows[at(node(parent) + 1)];
+    return createIndex(row, column, static_cast<quintptr>(rows[static_cast<std::size_t>(row)]));
+}
+
+QModelIndex FieldModel::parent(const QModelIndex& index) const {
+    return index.isValid() ? indexOf(m_document->node(node(index)).parent) : QModelIndex();
+}
+
+int FieldModel::rowCount(const QModelIndex& parent) const {
+    return parent.column() > 0 ? 0 : static_cast<int>(m_rows[at(node(parent) + 1)].size());
+}
+
+int FieldModel::columnCount(const QModelIndex&) const {
+    return kColumnCount;
+}
+
+QString FieldModel::differenceText(std::int32_t node) const {
+    const std::int32_t other = m_counterparts[at(node)];
+    return other < 0 ? tr("only here") : difference(*m_document, node, *m_other, other);
+}
+
+QString FieldModel::text(std::int32_t node, int column) const {
+    switch (column) {
+    case kField: {
+        const QString title = fieldTitle(*m_document, node);
+        const Health health = m_document->worstWithin(node);
+        return health == Health::Unknown ? title : healthSymbol(health) + QLatin1Char(' ') + title;
+    }
+    case kValue:
+        return convertedValue(*m_document, node);
+    case kWire:
+        return wireValue(*m_document, node);
+    case kOther:
+        return m_other == nullptr || m_counterparts[at(node)] < 0
+                   ? QString()
+                   : convertedValue(*m_other, m_counterparts[at(node)]);
+    case kDifference:
+        return m_other == nullptr || isStructure(m_document->node(node).kind) ? QString()
+                                                                              : differenceText(node);
+    case kMeaning:
+        return fieldMeaning(*m_document, node);
+    default:
+        return fieldSection(*m_document, node);
+    }
+}
+
+QVariant FieldModel::colour(std::int32_t node, int column) const {
+    const Health own = m_document->health(node);
+    if (own != Health::Unknown && column <= kWire) {
+        return healthColour(own);
+    }
+    if (column == kDifference || (column == kValue && m_other != nullptr && m_differs[at(node)])) {
+        return theme().warning;
+    }
+    const NodeKind kind = m_document->node(node).kind;
+    const bool isQuiet = column == kMeaning || column == kSection || column == kOther ||
+                         (column != kField && isStructure(kind)) || kind == NodeKind::Unread ||
+                         (column == kField && kind == NodeKind::Part);
+    return isQuiet ? QVariant(theme().dim) : QVariant();
+}
+
+QVariant FieldModel::data(const QModelIndex& index, int role) const {
+    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
+        return {};
+    }
+    const std::int32_t node = this->node(index);
+    switch (role) {
+    case Qt::DisplayRole:
+        return text(node, index.column());
+    case Qt::ForegroundRole:
+        return colour(node, index.column());
+    case Qt::TextAlignmentRole:
+        return kColumns[static_cast<std::size_t>(index.column())].isNumber ? numberAlignment() : QVariant();
+    case Qt::ToolTipRole:
+        return tr("%1\n%2\n%3 %4")
+            .arg(QString::fromStdString(m_document->tree().path(node)), fieldPlace(*m_document, node),
+                 fieldMeaning(*m_document, node), fieldSection(*m_document, node))
+            .trimmed();
+    default:
+        return {};
+    }
+}
+
+QVariant FieldModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    return orientation == Qt::Horizontal ? columnHeader(kColumns, "posewire::gui::FieldModel", section, role)
+                                         : QVariant();
+}
+
+} // namespace posewire::gui

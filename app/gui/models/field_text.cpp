@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/field_text.h"
+
+#include "app/gui/models/field_names.h"
+#include "app/gui/models/text.h"
+#include "core/wire/type_table.h"
+
+#include <QCoreApplication>
+
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+using wire::FieldNode;
+using wire::NodeKind;
+using wire::Unit;
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("FieldText", text);
+}
+
+QString textOf(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+bool isYUp(std::uint8_t type) {
+    return type == wire::PoseEuler::kType || type == wire::PointPositions::kType ||
+           type == wire::TagPositions::kType;
+}
+
+/// The wire's vector in the frame above the wire, without a change of unit.
+Eigen::Vector3d zUpOf(std::uint8_t type, const Eigen::Vector3d& wire) {
+    return isYUp(type)                      ? model::zUpFromYUp(wire)
+           : type == wire::PoseUnity::kType ? model::zUpFromUnity(wire)
+                                            : wire;
+}
+
+struct Scale {
+    double factor = 1;
+    const char* symbol = "";
+    int decimals = 3;
+};
+
+/// From the wire's unit to the one that is shown.
+Scale scaleOf(const FieldDocument& document, const FieldNode& node) {
+    switch (node.unit) {
+    case Unit::Metres:
+        return {model::metresPer(document.type() == wire::NullPose::kType ? model::LengthUnit::Metre
+                                                                          : document.unit()),
+                "m", 4};
+    case Unit::Centimetres:
+        return {0.01, "m", 4};
+    case Unit::Degrees:
+        return {1, "°", 2};
+    case Unit::RadiansPerSecond:
+        return {model::kDegreesPerRadian, "°/s", 2};
+    case Unit::RadiansPerSecondSquared:
+        return {model::kDegreesPerRadian, "°/s²", 1};
+    case Unit::MetresPerSecond:
+        return {1, "m/s", 3};
+    case Unit::MetresPerSecondSquared:
+        return {1, "m/s²", 3};
+    case Unit::ArbitraryUnits:
+        return {1, "a.u.", 4};
+    default:
+        return {1, "", 4};
+    }
+}
+
+QString withUnit(const QString& value, const char* symbol) {
+    const QString unit = QString::fromUtf8(symbol);
+    return unit.isEmpty()                ? value
+           : unit == QStringLiteral("°") ? value + unit
+                                         : value + QLatin1Char(' ') + unit;
+}
+
+bool isLength(Unit unit) {
+    return unit == Unit::Metres || unit == Unit::Centimetres;
+}
+
+/// Wire components in their order; fewer where they are not there.
+std::vector<double> components(const FieldDocument& document, std::int32_t node) {
+    std::vector<double> values;
+    for (const std::int32_t part : document.children(node)) {
+        values.push_back(document.node(part).number);
+    }
+    return values;
+}
+
+QString vectorText(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    const Scale scale = scaleOf(document, node);
+    std::vector<double> values = components(document, index);
+    if (values.size() == 3 && isLength(node.unit)) {
+        const Eigen::Vector3d zUp = zUpOf(document.type(), {values[0], values[1], values[2]});
+        values.assign({zUp.x(), zUp.y(), zUp.z()});
+    }
+    QString text;
+    for (const double value : values) {
+        text += (text.isEmpty() ? QString() : QStringLiteral("  ")) +
+                fixed(value * scale.factor, std::min(scale.decimals, 3));
+    }
+    return withUnit(text, scale.symbol);
+}
+
+/// A component of a position of another frame says which axis it becomes.
+QString componentText(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    const FieldNode& vector = document.node(node.parent);
+    const Scale scale = scaleOf(document, vector);
+    const QString plain = withUnit(fixed(node.number * scale.factor, scale.decimals), scale.symbol);
+    if (!isLength(vector.unit) || vector.components != 3) {
+        return plain;
+    }
+    const auto siblings = document.children(node.parent);
+    const auto place = std::find(siblings.begin(), siblings.end(), index) - siblings.begin();
+    const Eigen::Vector3d zUp = zUpOf(document.type(), Eigen::Vector3d::Unit(static_cast<int>(place)));
+    Eigen::Index axis = 0;
+    zUp.cwiseAbs().maxCoeff(&axis);
+    if (axis == place && zUp[axis] > 0) {
+        return plain;
+    }
+    return QStringLiteral("%1 = %2")
+        .arg(QLatin1Char("xyz"[axis]))
+        .arg(withUnit(fixed(node.number * scale.factor * zUp[axis], scale.decimals), scale.symbol));
+}
+
+QString datagramCounterText(std::uint8_t counter) {
+    const QString index = tr("part %1").arg((counter & 0x7f) + 1);
+    return (counter & 0x80) != 0 ? tr("%1, the last").arg(index) : tr("%1, more follow").arg(index);
+}
+
+QString flagsText(double number) {
+    const auto bits = static_cast<std::uint32_t>(number);
+    QStringList set;
+    for (int bit = 0; bit < 32; ++bit) {
+        if ((bits >> bit & 1U) != 0) {
+            set += QString::number(bit);
+        }
+    }
+    return set.isEmpty() ? tr("no bit set") : tr("bits %1").arg(set.join(QLatin1Char(' ')));
+}
+
+QString headerText(const FieldDocument& document, const FieldNode& node) {
+    if (node.name == "id") {
+        return documentTitle(document);
+    }
+    if (node.name == "type") {
+        return textOf(wire::typeTitle(document.type()));
+    }
+    if (node.name == "datagramCounter") {
+        return datagramCounterText(document.header().datagramCounter);
+    }
+    if (node.name == "payloadSize" && node.number == 0) {
+        return tr("not sent");
+    }
+    if (node.name == "character") {
+        return tr("character %1").arg(node.number);
+    }
+    return {};
+}
+
+bool isInHeader(const FieldDocument& document, std::int32_t node) {
+    while (document.node(node).parent >= 0) {
+        node = document.node(node).parent;
+    }
+    return document.node(node).name == "header";
+}
+
+QString printable(const std::string& value) {
+    QString text = QString::fromStdString(value);
+    text.replace(QLatin1Char('\n'), QStringLiteral("↵"));
+    for (QChar& character : text) {
+        character = character.unicode() < 0x20 || character.unicode() == 0x7f ? QChar(0xb7) : character;
+    }
+    return text;
+}
+
+} // namespace
+
+QString documentTitle(const FieldDocument& document) {
+    if (document.kind() == model::PacketKind::Skipped) {
+        return tr("Skipped bytes");
+    }
+    if (document.hasHeader()) {
+        return textOf(wire::typeTitle(document.type()));
+    }
+    return document.kind() == model::PacketKind::Foreign ? tr("Foreign datagram") : tr("Malformed datagram");
+}
+
+QString fieldTitle(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    switch (node.kind) {
+    case NodeKind::Item:
+        return itemTitle(document, index);
+    case NodeKind::Unread:
+        return document.kind() == model::PacketKind::Datagram ? tr("Bytes without a field")
+               : document.hasHeader()                         ? tr("Unread")
+                                                              : tr("Bytes");
+    case NodeKind::Part:
+        return document.node(node.parent).name == "text" ? textOf(node.name) : spacedName(node.name);
+    default:
+        return spacedName(node.name);
+    }
+}
+
+QString wireValue(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    if (node.kind == NodeKind::Cut && document.tree().cutError.code == wire::ErrorCode::BadLength) {
+        return QString::number(static_cast<std::int32_t>(document.tree().cutError.need));
+    }
+    if (node.kind == NodeKind::Cut && document.tree().cutError.code == wire::ErrorCode::CountTooLarge) {
+        return QString::number(document.tree().cutError.need);
+    }
+    const Unit unit = node.kind == NodeKind::Part && node.unit == Unit::None && node.parent >= 0
+                          ? document.node(node.parent).unit
+                          : node.unit;
+    const QString symbol = textOf(wire::unitSymbol(unit));
+    const QString value = printable(node.value);
+    return value.isEmpty() || symbol.isEmpty() || node.kind == NodeKind::Unread
+               ? value
+               : value + QLatin1Char(' ') + symbol;
+}
+
+QString convertedValue(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    switch (node.kind) {
+    case NodeKind::Group:
+        return node.name == "header" ? tr("%1 bytes").arg(node.length)
+                                     : tr("%1 × · %2 bytes").arg(node.index).arg(grouped(node.length));
+    case NodeKind::Item:
+        return tr("%1 bytes").arg(node.length);
+    case NodeKind::Cut:
+        return document.tree().cutError.code == wire::ErrorCode::FieldTruncated
+                   ? tr("%1 of %2 bytes")
+                         .arg(document.tree().cutError.have)
+                         .arg(document.tree().cutError.need)
+                   : tr("past the end");
+    case NodeKind::Unread:
+        return tr("%1 bytes").arg(grouped(node.length));
+    default:
+        break;
+    }
+    if (node.components != 0) {
+        return vectorText(document, index);
+    }
+    if (node.kind == NodeKind::Part && document.node(node.parent).components != 0) {
+        return componentText(document, index);
+    }
+    if (const QString text = isInHeader(document, index) ? headerText(document, node) : QString();
+        !text.isEmpty()) {
+        return text;
+    }
+    switch (node.unit) {
+    case Unit::Identifier:
+        return identifierText(document, index);
+    case Unit::Milliseconds:
+        return milliClock(static_cast<std::int64_t>(node.number));
+    case Unit::Flags:
+        return flagsText(node.number);
+    case Unit::Count:
+        return grouped(static_cast<std::uint64_t>(node.number));
+    default:
+        return wireValue(document, index);
+    }
+}
+
+QString fieldMeaning(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    if (node.text.empty() && node.parent >= 0 && node.kind == NodeKind::Part) {
+        return fieldMeaning(document, node.parent);
+    }
+    if (node.kind == NodeKind::Unread && !document.hasHeader()) {
+        return tr("no datagram of this protocol");
+    }
+    return textOf(node.text);
+}
+
+QString fieldSection(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    return node.section.empty() ? QString() : QStringLiteral("§ ") + textOf(node.section);
+}
+
+QString fieldPlace(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    const bool isPart = node.kind == NodeKind::Part && document.node(node.parent).components != 0;
+    const QString kind = node.components != 0 ? tr("%1 × float32").arg(node.components)
+                         : isPart             ? QStringLiteral("float32")
+                         : std::isfinite(node.number) && node.length == 1 ? QStringLiteral("uint8")
+                         : std::isfinite(node.number) && node.length == 2 ? QStringLiteral("uint16")
+                         : std::isfinite(node.number) && node.length == 4 ? QStringLiteral("uint32")
+                                                                          : tr("%1 bytes").arg(node.length);
+    return node.length == 1 ? tr("%1 at byte %2").arg(kind).arg(node.offset)
+                            : tr("%1 at bytes %2–%3")
+                                  .arg(kind)
+                                  .arg(node.offset)
+                                  .arg(node.offset + std::max(node.length, 1U) - 1);
+}
+
+QString difference(const FieldDocument& document, std::int32_t index, const FieldDocument& other,
+                   std::int32_t otherIndex) {
+    const FieldNode& a = document.node(index);
+    const FieldNode& b = other.node(otherIndex);
+    if (a.value == b.value && a.kind == b.kind) {
+        return {};
+    }
+    if (a.components == 3 && b.components == 3) {
+        const auto u = components(document, index);
+        const auto v = components(other, otherIndex);
+        const Scale scale = scaleOf(document, a);
+        const double distance = std::hypot(u[0] - v[0], u[1] - v[1], u[2] - v[2]) * scale.factor;
+        return isLength(a.unit) ? QStringLiteral("%1 mm").arg(fixed(distance * 1000, 2))
+                                : withUnit(fixed(distance, scale.decimals), scale.symbol);
+    }
+    if (a.components == 4 && b.components == 4) {
+        const auto u = components(document, index);
+        const auto v = components(other, otherIndex);
+        const double dot = std::abs(u[0] * v[0] + u[1] * v[1] + u[2] * v[2] + u[3] * v[3]);
+        return fixed(2 * std::acos(std::min(1.0, dot)) * model::kDegreesPerRadian, 3) + QStringLiteral("°");
+    }
+    if (!std::isfinite(a.number) || !std::isfinite(b.number) || a.unit == Unit::Identifier ||
+        a.unit == Unit::Flags) {
+        return tr("differs");
+    }
+    const bool isPart = a.kind == NodeKind::Part && document.node(a.parent).components != 0;
+    const Scale scale = scaleOf(document, isPart ? document.node(a.parent) : a);
+    const double delta = (a.number - b.number) * scale.factor;
+    return isPart                         ? withUnit(signedFixed(delta, scale.decimals), scale.symbol)
+           : a.unit == Unit::Milliseconds ? clockDifference(delta)
+                                          : signedFixed(delta, 0);
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/field_document.h"
+
+/// How fields are shown to people.
+namespace posewire::gui {
+
+/// "Segment 7 · Head", "Free acceleration".
+[[nodiscard]] QString fieldTitle(const FieldDocument& document, std::int32_t node);
+
+/// What the wire says: shortest digits that read back the same, with the wire's unit.
+[[nodiscard]] QString wireValue(const FieldDocument& document, std::int32_t node);
+
+/// What it means: Z-up metres, degrees, clocks, names.
+[[nodiscard]] QString convertedValue(const FieldDocument& document, std::int32_t node);
+
+/// One line of documentation.
+[[nodiscard]] QString fieldMeaning(const FieldDocument& document, std::int32_t node);
+[[nodiscard]] QString fieldSection(const FieldDocument& document, std::int32_t node);
+
+/// "float32 at byte 232", "3 × float32 at bytes 228 to 239".
+[[nodiscard]] QString fieldPlace(const FieldDocument& document, std::int32_t node);
+
+/// "02 Pose, quaternion"; for what is no datagram, what it is.
+[[nodiscard]] QString documentTitle(const FieldDocument& document);
+
+/// `node` of `document` less `otherNode` of `other`, with unit; "" where both are the same, "differs" where
+/// there is no difference to take.
+[[nodiscard]] QString difference(const FieldDocument& document, std::int32_t node, const FieldDocument& other,
+                                 std::int32_t otherNode);
+
+} // namespace posewire::gui

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/field_view.h"
+
+#include "app/gui/theme.h"
+
+#include <QContextMenuEvent>
+#include <QHeaderView>
+#include <QItemSelectionModel>
+#include <QPainter>
+#include <QScrollBar>
+
+namespace posewire::gui {
+
+FieldView::FieldView(FieldModel& model, QWidget* parent)
+    : TableView(tr("Fields of the packet"), parent), m_fields(model) {
+    setModel(&model);
+    setRootIsDecorated(true);
+    setExpandsOnDoubleClick(true);
+    setMouseTracking(true);
+    connect(this, &QTreeView::expanded, this, [this](const QModelIndex& index) {
+        if (!m_isChanging) {
+            m_open.insert(pathOf(index));
+        }
+    });
+    connect(this, &QTreeView::collapsed, this, [this](const QModelIndex& index) {
+        if (!m_isChanging) {
+            m_open.erase(pathOf(index));
+        }
+    });
+    connect(this, &QAbstractItemView::entered, this,
+            [this](const QModelIndex& index) { emit nodeEntered(m_fields.node(index)); });
+    connect(selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) {
+                if (!m_isChanging && index.isValid()) {
+                    m_currentPath = pathOf(index);
+                    emit nodeSelected(m_fields.node(index));
+                }
+            });
+    connect(&model, &QAbstractItemModel::modelReset, this, [this] {
+        m_wasReset = true;
+        m_hovered = {};
+    });
+    fitToWidth();
+}
+
+std::string FieldView::pathOf(const QModelIndex& index) const {
+    return m_fields.document().tree().path(m_fields.node(index));
+}
+
+std::int32_t FieldView::currentNode() const {
+    return m_fields.node(currentIndex());
+}
+
+void FieldView::beginChange() {
+    m_isChanging = true;
+    m_wasReset = false;
+    m_scrolled = verticalScrollBar()->value();
+}
+
+void FieldView::restore(const QModelIndex& parent) {
+    for (int row = 0; row < m_fields.rowCount(parent); ++row) {
+        const QModelIndex index = m_fields.index(row, 0, parent);
+        if (m_fields.rowCount(index) > 0 && m_open.contains(pathOf(index))) {
+            expand(index);
+            restore(index);
+        }
+    }
+}
+
+void FieldView::endChange() {
+    if (m_wasReset) {
+        restore({});
+        if (const QModelIndex current = m_fields.indexOf(m_fields.document().find(m_currentPath));
+            current.isValid() && !m_currentPath.empty()) {
+            selectionModel()->setCurrentIndex(current, QItemSelectionModel::ClearAndSelect |
+                                                           QItemSelectionModel::Rows);
+        }
+        doItemsLayout();
+        verticalScrollBar()->setValue(m_scrolled);
+        fitToWidth();
+    }
+    m_isChanging = false;
+}
+
+void FieldView::openFirst() {
+    for (int row = 0; row < m_fields.rowCount(); ++row) {
+        const QModelIndex index = m_fields.index(row, 0);
+        const bool isHeader = m_fields.document().node(m_fields.node(index)).name == "header";
+        setExpanded(index, !isHeader || m_fields.rowCount() == 1);
+    }
+}
+
+void FieldView::openTo(std::int32_t node) {
+    for (QModelIndex index = m_fields.indexOf(node).parent(); index.isValid(); index = index.parent()) {
+        expand(index);
+    }
+}
+
+void FieldView::setCurrentNode(std::int32_t node) {
+    const QModelIndex index = m_fields.indexOf(node);
+    if (!index.isValid()) {
+        return;
+    }
+    openTo(node);
+    m_isChanging = true;
+    m_currentPath = pathOf(index);
+    selectionModel()->setCurrentIndex(index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    m_isChanging = false;
+    scrollTo(index, QAbstractItemView::EnsureVisible);
+}
+
+void FieldView::setHovered(std::int32_t node) {
+    QModelIndex index = m_fields.indexOf(node);
+    for (QModelIndex around = index.parent(); around.isValid(); around = around.parent()) {
+        if (!isExpanded(around)) {
+            index = around;
+        }
+    }
+    if (index != m_hovered) {
+        m_hovered = index;
+        viewport()->update();
+    }
+}
+
+void FieldView::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
+                        const QModelIndex& index) const {
+    QTreeView::drawRow(painter, option, index);
+    if (m_hovered.isValid() && index.siblingAtColumn(0) == m_hovered) {
+        QColor wash = theme().accent;
+        wash.setAlphaF(0.16F);
+        painter->fillRect(option.rect, wash);
+    }
+}
+
+void FieldView::contextMenuEvent(QContextMenuEvent* event) {
+    const bool isByKey = event->reason() == QContextMenuEvent::Keyboard;
+    if (!isByKey && indexAt(event->pos()).isValid()) {
+        setCurrentIndex(indexAt(event->pos()));
+    }
+    emit menuRequested(isByKey ? viewport()->mapToGlobal(visualRect(currentIndex()).center())
+                               : event->globalPos());
+}
+
+bool FieldView::viewportEvent(QEvent* event) {
+    if (event->type() == QEvent::Leave) {
+        emit nodeEntered(-1);
+    }
+    return TableView::viewportEvent(event);
+}
+
+void FieldView::resizeEvent(QResizeEvent* event) {
+    TableView::resizeEvent(event);
+    fitToWidth();
+}
+
+/// A narrow tree shows fields and what they mean to say; a wide one all there is.
+void FieldView::fitToWidth() {
+    const int character = std::max(1, fontMetrics().averageCharWidth());
+    const int width = viewport()->width() / character;
+    const bool isComparing = m_fields.other() != nullptr;
+    const int form = (width >= 70 ? 1 : 0) + (width >= 120 ? 2 : 0) + (isComparing ? 4 : 0);
+    if (form == m_form) {
+        return;
+    }
+    m_form = form;
+    const bool hasMeaning = width >= 120;
+    setColumnHidden(FieldModel::kWire, isComparing || width < 70);
+    setColumnHidden(FieldModel::kOther, !isComparing);
+    setColumnHidden(FieldModel::kDifference, !isComparing);
+    setColumnHidden(FieldModel::kMeaning, !hasMeaning);
+    setColumnHidden(FieldModel::kSection, !hasMeaning);
+    const QString vector = QStringLiteral("−0.000  −0.000  −0.000 m");
+    std::vector<QString> samples(FieldModel::kColumnCount);
+    const QString field = QStringLiteral("Segment 10 · RightUpperArmxx");
+    samples[FieldModel::kField] = hasMeaning ? field : QString();
+    samples[FieldModel::kValue] = isComparing ? QStringLiteral("−0.00  −0.00 m") : vector;
+    samples[FieldModel::kWire] = width >= 120 ? QStringLiteral("-0.00000001  -0.00000001  -0.00000001 m")
+                                              : QStringLiteral("-0.00000001  -0.0000");
+    samples[FieldModel::kOther] = samples[FieldModel::kValue];
+    samples[FieldModel::kDifference] = QStringLiteral("−0.0000 m");
+    samples[FieldModel::kMeaning] = hasMeaning ? QString() : QStringLiteral("x");
+    samples[FieldModel::kSection] = QStringLiteral("§ N 2.5.10");
+    setColumnSamples(std::move(samples));
+}
+
+} // namespace posewire::gui

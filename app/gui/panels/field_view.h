@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/field_model.h"
+#include "app/gui/panels/table_view.h"
+
+#include <set>
+#include <string>
+
+namespace posewire::gui {
+
+/// The tree of fields. What is open, what is selected and where it is scrolled to stay while packets change.
+class FieldView : public TableView {
+    Q_OBJECT
+
+public:
+    explicit FieldView(FieldModel& model, QWidget* parent = nullptr);
+
+    /// Marks the row of a node, or the nearest one around it that is open; -1 for none.
+    void setHovered(std::int32_t node);
+
+    /// Makes a node current without a signal, opens what is around it and shows it.
+    void setCurrentNode(std::int32_t node);
+    [[nodiscard]] std::int32_t currentNode() const;
+
+    /// To be called around a change of the model's packets.
+    void beginChange();
+    void endChange();
+
+    /// Opens the lists of a packet of a type that was not shown before, and what leads to a node.
+    void openFirst();
+    void openTo(std::int32_t node);
+
+signals:
+    void nodeEntered(std::int32_t node); ///< -1 when the pointer leaves
+    void nodeSelected(std::int32_t node);
+    void menuRequested(const QPoint& globalPosition);
+
+protected:
+    void drawRow(QPainter* painter, const QStyleOptionViewItem& option,
+                 const QModelIndex& index) const override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
+    bool viewportEvent(QEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void fitToWidth();
+    void restore(const QModelIndex& parent);
+    [[nodiscard]] std::string pathOf(const QModelIndex& index) const;
+
+    FieldModel& m_fields;
+    std::set<std::string> m_open;
+    std::string m_currentPath;
+    QModelIndex m_hovered;
+    int m_scrolled = 0;
+    int m_form = -1;
+    bool m_isChanging = false;
+    bool m_wasReset = false;
+};
+
+} // namespace posewire::gui

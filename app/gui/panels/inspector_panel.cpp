@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/inspector_panel.h"
+
+#include "app/gui/models/field_text.h"
+#include "app/gui/models/inspected_packet.h"
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/panels/field_menu.h"
+
+#include <QHBoxLayout>
+#include <QMenu>
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kDetailLines = 4;
+
+model::LengthUnit unitOf(model::SessionView& view, log::SourceId id) {
+    const model::Source* source = view.find(id);
+    return source == nullptr ? model::LengthUnit::Metre : source->detector.result().positionUnit;
+}
+
+QString coloured(const QColor& colour, const QString& text) {
+    return QStringLiteral("<span style=\"color:%1\">%2</span>").arg(colour.name(), text);
+}
+
+ByteRange rangeOf(const FieldDocument& document, std::int32_t node) {
+    if (node < 0) {
+        return {};
+    }
+    const wire::FieldNode& field = document.node(node);
+    return {field.offset, field.offset + field.length};
+}
+
+} // namespace
+
+InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(parent),
+      m_view(view),
+      m_commands(commands),
+      m_title(new QLabel(this)),
+      m_previous(addButton(QStringLiteral("‹"), tr("Previous packet of this stream"))),
+      m_next(addButton(QStringLiteral("›"), tr("Next packet of this stream"))),
+      m_hold(addButton(tr("Hold"), tr("Keep this packet while the stream runs on"))),
+      m_compare(addButton(tr("Compare ▾"), tr("Compare with another packet of the same type"))),
+      m_problems(new QLabel(this)),
+      m_problemLine(new Line(this)),
+      m_splitter(new QSplitter(Qt::Vertical, this)),
+      m_fields(new FieldView(m_model, this)),
+      m_bytes(new ByteView(this)),
+      m_detail(new QLabel(this)) {
+    layOut();
+    connectParts();
+    showEmpty();
+}
+
+QToolButton* InspectorPanel::addButton(const QString& text, const QString& toolTip) {
+    auto* button = new QToolButton(this);
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setAccessibleName(toolTip);
+    button->setProperty("flat", true);
+    button->setFocusPolicy(Qt::TabFocus);
+    return button;
+}
+
+void InspectorPanel::layOut() {
+    const int margin = CellDelegate::margin(fontMetrics());
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins({});
+    layout->setSpacing(0);
+    auto* bar = new QHBoxLayout;
+    bar->setContentsMargins(margin, 2, margin, 2);
+    bar->setSpacing(2);
+    bar->addWidget(m_title, 1);
+    for (QToolButton* button : {m_previous, m_next, m_hold, m_compare}) {
+        bar->addWidget(button);
+    }
+    m_title->setMinimumWidth(1);
+    m_title->setTextFormat(Qt::RichText);
+    layout->addLayout(bar);
+    layout->addWidget(new Line(this));
+    m_problems->setWordWrap(true);
+    m_problems->setTextFormat(Qt::RichText);
+    m_problems->setContentsMargins(margin, margin / 2, margin, margin / 2);
+    m_problems->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
+    m_problems->setAccessibleName(tr("What is wrong with the packet"));
+    layout->addWidget(m_problems);
+    layout->addWidget(m_problemLine);
+    layout->addWidget(m_splitter, 1);
+    m_splitter->addWidget(m_fields);
+    m_splitter->addWidget(m_bytes);
+    m_splitter->setStretchFactor(0, 3);
+    m_splitter->setStretchFactor(1, 2);
+    m_splitter->setHandleWidth(1);
+    layout->addWidget(new Line(this));
+    m_detail->setWordWrap(true);
+    m_detail->setTextFormat(Qt::RichText);
+    m_detail->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    m_detail->setContentsMargins(margin, margin / 2, margin, margin / 2);
+    m_detail->setFixedHeight(fontMetrics().lineSpacing() * kDetailLines + margin);
+    m_detail->setMinimumWidth(1);
+    layout->addWidget(m_detail);
+}
+
+void InspectorPanel::connectParts() {
+    connect(m_fields, &FieldView::nodeEntered, this, &InspectorPanel::hover);
+    connect(m_fields, &FieldView::nodeSelected, this, &InspectorPanel::select);
+    connect(m_fields, &FieldView::menuRequested, this, &InspectorPanel::openMenu);
+    connect(m_fields, &TableView::copyRequested, this,
+            [this](const QString& text) { m_commands.copyText(text); });
+    connect(m_bytes, &ByteView::hovered, this, [this](std::int64_t offset) {
+        hover(offset < 0 ? -1 : m_document->nodeAt(static_cast<std::uint32_t>(offset)));
+    });
+    connect(m_bytes, &ByteView::activated, this, &InspectorPanel::activate);
+    connect(m_bytes, &ByteView::menuRequested, this, &InspectorPanel::openMenu);
+    connect(m_problems, &QLabel::linkActivated, this, [this](const QString& link) {
+        const auto index = link.toULongLong();
+        if (index < m_document->problems().size()) {
+            goTo(m_document->problems()[index].node);
+        }
+    });
+    connect(m_previous, &QToolButton::clicked, this, [this] { step(-1); });
+    connect(m_next, &QToolButton::clicked, this, [this] { step(1); });
+    m_hold->setCheckable(true);
+    connect(m_hold, &QToolButton::clicked, this, &InspectorPanel::hold);
+    m_compare->setMenu(new QMenu(m_compare));
+    m_compare->setPopupMode(QToolButton::InstantPopup);
+    connect(m_compare->menu(), &QMenu::aboutToShow, this, &InspectorPanel::fillCompareMenu);
+}
+
+void InspectorPanel::fillCompareMenu() {
+    QMenu* menu = m_compare->menu();
+    menu->clear();
+    const auto add = [&](const QString& text, Comparison comparison) {
+        QAction* action = menu->addAction(text, this, [this, comparison] { compare(comparison); });
+        action->setCheckable(true);
+        action->setChecked(m_comparison == comparison);
+        return action;
+    };
+    add(tr("Do not compare"), Comparison::None);
+    add(tr("With the previous packet of its stream"), Comparison::Previous);
+    add(m_reference ? tr("With the reference, packet %1").arg(grouped(*m_reference))
+                    : tr("With the reference"),
+        Comparison::Reference)
+        ->setEnabled(m_reference.has_value());
+    menu->addSeparator();
+    menu->addAction(tr("Set this packet as reference"), this, &InspectorPanel::setReference);
+    QAction* only = menu->addAction(tr("Only differences"));
+    only->setCheckable(true);
+    only->setChecked(m_model.isOnlyDifferences());
+    connect(only, &QAction::toggled, this, [this](bool isOnly) {
+        m_fields->beginChange();
+        m_model.setOnlyDifferences(isOnly);
+        m_fields->endChange();
+    });
+}
+
+void InspectorPanel::refresh() {
+    const auto wanted = inspectedPacket(m_view, m_type);
+    const auto packet = wanted ? m_view.packet(*wanted) : std::nullopt;
+    if (!packet) {
+        if (!wanted) {
+            showEmpty();
+        }
+        return;
+    }
+    const bool isNew = !m_isShown || m_document->number() != packet->number ||
+                       m_document->source() != packet->source ||
+                       m_document->unit() != unitOf(m_view, packet->source);
+    if (isNew) {
+        show(*packet);
+    }
+    m_hold->setChecked(m_view.selection().packet.has_value());
+    followSelection(isNew);
+}
+
+void InspectorPanel::showEmpty() {
+    if (!m_isShown) {
+        m_title->setText(coloured(theme().dim, tr("No packet")));
+        m_fields->setEmptyText(tr("No packet yet.\nEvery field and byte of the selected packet, or of the "
+                                  "newest one, shows here."));
+        m_problems->hide();
+        m_problemLine->hide();
+        m_detail->clear();
+    }
+}
+
+void InspectorPanel::show(const log::Packet& packet) {
+    m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet.source));
+    m_isShown = true;
+    m_fields->beginChange();
+    m_model.setDocument(m_document);
+    showComparison();
+    m_fields->endChange();
+    m_bytes->setDocument(m_document);
+    const int type = m_document->hasHeader() ? m_document->type() : -1;
+    if (m_openedType != type) {
+        m_openedType = type;
+        m_fields->openFirst();
+    }
+    if (m_document->hasHeader() && m_document->kind() == model::PacketKind::Datagram) {
+        m_type = m_document->type();
+    }
+    QString title = documentTitle(*m_document).toHtmlEscaped();
+    if (m_document->hasHeader()) {
+        const model::CharacterKey key{packet.source, m_document->header().character};
+        const QString name =
+            m_view.find(key) != nullptr ? characterName(m_view, key) : tr("Character %1").arg(key.character);
+        title += coloured(theme().dim, QStringLiteral(" · ") + name.toHtmlEscaped());
+    }
+    m_title->setText(title);
+    m_title->setToolTip(
+        tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(packet.stampNs)));
+    describeProblems();
+    describeCurrent();
+}
+
+void InspectorPanel::showComparison() {
+    std::shared_ptr<const FieldDocument> other;
+    const auto number = m_comparison == Comparison::Previous
+                            ? neighbourInStream(m_view, m_document->number(), -1)
+                        : m_comparison == Comparison::Reference ? m_reference
+                                                                : std::nullopt;
+    if (const auto packet = number ? m_view.packet(*number) : std::nullopt) {
+        other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, packet->source));
+    }
+    const bool isSameType = other != nullptr && other->hasHeader() && m_document->hasHeader() &&
+                            other->type() == m_document->type();
+    if (isSameType || m_model.other() != nullptr) {
+        m_model.setOther(isSameType ? other : nullptr);
+    }
+    m_bytes->setOther(isSameType ? other : nullptr);
+    m_compare->setText(m_comparison == Comparison::None ? tr("Compare ▾") : tr("Comparing ▾"));
+}
+
+void InspectorPanel::compare(Comparison comparison) {
+    m_comparison = comparison;
+    if (!m_isShown) {
+        return;
+    }
+    if (comparison != Comparison::None && !m_view.selection().packet) {
+        m_commands.selectPacket(m_document->number());
+    }
+    m_fields->beginChange();
+    showComparison();
+    m_fields->endChange();
+    describeProblems();
+}
+
+void InspectorPanel::setReference() {
+    if (m_isShown) {
+        m_reference = m_document->number();
+    }
+}
+
+QString InspectorPanel::comparisonText() const {
+    if (m_comparison == Comparison::None) {
+        return {};
+    }
+    if (const FieldDocument* other = m_model.other()) {
+        const QString count = m_model.differences() == 1 ? tr("1 field differs")
+                                                         : tr("%1 fields differ").arg(m_model.differences());
+        const double apartMs = static_cast<double>(m_document->stampNs() - other->stampNs()) * 1e-6;
+        return tr("Compared with packet %1, %2 ms apart: %3")
+            .arg(grouped(other->number()), signedFixed(apartMs, 2), count);
+    }
+    return m_comparison == Comparison::Previous
+               ? tr("There is no packet of this stream before this one to compare with")
+               : tr("The reference is of another type or no longer in the history: only packets of one type "
+                    "can be compared");
+}
+
+void InspectorPanel::describeProblems() {
+    QStringList lines;
+    for (std::size_t i = 0; i < m_document->problems().size(); ++i) {
+        const FieldProblem& problem = m_document->problems()[i];
+        if (problem.text.isEmpty()) {
+            continue;
+        }
+        const bool isRemark = problem.level == Health::Unknown;
+        const QString text = (isRemark ? QString() : healthSymbol(problem.level) + QLatin1Char(' ')) +
+                             problem.text.toHtmlEscaped();
+        lines += QStringLiteral("<a href=\"%1\" style=\"color:%2; text-decoration:none\">%3</a>")
+                     .arg(i)
+                     .arg(healthColour(problem.level).name(), text);
+    }
+    if (const QString comparison = comparisonText(); !comparison.isEmpty()) {
+        lines += coloured(theme().dim, comparison.toHtmlEscaped());
+    }
+    m_problems->setText(lines.join(QStringLiteral("<br>")));
+    m_problems->setVisible(!lines.isEmpty());
+    m_problemLine->setVisible(!lines.isEmpty());
+}
+
+void InspectorPanel::describe(std::int32_t node) {
+    if (node < 0 || node >= m_document->count()) {
+        m_detail->clear();
+        return;
+    }
+    const std::int32_t item = m_document->itemOf(node);
+    QString title = QStringLiteral("<b>%1</b>").arg(fieldTitle(*m_document, node).toHtmlEscaped());
+    if (item >= 0 && item != node) {
+        title += coloured(theme().dim, tr(" of %1").arg(fieldTitle(*m_document, item).toHtmlEscaped()));
+    }
+    const QString wire = wireValue(*m_document, node);
+    const QString value = convertedValue(*m_document, node);
+    QStringList lines{title};
+    lines +=
+        (wire.isEmpty() || wire == value
+             ? value
+             : tr("%1 <span style=\"color:%3\">on the wire, means</span> %2")
+                   .arg(wire.left(200).toHtmlEscaped(), value.left(200).toHtmlEscaped(), theme().dim.name()));
+    QStringList about{fieldPlace(*m_document, node), fieldMeaning(*m_document, node),
+                      fieldSection(*m_document, node)};
+    about.removeAll(QString());
+    lines += coloured(theme().dim, about.join(QStringLiteral(" · ")).toHtmlEscaped());
+    m_detail->setText(lines.join(QStringLiteral("<br>")));
+}
+
+void InspectorPanel::describeCurrent() {
+    const std::int32_t node = m_fields->currentNode();
+    m_bytes->setSelected(rangeOf(*m_document, node));
+    describe(node);
+}
+
+void InspectorPanel::followSelection(bool isNewPacket) {
+    const model::Selection& selection = m_view.selection();
+    const bool isOtherSegment = selection.segment != m_followed.segment;
+    const bool isOtherPacket = selection.packet != m_followed.packet && selection.packet;
+    m_followed = selection;
+    if (isOtherPacket && isNewPacket) {
+        const auto& problems = m_document->problems();
+        const auto first = std::ranges::find_if(problems, [](const FieldProblem& problem) {
+            return problem.node >= 0 && problem.level != Health::Unknown;
+        });
+        if (first != problems.end()) {
+            goTo(first->node);
+            return;
+        }
+    }
+    if (isOtherSegment && selection.segment >= 0 &&
+        m_document->segmentOf(m_fields->currentNode()) != selection.segment) {
+        goTo(m_document->nodeOfSegment(selection.segment));
+    }
+}
+
+void InspectorPanel::hover(std::int32_t node) {
+    m_bytes->setHovered(rangeOf(*m_document, node));
+    m_fields->setHovered(node);
+    describe(node >= 0 ? node : m_fields->currentNode());
+}
+
+void InspectorPanel::select(std::int32_t node) {
+    const ByteRange range = rangeOf(*m_document, node);
+    m_bytes->setSelected(range);
+    m_bytes->scrollTo(range.begin);
+    describe(node);
+    const int segment = m_document->segmentOf(node);
+    if (segment >= 0 && m_document->hasHeader() && segment != m_view.selection().segment) {
+        model::Selection selection = m_view.selection();
+        selection.source = m_document->source();
+        selection.character = model::CharacterKey{m_document->source(), m_document->header().character};
+        selection.segment = segment;
+        m_followed = selection;
+        m_commands.select(selection);
+    }
+}
+
+void InspectorPanel::activate(std::int64_t offset) {
+    const std::int32_t node = m_document->nodeAt(static_cast<std::uint32_t>(offset));
+    if (node >= 0) {
+        m_fields->setCurrentNode(node);
+        select(node);
+    }
+}
+
+void InspectorPanel::goTo(std::int32_t node) {
+    if (node < 0) {
+        return;
+    }
+    m_fields->setCurrentNode(node);
+    const QModelIndex index = m_model.indexOf(node);
+    m_fields->expand(index);
+    m_fields->scrollTo(index, m_document->itemOf(node) == node ? QAbstractItemView::PositionAtTop
+                                                               : QAbstractItemView::PositionAtCenter);
+    describeCurrent();
+    m_bytes->scrollTo(rangeOf(*m_document, node).begin);
+}
+
+void InspectorPanel::openMenu(const QPoint& at) {
+    const std::int32_t node = m_fields->currentNode();
+    if (node >= 0) {
+        showFieldMenu({*m_document, node, m_view.displayFilter(), m_commands}, this, at);
+    }
+}
+
+void InspectorPanel::step(int direction) {
+    if (const auto found =
+            m_isShown ? neighbourInStream(m_view, m_document->number(), direction) : std::nullopt) {
+        m_commands.selectPacket(*found);
+    }
+}
+
+void InspectorPanel::hold(bool isHeld) {
+    if (isHeld && m_isShown) {
+        m_commands.selectPacket(m_document->number());
+    } else {
+        model::Selection selection = m_view.selection();
+        selection.packet.reset();
+        m_commands.select(selection);
+    }
+}
+
+QString InspectorPanel::summary() const {
+    if (!m_isShown) {
+        return {};
+    }
+    const QString number = tr("packet %1").arg(grouped(m_document->number()));
+    return m_view.selection().packet ? number : tr("following · %1").arg(number);
+}
+
+void InspectorPanel::resizeEvent(QResizeEvent* event) {
+    Panel::resizeEvent(event);
+    const bool isWide = width() > 2 * height() && width() > fontMetrics().averageCharWidth() * 100;
+    m_splitter->setOrientation(isWide ? Qt::Horizontal : Qt::Vertical);
+}
+
+void InspectorPanel::changeEvent(QEvent* event) {
+    Panel::changeEvent(event);
+    if (event->type() == QEvent::StyleChange && m_isShown) {
+        describeProblems();
+        describeCurrent();
+    }
+}
+
+} // namespace posewire::gui

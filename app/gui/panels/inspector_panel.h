@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/field_model.h"
+#include "app/gui/panel.h"
+#include "app/gui/panels/byte_view.h"
+#include "app/gui/panels/field_view.h"
+#include "app/gui/panels/line.h"
+
+#include <QLabel>
+#include <QSplitter>
+#include <QToolButton>
+
+#include <memory>
+#include <optional>
+
+namespace posewire::gui {
+
+/// Dock `inspector`: every field and byte of the selected packet, or of the newest one of the shown
+/// character, what is wrong with it at the bytes where it arose, and two packets of a type side by side.
+class InspectorPanel : public Panel {
+    Q_OBJECT
+
+public:
+    InspectorPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    void refresh() override;
+    [[nodiscard]] QString summary() const override;
+
+    enum class Comparison { None, Previous, Reference };
+    void compare(Comparison comparison);
+    void setReference();
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void layOut();
+    QToolButton* addButton(const QString& text, const QString& toolTip);
+    void connectParts();
+    void fillCompareMenu();
+
+    void show(const log::Packet& packet);
+    void showComparison();
+    [[nodiscard]] QString comparisonText() const;
+    void showEmpty();
+    void describeProblems();
+    void describe(std::int32_t node);
+    void describeCurrent();
+    void followSelection(bool isNewPacket);
+
+    void hover(std::int32_t node);
+    void select(std::int32_t node);
+    void activate(std::int64_t offset);
+    void goTo(std::int32_t node);
+    void openMenu(const QPoint& at);
+    void step(int direction);
+    void hold(bool isHeld);
+
+    model::SessionView& m_view;
+    Commands& m_commands;
+    FieldModel m_model;
+    std::shared_ptr<const FieldDocument> m_document = std::make_shared<FieldDocument>();
+    std::optional<std::uint64_t> m_reference;
+    Comparison m_comparison = Comparison::None;
+    std::uint8_t m_type = 0;         ///< of the newest packet shown: its stream is kept to
+    std::optional<int> m_openedType; ///< whose lists have been opened
+    model::Selection m_followed;
+    bool m_isShown = false;
+
+    QLabel* m_title;
+    QToolButton* m_previous;
+    QToolButton* m_next;
+    QToolButton* m_hold;
+    QToolButton* m_compare;
+    QLabel* m_problems;
+    Line* m_problemLine;
+    QSplitter* m_splitter;
+    FieldView* m_fields;
+    ByteView* m_bytes;
+    QLabel* m_detail;
+};
+
+} // namespace posewire::gui
