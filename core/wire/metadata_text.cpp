@@ -31,9 +31,13 @@ std::string joinTags(const std::vector<Tag>& tags) {
     return text;
 }
 
+std::span<const std::string_view> knownTags() {
+    static constexpr std::array<std::string_view, 5> known{"name", "xmid", "color", "count", "timeOffset"};
+    return known;
+}
+
 bool isKnownTag(std::string_view name) {
-    constexpr std::array<std::string_view, 5> known{"name", "xmid", "color", "count", "timeOffset"};
-    return std::find(known.begin(), known.end(), name) != known.end();
+    return std::ranges::find(knownTags(), name) != knownTags().end();
 }
 
 } // namespace posewire::wire

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,7 +27,9 @@ struct TagList {
 /// The inverse: "name:value\n" for each tag.
 [[nodiscard]] std::string joinTags(const std::vector<Tag>& tags);
 
-/// True for the specified tags (name, xmid, color) and those that real senders are known to send.
+/// The specified tags (name, xmid, color) and those that real senders are known to send.
+[[nodiscard]] std::span<const std::string_view> knownTags();
+/// True for one of them.
 [[nodiscard]] bool isKnownTag(std::string_view name);
 
 } // namespace posewire::wire

@@ -1,0 +1,879 @@
+-- SPDX-License-Identifier: GPL-3.0-or-later
+-- Dissector for MXTP, the datagrams of MVN real-time network streaming, for Wireshark and tshark 3.6 and newer.
+--@origin@
+-- To use it, put it into the folder that Wireshark names under Help > About > Folders > Personal Lua Plugins.
+
+local mxtp = Proto("mxtp", "MVN real-time network streaming")
+local default_port = 9763
+local header_size = 24
+
+--@tables@
+-- ---------------------------------------------------------------------------------------------------------------
+-- Filter fields: one for each name in the tables; layouts that have a name in common share its field.
+
+local declared, kinds = {}, {}
+
+local function declare(filter, name, kind, description, shown_as)
+  if declared[filter] then
+    assert(kinds[filter] == kind, filter .. " is declared in two ways")
+    return declared[filter]
+  end
+  declared[filter] = ProtoField.new(name, filter, kind, nil, shown_as or base.NONE, nil, description)
+  kinds[filter] = kind
+  return declared[filter]
+end
+
+local integers = { uint8 = ftypes.UINT8, uint16 = ftypes.UINT16, uint32 = ftypes.UINT32, int32 = ftypes.INT32 }
+
+local function declare_layout(layout)
+  for _, field in ipairs(layout) do
+    local about = field.text .. " (section " .. field.section .. ")"
+    if field.fields then
+      field.node = declare(field.filter, field.name, ftypes.NONE, about)
+      field.item_node = declare(field.item_filter, field.item, ftypes.NONE, about)
+      if field.max then
+        field.count_node = declare(field.filter .. ".count", "count", ftypes.UINT32, "items that follow", base.DEC)
+      end
+      declare_layout(field.fields)
+    elseif field.parts then
+      field.node = declare(field.filter, field.name, ftypes.NONE, about)
+      field.components = {}
+      for i, part in ipairs(field.parts) do
+        field.components[i] = declare(field.filter .. "." .. part, part, ftypes.FLOAT, about)
+      end
+    elseif integers[field.kind] then
+      local shown_as = field.hexadecimal and base.HEX or base.DEC
+      field.node = declare(field.filter, field.name, integers[field.kind], about, shown_as)
+    else
+      field.node = declare(field.filter, field.name, ftypes.STRING, about)
+    end
+    if field.name_filter then
+      field.name_node = declare(field.name_filter, "name", ftypes.STRING, "what the ID or the place stands for")
+    end
+  end
+end
+
+declare_layout(header_layout)
+local type_titles = {}
+for type, message in pairs(messages) do
+  type_titles[type] = message.title
+  for _, layout in pairs(message.forms) do
+    declare_layout(layout)
+  end
+end
+
+local own = {
+  type = ProtoField.uint8("mxtp.type", "type", base.DEC, type_titles, nil, "message type"),
+  index = ProtoField.uint8("mxtp.datagram", "datagram", base.DEC, nil, 0x7f, "place among the datagrams of the sample"),
+  last = ProtoField.bool("mxtp.last", "last", 8, { "yes", "no" }, 0x80, "the last datagram of its sample"),
+  tag = ProtoField.none("mxtp.tag", "tag", "one line of the text"),
+  tag_name = ProtoField.string("mxtp.tag.name", "name"),
+  tag_value = ProtoField.string("mxtp.tag.value", "value"),
+  raw = ProtoField.bytes("mxtp.raw", "raw", base.NONE, "payload of an unknown layout"),
+  rest = ProtoField.bytes("mxtp.rest", "rest", base.NONE, "bytes that no field stands on"),
+  skipped = ProtoField.bytes("mxtp.skipped", "skipped", base.NONE, "bytes of the stream that belong to no datagram"),
+  error = ProtoField.string("mxtp.error", "error", base.NONE, "code of the fault"),
+  error_offset = ProtoField.uint32("mxtp.error.offset", "offset", base.DEC, nil, nil, "first byte of the fault"),
+  notice = ProtoField.string("mxtp.notice", "notice", base.NONE, "code of an oddity"),
+  notice_offset = ProtoField.uint32("mxtp.notice.offset", "offset", base.DEC, nil, nil, "first byte of the oddity"),
+}
+
+local all_fields, all_experts, error_experts, notice_experts = {}, {}, {}, {}
+for _, field in pairs(declared) do all_fields[#all_fields + 1] = field end
+for _, field in pairs(own) do all_fields[#all_fields + 1] = field end
+mxtp.fields = all_fields
+for code, text in pairs(error_texts) do
+  error_experts[code] = ProtoExpert.new("mxtp.error." .. code, text, expert.group.MALFORMED, expert.severity.ERROR)
+  all_experts[#all_experts + 1] = error_experts[code]
+end
+for code, text in pairs(notice_texts) do
+  notice_experts[code] = ProtoExpert.new("mxtp.notice." .. code, text, expert.group.PROTOCOL, expert.severity.NOTE)
+  all_experts[#all_experts + 1] = notice_experts[code]
+end
+mxtp.experts = all_experts
+
+-- ---------------------------------------------------------------------------------------------------------------
+-- What IDs stand for.
+
+local function hand_name(side, place)
+  return hand_segments[place] and side .. hand_segments[place]
+end
+
+-- Props and fingers by the counts in the header, since their IDs move with the number of props.
+local function segment_name(id, header)
+  if id <= #body_segments then
+    return body_segments[id]
+  end
+  local extra = id - #body_segments
+  local props = header.bodySegments == 0 and most_props or header.props
+  if extra <= props then
+    return "Prop" .. extra
+  end
+  local finger = extra - props
+  if finger > header.fingerSegments then
+    return nil
+  end
+  return hand_name("Left", finger) or hand_name("Right", finger - #hand_segments)
+end
+
+local function local_point_name(segment, point)
+  return points[segment] and points[segment][point]
+end
+
+local function joint_end_name(id)
+  local segment = math.floor(id / 256)
+  if id % 256 == 0 then
+    return body_segments[segment]
+  end
+  return local_point_name(segment, id % 256)
+end
+
+-- Point IDs of type 03 are 256 times the segment plus the point, in older revisions 100 times. One ID may be either;
+-- all of a datagram are not.
+local function every_id(tvb, header, fits)
+  for i = 0, header.items - 1 do
+    local at = header_size + 16 * i
+    if at + 4 <= tvb:len() and not fits(tvb(at, 4):uint()) then return false end
+  end
+  return header.items > 0
+end
+
+local function point_coding(tvb, header)
+  if header.type ~= 3 then return nil end
+  if every_id(tvb, header, function(id)
+    local segment, point = math.floor(id / 256), id % 256
+    return segment >= 1 and segment <= most_segments and point <= 14 and (not points[segment] or points[segment][point])
+  end) then
+    return 256
+  end
+  return every_id(tvb, header, function(id) return id >= 100 and id < 2900 and id % 100 <= 14 end) and 100 or nil
+end
+
+local function point_name(id, header)
+  local base = header.point_coding
+  return base and local_point_name(math.floor(id / base), id % base)
+end
+
+local namers = {
+  segment = segment_name,
+  unity_segment = function(id) return body_segments[unity_order[id]] end,
+  point = point_name,
+  joint_end = joint_end_name,
+}
+
+-- ---------------------------------------------------------------------------------------------------------------
+-- Text.
+
+-- Ranges of the second byte of a UTF-8 sequence, and how many bytes follow the first (RFC 3629).
+local function sequence_of(lead)
+  if lead < 0xc2 or lead > 0xf4 then return nil end
+  if lead < 0xe0 then return 1, 0x80, 0xbf end
+  if lead < 0xf0 then return 2, lead == 0xe0 and 0xa0 or 0x80, lead == 0xed and 0x9f or 0xbf end
+  return 3, lead == 0xf0 and 0x90 or 0x80, lead == 0xf4 and 0x8f or 0xbf
+end
+
+-- Offset of the first byte that is not UTF-8, from 0; nil where all is well.
+local function first_invalid(text)
+  local at = text:find("[\128-\255]")
+  while at do
+    local following, low, high = sequence_of(text:byte(at))
+    if not following or #text - at < following then return at - 1 end
+    local second = text:byte(at + 1)
+    if second < low or second > high then return at - 1 end
+    for k = 2, following do
+      local byte = text:byte(at + k)
+      if byte < 0x80 or byte > 0xbf then return at - 1 end
+    end
+    at = text:find("[\128-\255]", at + following + 1)
+  end
+end
+
+-- Lines of a type 12 text: each with its place in the text and, if it has a colon, its tag; counts stray lines.
+local function tags_of(text)
+  local tags, stray, at = {}, 0, 1
+  while at <= #text do
+    local newline = text:find("\n", at, true)
+    local stop = (newline or #text + 1) - 1
+    local line = text:sub(at, stop)
+    local colon = line:find(":", 1, true)
+    if not colon or not newline then stray = stray + 1 end
+    if colon then
+      tags[#tags + 1] = { place = at - 1, size = stop - at + 1, name = line:sub(1, colon - 1), colon = colon }
+    end
+    at = stop + 2
+  end
+  return tags, stray
+end
+
+-- ---------------------------------------------------------------------------------------------------------------
+-- Reading by the tables. A reader without `checks` only measures: it needs no tree.
+
+local Reader = {}
+Reader.__index = Reader
+
+local function new_reader(tvb, offset, limit, header, checks)
+  return setmetatable({ tvb = tvb, offset = offset, limit = limit, header = header, checks = checks }, Reader)
+end
+
+-- Wireshark has no empty range behind the last byte.
+function Reader:range(offset, size)
+  return self.tvb(size == 0 and math.min(offset, self.tvb:len() - 1) or offset, size)
+end
+
+function Reader:left()
+  return self.limit - self.offset
+end
+
+-- Always false, so that `return reader:fail(…)` ends a read.
+function Reader:fail(code, need, have)
+  self.fault = { code = code, offset = self.offset, need = need, have = have }
+  return false
+end
+
+function Reader:add_name(field, node, tree, range, id)
+  local name = namers[field.names](id, self.header)
+  if name then
+    node:append_text(" (" .. name .. ")")
+    if field.name_node then
+      tree:add(field.name_node, range, name):set_generated()
+    end
+  end
+  return name
+end
+
+-- Milliseconds as hours, minutes and seconds.
+local function clock_text(milliseconds)
+  local seconds = math.floor(milliseconds / 1000)
+  return string.format("%02d:%02d:%02d.%03d", math.floor(seconds / 3600), math.floor(seconds / 60) % 60, seconds % 60,
+    milliseconds % 1000)
+end
+
+function Reader:read_integer(field, tree, values)
+  if self:left() < field.size then
+    return self:fail("fieldTruncated", field.size, self:left())
+  end
+  if self.checks then
+    local range = self.tvb(self.offset, field.size)
+    local value = field.kind == "int32" and range:int() or range:uint()
+    values[field.name] = value
+    local node = tree:add(field.node, range)
+    if field.unit ~= "" then node:append_text(" " .. field.unit) end
+    if field.filter == "mxtp.timeCode" then node:append_text(" (" .. clock_text(value) .. ")") end
+    if field.filter == "mxtp.datagramCounter" then
+      node:add(own.index, range)
+      node:add(own.last, range)
+    end
+    if field.names then values.label = self:add_name(field, node, tree, range, value) or values.label end
+    if field.checked and (value < 1 or value > most_segments) then values.is_out_of_range = true end
+  end
+  self.offset = self.offset + field.size
+  return true
+end
+
+local function is_finite(value)
+  return value == value and value ~= math.huge and value ~= -math.huge
+end
+
+function Reader:read_floats(field, tree, values)
+  local count = #field.parts
+  if self:left() < field.size then
+    return self:fail("fieldTruncated", field.size, self:left())
+  end
+  if self.checks then
+    local node = tree:add(field.node, self.tvb(self.offset, field.size))
+    local unit = field.unit ~= "" and " " .. field.unit or ""
+    local shown, square = {}, 0
+    for i = 1, count do
+      local range = self.tvb(self.offset + 4 * (i - 1), 4)
+      local value = range:float()
+      node:add(field.components[i], range):append_text(unit)
+      shown[i] = string.format("%.6g", value)
+      square = square + value * value
+      if not is_finite(value) then values.not_finite = (values.not_finite or 0) + 1 end
+    end
+    node:set_text(field.name .. ": " .. table.concat(shown, ", ") .. unit)
+    if count == 4 and not (math.abs(square - 1) <= 0.02) then values.is_off_unit = true end
+  end
+  self.offset = self.offset + field.size
+  return true
+end
+
+function Reader:add_string(node, tree, offset, size)
+  if size == 0 then
+    return tree:add(node, self:range(offset, 0), "")
+  end
+  return tree:add_packet_field(node, self:range(offset, size), ENC_UTF_8 + ENC_STRING)
+end
+
+function Reader:add_tags(tree, offset, text)
+  for _, tag in ipairs((tags_of(text))) do
+    local from = offset + tag.place
+    local item = tree:add(own.tag, self:range(from, tag.size))
+    item:set_text(text:sub(tag.place + 1, tag.place + tag.size))
+    self:add_string(own.tag_name, item, from, tag.colon - 1)
+    self:add_string(own.tag_value, item, from + tag.colon, tag.size - tag.colon)
+  end
+end
+
+-- Takes `length` bytes of text; `behind` more belong to the field.
+function Reader:take_text(field, tree, values, length, behind)
+  local text = length > 0 and self.tvb(self.offset, length):raw() or ""
+  local bad = first_invalid(text)
+  if bad then
+    self.offset = self.offset + bad
+    return self:fail("badSequence", 0, 0)
+  end
+  if self.checks then
+    values[field.name], values.label = text, text
+    local node = self:add_string(field.node, tree, self.offset, length)
+    if field.name == "text" then self:add_tags(node, self.offset, text) end
+  end
+  self.offset = self.offset + length + behind
+  return true
+end
+
+function Reader:read_prefixed_text(field, tree, values)
+  if self:left() < 4 then
+    return self:fail("fieldTruncated", 4, self:left())
+  end
+  local length = self.tvb(self.offset, 4):uint()
+  if length > 0x7fffffff or length > self:left() - 4 then
+    return self:fail("badLength", length, self:left() - 4)
+  end
+  self.offset = self.offset + 4
+  return self:take_text(field, tree, values, length, 0)
+end
+
+function Reader:read_zero_text(field, tree, values)
+  local rest = self:left() > 0 and self.tvb(self.offset, self:left()):raw() or ""
+  local zero = rest:find("\0", 1, true)
+  if not zero then
+    return self:fail("unterminatedText", 1, 0)
+  end
+  return self:take_text(field, tree, values, zero - 1, 1)
+end
+
+function Reader:read_rest_text(field, tree, values)
+  return self:take_text(field, tree, values, self:left(), 0)
+end
+
+function Reader:read_characters(field, tree, values)
+  if self:left() < field.size then
+    return self:fail("fieldTruncated", field.size, self:left())
+  end
+  if self.checks then
+    local range = self.tvb(self.offset, field.size)
+    values[field.name] = range:raw()
+    local node = tree:add_packet_field(field.node, range, ENC_ASCII + ENC_STRING)
+    if field.filter == "mxtp.id" then
+      node:add(own.type, range(4, 2), tonumber(range(4, 2):raw()))
+    end
+  end
+  self.offset = self.offset + field.size
+  return true
+end
+
+-- An item and what the checks need to know of it. `start`: where notices about it point to.
+function Reader:read_item(field, list, index, start)
+  local values, item = {}, nil
+  if self.checks then
+    item = list:add(field.item_node, self:range(self.offset, 0))
+  end
+  local from = self.offset
+  local is_read = self:read_layout(field.fields, item, values)
+  if self.checks then
+    local label = field.places and field.places[index] or values.label
+    item:set_len(self.offset - from)
+    item:set_text(field.item .. " " .. index .. (label and ": " .. label or ""))
+    if field.places and label then
+      item:add(field.name_node, self:range(from, self.offset - from), label):set_generated()
+    end
+    if is_read then self.checks:add(values, start) end
+  end
+  return is_read
+end
+
+function Reader:read_list(field, tree, count)
+  local list = self.checks and tree:add(field.node, self:range(self.offset, 0))
+  local from, start = self.offset, self.offset
+  local whole = field.size and math.min(count, math.floor(self:left() / field.size)) or count
+  local is_read = true
+  for index = 1, whole do
+    if field.size then start = self.offset end
+    is_read = self:read_item(field, list, index, field.size and start or header_size)
+    if not is_read then break end
+  end
+  if is_read and whole < count then
+    local stop = self.offset
+    if self.checks then self:read_item(field, list, whole + 1, stop) end
+    self.offset = stop
+    is_read = self:fail("itemsTruncated", (count - whole) * field.size, self.limit - stop)
+  end
+  if self.checks then
+    list:set_len(self.offset - from)
+    list:set_text(field.name .. ": " .. count)
+    self.checks.shown[#self.checks.shown + 1] = count .. " " .. field.name
+  end
+  return is_read
+end
+
+function Reader:read_items(field, tree)
+  return self:read_list(field, tree, self.header.items)
+end
+
+function Reader:read_counted_items(field, tree)
+  if self:left() < 4 then
+    return self:fail("fieldTruncated", 4, self:left())
+  end
+  local count = self.tvb(self.offset, 4):uint()
+  local room = math.min(field.max, math.floor((self:left() - 4) / field.least))
+  if count > room then
+    return self:fail("countTooLarge", count, room)
+  end
+  if self.checks then
+    tree:add(field.count_node, self.tvb(self.offset, 4)):set_text(field.name .. " count: " .. count)
+  end
+  self.offset = self.offset + 4
+  return self:read_list(field, tree, count)
+end
+
+local read_by_kind = {
+  uint8 = Reader.read_integer, uint16 = Reader.read_integer, uint32 = Reader.read_integer, int32 = Reader.read_integer,
+  floats = Reader.read_floats, characters = Reader.read_characters, prefixed_text = Reader.read_prefixed_text,
+  zero_text = Reader.read_zero_text, rest_text = Reader.read_rest_text, items = Reader.read_items,
+  counted_items = Reader.read_counted_items,
+}
+
+function Reader:read_layout(layout, tree, values)
+  for _, field in ipairs(layout) do
+    if not read_by_kind[field.kind](self, field, tree, values) then
+      return false
+    end
+  end
+  return true
+end
+
+-- ---------------------------------------------------------------------------------------------------------------
+-- Oddities: collected while reading, reported in one order.
+
+local Checks = {}
+Checks.__index = Checks
+
+local function new_checks()
+  return setmetatable({ notices = {}, shown = {}, values = {} }, Checks)
+end
+
+function Checks:notice(code, offset, count)
+  self.notices[#self.notices + 1] = { code = code, offset = offset, count = count }
+end
+
+function Checks:tally(code, offset, count)
+  local tally = self[code] or { offset = offset, count = 0 }
+  tally.count = tally.count + count
+  self[code] = tally
+end
+
+function Checks:add(values, start)
+  if values.not_finite then
+    self:tally("notFinite", start, values.not_finite)
+  elseif values.is_off_unit then
+    self:tally("notUnitQuaternion", start, 1)
+  end
+  if values.is_out_of_range then
+    self:tally("segmentOutOfRange", start, 1)
+  end
+end
+
+function Checks:check_header(header)
+  if header.reserved ~= 0 then
+    self:notice("reservedUsed", 20, 1)
+  end
+  local counted = header.bodySegments + header.props + header.fingerSegments
+  if header.datagramCounter == 0x80 and messages[header.type] and messages[header.type].has_segments and counted ~= 0
+      and counted ~= header.items then
+    self:notice("countDisagrees", 11, 1)
+  end
+end
+
+function Checks:check_tags(text, start)
+  local tags, stray = tags_of(text)
+  for _, tag in ipairs(tags) do
+    if not known_tags[tag.name] then self:tally("unknownTag", start + tag.place, 1) end
+  end
+  if self.unknownTag then self:notice("unknownTag", self.unknownTag.offset, self.unknownTag.count) end
+  if stray > 0 then self:notice("lineWithoutTag", start, stray) end
+end
+
+function Checks:check_time_code(values)
+  if values.length and values.length ~= 12 then
+    self:notice("lengthDisagrees", header_size, 1)
+  end
+  if not values.timeCode:find("^%d%d:%d%d:%d%d%.%d%d%d$") then
+    self:notice("notATimeCode", header_size + (values.length and 4 or 0), 1)
+  end
+end
+
+function Checks:check_body(type, form, values)
+  if type == 12 then
+    self:check_tags(values.text, header_size + (form == "standard" and 4 or 0))
+  elseif type == 25 then
+    self:check_time_code(values)
+  end
+  self:add(values, header_size)
+  for _, code in ipairs({ "notFinite", "notUnitQuaternion", "segmentOutOfRange" }) do
+    if self[code] then self:notice(code, self[code].offset, self[code].count) end
+  end
+end
+
+-- ---------------------------------------------------------------------------------------------------------------
+-- Which layout the payload is in. `at(place)` is a byte of the payload, nil behind its end.
+
+local function starts_with_magic(tvb)
+  return tvb:len() >= 4 and tvb(0, 4):raw() == "MXTP"
+end
+
+local function starts_datagram(tvb)
+  return tvb:len() >= 6 and tvb(0, 6):raw():find("^MXTP%d%d$") ~= nil
+end
+
+local function payload_bytes(tvb)
+  return function(place)
+    return header_size + place < tvb:len() and tvb(header_size + place, 1):uint() or nil
+  end
+end
+
+local function has_colons(at, first, second)
+  return at(first) == 0x3a and at(second) == 0x3a
+end
+
+-- Some senders of type 25 leave the length out of their count.
+local function sent_payload(header, at, size)
+  if header.payloadSize == 0 then
+    return size
+  end
+  local leaves_out = header.type == 25 and header.payloadSize == 12 and has_colons(at, 6, 9)
+  return leaves_out and 16 or header.payloadSize
+end
+
+-- The short size, or up to three stray bytes more.
+local function is_short(header, size, short_size)
+  local counted = header.payloadSize ~= 0 and header.payloadSize or size
+  return counted >= short_size and counted - short_size < 4
+end
+
+local function short_size_of(type, items)
+  local short = messages[type].forms.short
+  return short[1].size and short[1].fields and items * short[1].size or short[1].size
+end
+
+local form_of = {
+  [4] = function(header, _, size)
+    return size == header.items * messages[4].forms.standard[1].size and "standard" or "raw"
+  end,
+  [12] = function(_, at, size)
+    return size >= 4 and (at(0) == 0 or at(0) >= 0x80) and "standard" or "bare"
+  end,
+  [23] = function(header, _, size)
+    return header.items ~= 0 and is_short(header, size, short_size_of(23, header.items)) and "short" or "standard"
+  end,
+  [24] = function(header, _, size)
+    return is_short(header, size, short_size_of(24)) and "short" or "standard"
+  end,
+  [25] = function(_, at, size)
+    local has_length = size >= 4 and at(0) == 0 and at(1) == 0 and at(2) == 0 and at(3) == 12
+    if size >= 16 and has_length then return "standard" end
+    if has_colons(at, 2, 5) and size > 5 then return "bare" end
+    return (size >= 16 or (has_colons(at, 6, 9) and size > 9) or has_length) and "standard" or "bare"
+  end,
+}
+
+-- ---------------------------------------------------------------------------------------------------------------
+-- One datagram.
+
+-- The header as far as it goes, and the fault if that is not far enough. Nil where there is nothing to show.
+local function read_header(tvb, tree, checks)
+  if not starts_datagram(tvb) then
+    if tvb:len() >= 6 then
+      return nil, { code = "badType", offset = 4, need = 2, have = 2 }
+    end
+    return nil, { code = "headerTruncated", offset = tvb:len(), need = header_size, have = tvb:len() }
+  end
+  local limit = math.min(tvb:len(), header_size)
+  local branch = checks and tree:add(tvb(0, limit), "header")
+  local header = {}
+  local reader = new_reader(tvb, 0, limit, header, checks or new_checks())
+  if not reader:read_layout(header_layout, branch or tree, header) then
+    return header, { code = "headerTruncated", offset = tvb:len(), need = header_size, have = tvb:len() }
+  end
+  return header
+end
+
+-- The header's numbers without a tree.
+local function header_of(tvb)
+  local header, at = {}, 0
+  for _, field in ipairs(header_layout) do
+    if integers[field.kind] then header[field.name] = tvb(at, field.size):uint() end
+    at = at + field.size
+  end
+  header.type = tonumber(tvb(4, 2):raw())
+  return header
+end
+
+local function read_body(tvb, tree, header, checks)
+  local at = payload_bytes(tvb)
+  local sent = sent_payload(header, at, tvb:len() - header_size)
+  local limit = math.min(tvb:len(), header_size + sent)
+  local announced = header_size + header.payloadSize
+  local is_cut_off = header.payloadSize ~= 0 and limit < announced
+  local message = messages[header.type]
+  local within = function(place) return place < limit - header_size and at(place) or nil end
+  local form = message and "standard" or "raw"
+  if form_of[header.type] then form = form_of[header.type](header, within, limit - header_size) end
+  local reader = new_reader(tvb, header_size, limit, header, checks)
+  header.point_coding = point_coding(tvb, header)
+  local is_read = true
+  if form == "raw" then
+    if limit > header_size then tree:add(own.raw, tvb(header_size, limit - header_size)) end
+    reader.offset = limit
+    checks:notice(message and "unknownLayout" or "unknownType", message and header_size or 4, 1)
+  else
+    is_read = reader:read_layout(message.forms[form], tree, checks.values)
+  end
+  if is_cut_off then
+    reader.offset = limit
+    reader:fail("payloadTruncated", announced, limit)
+    return reader.fault
+  end
+  if not is_read then
+    return reader.fault
+  end
+  if reader:left() > 0 then
+    checks:notice("trailingBytes", reader.offset, reader:left())
+    tree:add(own.rest, tvb(reader.offset, reader:left()))
+  end
+  if tvb:len() > limit then
+    tree:add(own.rest, tvb(limit, tvb:len() - limit))
+  end
+  checks:check_header(header)
+  if header.payloadSize ~= 0 and tvb:len() > announced then
+    checks:notice("sizeDisagrees", announced, tvb:len() - announced)
+  end
+  if form ~= "raw" then checks:check_body(header.type, form, checks.values) end
+end
+
+local function title_of(header)
+  return messages[header.type] and messages[header.type].title or "unknown type"
+end
+
+local function info_text(header, checks, fault)
+  if not header or not header.type then
+    return "malformed"
+  end
+  local words = { string.format("%02d %s", header.type, title_of(header)) }
+  if header.character then words[#words + 1] = "character " .. header.character end
+  if header.sample then words[#words + 1] = "sample " .. string.format("%d", header.sample) end
+  local index = (header.datagramCounter or 0x80) % 128
+  if header.datagramCounter and header.datagramCounter ~= 0x80 then
+    words[#words + 1] = "datagram " .. index .. (header.datagramCounter >= 128 and " (last)" or "")
+  end
+  for _, what in ipairs(checks.shown) do words[#words + 1] = what end
+  if type(checks.values.timeCode) == "string" then words[#words + 1] = checks.values.timeCode end
+  return table.concat(words, ", ") .. (fault and " [" .. fault.code .. "]" or "")
+end
+
+-- A generated line at the byte in question, so that clicking it shows the byte.
+local function add_remark(tree, tvb, field, offset_field, experts, code, offset, text)
+  local inside = math.max(math.min(offset, tvb:len() - 1), 0)
+  local node = tree:add(field, tvb(inside, offset < tvb:len() and 1 or 0), code)
+  node:set_generated()
+  node:add(offset_field, offset):set_generated()
+  node:add_proto_expert_info(experts[code], text)
+end
+
+local function dissect_datagram(tvb, root)
+  local tree = root:add(mxtp, tvb())
+  local checks = new_checks()
+  local header, fault = read_header(tvb, tree, checks)
+  if header then
+    header.type = tonumber(tvb(4, 2):raw())
+  end
+  if not fault then
+    fault = read_body(tvb, tree, header, checks)
+  end
+  if fault then
+    local text = string.format(error_texts[fault.code], fault.offset, fault.need, fault.have)
+    add_remark(tree, tvb, own.error, own.error_offset, error_experts, fault.code, fault.offset, text)
+  else
+    for _, notice in ipairs(checks.notices) do
+      local text = string.format(notice_texts[notice.code], notice.offset, notice.count)
+      add_remark(tree, tvb, own.notice, own.notice_offset, notice_experts, notice.code, notice.offset, text)
+    end
+  end
+  local info = info_text(header, checks, fault)
+  tree:append_text(": " .. info)
+  return info
+end
+
+-- ---------------------------------------------------------------------------------------------------------------
+-- How long a datagram is in a stream. Returns a size, or nil and "foreign", "more" or "unknown".
+
+-- False where the bytes cannot begin a datagram, however they go on.
+local function may_start(tvb, offset)
+  local front = tvb:len() > offset and tvb(offset, math.min(6, tvb:len() - offset)):raw() or ""
+  return ("MXTP"):sub(1, #front) == front:sub(1, 4) and front:sub(5):find("^%d*$") ~= nil
+end
+
+local function known(size)
+  if size > most_bytes then
+    return nil, "unknown"
+  end
+  return size
+end
+
+-- The first of the sizes behind which another datagram begins.
+local function first_that_fits(tvb, ...)
+  for _, size in ipairs({ ... }) do
+    if tvb:len() < size + 6 and may_start(tvb, math.min(size, tvb:len())) then
+      return nil, "more"
+    end
+    if may_start(tvb, size) then
+      return size
+    end
+  end
+  return nil, "unknown"
+end
+
+local function walked(tvb, header)
+  local reader = new_reader(tvb, header_size, tvb:len(), header)
+  if reader:read_layout(messages[header.type].forms.standard) then
+    return known(reader.offset)
+  end
+  local is_hopeless = reader.fault.code == "badSequence"
+    or (reader.fault.code == "countTooLarge" and reader.fault.need > most_points)
+  return nil, (is_hopeless or tvb:len() >= most_bytes) and "unknown" or "more"
+end
+
+local computed = {
+  [12] = function(tvb)
+    if tvb:len() < header_size + 4 then return nil, "more" end
+    local length = tvb(header_size, 4):uint()
+    if length > most_bytes then return nil, "unknown" end
+    return known(header_size + 4 + length)
+  end,
+  [11] = walked,
+  [13] = walked,
+  [23] = function(tvb, header)
+    return first_that_fits(tvb, header_size + short_size_of(23, header.items),
+      header_size + header.items * messages[23].forms.standard[1].size)
+  end,
+  [24] = function(tvb) return first_that_fits(tvb, header_size + 12, header_size + 36) end,
+  [25] = function(tvb) return first_that_fits(tvb, header_size + 12, header_size + 16) end,
+}
+
+local function extent_of(tvb)
+  if not may_start(tvb, 0) then return nil, "foreign" end
+  if tvb:len() < header_size then return nil, "more" end
+  local header = header_of(tvb)
+  if header.payloadSize ~= 0 then
+    if header.type == 25 and header.payloadSize == 12 and tvb:len() < header_size + 12 then
+      return nil, "more"
+    end
+    return known(header_size + sent_payload(header, payload_bytes(tvb), tvb:len() - header_size))
+  end
+  if computed[header.type] then
+    return computed[header.type](tvb, header)
+  end
+  local message = messages[header.type]
+  if not message then return nil, "unknown" end
+  return known(header_size + header.items * message.forms.standard[1].size)
+end
+
+-- Where the next datagram may begin; the end of the bytes where none does.
+local function find_mark(tvb, from)
+  local text = from < tvb:len() and tvb(from):raw() or ""
+  local at = 1
+  while true do
+    at = text:find("M", at, true)
+    if not at then return tvb:len() end
+    if may_start(tvb, from + at - 1) then return from + at - 1 end
+    at = at + 1
+  end
+end
+
+-- A size, or nil where more of the stream has to come first; the second value is then how much, if that is known.
+local function piece_at(tvb, can_wait)
+  local size, why = extent_of(tvb)
+  if size and size <= tvb:len() then
+    return size
+  end
+  if size then
+    if can_wait then return nil, size - tvb:len() end
+    return tvb:len()
+  end
+  if why == "unknown" then
+    local mark = find_mark(tvb, header_size)
+    local is_whole = mark + 6 <= tvb:len()
+    if is_whole or not can_wait or tvb:len() > most_bytes then return mark end
+  elseif not can_wait then
+    return tvb:len()
+  end
+  return nil, DESEGMENT_ONE_MORE_SEGMENT
+end
+
+local function dissect_stream(tvb, pinfo, root)
+  local offset, infos = 0, {}
+  local can_wait = pinfo.can_desegment > 0
+  while offset < tvb:len() do
+    local rest = tvb(offset):tvb()
+    if not may_start(rest, 0) then
+      local mark = find_mark(rest, 1)
+      root:add(mxtp, rest(0, mark)):add(own.skipped, rest(0, mark))
+      infos[#infos + 1] = mark .. " bytes that belong to no datagram"
+      offset = offset + mark
+    else
+      local size, missing = piece_at(rest, can_wait)
+      if not size then
+        pinfo.desegment_offset = offset
+        pinfo.desegment_len = missing
+        break
+      end
+      infos[#infos + 1] = dissect_datagram(rest(0, size):tvb(), root)
+      offset = offset + size
+    end
+  end
+  return infos
+end
+
+local port_type_tcp = 2
+
+function mxtp.dissector(tvb, pinfo, root)
+  local infos
+  if pinfo.port_type == port_type_tcp then
+    infos = dissect_stream(tvb, pinfo, root)
+  elseif starts_with_magic(tvb) then
+    infos = { dissect_datagram(tvb, root) }
+  else
+    return 0
+  end
+  if #infos > 0 then
+    pinfo.cols.protocol = "MXTP"
+    pinfo.cols.info:set(table.concat(infos, " | ") .. " ")
+    pinfo.cols.info:fence()
+  end
+  return tvb:len()
+end
+
+DissectorTable.get("udp.port"):add(default_port, mxtp)
+DissectorTable.get("tcp.port"):add(default_port, mxtp)
+
+-- On other ports by what the bytes begin with.
+local function recognize(tvb, pinfo, root)
+  if tvb:len() < header_size or not starts_datagram(tvb) then
+    return false
+  end
+  pinfo.conversation = mxtp
+  mxtp.dissector(tvb, pinfo, root)
+  return true
+end
+mxtp:register_heuristic("udp", recognize)
+mxtp:register_heuristic("tcp", recognize)
