@@ -205,6 +205,12 @@ tl::expected<void, FilterError> setNumbers(const FieldInfo& field, const Written
     return {};
 }
 
+/// A bare number, which text is rarely meant by.
+bool isNumber(const WrittenCondition& written) {
+    return !written.constants.empty() && !written.constants.front().first.isQuoted &&
+           numberOf(written.constants.front().first.text).has_value();
+}
+
 bool isName(const FieldInfo& field, const WrittenCondition& written) {
     return field.kind == Kind::Segment && !written.constants.empty() &&
            segmentNumber(written.constants.front().first.text).has_value();
@@ -264,9 +270,14 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
         return failure(written.field, "There is no field `" + std::string(written.fieldName) + "`" +
                                           (near.empty() ? "." : "; did you mean `" + near + "`?"));
     }
-    const auto found = std::find_if(match.fields.begin(), match.fields.end(), [&](const FieldInfo* field) {
-        return suits(*field, match.hasComponent, written);
-    });
+    const auto suiting = [&](bool mayReadNumberAsText) {
+        return std::find_if(match.fields.begin(), match.fields.end(), [&](const FieldInfo* field) {
+            const bool isFirstChoice = !isTextKind(field->kind) || !isNumber(written);
+            return (isFirstChoice || mayReadNumberAsText) && suits(*field, match.hasComponent, written);
+        });
+    };
+    auto found = suiting(false);
+    found = found == match.fields.end() ? suiting(true) : found;
     if (found == match.fields.end()) {
         return Failure(complaint(match, written));
     }
