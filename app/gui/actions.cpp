@@ -29,6 +29,10 @@ void nextAxes(Window& window) {
                                                            : AxesMode::All);
 }
 
+void toggleGhost(Window& window) {
+    window.driver().setGhostVisible(!window.driver().isGhostVisible());
+}
+
 void toggleOrthographic(Window& window) {
     const bool isPerspective = window.viewport().projection() == render::Projection::Perspective;
     window.viewport().setProjection(isPerspective ? render::Projection::Orthographic
@@ -105,6 +109,8 @@ const ActionInfo kActions[] = {
     {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F", false,
      [](Window& w) { w.viewport().frameAll(); }},
     {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", false, nextAxes},
+    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", kCheckable,
+     toggleGhost},
     {"select1", QT_TRANSLATE_NOOP("Action", "&View/&Select character"), QT_TRANSLATE_NOOP("Action", "First"),
      "1", false, selectCharacter<0>},
     {"select2", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Second"), "2", false,

@@ -18,12 +18,17 @@ public:
     virtual void selectPacket(std::uint64_t number) = 0;
     virtual void setMarked(std::uint64_t packet, bool isMarked) = 0;
     virtual void setComment(std::uint64_t packet, const QString& comment) = 0;
+    /// What is declared about a source counts instead of what was detected.
+    virtual void setOverride(log::SourceId source, const model::SourceOverride& overrides) = 0;
     /// What the list of packets shows; empty for all.
     virtual void setDisplayFilter(const QString& filter) = 0;
     /// Points the camera at a character.
     virtual void frameCharacter(const model::CharacterKey& key) = 0;
     virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;
     [[nodiscard]] virtual bool isCharacterVisible(const model::CharacterKey& key) const = 0;
+    /// Shows the null pose of the shown character as a ghost over its figure.
+    virtual void setGhostVisible(bool isVisible) = 0;
+    [[nodiscard]] virtual bool isGhostVisible() const = 0;
     /// Stops the display at the newest packet, or follows the stream again. Receiving goes on.
     virtual void setPaused(bool isPaused) = 0;
     virtual void copyText(const QString& text) = 0;

@@ -118,6 +118,8 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
     connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
     connect(&m_driver, &SessionDriver::visibilityChanged, m_viewport, &ViewportWidget::setCharacterVisible);
+    connect(&m_driver, &SessionDriver::ghostChanged, m_viewport, &ViewportWidget::setGhostVisible);
+    connect(&m_driver, &SessionDriver::ghostChanged, m_actions["ghost"], &QAction::setChecked);
     connect(&m_driver, &SessionDriver::pausedChanged, m_actions["pause"], &QAction::setChecked);
     connect(&m_driver, &SessionDriver::demoChanged, m_actions["demo"], &QAction::setChecked);
     connect(m_viewport, &ViewportWidget::optionsChanged, this, [this] {

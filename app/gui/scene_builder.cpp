@@ -2,11 +2,14 @@
 #include "app/gui/scene_builder.h"
 
 #include "app/gui/character_health.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/theme.h"
+#include "core/model/null_pose_measures.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace posewire::gui {
@@ -14,6 +17,7 @@ namespace posewire::gui {
 namespace {
 
 constexpr float kGreatestDim = 0.55F;
+constexpr float kGhostOpacity = 0.35F;
 constexpr float kBodyAxesLength = 0.12F;
 constexpr float kPropAxesLength = 0.2F;
 constexpr float kUnselectedAxesAlpha = 0.85F;
@@ -83,6 +87,9 @@ void SceneBuilder::build(const ViewOptions& options, SceneFrame& frame) {
             addAxes(*pose, isSelected ? selection.segment : -1, 1.0F - figure.dim, frame);
         }
         addFingers(*pose, figure.colour, frame);
+        if (options.hasGhost && shownCharacter(m_session) == character.key) {
+            addGhost(figure, *pose, frame);
+        }
     }
 }
 
@@ -101,6 +108,39 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     figure.labelPosition =
         render::transformPoint(figure.palette[render::Head], head) + glm::vec3(0, 0, kLabelHeight);
     frame.figures.push_back(std::move(figure));
+}
+
+void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const {
+    const model::NullPose* nullPose = m_session.nullPose(figure.key);
+    if (nullPose == nullptr || !isPresent(pose, render::Pelvis)) {
+        return;
+    }
+    const model::SegmentPose& pelvis = pose.segments[render::Pelvis];
+    const Eigen::Vector3d ahead = pelvis.orientation * Eigen::Vector3d::UnitX();
+    const auto heading = static_cast<float>(std::atan2(ahead.y(), ahead.x()));
+    const glm::quat turn = glm::angleAxis(heading, glm::vec3(0, 0, 1));
+    const glm::vec3 place(static_cast<float>(pelvis.position.x()), static_cast<float>(pelvis.position.y()),
+                          0.0F);
+    const render::NullPose& origins = figure.mesh->origins;
+    const glm::vec3 stand(origins[render::Pelvis].x, origins[render::Pelvis].y,
+                          static_cast<float>(model::measure(*nullPose).floor));
+    std::array<glm::vec3, render::kSegmentCount> positions{};
+    std::array<glm::quat, render::kSegmentCount> orientations{};
+    orientations.fill(turn);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        positions[i] = place + turn * (origins[i] - stand);
+    }
+    Figure ghost;
+    ghost.key = figure.key;
+    ghost.mesh = figure.mesh;
+    ghost.colour = figure.colour;
+    ghost.opacity = kGhostOpacity;
+    ghost.selectedSegment = figure.selectedSegment;
+    const render::PaletteJob job{positions, orientations, origins, ghost.palette};
+    if (job.validate()) {
+        job.run();
+        frame.ghosts.push_back(std::move(ghost));
+    }
 }
 
 void SceneBuilder::addAxes(const model::CharacterPose& pose, int selectedSegment, float strength,

@@ -15,6 +15,7 @@ enum class AxesMode : std::uint8_t { All, Selected, None };
 /// How the operator wants to see the characters; the camera apart.
 struct ViewOptions {
     AxesMode axes = AxesMode::All;
+    bool hasGhost = false; ///< the shown character's null pose over its figure
     std::set<model::CharacterKey> hidden;
 };
 
@@ -33,6 +34,8 @@ public:
 
 private:
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
+    /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.
+    void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const;
     /// `strength` below 1 for data that have faded.
     void addAxes(const model::CharacterPose& pose, int selectedSegment, float strength,
                  SceneFrame& frame) const;

@@ -27,6 +27,7 @@ struct Figure {
     std::array<render::DualQuaternion, render::kJointCount> palette{};
     glm::vec3 colour{0.0F};
     float dim = 0.0F;
+    float opacity = 1.0F; ///< below 1 it is a ghost
     bool isHatched = false;
     int selectedSegment = -1;
     glm::vec3 labelPosition{0.0F}; ///< above the head
@@ -38,6 +39,7 @@ struct SceneFrame {
     render::Camera camera;
     render::SceneColours colours;
     std::vector<Figure> figures;
+    std::vector<Figure> ghosts; ///< not to be picked, without labels
     std::vector<render::AxesInstance> axes;
     std::vector<render::LineInstance> lines;
     std::vector<render::PointInstance> points;

@@ -8,19 +8,10 @@ namespace posewire::gui {
 render::Scene SceneUpload::prepare(const SceneFrame& frame, render::Renderer& renderer) {
     releaseUnused(frame, renderer);
     m_instances.clear();
-    for (const Figure& figure : frame.figures) {
-        const auto [entry, isNew] = m_meshes.try_emplace(figure.mesh, render::MeshId::None);
-        if (isNew) {
-            entry->second = renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions);
+    for (const auto* figures : {&frame.figures, &frame.ghosts}) {
+        for (const Figure& figure : *figures) {
+            add(figure, renderer);
         }
-        render::SkinnedInstance instance;
-        instance.mesh = entry->second;
-        instance.palette = figure.palette;
-        instance.colour = figure.colour;
-        instance.dim = figure.dim;
-        instance.hatched = figure.isHatched;
-        instance.selectedSegment = figure.selectedSegment;
-        m_instances.push_back(instance);
     }
     render::Scene scene;
     scene.camera = frame.camera;
@@ -33,10 +24,27 @@ render::Scene SceneUpload::prepare(const SceneFrame& frame, render::Renderer& re
     return scene;
 }
 
+void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
+    const auto [entry, isNew] = m_meshes.try_emplace(figure.mesh, render::MeshId::None);
+    if (isNew) {
+        entry->second = renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions);
+    }
+    render::SkinnedInstance instance;
+    instance.mesh = entry->second;
+    instance.palette = figure.palette;
+    instance.colour = figure.colour;
+    instance.dim = figure.dim;
+    instance.opacity = figure.opacity;
+    instance.hatched = figure.isHatched;
+    instance.selectedSegment = figure.selectedSegment;
+    m_instances.push_back(instance);
+}
+
 void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& renderer) {
     std::erase_if(m_meshes, [&](const auto& entry) {
-        const bool isUsed = std::ranges::any_of(
-            frame.figures, [&](const Figure& figure) { return figure.mesh == entry.first; });
+        const auto isItsOwn = [&](const Figure& figure) { return figure.mesh == entry.first; };
+        const bool isUsed =
+            std::ranges::any_of(frame.figures, isItsOwn) || std::ranges::any_of(frame.ghosts, isItsOwn);
         if (!isUsed) {
             renderer.releaseMesh(entry.second);
         }

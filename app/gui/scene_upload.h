@@ -18,6 +18,7 @@ public:
     [[nodiscard]] render::Scene prepare(const SceneFrame& frame, render::Renderer& renderer);
 
 private:
+    void add(const Figure& figure, render::Renderer& renderer);
     void releaseUnused(const SceneFrame& frame, render::Renderer& renderer);
 
     std::map<std::shared_ptr<const FigureMesh>, render::MeshId> m_meshes;

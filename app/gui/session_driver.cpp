@@ -114,6 +114,11 @@ void SessionDriver::setComment(std::uint64_t packet, const QString& comment) {
     announceChange();
 }
 
+void SessionDriver::setOverride(log::SourceId source, const model::SourceOverride& overrides) {
+    m_session.setOverride(source, overrides);
+    announceChange();
+}
+
 void SessionDriver::setDisplayFilter(const QString& filter) {
     m_session.setDisplayFilter(filter.toStdString());
     announceChange();
@@ -139,6 +144,11 @@ void SessionDriver::setCharacterVisible(const model::CharacterKey& key, bool isV
 
 bool SessionDriver::isCharacterVisible(const model::CharacterKey& key) const {
     return !m_hidden.contains(key);
+}
+
+void SessionDriver::setGhostVisible(bool isVisible) {
+    m_isGhostVisible = isVisible;
+    emit ghostChanged(isVisible);
 }
 
 void SessionDriver::setPaused(bool isPaused) {

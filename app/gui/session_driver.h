@@ -46,10 +46,13 @@ public:
     void selectPacket(std::uint64_t number) override;
     void setMarked(std::uint64_t packet, bool isMarked) override;
     void setComment(std::uint64_t packet, const QString& comment) override;
+    void setOverride(log::SourceId source, const model::SourceOverride& overrides) override;
     void setDisplayFilter(const QString& filter) override;
     void frameCharacter(const model::CharacterKey& key) override;
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override;
     [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const override;
+    void setGhostVisible(bool isVisible) override;
+    [[nodiscard]] bool isGhostVisible() const override { return m_isGhostVisible; }
     void setPaused(bool isPaused) override;
     void copyText(const QString& text) override;
 
@@ -62,6 +65,7 @@ signals:
     void demoChanged(bool isRunning);
     void frameRequested(const model::CharacterKey& key);
     void visibilityChanged(const model::CharacterKey& key, bool isVisible);
+    void ghostChanged(bool isVisible);
 
 private:
     /// What panels show has changed otherwise than by new packets.
@@ -76,6 +80,7 @@ private:
     std::set<model::CharacterKey> m_hidden;
     std::int64_t m_tableTickNs = 0;
     std::int64_t m_retryNs = 0;
+    bool m_isGhostVisible = false;
     bool m_isChanged = true;
 };
 

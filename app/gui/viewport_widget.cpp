@@ -199,6 +199,11 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
     }
 }
 
+void ViewportWidget::setGhostVisible(bool isVisible) {
+    m_options.hasGhost = isVisible;
+    outdate();
+}
+
 void ViewportWidget::setCharacterVisible(const model::CharacterKey& key, bool isVisible) {
     if (isVisible) {
         m_options.hidden.erase(key);

@@ -41,6 +41,7 @@ public:
     void frameAll();
     void frameCharacter(const model::CharacterKey& key);
 
+    void setGhostVisible(bool isVisible);
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible);
     [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const;
 

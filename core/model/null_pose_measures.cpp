@@ -59,7 +59,13 @@ struct Body {
     }
 };
 
-double lowestOf(const NullPose& pose) {
+bool isFoot(int bodySegment) {
+    return bodySegment == kRightFoot || bodySegment == kRightToe || bodySegment == kLeftFoot ||
+           bodySegment == kLeftToe;
+}
+
+/// Without points of the feet, `soleDrop` below the lowest segment.
+double floorOf(const NullPose& pose, double soleDrop) {
     double lowest = std::numeric_limits<double>::infinity();
     for (const NullPose::Segment& segment : pose.segments) {
         if (segment.position.allFinite()) {
@@ -69,11 +75,12 @@ double lowestOf(const NullPose& pose) {
     for (const NullPose::Point& point : pose.points) {
         const auto place = static_cast<std::size_t>(point.segment - 1);
         if (point.segment >= 1 && place < pose.segments.size()) {
+            soleDrop = isFoot(point.segment - 1) ? 0.0 : soleDrop;
             const double z = pose.segments[place].position.z() + point.position.z();
             lowest = std::isfinite(z) ? std::min(lowest, z) : lowest;
         }
     }
-    return std::isfinite(lowest) ? lowest : 0.0;
+    return std::isfinite(lowest) ? lowest - soleDrop : 0.0;
 }
 
 std::optional<double> lowerOf(std::optional<double> a, std::optional<double> b) {
@@ -101,7 +108,7 @@ std::optional<double> scaleOf(const Body& body) {
 void measureHeight(const Body& body, NullPoseMeasures& measures) {
     const auto top = pointOf(body.pose, body.places, "pTopOfHead");
     if (top) {
-        measures.height = top->z() - measures.lowest;
+        measures.height = top->z() - measures.floor;
     } else if (const auto scale = scaleOf(body)) {
         measures.height = *scale * kReferenceStature;
         measures.isEstimated = true;
@@ -180,7 +187,7 @@ bool SegmentLength::isAsymmetric() const {
 NullPoseMeasures measure(const NullPose& pose) {
     const Body body{pose};
     NullPoseMeasures measures;
-    measures.lowest = lowestOf(pose);
+    measures.floor = floorOf(pose, kReferenceSoleDrop * scaleOf(body).value_or(1.0));
     measureHeight(body, measures);
     measureSpan(body, measures);
     for (const LengthRow& row : kLengths) {

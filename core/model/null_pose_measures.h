@@ -51,7 +51,7 @@ struct NullPoseMeasures {
     std::optional<double> height{};  ///< sole to top of the head
     std::optional<double> armSpan{}; ///< fingertip to fingertip
     bool isEstimated = false;        ///< no points were sent: head, hands and soles are the reference body's
-    double lowest = 0;               ///< z of whatever is lowest
+    double floor = 0;                ///< z of the soles: of what is lowest
     std::vector<SegmentLength> lengths;
 };
 [[nodiscard]] NullPoseMeasures measure(const NullPose& pose);

@@ -32,6 +32,9 @@ public:
     void setComment(std::uint64_t packet, const QString& comment) override {
         m_session.setComment(packet, comment.toStdString());
     }
+    void setOverride(log::SourceId source, const model::SourceOverride& overrides) override {
+        m_session.setOverride(source, overrides);
+    }
     void setDisplayFilter(const QString& filter) override {
         m_session.setDisplayFilter(filter.toStdString());
     }
@@ -46,12 +49,15 @@ public:
     [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const override {
         return !m_hidden.contains(key);
     }
+    void setGhostVisible(bool isVisible) override { hasGhost = isVisible; }
+    [[nodiscard]] bool isGhostVisible() const override { return hasGhost; }
     void setPaused(bool) override {}
     void copyText(const QString& text) override { copied = text; }
 
     int selections = 0;
     std::vector<model::CharacterKey> framed;
     QString copied;
+    bool hasGhost = false;
 
 private:
     model::Session& m_session;

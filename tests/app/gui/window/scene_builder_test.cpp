@@ -71,6 +71,38 @@ TEST_F(SceneBuilderTest, AxesAreDrawnForAllForTheSelectedOrForNone) {
     EXPECT_TRUE(build().axes.empty());
 }
 
+TEST_F(SceneBuilderTest, TheGhostStandsOnTheFloorUnderTheLivePelvisAndLooksItsWay) {
+    perform(2);
+    EXPECT_TRUE(build().ghosts.empty());
+    options.hasGhost = true;
+    stage.session.setSelection({stage.source(), stage.key(1), 6});
+    const SceneFrame frame = build();
+    ASSERT_EQ(frame.ghosts.size(), 1U);
+    const Figure& ghost = frame.ghosts[0];
+    EXPECT_EQ(ghost.key, stage.key(1));
+    EXPECT_LT(ghost.opacity, 1.0F);
+    EXPECT_EQ(ghost.selectedSegment, 6);
+    const auto at = [&](render::Segment segment) {
+        return render::transformPoint(ghost.palette[segment], ghost.mesh->origins[segment]);
+    };
+    const model::SegmentPose& pelvis = stage.session.pose(stage.key(1))->segments[0];
+    EXPECT_NEAR(at(render::Pelvis).x, pelvis.position.x(), 1e-4);
+    EXPECT_NEAR(at(render::Pelvis).y, pelvis.position.y(), 1e-4);
+    EXPECT_NEAR(at(render::RightToe).z, 0.015, 0.004); // the ball of the foot, over the sole
+    const glm::vec3 leftwards = glm::normalize(at(render::LeftHand) - at(render::RightHand));
+    const Eigen::Vector3d ahead = pelvis.orientation * Eigen::Vector3d::UnitX();
+    EXPECT_NEAR(leftwards.x * ahead.x() + leftwards.y * ahead.y(), 0.0, 1e-3);
+    EXPECT_GT(ahead.x() * leftwards.y - ahead.y() * leftwards.x, 0.0);
+}
+
+TEST_F(SceneBuilderTest, WithoutANullPoseThereIsNoGhost) {
+    performer::Performer performer(sending(1, {2}));
+    stage.perform(performer, 0, 3);
+    stage.follow();
+    options.hasGhost = true;
+    EXPECT_TRUE(build().ghosts.empty());
+}
+
 TEST_F(SceneBuilderTest, TheSelectedSegmentIsMarkedOnItsCharacterOnly) {
     perform(2);
     stage.session.setSelection({stage.source(), stage.key(1), 6});
