@@ -39,6 +39,13 @@ Totals totalsOf(const model::Session& session, const model::CharacterKey& key) {
     return totals;
 }
 
+/// What does not fit together about the sender, in brief; empty where all does.
+QString contradictionOf(const model::Session& session, const model::CharacterKey& key) {
+    const model::Source* source = session.find(key.source);
+    const auto found = source != nullptr ? source->contradictions() : std::vector<model::Contradiction>();
+    return found.empty() ? QString() : QString::fromStdString(found.front().brief);
+}
+
 QString countText(std::uint64_t count, const char* one, const char* many) {
     return grouped(count) + QLatin1Char(' ') + tr(count == 1 ? one : many);
 }
@@ -67,6 +74,9 @@ CharacterHealth characterHealth(const model::Session& session, const model::Char
     }
     if (totals.malformed > 0) {
         return {Health::Error, tr("%1 malformed").arg(grouped(totals.malformed)), age};
+    }
+    if (const QString words = contradictionOf(session, key); !words.isEmpty()) {
+        return {Health::Warning, words, age};
     }
     if (totals.gaps > 0) {
         return {Health::Warning, countText(totals.gaps, "gap", "gaps"), age};

@@ -20,27 +20,46 @@ QString withEvidence(const QString& conclusion, const std::string& evidence) {
                             : conclusion + QStringLiteral(" · ") + QString::fromStdString(evidence);
 }
 
+QString textOf(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+QString unitText(model::LengthUnit unit) {
+    return unit == model::LengthUnit::Metre ? tr("metres") : tr("centimetres");
+}
+
 PropertyValue revision(model::SessionView& view, const Key& key) {
     const model::Source* source = view.find(key.source);
     if (source == nullptr) {
         return {};
     }
     const model::Detection& found = source->detector.result();
-    const auto name = model::revisionName(found.revision);
-    return {withEvidence(QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size())),
-                         found.revisionEvidence),
-            Health::Unknown, tr("Revision of the specification that this sender follows · the evidence")};
+    const QString detected =
+        withEvidence(textOf(model::revisionName(found.revision)), found.revisionEvidence);
+    const QString toolTip = tr("Revision of the specification that this sender follows · the evidence");
+    if (!source->overrides.revision) {
+        return {detected, Health::Unknown, toolTip};
+    }
+    return {tr("%1 · as you said").arg(textOf(model::revisionName(source->revision()))), Health::Unknown,
+            toolTip + QLatin1Char('\n') + tr("Detected: %1").arg(detected)};
 }
 
 PropertyValue units(model::SessionView& view, const Key& key) {
     const model::Source* source = view.find(key.source);
-    if (source == nullptr || source->detector.result().unitEvidence.empty()) {
-        return {tr("not known before a pose arrives")};
+    if (source == nullptr) {
+        return {};
     }
     const model::Detection& found = source->detector.result();
-    const bool isMetres = found.positionUnit == model::LengthUnit::Metre;
-    return {withEvidence(isMetres ? tr("metres") : tr("centimetres"), found.unitEvidence), Health::Unknown,
-            tr("Unit of positions in types 02, 21 and 24, judged by what a person can be · the evidence")};
+    const QString detected = found.unitEvidence.empty()
+                                 ? tr("not known before a pose arrives")
+                                 : withEvidence(unitText(found.positionUnit), found.unitEvidence);
+    const QString toolTip =
+        tr("Unit of positions in types 02, 21 and 24, judged by what a person can be · the evidence");
+    if (!source->overrides.positionUnit) {
+        return {detected, Health::Unknown, toolTip};
+    }
+    return {tr("%1 · as you said").arg(unitText(source->positionUnit())), Health::Unknown,
+            toolTip + QLatin1Char('\n') + tr("Detected: %1").arg(detected)};
 }
 
 PropertyValue address(model::SessionView& view, const Key& key) {

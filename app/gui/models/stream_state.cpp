@@ -125,6 +125,9 @@ State sourceState(model::SessionView& view, const model::Source& source) {
     if (source.foreign != 0) {
         return {Health::Warning, tr("%1 foreign").arg(grouped(source.foreign))};
     }
+    if (const auto found = source.contradictions(); !found.empty()) {
+        return {Health::Warning, QString::fromStdString(found.front().brief)};
+    }
     return {};
 }
 

@@ -8,10 +8,16 @@
 namespace posewire::gui {
 
 MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent), m_view(view), m_model(view), m_table(new TableView(tr("Metadata"), this)) {
+    : Panel(parent),
+      m_view(view),
+      m_model(view),
+      m_table(new TableView(tr("Metadata"), this)),
+      m_detection(new DetectionBar(view, commands, this)) {
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins({});
-    layout->addWidget(m_table);
+    layout->setSpacing(0);
+    layout->addWidget(m_table, 1);
+    layout->addWidget(m_detection);
     m_table->setModel(&m_model);
     m_table->setRootIsDecorated(true);
     m_table->setColumnSamples({QStringLiteral("name · 22 changes"), QString(), QStringLiteral("99 min")});
@@ -24,6 +30,8 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
 
 void MetadataPanel::refresh() {
     m_model.refresh();
+    const auto key = shownCharacter(m_view);
+    m_detection->showSource(key ? std::optional(key->source) : std::nullopt);
 }
 
 QString MetadataPanel::summary() const {

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/metadata_model.h"
 #include "app/gui/panel.h"
+#include "app/gui/panels/detection_bar.h"
 #include "app/gui/panels/table_view.h"
 
 namespace posewire::gui {
@@ -21,6 +22,7 @@ private:
     model::SessionView& m_view;
     MetadataModel m_model;
     TableView* m_table;
+    DetectionBar* m_detection;
 };
 
 } // namespace posewire::gui
