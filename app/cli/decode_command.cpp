@@ -2,6 +2,7 @@
 #include "app/cli/command.h"
 #include "app/cli/field_listing.h"
 #include "app/cli/input.h"
+#include "app/cli/record_filter.h"
 #include "core/export/json.h"
 #include "core/log/raw_file.h"
 #include "core/wire/codec.h"
@@ -15,12 +16,18 @@ namespace {
 struct DecodeOptions {
     std::vector<std::string> files;
     bool asJson = false;
+    std::string filter;
 };
 
 /// Writes one file's records and counts what is wrong with them.
 class RecordWriter {
 public:
-    RecordWriter(Output& out, bool asJson) : m_out(out), m_asJson(asJson) {}
+    /// Without a filter everything is written.
+    RecordWriter(Output& out, bool asJson, const filter::Filter& filter) : m_out(out), m_asJson(asJson) {
+        if (!filter.matchesEverything()) {
+            m_filter.emplace(filter);
+        }
+    }
 
     void operator()(const log::FileRecord& record) {
         if (!m_out.isWanted()) {
@@ -31,25 +38,32 @@ public:
             return;
         }
         endSkipped();
+        const exporting::DatagramPlace place = placeOf(record);
+        if (m_filter && !m_filter->matches(record, place.index)) {
+            return;
+        }
         if (!wire::decode(record.bytes)) {
             m_firstFault = m_faults == 0 ? record.offset : m_firstFault;
             ++m_faults;
         }
-        const exporting::DatagramPlace place = placeOf(record);
         m_out.write(m_asJson ? exporting::datagramJson(place, record.bytes) + '\n' : listed(place, record));
     }
 
     /// To be called after the last record.
     void endSkipped() {
-        if (m_skipped != 0) {
-            const exporting::DatagramPlace place{m_index++, m_skippedFrom, std::nullopt, std::nullopt};
-            m_out.write(m_asJson
-                            ? exporting::skippedJson(place, m_skipped) + '\n'
-                            : "#" + std::to_string(place.index) + "  offset " + std::to_string(place.offset) +
-                                  "  " + std::to_string(m_skipped) + " bytes that belong to no datagram\n\n");
-            m_allSkipped += m_skipped;
-            m_skipped = 0;
+        const std::uint64_t skipped = std::exchange(m_skipped, 0);
+        if (skipped == 0) {
+            return;
         }
+        const exporting::DatagramPlace place{m_index++, m_skippedFrom, std::nullopt, std::nullopt};
+        if (m_filter && !m_filter->matches({m_skippedFrom, m_firstSkipped, true, {}, {}}, place.index)) {
+            return;
+        }
+        m_out.write(m_asJson
+                        ? exporting::skippedJson(place, skipped) + '\n'
+                        : "#" + std::to_string(place.index) + "  offset " + std::to_string(place.offset) +
+                              "  " + std::to_string(skipped) + " bytes that belong to no datagram\n\n");
+        m_allSkipped += skipped;
     }
 
     /// One line about what was wrong; empty where nothing was.
@@ -68,7 +82,13 @@ public:
 
 private:
     void skip(const log::FileRecord& record) {
-        m_skippedFrom = m_skipped == 0 ? record.offset : m_skippedFrom;
+        if (m_skipped == 0) {
+            m_skippedFrom = record.offset;
+            m_firstSkipped.clear();
+        }
+        const std::size_t room = wire::kMaxDatagramSize - m_firstSkipped.size();
+        const auto kept = m_filter ? record.bytes.first(std::min(room, record.bytes.size())) : wire::Bytes();
+        m_firstSkipped.insert(m_firstSkipped.end(), kept.begin(), kept.end());
         m_skipped += record.bytes.size();
     }
     exporting::DatagramPlace placeOf(const log::FileRecord& record) {
@@ -86,6 +106,9 @@ private:
 
     Output& m_out;
     bool m_asJson;
+    std::optional<RecordFilter> m_filter;
+    std::vector<std::byte>
+        m_firstSkipped; ///< what a filter sees of skipped bytes: as much as a packet can have
     std::uint64_t m_index = 0;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_faults = 0;
@@ -95,13 +118,14 @@ private:
     std::uint64_t m_allSkipped = 0;
 };
 
-ExitStatus decodeFile(const std::string& path, bool asJson, Console& console) {
+ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, const filter::Filter& filter,
+                      Console& console) {
     const auto source = openInput(path);
     if (!source) {
         console.complain(source.error().text);
         return ExitStatus::Unusable;
     }
-    RecordWriter writer(console.out, asJson);
+    RecordWriter writer(console.out, options.asJson, filter);
     const auto result = log::readFile(**source, std::ref(writer));
     writer.endSkipped();
     if (!result) {
@@ -117,12 +141,17 @@ ExitStatus decodeFile(const std::string& path, bool asJson, Console& console) {
 }
 
 ExitStatus decode(const DecodeOptions& options, Console& console) {
+    const auto filter = filter::Filter::compile(options.filter);
+    if (!filter) {
+        console.complain(markedError(options.filter, filter.error()));
+        return ExitStatus::Unusable;
+    }
     ExitStatus status = ExitStatus::Fine;
     for (const std::string& path : options.files) {
         if (!options.asJson && options.files.size() > 1) {
             console.out.write(path + "\n\n");
         }
-        status = worse(status, decodeFile(path, options.asJson, console));
+        status = worse(status, decodeFile(path, options, *filter, console));
     }
     return status;
 }
@@ -138,6 +167,9 @@ Command addDecodeCommand(CLI::App& program) {
                      "datagrams back to back, or pcap or pcapng; - for standard input")
         ->required();
     parser->add_flag("--json", options->asJson, "one JSON object a line for each datagram");
+    parser->add_option("--filter", options->filter,
+                       "only packets that this matches, such as \"type == 02 && position.z > 2\"; "
+                       "reference --filter has the language");
     return {parser, [options](Console& console) { return decode(*options, console); }};
 }
 

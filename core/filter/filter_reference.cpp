@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+#include "core/filter/filter_reference.h"
+
+#include "core/filter/field_lookup.h"
+#include "core/wire/type_table.h"
+
+namespace posewire::filter {
+namespace {
+
+constexpr std::string_view kLanguage = R"(# Display filter
+
+A filter is a condition that a packet meets or does not meet: a field, an operator and a constant, such as
+`type == 02`. The same filters work in the window and in `posewire-cli decode --filter`.
+
+| example | matches |
+|---|---|
+| `type == 02 && character == 1` | poses of character 1 |
+| `sample in 100..200` | samples 100 to 200, both included |
+| `type in {02, 12, 20..25}` | any of these types |
+| `gap > 0 \|\| duplicate` | packets after a loss, and those that came twice |
+| `segment == LeftHand && position.z > 2` | poses whose left hand is above 2 |
+| `source contains "192.168"` | packets from these addresses |
+| `tag.name matches "^Ann"` | metadata of characters whose name begins with Ann |
+| `error` | whatever cannot be read |
+| `error == itemsTruncated` | what cannot be read for this reason |
+| `!(type in {01, 02})` | everything else |
+
+## Operators
+
+| operator | meaning |
+|---|---|
+| `==` `!=` `<` `<=` `>` `>=` | comparison with a constant; text only with `==` and `!=` |
+| `in` | within a range `1..5` or a set `{1, 5..7}` |
+| `contains` | text contains this, in any case |
+| `matches`, `~` | text matches this regular expression (RE2 syntax); `(?i)` at its start ignores case |
+| `&&`, `and` | both; binds tighter than `\|\|` |
+| `\|\|`, `or` | one of them or both |
+| `!`, `not` | not the condition, or the parentheses, after it |
+
+Numbers may be decimal (`02` is 2) or hexadecimal (`0x1f`). Text stands in quotes, with `\"` and `\\` for these
+characters; a single word needs none. Constants are compared with the values on the wire, in the wire's units.
+
+## Rules
+
+* A field alone means that the packet has it: `position`, `error`, `tag.name`. `gap` and `drops` alone mean more
+  than none, and fields that are true or false mean true.
+* What a packet does not have makes every comparison with it false, also `!=`. `!(position.z == 1)` matches packets
+  without positions, `position.z != 1` does not.
+* A field of items means any item: `position.z > 2` is true if one of them is above 2. `!(position.z > 2)` is true if
+  none is.
+* Conditions on items that `&&` joins speak of the same item: `segment == LeftHand && position.z > 2`. So does an
+  `||` in parentheses among them. Parentheses around an `&&` make a group of its own:
+  `(segment == LeftHand && position.z > 2) && (segment == RightHand && position.z > 2)`.
+* A vector is asked for by its components: x, y, z; w, x, y, z for orientations; 1 to 9 for matrices.
+* Comparisons with a value that is not a number are false. `position == NaN` finds such values.
+* A name that several messages have means each of them; `points.position.x` and `header.sample` say which.
+  Where the header has a field of the same name, the constant decides by its kind.
+* Segments are named in any case (`LeftHand`, `Prop1`, `LeftFirstPP`) or numbered as on the wire.
+* `tag` stands for the names of the metadata tags, `tag.color` for the value of the tag `color`.
+)";
+
+std::string_view kindOf(const FieldInfo& field) {
+    switch (field.kind) {
+    case Kind::Number:
+        return "number";
+    case Kind::Text:
+        return "text";
+    case Kind::Vector:
+        return field.components == 3 ? "x, y, z" : field.components == 4 ? "w, x, y, z" : "1 … 9";
+    case Kind::Flag:
+        return "true or false";
+    case Kind::Type:
+        return "type";
+    case Kind::Segment:
+        return "segment";
+    case Kind::Transport:
+        return "word";
+    case Kind::Time:
+        return "UTC time";
+    }
+    return "";
+}
+
+std::string typesOf(const FieldInfo& field) {
+    std::string text;
+    for (const std::uint8_t type : field.types) {
+        const auto digits = wire::typeDigits(type);
+        text.append(text.empty() ? "" : " ").append(digits.data(), digits.size());
+    }
+    return text;
+}
+
+void writeRow(std::string& out, const FieldInfo& field, bool isOfPayload) {
+    const std::string name =
+        isOfPayload && !field.qualifier.empty() ? field.qualifier + '.' + field.name : field.name;
+    out.append("| `").append(name).append("` | ").append(kindOf(field)).append(" | ");
+    out.append(field.unit).append(" | ").append(field.text);
+    out.append(isOfPayload ? " | " + typesOf(field) : "").append(" |\n");
+}
+
+} // namespace
+
+std::string filterReference() {
+    std::string out(kLanguage);
+    out += "\n## Fields of every packet\n\n| field | kind | unit | meaning |\n|---|---|---|---|\n";
+    for (const FieldInfo& field : fieldTable()) {
+        if (!field.isOfItems()) {
+            writeRow(out, field, false);
+        }
+    }
+    out += "\n## Fields of the messages\n\nThe name before the dot may be left out.\n\n"
+           "| field | kind | unit | meaning | types |\n|---|---|---|---|---|\n";
+    for (const FieldInfo& field : fieldTable()) {
+        if (field.isOfItems()) {
+            writeRow(out, field, true);
+        }
+    }
+    out += "| `tag` | text |  | names of the metadata tags | 12 |\n"
+           "| `tag.…` | text |  | value of the tag of that name | 12 |\n";
+    return out;
+}
+
+} // namespace posewire::filter
