@@ -289,6 +289,17 @@ void MainWindow::nextDock() {
     (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
 }
 
+bool MainWindow::inDock(const char* dock, const char* slot) {
+    const auto found = std::ranges::find_if(
+        m_docks, [dock](const Dock& each) { return each.dock->objectName() == QLatin1String(dock); });
+    if (found == m_docks.end()) {
+        return false;
+    }
+    found->dock->show();
+    found->dock->raise();
+    return QMetaObject::invokeMethod(found->panel, slot, Qt::DirectConnection);
+}
+
 void MainWindow::toggleFullScreen() {
     setWindowState(windowState() ^ Qt::WindowFullScreen);
     m_actions["fullScreen"]->setChecked(isFullScreen());

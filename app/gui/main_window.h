@@ -42,6 +42,9 @@ public:
     /// Brings every floating dock back into the window, and the window back onto a screen.
     void dockAll();
     void nextDock();
+    /// Shows a dock before the others and has its panel do what a slot of that name does. False where there
+    /// is no such dock or slot.
+    bool inDock(const char* dock, const char* slot);
     void toggleFullScreen();
     void copyDiagnostics();
     void showShortcuts();

@@ -112,6 +112,14 @@ const Theme& theme() {
     return current();
 }
 
+QColor tinted(const QColor& colour) {
+    constexpr double kShare = 0.12;
+    const QColor& panel = theme().panel;
+    const auto mix = [](int from, int to) { return static_cast<int>(from + (to - from) * kShare); };
+    return {mix(panel.red(), colour.red()), mix(panel.green(), colour.green()),
+            mix(panel.blue(), colour.blue())};
+}
+
 void applyTheme(QApplication& application, ThemeChoice choice) {
     const bool desktopDark = desktopIsDark(application);
     const bool isDark = choice == ThemeChoice::Dark || (choice == ThemeChoice::System && desktopDark);

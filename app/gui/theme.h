@@ -24,6 +24,9 @@ enum class ThemeChoice { System, Dark, Light };
 /// The theme in use.
 [[nodiscard]] const Theme& theme();
 
+/// The panel's colour with a little of another, to fill what is marked by that colour.
+[[nodiscard]] QColor tinted(const QColor& colour);
+
 /// Sets palette, Fusion style and style sheet for the whole application.
 void applyTheme(QApplication& application, ThemeChoice choice);
 

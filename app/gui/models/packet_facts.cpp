@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/packet_facts.h"
+
+#include "app/gui/models/text.h"
+#include "core/wire/codec.h"
+#include "core/wire/type_table.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("PacketFacts", text);
+}
+
+const QString& dot() {
+    static const QString text = QStringLiteral(" · ");
+    return text;
+}
+
+/// "47 45 54 20 2f "GET /""
+QString beginning(wire::Bytes bytes) {
+    constexpr std::size_t kShown = 12;
+    const wire::Bytes shown = bytes.first(std::min(bytes.size(), kShown));
+    const QByteArray data(reinterpret_cast<const char*>(shown.data()), static_cast<qsizetype>(shown.size()));
+    QString readable;
+    for (const char byte : data) {
+        readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
+    }
+    const QString more = bytes.size() > kShown ? QStringLiteral(" …") : QString();
+    return QString::fromLatin1(data.toHex(' ')) + more + QStringLiteral("  \"") + readable + QLatin1Char('"');
+}
+
+QString fault(const log::Packet& packet) {
+    const auto decoded = wire::decode(packet.bytes);
+    if (decoded) {
+        return tr("malformed");
+    }
+    return tr("malformed: %1").arg(QString::fromStdString(wire::errorText(decoded.error())));
+}
+
+QStringList notices(const log::Packet& packet) {
+    QStringList texts;
+    if (const auto decoded = wire::decode(packet.bytes)) {
+        for (const wire::Notice& notice : decoded->notices) {
+            texts += QString::fromStdString(wire::noticeText(notice));
+        }
+    }
+    return texts;
+}
+
+QString findingsOf(const log::Packet& packet, const model::PacketDigest& digest) {
+    QStringList texts;
+    switch (digest.kind) {
+    case model::PacketKind::Malformed:
+        texts += fault(packet);
+        break;
+    case model::PacketKind::Foreign:
+        texts += packet.bytes.empty() ? tr("foreign: empty") : tr("foreign: %1").arg(beginning(packet.bytes));
+        break;
+    case model::PacketKind::Skipped:
+        texts += tr("belongs to no datagram: %1").arg(beginning(packet.bytes));
+        break;
+    case model::PacketKind::Datagram:
+        break;
+    }
+    if (digest.followsDrops) {
+        texts += tr("this computer dropped %1 before").arg(grouped(packet.kernelDropsBefore));
+    }
+    if (digest.gap != 0) {
+        texts += digest.gap == 1 ? tr("gap: 1 sample missing")
+                                 : tr("gap: %1 samples missing").arg(grouped(digest.gap));
+    }
+    if (digest.isDuplicate) {
+        texts += tr("duplicate");
+    }
+    if (digest.isReordered) {
+        texts += tr("reordered");
+    }
+    if (digest.isRestart) {
+        texts += tr("counter began anew");
+    }
+    if (digest.isTruncated) {
+        texts += tr("cut off when it was received");
+    }
+    if (digest.hasNotices) {
+        texts += notices(packet);
+    }
+    return texts.join(dot());
+}
+
+} // namespace
+
+std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t number) {
+    const model::PacketDigest* digest = view.digests().find(number);
+    const auto packet = digest != nullptr ? view.packet(number) : std::nullopt;
+    if (!packet) {
+        return std::nullopt;
+    }
+    PacketFacts facts{number, packet->stampNs, packet->source, packet->bytes.size(), *digest, {}, {}, {}};
+    if (digest->kind == model::PacketKind::Datagram || digest->kind == model::PacketKind::Malformed) {
+        if (const auto header = wire::decodeHeader(packet->bytes)) {
+            facts.header = *header;
+        }
+    } else {
+        facts.firstText = beginning(packet->bytes);
+    }
+    if (digest->isProblem()) {
+        facts.findings = findingsOf(*packet, *digest);
+    }
+    return facts;
+}
+
+Health packetHealth(const PacketFacts& facts) {
+    const model::PacketDigest& digest = facts.digest;
+    if (digest.kind == model::PacketKind::Malformed || digest.isTruncated) {
+        return Health::Error;
+    }
+    return digest.isProblem() ? Health::Warning : Health::Unknown;
+}
+
+QString packetType(const PacketFacts& facts) {
+    switch (facts.digest.kind) {
+    case model::PacketKind::Foreign:
+        return tr("foreign");
+    case model::PacketKind::Skipped:
+        return tr("stray bytes");
+    case model::PacketKind::Malformed:
+        if (!facts.header) {
+            return tr("malformed");
+        }
+        break;
+    case model::PacketKind::Datagram:
+        break;
+    }
+    return QString::fromStdString(wire::typeTitle(facts.digest.type));
+}
+
+QString packetPart(model::SessionView& view, const PacketFacts& facts) {
+    if (!facts.header) {
+        return {};
+    }
+    const wire::Header& own = *facts.header;
+    const QString place = QString::number(own.datagramIndex() + 1);
+    if (own.isLast()) {
+        return place + QLatin1Char('/') + place;
+    }
+    constexpr std::uint64_t kNear = 64;
+    const std::uint64_t end = std::min(view.end(), facts.number + kNear);
+    for (std::uint64_t number = facts.number + 1; number < end; ++number) {
+        const model::PacketDigest* digest = view.digests().find(number);
+        if (digest == nullptr || digest->type != facts.digest.type ||
+            digest->character != facts.digest.character) {
+            continue;
+        }
+        const auto packet = view.packet(number);
+        const auto header = packet ? wire::decodeHeader(packet->bytes) : wire::Result<wire::Header>();
+        if (packet && packet->source == facts.source && header && header->isLast() &&
+            header->sampleCounter == own.sampleCounter && header->datagramIndex() > own.datagramIndex()) {
+            return place + QLatin1Char('/') + QString::number(header->datagramIndex() + 1);
+        }
+    }
+    return place + QStringLiteral("/?");
+}
+
+QString packetNote(model::SessionView& view, const PacketFacts& facts) {
+    QString note = facts.findings.isEmpty()
+                       ? QString()
+                       : healthSymbol(packetHealth(facts)) + QLatin1Char(' ') + facts.findings;
+    const model::Annotations& annotations = view.annotations();
+    if (annotations.marks.contains(facts.number)) {
+        note.prepend(note.isEmpty() ? tr("◆ marked") : QStringLiteral("◆ "));
+    }
+    if (const auto comment = annotations.comments.find(facts.number); comment != annotations.comments.end()) {
+        note += (note.isEmpty() ? QString() : dot()) + QStringLiteral("“") +
+                QString::fromStdString(comment->second).simplified() + QStringLiteral("”");
+    }
+    return note;
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/theme.h"
+#include "core/model/session.h"
+#include "core/wire/header.h"
+
+#include <QString>
+
+#include <optional>
+#include <string>
+
+namespace posewire::gui {
+
+/// What a list says about one packet. Holds nothing of the packet's memory, so it may be kept.
+struct PacketFacts {
+    std::uint64_t number = 0;
+    std::int64_t stampNs = 0;
+    log::SourceId source{};
+    std::size_t size = 0;
+    model::PacketDigest digest;
+    std::optional<wire::Header> header;
+    QString findings;  ///< all that is wrong or odd, in words; empty where nothing is
+    QString firstText; ///< of a foreign packet: how it begins
+};
+
+/// Nothing where the log has dropped the packet or the session has not followed so far.
+[[nodiscard]] std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t number);
+
+/// Error: cannot be read. Warning: odd, or something is missing before it. Unknown: neither.
+[[nodiscard]] Health packetHealth(const PacketFacts& facts);
+
+/// "02 Pose, quaternion", "foreign".
+[[nodiscard]] QString packetType(const PacketFacts& facts);
+
+/// Place among the datagrams of its sample, "2/3"; "2/?" where the last of them is not near it in the log.
+[[nodiscard]] QString packetPart(model::SessionView& view, const PacketFacts& facts);
+
+/// Findings with their symbol, then the operator's comment: the column that says it in words.
+[[nodiscard]] QString packetNote(model::SessionView& view, const PacketFacts& facts);
+
+} // namespace posewire::gui

@@ -1,0 +1,339 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/packet_model.h"
+
+#include "app/gui/models/columns.h"
+#include "app/gui/models/roles.h"
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+#include "core/wire/type_table.h"
+
+#include <QDateTime>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr int kTimeDecimals = 6;
+constexpr double kMsPerSecond = 1000;
+constexpr double kSecondsPerNs = 1e-9;
+/// What the rows of a table can count.
+constexpr std::uint64_t kMostRows = std::numeric_limits<int>::max() - 1;
+
+constexpr std::array<ColumnText, PacketModel::kColumnCount> kColumns{{
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "No."),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Number in the order of arrival, from 0")},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Time s"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "When it arrived; the context menu has other ways")},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Δ ms"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Since the packet before it in its stream")},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Source"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Address and port of the sender"), false},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Type"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Message type"), false},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Char"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Character ID and name"), false},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Sample"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Sample counter")},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Part"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel",
+                       "Which of the datagrams of its sample, and of how many")},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Size"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Bytes of the datagram, header included")},
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Note"),
+     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "What is odd about it, and comments"), false},
+}};
+
+bool describesBody(std::uint8_t type) {
+    return type >= 10 && type <= 13;
+}
+
+} // namespace
+
+PacketModel::PacketModel(model::SessionView& view, QObject* parent)
+    : QAbstractTableModel(parent), m_view(view) {}
+
+void PacketModel::refresh() {
+    m_facts.reset();
+    removeDropped();
+    insertNew();
+    const model::Annotations& annotations = m_view.annotations();
+    const model::Cursor& cursor = m_view.cursor();
+    const bool isChanged = annotations.marks != m_annotations.marks ||
+                           annotations.comments != m_annotations.comments || cursor.mode != m_cursor.mode ||
+                           cursor.packet != m_cursor.packet;
+    if (isChanged && rowCount() > 0) {
+        m_annotations = annotations;
+        m_cursor = cursor;
+        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+    }
+}
+
+void PacketModel::removeDropped() {
+    const std::uint64_t begin = m_view.digests().begin();
+    if (m_isFiltered) {
+        const auto kept = std::ranges::lower_bound(m_matches, begin);
+        const auto gone = static_cast<std::size_t>(kept - m_matches.begin());
+        const std::size_t rows = std::min(gone, m_matchRows);
+        if (rows > 0) {
+            beginRemoveRows({}, 0, static_cast<int>(rows) - 1);
+        }
+        m_matches.erase(m_matches.begin(), kept);
+        m_matchRows -= rows;
+        m_removed += rows;
+        if (rows > 0) {
+            endRemoveRows();
+        }
+        return;
+    }
+    const std::uint64_t rows = std::min(std::max(begin, m_begin), m_end) - m_begin;
+    if (m_begin == m_end) {
+        m_begin = m_end = std::max(begin, m_begin);
+        return;
+    }
+    if (rows == 0) {
+        return;
+    }
+    beginRemoveRows({}, 0, static_cast<int>(rows) - 1);
+    m_begin += rows;
+    m_removed += rows;
+    endRemoveRows();
+    if (m_begin == m_end) {
+        m_begin = m_end = std::max(begin, m_begin);
+    }
+}
+
+void PacketModel::insertNew() {
+    if (m_isFiltered) {
+        const std::size_t rows = std::min<std::size_t>(m_matches.size(), kMostRows);
+        if (rows > m_matchRows) {
+            beginInsertRows({}, static_cast<int>(m_matchRows), static_cast<int>(rows) - 1);
+            m_matchRows = rows;
+            endInsertRows();
+        }
+        return;
+    }
+    const std::uint64_t end = std::min(m_view.digests().end(), m_begin + kMostRows);
+    if (end > m_end) {
+        beginInsertRows({}, rowCount(), static_cast<int>(end - m_begin) - 1);
+        m_end = end;
+        endInsertRows();
+    }
+}
+
+void PacketModel::beginMatches() {
+    beginResetModel();
+    m_facts.reset();
+    m_isFiltered = true;
+    m_matches.clear();
+    m_matchRows = 0;
+    endResetModel();
+}
+
+void PacketModel::addMatches(const std::vector<std::uint64_t>& numbers) {
+    m_matches.insert(m_matches.end(), numbers.begin(), numbers.end());
+}
+
+void PacketModel::endMatches() {
+    beginResetModel();
+    m_facts.reset();
+    m_isFiltered = false;
+    m_matches.clear();
+    m_matchRows = 0;
+    m_begin = m_view.digests().begin();
+    m_end = std::min(m_view.digests().end(), m_begin + kMostRows);
+    m_removed = m_begin;
+    endResetModel();
+}
+
+void PacketModel::setTimeMode(TimeMode mode) {
+    m_timeMode = mode;
+    emit headerDataChanged(Qt::Horizontal, kTime, kTime);
+    if (rowCount() > 0) {
+        emit dataChanged(index(0, kTime), index(rowCount() - 1, kTime));
+    }
+}
+
+void PacketModel::setDeltaMode(DeltaMode mode) {
+    m_deltaMode = mode;
+    emit headerDataChanged(Qt::Horizontal, kDelta, kDelta);
+    if (rowCount() > 0) {
+        emit dataChanged(index(0, kDelta), index(rowCount() - 1, kDelta));
+    }
+}
+
+std::uint64_t PacketModel::packetAt(int row) const {
+    return m_isFiltered ? m_matches[static_cast<std::size_t>(row)]
+                        : m_begin + static_cast<std::uint64_t>(row);
+}
+
+int PacketModel::rowFrom(std::uint64_t number) const {
+    if (!m_isFiltered) {
+        return static_cast<int>(std::clamp(number, m_begin, m_end) - m_begin);
+    }
+    const auto end = m_matches.begin() + static_cast<std::ptrdiff_t>(m_matchRows);
+    return static_cast<int>(std::lower_bound(m_matches.begin(), end, number) - m_matches.begin());
+}
+
+int PacketModel::rowOf(std::uint64_t number) const {
+    const int row = rowFrom(number);
+    return row < rowCount() && packetAt(row) == number ? row : -1;
+}
+
+int PacketModel::rowCount(const QModelIndex& parent) const {
+    if (parent.isValid()) {
+        return 0;
+    }
+    return m_isFiltered ? static_cast<int>(m_matchRows) : static_cast<int>(m_end - m_begin);
+}
+
+int PacketModel::columnCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : static_cast<int>(kColumnCount);
+}
+
+const PacketFacts* PacketModel::facts(int row) const {
+    const std::uint64_t number = packetAt(row);
+    if (!m_facts || m_facts->number != number) {
+        m_facts = packetFacts(m_view, number);
+    }
+    return m_facts ? &*m_facts : nullptr;
+}
+
+QString PacketModel::timeText(const PacketFacts& facts) const {
+    if (m_timeMode == TimeMode::SinceFirst) {
+        return fixed(static_cast<double>(facts.stampNs - m_view.firstStampNs()) * kSecondsPerNs,
+                     kTimeDecimals);
+    }
+    const std::int64_t microseconds = facts.stampNs / 1000 % 1000;
+    const QDateTime time = QDateTime::fromMSecsSinceEpoch(facts.stampNs / kNsPerMs);
+    return time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz")) +
+           QStringLiteral("%1").arg(microseconds, 3, 10, QLatin1Char('0'));
+}
+
+double PacketModel::deltaMs(const PacketFacts& facts, int row) const {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    if (m_deltaMode == DeltaMode::Stream) {
+        return facts.digest.deltaS < 0 ? kNone : static_cast<double>(facts.digest.deltaS) * kMsPerSecond;
+    }
+    const auto above = row > 0 ? m_view.packet(packetAt(row - 1)) : std::nullopt;
+    return above ? static_cast<double>(facts.stampNs - above->stampNs) / kNsPerMs : kNone;
+}
+
+QString PacketModel::text(const PacketFacts& facts, int row, int column) const {
+    switch (column) {
+    case kNumber:
+        return grouped(facts.number);
+    case kTime:
+        return timeText(facts);
+    case kDelta:
+        return fixed(deltaMs(facts, row), 2);
+    case kSource: {
+        const log::SourceInfo* info = m_view.log().sources().find(facts.source);
+        return info != nullptr ? QString::fromStdString(info->address) : QString();
+    }
+    case kType:
+        return packetType(facts);
+    case kCharacter:
+        return facts.header ? QString::number(facts.header->character) : QString();
+    case kSample:
+        return facts.header ? grouped(facts.header->sampleCounter) : QString();
+    case kPart:
+        return packetPart(m_view, facts);
+    case kSize:
+        return grouped(facts.size);
+    case kNote:
+        return packetNote(m_view, facts);
+    default:
+        return {};
+    }
+}
+
+QVariant PacketModel::colour(const PacketFacts& facts, int column) const {
+    const Health health = packetHealth(facts);
+    const model::PacketDigest& digest = facts.digest;
+    const bool isStrange =
+        digest.kind == model::PacketKind::Foreign || digest.kind == model::PacketKind::Skipped;
+    switch (column) {
+    case kNote:
+        return health == Health::Unknown ? theme().dim : healthColour(health);
+    case kType:
+        if (health == Health::Error) {
+            return healthColour(health);
+        }
+        return isStrange                    ? QVariant(theme().dim)
+               : describesBody(digest.type) ? QVariant(theme().accent)
+                                            : QVariant();
+    case kDelta:
+        return digest.gap != 0 || digest.followsDrops ? QVariant(theme().warning) : QVariant();
+    case kSample:
+        return digest.isDuplicate || digest.isReordered || digest.isRestart ? QVariant(theme().warning)
+                                                                            : QVariant();
+    case kSize:
+        return health == Health::Error ? QVariant(theme().error) : QVariant();
+    default:
+        return isStrange ? QVariant(theme().dim) : QVariant();
+    }
+}
+
+QVariant PacketModel::data(const QModelIndex& index, int role) const {
+    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
+        return {};
+    }
+    const int row = index.row();
+    const int column = index.column();
+    if (role == Qt::TextAlignmentRole) {
+        return kColumns[static_cast<std::size_t>(column)].isNumber ? numberAlignment() : QVariant();
+    }
+    if (role == kStripeRole) {
+        return (m_removed + static_cast<std::uint64_t>(row)) % 2 != 0;
+    }
+    if (role == kPausedHereRole) {
+        return m_view.cursor().mode == model::Cursor::Mode::Paused &&
+               row + 1 == rowFrom(m_view.cursor().packet + 1);
+    }
+    const PacketFacts* shown = facts(row);
+    if (shown == nullptr) {
+        return role == Qt::DisplayRole && column == kNumber ? QVariant(grouped(packetAt(row))) : QVariant();
+    }
+    const bool hasCharacter = column == kCharacter && shown->header.has_value();
+    const model::CharacterKey key{shown->source, shown->digest.character};
+    switch (role) {
+    case Qt::DisplayRole:
+        return text(*shown, row, column);
+    case Qt::ToolTipRole:
+        return column == kNote || column == kType || column == kSource ? text(*shown, row, column)
+                                                                       : QVariant();
+    case Qt::ForegroundRole:
+        return colour(*shown, column);
+    case kDotRole:
+        return hasCharacter && m_view.find(key) != nullptr ? QVariant(characterColour(m_view, key))
+                                                           : QVariant();
+    case kSuffixRole:
+        return hasCharacter && m_view.find(key) != nullptr ? QVariant(characterName(m_view, key))
+                                                           : QVariant();
+    default:
+        return {};
+    }
+}
+
+QVariant PacketModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    if (orientation != Qt::Horizontal) {
+        return {};
+    }
+    if (role == Qt::DisplayRole && section == kTime && m_timeMode == TimeMode::TimeOfDay) {
+        return tr("Date and time");
+    }
+    if (role == Qt::ToolTipRole && section == kDelta && m_deltaMode == DeltaMode::RowAbove) {
+        return tr("Since the row above");
+    }
+    if (role == Qt::DisplayRole && section == kDelta && m_deltaMode == DeltaMode::RowAbove) {
+        return tr("Δ row ms");
+    }
+    return columnHeader(kColumns, "posewire::gui::PacketModel", section, role);
+}
+
+} // namespace posewire::gui

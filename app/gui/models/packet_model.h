@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/packet_facts.h"
+
+#include <QAbstractTableModel>
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace posewire::gui {
+
+/// bool: a line under the row says that the display is paused behind this packet.
+inline constexpr int kPausedHereRole = Qt::UserRole + 20;
+/// bool: every second packet, for stripes that stay with their packet while old ones go.
+inline constexpr int kStripeRole = Qt::UserRole + 21;
+
+/// The packets of the log, or those that a filter lets through, in the order of arrival. Without a filter a
+/// row is a number and takes no memory; texts are made when they are asked for.
+class PacketModel : public QAbstractTableModel {
+    Q_OBJECT
+
+public:
+    enum Column : int {
+        kNumber,
+        kTime,
+        kDelta,
+        kSource,
+        kType,
+        kCharacter,
+        kSample,
+        kPart,
+        kSize,
+        kNote,
+        kColumnCount
+    };
+    enum class TimeMode { SinceFirst, TimeOfDay };
+    enum class DeltaMode { Stream, RowAbove };
+
+    explicit PacketModel(model::SessionView& view, QObject* parent = nullptr);
+
+    /// Shows what the session has followed meanwhile: at most one removal (packets that the log dropped), one
+    /// insertion and one change.
+    void refresh();
+
+    /// Lists only what addMatches() gives from now on.
+    void beginMatches();
+    /// Numbers that grow and lie above those given before; they show with the next refresh().
+    void addMatches(const std::vector<std::uint64_t>& numbers);
+    /// Lists all packets.
+    void endMatches();
+    [[nodiscard]] bool isFiltered() const { return m_isFiltered; }
+
+    void setTimeMode(TimeMode mode);
+    void setDeltaMode(DeltaMode mode);
+    [[nodiscard]] TimeMode timeMode() const { return m_timeMode; }
+    [[nodiscard]] DeltaMode deltaMode() const { return m_deltaMode; }
+
+    /// The packet's number; the row must be one of the list.
+    [[nodiscard]] std::uint64_t packetAt(int row) const;
+    /// -1 where the packet is not listed.
+    [[nodiscard]] int rowOf(std::uint64_t number) const;
+    /// The first row at or after a packet; rowCount() where there is none.
+    [[nodiscard]] int rowFrom(std::uint64_t number) const;
+    [[nodiscard]] model::SessionView& view() const { return m_view; }
+
+    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+private:
+    const PacketFacts* facts(int row) const;
+    void removeDropped();
+    void insertNew();
+    [[nodiscard]] QString text(const PacketFacts& facts, int row, int column) const;
+    [[nodiscard]] QString timeText(const PacketFacts& facts) const;
+    [[nodiscard]] double deltaMs(const PacketFacts& facts, int row) const;
+    [[nodiscard]] QVariant colour(const PacketFacts& facts, int column) const;
+
+    model::SessionView& m_view;
+    bool m_isFiltered = false;
+    std::uint64_t m_begin = 0; ///< without a filter rows are the packets [m_begin, m_end)
+    std::uint64_t m_end = 0;
+    std::deque<std::uint64_t> m_matches; ///< with a filter; the first m_matchRows of them are rows
+    std::size_t m_matchRows = 0;
+    std::uint64_t m_removed = 0; ///< rows that went at the front
+    TimeMode m_timeMode = TimeMode::SinceFirst;
+    DeltaMode m_deltaMode = DeltaMode::Stream;
+    model::Annotations m_annotations;           ///< as last shown
+    model::Cursor m_cursor;                     ///< likewise
+    mutable std::optional<PacketFacts> m_facts; ///< of the row last asked for, until the next refresh()
+};
+
+} // namespace posewire::gui

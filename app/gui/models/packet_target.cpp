@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/packet_target.h"
+
+#include "app/gui/models/text.h"
+
+#include <QCoreApplication>
+#include <QDateTime>
+#include <QRegularExpression>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+using Target = tl::expected<std::uint64_t, QString>;
+
+constexpr double kNsPerSecond = 1e9;
+constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr double kMostSeconds = 1e9;
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("PacketTarget", text);
+}
+
+Target atStamp(model::SessionView& view, std::int64_t stampNs, const QString& text) {
+    const std::uint64_t number = packetFrom(view, stampNs);
+    if (number == view.end()) {
+        return tl::unexpected(tr("No packet has come at %1 or later.").arg(text));
+    }
+    return number;
+}
+
+Target atTimeOfDay(model::SessionView& view, const QString& text) {
+    for (const char* format : {"H:m:s.z", "H:m:s", "H:m"}) {
+        const QTime time = QTime::fromString(text, QLatin1String(format));
+        if (time.isValid()) {
+            const auto newest = view.packet(view.end() - 1);
+            const QDate day =
+                QDateTime::fromMSecsSinceEpoch((newest ? newest->stampNs : view.nowNs()) / kNsPerMs).date();
+            return atStamp(view, QDateTime(day, time).toMSecsSinceEpoch() * kNsPerMs, text);
+        }
+    }
+    return tl::unexpected(tr("%1 is not a time of day such as 10:42:17.508.").arg(text));
+}
+
+Target bounded(model::SessionView& view, std::uint64_t number) {
+    if (number < view.begin() || number >= view.end()) {
+        return tl::unexpected(
+            tr("The log has packets %1 to %2.").arg(grouped(view.begin()), grouped(view.end() - 1)));
+    }
+    return number;
+}
+
+Target relative(model::SessionView& view, const QString& digits, bool isForward) {
+    bool isNumber = false;
+    const std::uint64_t distance = digits.toULongLong(&isNumber);
+    const std::uint64_t from = view.selection().packet.value_or(view.end() - 1);
+    if (!isNumber || (!isForward && distance > from)) {
+        return bounded(view, view.end());
+    }
+    return bounded(view, isForward ? from + std::min(distance, view.end()) : from - distance);
+}
+
+} // namespace
+
+std::uint64_t packetFrom(model::SessionView& view, std::int64_t stampNs) {
+    std::uint64_t low = view.begin();
+    std::uint64_t high = view.end();
+    while (low < high) {
+        const std::uint64_t middle = low + (high - low) / 2;
+        const auto packet = view.packet(middle);
+        if (!packet || packet->stampNs < stampNs) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low;
+}
+
+tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, const QString& text) {
+    static const QRegularExpression spaces(QStringLiteral("\\s"));
+    const QString trimmed = text.trimmed();
+    QString compact = trimmed;
+    compact.remove(spaces);
+    if (view.begin() == view.end()) {
+        return tl::unexpected(tr("There are no packets."));
+    }
+    if (compact.contains(QLatin1Char(':'))) {
+        return atTimeOfDay(view, compact);
+    }
+    if (compact.startsWith(QLatin1Char('+')) || compact.startsWith(QLatin1Char('-')) ||
+        compact.startsWith(QChar(0x2212))) {
+        return relative(view, compact.mid(1), compact.startsWith(QLatin1Char('+')));
+    }
+    bool isNumber = false;
+    if (compact.endsWith(QLatin1Char('s'))) {
+        const double seconds = compact.chopped(1).toDouble(&isNumber);
+        if (isNumber && std::abs(seconds) < kMostSeconds) {
+            return atStamp(view, view.firstStampNs() + static_cast<std::int64_t>(seconds * kNsPerSecond),
+                           trimmed);
+        }
+    }
+    const std::uint64_t number = compact.toULongLong(&isNumber);
+    if (!isNumber) {
+        return tl::unexpected(tr("Write a number, +n or -n, a time since the first packet such as 12.5 s, "
+                                 "or a time of day such as 10:42:17.508."));
+    }
+    return bounded(view, number);
+}
+
+} // namespace posewire::gui

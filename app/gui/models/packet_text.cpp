@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/packet_text.h"
+
+#include "app/gui/models/packet_model.h"
+#include "app/gui/models/roles.h"
+#include "core/export/hexadecimal.h"
+#include "core/export/json.h"
+#include "core/filter/expression_for.h"
+#include "core/wire/type_table.h"
+
+#include <QStringList>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::size_t kBytesInLine = 16;
+constexpr std::size_t kBytesInRow = 12; // of a C array: 72 columns
+
+QString hexByte(std::byte byte) {
+    return QStringLiteral("%1").arg(std::to_integer<unsigned>(byte), 2, 16, QLatin1Char('0'));
+}
+
+QString hexText(wire::Bytes bytes) {
+    QString text;
+    for (std::size_t begin = 0; begin < bytes.size(); begin += kBytesInLine) {
+        QString digits;
+        QString letters;
+        for (const std::byte byte : bytes.subspan(begin, std::min(kBytesInLine, bytes.size() - begin))) {
+            const auto value = std::to_integer<char>(byte);
+            digits += hexByte(byte) + QLatin1Char(' ');
+            letters += value >= ' ' && value <= '~' ? QLatin1Char(value) : QLatin1Char('.');
+        }
+        text += QStringLiteral("%1  %2 %3\n")
+                    .arg(begin, 4, 16, QLatin1Char('0'))
+                    .arg(digits.leftJustified(kBytesInLine * 3), letters);
+    }
+    return text;
+}
+
+QString cArray(wire::Bytes bytes, std::uint64_t number) {
+    QString text = QStringLiteral("const unsigned char packet%1[%2] = {").arg(number).arg(bytes.size());
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        text += i % kBytesInRow == 0 ? QStringLiteral("\n    0x") : QStringLiteral(" 0x");
+        text += hexByte(bytes[i]) + QLatin1Char(',');
+    }
+    return text + QStringLiteral("\n};\n");
+}
+
+QString json(model::SessionView& view, const log::Packet& packet) {
+    const log::SourceInfo* source = view.log().sources().find(packet.source);
+    const exporting::DatagramPlace place{packet.number, 0, packet.stampNs,
+                                         source == nullptr ? std::nullopt : std::optional(source->address)};
+    const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
+                                                    : exporting::datagramJson(place, packet.bytes);
+    return QString::fromStdString(object) + QLatin1Char('\n');
+}
+
+QString cell(const PacketModel& model, int row, int column) {
+    const QModelIndex index = model.index(row, column);
+    const QString suffix = index.data(kSuffixRole).toString();
+    const QString text = index.data(Qt::DisplayRole).toString();
+    return suffix.isEmpty() ? text : text + QLatin1Char(' ') + suffix;
+}
+
+QString quoted(QString text) {
+    if (!text.contains(QLatin1Char('"')) && !text.contains(QLatin1Char(',')) &&
+        !text.contains(QLatin1Char('\n'))) {
+        return text;
+    }
+    text.replace(QLatin1String("\""), QLatin1String("\"\""));
+    return QLatin1Char('"') + text + QLatin1Char('"');
+}
+
+QString expression(const char* field, const QString& value) {
+    return QString::fromStdString(filter::expressionFor(field, value.toStdString()));
+}
+
+QString noteFilter(const model::PacketDigest& digest) {
+    const std::pair<bool, const char*> truths[] = {
+        {digest.kind == model::PacketKind::Malformed, "malformed"},
+        {digest.kind == model::PacketKind::Foreign || digest.kind == model::PacketKind::Skipped, "foreign"},
+        {digest.followsDrops, "drops > 0"},
+        {digest.gap != 0, "gap > 0"},
+        {digest.isDuplicate, "duplicate"},
+        {digest.isReordered, "reordered"},
+        {digest.isRestart, "restart"},
+        {digest.hasNotices, "notice"}};
+    for (const auto& [isTrue, text] : truths) {
+        if (isTrue) {
+            return QLatin1String(text);
+        }
+    }
+    return {};
+}
+
+QString headerFilter(const wire::Header& header, int column) {
+    switch (column) {
+    case PacketModel::kCharacter:
+        return expression("character", QString::number(header.character));
+    case PacketModel::kSample:
+        return expression("sample", QString::number(header.sampleCounter));
+    case PacketModel::kPart:
+        return expression("datagram", QString::number(header.datagramIndex()));
+    case PacketModel::kType: {
+        const auto digits = wire::typeDigits(header.type());
+        return expression("type", QString::fromLatin1(digits.data(), 2));
+    }
+    default:
+        return {};
+    }
+}
+
+} // namespace
+
+QString packetBytesText(model::SessionView& view, std::uint64_t number, ByteFormat format) {
+    const auto packet = view.packet(number);
+    if (!packet) {
+        return {};
+    }
+    switch (format) {
+    case ByteFormat::Text:
+        return hexText(packet->bytes);
+    case ByteFormat::Raw:
+        return QString::fromStdString(exporting::hexadecimal(packet->bytes));
+    case ByteFormat::CArray:
+        return cArray(packet->bytes, number);
+    case ByteFormat::Json:
+        return json(view, *packet);
+    }
+    return {};
+}
+
+QString packetRowsText(const PacketModel& model, std::span<const int> rows) {
+    QString text;
+    for (const int row : rows) {
+        for (int column = 0; column < model.columnCount(); ++column) {
+            text += (column == 0 ? QString() : QStringLiteral("\t")) + cell(model, row, column);
+        }
+        text += QLatin1Char('\n');
+    }
+    return text;
+}
+
+QString packetRowsCsv(const PacketModel& model, std::span<const int> rows) {
+    QStringList titles;
+    for (int column = 0; column < model.columnCount(); ++column) {
+        titles += quoted(model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+    }
+    QString text = titles.join(QLatin1Char(',')) + QStringLiteral("\r\n");
+    for (const int row : rows) {
+        QStringList cells;
+        for (int column = 0; column < model.columnCount(); ++column) {
+            QString content = cell(model, row, column);
+            if (model.index(row, column).data(Qt::TextAlignmentRole).isValid()) {
+                content.remove(QChar(0x202f)).replace(QChar(0x2212), QLatin1Char('-'));
+            }
+            cells += quoted(content);
+        }
+        text += cells.join(QLatin1Char(',')) + QStringLiteral("\r\n");
+    }
+    return text;
+}
+
+QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column) {
+    const auto packet = view.packet(number);
+    const model::PacketDigest* digest = view.digests().find(number);
+    if (!packet || digest == nullptr) {
+        return {};
+    }
+    switch (column) {
+    case PacketModel::kNumber:
+        return expression("number", QString::number(number));
+    case PacketModel::kTime:
+        return QStringLiteral("time >= %1")
+            .arg(static_cast<double>(packet->stampNs - view.firstStampNs()) / 1e9, 0, 'f', 6);
+    case PacketModel::kDelta:
+        return digest->deltaS < 0
+                   ? QString()
+                   : QStringLiteral("delta >= %1").arg(static_cast<double>(digest->deltaS), 0, 'f', 6);
+    case PacketModel::kSource: {
+        const log::SourceInfo* source = view.log().sources().find(packet->source);
+        return source == nullptr ? QString() : expression("source", QString::fromStdString(source->address));
+    }
+    case PacketModel::kSize:
+        return expression("size", QString::number(packet->bytes.size()));
+    case PacketModel::kNote:
+        return noteFilter(*digest);
+    default:
+        break;
+    }
+    if (digest->kind == model::PacketKind::Foreign || digest->kind == model::PacketKind::Skipped) {
+        return column == PacketModel::kType ? QStringLiteral("foreign") : QString();
+    }
+    const auto header = wire::decodeHeader(packet->bytes);
+    return header ? headerFilter(*header, column)
+                  : (column == PacketModel::kType ? QStringLiteral("malformed") : QString());
+}
+
+QString joinedFilter(const QString& filter, const QString& condition, FilterJoin join) {
+    const QString before = filter.trimmed();
+    const QString negated = QStringLiteral("!(%1)").arg(condition);
+    if (before.isEmpty() || join == FilterJoin::Replace) {
+        return join == FilterJoin::AndNot ? negated : condition;
+    }
+    const bool isLoose = before.contains(QLatin1String("||")) || before.contains(QLatin1String(" or "));
+    const QString kept = isLoose ? QStringLiteral("(%1)").arg(before) : before;
+    switch (join) {
+    case FilterJoin::And:
+        return kept + QStringLiteral(" && ") + condition;
+    case FilterJoin::Or:
+        return before + QStringLiteral(" || ") + condition;
+    default:
+        return kept + QStringLiteral(" && ") + negated;
+    }
+}
+
+} // namespace posewire::gui

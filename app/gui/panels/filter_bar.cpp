@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/filter_bar.h"
+
+#include "app/gui/icons.h"
+#include "app/gui/panels/text_prompt.h"
+#include "app/gui/theme.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QInputMethodEvent>
+#include <QJsonArray>
+#include <QLabel>
+#include <QLineEdit>
+#include <QMenu>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTextCharFormat>
+#include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr qsizetype kHistory = 30;
+constexpr qsizetype kSavedFilters = 40;
+constexpr int kProgressSteps = 1000;
+
+/// Place in a text of a place in its UTF-8.
+int placeOf(const QString& text, std::size_t byte) {
+    return static_cast<int>(QString::fromUtf8(text.toUtf8().first(static_cast<qsizetype>(
+                                                  std::min<std::size_t>(byte, text.toUtf8().size()))))
+                                .size());
+}
+
+} // namespace
+
+std::vector<FilterBar::Saved> defaultFilters() {
+    return {
+        {FilterBar::tr("Problems"),
+         QStringLiteral("malformed || foreign || gap > 0 || duplicate || reordered || restart || notice || "
+                        "drops > 0")},
+        {FilterBar::tr("Pose"), QStringLiteral("type in {01, 02, 05}")},
+        {FilterBar::tr("Meta && scale"), QStringLiteral("type in {10, 11, 12, 13}")}};
+}
+
+FilterBar::FilterBar(QWidget* parent)
+    : QWidget(parent),
+      m_line(new QLineEdit(this)),
+      m_buttons(new QToolBar(this)),
+      m_progressRow(new QWidget(this)),
+      m_progress(new QProgressBar(this)),
+      m_problem(new QLabel(this)),
+      m_saved(defaultFilters()) {
+    m_line->setObjectName(QStringLiteral("displayFilter"));
+    m_line->setAccessibleName(tr("Display filter"));
+    m_line->setPlaceholderText(tr("Filter packets, such as type == 02 && gap > 0"));
+    m_line->setClearButtonEnabled(true);
+    m_line->setMaxLength(static_cast<int>(filter::Filter::kLongestText));
+    m_line->installEventFilter(this);
+    layOut();
+    makeCompleter();
+    connect(m_line, &QLineEdit::textChanged, this, &FilterBar::check);
+    connect(m_line, &QLineEdit::textEdited, this, [this](const QString& text) {
+        if (text.isEmpty()) {
+            apply();
+        }
+        offerCompletions();
+    });
+    connect(m_line, &QLineEdit::returnPressed, this, &FilterBar::apply);
+    restyle();
+    showSaved();
+}
+
+void FilterBar::layOut() {
+    auto* row = new QHBoxLayout;
+    row->setContentsMargins(8, 6, 8, 6);
+    row->setSpacing(6);
+    row->addWidget(m_line, 1);
+    row->addWidget(m_buttons);
+    m_buttons->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    m_buttons->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
+    auto* cancel = new QPushButton(tr("Cancel"), m_progressRow);
+    cancel->setObjectName(QStringLiteral("cancelFilter"));
+    connect(cancel, &QPushButton::clicked, this, &FilterBar::cancelRequested);
+    m_progress->setRange(0, kProgressSteps);
+    m_progress->setAccessibleName(tr("Filtering"));
+    auto* progressRow = new QHBoxLayout(m_progressRow);
+    progressRow->setContentsMargins(8, 0, 8, 6);
+    progressRow->addWidget(m_progress, 1);
+    progressRow->addWidget(cancel);
+    m_progressRow->hide();
+    m_problem->setContentsMargins(10, 0, 8, 6);
+    m_problem->setWordWrap(true);
+    m_problem->hide();
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins({});
+    column->setSpacing(0);
+    column->addLayout(row);
+    column->addWidget(m_problem);
+    column->addWidget(m_progressRow);
+}
+
+QString FilterBar::text() const {
+    return m_line->text().trimmed();
+}
+
+void FilterBar::setApplied(const QString& text) {
+    m_appliedText = text;
+    if (text != this->text()) {
+        m_line->setText(text);
+    }
+    restyle();
+}
+
+void FilterBar::focusLine() {
+    m_line->setFocus(Qt::ShortcutFocusReason);
+    m_line->selectAll();
+}
+
+void FilterBar::setProgress(double share) {
+    m_progress->setValue(static_cast<int>(share * kProgressSteps));
+    m_progress->setFormat(tr("filtering · %p %"));
+    m_progressRow->show();
+}
+
+void FilterBar::endProgress() {
+    m_progressRow->hide();
+}
+
+bool FilterBar::isBusy() const {
+    return !m_progressRow->isHidden();
+}
+
+void FilterBar::check() {
+    const auto compiled = filter::Filter::compile(text().toStdString());
+    m_error = compiled ? std::nullopt : std::optional(compiled.error());
+    restyle();
+    // What is still being written is not wrong yet: the words come when the line is left or applied.
+    if (!m_error || m_problem->isVisible()) {
+        showError();
+    }
+    underline();
+}
+
+QString FilterBar::errorText() const {
+    return m_problem->isHidden() ? QString() : m_problem->text();
+}
+
+void FilterBar::showError() {
+    m_problem->setVisible(m_error.has_value());
+    if (m_error) {
+        m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') +
+                           QString::fromStdString(m_error->text) +
+                           tr(" (at character %1)").arg(placeOf(text(), m_error->offset) + 1));
+    }
+}
+
+/// A line edit draws formats where an input method asks for them.
+void FilterBar::underline() {
+    QList<QInputMethodEvent::Attribute> attributes;
+    if (m_error) {
+        const QString whole = m_line->text();
+        const auto lead = static_cast<int>(whole.indexOf(text()));
+        const int begin = lead + placeOf(text(), m_error->offset);
+        const int end = lead + placeOf(text(), m_error->offset + std::max<std::size_t>(1, m_error->length));
+        QTextCharFormat format;
+        format.setUnderlineStyle(QTextCharFormat::WaveUnderline);
+        format.setUnderlineColor(theme().error);
+        attributes.append({QInputMethodEvent::TextFormat, begin - m_line->cursorPosition(),
+                           std::max(1, end - begin), format});
+    }
+    QInputMethodEvent event({}, attributes);
+    QCoreApplication::sendEvent(m_line, &event);
+}
+
+void FilterBar::restyle() {
+    const QString text = this->text();
+    const char* state = text.isEmpty() ? "" : m_error ? "wrong" : text == m_appliedText ? "applied" : "right";
+    m_line->setToolTip(m_error                 ? QString::fromStdString(m_error->text)
+                       : text == m_appliedText ? tr("Arrow down: filters used before")
+                                               : tr("Press Enter to filter"));
+    m_line->setFont(monospaceFont());
+    const QColor border = m_error                 ? theme().error
+                          : text.isEmpty()        ? theme().line
+                          : text == m_appliedText ? theme().good
+                                                  : theme().accent;
+    const QColor fill = m_error                 ? tinted(theme().error)
+                        : text.isEmpty()        ? theme().panel
+                        : text == m_appliedText ? tinted(theme().good)
+                                                : theme().panel;
+    const QString sheet =
+        QStringLiteral("QLineEdit { border: 1px solid %1; background: %2; }").arg(border.name(), fill.name());
+    if (m_line->property("filterState").toString() != QLatin1String(state) || m_line->styleSheet() != sheet) {
+        m_line->setProperty("filterState", QLatin1String(state));
+        m_line->setStyleSheet(sheet);
+    }
+}
+
+void FilterBar::apply() {
+    check();
+    showError();
+    if (m_error) {
+        return;
+    }
+    remember(text());
+    m_appliedText = text();
+    restyle();
+    emit applied(text());
+}
+
+void FilterBar::remember(const QString& text) {
+    if (!text.isEmpty()) {
+        m_history.removeAll(text);
+        m_history.prepend(text);
+        m_history = m_history.first(std::min(kHistory, m_history.size()));
+    }
+}
+
+void FilterBar::setSaved(std::vector<Saved> saved) {
+    m_saved = std::move(saved);
+    showSaved();
+}
+
+void FilterBar::showSaved() {
+    m_buttons->clear();
+    for (std::size_t i = 0; i < m_saved.size(); ++i) {
+        QAction* action = m_buttons->addAction(m_saved[i].name);
+        action->setToolTip(m_saved[i].text);
+        connect(action, &QAction::triggered, this, [this, i] {
+            m_line->setText(m_saved[i].text);
+            apply();
+        });
+        QWidget* button = m_buttons->widgetForAction(action);
+        button->setProperty("framed", true);
+        button->setContextMenuPolicy(Qt::CustomContextMenu);
+        connect(button, &QWidget::customContextMenuRequested, this,
+                [this, i, button](const QPoint& place) { askAbout(i, button->mapToGlobal(place)); });
+    }
+    QAction* save = m_buttons->addAction(QStringLiteral("+"), this, &FilterBar::saveCurrent);
+    save->setToolTip(tr("Save this filter as a button"));
+    m_buttons->widgetForAction(save)->setProperty("framed", true);
+    m_buttons->widgetForAction(save)->setAccessibleName(save->toolTip());
+}
+
+void FilterBar::saveCurrent() {
+    check();
+    if (text().isEmpty() || m_error || m_saved.size() >= static_cast<std::size_t>(kSavedFilters)) {
+        showError();
+        m_line->setFocus();
+        return;
+    }
+    TextPrompt prompt(
+        {tr("Save filter"), tr("&Name on the button"), tr("Name"), tr("Save")},
+        [](const QString& name) { return name.isEmpty() ? tr("A button needs a name.") : QString(); }, this);
+    if (prompt.exec() == QDialog::Accepted) {
+        m_saved.push_back({prompt.text().replace(QLatin1Char('&'), QLatin1String("&&")), text()});
+        showSaved();
+    }
+}
+
+void FilterBar::askAbout(std::size_t index, const QPoint& place) {
+    QMenu menu(this);
+    menu.addAction(tr("&Rename…"), this, [this, index] { rename(index); });
+    menu.addAction(tr("Re&place with the filter in the line"), this, [this, index] {
+        if (!m_error && !text().isEmpty()) {
+            m_saved[index].text = text();
+            showSaved();
+        }
+    });
+    menu.addAction(tr("Re&move"), this, [this, index] {
+        m_saved.erase(m_saved.begin() + static_cast<std::ptrdiff_t>(index));
+        showSaved();
+    });
+    menu.addSeparator();
+    menu.addAction(tr("Back to the filters that &ship"), this, [this] { setSaved(defaultFilters()); });
+    menu.exec(place);
+}
+
+void FilterBar::rename(std::size_t index) {
+    QString name = m_saved[index].name;
+    TextPrompt prompt(
+        {tr("Rename filter"), tr("&Name on the button"), tr("Name"), tr("Rename"),
+         name.replace(QLatin1String("&&"), QLatin1String("&"))},
+        [](const QString& text) { return text.isEmpty() ? tr("A button needs a name.") : QString(); }, this);
+    if (prompt.exec() == QDialog::Accepted) {
+        m_saved[index].name = prompt.text().replace(QLatin1Char('&'), QLatin1String("&&"));
+        showSaved();
+    }
+}
+
+QJsonObject FilterBar::state() const {
+    QJsonObject state;
+    if (!m_history.isEmpty()) {
+        state["history"] = QJsonArray::fromStringList(m_history);
+    }
+    if (m_saved != defaultFilters()) {
+        QJsonArray saved;
+        for (const Saved& filter : m_saved) {
+            saved.append(QJsonObject{{"name", filter.name}, {"filter", filter.text}});
+        }
+        state["saved"] = saved;
+    }
+    return state;
+}
+
+void FilterBar::restoreState(const QJsonObject& state) {
+    for (const QJsonValue& text : state["history"].toArray()) {
+        if (text.isString() && m_history.size() < kHistory) {
+            m_history.append(text.toString());
+        }
+    }
+    if (!state["saved"].isArray()) {
+        return;
+    }
+    std::vector<Saved> saved;
+    for (const QJsonValue& value : state["saved"].toArray()) {
+        const QJsonObject filter = value.toObject();
+        if (!filter["name"].toString().isEmpty() && saved.size() < static_cast<std::size_t>(kSavedFilters)) {
+            saved.push_back({filter["name"].toString(), filter["filter"].toString()});
+        }
+    }
+    setSaved(std::move(saved));
+}
+
+void FilterBar::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) {
+        QPalette palette = m_problem->palette();
+        palette.setColor(QPalette::WindowText, theme().error);
+        m_problem->setPalette(palette);
+        restyle();
+    }
+}
+
+} // namespace posewire::gui

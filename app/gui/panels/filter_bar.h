@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/filter/filter.h"
+
+#include <QJsonObject>
+#include <QStringList>
+#include <QWidget>
+
+#include <optional>
+#include <vector>
+
+class QCompleter;
+class QLabel;
+class QLineEdit;
+class QProgressBar;
+class QStandardItemModel;
+class QToolBar;
+class QToolButton;
+
+namespace posewire::gui {
+
+/// The line of the display filter: says while it is written whether it is right, and where it is not; offers
+/// what may follow, what was used before (arrow down) and what was saved (the buttons).
+class FilterBar final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit FilterBar(QWidget* parent = nullptr);
+
+    [[nodiscard]] QString text() const;
+    /// Shows a filter that is in use, also one set elsewhere.
+    void setApplied(const QString& text);
+    /// Puts the keyboard into the line.
+    void focusLine();
+
+    /// A filter is on its way through the log.
+    void setProgress(double share);
+    void endProgress();
+    [[nodiscard]] bool isBusy() const;
+
+    /// What is wrong with the text in the line; nothing where it is right.
+    [[nodiscard]] const std::optional<filter::FilterError>& error() const { return m_error; }
+    [[nodiscard]] QString errorText() const;
+
+    struct Saved {
+        QString name;
+        QString text;
+        friend bool operator==(const Saved&, const Saved&) = default;
+    };
+    [[nodiscard]] const std::vector<Saved>& saved() const { return m_saved; }
+    void setSaved(std::vector<Saved> saved);
+    [[nodiscard]] const QStringList& history() const { return m_history; }
+
+    /// History and saved filters, to be kept from one run to the next.
+    [[nodiscard]] QJsonObject state() const;
+    void restoreState(const QJsonObject& state);
+
+signals:
+    /// Only ever with a text that is right.
+    void applied(const QString& text);
+    void cancelRequested();
+    /// The keyboard is wanted in the list.
+    void left();
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void layOut();
+    void makeCompleter();
+    void check();
+    void showError();
+    void underline();
+    void restyle();
+    void apply();
+    void remember(const QString& text);
+    void offerCompletions();
+    void offerHistory();
+    void offer();
+    void insertOffer(const QModelIndex& offer);
+    void showSaved();
+    void saveCurrent();
+    void askAbout(std::size_t index, const QPoint& place);
+    void rename(std::size_t index);
+
+    QLineEdit* m_line;
+    QToolBar* m_buttons;
+    QWidget* m_progressRow;
+    QProgressBar* m_progress;
+    QLabel* m_problem;
+    QCompleter* m_completer = nullptr;
+    QStandardItemModel* m_offers = nullptr;
+    std::vector<Saved> m_saved;
+    QStringList m_history; ///< newest first
+    QString m_appliedText;
+    std::optional<filter::FilterError> m_error;
+};
+
+/// What ships.
+[[nodiscard]] std::vector<FilterBar::Saved> defaultFilters();
+
+} // namespace posewire::gui

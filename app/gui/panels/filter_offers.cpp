@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a FilterBar offers below its line: completions and filters used before.
+#include "app/gui/models/roles.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/panels/filter_bar.h"
+#include "app/gui/theme.h"
+#include "core/filter/completion.h"
+
+#include <QAbstractItemView>
+#include <QCompleter>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QListView>
+#include <QScrollBar>
+#include <QStandardItemModel>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kOffsetRole = Qt::UserRole + 20; ///< bytes of the UTF-8 text
+constexpr int kLengthRole = Qt::UserRole + 21;
+constexpr int kVisibleOffers = 10;
+constexpr std::size_t kMostOffers = 200;
+
+QStandardItem* offerItem(const QString& text, const QString& about, qulonglong offset, qulonglong length) {
+    auto* item = new QStandardItem(text);
+    item->setData(about, kSuffixRole);
+    item->setData(offset, kOffsetRole);
+    item->setData(length, kLengthRole);
+    return item;
+}
+
+} // namespace
+
+void FilterBar::makeCompleter() {
+    m_offers = new QStandardItemModel(this);
+    m_completer = new QCompleter(m_offers, this);
+    m_completer->setWidget(m_line);
+    m_completer->setCompletionMode(QCompleter::UnfilteredPopupCompletion);
+    m_completer->setMaxVisibleItems(kVisibleOffers);
+    auto* list = new QListView;
+    m_completer->setPopup(list);
+    list->setItemDelegate(new CellDelegate(list));
+    list->setUniformItemSizes(true);
+    connect(m_completer, qOverload<const QModelIndex&>(&QCompleter::activated), this,
+            &FilterBar::insertOffer);
+}
+
+void FilterBar::offerCompletions() {
+    m_offers->clear();
+    const QString whole = m_line->text();
+    const QByteArray before = whole.left(m_line->cursorPosition()).toUtf8();
+    auto found = filter::completions(whole.toStdString(), static_cast<std::size_t>(before.size()));
+    found.resize(std::min(found.size(), kMostOffers));
+    for (const filter::Completion& one : found) {
+        m_offers->appendRow(offerItem(QString::fromStdString(one.text), QString::fromStdString(one.about),
+                                      one.offset, one.length));
+    }
+    offer();
+}
+
+void FilterBar::offerHistory() {
+    if (m_history.isEmpty()) {
+        offerCompletions();
+        return;
+    }
+    m_offers->clear();
+    const auto length = static_cast<qulonglong>(m_line->text().toUtf8().size());
+    for (const QString& text : m_history) {
+        m_offers->appendRow(offerItem(text, {}, 0, length));
+    }
+    offer();
+}
+
+void FilterBar::offer() {
+    if (m_offers->rowCount() == 0 || !m_line->hasFocus()) {
+        m_completer->popup()->hide();
+        return;
+    }
+    m_completer->popup()->setFont(monospaceFont());
+    m_completer->complete();
+}
+
+void FilterBar::insertOffer(const QModelIndex& offer) {
+    QByteArray text = m_line->text().toUtf8();
+    const auto offset = static_cast<qsizetype>(offer.data(kOffsetRole).toULongLong());
+    const auto length = static_cast<qsizetype>(offer.data(kLengthRole).toULongLong());
+    const QByteArray inserted = offer.data(Qt::DisplayRole).toString().toUtf8();
+    text.replace(offset, length, inserted);
+    m_line->setText(QString::fromUtf8(text));
+    m_line->setCursorPosition(
+        static_cast<int>(QString::fromUtf8(text.first(offset + inserted.size())).size()));
+}
+
+bool FilterBar::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == m_line && event->type() == QEvent::KeyPress && !m_completer->popup()->isVisible()) {
+        const int key = static_cast<QKeyEvent*>(event)->key();
+        if (key == Qt::Key_Down) {
+            offerHistory();
+            return true;
+        }
+        if (key == Qt::Key_Escape) {
+            emit left();
+            return true;
+        }
+    }
+    if (watched == m_line && event->type() == QEvent::FocusOut && !m_completer->popup()->isVisible()) {
+        showError();
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+} // namespace posewire::gui

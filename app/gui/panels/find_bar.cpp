@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/find_bar.h"
+
+#include "app/gui/icons.h"
+#include "app/gui/theme.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QToolButton>
+
+namespace posewire::gui {
+
+namespace {
+
+QToolButton* flatButton(const QString& text, const QString& toolTip, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setProperty("flat", true);
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setAccessibleName(toolTip);
+    return button;
+}
+
+} // namespace
+
+FindBar::FindBar(QWidget* parent)
+    : QWidget(parent), m_kind(new QComboBox(this)), m_edit(new QLineEdit(this)), m_answer(new QLabel(this)) {
+    m_kind->addItems({tr("Text"), tr("Bytes")});
+    m_kind->setAccessibleName(tr("What to find"));
+    m_edit->setAccessibleName(tr("Find in packets"));
+    m_edit->setFont(monospaceFont());
+    m_edit->setMaxLength(1024);
+    QToolButton* previous = flatButton(QStringLiteral("↑"), tr("Find previous (Shift+F3)"), this);
+    QToolButton* next = flatButton(QStringLiteral("↓"), tr("Find next (F3)"), this);
+    QToolButton* hide = flatButton(QStringLiteral("×"), tr("Close (Esc)"), this);
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(8, 0, 8, 5);
+    row->setSpacing(6);
+    row->addWidget(m_kind);
+    row->addWidget(m_edit, 3);
+    row->addWidget(previous);
+    row->addWidget(next);
+    row->addWidget(m_answer, 2);
+    row->addWidget(hide);
+    m_answer->setMinimumWidth(fontMetrics().averageCharWidth() * 16);
+    m_answer->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    connect(m_edit, &QLineEdit::returnPressed, this, [this] { emit findRequested(true); });
+    connect(previous, &QToolButton::clicked, this, [this] { emit findRequested(false); });
+    connect(next, &QToolButton::clicked, this, [this] { emit findRequested(true); });
+    connect(hide, &QToolButton::clicked, this, &FindBar::close);
+    connect(m_edit, &QLineEdit::textChanged, this, [this] { say({}, false); });
+    connect(m_kind, &QComboBox::currentIndexChanged, this, [this] { setHexadecimal(isHexadecimal()); });
+    setHexadecimal(false);
+    QWidget::hide();
+}
+
+void FindBar::open() {
+    show();
+    m_edit->setFocus(Qt::ShortcutFocusReason);
+    m_edit->selectAll();
+}
+
+void FindBar::close() {
+    hide();
+    emit closed();
+}
+
+QString FindBar::text() const {
+    return m_edit->text();
+}
+
+void FindBar::setText(const QString& text) {
+    m_edit->setText(text);
+}
+
+bool FindBar::isHexadecimal() const {
+    return m_kind->currentIndex() == 1;
+}
+
+void FindBar::setHexadecimal(bool isHexadecimal) {
+    m_kind->setCurrentIndex(isHexadecimal ? 1 : 0);
+    m_edit->setPlaceholderText(isHexadecimal ? QStringLiteral("4d 58 54 50") : tr("text, such as a name"));
+    say({}, false);
+}
+
+void FindBar::say(const QString& text, bool isProblem) {
+    QPalette palette = m_answer->palette();
+    palette.setColor(QPalette::WindowText, isProblem ? theme().error : theme().dim);
+    m_answer->setPalette(palette);
+    m_answer->setText(isProblem ? healthSymbol(Health::Error) + QLatin1Char(' ') + text : text);
+    m_answer->setToolTip(text);
+}
+
+QString FindBar::said() const {
+    return m_answer->text();
+}
+
+void FindBar::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape) {
+        close();
+        event->accept();
+        return;
+    }
+    QWidget::keyPressEvent(event);
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/packet_model.h"
+#include "app/gui/models/roles.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/panels/packet_view.h"
+#include "app/gui/theme.h"
+
+#include <QHeaderView>
+#include <QPaintEvent>
+#include <QPainter>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Paints the character's dot and returns its width with the space after it.
+int paintDot(QPainter& painter, const QRect& rect, const QColor& colour) {
+    const int side = std::max(7, painter.fontMetrics().ascent() * 2 / 3);
+    painter.save();
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(colour);
+    painter.drawEllipse(QRectF(rect.left(), rect.center().y() - side / 2.0 + 0.5, side, side));
+    painter.restore();
+    return side + side * 2 / 3;
+}
+
+/// Measuring takes longer than drawing: only what may be too long is measured.
+QString fitting(const QFontMetrics& metrics, const QString& text, int width) {
+    if (text.size() * metrics.maxWidth() <= width) {
+        return text;
+    }
+    return metrics.elidedText(text, Qt::ElideRight, width);
+}
+
+} // namespace
+
+void PacketView::paintEvent(QPaintEvent* event) {
+    QPainter painter(viewport());
+    const int rows = model() == nullptr ? 0 : model()->rowCount();
+    if (rows == 0) {
+        painter.setPen(theme().dim);
+        const int space = 2 * CellDelegate::margin(fontMetrics());
+        painter.drawText(viewport()->rect().adjusted(space, space, -space, -space),
+                         Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
+        return;
+    }
+    painter.setFont(monospaceFont());
+    const int height = rowHeight();
+    const int first = topRow() + event->rect().top() / height;
+    const int last = std::min(topRow() + event->rect().bottom() / height, rows - 1);
+    for (int row = first; row <= last; ++row) {
+        paintRow(painter, row, QRect(0, (row - topRow()) * height, viewport()->width(), height));
+    }
+}
+
+void PacketView::paintRow(QPainter& painter, int row, const QRect& rect) const {
+    const QModelIndex begin = model()->index(row, 0);
+    const bool isSelected = selectionModel()->isSelected(begin);
+    if (isSelected) {
+        painter.fillRect(rect, theme().selection);
+    } else if (begin.data(kStripeRole).toBool()) {
+        painter.fillRect(rect, palette().brush(QPalette::AlternateBase));
+    }
+    for (int column = 0; column < model()->columnCount(); ++column) {
+        const int width = m_header->sectionSize(column);
+        const QRect cell(m_header->sectionViewportPosition(column), rect.top(), width, rect.height());
+        if (cell.intersects(viewport()->rect())) {
+            paintCell(painter, model()->index(row, column), cell);
+        }
+    }
+    const QModelIndex current = currentIndex();
+    if (hasFocus() && current.row() == row) {
+        painter.setPen(theme().accent);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRect(visualRect(current).adjusted(0, 0, -1, -1));
+    }
+    if (begin.data(kPausedHereRole).toBool()) {
+        painter.fillRect(QRect(rect.left(), rect.bottom() - 1, rect.width(), 2), theme().accent);
+    }
+}
+
+void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect rect) const {
+    const QString text = index.data(Qt::DisplayRole).toString();
+    if (text.isEmpty()) {
+        return;
+    }
+    const int margin = CellDelegate::margin(fontMetrics());
+    rect.adjust(margin, 0, -margin, 0);
+    const QFontMetrics metrics = painter.fontMetrics();
+    const QVariant dot = index.data(kDotRole);
+    if (dot.isValid()) {
+        rect.setLeft(rect.left() + paintDot(painter, rect, dot.value<QColor>()));
+    }
+    const QVariant colour = index.data(Qt::ForegroundRole);
+    painter.setPen(colour.isValid() ? colour.value<QColor>() : theme().text);
+    const QString shown = fitting(metrics, text, rect.width());
+    const bool isNumber = (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
+    painter.drawText(rect, (isNumber ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter, shown);
+    const QString suffix = index.data(kSuffixRole).toString();
+    if (!suffix.isEmpty()) {
+        rect.setLeft(rect.left() + metrics.horizontalAdvance(shown + QLatin1Char(' ')));
+        painter.setPen(theme().dim);
+        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, fitting(metrics, suffix, rect.width()));
+    }
+}
+
+} // namespace posewire::gui

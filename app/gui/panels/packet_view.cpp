@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/packet_view.h"
+
+#include "app/gui/models/packet_model.h"
+#include "app/gui/models/roles.h"
+#include "app/gui/models/text.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme.h"
+
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QPainter>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QScrollBar>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+PacketView::PacketView(const QString& name, QWidget* parent)
+    : QAbstractItemView(parent),
+      m_header(new QHeaderView(Qt::Horizontal, this)),
+      m_newest(new QPushButton(this)) {
+    setAccessibleName(name);
+    setFrameShape(QFrame::NoFrame);
+    setSelectionMode(ExtendedSelection);
+    setSelectionBehavior(SelectRows);
+    setTabKeyNavigation(false);
+    setEditTriggers(NoEditTriggers);
+    setVerticalScrollMode(ScrollPerItem);
+    setHorizontalScrollMode(ScrollPerPixel);
+    setCornerWidget(new QWidget(this));
+    m_header->setStretchLastSection(false);
+    m_header->setMinimumSectionSize(0);
+    m_header->setHighlightSections(false);
+    m_header->setTextElideMode(Qt::ElideRight);
+    m_header->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    m_newest->setObjectName(QStringLiteral("newestPacket"));
+    m_newest->setFocusPolicy(Qt::NoFocus); // the End key does the same
+    m_newest->hide();
+    connect(m_newest, &QPushButton::clicked, this, &PacketView::newestRequested);
+    connect(m_header, &QHeaderView::sectionResized, this, [this] {
+        updateGeometries();
+        viewport()->update();
+    });
+    connect(verticalScrollBar(), &QScrollBar::valueChanged, this, [this](int value) {
+        if (!m_isAdjusting) {
+            noteFollowing(value >= verticalScrollBar()->maximum());
+        }
+    });
+}
+
+void PacketView::setModel(QAbstractItemModel* model) {
+    QAbstractItemView::setModel(model);
+    m_header->setModel(model);
+    connect(model, &QAbstractItemModel::rowsInserted, this,
+            [this](const QModelIndex&, int first, int last) { onRowsInserted(last - first + 1); });
+    connect(model, &QAbstractItemModel::rowsRemoved, this,
+            [this](const QModelIndex&, int first, int last) { onRowsRemoved(first, last - first + 1); });
+    connect(model, &QAbstractItemModel::modelReset, this, &PacketView::onReset);
+    fitColumns();
+}
+
+void PacketView::setColumnSamples(std::vector<QString> samples) {
+    m_samples = std::move(samples);
+    fitColumns();
+}
+
+void PacketView::setEmptyText(const QString& text) {
+    if (text != m_emptyText) {
+        m_emptyText = text;
+        setAccessibleDescription(text);
+        viewport()->update();
+    }
+}
+
+int PacketView::rowHeight() const {
+    return CellDelegate::rowHeight(fontMetrics());
+}
+
+int PacketView::topRow() const {
+    return verticalScrollBar()->value();
+}
+
+int PacketView::wholeRows() const {
+    return std::max(1, viewport()->height() / rowHeight());
+}
+
+int PacketView::sampleWidth(int column) const {
+    const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+    const int margins = 2 * CellDelegate::margin(fontMetrics()) + 2;
+    const int text =
+        QFontMetrics(monospaceFont()).horizontalAdvance(m_samples[static_cast<std::size_t>(column)]);
+    return std::max(text + margins, fontMetrics().horizontalAdvance(title) + 14);
+}
+
+void PacketView::fitColumns() {
+    if (model() == nullptr || m_samples.empty()) {
+        return;
+    }
+    int open = -1;
+    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
+        if (m_samples[static_cast<std::size_t>(column)].isEmpty()) {
+            open = column;
+        } else {
+            m_header->resizeSection(column, sampleWidth(column));
+        }
+    }
+    if (open >= 0) {
+        const int others = m_header->length() - m_header->sectionSize(open);
+        m_header->resizeSection(
+            open, std::max(fontMetrics().averageCharWidth() * 24, viewport()->width() - others));
+    }
+}
+
+void PacketView::updateGeometries() {
+    const int height = rowHeight() + 1;
+    setViewportMargins(0, height, 0, 0);
+    m_header->setGeometry(viewport()->x(), viewport()->y() - height, viewport()->width(), height);
+    fitScrollBars();
+    placeButton();
+    QAbstractItemView::updateGeometries();
+}
+
+void PacketView::fitScrollBars() {
+    const QScopedValueRollback guard(m_isAdjusting, true);
+    const int rows = model() == nullptr ? 0 : model()->rowCount();
+    verticalScrollBar()->setSingleStep(1);
+    verticalScrollBar()->setPageStep(wholeRows());
+    verticalScrollBar()->setRange(0, std::max(0, rows - wholeRows()));
+    horizontalScrollBar()->setSingleStep(fontMetrics().averageCharWidth() * 4);
+    horizontalScrollBar()->setPageStep(viewport()->width());
+    horizontalScrollBar()->setRange(0, std::max(0, m_header->length() - viewport()->width()));
+    if (m_isFollowing) {
+        verticalScrollBar()->setValue(verticalScrollBar()->maximum());
+    }
+}
+
+void PacketView::onRowsInserted(int count) {
+    m_missed += m_isFollowing ? 0 : static_cast<std::uint64_t>(count);
+    fitScrollBars();
+    placeButton();
+    viewport()->update();
+}
+
+void PacketView::onRowsRemoved(int first, int count) {
+    const QScopedValueRollback guard(m_isAdjusting, true);
+    if (first == 0 && !m_isFollowing) {
+        verticalScrollBar()->setValue(topRow() - count);
+    }
+    fitScrollBars();
+    viewport()->update();
+}
+
+void PacketView::onReset() {
+    m_missed = 0;
+    fitScrollBars();
+    placeButton();
+    viewport()->update();
+}
+
+void PacketView::noteFollowing(bool isFollowing) {
+    if (isFollowing == m_isFollowing) {
+        return;
+    }
+    m_isFollowing = isFollowing;
+    m_missed = 0;
+    placeButton();
+    emit followingChanged(isFollowing);
+}
+
+void PacketView::setFollowing(bool isFollowing) {
+    noteFollowing(isFollowing);
+    fitScrollBars();
+}
+
+void PacketView::placeButton() {
+    const bool isShown = !m_isFollowing && model() != nullptr && model()->rowCount() > 0;
+    m_newest->setVisible(isShown);
+    if (!isShown) {
+        return;
+    }
+    m_newest->setText(m_missed == 0 ? tr("↓ Follow") : tr("↓ %1 new").arg(grouped(m_missed)));
+    m_newest->setToolTip(tr("Go to the newest packet and follow (End)"));
+    m_newest->resize(m_newest->sizeHint());
+    const int space = CellDelegate::margin(fontMetrics());
+    m_newest->move(viewport()->geometry().right() - m_newest->width() - space,
+                   viewport()->geometry().bottom() - m_newest->height() - space);
+    m_newest->raise();
+}
+
+void PacketView::showRow(int row) {
+    const QModelIndex shown = model()->index(row, std::max(0, currentIndex().column()));
+    if (!shown.isValid()) {
+        return;
+    }
+    setFollowing(false);
+    selectionModel()->setCurrentIndex(shown, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+    scrollTo(shown);
+}
+
+std::vector<int> PacketView::selectedRows(std::size_t most) const {
+    std::vector<std::pair<int, int>> ranges;
+    for (const QItemSelectionRange& range : selectionModel()->selection()) {
+        ranges.emplace_back(range.top(), range.bottom());
+    }
+    std::ranges::sort(ranges);
+    std::vector<int> rows;
+    for (const auto& [first, last] : ranges) {
+        for (int row = first; row <= last && rows.size() < most; ++row) {
+            rows.push_back(row);
+        }
+    }
+    return rows;
+}
+
+QRect PacketView::visualRect(const QModelIndex& index) const {
+    if (!index.isValid()) {
+        return {};
+    }
+    const std::int64_t top = (std::int64_t{index.row()} - topRow()) * rowHeight();
+    // Rows far outside would not fit into the coordinates of a widget.
+    const auto y =
+        static_cast<int>(std::clamp<std::int64_t>(top, -rowHeight() - 1, viewport()->height() + 1));
+    return {m_header->sectionViewportPosition(index.column()), y, m_header->sectionSize(index.column()),
+            rowHeight()};
+}
+
+void PacketView::scrollTo(const QModelIndex& index, ScrollHint hint) {
+    if (!index.isValid()) {
+        return;
+    }
+    const int row = index.row();
+    const bool isVisible = row >= topRow() && row < topRow() + wholeRows();
+    if (isVisible && hint == EnsureVisible) {
+        return;
+    }
+    // A row next to the shown ones scrolls by little; one from elsewhere is shown among its neighbours.
+    const bool isNear = row >= topRow() - wholeRows() && row < topRow() + 2 * wholeRows();
+    int top = row - wholeRows() / 2;
+    if (hint == PositionAtTop || (isNear && row < topRow())) {
+        top = row;
+    } else if (hint == PositionAtBottom || isNear) {
+        top = row - wholeRows() + 1;
+    }
+    verticalScrollBar()->setValue(top);
+}
+
+QModelIndex PacketView::indexAt(const QPoint& point) const {
+    if (model() == nullptr || point.y() < 0) {
+        return {};
+    }
+    const int column = m_header->logicalIndexAt(point.x());
+    return model()->index(topRow() + point.y() / rowHeight(), std::max(0, column));
+}
+
+void PacketView::keyboardSearch(const QString& /*search*/) {}
+
+bool PacketView::event(QEvent* event) {
+    // In the list the End key is the list's, not the window's.
+    if (event->type() == QEvent::ShortcutOverride &&
+        (static_cast<QKeyEvent*>(event)->key() == Qt::Key_End ||
+         static_cast<QKeyEvent*>(event)->matches(QKeySequence::Copy))) {
+        event->accept();
+        return true;
+    }
+    return QAbstractItemView::event(event);
+}
+
+void PacketView::keyPressEvent(QKeyEvent* event) {
+    if (event->matches(QKeySequence::Copy)) {
+        emit copyRequested();
+        event->accept();
+    } else if (event->key() == Qt::Key_End && event->modifiers() == Qt::NoModifier) {
+        emit newestRequested();
+        event->accept();
+    } else {
+        QAbstractItemView::keyPressEvent(event);
+    }
+}
+
+QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*modifiers*/) {
+    const int rows = model() == nullptr ? 0 : model()->rowCount();
+    if (rows == 0) {
+        return {};
+    }
+    const QModelIndex current = currentIndex();
+    int row = current.isValid() ? current.row() : std::min(topRow() + wholeRows() - 1, rows - 1);
+    int column = std::max(0, current.column());
+    switch (action) {
+    case MoveUp:
+        row -= current.isValid() ? 1 : 0;
+        break;
+    case MoveDown:
+        row += current.isValid() ? 1 : 0;
+        break;
+    case MovePageUp:
+        row -= wholeRows() - 1;
+        break;
+    case MovePageDown:
+        row += wholeRows() - 1;
+        break;
+    case MoveHome:
+        row = 0;
+        break;
+    case MoveEnd:
+        row = rows - 1;
+        break;
+    case MoveLeft:
+    case MovePrevious:
+        --column;
+        break;
+    case MoveRight:
+    case MoveNext:
+        ++column;
+        break;
+    }
+    return model()->index(std::clamp(row, 0, rows - 1), std::clamp(column, 0, model()->columnCount() - 1));
+}
+
+int PacketView::horizontalOffset() const {
+    return m_header->offset();
+}
+
+int PacketView::verticalOffset() const {
+    return 0;
+}
+
+bool PacketView::isIndexHidden(const QModelIndex& /*index*/) const {
+    return false;
+}
+
+void PacketView::setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) {
+    const int rows = model() == nullptr ? 0 : model()->rowCount();
+    if (rows == 0) {
+        return;
+    }
+    const auto rowAt = [&](int y) {
+        return std::clamp(topRow() + (y < 0 ? -1 : y / rowHeight()), 0, rows - 1);
+    };
+    const bool isBelow = rect.top() / rowHeight() + topRow() >= rows;
+    if (isBelow) {
+        selectionModel()->select(QItemSelection(), flags);
+        return;
+    }
+    selectionModel()->select(QItemSelection(model()->index(rowAt(rect.top()), 0),
+                                            model()->index(rowAt(rect.bottom()), model()->columnCount() - 1)),
+                             flags);
+}
+
+QRegion PacketView::visualRegionForSelection(const QItemSelection& selection) const {
+    QRegion region;
+    for (const QItemSelectionRange& range : selection) {
+        const int first = std::max(range.top(), topRow());
+        const int last = std::min(range.bottom(), topRow() + wholeRows());
+        if (first <= last) {
+            region += QRect(0, (first - topRow()) * rowHeight(), viewport()->width(),
+                            (last - first + 1) * rowHeight());
+        }
+    }
+    return region;
+}
+
+void PacketView::scrollContentsBy(int dx, int /*dy*/) {
+    if (dx != 0) {
+        m_header->setOffset(horizontalScrollBar()->value());
+    }
+    viewport()->update();
+}
+
+void PacketView::resizeEvent(QResizeEvent* event) {
+    QAbstractItemView::resizeEvent(event);
+    fitColumns();
+    updateGeometries();
+}
+
+void PacketView::changeEvent(QEvent* event) {
+    QAbstractItemView::changeEvent(event);
+    if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
+        fitColumns();
+        updateGeometries();
+    }
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QAbstractItemView>
+
+#include <vector>
+
+class QHeaderView;
+class QPushButton;
+
+namespace posewire::gui {
+
+/// A table for tens of millions of rows that all have one height: what it does does not grow with the number
+/// of rows. Follows the last row until it is scrolled away, and then says how many have come since.
+class PacketView : public QAbstractItemView {
+    Q_OBJECT
+
+public:
+    /// `name` is what screen readers call the table.
+    explicit PacketView(const QString& name, QWidget* parent = nullptr);
+
+    /// One sample for each column, as long as its content may become; an empty one takes the room left.
+    void setColumnSamples(std::vector<QString> samples);
+    /// What to do where the table is empty.
+    void setEmptyText(const QString& text);
+    [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
+
+    [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
+    /// To the last row, and on with it from now on; or no longer, where it stands.
+    void setFollowing(bool isFollowing);
+    /// Makes a row the current and only selected one and shows it.
+    void showRow(int row);
+    [[nodiscard]] int rowHeight() const;
+    [[nodiscard]] QHeaderView* header() const { return m_header; }
+    /// Rows that are selected, in order, at most `most`.
+    [[nodiscard]] std::vector<int> selectedRows(std::size_t most) const;
+
+    void setModel(QAbstractItemModel* model) override;
+    [[nodiscard]] QRect visualRect(const QModelIndex& index) const override;
+    void scrollTo(const QModelIndex& index, ScrollHint hint = EnsureVisible) override;
+    [[nodiscard]] QModelIndex indexAt(const QPoint& point) const override;
+    /// Rows are told apart with the pointer and the arrows, not by typing.
+    void keyboardSearch(const QString& search) override;
+
+signals:
+    void followingChanged(bool isFollowing);
+    /// The operator asks for the newest packet: by the button or the End key.
+    void newestRequested();
+    void copyRequested();
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void changeEvent(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    bool event(QEvent* event) override;
+    void scrollContentsBy(int dx, int dy) override;
+    void updateGeometries() override;
+    [[nodiscard]] QModelIndex moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) override;
+    [[nodiscard]] int horizontalOffset() const override;
+    [[nodiscard]] int verticalOffset() const override;
+    [[nodiscard]] bool isIndexHidden(const QModelIndex& index) const override;
+    void setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) override;
+    [[nodiscard]] QRegion visualRegionForSelection(const QItemSelection& selection) const override;
+
+private:
+    void onRowsInserted(int count);
+    void onRowsRemoved(int first, int count);
+    void onReset();
+    void fitScrollBars();
+    void fitColumns();
+    void placeButton();
+    void noteFollowing(bool isFollowing);
+    [[nodiscard]] int topRow() const;
+    [[nodiscard]] int wholeRows() const;
+    [[nodiscard]] int sampleWidth(int column) const;
+    void paintRow(QPainter& painter, int row, const QRect& rect) const;
+    void paintCell(QPainter& painter, const QModelIndex& index, QRect rect) const;
+
+    QHeaderView* m_header;
+    QPushButton* m_newest;
+    std::vector<QString> m_samples;
+    QString m_emptyText;
+    bool m_isFollowing = true;
+    bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls
+    std::uint64_t m_missed = 0; ///< rows that came while not following
+};
+
+} // namespace posewire::gui

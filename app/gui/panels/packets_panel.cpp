@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/packets_panel.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/panels/filter_bar.h"
+#include "app/gui/panels/find_bar.h"
+#include "app/gui/panels/line.h"
+#include "app/gui/panels/packet_view.h"
+
+#include <QLabel>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kMessageMs = 6000;
+constexpr int kSearchPollMs = 20;
+
+} // namespace
+
+PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(parent),
+      m_view(view),
+      m_commands(commands),
+      m_packets(view),
+      m_filter(new FilterBar(this)),
+      m_find(new FindBar(this)),
+      m_list(new PacketView(tr("Packets"), this)),
+      m_clear(new QPushButton(tr("Clear the filter"), m_list)),
+      m_message(new QLabel(this)) {
+    layOut();
+    m_list->setModel(&m_packets);
+    m_list->setContextMenuPolicy(Qt::CustomContextMenu);
+    m_clear->setObjectName(QStringLiteral("clearFilter"));
+    m_clear->hide();
+    m_message->setForegroundRole(QPalette::PlaceholderText);
+    m_message->setContentsMargins(10, 3, 10, 4);
+    m_message->hide();
+    m_messageTimer.setSingleShot(true);
+    m_messageTimer.setInterval(kMessageMs);
+    m_searchTimer.setInterval(kSearchPollMs);
+    fitColumns();
+    connectParts();
+    showEmptyState();
+}
+
+PacketsPanel::~PacketsPanel() = default;
+
+void PacketsPanel::layOut() {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins({});
+    column->setSpacing(0);
+    column->addWidget(m_filter);
+    column->addWidget(m_find);
+    column->addWidget(new Line(this));
+    column->addWidget(m_list, 1);
+    column->addWidget(m_message);
+}
+
+void PacketsPanel::connectParts() {
+    connect(m_list->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            &PacketsPanel::selectRow);
+    connect(m_list, &PacketView::newestRequested, this, &PacketsPanel::newestPacket);
+    connect(m_list, &PacketView::copyRequested, this, &PacketsPanel::copyRows);
+    connect(m_list, &QWidget::customContextMenuRequested, this, &PacketsPanel::showMenu);
+    connect(m_filter, &FilterBar::applied, this, [this](const QString& text) {
+        m_commands.setDisplayFilter(text);
+        refresh();
+    });
+    connect(m_filter, &FilterBar::cancelRequested, this, &PacketsPanel::cancelFilter);
+    connect(m_filter, &FilterBar::left, this, [this] { m_list->setFocus(); });
+    connect(m_clear, &QPushButton::clicked, this, &PacketsPanel::clearFilter);
+    connect(m_find, &FindBar::findRequested, this, &PacketsPanel::search);
+    connect(m_find, &FindBar::closed, this, [this] { m_list->setFocus(); });
+    connect(&m_messageTimer, &QTimer::timeout, m_message, &QWidget::hide);
+    connect(&m_searchTimer, &QTimer::timeout, this, &PacketsPanel::takeSearchResult);
+}
+
+void PacketsPanel::fitColumns() {
+    const bool isSinceFirst = m_packets.timeMode() == PacketModel::TimeMode::SinceFirst;
+    m_list->setColumnSamples(
+        {QStringLiteral("9 999 999"),
+         isSinceFirst ? QStringLiteral("9999.999999") : QStringLiteral("2026-11-21 10:42:17.508123"),
+         QStringLiteral("999.99"), QStringLiteral("192.168.10.21:52011"),
+         QStringLiteral("02 Pose, quaternion"), QStringLiteral("● 0 Mira"), QStringLiteral("999 999"),
+         QStringLiteral("1/1"), QStringLiteral("9999"), QString()});
+}
+
+void PacketsPanel::refresh() {
+    const QScopedValueRollback guard(m_isFollowing, true);
+    followFilter();
+    if (m_run) {
+        m_packets.addMatches(m_run->take(m_view.digests().end()));
+        const auto [done, total] = m_run->progress();
+        if (m_run->isCancelled() || done >= total) {
+            m_filter->endProgress();
+        } else {
+            m_filter->setProgress(static_cast<double>(done) / static_cast<double>(total));
+        }
+    }
+    m_packets.refresh();
+    followSelection();
+    showEmptyState();
+}
+
+/// The session's filter may have been set by another dock.
+void PacketsPanel::followFilter() {
+    const QString text = QString::fromStdString(m_view.displayFilter());
+    if (text == m_filterText) {
+        return;
+    }
+    m_filterText = text;
+    m_filter->setApplied(text);
+    auto compiled = filter::Filter::compile(text.trimmed().toStdString());
+    if (!compiled) {
+        return; // the line says what is wrong; what is listed stays
+    }
+    m_run.reset();
+    m_filter->endProgress();
+    if (compiled->matchesEverything()) {
+        m_packets.endMatches();
+    } else {
+        m_packets.beginMatches();
+        m_run = std::make_unique<PacketFilterRun>(m_view.log(), *std::move(compiled), m_view.firstStampNs());
+    }
+}
+
+void PacketsPanel::cancelFilter() {
+    if (m_run) {
+        m_run->cancel();
+        m_filter->endProgress();
+        say(tr("Filtering was cancelled: only what was found so far is listed."));
+        refresh();
+    }
+}
+
+void PacketsPanel::clearFilter() {
+    m_commands.setDisplayFilter({});
+    refresh();
+    m_list->setFocus();
+}
+
+void PacketsPanel::followSelection() {
+    const auto packet = selected();
+    const int row = packet ? m_packets.rowOf(*packet) : -1;
+    if (row == m_list->currentIndex().row()) {
+        return;
+    }
+    if (row < 0) {
+        m_list->selectionModel()->clear();
+        m_list->viewport()->update();
+        return;
+    }
+    m_list->showRow(row);
+}
+
+void PacketsPanel::selectRow(const QModelIndex& index) {
+    if (m_isFollowing || !index.isValid()) {
+        return;
+    }
+    m_list->setFollowing(false);
+    m_commands.selectPacket(m_packets.packetAt(index.row()));
+}
+
+void PacketsPanel::showEmptyState() {
+    const bool isEmpty = m_packets.rowCount() == 0;
+    const bool isFilteredOut = isEmpty && m_packets.isFiltered() && m_view.end() != m_view.begin();
+    m_list->setEmptyText(
+        !isFilteredOut ? tr("No packets yet. Every packet that arrives is listed here, whether it can be "
+                            "read or not.")
+        : m_filter->isBusy() ? tr("Filtering …")
+                             : tr("No packet matches the filter\n\n"));
+    m_clear->setVisible(isFilteredOut && !m_filter->isBusy());
+    if (m_clear->isVisible()) {
+        m_clear->resize(m_clear->sizeHint());
+        const QRect area = m_list->viewport()->geometry();
+        m_clear->move(area.center().x() - m_clear->width() / 2,
+                      area.center().y() + fontMetrics().height() / 4);
+    }
+}
+
+std::optional<std::uint64_t> PacketsPanel::selected() const {
+    return m_view.selection().packet;
+}
+
+QString PacketsPanel::summary() const {
+    const std::uint64_t all = m_view.end() - m_view.begin();
+    if (all == 0) {
+        return {};
+    }
+    const auto rows = static_cast<std::uint64_t>(m_packets.rowCount());
+    const QString count =
+        m_packets.isFiltered() ? tr("%1 of %2 shown").arg(grouped(rows), grouped(all)) : grouped(rows);
+    return m_list->isFollowing() ? tr("following · %1").arg(count) : count;
+}
+
+void PacketsPanel::say(const QString& text) {
+    m_message->setText(text);
+    m_message->show();
+    m_messageTimer.start();
+}
+
+QString PacketsPanel::message() const {
+    return m_message->isHidden() ? QString() : m_message->text();
+}
+
+void PacketsPanel::setTimes(PacketModel::TimeMode time, PacketModel::DeltaMode delta) {
+    m_packets.setTimeMode(time);
+    m_packets.setDeltaMode(delta);
+    fitColumns();
+}
+
+void PacketsPanel::timeSinceFirst() {
+    setTimes(PacketModel::TimeMode::SinceFirst, m_packets.deltaMode());
+}
+
+void PacketsPanel::timeOfDay() {
+    setTimes(PacketModel::TimeMode::TimeOfDay, m_packets.deltaMode());
+}
+
+void PacketsPanel::deltaInStream() {
+    setTimes(m_packets.timeMode(), PacketModel::DeltaMode::Stream);
+}
+
+void PacketsPanel::deltaToRowAbove() {
+    setTimes(m_packets.timeMode(), PacketModel::DeltaMode::RowAbove);
+}
+
+QJsonObject PacketsPanel::state() const {
+    QJsonObject state = m_filter->state();
+    if (m_packets.timeMode() == PacketModel::TimeMode::TimeOfDay) {
+        state["time"] = QStringLiteral("day");
+    }
+    if (m_packets.deltaMode() == PacketModel::DeltaMode::RowAbove) {
+        state["delta"] = QStringLiteral("row");
+    }
+    return state;
+}
+
+void PacketsPanel::restoreState(const QJsonObject& state) {
+    m_filter->restoreState(state);
+    setTimes(state["time"].toString() == QLatin1String("day") ? PacketModel::TimeMode::TimeOfDay
+                                                              : PacketModel::TimeMode::SinceFirst,
+             state["delta"].toString() == QLatin1String("row") ? PacketModel::DeltaMode::RowAbove
+                                                               : PacketModel::DeltaMode::Stream);
+}
+
+} // namespace posewire::gui
