@@ -2,6 +2,7 @@
 #include "core/wire/reference.h"
 
 #include "core/wire/codec.h"
+#include "core/wire/reference_overview.h"
 #include "core/wire/type_table.h"
 
 #include <utility>
@@ -74,7 +75,7 @@ public:
 
 private:
     void row(const std::string& size, const About& about, std::string_view kind) {
-        m_out += "| " + (m_isKnown ? std::to_string(m_offset) : std::string()) + " | " + size + " | ";
+        m_out += "| " + (m_isKnown ? std::to_string(m_offset) : std::string("…")) + " | " + size + " | ";
         m_out.append(about.name).append(" | ").append(kind).append(" | ").append(unitSymbol(about.unit));
         m_out.append(" | ").append(about.text).append(" | ").append(about.section).append(" |\n");
     }
@@ -141,8 +142,11 @@ void writeMessage(std::string& out) {
 std::string protocolReference() {
     std::string out =
         "# MXTP protocol reference\n\nAll numbers are big-endian. Offsets count from the start of the "
-        "header, the payload or the item.\nSections are those of the specification, revision K, where "
-        "no other revision is named.\n\n## Header\n\n";
+        "header, the payload or the item; … stands where what is before is of varying size.\nSections are "
+        "those of the specification, revision K, where "
+        "no other revision is named.\n\n";
+    out += referenceOverview();
+    out += "\n## Header\n\nBytes 17 to 23 are reserved and zero in revisions E to K.\n\n";
     writeTable<Header, Form::Standard>(out);
     [&]<std::size_t... I>(std::index_sequence<I...>) {
         (writeMessage<std::variant_alternative_t<I + 1, Body>>(out), ...);

@@ -2,6 +2,7 @@
 #include "core/wire/reference.h"
 
 #include "core/wire/codec.h"
+#include "core/wire/reference_overview.h"
 #include "core/wire/type_table.h"
 
 #include <gmock/gmock.h>
@@ -50,6 +51,36 @@ TEST(ProtocolReference, ShowsUnitsAndBothForms) {
     EXPECT_THAT(sectionOf(24), HasSubstr("The short form:"));
     EXPECT_THAT(sectionOf(25), HasSubstr("Without the length:"));
     EXPECT_THAT(sectionOf(13), HasSubstr("uint32 count, then items (at most 4096)"));
+}
+
+std::string part(const std::string& heading) {
+    const std::string reference = protocolReference();
+    const std::size_t start = reference.find("\n## " + heading + "\n");
+    EXPECT_NE(start, std::string::npos) << heading;
+    return reference.substr(start, reference.find("\n## ", start + 4) - start);
+}
+
+TEST(ProtocolReference, ListsAllTypesInOneTableWithLinks) {
+    const std::string overview = part("Overview");
+    for (const TypeInfo& info : typeTable()) {
+        const std::string title = typeTitle(info.type);
+        EXPECT_THAT(overview, HasSubstr("| [" + title + "](#" + headingAnchor(title) + ") |"));
+    }
+    EXPECT_THAT(overview, HasSubstr("(#02-pose-quaternion) | 32 | Z-up, right-handed | yes | E–N |"));
+    EXPECT_THAT(overview, HasSubstr("| 68 or 44 |"));
+    EXPECT_THAT(overview, HasSubstr("| 36 in all or 12 in all |"));
+}
+
+TEST(ProtocolReference, TellsWhatDiffersBetweenRevisions) {
+    const std::string differences = part("What differs between revisions");
+    EXPECT_THAT(differences,
+                HasSubstr("| header, bytes 17 to 23 | reserved, zero | reserved, zero | counts"));
+    EXPECT_THAT(differences, HasSubstr("| type 23, bytes an item | – | 68 | 44 in the text"));
+    EXPECT_THAT(differences, HasSubstr("| type 12 | the bare text |"));
+    for (const RevisionDifference& row : revisionDifferences()) {
+        EXPECT_FALSE(row.topic.empty() || row.e.empty() || row.jAndK.empty() || row.later.empty())
+            << row.topic;
+    }
 }
 
 } // namespace
