@@ -167,6 +167,28 @@ const wire::Header* Subject::header() {
     return m_header ? &*m_header : nullptr;
 }
 
+namespace {
+
+std::vector<std::string_view> wordsOf(const Row& row) {
+    std::vector<std::string_view> words;
+    if (row.kind == Kind::Transport) {
+        words.assign(kTransportNames.begin(), kTransportNames.end());
+    } else if (row.kind == Kind::Flag) {
+        words = {"true", "false"};
+    } else if (row.read == &readError) {
+        for (std::size_t code = 0; code < wire::kErrorCodeCount; ++code) {
+            words.push_back(wire::errorName(static_cast<wire::ErrorCode>(code)));
+        }
+    } else if (row.read == &readNotice) {
+        for (std::size_t code = 0; code < wire::kNoticeCodeCount; ++code) {
+            words.push_back(wire::noticeName(static_cast<wire::NoticeCode>(code)));
+        }
+    }
+    return words;
+}
+
+} // namespace
+
 std::vector<FieldInfo> computedFields() {
     std::vector<FieldInfo> fields;
     for (const Row& row : kRows) {
@@ -176,6 +198,7 @@ std::vector<FieldInfo> computedFields() {
         info.unit = row.unit;
         info.text = row.text;
         info.readPacket = row.read;
+        info.words = wordsOf(row);
         info.isTrueByValue = row.isTrueByValue;
         info.isDecoded = row.read == &readNotice;
         fields.push_back(std::move(info));

@@ -71,10 +71,11 @@ struct FieldInfo {
     bool isDecoded = false;     ///< a packet field that is compared by what decoding found
     std::string_view unit;
     std::string_view text;
-    std::vector<std::uint8_t> types; ///< message types that have it, in order; empty for packet fields
-    ReadPacket readPacket = nullptr; ///< of a packet field
-    Places places{};                 ///< of a field of the payload
-    std::optional<Places> named{};   ///< for segments: reads the number that stands for a name
+    std::vector<std::string_view> words; ///< the values that it can have, where they are words
+    std::vector<std::uint8_t> types;     ///< message types that have it, in order; empty for packet fields
+    ReadPacket readPacket = nullptr;     ///< of a packet field
+    Places places{};                     ///< of a field of the payload
+    std::optional<Places> named{};       ///< for segments: reads the number that stands for a name
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr; }
 };

@@ -59,8 +59,9 @@ std::size_t wordLength(std::string_view text) {
     while (at < text.size()) {
         const char character = text[at];
         const char next = at + 1 < text.size() ? text[at + 1] : ' ';
-        const bool isJoint =
-            (character == '.' || character == ':') && isPlain(next) && (at != start || character == '.');
+        // A word may end with a dot while it is written; two dots are a range.
+        const bool isJoint = (isPlain(next) && (character == '.' || (character == ':' && at != start))) ||
+                             (character == '.' && next != '.' && at != start && text[at - 1] != '.');
         const bool isExponent = (character == '-' || character == '+') && at > start && isDigit(next) &&
                                 (text[at - 1] == 'e' || text[at - 1] == 'E') &&
                                 (isDigit(text[start]) || text[start] == '.');
