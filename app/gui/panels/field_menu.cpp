@@ -2,11 +2,10 @@
 #include "app/gui/panels/field_menu.h"
 
 #include "app/gui/models/field_text.h"
+#include "core/filter/expression_for.h"
 
 #include <QCoreApplication>
 #include <QMenu>
-
-#include <cmath>
 
 namespace posewire::gui {
 
@@ -27,16 +26,9 @@ QString bytesText(const FieldDocument& document, std::int32_t node, const QStrin
     return bytes.join(separator);
 }
 
-/// A field of the header or of an item equals what it is here.
-QString filterFor(const FieldMenu& field) {
-    const wire::FieldNode& node = field.document.node(field.node);
-    const bool isNumber = std::isfinite(node.number) && node.kind == wire::NodeKind::Field;
-    return isNumber ? QStringLiteral("%1 == %2").arg(QString::fromStdString(node.name)).arg(node.number)
-                    : QString();
-}
-
 void addFilters(QMenu& menu, const FieldMenu& field) {
-    const QString expression = filterFor(field);
+    const QString expression =
+        QString::fromStdString(filter::expressionFor(field.document.tree(), field.node));
     const QString current = QString::fromStdString(field.displayFilter);
     QMenu* filters = menu.addMenu(tr("Apply as filter"));
     filters->setEnabled(!expression.isEmpty());

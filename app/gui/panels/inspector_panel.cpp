@@ -20,7 +20,7 @@ constexpr int kDetailLines = 4;
 
 model::LengthUnit unitOf(model::SessionView& view, log::SourceId id) {
     const model::Source* source = view.find(id);
-    return source == nullptr ? model::LengthUnit::Metre : source->detector.result().positionUnit;
+    return source == nullptr ? model::LengthUnit::Metre : source->positionUnit();
 }
 
 QString coloured(const QColor& colour, const QString& text) {
