@@ -18,7 +18,7 @@ namespace posewire::gui {
 namespace {
 
 constexpr std::int64_t kNsPerMs = 1'000'000;
-constexpr int kTimeDecimals = 6;
+constexpr int kTimeDecimals = 4;
 constexpr double kMsPerSecond = 1000;
 constexpr double kSecondsPerNs = 1e-9;
 /// What the rows of a table can count.

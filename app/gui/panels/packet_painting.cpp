@@ -47,7 +47,7 @@ void PacketView::paintEvent(QPaintEvent* event) {
                          Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
         return;
     }
-    painter.setFont(monospaceFont());
+    painter.setFont(packetFont());
     const int height = rowHeight();
     const int first = topRow() + event->rect().top() / height;
     const int last = std::min(topRow() + event->rect().bottom() / height, rows - 1);

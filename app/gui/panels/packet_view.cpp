@@ -18,6 +18,13 @@
 
 namespace posewire::gui {
 
+QFont packetFont() {
+    constexpr qreal kScale = 0.92; // ten columns beside each other
+    QFont font = monospaceFont();
+    font.setPointSizeF(font.pointSizeF() * kScale);
+    return font;
+}
+
 PacketView::PacketView(const QString& name, QWidget* parent)
     : QAbstractItemView(parent),
       m_header(new QHeaderView(Qt::Horizontal, this)),
@@ -91,7 +98,7 @@ int PacketView::sampleWidth(int column) const {
     const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
     const int margins = 2 * CellDelegate::margin(fontMetrics()) + 2;
     const int text =
-        QFontMetrics(monospaceFont()).horizontalAdvance(m_samples[static_cast<std::size_t>(column)]);
+        QFontMetrics(packetFont()).horizontalAdvance(m_samples[static_cast<std::size_t>(column)]);
     return std::max(text + margins, fontMetrics().horizontalAdvance(title) + 14);
 }
 
@@ -110,7 +117,7 @@ void PacketView::fitColumns() {
     if (open >= 0) {
         const int others = m_header->length() - m_header->sectionSize(open);
         m_header->resizeSection(
-            open, std::max(fontMetrics().averageCharWidth() * 24, viewport()->width() - others));
+            open, std::max(fontMetrics().averageCharWidth() * 16, viewport()->width() - others));
     }
 }
 

@@ -10,6 +10,9 @@ class QPushButton;
 
 namespace posewire::gui {
 
+/// Of the rows: of equal width, and a little smaller than the window's.
+[[nodiscard]] QFont packetFont();
+
 /// A table for tens of millions of rows that all have one height: what it does does not grow with the number
 /// of rows. Follows the last row until it is scrolled away, and then says how many have come since.
 class PacketView : public QAbstractItemView {

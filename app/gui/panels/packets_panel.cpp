@@ -85,9 +85,9 @@ void PacketsPanel::fitColumns() {
     const bool isSinceFirst = m_packets.timeMode() == PacketModel::TimeMode::SinceFirst;
     m_list->setColumnSamples(
         {QStringLiteral("9 999 999"),
-         isSinceFirst ? QStringLiteral("9999.999999") : QStringLiteral("2026-11-21 10:42:17.508123"),
-         QStringLiteral("999.99"), QStringLiteral("192.168.10.21:52011"),
-         QStringLiteral("02 Pose, quaternion"), QStringLiteral("● 0 Mira"), QStringLiteral("999 999"),
+         isSinceFirst ? QStringLiteral("9999.9999") : QStringLiteral("2026-11-21 10:42:17.508123"),
+         QStringLiteral("999.99"), QStringLiteral("92.168.10.21:52011"),
+         QStringLiteral("02 Pose, quaternion"), QStringLiteral("● 0 Mira"), QStringLiteral("99 999"),
          QStringLiteral("1/1"), QStringLiteral("9999"), QString()});
 }
 

@@ -45,7 +45,8 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnow) {
         panel->refresh();
         EXPECT_NE(std::string(info.title), "");
     }
-    EXPECT_THAT(ids, testing::ElementsAre("characters", "metadata", "timecode", "statistics", "trackers"));
+    EXPECT_THAT(ids, testing::ElementsAre("characters", "metadata", "timecode", "statistics", "inspector",
+                                          "trackers", "packets", "nullpose"));
 }
 
 TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {
