@@ -1134,13 +1134,11 @@ local function known(size)
   return size
 end
 
--- The first of the sizes behind which another datagram begins.
+-- The first of the sizes at which the bytes end or another datagram begins. Senders write datagrams whole, so the end
+-- of a segment is taken for the end of a datagram where it can be: waiting would hide the last one of a stream.
 local function first_that_fits(tvb, ...)
   for _, size in ipairs({ ... }) do
-    if tvb:len() < size + 6 and may_start(tvb, math.min(size, tvb:len())) then
-      return nil, "more"
-    end
-    if may_start(tvb, size) then
+    if tvb:len() <= size or may_start(tvb, size) then
       return size
     end
   end
@@ -1171,7 +1169,11 @@ local computed = {
       header_size + header.items * messages[23].forms.standard[1].size)
   end,
   [24] = function(tvb) return first_that_fits(tvb, header_size + 12, header_size + 36) end,
-  [25] = function(tvb) return first_that_fits(tvb, header_size + 12, header_size + 16) end,
+  [25] = function(tvb, header)
+    if tvb:len() < header_size + 12 then return nil, "more" end
+    local form = form_of[25](header, payload_bytes(tvb), tvb:len() - header_size)
+    return header_size + (form == "bare" and 12 or 16)
+  end,
 }
 
 local function extent_of(tvb)
@@ -1204,24 +1206,29 @@ local function find_mark(tvb, from)
   end
 end
 
+-- Where a datagram of unknown size ends: before the next one, else with the segment; text goes on until a line ends.
+local function end_of_unsized(tvb)
+  local mark = find_mark(tvb, header_size)
+  local is_text = header_of(tvb).type == 12
+  if is_text and mark + 6 > tvb:len() and tvb(mark - 1, 1):uint() ~= 0x0a then
+    return nil
+  end
+  return mark
+end
+
 -- A size, or nil where more of the stream has to come first; the second value is then how much, if that is known.
 local function piece_at(tvb, can_wait)
   local size, why = extent_of(tvb)
+  if why == "unknown" then
+    size = end_of_unsized(tvb)
+  end
   if size and size <= tvb:len() then
     return size
   end
-  if size then
-    if can_wait then return nil, size - tvb:len() end
+  if not can_wait or tvb:len() > most_bytes then
     return tvb:len()
   end
-  if why == "unknown" then
-    local mark = find_mark(tvb, header_size)
-    local is_whole = mark + 6 <= tvb:len()
-    if is_whole or not can_wait or tvb:len() > most_bytes then return mark end
-  elseif not can_wait then
-    return tvb:len()
-  end
-  return nil, DESEGMENT_ONE_MORE_SEGMENT
+  return nil, size and size - tvb:len() or DESEGMENT_ONE_MORE_SEGMENT
 end
 
 local function dissect_stream(tvb, pinfo, root)

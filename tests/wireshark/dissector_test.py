@@ -1,0 +1,230 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Two readers, one truth: tshark with the dissector against `posewire-cli decode --json`, every field.
+
+usage: dissector_test.py POSEWIRE_CLI MXTP_LUA SOURCE_DIR [TEST…]
+Prints what disagrees and exits 1 if anything does; exits 77 where there is no tshark.
+"""
+
+import json
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+CLI, SCRIPT, SOURCE_DIR = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+sys.path[:0] = [str(SOURCE_DIR / "tests/support"), str(SOURCE_DIR / "tests/app/cli")]
+import capture_writer  # noqa: E402
+import dissected  # noqa: E402
+from second_encoder_cases import all_cases  # noqa: E402
+
+STAMP = 1_700_000_000_000_000_000
+
+
+def goldens() -> dict:
+    """Bytes by name."""
+    found = {}
+    for path in sorted((SOURCE_DIR / "tests/golden").glob("*.hex")):
+        lines = [line.split("#")[0] for line in path.read_text(encoding="utf-8").splitlines()]
+        found[path.stem] = bytes.fromhex("".join(lines))
+    assert len(found) > 40
+    return found
+
+
+def decode(path: pathlib.Path) -> list:
+    done = subprocess.run([CLI, "decode", str(path), "--json"], capture_output=True, timeout=240, check=False)
+    return [json.loads(line) for line in done.stdout.decode("utf-8").splitlines()]
+
+
+def difference(where: str, wanted, got) -> str | None:
+    """The first place where they disagree."""
+    if isinstance(wanted, dict) and isinstance(got, dict):
+        if set(wanted) != set(got):
+            return f"{where}: {sorted(wanted)} against {sorted(got)}"
+        pairs = [(f"{where}.{key}", wanted[key], got[key]) for key in wanted]
+    elif isinstance(wanted, list) and isinstance(got, list):
+        if len(wanted) != len(got):
+            return f"{where}: {len(wanted)} against {len(got)}"
+        pairs = [(f"{where}[{i}]", *pair) for i, pair in enumerate(zip(wanted, got))]
+    else:
+        return None if got == wanted else f"{where}: {wanted!r} against {got!r}"
+    return next((found for found in (difference(*pair) for pair in pairs) if found), None)
+
+
+def about_datagram(decoded: dict) -> dict:
+    wanted = {key: value for key, value in decoded.items()
+              if key not in ("index", "offset", "stampNs", "source", "bytes")}
+    if "error" in wanted:
+        wanted["error"] = {key: wanted["error"][key] for key in ("code", "offset", "text")}
+    return wanted
+
+
+def tells_its_end(datagram: bytes) -> bool:
+    """Older senders leave the payload size out; then some types can only be told to end by what follows them."""
+    is_sized = datagram[22:24] != b"\0\0"
+    return is_sized or datagram[4:6] not in (b"04", b"12", b"23", b"24", b"77")
+
+
+def pieces(data: bytes, seed: int, longest: int) -> list:
+    """The stream cut anywhere."""
+    chance, cut, at = random.Random(seed), [], 0
+    while at < len(data):
+        size = chance.randint(1, longest)
+        cut.append(data[at:at + size])
+        at += size
+    return cut
+
+
+def as_tcp(parts: list, target=("192.0.2.2", 9763)) -> list:
+    packets, sequence = [capture_writer.tcp_packet(b"", 999, target=target, flags=capture_writer.SYN)], 1000
+    for part in parts:
+        packets.append(capture_writer.tcp_packet(part, sequence, target=target))
+        sequence += len(part)
+    return [(STAMP + number * 1000, packet) for number, packet in enumerate(packets)]
+
+
+class Dissector(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def dissect(self, packets: list) -> list:
+        path = self.folder / "capture.pcap"
+        path.write_bytes(capture_writer.pcap(packets))
+        return list(dissected.protocols(SCRIPT, path, self.folder))
+
+    def compare_udp(self, datagrams: list):
+        """`datagrams`: pairs of a label and bytes."""
+        frames = self.dissect([(STAMP, capture_writer.udp_packet(data)) for _, data in datagrams])
+        decoded = decode(self.folder / "capture.pcap")
+        self.assertEqual(len(datagrams), len(decoded))
+        self.assertEqual(len(datagrams), len(frames))
+        faults = []
+        for (label, data), wanted, trees in zip(datagrams, decoded, frames):
+            got = dissected.object_of(trees[0]) if len(trees) == 1 else None
+            fault = difference(label, about_datagram(wanted), got)
+            if fault:
+                faults.append(f"{fault}   {data[:80].hex()}")
+        self.assertFalse(faults, "\n".join([f"{len(faults)} of {len(datagrams)}"] + faults[:12]))
+
+    def compare_tcp(self, data: bytes, packets: list):
+        (self.folder / "raw.bin").write_bytes(data)
+        wanted, got = [], []
+        for decoded in decode(self.folder / "raw.bin"):
+            wanted.append({"skipped": decoded["size"]} if "skipped" in decoded else about_datagram(decoded))
+        for trees in self.dissect(packets):
+            for tree in trees:
+                skipped = dissected.children(tree, "mxtp.skipped")
+                got.append({"skipped": int(skipped[0].get("size"))} if skipped else dissected.object_of(tree))
+        datagrams = [[entry for entry in entries if "skipped" not in entry] for entries in (wanted, got)]
+        self.assertIsNone(difference("stream", *datagrams))
+        self.assertEqual(sum(w.get("skipped", 0) for w in wanted), sum(g.get("skipped", 0) for g in got))
+
+    def test_agrees_on_every_golden(self):
+        self.compare_udp(list(goldens().items()))
+
+    def test_agrees_on_truncations(self):
+        self.compare_udp([(f"{name} cut to {size}", data[:size]) for name, data in goldens().items()
+                          for size in range(4, len(data)) if size < 160 or size % 11 == 0 or size > len(data) - 20])
+
+    def test_agrees_on_damaged_bytes(self):
+        chance, damaged = random.Random(1), []
+        for name, data in goldens().items():
+            for number in range(60):
+                broken = bytearray(data)
+                for _ in range(chance.randint(1, 3)):
+                    # The header and the first fields decide about the rest.
+                    at = chance.randrange(4, min(len(data), 40) if chance.random() < 0.7 else len(data))
+                    broken[at] = chance.choice([0, 1, 0x7f, 0x80, 0xff, chance.randrange(256)])
+                damaged.append((f"{name}, damage {number}", bytes(broken) + bytes(chance.choice([0, 0, 0, 1, 4]))))
+        self.compare_udp(damaged)
+
+    def test_agrees_on_what_a_second_encoder_sends(self):
+        self.compare_udp([(case.label, case.to_bytes()) for case in all_cases(5)])
+
+    def test_puts_streams_together(self):
+        data = b"".join(golden for golden in goldens().values() if tells_its_end(golden))
+        for longest in [7, 400, 1460, 20000]:
+            with self.subTest(longest=longest):
+                self.compare_tcp(data, as_tcp(pieces(data, longest, longest)))
+
+    def test_reads_streams_whose_segments_hold_whole_datagrams(self):
+        datagrams = list(goldens().values())
+        for size in [1, 3, len(datagrams)]:
+            with self.subTest(datagrams_in_a_segment=size):
+                segments = [b"".join(datagrams[at:at + size]) for at in range(0, len(datagrams), size)]
+                self.compare_tcp(b"".join(datagrams), as_tcp(segments))
+
+    def test_puts_out_of_order_and_repeated_segments_together(self):
+        data = b"".join(golden for golden in goldens().values() if tells_its_end(golden))
+        packets = as_tcp(pieces(data, 3, 900))
+        packets[5], packets[6] = packets[6], packets[5]
+        packets.insert(9, packets[8])
+        self.compare_tcp(data, packets)
+
+    def test_finds_datagrams_among_rubbish_in_a_stream(self):
+        pose = goldens()["02_quaternion_counted"]
+        data = pose + b"rubbish MX MXTP" + pose + bytes(50) + pose
+        self.compare_tcp(data, as_tcp(pieces(data, 2, 500)))
+
+    def test_recognizes_datagrams_on_other_ports(self):
+        pose, target = goldens()["02_quaternion_counted"], ("192.0.2.2", 20001)
+        frames = self.dissect([(STAMP, capture_writer.udp_packet(pose, target=target))])
+        self.assertEqual([1], [len(trees) for trees in frames])
+        self.assertEqual(2, sum(len(trees) for trees in self.dissect(as_tcp([pose, pose], target))))
+
+    def test_leaves_other_datagrams_alone(self):
+        frames = self.dissect([(STAMP, capture_writer.udp_packet(data)) for data in [b"{}", b"", b"MXT", b"\0" * 99]])
+        self.assertEqual([0, 0, 0, 0], [len(trees) for trees in frames])
+
+    def test_puts_ip_fragments_together(self):
+        gloves = goldens()["02_quaternion_gloves"]
+        fragments = capture_writer.udp_fragments(gloves, 1480, 77)
+        frames = self.dissect([(STAMP, fragment) for fragment in fragments])
+        self.assertEqual(67, len(dissected.object_of(frames[-1][0])["body"]["segments"]))
+
+    def read_fields(self, datagrams: list, wanted_filter: str, *fields: str) -> list:
+        path = self.folder / "fields.pcap"
+        path.write_bytes(capture_writer.pcap([(STAMP, capture_writer.udp_packet(data)) for data in datagrams]))
+        arguments = [word for field in fields for word in ("-e", field)]
+        process = dissected.run_tshark(SCRIPT, path, self.folder, "-Y", wanted_filter, "-T", "fields", *arguments)
+        output, _ = process.communicate(timeout=60)
+        self.assertEqual(0, process.returncode, wanted_filter)
+        return output.decode("utf-8").splitlines()
+
+    def test_describes_a_datagram_in_one_line(self):
+        found = goldens()
+        lines = self.read_fields([found["02_quaternion_counted"], found["13_null_pose_segments"], b"MXTP02" + bytes(9)],
+                                 "mxtp", "_ws.col.Protocol", "_ws.col.Info")
+        self.assertEqual("MXTP\t02 Pose, quaternion, character 3, sample 16909060, 23 segments", lines[0].strip())
+        self.assertRegex(lines[1], r"^MXTP\t13 Null pose, character 3, sample 0, datagram 0, 3 segments, 0 points")
+        self.assertRegex(lines[2], r"^MXTP\t02 Pose, quaternion, .*\[headerTruncated\]")
+
+    def test_every_field_is_used(self):
+        names = sorted(set(re.findall(r'(?:filter|name_filter|item_filter) = "([^"]+)"', SCRIPT.read_text("utf-8"))))
+        self.assertGreater(len(names), 50)
+        lines = self.read_fields(list(goldens().values()), "mxtp", "frame.number", *names)
+        rows = [line.split("\t") for line in lines]
+        self.assertEqual([], [name for i, name in enumerate(names, 1) if not any(row[i] for row in rows)])
+
+    def test_filters_by_name_value_and_fault(self):
+        found = goldens()
+        pose = found["02_quaternion_counted"]
+        datagrams = [pose, found["12_metadata_counted"], pose[:100]]
+        for wanted, frames in [('mxtp.segment.name == "LeftHand"', ["1"]), ("mxtp.type == 12", ["2"]),
+                               ('mxtp.tag.name == "color"', ["2"]), ("mxtp.error", ["3"]),
+                               ("mxtp.error.payloadTruncated", ["3"]), ("mxtp.sample == 16909060", ["1", "3"]),
+                               ("mxtp.segment.position.x > -1e9 && mxtp.last == 1", ["1", "3"])]:
+            self.assertEqual(frames, self.read_fields(datagrams, wanted, "frame.number"), wanted)
+
+
+if __name__ == "__main__":
+    if shutil.which("tshark") is None:
+        print("SKIPPED: there is no tshark; packaging/install-dependencies installs it")
+        sys.exit(77)
+    unittest.main(argv=sys.argv[:1] + sys.argv[4:], verbosity=2)
