@@ -59,9 +59,6 @@ void AddPortDialog::accept() {
     m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') + problem);
 }
 
-namespace {
-
-/// Markdown's tables come with raised white borders.
 void styleTables(QTextDocument& document) {
     constexpr qreal kPadding = 4;
     for (QTextFrame* frame : document.rootFrame()->childFrames()) {
@@ -77,10 +74,15 @@ void styleTables(QTextDocument& document) {
         format.setCellPadding(kPadding);
         format.setCellSpacing(0);
         table->setFormat(format);
+        for (int column = 0; column < table->columns(); ++column) {
+            QTextTableCell cell = table->cellAt(0, column);
+            QTextCharFormat header = cell.format();
+            header.setBackground(theme().raised);
+            header.setForeground(theme().dim);
+            cell.setFormat(header);
+        }
     }
 }
-
-} // namespace
 
 void showText(const QString& title, const QString& markdown, QWidget* parent) {
     auto* dialog = new QDialog(parent);

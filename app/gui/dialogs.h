@@ -10,6 +10,7 @@
 
 class QLabel;
 class QLineEdit;
+class QTextDocument;
 
 namespace posewire::gui {
 
@@ -32,6 +33,9 @@ private:
     QLabel* m_problem;
     UdpPort m_port;
 };
+
+/// Gives Markdown's tables, which come with raised white borders, the look of the theme.
+void styleTables(QTextDocument& document);
 
 /// A window with text to read, in Markdown; deletes itself when closed.
 void showText(const QString& title, const QString& markdown, QWidget* parent);

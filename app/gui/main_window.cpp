@@ -7,6 +7,7 @@
 #include "app/gui/dock_title.h"
 #include "app/gui/health_bar.h"
 #include "app/gui/icons.h"
+#include "app/gui/reference_window.h"
 #include "app/gui/transport_bar.h"
 #include "app/gui/viewport_buttons.h"
 #include "core/wire/reference.h"
@@ -316,7 +317,8 @@ void MainWindow::showShortcuts() {
 }
 
 void MainWindow::showReference() {
-    showText(tr("Protocol reference"), QString::fromStdString(wire::protocolReference()), this);
+    const QString text = QString::fromStdString(wire::protocolReference());
+    (new ReferenceWindow(tr("Protocol reference"), text, this))->show();
 }
 
 void MainWindow::showAbout() {

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <QHash>
+#include <QTextBrowser>
+
+class QLabel;
+class QLineEdit;
+class QListWidget;
+
+namespace posewire::gui {
+
+/// A long text in Markdown to look things up in: contents at the left, search above, links that lead to
+/// headings.
+class ReferenceWindow final : public QDialog {
+    Q_OBJECT
+
+public:
+    ReferenceWindow(const QString& title, const QString& markdown, QWidget* parent);
+
+    [[nodiscard]] QTextBrowser& browser() const { return *m_browser; }
+    [[nodiscard]] QListWidget& contents() const { return *m_contents; }
+    [[nodiscard]] QLineEdit& searchEdit() const { return *m_search; }
+
+    /// Shows a heading by its anchor, as in the links of the text; false where there is none.
+    bool goTo(const QString& anchor);
+    /// Selects the next place, or the one before, where the text of the search stands; begins again at the
+    /// other end.
+    bool find(bool isBackward);
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    void layOut();
+    void applyColours();
+    void readHeadings();
+    void search(const QString& text);
+    void showPlace(int position);
+
+    QTextBrowser* m_browser;
+    QListWidget* m_contents;
+    QLineEdit* m_search;
+    QLabel* m_found;
+    QHash<QString, int> m_places; ///< where in the text a heading stands, by its anchor
+};
+
+} // namespace posewire::gui
