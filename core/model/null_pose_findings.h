@@ -69,7 +69,7 @@ struct NullPoseEvidence {
 /// "2 errors, 1 warning"; empty where there are neither.
 [[nodiscard]] std::string findingsSummary(const std::vector<NullPoseFinding>& findings);
 
-/// Poses for this long without a scale message are reported (seconds). Known senders repeat it within that.
+/// Poses for this long without a scale message are reported (seconds).
 inline constexpr double kScaleMessageDue = 10.0;
 
 /// A part that has not come this long after its neighbours does not come any more (seconds).

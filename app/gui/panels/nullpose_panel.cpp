@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/nullpose_panel.h"
+
+#include "app/gui/models/null_pose_facts.h"
+#include "app/gui/models/shown_character.h"
+#include "app/gui/panels/line.h"
+#include "core/export/null_pose_sheet.h"
+
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QItemSelectionModel>
+#include <QMenu>
+#include <QMessageBox>
+#include <QSaveFile>
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kRoomyLines = 30; ///< so high that figure and tables stand one below the other
+constexpr double kNoticeShare = 0.3;
+
+void setCurrentRow(TableView& table, int row) {
+    if (row != table.currentIndex().row()) {
+        table.setCurrentIndex(row < 0 ? QModelIndex() : table.model()->index(row, 0));
+    }
+}
+
+} // namespace
+
+NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(parent),
+      m_view(view),
+      m_commands(commands),
+      m_reading(view),
+      m_segments(m_reading),
+      m_points(m_reading),
+      m_lengths(m_reading),
+      m_scale(m_reading),
+      m_facts(nullPoseFacts(m_reading)),
+      m_notices(new NullPoseNotices(this)),
+      m_splitter(new QSplitter(Qt::Vertical, this)),
+      m_overview(new QSplitter(Qt::Horizontal, this)),
+      m_figure(new NullPoseFigure(m_reading, this)),
+      m_factTable(new TableView(tr("Scale messages"), this)),
+      m_tabs(new QTabWidget(this)),
+      m_segmentTable(new TableView(tr("Segments of the null pose"), this)),
+      m_pointTable(new TableView(tr("Points of the null pose"), this)),
+      m_lengthTable(new TableView(tr("Lengths, left and right"), this)),
+      m_scaleTable(new TableView(tr("Scale information, type 10"), this)),
+      m_ghost(new QToolButton(this)),
+      m_export(new QToolButton(this)) {
+    makeTables();
+    makeButtons();
+    layOut();
+    connect(m_notices, &NullPoseNotices::segmentPicked, this, [this](int segment) {
+        const int place = m_reading.places()[static_cast<std::size_t>(segment)];
+        selectPlace(place >= 0 ? place : segment);
+    });
+    connect(m_figure, &NullPoseFigure::segmentPicked, this, &NullPosePanel::selectPlace);
+    connect(m_figure, &NullPoseFigure::pointPicked, this, &NullPosePanel::selectPoint);
+}
+
+void NullPosePanel::makeTables() {
+    const QString number = QStringLiteral("−9.9999");
+    const QString distance = QStringLiteral("999.9");
+    m_segmentTable->setModel(&m_segments);
+    m_segmentTable->setColumnSamples(
+        {QStringLiteral("99"), QString(), number, number, number, distance, distance});
+    m_pointTable->setModel(&m_points);
+    m_pointTable->setColumnSamples({QStringLiteral("99.99"), QString(), number, number, number,
+                                    QStringLiteral("0x00000000"), QStringLiteral("31, 30")});
+    m_lengthTable->setModel(&m_lengths);
+    m_lengthTable->setColumnSamples(
+        {QString(), QStringLiteral("9999.9"), QStringLiteral("9999.9"), QStringLiteral("▲ −999.9")});
+    m_scaleTable->setModel(&m_scale);
+    m_scaleTable->setColumnSamples(
+        {QStringLiteral("99"), QStringLiteral("Right Upper Arm"), number, number, number, QString()});
+    m_factTable->setModel(&m_facts);
+    m_factTable->setHeaderHidden(true);
+    m_factTable->setColumnSamples({QStringLiteral("Props (11)"), QString()});
+    connect(m_segmentTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) { selectPlace(index.row()); });
+    connect(m_pointTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) { selectPoint(index.row()); });
+    connect(m_lengthTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) {
+                if (index.isValid()) {
+                    selectPlace(m_reading.places()[static_cast<std::size_t>(m_lengths.segment(index.row()))]);
+                }
+            });
+    connect(m_scaleTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) {
+                if (index.isValid() && m_reading.scale() != nullptr) {
+                    const auto id = m_reading.scale()->segments[static_cast<std::size_t>(index.row())].id;
+                    selectPlace(static_cast<int>(id) - 1);
+                }
+            });
+    for (TableView* table : {m_segmentTable, m_pointTable, m_lengthTable, m_scaleTable, m_factTable}) {
+        connect(table, &TableView::copyRequested, this,
+                [this](const QString& text) { m_commands.copyText(text); });
+    }
+}
+
+void NullPosePanel::makeButtons() {
+    m_ghost->setText(tr("Ghost"));
+    m_ghost->setCheckable(true);
+    m_ghost->setToolTip(tr("Show the null pose over the live figure (Shift+G)"));
+    connect(m_ghost, &QToolButton::clicked, this, [this](bool isOn) { m_commands.setGhostVisible(isOn); });
+    m_export->setText(tr("Export ▾"));
+    m_export->setToolTip(tr("Save or copy what was sent, as CSV or JSON"));
+    m_export->setPopupMode(QToolButton::InstantPopup);
+    auto* menu = new QMenu(m_export);
+    menu->addAction(tr("Save as &CSV…"), this, [this] { chooseFile(QStringLiteral("csv")); });
+    menu->addAction(tr("Save as &JSON…"), this, [this] { chooseFile(QStringLiteral("json")); });
+    menu->addSeparator();
+    menu->addAction(tr("Copy as C&SV"), this, [this] { m_commands.copyText(QString::fromStdString(csv())); });
+    menu->addAction(tr("Copy as J&SON"), this,
+                    [this] { m_commands.copyText(QString::fromStdString(json())); });
+    menu->addAction(tr("Copy what contradicts itself"), this,
+                    [this] { m_commands.copyText(findingsText(m_reading.findings())); });
+    m_export->setMenu(menu);
+    for (QToolButton* button : {m_ghost, m_export}) {
+        button->setProperty("framed", true);
+        button->setFocusPolicy(Qt::TabFocus);
+    }
+}
+
+void NullPosePanel::layOut() {
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins({});
+    layout->setSpacing(0);
+    auto* buttons = new QWidget(this);
+    auto* row = new QHBoxLayout(buttons);
+    const int space = fontMetrics().height() / 4;
+    row->setContentsMargins(space, space, 2 * space, space);
+    row->setSpacing(2 * space);
+    row->addWidget(m_ghost);
+    row->addWidget(m_export);
+    m_tabs->setDocumentMode(true);
+    m_tabs->setCornerWidget(buttons, Qt::TopRightCorner);
+    m_tabs->addTab(m_segmentTable, tr("Segments"));
+    m_tabs->addTab(m_pointTable, tr("Points"));
+    m_tabs->addTab(m_lengthTable, tr("Lengths"));
+    m_tabs->addTab(m_scaleTable, tr("Type 10"));
+    m_overview->addWidget(m_figure);
+    m_overview->addWidget(m_factTable);
+    m_overview->setStretchFactor(0, 3);
+    m_overview->setStretchFactor(1, 2);
+    m_splitter->addWidget(m_overview);
+    m_splitter->addWidget(m_tabs);
+    for (QSplitter* splitter : {m_splitter, m_overview}) {
+        splitter->setHandleWidth(1);
+    }
+    layout->addWidget(m_notices);
+    layout->addWidget(new Line(this));
+    layout->addWidget(m_splitter, 1);
+    m_notices->hide();
+}
+
+void NullPosePanel::refresh() {
+    m_isFollowing = true;
+    if (m_reading.refresh()) {
+        m_point = -1;
+        for (NullPoseTable* table :
+             {static_cast<NullPoseTable*>(&m_segments), static_cast<NullPoseTable*>(&m_points),
+              static_cast<NullPoseTable*>(&m_lengths), static_cast<NullPoseTable*>(&m_scale)}) {
+            table->refresh();
+        }
+        m_notices->show(m_reading.findings());
+        showContent();
+    }
+    m_segmentTable->setEmptyText(emptyText());
+    m_facts.refresh();
+    m_ghost->setChecked(m_commands.isGhostVisible());
+    followSelection();
+    arrange();
+    m_isFollowing = false;
+}
+
+/// Tabs and sides that have nothing to show stand back.
+void NullPosePanel::showContent() {
+    const bool hasPose = m_reading.pose() != nullptr;
+    m_overview->setVisible(!m_reading.isEmpty());
+    m_figure->setVisible(hasPose);
+    m_export->setEnabled(!m_reading.isEmpty());
+    m_ghost->setEnabled(hasPose);
+    m_tabs->setTabVisible(m_tabs->indexOf(m_scaleTable), m_reading.scale() != nullptr);
+    if (!hasPose && m_reading.scale() != nullptr) {
+        m_tabs->setCurrentWidget(m_scaleTable);
+    }
+}
+
+QString NullPosePanel::emptyText() const {
+    if (!m_reading.character()) {
+        return tr(
+            "No character on the air.\nThe null pose is a T-pose that tells how large a performer's segments "
+            "are. It is sent as type 13.");
+    }
+    return tr(
+        "No null pose received.\nIt is a T-pose that tells how large the segments are, sent as type 13 "
+        "(scale information).\n"
+        "In MVN: Options > Preferences > Network Streamer.\nUntil it comes, a body of 1.75 m is drawn.");
+}
+
+void NullPosePanel::followSelection() {
+    const int place = m_reading.selectedPlace();
+    const model::NullPose* pose = m_reading.pose();
+    if (m_point >= 0) {
+        const bool isItsOwn =
+            pose != nullptr && m_point < static_cast<int>(pose->points.size()) &&
+            pose->points[static_cast<std::size_t>(m_point)].segment == m_reading.segmentAt(place) + 1;
+        m_point = isItsOwn ? m_point : -1;
+    }
+    setCurrentRow(*m_segmentTable, place);
+    setCurrentRow(*m_pointTable, m_point);
+    m_figure->show(place, m_point);
+}
+
+void NullPosePanel::selectPlace(int place) {
+    const auto& key = m_reading.character();
+    if (m_isFollowing || place < 0 || !key) {
+        return;
+    }
+    m_point = -1;
+    model::Selection selection = selectionOf(m_view, *key);
+    selection.segment = m_reading.segmentAt(place);
+    m_commands.select(selection);
+    m_figure->show(place, -1);
+}
+
+void NullPosePanel::selectPoint(int point) {
+    const auto& key = m_reading.character();
+    if (m_isFollowing || point < 0 || !key) {
+        return;
+    }
+    m_point = point;
+    model::Selection selection = selectionOf(m_view, *key);
+    selection.segment = m_reading.pose()->points[static_cast<std::size_t>(point)].segment - 1;
+    m_commands.select(selection);
+    m_tabs->setCurrentWidget(m_pointTable);
+    m_isFollowing = true;
+    setCurrentRow(*m_pointTable, point);
+    m_isFollowing = false;
+    m_figure->show(m_reading.selectedPlace(), point);
+}
+
+/// High docks show the figure above the tables; in low ones it is a tab.
+void NullPosePanel::arrange() {
+    const bool isRoomy = height() >= kRoomyLines * fontMetrics().height();
+    if (isRoomy != m_isRoomy) {
+        m_isRoomy = isRoomy;
+        const bool isShown = !m_reading.isEmpty();
+        if (isRoomy) {
+            m_splitter->insertWidget(0, m_overview);
+        } else {
+            m_tabs->insertTab(0, m_overview, tr("Figure"));
+        }
+        m_overview->setVisible(isShown);
+    }
+    if (!isRoomy) {
+        m_tabs->setTabVisible(m_tabs->indexOf(m_overview), !m_reading.isEmpty());
+    }
+    m_overview->setOrientation(width() >= 30 * fontMetrics().height() ? Qt::Horizontal : Qt::Vertical);
+    if (isRoomy && !m_isDivided && m_overview->isVisible()) {
+        m_isDivided = true;
+        m_splitter->setSizes({4, 5});
+        m_overview->setSizes({3, 2});
+    }
+    if (!m_notices->isHidden()) {
+        m_notices->fitHeight(static_cast<int>(height() * kNoticeShare));
+    }
+}
+
+void NullPosePanel::resizeEvent(QResizeEvent* event) {
+    Panel::resizeEvent(event);
+    arrange();
+}
+
+QString NullPosePanel::summary() const {
+    if (m_reading.isEmpty()) {
+        return {};
+    }
+    const std::string findings = model::findingsSummary(m_reading.findings());
+    const QString name = m_reading.character() ? characterName(m_view, *m_reading.character()) : QString();
+    return findings.empty() ? name : name + QStringLiteral(" · ") + QString::fromStdString(findings);
+}
+
+namespace {
+
+exporting::NullPoseSheet sheetOf(const NullPoseReading& reading) {
+    return {reading.character() ? reading.view().displayName(*reading.character()) : std::string(),
+            reading.pose(), reading.scale(), reading.props()};
+}
+
+} // namespace
+
+std::string NullPosePanel::csv() const {
+    return exporting::nullPoseCsv(sheetOf(m_reading));
+}
+
+std::string NullPosePanel::json() const {
+    return exporting::nullPoseJson(sheetOf(m_reading));
+}
+
+QString NullPosePanel::save(const QString& path) const {
+    const bool isJson = path.endsWith(QStringLiteral(".json"), Qt::CaseInsensitive);
+    QSaveFile file(path);
+    if (!file.open(QIODevice::WriteOnly)) {
+        return file.errorString();
+    }
+    file.write(QByteArray::fromStdString(isJson ? json() : csv()));
+    return file.commit() ? QString() : file.errorString();
+}
+
+void NullPosePanel::chooseFile(const QString& suffix) {
+    const QString name = m_reading.character() ? characterName(m_view, *m_reading.character()) : QString();
+    const QString path = QFileDialog::getSaveFileName(
+        this, tr("Save null pose"), QStringLiteral("%1 null pose.%2").arg(name, suffix),
+        suffix == QStringLiteral("json") ? tr("JSON (*.json)") : tr("CSV (*.csv)"));
+    const QString problem = path.isEmpty() ? QString() : save(path);
+    if (!problem.isEmpty()) {
+        QMessageBox::warning(this, tr("Save null pose"),
+                             tr("%1 could not be written: %2").arg(path, problem));
+    }
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/null_pose_table.h"
+#include "app/gui/models/property_model.h"
+#include "app/gui/panel.h"
+#include "app/gui/panels/null_pose_figure.h"
+#include "app/gui/panels/null_pose_notices.h"
+#include "app/gui/panels/table_view.h"
+
+#include <QSplitter>
+#include <QTabWidget>
+#include <QToolButton>
+
+#include <string>
+
+namespace posewire::gui {
+
+/// Dock `nullpose`: the body that scale messages (types 13, 10, 11) describe, what contradicts itself in
+/// them, and what changed.
+class NullPosePanel final : public Panel {
+    Q_OBJECT
+
+public:
+    NullPosePanel(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    void refresh() override;
+    [[nodiscard]] QString summary() const override;
+
+    /// Writes what is shown to a file: CSV, or JSON where the name ends with .json. The answer is what went
+    /// wrong, empty for nothing.
+    [[nodiscard]] QString save(const QString& path) const;
+    [[nodiscard]] std::string csv() const;
+    [[nodiscard]] std::string json() const;
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    void makeTables();
+    void makeButtons();
+    void layOut();
+    void arrange();
+    void followSelection();
+    void selectPlace(int place);
+    void selectPoint(int point);
+    void chooseFile(const QString& suffix);
+    void showContent();
+    [[nodiscard]] QString emptyText() const;
+
+    model::SessionView& m_view;
+    Commands& m_commands;
+    NullPoseReading m_reading;
+    NullPoseSegmentModel m_segments;
+    NullPosePointModel m_points;
+    NullPoseLengthModel m_lengths;
+    NullPoseScaleModel m_scale;
+    PropertyModel m_facts;
+    NullPoseNotices* m_notices;
+    QSplitter* m_splitter;
+    QSplitter* m_overview;
+    NullPoseFigure* m_figure;
+    TableView* m_factTable;
+    QTabWidget* m_tabs;
+    TableView* m_segmentTable;
+    TableView* m_pointTable;
+    TableView* m_lengthTable;
+    TableView* m_scaleTable;
+    QToolButton* m_ghost;
+    QToolButton* m_export;
+    int m_point = -1;
+    bool m_isFollowing = false;
+    bool m_isRoomy = true;    ///< the overview has its own room, else it is a tab
+    bool m_isDivided = false; ///< from then on the operator's division counts
+};
+
+} // namespace posewire::gui
