@@ -82,6 +82,8 @@ void styleTables(QTextDocument& document) {
             cell.setFormat(header);
         }
     }
+    // Else headings behind tables keep the height that they had while these were changed: none.
+    document.markContentsDirty(0, document.characterCount());
 }
 
 void showText(const QString& title, const QString& markdown, QWidget* parent) {

@@ -88,7 +88,6 @@ void ReferenceWindow::layOut() {
 
     const QFontMetrics metrics = fontMetrics();
     m_contents->setFrameShape(QFrame::NoFrame);
-    m_contents->setFixedWidth(metrics.averageCharWidth() * 30);
     auto* bar = new QHBoxLayout;
     bar->setSpacing(6);
     bar->addWidget(m_search);
@@ -118,12 +117,23 @@ void ReferenceWindow::readHeadings() {
             item->setData(kPlaceRole, block.position());
         }
     }
+    const int margin = m_contents->fontMetrics().averageCharWidth() * 4;
+    m_contents->setFixedWidth(m_contents->sizeHintForColumn(0) + margin);
 }
 
 void ReferenceWindow::applyColours() {
-    styleTables(*m_browser->document());
-    QTextCursor cursor(m_browser->document());
-    for (QTextBlock block = m_browser->document()->begin(); block.isValid(); block = block.next()) {
+    QTextDocument& document = *m_browser->document();
+    QTextCursor cursor(&document);
+    cursor.beginEditBlock();
+    styleTables(document);
+    for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
+        if (block.blockFormat().headingLevel() != 0) {
+            QTextBlockFormat format;
+            format.setTopMargin(fontMetrics().height());
+            format.setBottomMargin(fontMetrics().height() / 3.0);
+            cursor.setPosition(block.position());
+            cursor.mergeBlockFormat(format);
+        }
         for (auto at = block.begin(); !at.atEnd(); ++at) {
             const QTextFragment fragment = at.fragment();
             if (fragment.charFormat().isAnchor()) {
@@ -136,6 +146,7 @@ void ReferenceWindow::applyColours() {
             }
         }
     }
+    cursor.endEditBlock();
 }
 
 void ReferenceWindow::changeEvent(QEvent* event) {

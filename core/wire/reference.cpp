@@ -92,11 +92,11 @@ void writeTable(std::string& out) {
 
 template <class FieldType>
 struct ItemOf {
-    static void write(std::string&) {}
+    static void write(std::string&, std::string_view) {}
 };
 template <auto Member, Form ItemForm>
 struct ItemOf<Items<Member, ItemForm>> {
-    static void write(std::string& out) {
+    static void write(std::string& out, std::string_view) {
         using Item = typename MemberValue<Member>::value_type;
         if constexpr (kIsFixed<Item, ItemForm>) {
             out += "\nEach item, " + std::to_string(kWireSize<Item, ItemForm>) + " bytes:\n\n";
@@ -108,8 +108,8 @@ struct ItemOf<Items<Member, ItemForm>> {
 };
 template <auto Member, std::size_t Max>
 struct ItemOf<CountedList<Member, Max>> {
-    static void write(std::string& out) {
-        out += "\nEach of the items:\n\n";
+    static void write(std::string& out, std::string_view listName) {
+        out.append("\nEach of the ").append(listName).append(":\n\n");
         writeTable<typename MemberValue<Member>::value_type, Form::Standard>(out);
     }
 };
@@ -118,7 +118,9 @@ template <class T, Form F>
 void writeForm(std::string& out, std::string_view title) {
     out.append(title.empty() ? "" : "\n").append(title).append(title.empty() ? "" : "\n\n");
     writeTable<T, F>(out);
-    forEachField<T, F>([&](const auto& field) { ItemOf<std::remove_cvref_t<decltype(field)>>::write(out); });
+    forEachField<T, F>([&](const auto& field) {
+        ItemOf<std::remove_cvref_t<decltype(field)>>::write(out, field.about.name);
+    });
 }
 
 template <class T>

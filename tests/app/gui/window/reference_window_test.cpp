@@ -6,6 +6,7 @@
 #include "core/wire/reference_overview.h"
 #include "core/wire/type_table.h"
 
+#include <QAbstractTextDocumentLayout>
 #include <QApplication>
 #include <QDir>
 #include <QLineEdit>
@@ -50,6 +51,20 @@ TEST_F(ReferenceWindowTest, FollowsTheLinksOfTheOverviewToTheSections) {
     ASSERT_TRUE(m_window->goTo("13-null-pose"));
     EXPECT_EQ(m_window->browser().textCursor().block().text(), "13 Null pose");
     EXPECT_GT(m_window->browser().verticalScrollBar()->value(), 0);
+}
+
+TEST_F(ReferenceWindowTest, ShowsEveryHeadingInEachTheme) {
+    for (const ThemeChoice choice : {ThemeChoice::Light, ThemeChoice::Dark}) {
+        applyTheme(*qApp, choice);
+        QApplication::processEvents();
+        const QTextDocument& document = *m_window->browser().document();
+        for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
+            if (block.blockFormat().headingLevel() != 0) {
+                EXPECT_GT(document.documentLayout()->blockBoundingRect(block).height(), 10)
+                    << block.text().toStdString();
+            }
+        }
+    }
 }
 
 TEST_F(ReferenceWindowTest, FindsAFieldAndBeginsAgainAtTheTop) {
