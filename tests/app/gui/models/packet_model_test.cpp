@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/packet_model.h"
+
+#include "app/gui/models/packet_filter_run.h"
+#include "app/gui/models/roles.h"
+#include "tests/app/gui/models/stage.h"
+#include "tests/support/golden.h"
+
+#include <QAbstractItemModelTester>
+#include <QSignalSpy>
+
+#include <random>
+
+namespace posewire::gui {
+namespace {
+
+class PacketModelTest : public testing::Test {
+protected:
+    void refresh() {
+        m_stage.follow();
+        m_model.refresh();
+    }
+    /// A pose with this sample counter, a hundredth of a second after the last packet.
+    void pose(std::uint32_t sample) {
+        m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + m_sent++ * 10 * Stage::kMillisecond);
+    }
+    void steadyPoses(std::uint32_t count) {
+        for (std::uint32_t sample = 0; sample < count; ++sample) {
+            pose(sample);
+        }
+    }
+    [[nodiscard]] QString text(int row, int column) const {
+        return m_model.index(row, column).data().toString();
+    }
+    [[nodiscard]] QString lastNote() {
+        refresh();
+        return text(m_model.rowCount() - 1, PacketModel::kNote);
+    }
+
+    Stage m_stage;
+    PacketModel m_model{m_stage.session};
+    QAbstractItemModelTester m_tester{&m_model, QAbstractItemModelTester::FailureReportingMode::Fatal};
+    std::int64_t m_sent = 0;
+};
+
+TEST_F(PacketModelTest, ListsWhatIsKnownAboutAPacket) {
+    m_stage.sendMetadata("name:Mira\n", Stage::kStart);
+    m_sent = 1;
+    pose(153'401);
+    pose(153'402);
+    refresh();
+    ASSERT_EQ(m_model.rowCount(), 3);
+    EXPECT_EQ(text(2, PacketModel::kNumber), "2");
+    EXPECT_EQ(text(2, PacketModel::kTime), "0.0200");
+    EXPECT_EQ(text(2, PacketModel::kDelta), "10.00");
+    EXPECT_EQ(text(2, PacketModel::kSource), Stage::kAddress);
+    EXPECT_EQ(text(2, PacketModel::kType), "02 Pose, quaternion");
+    EXPECT_EQ(text(2, PacketModel::kCharacter), "0");
+    EXPECT_EQ(m_model.index(2, PacketModel::kCharacter).data(kSuffixRole).toString(), "Mira");
+    EXPECT_EQ(text(2, PacketModel::kSample), QString::fromUtf8("153\u202f402"));
+    EXPECT_EQ(text(2, PacketModel::kPart), "1/1");
+    EXPECT_EQ(text(2, PacketModel::kSize), "56");
+    EXPECT_EQ(text(2, PacketModel::kNote), "");
+}
+
+TEST_F(PacketModelTest, CountsTimesFromWhereTheOperatorWants) {
+    pose(0);
+    m_stage.sendMetadata("name:Mira\n", Stage::kStart + 4 * Stage::kMillisecond);
+    m_sent = 1;
+    pose(1);
+    refresh();
+    m_model.setDeltaMode(PacketModel::DeltaMode::RowAbove);
+    EXPECT_EQ(text(2, PacketModel::kDelta), "6.00");
+    m_model.setTimeMode(PacketModel::TimeMode::TimeOfDay);
+    EXPECT_EQ(text(2, PacketModel::kTime), "2023-11-14 22:13:20.010000");
+}
+
+TEST_F(PacketModelTest, NotesInWordsHowAPacketRelatesToItsStream) {
+    steadyPoses(20);
+    EXPECT_EQ(lastNote(), "");
+    pose(24);
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 4 samples missing"));
+    pose(24);
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ duplicate"));
+    pose(22);
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ reordered"));
+    pose(26);
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 1 sample missing"));
+    pose(1'000'000);
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ counter began anew"));
+}
+
+TEST_F(PacketModelTest, NotesInWordsWhatIsWrongWithTheBytes) {
+    const auto& whole = test::golden("02_quaternion_counted").bytes;
+    m_stage.sendBytes(wire::Bytes(whole).first(whole.size() - 8), Stage::kStart);
+    EXPECT_TRUE(lastNote().startsWith(QStringLiteral("■ malformed: "))) << lastNote().toStdString();
+    EXPECT_TRUE(lastNote().contains("needs")) << lastNote().toStdString();
+    const std::string_view foreign = "GET / HTTP/1.1\r\n";
+    m_stage.sendBytes(std::as_bytes(std::span(foreign)), Stage::kStart + 1);
+    EXPECT_TRUE(lastNote().startsWith(QStringLiteral("▲ foreign: 47 45 54"))) << lastNote().toStdString();
+    EXPECT_EQ(text(1, PacketModel::kType), "foreign");
+    std::vector<std::byte> longer(whole);
+    longer.resize(whole.size() + 3);
+    m_stage.sendBytes(longer, Stage::kStart + 2);
+    EXPECT_TRUE(lastNote().contains("byte")) << lastNote().toStdString();
+}
+
+TEST_F(PacketModelTest, NotesWhatThisComputerDroppedMarksAndComments) {
+    log::Arrival arrival;
+    arrival.stampNs = Stage::kStart;
+    arrival.source = m_stage.source();
+    arrival.kernelDropsBefore = 12;
+    m_stage.log.writer().append(test::golden("02_quaternion_counted").bytes, arrival);
+    m_stage.log.writer().publish();
+    EXPECT_TRUE(lastNote().contains("this computer dropped 12 before")) << lastNote().toStdString();
+    steadyPoses(1);
+    refresh();
+    QSignalSpy changed(&m_model, &QAbstractItemModel::dataChanged);
+    m_stage.session.setComment(1, "look here");
+    m_stage.session.setMarked(1, true);
+    EXPECT_TRUE(lastNote().contains(QStringLiteral("“look here”"))) << lastNote().toStdString();
+    EXPECT_EQ(changed.count(), 1);
+}
+
+TEST_F(PacketModelTest, AnnouncesOneInsertionForManyPackets) {
+    QSignalSpy inserted(&m_model, &QAbstractItemModel::rowsInserted);
+    QSignalSpy changed(&m_model, &QAbstractItemModel::dataChanged);
+    steadyPoses(5'000);
+    refresh();
+    EXPECT_EQ(inserted.count(), 1);
+    EXPECT_EQ(changed.count(), 0);
+    EXPECT_EQ(m_model.rowCount(), 5'000);
+}
+
+TEST(PacketModel, AnnouncesOneRemovalForWhatTheLogDropped) {
+    log::PacketLog log({.memoryCap = 1 << 20, .chunkSize = 1 << 18});
+    model::Session session(log);
+    PacketModel model(session);
+    QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::Fatal);
+    QSignalSpy removed(&model, &QAbstractItemModel::rowsRemoved);
+    QSignalSpy inserted(&model, &QAbstractItemModel::rowsInserted);
+    const auto& bytes = test::golden("02_quaternion_counted").bytes;
+    const auto source = log.sources().intern({"sender", log::Transport::Udp, 9763});
+    int rounds = 0;
+    while (session.begin() == 0) {
+        for (int i = 0; i < 500; ++i) {
+            log.writer().append(bytes, {.stampNs = Stage::kStart, .source = source});
+        }
+        log.writer().publish();
+        session.follow(Stage::kStart);
+        model.refresh();
+        ++rounds;
+    }
+    EXPECT_EQ(inserted.count(), rounds);
+    EXPECT_EQ(removed.count(), 1);
+    EXPECT_EQ(model.packetAt(0), session.begin());
+    EXPECT_EQ(model.packetAt(model.rowCount() - 1), session.end() - 1);
+    EXPECT_EQ(model.rowOf(0), -1);
+}
+
+TEST_F(PacketModelTest, ListsWhatAFilterLetsThroughAndFollowsIt) {
+    steadyPoses(3'000);
+    for (int i = 0; i < 7; ++i) {
+        m_stage.sendMetadata("name:Mira\n", Stage::kStart);
+    }
+    refresh();
+    m_model.beginMatches();
+    PacketFilterRun run(m_stage.log, *filter::Filter::compile("type == 12"), m_stage.session.firstStampNs());
+    run.wait();
+    m_model.addMatches(run.take(m_stage.session.end()));
+    refresh();
+    EXPECT_EQ(m_model.rowCount(), 7);
+    EXPECT_EQ(m_model.packetAt(0), 3'000U);
+    EXPECT_EQ(m_model.rowOf(2'999), -1);
+    m_stage.sendMetadata("name:Ana\n", Stage::kStart);
+    run.wait();
+    EXPECT_TRUE(run.take(m_stage.session.end()).empty()) << "the session has not followed yet";
+    m_stage.follow();
+    m_model.addMatches(run.take(m_stage.session.end()));
+    refresh();
+    EXPECT_EQ(m_model.rowCount(), 8);
+    m_model.endMatches();
+    EXPECT_EQ(m_model.rowCount(), 3'008);
+}
+
+TEST_F(PacketModelTest, FilterStopsAtOnceWhenItIsCancelled) {
+    steadyPoses(50'000);
+    PacketFilterRun run(m_stage.log, *filter::Filter::compile("type == 02"), 0);
+    run.cancel();
+    run.wait();
+    const auto found = run.take(UINT64_MAX).size();
+    EXPECT_TRUE(run.isCancelled());
+    pose(60'000);
+    run.wait();
+    EXPECT_LE(run.take(UINT64_MAX).size() + found, 50'000U);
+}
+
+TEST_F(PacketModelTest, PaintsEveryCellOfDamagedDatagrams) {
+    std::mt19937 random(7);
+    for (int i = 0; i < 4'000; ++i) {
+        const auto& goldens = test::goldens();
+        std::vector<std::byte> bytes = goldens[static_cast<std::size_t>(i) % goldens.size()].bytes;
+        bytes.resize(random() % 3 == 0 ? random() % (bytes.size() + 1) : bytes.size());
+        for (unsigned flips = random() % 4; flips > 0 && !bytes.empty(); --flips) {
+            bytes[random() % std::min<std::size_t>(bytes.size(), 64)] = static_cast<std::byte>(random());
+        }
+        m_stage.sendBytes(bytes, Stage::kStart + i);
+    }
+    refresh();
+    qsizetype written = 0;
+    for (int row = 0; row < m_model.rowCount(); ++row) {
+        for (int column = 0; column < m_model.columnCount(); ++column) {
+            const QModelIndex index = m_model.index(row, column);
+            for (const int role : {int{Qt::DisplayRole}, int{Qt::ForegroundRole}, int{Qt::ToolTipRole},
+                                   kSuffixRole, kDotRole}) {
+                written += index.data(role).toString().size();
+            }
+        }
+        if (m_stage.session.digests().find(static_cast<std::uint64_t>(row))->isProblem()) {
+            EXPECT_FALSE(text(row, PacketModel::kNote).isEmpty()) << row;
+        }
+    }
+    EXPECT_GT(written, 4'000 * 20);
+}
+
+} // namespace
+} // namespace posewire::gui
