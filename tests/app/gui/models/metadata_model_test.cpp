@@ -50,6 +50,19 @@ TEST_F(MetadataModelTest, ShowsEveryTagAndMarksUnknownOnesInWords) {
     EXPECT_EQ(colour.data(kSwatchRole).value<QColor>().name(), "#e96417");
 }
 
+TEST_F(MetadataModelTest, ShowsWhatTheOperatorDeclaredInsteadOfWhatWasDetected) {
+    m_stage.send(smallPose(), 1, 0, Stage::kStart);
+    refresh();
+    EXPECT_TRUE(value("Revision").startsWith("L to N"));
+    EXPECT_TRUE(value("Units").startsWith("metres"));
+    m_stage.commands.setOverride(m_stage.source(), {model::Revision::E, model::LengthUnit::Centimetre});
+    refresh();
+    EXPECT_EQ(value("Revision"), QStringLiteral("E · as you said"));
+    EXPECT_EQ(value("Units"), QStringLiteral("centimetres · as you said"));
+    const QModelIndex units = row("Units").siblingAtColumn(MetadataModel::kValue);
+    EXPECT_TRUE(units.data(Qt::ToolTipRole).toString().contains("Detected: metres"));
+}
+
 TEST_F(MetadataModelTest, KeepsEarlierValuesBelowTheTagNewestFirst) {
     for (const char* text : {"name:Ana\n", "name:Bea\n", "name:Cleo\n"}) {
         m_stage.sendMetadata(text, m_stage.now + Stage::kSecond);
