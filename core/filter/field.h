@@ -66,11 +66,11 @@ struct FieldInfo {
     std::string qualifier; ///< the list it is in, "header", or empty
     Kind kind = Kind::Number;
     std::size_t components = 1;
-    bool isFloat = false;       ///< constants are rounded to 32 bits to compare with it
-    bool isTrueByValue = false; ///< standing alone it means "not zero" instead of "there is one"
-    bool isDecoded = false;     ///< a packet field that is compared by what decoding found
-    std::string_view unit;
-    std::string_view text;
+    bool isFloat = false;                ///< constants are rounded to 32 bits to compare with it
+    bool isTrueByValue = false;          ///< standing alone it means "not zero" instead of "there is one"
+    bool isDecoded = false;              ///< a packet field that is compared by what decoding found
+    std::string unit;                    ///< where types differ: "cm (01), m (02)"
+    std::string text;                    ///< likewise
     std::vector<std::string_view> words; ///< the values that it can have, where they are words
     std::vector<std::uint8_t> types;     ///< message types that have it, in order; empty for packet fields
     ReadPacket readPacket = nullptr;     ///< of a packet field

@@ -3,6 +3,7 @@
 
 #include "core/filter/item_segment.h"
 #include "core/wire/form.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <utility>
@@ -85,8 +86,15 @@ bool readHeader(Subject& subject, std::size_t index, Value& value) {
 using CountItems = std::size_t (*)(const Datagram&);
 using Counts = std::array<std::array<CountItems, kLists>, kShapes>;
 
+/// What each message type says about a field; in the order of its types.
+struct Said {
+    std::vector<std::string_view> units;
+    std::vector<std::string_view> texts;
+};
+
 struct Found {
     std::vector<FieldInfo> fields;
+    std::vector<Said> said; ///< one for each field
     Counts counts{};
 };
 
@@ -118,12 +126,14 @@ void add(Found& found, const Spot& spot, const wire::About& about, const Reading
         info.kind = reading.kind;
         info.components = reading.components;
         info.isFloat = reading.kind == Kind::Vector;
-        info.unit = wire::unitSymbol(about.unit);
-        info.text = about.text;
         field = found.fields.insert(field, std::move(info));
+        found.said.emplace_back();
     }
     if (field->types.empty() || field->types.back() != spot.type) {
+        Said& said = found.said[static_cast<std::size_t>(field - found.fields.begin())];
         field->types.push_back(spot.type);
+        said.units.push_back(wire::unitSymbol(about.unit));
+        said.texts.push_back(about.text);
     }
     field->places[spot.shape][spot.list] = reading.read;
     if (reading.readNamed != nullptr) {
@@ -230,6 +240,7 @@ public:
         info.text = field.about.text;
         info.readPacket = &readHeader<Member>;
         m_found.fields.push_back(std::move(info));
+        m_found.said.emplace_back();
     }
 
 private:
@@ -248,6 +259,27 @@ void walkMessage(Found& found) {
     }
 }
 
+/// What the types say, each thing once: "m", or "cm (01), m (02 21)" where they differ.
+std::string together(const std::vector<std::string_view>& said, const std::vector<std::uint8_t>& types) {
+    std::string all;
+    for (std::size_t i = 0; i < said.size(); ++i) {
+        if (said[i].empty() || std::find(said.begin(), said.begin() + static_cast<std::ptrdiff_t>(i),
+                                         said[i]) != said.begin() + static_cast<std::ptrdiff_t>(i)) {
+            continue;
+        }
+        std::string who;
+        for (std::size_t j = i; j < said.size(); ++j) {
+            const auto digits = wire::typeDigits(types[j]);
+            who.append(said[j] == said[i] ? (who.empty() ? " (" : " ") : "");
+            who.append(digits.data(), said[j] == said[i] ? digits.size() : 0);
+        }
+        const bool isAgreed =
+            std::count(said.begin(), said.end(), said[i]) == static_cast<std::ptrdiff_t>(said.size());
+        all.append(all.empty() ? "" : ", ").append(said[i]).append(isAgreed ? "" : who + ')');
+    }
+    return all;
+}
+
 Found walkAll() {
     Found found;
     wire::forEachField<wire::Header, Form::Standard>(HeaderWalker(found));
@@ -255,6 +287,13 @@ Found walkAll() {
         (walkMessage<I + 1>(found), ...);
     }
     (std::make_index_sequence<kBodies - 1>{});
+    for (std::size_t i = 0; i < found.fields.size(); ++i) {
+        FieldInfo& field = found.fields[i];
+        if (field.isOfItems()) {
+            field.unit = together(found.said[i].units, field.types);
+            field.text = together(found.said[i].texts, field.types);
+        }
+    }
     return found;
 }
 

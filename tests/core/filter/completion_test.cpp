@@ -108,5 +108,9 @@ TEST(FilterReference, NamesEveryFieldOfTheTables) {
     }
 }
 
+TEST(FilterReference, SaysWhichTypesHaveWhichUnit) {
+    EXPECT_THAT(filterReference(), HasSubstr("| `segments.position` | x, y, z | cm (01), m (02 05 13 21) |"));
+}
+
 } // namespace
 } // namespace posewire::filter::test
