@@ -12,7 +12,7 @@
 
 namespace posewire::gui {
 
-void PacketsPanel::show(std::uint64_t number) {
+void PacketsPanel::showPacket(std::uint64_t number) {
     m_commands.selectPacket(number);
     m_list->setFollowing(false);
     refresh();
@@ -26,7 +26,7 @@ QString PacketsPanel::goTo(const QString& text) {
     if (!target) {
         return target.error();
     }
-    show(*target);
+    showPacket(*target);
     return {};
 }
 
@@ -47,7 +47,7 @@ void PacketsPanel::goToRow(bool isForward, const Condition& isWanted, const QStr
         isForward ? (from ? m_packets.rowFrom(*from + 1) : 0) : (from ? m_packets.rowFrom(*from) : rows) - 1;
     for (; row >= 0 && row < rows; row += isForward ? 1 : -1) {
         if (isWanted(m_packets.packetAt(row))) {
-            show(m_packets.packetAt(row));
+            showPacket(m_packets.packetAt(row));
             return;
         }
     }
@@ -75,7 +75,7 @@ void PacketsPanel::goToProblem(bool isForward) {
     const auto found = isAtBegin   ? std::optional(digests.begin())
                        : isForward ? digests.nextProblem(from.value_or(digests.begin()))
                                    : digests.previousProblem(from.value_or(digests.end()));
-    found ? show(*found) : say(nothing);
+    found ? showPacket(*found) : say(nothing);
 }
 
 void PacketsPanel::nextProblem() {
@@ -88,7 +88,7 @@ void PacketsPanel::previousProblem() {
 
 void PacketsPanel::firstPacket() {
     if (m_packets.rowCount() > 0) {
-        show(m_packets.packetAt(0));
+        showPacket(m_packets.packetAt(0));
     }
 }
 
@@ -144,7 +144,7 @@ void PacketsPanel::goToMark(bool isForward) {
         say(isForward ? tr("No mark after this packet.") : tr("No mark before this packet."));
         return;
     }
-    show(isForward ? *after : *(after - 1));
+    showPacket(isForward ? *after : *(after - 1));
 }
 
 void PacketsPanel::nextMark() {
@@ -208,7 +208,7 @@ void PacketsPanel::takeSearchResult() {
         m_find->say(tr("Found nowhere"), true);
         return;
     }
-    show(*result->packet);
+    showPacket(*result->packet);
     const QString place = tr("in packet %1, byte %2").arg(grouped(*result->packet)).arg(result->offset);
     m_find->say(result->isWrapped ? tr("%1 (went around)").arg(place) : place, false);
 }

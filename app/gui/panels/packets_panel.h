@@ -86,7 +86,7 @@ private:
     void cancelFilter();
     void clearFilter();
     void selectRow(const QModelIndex& index);
-    void show(std::uint64_t number);
+    void showPacket(std::uint64_t number);
     void say(const QString& text);
     [[nodiscard]] std::optional<std::uint64_t> selected() const;
     [[nodiscard]] std::vector<std::uint64_t> selectedPackets() const;

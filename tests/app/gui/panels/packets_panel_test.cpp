@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/packets_panel.h"
+
+#include "app/gui/panels/filter_bar.h"
+#include "app/gui/panels/find_bar.h"
+#include "app/gui/panels/packet_view.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QTest>
+
+#include <memory>
+
+namespace posewire::gui {
+namespace {
+
+class PacketsPanelTest : public testing::Test {
+protected:
+    PacketsPanelTest() {
+        m_panel.resize(900, 300);
+        m_panel.show();
+    }
+    void poses(std::uint32_t from, std::uint32_t to) {
+        for (std::uint32_t sample = from; sample < to; ++sample) {
+            m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + sample * 10 * Stage::kMillisecond);
+        }
+        refresh();
+    }
+    void refresh() {
+        m_stage.follow();
+        m_panel.refresh();
+    }
+    /// Until the filter has seen everything.
+    void filterBy(const QString& text) {
+        m_stage.commands.setDisplayFilter(text);
+        refresh();
+        if (m_panel.filterRun() != nullptr) {
+            const_cast<PacketFilterRun*>(m_panel.filterRun())->wait();
+        }
+        refresh();
+    }
+    [[nodiscard]] PacketView& list() { return *m_panel.findChild<PacketView*>(); }
+    [[nodiscard]] FilterBar& bar() { return *m_panel.findChild<FilterBar*>(); }
+    [[nodiscard]] std::optional<std::uint64_t> selected() const { return m_stage.session.selection().packet; }
+
+    Stage m_stage;
+    PacketsPanel m_panel{m_stage.session, m_stage.commands, nullptr};
+};
+
+TEST_F(PacketsPanelTest, FollowsTheNewestUntilScrolledAwayAndSaysSo) {
+    poses(0, 200);
+    QScrollBar* bar = list().verticalScrollBar();
+    EXPECT_EQ(m_panel.summary(), QStringLiteral("following · 200"));
+    EXPECT_EQ(bar->value(), bar->maximum());
+    bar->setValue(50);
+    poses(200, 300);
+    EXPECT_EQ(m_panel.summary(), "300");
+    EXPECT_EQ(bar->value(), 50);
+    auto* newest = list().findChild<QPushButton*>("newestPacket");
+    EXPECT_TRUE(newest->isVisible());
+    EXPECT_TRUE(newest->text().contains("100 new")) << newest->text().toStdString();
+    newest->click();
+    EXPECT_EQ(bar->value(), bar->maximum());
+    EXPECT_EQ(m_panel.summary(), QStringLiteral("following · 300"));
+    EXPECT_FALSE(newest->isVisible());
+}
+
+TEST_F(PacketsPanelTest, SelectingARowSelectsThePacketAndBack) {
+    poses(0, 200);
+    list().setFocus();
+    list().setCurrentIndex(m_panel.packets().index(150, 0));
+    EXPECT_EQ(selected(), 150U);
+    EXPECT_FALSE(list().isFollowing());
+    QTest::keyClick(&list(), Qt::Key_Down);
+    EXPECT_EQ(selected(), 151U);
+    const int asked = m_stage.commands.selections;
+    m_stage.commands.selectPacket(7);
+    refresh();
+    EXPECT_EQ(list().currentIndex().row(), 7);
+    EXPECT_EQ(m_stage.commands.selections, asked + 1);
+    QTest::keyClick(&list(), Qt::Key_End);
+    EXPECT_EQ(selected(), std::nullopt);
+    EXPECT_TRUE(list().isFollowing());
+}
+
+TEST_F(PacketsPanelTest, ListsWhatTheDisplayFilterOfTheSessionLetsThrough) {
+    poses(0, 200);
+    m_stage.sendMetadata("name:Mira\n", Stage::kStart);
+    filterBy("type == 12");
+    EXPECT_EQ(m_panel.packets().rowCount(), 1);
+    EXPECT_EQ(bar().text(), "type == 12");
+    EXPECT_EQ(m_panel.summary(), QStringLiteral("following · 1 of 201 shown"));
+    filterBy("type == 77");
+    EXPECT_EQ(m_panel.packets().rowCount(), 0);
+    EXPECT_TRUE(list().emptyText().contains("No packet matches"));
+    m_panel.findChild<QPushButton*>("clearFilter")->click();
+    EXPECT_EQ(m_stage.session.displayFilter(), "");
+    EXPECT_EQ(m_panel.packets().rowCount(), 201);
+}
+
+TEST_F(PacketsPanelTest, FilterLineSaysWhatIsWrongAndWhere) {
+    poses(0, 10);
+    auto* line = m_panel.findChild<QLineEdit*>("displayFilter");
+    line->setText("type == 02 && gop > 0");
+    QTest::keyClick(line, Qt::Key_Return);
+    ASSERT_TRUE(bar().error().has_value());
+    EXPECT_EQ(bar().error()->offset, 14U);
+    EXPECT_TRUE(bar().errorText().contains("gop")) << bar().errorText().toStdString();
+    EXPECT_EQ(m_stage.session.displayFilter(), "");
+    line->setText("type == 02 && gap > 0");
+    QTest::keyClick(line, Qt::Key_Return);
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && gap > 0");
+    EXPECT_EQ(bar().errorText(), "");
+    EXPECT_EQ(bar().history(), QStringList("type == 02 && gap > 0"));
+}
+
+TEST_F(PacketsPanelTest, ShippedFiltersAreRight) {
+    ASSERT_EQ(bar().saved().size(), 3U);
+    for (const FilterBar::Saved& saved : bar().saved()) {
+        EXPECT_TRUE(filter::Filter::compile(saved.text.toStdString()).has_value())
+            << saved.text.toStdString();
+    }
+}
+
+TEST_F(PacketsPanelTest, KeepsFiltersAndTimesFromOneRunToTheNext) {
+    bar().setSaved({{"Mine", "size > 100"}});
+    m_panel.timeOfDay();
+    m_panel.deltaToRowAbove();
+    PacketsPanel next(m_stage.session, m_stage.commands, nullptr);
+    next.restoreState(m_panel.state());
+    EXPECT_EQ(next.findChild<FilterBar*>()->saved(), bar().saved());
+    EXPECT_EQ(next.packets().timeMode(), PacketModel::TimeMode::TimeOfDay);
+    EXPECT_EQ(next.packets().deltaMode(), PacketModel::DeltaMode::RowAbove);
+}
+
+TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
+    poses(0, 100);
+    poses(104, 200); // packet 100 follows a gap
+    m_stage.sendMetadata("name:Mira\n", Stage::kStart + 3 * Stage::kSecond);
+    poses(200, 210);
+    m_panel.nextProblem();
+    EXPECT_EQ(selected(), 100U);
+    m_panel.nextProblem();
+    EXPECT_EQ(selected(), 100U);
+    EXPECT_TRUE(m_panel.message().contains("No problem after")) << m_panel.message().toStdString();
+    EXPECT_EQ(m_panel.goTo("195"), "");
+    m_panel.nextOfStream();
+    EXPECT_EQ(selected(), 197U); // 196 is the metadata
+    m_panel.toggleMark();
+    EXPECT_TRUE(m_stage.session.annotations().marks.contains(197));
+    m_panel.previousProblem();
+    EXPECT_EQ(selected(), 100U);
+    m_panel.nextMark();
+    EXPECT_EQ(selected(), 197U);
+    EXPECT_NE(m_panel.goTo("9999"), "");
+    m_panel.firstPacket();
+    EXPECT_EQ(selected(), 0U);
+}
+
+TEST_F(PacketsPanelTest, FiltersByTheCellUnderTheCursor) {
+    poses(0, 100);
+    list().setCurrentIndex(m_panel.packets().index(50, PacketModel::kSample));
+    m_panel.filterByCell();
+    EXPECT_EQ(m_stage.session.displayFilter(), "sample == 50");
+    m_panel.copyRows();
+}
+
+TEST_F(PacketsPanelTest, FindsTextInThePackets) {
+    poses(0, 100);
+    m_stage.sendMetadata("name:Mira Lindqvist\n", Stage::kStart + 3 * Stage::kSecond);
+    refresh();
+    auto* find = m_panel.findChild<FindBar*>();
+    m_panel.find();
+    EXPECT_TRUE(find->isVisible());
+    find->setText("lindqvist");
+    m_panel.findNext();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return selected() == 100U; }));
+    find->setText("nobody");
+    m_panel.findNext();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return find->said().contains("nowhere"); }));
+}
+
+TEST_F(PacketsPanelTest, CopiesBytesOfTheSelectedPacket) {
+    poses(0, 10);
+    list().setCurrentIndex(m_panel.packets().index(3, 0));
+    m_panel.copyBytesRaw();
+    EXPECT_TRUE(m_stage.commands.copied.startsWith("4d58545030320000"))
+        << m_stage.commands.copied.toStdString();
+}
+
+} // namespace
+} // namespace posewire::gui
