@@ -19,7 +19,12 @@ PropertyValue none() {
 
 QString age(const NullPoseReading& reading, std::int64_t stampNs) {
     const double seconds = static_cast<double>(reading.view().cursorStampNs() - stampNs) * 1e-9;
-    return tr("%1 ago").arg(duration(std::max(seconds, 0.0)));
+    return duration(std::max(seconds, 0.0));
+}
+
+/// "10:42:17": scale messages come seconds apart.
+QString secondsOfDay(std::int64_t stampNs) {
+    return timeOfDay(stampNs).section(QLatin1Char('.'), 0, 0);
 }
 
 PropertyValue parts(const NullPoseReading& reading) {
@@ -39,7 +44,7 @@ PropertyValue parts(const NullPoseReading& reading) {
         missing += QString::number(part + 1);
     }
     if (!missing.isEmpty()) {
-        text += tr(", without %1").arg(missing.join(QStringLiteral(", ")));
+        text += tr(", no %1").arg(missing.join(QStringLiteral(", ")));
     }
     return {text, health, tr("Datagrams of the newest type 13 message")};
 }
@@ -49,7 +54,8 @@ PropertyValue received(const NullPoseReading& reading) {
         return none();
     }
     const std::int64_t stampNs = reading.newest()->stampNs;
-    return {timeOfDay(stampNs) + QStringLiteral(" · ") + age(reading, stampNs)};
+    return {secondsOfDay(stampNs) + QStringLiteral(" · ") + age(reading, stampNs), Health::Unknown,
+            tr("When its newest part came, and how long ago")};
 }
 
 PropertyValue messages(const NullPoseReading& reading) {
@@ -67,8 +73,8 @@ PropertyValue changed(const NullPoseReading& reading) {
     if (!reading.hasChanged()) {
         return {tr("never"), Health::Unknown, tr("All messages said the same")};
     }
-    return {timeOfDay(reading.changedNs()) + QStringLiteral(" · ") + age(reading, reading.changedNs()),
-            Health::Warning, tr("When a message said something else than the one before")};
+    return {secondsOfDay(reading.changedNs()) + QStringLiteral(" · ") + age(reading, reading.changedNs()),
+            Health::Warning, tr("When a message said something else than the one before, and how long ago")};
 }
 
 PropertyValue metres(const std::optional<double>& value, bool isEstimated) {
@@ -82,12 +88,8 @@ PropertyValue metres(const std::optional<double>& value, bool isEstimated) {
                 : tr("From the points that were sent")};
 }
 
-PropertyValue content(const NullPoseReading& reading) {
-    const model::NullPose* pose = reading.pose();
-    return pose == nullptr
-               ? none()
-               : PropertyValue{
-                     tr("%1 segments · %2 points").arg(pose->segments.size()).arg(pose->points.size())};
+PropertyValue countOf(std::size_t count, const NullPoseReading& reading) {
+    return reading.pose() == nullptr ? none() : PropertyValue{grouped(count)};
 }
 
 PropertyValue scale(const NullPoseReading& reading) {
@@ -117,7 +119,10 @@ std::vector<Property> nullPoseFacts(const NullPoseReading& reading) {
         {tr("Received"), [from] { return received(*from); }},
         {tr("Messages"), [from] { return messages(*from); }},
         {tr("Changed"), [from] { return changed(*from); }},
-        {tr("Content"), [from] { return content(*from); }},
+        {tr("Segments"),
+         [from] { return countOf(from->pose() == nullptr ? 0 : from->pose()->segments.size(), *from); }},
+        {tr("Points"),
+         [from] { return countOf(from->pose() == nullptr ? 0 : from->pose()->points.size(), *from); }},
         {tr("Height"), [from] { return metres(from->measures().height, from->measures().isEstimated); }},
         {tr("Arm span"), [from] { return metres(from->measures().armSpan, from->measures().isEstimated); }},
         {tr("Type 10"), [from] { return scale(*from); }},

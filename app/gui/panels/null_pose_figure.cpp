@@ -69,7 +69,7 @@ public:
                 m_room.contains(rect) &&
                 std::ranges::none_of(m_taken, [&](const QRectF& other) { return other.intersects(rect); });
             if (isFree) {
-                m_taken.push_back(rect);
+                m_taken.push_back(rect.adjusted(-3, 0, 3, 0));
                 m_painter.setPen(colour);
                 m_painter.drawText(rect, Qt::AlignCenter | Qt::TextDontClip, text);
                 return true;
@@ -194,13 +194,32 @@ void NullPoseFigure::paintEvent(QPaintEvent* /*event*/) {
     QFont small = tabularFont();
     small.setPixelSize(QFontInfo(font()).pixelSize() * 7 / 8);
     painter.setFont(small);
-    Labels labels(painter, rect());
+    Labels labels(painter, QRectF(rect()).adjusted(0, 0, 0, -1.5 * fontMetrics().height()));
+    reserveBones(shown, labels);
     paintLabels(painter, shown, View::Front, labels);
     paintLabels(painter, shown, View::Side, labels);
     if (hasFocus()) {
         painter.setPen(pen(theme().accent, 1));
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+    }
+}
+
+/// Labels keep off bones: off their middles, since only bones along an axis fill their rectangle.
+void NullPoseFigure::reserveBones(const Projection& projection, Labels& labels) const {
+    constexpr int kSteps = 12;
+    const model::BodyPlaces& places = m_reading.places();
+    for (const model::Segment& segment : model::bodySegments()) {
+        const auto to = segmentAt(places[static_cast<std::size_t>(segment.id - 1)]);
+        const auto from =
+            segment.parent < 0 ? std::nullopt : segmentAt(places[static_cast<std::size_t>(segment.parent)]);
+        for (const View view : {View::Front, View::Side}) {
+            for (int step = 0; to && from && step < kSteps; ++step) {
+                const double share = (step + 0.5) / kSteps;
+                const QPointF middle = projection.of(*from + share * (*to - *from), view);
+                labels.reserve(QRectF(middle - QPointF(1.5, 1.5), QSizeF(3, 3)));
+            }
+        }
     }
 }
 

@@ -63,6 +63,7 @@ private:
     void paintBones(QPainter& painter, const Projection& projection, View view, bool isBefore) const;
     void paintMarks(QPainter& painter, const Projection& projection, View view) const;
     void paintLabels(QPainter& painter, const Projection& projection, View view, Labels& labels) const;
+    void reserveBones(const Projection& projection, Labels& labels) const;
     void paintFrame(QPainter& painter, const Projection& projection) const;
 
     const NullPoseReading& m_reading;

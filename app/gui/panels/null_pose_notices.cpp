@@ -13,6 +13,7 @@ namespace posewire::gui {
 NullPoseNotices::NullPoseNotices(QWidget* parent) : QTextBrowser(parent) {
     setAccessibleName(tr("Contradictions in scale messages"));
     setFrameShape(QFrame::NoFrame);
+    setStyleSheet(QStringLiteral("QTextBrowser { border: none; border-radius: 0; padding: 0; }"));
     setOpenLinks(false);
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     document()->setDocumentMargin(fontMetrics().height() * 0.35);

@@ -3,6 +3,8 @@
 
 #include "app/gui/models/null_pose_facts.h"
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+#include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/line.h"
 #include "core/export/null_pose_sheet.h"
 
@@ -50,7 +52,9 @@ NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidg
       m_lengthTable(new TableView(tr("Lengths, left and right"), this)),
       m_scaleTable(new TableView(tr("Scale information, type 10"), this)),
       m_ghost(new QToolButton(this)),
-      m_export(new QToolButton(this)) {
+      m_export(new QToolButton(this)),
+      m_comparison(new QLabel(this)),
+      m_noticeLine(new Line(this)) {
     makeTables();
     makeButtons();
     layOut();
@@ -133,13 +137,12 @@ void NullPosePanel::layOut() {
     layout->setSpacing(0);
     auto* buttons = new QWidget(this);
     auto* row = new QHBoxLayout(buttons);
-    const int space = fontMetrics().height() / 4;
-    row->setContentsMargins(space, space, 2 * space, space);
-    row->setSpacing(2 * space);
+    const int margin = CellDelegate::margin(fontMetrics());
+    row->setContentsMargins(margin, margin / 2, margin, margin / 2);
+    row->setSpacing(margin);
     row->addWidget(m_ghost);
     row->addWidget(m_export);
     m_tabs->setDocumentMode(true);
-    m_tabs->setCornerWidget(buttons, Qt::TopRightCorner);
     m_tabs->addTab(m_segmentTable, tr("Segments"));
     m_tabs->addTab(m_pointTable, tr("Points"));
     m_tabs->addTab(m_lengthTable, tr("Lengths"));
@@ -153,9 +156,14 @@ void NullPosePanel::layOut() {
     for (QSplitter* splitter : {m_splitter, m_overview}) {
         splitter->setHandleWidth(1);
     }
+    row->addStretch(1);
+    row->addWidget(m_comparison);
+    m_noticeLine->hide();
     layout->addWidget(m_notices);
-    layout->addWidget(new Line(this));
+    layout->addWidget(m_noticeLine);
     layout->addWidget(m_splitter, 1);
+    layout->addWidget(new Line(this));
+    layout->addWidget(buttons);
     m_notices->hide();
 }
 
@@ -169,10 +177,14 @@ void NullPosePanel::refresh() {
             table->refresh();
         }
         m_notices->show(m_reading.findings());
+        m_noticeLine->setVisible(!m_reading.findings().empty());
         showContent();
     }
     m_segmentTable->setEmptyText(emptyText());
     m_facts.refresh();
+    QPalette dim = m_comparison->palette();
+    dim.setColor(QPalette::WindowText, theme().dim);
+    m_comparison->setPalette(dim);
     m_ghost->setChecked(m_commands.isGhostVisible());
     followSelection();
     arrange();
@@ -185,6 +197,9 @@ void NullPosePanel::showContent() {
     m_overview->setVisible(!m_reading.isEmpty());
     m_figure->setVisible(hasPose);
     m_export->setEnabled(!m_reading.isEmpty());
+    const auto& height = m_reading.measures().height;
+    m_comparison->setText(hasPose && height ? tr("ref: the reference body at %1 m").arg(fixed(*height, 3))
+                                            : QString());
     m_ghost->setEnabled(hasPose);
     m_tabs->setTabVisible(m_tabs->indexOf(m_scaleTable), m_reading.scale() != nullptr);
     if (!hasPose && m_reading.scale() != nullptr) {
@@ -266,7 +281,7 @@ void NullPosePanel::arrange() {
     if (isRoomy && !m_isDivided && m_overview->isVisible()) {
         m_isDivided = true;
         m_splitter->setSizes({4, 5});
-        m_overview->setSizes({3, 2});
+        m_overview->setSizes({6, 5});
     }
     if (!m_notices->isHidden()) {
         m_notices->fitHeight(static_cast<int>(height() * kNoticeShare));

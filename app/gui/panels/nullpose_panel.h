@@ -8,6 +8,7 @@
 #include "app/gui/panels/null_pose_notices.h"
 #include "app/gui/panels/table_view.h"
 
+#include <QLabel>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QToolButton>
@@ -68,6 +69,8 @@ private:
     TableView* m_scaleTable;
     QToolButton* m_ghost;
     QToolButton* m_export;
+    QLabel* m_comparison; ///< with what "Δ ref" compares
+    QWidget* m_noticeLine;
     int m_point = -1;
     bool m_isFollowing = false;
     bool m_isRoomy = true;    ///< the overview has its own room, else it is a tab
