@@ -247,7 +247,7 @@ void findJoints(const NullPose& pose, Findings& findings) {
             id >= 1 && id <= kBodySegmentCount ? bodySegments()[static_cast<std::size_t>(id - 1)].parent : -1;
         const auto child = parentIndex < 0 ? std::nullopt : originOf(pose, places, id - 1);
         const auto parent = parentIndex < 0 ? std::nullopt : originOf(pose, places, parentIndex);
-        const auto point = std::ranges::find_if(pose.points, [&](const NullPose::Point& each) {
+        const auto point = std::ranges::find_if(pose.points, [&, joint = joint](const NullPose::Point& each) {
             return each.segment == parentIndex + 1 && each.name == joint;
         });
         const double distance =
