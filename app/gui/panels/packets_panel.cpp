@@ -86,7 +86,7 @@ void PacketsPanel::fitColumns() {
     m_list->setColumnSamples(
         {QStringLiteral("9 999 999"),
          isSinceFirst ? QStringLiteral("9999.9999") : QStringLiteral("2026-11-21 10:42:17.508123"),
-         QStringLiteral("999.99"), QStringLiteral("92.168.10.21:52011"),
+         QStringLiteral("9999.99"), QStringLiteral("92.168.10.21:52011"),
          QStringLiteral("02 Pose, quaternion"), QStringLiteral("● 0 Mira"), QStringLiteral("99 999"),
          QStringLiteral("1/1"), QStringLiteral("9999"), QString()});
 }
