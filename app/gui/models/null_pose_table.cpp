@@ -41,6 +41,15 @@ QString distanceText(const model::Distances& distances, std::size_t row) {
     return millimetres(distance ? std::optional(distance->norm()) : std::nullopt);
 }
 
+QString matrixText(const wire::Mat3& matrix, const QString& betweenRows) {
+    QString text;
+    for (std::size_t i = 0; i < matrix.size(); ++i) {
+        text += i == 0 ? QString() : i % 3 == 0 ? betweenRows : QStringLiteral(" ");
+        text += fixed(static_cast<double>(matrix[i]), 3);
+    }
+    return text;
+}
+
 QString coordinate(const Eigen::Vector3d& position, int axis) {
     return fixed(position[axis], kMetreDecimals);
 }
@@ -330,21 +339,18 @@ QString NullPoseScaleModel::text(std::size_t row, int column) const {
         return QString::number(segment.id);
     case kName:
         return segmentText(static_cast<int>(segment.id));
-    case kMatrix: {
-        QStringList numbers;
-        for (std::size_t i = 0; i < segment.matrix.size(); ++i) {
-            numbers += fixed(static_cast<double>(segment.matrix[i]), 3) +
-                       (i % 3 == 2 && i < 8 ? QStringLiteral(" ;") : QString());
-        }
-        return numbers.join(QLatin1Char(' '));
-    }
+    case kMatrix:
+        return matrixText(segment.matrix, QStringLiteral(" ; "));
     default:
         return fixed(static_cast<double>(segment.offset[static_cast<std::size_t>(column - kX)]),
                      kMetreDecimals);
     }
 }
 
-QVariant NullPoseScaleModel::look(std::size_t /*row*/, int column, int role) const {
+QVariant NullPoseScaleModel::look(std::size_t row, int column, int role) const {
+    if (role == Qt::ToolTipRole && column == kMatrix) {
+        return matrixText(reading().scale()->segments[row].matrix, QStringLiteral("\n"));
+    }
     if (role == Qt::ForegroundRole) {
         return column == kId ? QVariant(theme().dim) : QVariant();
     }

@@ -84,6 +84,9 @@ void NullPosePanel::makeTables() {
     m_factTable->setModel(&m_facts);
     m_factTable->setHeaderHidden(true);
     m_factTable->setColumnSamples({QStringLiteral("Props (11)"), QString()});
+    const QString widest = QStringLiteral("Props (11)00:00:00 · 99.9 s");
+    m_factTable->setMinimumWidth(QFontMetrics(tabularFont()).horizontalAdvance(widest) +
+                                 5 * CellDelegate::margin(fontMetrics()));
     connect(m_segmentTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& index) { selectPlace(index.row()); });
     connect(m_pointTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
