@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/capture_file.h"
 
-#include "core/log/udp_payload.h"
+#include "core/log/reassembly.h"
 #include "core/wire/byte_order.h"
 
 #include <algorithm>
@@ -62,25 +62,7 @@ private:
     std::uint64_t m_offset = 0;
 };
 
-/// A captured frame and where it stands in the file.
-struct CapturedFrame {
-    std::uint32_t linkType = 0;
-    std::span<const std::byte> bytes;
-    std::uint64_t offset = 0;
-    std::optional<std::int64_t> stampNs;
-};
-
-void visitFrame(const CapturedFrame& frame, const FileVisitor& visit) {
-    constexpr std::string_view magic = "MXTP";
-    const auto payload = udpPayloadOf(frame.linkType, frame.bytes);
-    if (!payload || payload->isLaterFragment || payload->bytes.size() < magic.size() ||
-        std::memcmp(payload->bytes.data(), magic.data(), magic.size()) != 0) {
-        return;
-    }
-    visit({frame.offset + payload->offset, payload->bytes, false, frame.stampNs, payload->source});
-}
-
-tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic, const FileVisitor& visit) {
+tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic, Reassembly& reassembly) {
     const auto header = reader.take(20); // after the magic number
     if (!header) {
         return tl::unexpected(header.error());
@@ -114,7 +96,7 @@ tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic,
             return {};
         }
         const std::int64_t stampNs = seconds * kNanosecondsPerSecond + fraction * (hasNanoseconds ? 1 : 1000);
-        visitFrame({linkType, *bytes, reader.offset(), stampNs}, visit);
+        reassembly.add({linkType, *bytes, reader.offset(), stampNs});
     }
 }
 
@@ -147,7 +129,7 @@ std::int64_t nanoseconds(std::uint64_t stamp, const Interface& interface) {
 
 class PcapngReader {
 public:
-    PcapngReader(PieceReader& reader, const FileVisitor& visit) : m_reader(reader), m_visit(visit) {}
+    PcapngReader(PieceReader& reader, Reassembly& reassembly) : m_reader(reader), m_reassembly(reassembly) {}
 
     /// The first four bytes, a section header's type, have been taken.
     tl::expected<void, FileError> read() {
@@ -253,9 +235,8 @@ private:
     void visitSimple(std::span<const std::byte> body) const {
         if (body.size() >= 4 && !m_interfaces.empty()) {
             const std::size_t size = std::min<std::size_t>(m_reader.read32(body.data()), body.size() - 4);
-            visitFrame(
-                {m_interfaces.front().linkType, body.subspan(4, size), m_reader.offset() + 4, std::nullopt},
-                m_visit);
+            m_reassembly.add(
+                {m_interfaces.front().linkType, body.subspan(4, size), m_reader.offset() + 4, std::nullopt});
         }
     }
 
@@ -269,19 +250,16 @@ private:
             std::uint64_t{m_reader.read32(body.data() + 4)} << 32 | m_reader.read32(body.data() + 8);
         const std::size_t size =
             std::min<std::size_t>(m_reader.read32(body.data() + 12), body.size() - fixed);
-        visitFrame({interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
-                    nanoseconds(stamp, interface)},
-                   m_visit);
+        m_reassembly.add({interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
+                          nanoseconds(stamp, interface)});
     }
 
     PieceReader& m_reader;
-    const FileVisitor& m_visit;
+    Reassembly& m_reassembly;
     std::vector<Interface> m_interfaces;
 };
 
-} // namespace
-
-tl::expected<void, FileError> readCaptureFile(ByteSource& source, const FileVisitor& visit) {
+tl::expected<void, FileError> readFrames(ByteSource& source, Reassembly& reassembly) {
     PieceReader reader(source);
     const auto magic = reader.take(4);
     if (!magic) {
@@ -289,13 +267,22 @@ tl::expected<void, FileError> readCaptureFile(ByteSource& source, const FileVisi
     }
     switch (fileFormat(*magic)) {
     case FileFormat::Pcap:
-        return readPcap(reader, wire::load32(magic->data()), visit);
+        return readPcap(reader, wire::load32(magic->data()), reassembly);
     case FileFormat::Pcapng:
-        return PcapngReader(reader, visit).read();
+        return PcapngReader(reader, reassembly).read();
     case FileFormat::Raw:
         break;
     }
     return tl::unexpected(FileError{source.name() + ": is no packet capture; pcap and pcapng are known"});
+}
+
+} // namespace
+
+tl::expected<void, FileError> readCaptureFile(ByteSource& source, const FileVisitor& visit) {
+    Reassembly reassembly(visit);
+    auto result = readFrames(source, reassembly);
+    reassembly.finish();
+    return result;
 }
 
 } // namespace posewire::log

@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/packet.h"
-
-#include <cstdint>
-#include <optional>
-#include <span>
+#include "core/log/ip_packet.h"
 
 namespace posewire::log {
 
-/// What a captured frame carries over UDP.
+/// What an IP packet carries over UDP.
 struct UdpPayload {
-    std::size_t offset = 0;           ///< of the payload in the frame
+    std::size_t offset = 0;           ///< of the payload in the segment
     std::span<const std::byte> bytes; ///< as much as was captured
-    SourceInfo source;
-    bool isLaterFragment = false; ///< continues a datagram; address and ports are not known
+    std::uint16_t sourcePort = 0;
+    std::uint16_t targetPort = 0;
 };
 
-/// Looks through the headers of a captured frame: Ethernet (with VLAN tags), Linux cooked (SLL and SLL2), raw
-/// IP and BSD loopback, then IPv4 or IPv6, then UDP. Empty for anything else. `linkType` is a LINKTYPE_ value
-/// of the capture formats. Fragments are not put together: the first gives what it has.
-[[nodiscard]] std::optional<UdpPayload> udpPayloadOf(std::uint32_t linkType,
-                                                     std::span<const std::byte> frame);
+/// `segment` is the payload of the packet, or what its fragments were put together to. Empty where that is
+/// not UDP.
+[[nodiscard]] std::optional<UdpPayload> udpPayloadOf(const IpPacket& packet,
+                                                     std::span<const std::byte> segment);
 
 } // namespace posewire::log

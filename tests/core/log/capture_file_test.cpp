@@ -165,7 +165,7 @@ TEST(CaptureFile, SurvivesDamageAnywhere) {
     }
 }
 
-TEST(UdpPayload, IsFoundBehindEveryLinkType) {
+TEST(IpPacket, IsFoundBehindEveryLinkType) {
     const ByteVector content = udp(poseDatagram(1, 1));
     const ByteVector four = ipv4(content);
     const ByteVector six = ipv6(content);
@@ -186,32 +186,37 @@ TEST(UdpPayload, IsFoundBehindEveryLinkType) {
         {113, after(14, 0x86dd, six)},
         {276, joined({CaptureBytes().number(0x0800, 2).zeros(18).all(), four})}};
     for (const auto& [linkType, frame] : frames) {
-        const auto payload = udpPayloadOf(linkType, frame);
+        const auto packet = ipPacketOf(linkType, frame);
+        ASSERT_TRUE(packet) << linkType;
+        const auto payload = udpPayloadOf(*packet, packet->bytes);
         ASSERT_TRUE(payload) << linkType;
         EXPECT_EQ(ByteVector(payload->bytes.begin(), payload->bytes.end()), poseDatagram(1, 1)) << linkType;
-        EXPECT_EQ(payload->offset, frame.size() - poseDatagram(1, 1).size()) << linkType;
-        EXPECT_EQ(payload->source.localPort, 9763);
-        EXPECT_THAT(payload->source.address, testing::AnyOf("10.0.0.2:40001", "[fe80::1]:40001"));
+        EXPECT_EQ(packet->offset + payload->offset, frame.size() - poseDatagram(1, 1).size()) << linkType;
+        EXPECT_EQ(payload->targetPort, 9763);
+        EXPECT_THAT(addressText(packet->source), testing::AnyOf("10.0.0.2", "[fe80::1]"));
     }
-    EXPECT_FALSE(udpPayloadOf(999, four));
+    EXPECT_FALSE(ipPacketOf(999, four));
 }
 
 TEST(UdpPayload, LeavesOutThePaddingOfShortFrames) {
     const ByteVector frame = CaptureBytes().bytes(ethernet(ipv4(udp(textBytes("MXTP"))))).zeros(14).all();
-    EXPECT_EQ(udpPayloadOf(1, frame)->bytes.size(), 4U);
+    const auto packet = ipPacketOf(1, frame);
+    EXPECT_EQ(udpPayloadOf(*packet, packet->bytes)->bytes.size(), 4U);
 }
 
-TEST(UdpPayload, TellsLaterFragments) {
+TEST(IpPacket, TellsFragments) {
     const ByteVector content = udp(poseDatagram(1));
-    EXPECT_FALSE(udpPayloadOf(101, ipv4(content, 0x2000))->isLaterFragment);
-    EXPECT_TRUE(udpPayloadOf(101, ipv4(content, 0x00b9))->isLaterFragment);
+    EXPECT_FALSE(ipPacketOf(101, ipv4(content))->isFragment());
+    EXPECT_TRUE(ipPacketOf(101, ipv4(content, 0x2000))->hasMoreFragments);
+    EXPECT_EQ(ipPacketOf(101, ipv4(content, 0x00b9))->fragmentOffset, 8U * 0xb9);
 }
 
-TEST(UdpPayload, SurvivesAFrameCutAnywhere) {
+TEST(IpPacket, SurvivesAFrameCutAnywhere) {
     for (const ByteVector& frame :
          {ethernet(ipv4(udp(textBytes("MXTP02")))), ethernet(ipv6(udp(textBytes("MXTP02"))), 0x86dd)}) {
         for (std::size_t size = 0; size < frame.size(); ++size) {
-            const auto payload = udpPayloadOf(1, std::span(frame).first(size));
+            const auto packet = ipPacketOf(1, std::span(frame).first(size));
+            const auto payload = packet ? udpPayloadOf(*packet, packet->bytes) : std::nullopt;
             EXPECT_TRUE(!payload || payload->bytes.size() < 6) << size;
         }
     }

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/reassembly.h"
+
+#include "core/log/udp_payload.h"
+#include "core/wire/byte_order.h"
+#include "core/wire/header.h"
+
+#include <algorithm>
+
+namespace posewire::log {
+namespace {
+
+constexpr std::uint16_t kDefaultPort = 9763;
+
+/// The header of a TCP segment (RFC 9293 section 3.1).
+struct TcpHeader {
+    std::uint16_t sourcePort = 0;
+    std::uint16_t targetPort = 0;
+    std::uint32_t sequence = 0;
+    std::size_t size = 0;
+    bool begins = false; ///< SYN
+    bool ends = false;   ///< FIN or RST
+};
+
+std::optional<TcpHeader> tcpHeaderOf(std::span<const std::byte> segment) {
+    if (segment.size() < 20) {
+        return std::nullopt;
+    }
+    const auto flags = std::to_integer<unsigned>(segment[13]);
+    const std::size_t size = std::to_integer<std::size_t>(segment[12] >> 4) * 4;
+    if (size < 20 || size > segment.size()) {
+        return std::nullopt;
+    }
+    return TcpHeader{wire::load16(segment.data()),
+                     wire::load16(segment.data() + 2),
+                     wire::load32(segment.data() + 4),
+                     size,
+                     (flags & 2U) != 0,
+                     (flags & 5U) != 0};
+}
+
+std::string endpointText(const IpAddress& address, std::uint16_t port) {
+    return addressText(address) + ':' + std::to_string(port);
+}
+
+} // namespace
+
+void Reassembly::add(const CapturedFrame& frame) {
+    const auto packet = ipPacketOf(frame.linkType, frame.bytes);
+    if (!packet || (packet->protocol != kUdp && packet->protocol != kTcp)) {
+        return;
+    }
+    const std::uint64_t offset = frame.offset + packet->offset;
+    if (packet->isFragment()) {
+        m_fragments.add(*packet, offset, frame.stampNs, [&](const WholePacket& whole) { addPacket(whole); });
+    } else {
+        addPacket({*packet, packet->bytes, offset, frame.stampNs});
+    }
+}
+
+void Reassembly::finish() {
+    m_fragments.finish([&](const WholePacket& whole) { addPacket(whole); });
+    for (auto& [direction, followed] : m_streams) {
+        followed.stream->finish(m_visit);
+    }
+    m_streams.clear();
+}
+
+void Reassembly::addPacket(const WholePacket& whole) {
+    if (whole.packet.protocol == kUdp) {
+        addUdp(whole);
+    } else {
+        addTcp(whole);
+    }
+}
+
+void Reassembly::addUdp(const WholePacket& whole) {
+    const auto payload = udpPayloadOf(whole.packet, whole.bytes);
+    if (payload && wire::startsWithMagic(payload->bytes)) {
+        m_visit({whole.fileOffset + payload->offset, payload->bytes, false, whole.stampNs,
+                 SourceInfo{endpointText(whole.packet.source, payload->sourcePort), Transport::Udp,
+                            payload->targetPort}});
+    }
+}
+
+void Reassembly::addTcp(const WholePacket& whole) {
+    const auto header = tcpHeaderOf(whole.bytes);
+    if (!header) {
+        return;
+    }
+    const auto bytes = whole.bytes.subspan(header->size);
+    const std::uint32_t sequence = header->sequence + (header->begins ? 1U : 0U);
+    const Direction direction{whole.packet.source, whole.packet.target, header->sourcePort,
+                              header->targetPort};
+    auto found = m_streams.find(direction);
+    if (found == m_streams.end()) {
+        const bool mayCarry = header->targetPort == kDefaultPort && (header->begins || !bytes.empty());
+        if (!mayCarry && !wire::startsDatagram(bytes)) {
+            return;
+        }
+        endOldest();
+        SourceInfo source{endpointText(direction.source, direction.sourcePort), Transport::Tcp,
+                          direction.targetPort};
+        Followed added{std::make_unique<TcpStream>(std::move(source), sequence), 0};
+        found = m_streams.emplace(direction, std::move(added)).first;
+    } else if (header->begins && found->second.stream->expected() != sequence) {
+        found->second.stream->restart(sequence, m_visit);
+    }
+    TcpStream& stream = *found->second.stream;
+    found->second.lastUse = ++m_uses;
+    stream.add({sequence, bytes, whole.fileOffset + header->size, whole.stampNs}, m_visit);
+    if (header->ends && stream.expected() == sequence + static_cast<std::uint32_t>(bytes.size())) {
+        stream.finish(m_visit);
+        m_streams.erase(found);
+    }
+}
+
+/// Makes room for one more stream.
+void Reassembly::endOldest() {
+    if (m_streams.size() < kMostStreams) {
+        return;
+    }
+    const auto oldest =
+        std::ranges::min_element(m_streams, {}, [](const auto& entry) { return entry.second.lastUse; });
+    oldest->second.stream->finish(m_visit);
+    m_streams.erase(oldest);
+}
+
+} // namespace posewire::log

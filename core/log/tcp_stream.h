@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/raw_file.h"
+#include "core/log/tcp_framer.h"
+
+#include <deque>
+#include <map>
+
+namespace posewire::log {
+
+/// What one captured frame adds to one direction of a TCP connection.
+struct TcpSegment {
+    std::uint32_t sequence = 0; ///< of the first byte of `bytes`
+    std::span<const std::byte> bytes;
+    std::uint64_t fileOffset = 0; ///< of the first byte of `bytes`
+    std::optional<std::int64_t> stampNs;
+};
+
+/// One direction of a captured TCP connection: puts segments in order, leaves out what came before, cuts the
+/// bytes into datagrams. What the capture has missed is waited for in vain for a while and then passed over:
+/// the datagram that it tears comes out cut off, and the bytes up to the next one as skipped.
+class TcpStream {
+public:
+    /// So much may wait for a missing segment, and so long.
+    static constexpr std::size_t kMostWaiting = std::size_t{256} << 10;
+    static constexpr std::int64_t kLongestWaitNs = 1'000'000'000;
+
+    TcpStream(SourceInfo source, std::uint32_t firstSequence);
+
+    /// Records carry the offset in the file of their first byte and the stamp of the frame that completed
+    /// them.
+    void add(const TcpSegment& segment, const FileVisitor& visit);
+
+    /// The connection has ended, or begins anew with another sequence number.
+    void finish(const FileVisitor& visit);
+    void restart(std::uint32_t firstSequence, const FileVisitor& visit);
+
+    /// The sequence number that is expected next.
+    [[nodiscard]] std::uint32_t expected() const { return m_expected; }
+
+private:
+    struct Waiting {
+        std::vector<std::byte> bytes;
+        std::uint64_t fileOffset = 0;
+        std::optional<std::int64_t> stampNs;
+    };
+    struct Place {
+        std::uint64_t position = 0; ///< in what the framer has been given
+        std::uint64_t fileOffset = 0;
+    };
+
+    void append(const TcpSegment& segment, const FileVisitor& visit);
+    void appendWaiting(std::optional<std::int64_t> stampNs, const FileVisitor& visit);
+    void passOver(const FileVisitor& visit);
+    [[nodiscard]] bool hasWaitedTooLong(const TcpSegment& segment) const;
+    [[nodiscard]] FileRecord recordOf(const TcpFramer::Piece& piece, std::optional<std::int64_t> stampNs);
+
+    SourceInfo m_source;
+    TcpFramer m_framer;
+    std::uint32_t m_expected;
+    std::uint64_t m_expectedPosition = 0;       ///< the same, without wrapping around
+    std::map<std::uint64_t, Waiting> m_waiting; ///< by position
+    std::size_t m_waitingSize = 0;
+    std::deque<Place> m_places; ///< where the bytes stand that the framer may still give out
+    std::uint64_t m_given = 0;
+    std::optional<std::int64_t> m_lastStampNs;
+};
+
+} // namespace posewire::log
