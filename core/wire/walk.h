@@ -202,6 +202,24 @@ bool readField(Cursor& cursor, const Items<Member, ItemForm>& field, T& value, V
     return readItems<ItemForm>(cursor, field.about, cursor.items, value.*Member, visitor);
 }
 
+/// A count that the bytes cannot hold is the fault; who wants to see all there is hears the items up to where
+/// the bytes end, provided that the count could be meant. Always false.
+template <auto Member, std::size_t Max, class T, class Visitor>
+bool tellItemsThatAreThere(Cursor& cursor, const CountedList<Member, Max>& field, std::uint32_t count,
+                           T& value, Visitor& visitor) {
+    if constexpr (HearsCuts<Visitor>) {
+        if (count <= Max) {
+            const WireError fault = cursor.error;
+            visitor.count(field.about, cursor.offset, count);
+            cursor.offset += 4;
+            readItems<Form::Standard>(cursor, field.about, count, value.*Member, visitor);
+            cursor.error = fault;
+            return false;
+        }
+    }
+    return tellCut(cursor, field.about, cursor.offset, 4, visitor);
+}
+
 template <auto Member, std::size_t Max, class T, class Visitor>
 bool readField(Cursor& cursor, const CountedList<Member, Max>& field, T& value, Visitor& visitor) {
     using Item = typename MemberValue<Member>::value_type;
@@ -213,7 +231,7 @@ bool readField(Cursor& cursor, const CountedList<Member, Max>& field, T& value, 
     const std::size_t room = std::min(Max, (cursor.left() - 4) / kWireSize<Item>);
     if (count > room) {
         cursor.fail(ErrorCode::CountTooLarge, count, room);
-        return tellCut(cursor, field.about, cursor.offset, 4, visitor);
+        return tellItemsThatAreThere(cursor, field, count, value, visitor);
     }
     if constexpr (Visitor::kListens) {
         visitor.count(field.about, cursor.offset, count);
