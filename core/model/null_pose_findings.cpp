@@ -111,10 +111,14 @@ void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
                       : ".")});
     }
     if (evidence.record.incompleteMessages > 0) {
-        findings.push_back({NullPoseFault::EarlierPartMissing, Severity::Note, -1,
-                            counted(evidence.record.incompleteMessages, "earlier scale message") +
-                                " came without all parts.",
-                            "The network loses datagrams now and then; what is shown is not touched by it."});
+        const bool isWhole = pose != nullptr && pose->isComplete();
+        findings.push_back(
+            {NullPoseFault::EarlierPartMissing, isWhole ? Severity::Note : Severity::Warning, -1,
+             counted(evidence.record.incompleteMessages, "earlier scale message") +
+                 " came without all parts.",
+             isWhole ? "The network loses datagrams now and then; what is shown is whole."
+                     : "Segments or points are missing below. Something between here and the sender "
+                       "loses datagrams, or the sender leaves them out."});
     }
 }
 

@@ -104,6 +104,14 @@ TEST_F(NullPoseFindings, AMissingPartOnceItIsOverdue) {
               std::string::npos);
 }
 
+TEST_F(NullPoseFindings, EarlierLossesMatterWhereTheBodyIsNotWhole) {
+    evidence.record.incompleteMessages = 3;
+    EXPECT_EQ(only(NullPoseFault::EarlierPartMissing)->severity, Severity::Note);
+    pose.partsExpected = 2;
+    EXPECT_EQ(only(NullPoseFault::EarlierPartMissing)->severity, Severity::Warning);
+    EXPECT_NE(findings[0].what.find("3 earlier scale messages"), std::string::npos);
+}
+
 TEST_F(NullPoseFindings, ASegmentBelowTheFloor) {
     pose.segments[segment::kLeftToe].position.z() = -0.08;
     const auto* finding = among(NullPoseFault::BelowFloor);
