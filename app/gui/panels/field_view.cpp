@@ -158,13 +158,13 @@ void FieldView::fitToWidth() {
     const int character = std::max(1, fontMetrics().averageCharWidth());
     const int width = viewport()->width() / character;
     const bool isComparing = m_fields.other() != nullptr;
-    const int form = (width >= 70 ? 1 : 0) + (width >= 120 ? 2 : 0) + (isComparing ? 4 : 0);
+    const int form = (width >= 96 ? 1 : 0) + (width >= 120 ? 2 : 0) + (isComparing ? 4 : 0);
     if (form == m_form) {
         return;
     }
     m_form = form;
     const bool hasMeaning = width >= 120;
-    setColumnHidden(FieldModel::kWire, isComparing || width < 70);
+    setColumnHidden(FieldModel::kWire, isComparing || width < 96);
     setColumnHidden(FieldModel::kOther, !isComparing);
     setColumnHidden(FieldModel::kDifference, !isComparing);
     setColumnHidden(FieldModel::kMeaning, !hasMeaning);

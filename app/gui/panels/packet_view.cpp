@@ -82,6 +82,14 @@ void PacketView::setEmptyText(const QString& text) {
     }
 }
 
+void PacketView::setColumnShown(int column, bool isShown) {
+    if (m_header->isSectionHidden(column) == isShown) {
+        m_header->setSectionHidden(column, !isShown);
+        fitColumns();
+        viewport()->update();
+    }
+}
+
 int PacketView::rowHeight() const {
     return CellDelegate::rowHeight(fontMetrics());
 }
@@ -110,7 +118,7 @@ void PacketView::fitColumns() {
     for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
         if (m_samples[static_cast<std::size_t>(column)].isEmpty()) {
             open = column;
-        } else {
+        } else if (!m_header->isSectionHidden(column)) {
             m_header->resizeSection(column, sampleWidth(column));
         }
     }

@@ -26,6 +26,7 @@ public:
     void setColumnSamples(std::vector<QString> samples);
     /// What to do where the table is empty.
     void setEmptyText(const QString& text);
+    void setColumnShown(int column, bool isShown);
     [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
 
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }

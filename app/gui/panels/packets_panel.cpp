@@ -86,9 +86,9 @@ void PacketsPanel::fitColumns() {
     m_list->setColumnSamples(
         {QStringLiteral("9 999 999"),
          isSinceFirst ? QStringLiteral("9999.9999") : QStringLiteral("2026-11-21 10:42:17.508123"),
-         QStringLiteral("9999.99"), QStringLiteral("92.168.10.21:52011"),
-         QStringLiteral("02 Pose, quaternion"), QStringLiteral("● 0 Mira"), QStringLiteral("99 999"),
-         QStringLiteral("1/1"), QStringLiteral("9999"), QString()});
+         QStringLiteral("9999.99"), QStringLiteral("192.168.10.21:52011"),
+         QStringLiteral("02 Pose, quaternion"), QStringLiteral("● 0 Mira Lin"), QStringLiteral("99 999"),
+         QStringLiteral("1/1"), QStringLiteral("9 999"), QString()});
 }
 
 void PacketsPanel::refresh() {
@@ -104,6 +104,8 @@ void PacketsPanel::refresh() {
         }
     }
     m_packets.refresh();
+    // Where everything comes from one sender its address says nothing, and the note has the room.
+    m_list->setColumnShown(PacketModel::kSource, m_view.sources().size() > 1);
     followSelection();
     showEmptyState();
 }
