@@ -16,7 +16,7 @@ enum class AxesMode : std::uint8_t { All, Selected, None };
 struct ViewOptions {
     AxesMode axes = AxesMode::All;
     bool hasGhost = false; ///< the shown character's null pose over its figure
-    std::set<model::CharacterKey> hidden;
+    std::set<model::CharacterKey> hidden{};
 };
 
 /// How far a figure has faded: 0 for live data, a step at kSilentAge, rising to its greatest value at

@@ -47,7 +47,7 @@ protected:
     const render::Image& shoot(AxesMode axes, float yaw) {
         SceneBuilder builder(m_session, render::Detail::High);
         m_frame = {};
-        builder.build({axes, {}}, m_frame);
+        builder.build({.axes = axes}, m_frame);
         m_frame.colours = render::lightSceneColours();
         if (!m_frame.figures.empty()) {
             m_frame.camera.target = m_frame.figures.front().bounds.centre();
