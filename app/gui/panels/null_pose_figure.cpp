@@ -194,7 +194,7 @@ void NullPoseFigure::paintEvent(QPaintEvent* /*event*/) {
     QFont small = tabularFont();
     small.setPixelSize(QFontInfo(font()).pixelSize() * 7 / 8);
     painter.setFont(small);
-    Labels labels(painter, QRectF(rect()).adjusted(0, 0, 0, -1.5 * fontMetrics().height()));
+    Labels labels(painter, QRectF(0, 0, width(), shown.front.y())); // captions are below the floor
     reserveBones(shown, labels);
     paintLabels(painter, shown, View::Front, labels);
     paintLabels(painter, shown, View::Side, labels);
@@ -236,7 +236,10 @@ void NullPoseFigure::paintFrame(QPainter& painter, const Projection& projection)
         const double left = std::clamp(middle - wide / 2, 2.0, std::max(2.0, width() - wide - 2.0));
         painter.drawText(QRectF(left, below.top(), wide, below.height()), Qt::AlignCenter, text);
     };
-    caption(projection.front.x(), tr("right  ←  front  →  left"));
+    const QString front = tr("right  ←  front  →  left");
+    const bool hasRoom =
+        projection.side.x() - projection.front.x() > fontMetrics().horizontalAdvance(front) / 2 + 2 * line;
+    caption(projection.front.x(), hasRoom ? front : tr("front"));
     caption(projection.side.x(), tr("side"));
 }
 

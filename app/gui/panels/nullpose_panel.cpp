@@ -71,10 +71,14 @@ void NullPosePanel::makeTables() {
     const QString distance = QStringLiteral("999.9");
     m_segmentTable->setModel(&m_segments);
     m_segmentTable->setColumnSamples(
-        {QStringLiteral("99"), QString(), number, number, number, distance, distance});
+        {QStringLiteral("99"), QString(), number, number, number, distance, distance},
+        QStringLiteral("RightUpperArm"));
+    m_segmentTable->setOptionalColumns(NullPoseSegmentModel::kFromBefore);
     m_pointTable->setModel(&m_points);
     m_pointTable->setColumnSamples({QStringLiteral("99.99"), QString(), number, number, number,
-                                    QStringLiteral("0x00000000"), QStringLiteral("31, 30")});
+                                    QStringLiteral("0x00000000"), QStringLiteral("31, 30")},
+                                   QStringLiteral("jRightUpperArm"));
+    m_pointTable->setOptionalColumns(NullPosePointModel::kFlags);
     m_lengthTable->setModel(&m_lengths);
     m_lengthTable->setColumnSamples(
         {QString(), QStringLiteral("9999.9"), QStringLiteral("9999.9"), QStringLiteral("▲ −999.9")});
@@ -152,8 +156,8 @@ void NullPosePanel::layOut() {
     m_tabs->addTab(m_scaleTable, tr("Type 10"));
     m_overview->addWidget(m_figure);
     m_overview->addWidget(m_factTable);
-    m_overview->setStretchFactor(0, 3);
-    m_overview->setStretchFactor(1, 2);
+    m_overview->setStretchFactor(0, 1);
+    m_overview->setStretchFactor(1, 0);
     m_splitter->addWidget(m_overview);
     m_splitter->addWidget(m_tabs);
     for (QSplitter* splitter : {m_splitter, m_overview}) {
@@ -284,7 +288,7 @@ void NullPosePanel::arrange() {
     if (isRoomy && !m_isDivided && m_overview->isVisible()) {
         m_isDivided = true;
         m_splitter->setSizes({4, 5});
-        m_overview->setSizes({6, 5});
+        m_overview->setSizes({10'000, 1}); // the facts take the least they need
     }
     if (!m_notices->isHidden()) {
         m_notices->fitHeight(static_cast<int>(height() * kNoticeShare));
