@@ -26,6 +26,10 @@ struct PacketFlags {
     bool truncated = false;       ///< the datagram was longer than what could be received
     bool stampedByKernel = false; ///< the stamp is the kernel's, else it was taken when the packet was read
     bool skipped = false;         ///< bytes of a byte stream that belong to no datagram
+    /// Not a packet but the news of `kernelDropsBefore`, which no packet came to tell: without bytes, and
+    /// `skipped`, so that whoever passes over what is no datagram passes over it. Its source is the one last
+    /// heard.
+    bool isDropRecord = false;
 
     friend bool operator==(const PacketFlags&, const PacketFlags&) = default;
 };
@@ -34,9 +38,9 @@ struct PacketFlags {
 struct Arrival {
     std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
     SourceId source{};
-    /// Datagrams that this computer lost for want of buffer room (SO_RXQ_OVFL) on the socket of this packet
-    /// since the packet before it from that socket. It is kept in the log so that a replay tells the same
-    /// story.
+    /// Datagrams that this computer lost for want of room (SO_RXQ_OVFL of the socket, or the receiver's
+    /// queue) on the socket of this packet since the packet before it from that socket. It is kept in the log
+    /// so that a replay tells the same story.
     std::uint32_t kernelDropsBefore = 0;
     PacketFlags flags{};
 };
