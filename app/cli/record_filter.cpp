@@ -20,7 +20,8 @@ bool RecordFilter::matches(const log::FileRecord& record, std::uint64_t index) {
     packet.number = index;
     packet.bytes = record.bytes;
     packet.stampNs = record.stampNs.value_or(0);
-    packet.flags.skipped = record.isSkipped;
+    packet.flags = log::arrivalOf(record, {}, 0).flags;
+    packet.kernelDropsBefore = record.kernelDropsBefore;
     packet.source = m_sources.intern(record.source.value_or(log::SourceInfo{"", log::Transport::File, 0}));
     m_firstStampNs = m_firstStampNs.value_or(packet.stampNs);
     const auto decoded =

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/capture_file.h"
 
+#include "core/log/pcapng_block.h"
 #include "core/log/reassembly.h"
+#include "core/log/recorded_origin.h"
 #include "core/wire/byte_order.h"
 
 #include <algorithm>
 #include <cstring>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace posewire::log {
@@ -100,6 +104,45 @@ tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic,
     }
 }
 
+/// What a capture says about a frame besides its bytes, on the way to the records that come of it.
+class FrameNotes {
+public:
+    void addDrops(std::uint64_t drops) { m_drops += drops; }
+    /// The first comment is ours where we have written the file.
+    void setComments(std::vector<std::string> comments) {
+        m_comments = std::move(comments);
+        m_origin = m_comments.empty() ? std::nullopt : parseOrigin(m_comments.front());
+        if (m_origin) {
+            m_comments.erase(m_comments.begin());
+        }
+    }
+    [[nodiscard]] bool isOfRecording() const { return m_origin.has_value(); }
+
+    /// Drops go to the first record after them, also where their own frame was none of ours.
+    void apply(FileRecord& record) {
+        constexpr std::uint64_t most = UINT32_MAX;
+        record.kernelDropsBefore = static_cast<std::uint32_t>(std::min(std::exchange(m_drops, 0), most));
+        record.comments = m_comments;
+        record.isStampedByKernel = record.stampNs.has_value();
+        if (!m_origin) {
+            return;
+        }
+        record.isTruncated = m_origin->flags.truncated;
+        record.isSkipped = m_origin->flags.skipped;
+        record.isDropRecord = m_origin->flags.isDropRecord;
+        record.isStampedByKernel = m_origin->flags.stampedByKernel;
+        record.source->transport = m_origin->transport;
+        if (m_origin->address) {
+            record.source->address = *m_origin->address;
+        }
+    }
+
+private:
+    std::uint64_t m_drops = 0;
+    std::vector<std::string> m_comments;
+    std::optional<RecordedOrigin> m_origin;
+};
+
 struct Interface {
     std::uint32_t linkType = 0;
     std::uint8_t resolution = 6; ///< if_tsresol: 10^-n seconds, or 2^-n with the top bit
@@ -129,7 +172,8 @@ std::int64_t nanoseconds(std::uint64_t stamp, const Interface& interface) {
 
 class PcapngReader {
 public:
-    PcapngReader(PieceReader& reader, Reassembly& reassembly) : m_reader(reader), m_reassembly(reassembly) {}
+    PcapngReader(PieceReader& reader, Reassembly& reassembly, FrameNotes& notes)
+        : m_reader(reader), m_reassembly(reassembly), m_notes(notes) {}
 
     /// The first four bytes, a section header's type, have been taken.
     tl::expected<void, FileError> read() {
@@ -185,14 +229,14 @@ private:
             return rest ? More(false) : tl::unexpected(rest.error());
         }
         const auto body = rest->first(rest->size() - 4); // the length is repeated at the end
-        switch (type) {
-        case 1:
+        switch (static_cast<PcapngBlockType>(type)) {
+        case PcapngBlockType::Interface:
             addInterface(body);
             break;
-        case 3:
+        case PcapngBlockType::SimplePacket:
             visitSimple(body);
             break;
-        case 6:
+        case PcapngBlockType::EnhancedPacket:
             visitEnhanced(body);
             break;
         default:
@@ -205,34 +249,39 @@ private:
         Interface interface;
         if (body.size() >= 8) {
             interface.linkType = m_reader.read16(body.data());
-            readOptions(body.subspan(8), interface);
+            visitOptions(body.subspan(8), [&](PcapngOption code, std::span<const std::byte> value) {
+                if (code == PcapngOption::StampResolution && !value.empty()) {
+                    interface.resolution = std::to_integer<std::uint8_t>(value[0]);
+                } else if (code == PcapngOption::StampOffset && value.size() >= 8) {
+                    interface.offsetSeconds = static_cast<std::int64_t>(read64(value.data()));
+                }
+            });
         }
         m_interfaces.push_back(interface);
     }
 
-    void readOptions(std::span<const std::byte> options, Interface& interface) const {
-        constexpr std::uint16_t resolution = 9;
-        constexpr std::uint16_t offset = 14;
+    [[nodiscard]] std::uint64_t read64(const std::byte* from) const {
+        const std::uint64_t first = m_reader.read32(from);
+        const std::uint64_t second = m_reader.read32(from + 4);
+        return m_reader.bigEndian ? first << 32 | second : second << 32 | first;
+    }
+
+    template <class Visitor>
+    void visitOptions(std::span<const std::byte> options, Visitor&& visitor) const {
         while (options.size() >= 4) {
-            const std::uint16_t code = m_reader.read16(options.data());
+            const auto code = static_cast<PcapngOption>(m_reader.read16(options.data()));
             const std::size_t length = m_reader.read16(options.data() + 2);
             const auto value = options.subspan(4);
-            if (code == 0 || value.size() < length) {
+            if (code == PcapngOption::End || value.size() < length) {
                 return;
             }
-            if (code == resolution && length >= 1) {
-                interface.resolution = std::to_integer<std::uint8_t>(value[0]);
-            } else if (code == offset && length >= 8) {
-                const std::uint64_t first = m_reader.read32(value.data());
-                const std::uint64_t second = m_reader.read32(value.data() + 4);
-                interface.offsetSeconds = static_cast<std::int64_t>(
-                    m_reader.bigEndian ? first << 32 | second : second << 32 | first);
-            }
+            visitor(code, value.first(length));
             options = value.subspan(std::min(value.size(), (length + 3) / 4 * 4));
         }
     }
 
-    void visitSimple(std::span<const std::byte> body) const {
+    void visitSimple(std::span<const std::byte> body) {
+        m_notes.setComments({});
         if (body.size() >= 4 && !m_interfaces.empty()) {
             const std::size_t size = std::min<std::size_t>(m_reader.read32(body.data()), body.size() - 4);
             m_reassembly.add(
@@ -240,7 +289,7 @@ private:
         }
     }
 
-    void visitEnhanced(std::span<const std::byte> body) const {
+    void visitEnhanced(std::span<const std::byte> body) {
         const std::size_t fixed = 20;
         if (body.size() < fixed || m_reader.read32(body.data()) >= m_interfaces.size()) {
             return;
@@ -250,16 +299,35 @@ private:
             std::uint64_t{m_reader.read32(body.data() + 4)} << 32 | m_reader.read32(body.data() + 8);
         const std::size_t size =
             std::min<std::size_t>(m_reader.read32(body.data() + 12), body.size() - fixed);
-        m_reassembly.add({interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
-                          nanoseconds(stamp, interface)});
+        readNotes(body.subspan(std::min(body.size(), fixed + (size + 3) / 4 * 4)));
+        const CapturedFrame frame{interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
+                                  nanoseconds(stamp, interface)};
+        if (m_notes.isOfRecording()) {
+            m_reassembly.addRecorded(frame);
+        } else {
+            m_reassembly.add(frame);
+        }
+    }
+
+    void readNotes(std::span<const std::byte> options) {
+        std::vector<std::string> comments;
+        visitOptions(options, [&](PcapngOption code, std::span<const std::byte> value) {
+            if (code == PcapngOption::Comment) {
+                comments.emplace_back(reinterpret_cast<const char*>(value.data()), value.size());
+            } else if (code == PcapngOption::DropCount && value.size() >= 8) {
+                m_notes.addDrops(read64(value.data()));
+            }
+        });
+        m_notes.setComments(std::move(comments));
     }
 
     PieceReader& m_reader;
     Reassembly& m_reassembly;
+    FrameNotes& m_notes;
     std::vector<Interface> m_interfaces;
 };
 
-tl::expected<void, FileError> readFrames(ByteSource& source, Reassembly& reassembly) {
+tl::expected<void, FileError> readFrames(ByteSource& source, Reassembly& reassembly, FrameNotes& notes) {
     PieceReader reader(source);
     const auto magic = reader.take(4);
     if (!magic) {
@@ -269,7 +337,7 @@ tl::expected<void, FileError> readFrames(ByteSource& source, Reassembly& reassem
     case FileFormat::Pcap:
         return readPcap(reader, wire::load32(magic->data()), reassembly);
     case FileFormat::Pcapng:
-        return PcapngReader(reader, reassembly).read();
+        return PcapngReader(reader, reassembly, notes).read();
     case FileFormat::Raw:
         break;
     }
@@ -279,8 +347,15 @@ tl::expected<void, FileError> readFrames(ByteSource& source, Reassembly& reassem
 } // namespace
 
 tl::expected<void, FileError> readCaptureFile(ByteSource& source, const FileVisitor& visit) {
-    Reassembly reassembly(visit);
-    auto result = readFrames(source, reassembly);
+    FrameNotes notes;
+    const FileVisitor noted = [&](const FileRecord& record) {
+        FileRecord complete = record;
+        notes.apply(complete);
+        visit(complete);
+    };
+    Reassembly reassembly(noted);
+    auto result = readFrames(source, reassembly, notes);
+    notes.setComments({});
     reassembly.finish();
     return result;
 }

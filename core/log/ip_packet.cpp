@@ -141,7 +141,9 @@ std::optional<IpPacket> throughIpv6(Frame frame, std::size_t start) {
     if (packet.size() < 40) {
         return std::nullopt;
     }
-    const std::size_t size = std::min<std::size_t>(40U + wordAt(packet, 4), packet.size());
+    // A size of 0 belongs to a jumbogram (RFC 2675), or to a packet that a card will cut.
+    const std::size_t announced = wordAt(packet, 4);
+    const std::size_t size = announced != 0 ? std::min(40U + announced, packet.size()) : packet.size();
     IpPacket found;
     found.source = addressAt(packet, 8, true);
     found.target = addressAt(packet, 24, true);

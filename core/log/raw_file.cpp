@@ -75,6 +75,18 @@ FileFormat fileFormat(std::span<const std::byte> firstBytes) {
     }
 }
 
+Arrival arrivalOf(const FileRecord& record, SourceId source, std::int64_t stampNs) {
+    Arrival arrival;
+    arrival.stampNs = record.stampNs.value_or(stampNs);
+    arrival.source = source;
+    arrival.kernelDropsBefore = record.kernelDropsBefore;
+    arrival.flags.truncated = record.isTruncated;
+    arrival.flags.stampedByKernel = record.isStampedByKernel;
+    arrival.flags.skipped = record.isSkipped;
+    arrival.flags.isDropRecord = record.isDropRecord;
+    return arrival;
+}
+
 tl::expected<void, FileError> readRawFile(ByteSource& source, const FileVisitor& visit) {
     TcpFramer framer;
     const TcpFramer::Visitor pass = [&](const TcpFramer::Piece& piece) {

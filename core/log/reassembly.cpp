@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/reassembly.h"
 
+#include "core/log/ip_endpoint.h"
 #include "core/log/udp_payload.h"
 #include "core/wire/byte_order.h"
 #include "core/wire/header.h"
@@ -39,8 +40,10 @@ std::optional<TcpHeader> tcpHeaderOf(std::span<const std::byte> segment) {
                      (flags & 5U) != 0};
 }
 
-std::string endpointText(const IpAddress& address, std::uint16_t port) {
-    return addressText(address) + ':' + std::to_string(port);
+FileRecord recordOf(const WholePacket& whole, const UdpPayload& payload) {
+    return {whole.fileOffset + payload.offset, payload.bytes, false, whole.stampNs,
+            SourceInfo{endpointText({whole.packet.source, payload.sourcePort}), Transport::Udp,
+                       payload.targetPort}};
 }
 
 } // namespace
@@ -55,6 +58,14 @@ void Reassembly::add(const CapturedFrame& frame) {
         m_fragments.add(*packet, offset, frame.stampNs, [&](const WholePacket& whole) { addPacket(whole); });
     } else {
         addPacket({*packet, packet->bytes, offset, frame.stampNs});
+    }
+}
+
+void Reassembly::addRecorded(const CapturedFrame& frame) {
+    const auto packet = ipPacketOf(frame.linkType, frame.bytes);
+    const auto payload = packet ? udpPayloadOf(*packet, packet->bytes) : std::nullopt;
+    if (payload) {
+        m_visit(recordOf({*packet, packet->bytes, frame.offset + packet->offset, frame.stampNs}, *payload));
     }
 }
 
@@ -77,9 +88,7 @@ void Reassembly::addPacket(const WholePacket& whole) {
 void Reassembly::addUdp(const WholePacket& whole) {
     const auto payload = udpPayloadOf(whole.packet, whole.bytes);
     if (payload && wire::startsWithMagic(payload->bytes)) {
-        m_visit({whole.fileOffset + payload->offset, payload->bytes, false, whole.stampNs,
-                 SourceInfo{endpointText(whole.packet.source, payload->sourcePort), Transport::Udp,
-                            payload->targetPort}});
+        m_visit(recordOf(whole, *payload));
     }
 }
 
@@ -99,7 +108,7 @@ void Reassembly::addTcp(const WholePacket& whole) {
             return;
         }
         endOldest();
-        SourceInfo source{endpointText(direction.source, direction.sourcePort), Transport::Tcp,
+        SourceInfo source{endpointText({direction.source, direction.sourcePort}), Transport::Tcp,
                           direction.targetPort};
         Followed added{std::make_unique<TcpStream>(std::move(source), sequence), 0};
         found = m_streams.emplace(direction, std::move(added)).first;

@@ -27,6 +27,8 @@ public:
     explicit Reassembly(const FileVisitor& visit) : m_visit(visit) {}
 
     void add(const CapturedFrame& frame);
+    /// A frame of a recording: a UDP packet that carries whatever was received.
+    void addRecorded(const CapturedFrame& frame);
     /// The capture has ended: what is incomplete comes out.
     void finish();
 

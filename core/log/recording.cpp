@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/recording.h"
+
+#include <chrono>
+
+namespace posewire::log {
+namespace {
+
+constexpr std::chrono::milliseconds kPause{50};
+
+} // namespace
+
+tl::expected<std::unique_ptr<Recording>, FileError> Recording::start(const PacketLog& log,
+                                                                     const std::string& path,
+                                                                     const RecordingInfo& info,
+                                                                     std::uint64_t from) {
+    auto sink = createFile(path);
+    if (!sink) {
+        return tl::unexpected(sink.error());
+    }
+    std::unique_ptr<Recording> recording(new Recording(log, std::move(*sink), from));
+    if (const auto begun = recording->m_recorder.begin(info); !begun) {
+        return tl::unexpected(begun.error());
+    }
+    recording->m_thread = std::thread([raw = recording.get()] { raw->run(); });
+    return recording;
+}
+
+Recording::Recording(const PacketLog& log, std::unique_ptr<ByteSink> sink, std::uint64_t from)
+    : m_sink(std::move(sink)), m_recorder(log, *m_sink, from) {}
+
+Recording::~Recording() {
+    static_cast<void>(stop());
+}
+
+tl::expected<void, FileError> Recording::stop() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_isStopping = true;
+    }
+    m_changed.notify_all();
+    if (m_thread.joinable()) {
+        m_thread.join();
+    }
+    if (const auto why = failure()) {
+        return tl::unexpected(*why);
+    }
+    return {};
+}
+
+Recording::Figures Recording::figures() const {
+    const std::lock_guard lock(m_mutex);
+    return m_figures;
+}
+
+std::optional<FileError> Recording::failure() const {
+    const std::lock_guard lock(m_mutex);
+    return m_failure;
+}
+
+void Recording::run() {
+    bool isStopping = false;
+    while (!isStopping) {
+        {
+            std::unique_lock lock(m_mutex);
+            isStopping = m_changed.wait_for(lock, kPause, [this] { return m_isStopping; });
+        }
+        if (!note(isStopping ? m_recorder.finish() : m_recorder.follow())) {
+            return;
+        }
+    }
+}
+
+/// False where nothing more can be written.
+bool Recording::note(const Recorder::Result& result) {
+    const std::lock_guard lock(m_mutex);
+    m_figures = {m_recorder.packets(), m_recorder.bytes(), m_recorder.missed()};
+    if (!result) {
+        m_failure = result.error();
+    }
+    return result.has_value();
+}
+
+} // namespace posewire::log

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/pcapng_writer.h"
+
+#include "core/log/pcapng_block.h"
+#include "core/log/recorded_origin.h"
+#include "core/log/udp_frame.h"
+#include "core/wire/byte_order.h"
+#include "tests/core/log/recording_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <random>
+
+namespace posewire::log {
+namespace {
+
+ByteVector written(const std::vector<Recorded>& packets, bool isFinished = true) {
+    MemorySink sink;
+    PcapngWriter writer(sink);
+    EXPECT_TRUE(writer.begin({"this machine", "some system", "Posewire test"}));
+    for (const Recorded& one : packets) {
+        const Packet packet{0, one.stampNs, {}, one.kernelDropsBefore, one.flags, one.bytes};
+        EXPECT_TRUE(writer.add(packet, one.source, one.comments));
+    }
+    if (isFinished) {
+        EXPECT_TRUE(writer.finish());
+    }
+    EXPECT_EQ(writer.bytes(), sink.bytes.size());
+    EXPECT_EQ(writer.packets(), packets.size());
+    return sink.bytes;
+}
+
+Recorded from(const std::string& address, Transport transport = Transport::Udp, std::uint16_t port = 9763) {
+    Recorded one{poseDatagram(7)};
+    one.source = {address, transport, port};
+    return one;
+}
+
+Recorded with(PacketFlags flags, std::uint32_t drops = 0) {
+    Recorded one{poseDatagram(7)};
+    one.flags = flags;
+    one.kernelDropsBefore = drops;
+    one.stampNs = 5;
+    return one;
+}
+
+Recorded commented(const std::vector<std::string>& comments) {
+    Recorded one{poseDatagram(7)};
+    one.comments = comments;
+    return one;
+}
+
+ByteVector bytesOf(std::size_t size) {
+    ByteVector bytes(size);
+    for (std::size_t i = 0; i < size; ++i) {
+        bytes[i] = static_cast<std::byte>(i * 7 + (i >> 8));
+    }
+    return bytes;
+}
+
+std::vector<Recorded> everyKind() {
+    std::vector<Recorded> all{
+        from("10.0.0.2:40001"),
+        from("[fe80::1]:40001"),
+        from("127.0.0.1:40001", Transport::Udp, 9764),
+        from("[::1]:40001"),
+        from("10.0.0.2:40001", Transport::Tcp),
+        from("[fe80::1%eth0]:40001"),
+        from("walk \"2\"; from here.bin", Transport::File, 0),
+        from("", Transport::File, 0),
+        from("", Transport::Udp, 5),
+        from("Performer\n1", Transport::Performer, 0),
+        from("unknown sender"),
+        from("0.0.0.0:0", Transport::Performer, 0),
+        with({.stampedByKernel = true}, 3),
+        with({.stampedByKernel = true}, 0xffffffff),
+        with({.truncated = true, .stampedByKernel = true}),
+        with({}),
+        with({.truncated = true, .skipped = true}),
+        commented({"look at this — é"}),
+        commented({"one", "two"}),
+        commented({"Posewire: TCP", "x"}),
+        commented({"Posewire: is nice"}),
+    };
+    for (const std::size_t size : {0U, 3U, 1471U}) {
+        all.push_back(with({.stampedByKernel = true}));
+        all.back().bytes = bytesOf(size);
+    }
+    all.push_back(with({.skipped = true, .isDropRecord = true}, 8));
+    all.back().bytes.clear();
+    return all;
+}
+
+TEST(PcapngWriter, GivesBackEveryKindOfPacket) {
+    const auto packets = everyKind();
+    const auto seen = recordedIn(written(packets));
+    ASSERT_EQ(seen.size(), packets.size());
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+        EXPECT_EQ(seen[i], packets[i]) << i;
+    }
+}
+
+TEST(PcapngWriter, GivesBackPacketsOfAnyLength) {
+    std::vector<Recorded> packets;
+    for (const std::size_t size : {65'507U, 65'508U, 65'527U, 65'528U, 65'536U, 70'001U, 1'000'000U}) {
+        for (const Recorded& kind :
+             {from("10.0.0.2:1"), from("[::1]:1", Transport::Tcp, 2), from("a file", Transport::File, 0)}) {
+            packets.push_back(kind);
+            packets.back().bytes = bytesOf(size);
+        }
+    }
+    const auto seen = recordedIn(written(packets));
+    ASSERT_EQ(seen.size(), packets.size());
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+        EXPECT_EQ(seen[i], packets[i]) << i;
+    }
+}
+
+TEST(PcapngWriter, WritesTheSameFileFromWhatWasReadBack) {
+    const ByteVector first = written(everyKind());
+    EXPECT_EQ(written(recordedIn(first)), first);
+}
+
+TEST(PcapngWriter, GivesBackRandomPackets) {
+    std::mt19937 random(4);
+    std::vector<Recorded> packets;
+    for (int i = 0; i < 500; ++i) {
+        Recorded one{bytesOf(random() % 3000)};
+        one.source.localPort = static_cast<std::uint16_t>(random());
+        one.source.transport = static_cast<Transport>(random() % 4);
+        one.stampNs = static_cast<std::int64_t>((std::uint64_t{random()} << 32 | random()) >> 2);
+        one.kernelDropsBefore = random() % 3 == 0 ? static_cast<std::uint32_t>(random()) : 0;
+        one.flags = {random() % 2 == 0, random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
+        packets.push_back(one);
+    }
+    const auto seen = recordedIn(written(packets));
+    ASSERT_EQ(seen.size(), packets.size());
+    for (std::size_t i = 0; i < packets.size(); ++i) {
+        ASSERT_EQ(seen[i], packets[i]) << i;
+    }
+}
+
+TEST(PcapngWriter, OpensUpToTheLastWholeBlockWhereverTheFileIsCut) {
+    const std::vector<Recorded> packets{{poseDatagram(1, 1)},
+                                        {poseDatagram(2, 1), {"f", Transport::File, 0}}};
+    const std::size_t none = written({}, false).size();
+    const std::size_t one = written({packets[0]}, false).size();
+    const std::size_t both = written(packets, false).size();
+    const ByteVector file = written(packets);
+    for (std::size_t size = 4; size < file.size(); ++size) {
+        const auto seen = recordedIn(std::span(file).first(size));
+        ASSERT_EQ(seen.size(), size < one ? 0U : size < both ? 1U : 2U) << size << " of " << none;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+            ASSERT_EQ(seen[i], packets[i]);
+        }
+    }
+}
+
+TEST(PcapngWriter, StopsWhereTheDiskIsFull) {
+    MemorySink sink(500);
+    PcapngWriter writer(sink);
+    ASSERT_TRUE(writer.begin({}));
+    const ByteVector pose = poseDatagram(1);
+    const auto result = writer.add({0, 1, {}, 0, {}, pose}, {"10.0.0.1:1", Transport::Udp, 1});
+    ASSERT_FALSE(result);
+    EXPECT_THAT(result.error().text, testing::HasSubstr("full"));
+}
+
+/// RFC 1071: the sum over data with its checksum is all ones.
+std::uint16_t sumOf(std::span<const std::byte> bytes, std::uint64_t sum) {
+    for (std::size_t i = 0; i < bytes.size(); ++i) {
+        sum += std::to_integer<std::uint64_t>(bytes[i]) << (i % 2 == 0 ? 8 : 0);
+    }
+    while (sum >> 16 != 0) {
+        sum = (sum >> 16) + (sum & 0xffff);
+    }
+    return static_cast<std::uint16_t>(sum);
+}
+
+TEST(UdpFrame, HasRightChecksumsForAnyContent) {
+    std::mt19937 random(1);
+    for (int i = 0; i < 300; ++i) {
+        ByteVector payload(random() % 40);
+        std::ranges::generate(payload, [&] { return static_cast<std::byte>(random()); });
+        ByteVector ipv4;
+        appendUdpFrame(ipv4, *parseIpEndpoint("10.1.2.3:40001"), *parseIpEndpoint("0.0.0.0:9763"), payload);
+        EXPECT_EQ(sumOf(std::span(ipv4).first(20), 0), 0xffff);
+        EXPECT_EQ(sumOf(std::span(ipv4).subspan(12), 17 + payload.size() + 8), 0xffff);
+        ByteVector ipv6;
+        appendUdpFrame(ipv6, *parseIpEndpoint("[fe80::1]:40001"), *parseIpEndpoint("[::]:9763"), payload);
+        EXPECT_EQ(sumOf(std::span(ipv6).subspan(8), 17 + payload.size() + 8), 0xffff);
+    }
+}
+
+TEST(UdpFrame, NeverHasTheChecksumThatMeansNone) {
+    ByteVector payload(2);
+    for (unsigned value = 0; value <= 0xffff; ++value) {
+        wire::store16(payload.data(), static_cast<std::uint16_t>(value));
+        ByteVector frame;
+        appendUdpFrame(frame, *parseIpEndpoint("10.1.2.3:1"), *parseIpEndpoint("0.0.0.0:1"), payload);
+        ASSERT_NE(wire::load16(frame.data() + 26), 0);
+    }
+}
+
+TEST(RecordedOrigin, ReadsOnlyItsOwnWords) {
+    EXPECT_EQ(originText({Transport::Tcp, {.stampedByKernel = false}, "[fe80::1%eth0]:40001"}),
+              "Posewire: TCP; stamped on reading; from [fe80::1%eth0]:40001");
+    for (const char* text : {"", "Posewire", "Posewire: ", "Posewire: SCTP", "Posewire: TCP!",
+                             "Posewire: TCP; stamped on reading; truncated", "posewire: TCP"}) {
+        EXPECT_EQ(parseOrigin(text), std::nullopt) << text;
+    }
+}
+
+} // namespace
+} // namespace posewire::log

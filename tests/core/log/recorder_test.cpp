@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/recorder.h"
+
+#include "tests/core/log/log_fixture.h"
+#include "tests/core/log/recording_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace posewire::log {
+namespace {
+
+class RecorderTest : public testing::Test {
+protected:
+    void append(std::uint32_t sample, std::uint32_t drops = 0) {
+        const SourceId source = m_log.sources().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+        m_log.writer().append(poseDatagram(sample), {m_stampNs++, source, drops, {.stampedByKernel = true}});
+        m_log.writer().publish();
+    }
+    PacketLog m_log{kSmallLog};
+    MemorySink m_sink;
+    std::int64_t m_stampNs = 1'000;
+};
+
+TEST_F(RecorderTest, WritesWhatTheLogGetsAndHandsItToTheSystemEachTime) {
+    Recorder recorder(m_log, m_sink);
+    ASSERT_TRUE(recorder.begin({}));
+    EXPECT_EQ(m_sink.flushed, m_sink.bytes.size());
+    for (std::uint32_t sample = 0; sample < 10; ++sample) {
+        append(sample, sample);
+        ASSERT_TRUE(recorder.follow());
+        EXPECT_EQ(m_sink.flushed, m_sink.bytes.size());
+        const auto seen = recordedIn(m_sink.bytes);
+        ASSERT_EQ(seen.size(), sample + 1);
+        EXPECT_EQ(seen.back().bytes, poseDatagram(sample));
+        EXPECT_EQ(seen.back().stampNs, 1'000 + sample);
+        EXPECT_EQ(seen.back().kernelDropsBefore, sample);
+    }
+    ASSERT_TRUE(recorder.finish());
+    EXPECT_EQ(recordedIn(m_sink.bytes).size(), 10U);
+    EXPECT_EQ(recorder.packets(), 10U);
+    EXPECT_EQ(recorder.missed(), 0U);
+}
+
+TEST_F(RecorderTest, BeginsWithThePacketThatWasAskedFor) {
+    for (std::uint32_t sample = 0; sample < 10; ++sample) {
+        append(sample);
+    }
+    Recorder recorder(m_log, m_sink, 7);
+    ASSERT_TRUE(recorder.begin({}));
+    ASSERT_TRUE(recorder.finish());
+    const auto seen = recordedIn(m_sink.bytes);
+    ASSERT_EQ(seen.size(), 3U);
+    EXPECT_EQ(seen.front().bytes, poseDatagram(7));
+}
+
+TEST_F(RecorderTest, TellsOfWhatTheLogDroppedBeforeItCouldBeWritten) {
+    Recorder recorder(m_log, m_sink);
+    ASSERT_TRUE(recorder.begin({}));
+    append(0);
+    ASSERT_TRUE(recorder.follow());
+    for (std::uint32_t sample = 1; sample < 5000; ++sample) {
+        append(sample);
+    }
+    ASSERT_TRUE(recorder.finish());
+    const auto seen = recordedIn(m_sink.bytes);
+    ASSERT_GT(seen.size(), 2U);
+    EXPECT_GT(recorder.missed(), 0U);
+    EXPECT_EQ(seen.size() + recorder.missed(), 5000U);
+    EXPECT_EQ(seen[1].kernelDropsBefore, recorder.missed());
+    EXPECT_EQ(seen[2].kernelDropsBefore, 0U);
+}
+
+TEST_F(RecorderTest, SaysWhatWentWrong) {
+    MemorySink full(1'000);
+    Recorder recorder(m_log, full);
+    ASSERT_TRUE(recorder.begin({}));
+    append(0);
+    append(1);
+    const auto result = recorder.follow();
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().text, "memory: the disk is full");
+}
+
+} // namespace
+} // namespace posewire::log

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/byte_sink.h"
+#include "core/log/capture_file.h"
+#include "core/log/pcapng_writer.h"
+#include "tests/core/log/datagram_fixture.h"
+
+#include <algorithm>
+#include <ostream>
+
+namespace posewire::log {
+
+/// A packet with what a recording keeps of it.
+struct Recorded {
+    ByteVector bytes;
+    SourceInfo source{"10.0.0.2:40001", Transport::Udp, 9763};
+    std::int64_t stampNs = 1'700'000'000'123'456'789;
+    std::uint32_t kernelDropsBefore = 0;
+    PacketFlags flags{.stampedByKernel = true};
+    std::vector<std::string> comments{};
+
+    friend bool operator==(const Recorded&, const Recorded&) = default;
+};
+
+/// For the messages of tests.
+inline void PrintTo(const Recorded& one, std::ostream* out) {
+    *out << one.bytes.size() << " bytes from " << one.source.address << " ("
+         << static_cast<int>(one.source.transport) << ") to " << one.source.localPort << " at " << one.stampNs
+         << " after " << one.kernelDropsBefore << " drops, flags " << one.flags.truncated
+         << one.flags.stampedByKernel << one.flags.skipped << one.flags.isDropRecord << ", "
+         << one.comments.size() << " comments";
+}
+
+/// In memory; full after `room` bytes.
+class MemorySink final : public ByteSink {
+public:
+    explicit MemorySink(std::size_t room = SIZE_MAX) : m_room(room) {}
+
+    tl::expected<void, FileError> write(std::span<const std::byte> more) override {
+        if (more.size() > m_room - bytes.size()) {
+            return tl::unexpected(FileError{"memory: the disk is full"});
+        }
+        bytes.insert(bytes.end(), more.begin(), more.end());
+        return {};
+    }
+    tl::expected<void, FileError> flush() override {
+        flushed = bytes.size();
+        return {};
+    }
+    [[nodiscard]] std::string name() const override { return "memory"; }
+
+    ByteVector bytes;
+    std::size_t flushed = 0;
+
+private:
+    std::size_t m_room;
+};
+
+class BytesSource final : public ByteSource {
+public:
+    explicit BytesSource(std::span<const std::byte> bytes) : m_bytes(bytes) {}
+    tl::expected<std::size_t, FileError> read(std::span<std::byte> into) override {
+        const std::size_t count = std::min(into.size(), m_bytes.size());
+        std::copy_n(m_bytes.begin(), count, into.begin());
+        m_bytes = m_bytes.subspan(count);
+        return count;
+    }
+    [[nodiscard]] std::string name() const override { return "memory"; }
+
+private:
+    std::span<const std::byte> m_bytes;
+};
+
+/// What a reader finds; the file must be sound or cut off.
+inline std::vector<Recorded> recordedIn(std::span<const std::byte> file) {
+    std::vector<Recorded> all;
+    BytesSource source(file);
+    const auto result = readFile(source, [&](const FileRecord& record) {
+        const Arrival arrival = arrivalOf(record, {}, -1);
+        all.push_back({{record.bytes.begin(), record.bytes.end()},
+                       record.source.value_or(SourceInfo{"unknown", Transport::File, 0}),
+                       arrival.stampNs,
+                       arrival.kernelDropsBefore,
+                       arrival.flags,
+                       {record.comments.begin(), record.comments.end()}});
+    });
+    return result ? all : std::vector<Recorded>{};
+}
+
+} // namespace posewire::log

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/recording.h"
+
+#include "tests/core/log/log_fixture.h"
+#include "tests/core/log/recording_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace posewire::log {
+namespace {
+
+std::string newFile() {
+    static int number = 0;
+    return testing::TempDir() + "recording_" + std::to_string(++number) + ".pcapng";
+}
+
+std::vector<Recorded> recordedInFile(const std::string& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    return recordedIn(std::as_bytes(std::span(text)));
+}
+
+TEST(Recording, HoldsEveryPacketThatWasWrittenMeanwhile) {
+    constexpr std::uint32_t count = 20'000;
+    PacketLog log;
+    const std::string path = newFile();
+    auto recording = Recording::start(log, path, {});
+    ASSERT_TRUE(recording) << recording.error().text;
+    const SourceId source = log.sources().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+    for (std::uint32_t sample = 0; sample < count; ++sample) {
+        log.writer().append(poseDatagram(sample, 1), {sample, source, 0, {}});
+        log.writer().publish();
+    }
+    ASSERT_TRUE((*recording)->stop());
+    EXPECT_EQ((*recording)->figures().packets, count);
+    EXPECT_EQ((*recording)->figures().bytes, std::filesystem::file_size(path));
+    EXPECT_EQ((*recording)->figures().missed, 0U);
+    const auto seen = recordedInFile(path);
+    ASSERT_EQ(seen.size(), count);
+    for (std::uint32_t sample = 0; sample < count; ++sample) {
+        ASSERT_EQ(seen[sample].bytes, poseDatagram(sample, 1));
+        ASSERT_EQ(seen[sample].stampNs, sample);
+    }
+}
+
+TEST(Recording, EndsItsFileWhenItIsDestroyed) {
+    PacketLog log;
+    const std::string path = newFile();
+    { ASSERT_TRUE(Recording::start(log, path, {})); }
+    EXPECT_GT(std::filesystem::file_size(path), 0U);
+}
+
+TEST(Recording, FailsWhereTheFileCannotBeMade) {
+    PacketLog log;
+    const auto recording = Recording::start(log, "/no/such/folder/file", {});
+    ASSERT_FALSE(recording);
+    EXPECT_THAT(recording.error().text, testing::StartsWith("/no/such/folder/file: cannot be written"));
+}
+
+TEST(Recording, SaysThatTheDiskIsFull) {
+    if (!std::filesystem::exists("/dev/full")) {
+        GTEST_SKIP() << "there is no /dev/full here";
+    }
+    PacketLog log;
+    const auto recording = Recording::start(log, "/dev/full", {});
+    ASSERT_FALSE(recording);
+    EXPECT_THAT(recording.error().text, testing::HasSubstr("the disk is full"));
+}
+
+} // namespace
+} // namespace posewire::log
