@@ -4,6 +4,7 @@
 #include "app/gui/diagnostics.h"
 #include "app/gui/dialogs.h"
 #include "app/gui/dock_layout.h"
+#include "app/gui/dock_scroll.h"
 #include "app/gui/dock_title.h"
 #include "app/gui/health_bar.h"
 #include "app/gui/icons.h"
@@ -89,7 +90,7 @@ void MainWindow::makeDocks() {
         auto* dock = new QDockWidget(QCoreApplication::translate("Panel", info.title), this);
         dock->setObjectName(QLatin1String(info.id));
         Panel* panel = info.make(m_driver.session(), m_driver, dock);
-        dock->setWidget(panel);
+        dock->setWidget(new DockScroll(panel, dock));
         panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
         auto* title = new DockTitle(dock);
         dock->setTitleBarWidget(title);

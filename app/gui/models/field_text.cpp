@@ -190,6 +190,25 @@ QString documentTitle(const FieldDocument& document) {
     return document.kind() == model::PacketKind::Foreign ? tr("Foreign datagram") : tr("Malformed datagram");
 }
 
+QStringList documentLines(const FieldDocument& document) {
+    const QString size = tr("%1 bytes").arg(grouped(document.bytes().size()));
+    if (!document.hasHeader()) {
+        return {size};
+    }
+    const wire::Header& header = document.header();
+    QStringList lines{
+        tr("%1 · sample %2 · %3")
+            .arg(size, grouped(header.sampleCounter), datagramCounterText(header.datagramCounter))};
+    if (const wire::TypeInfo* type = wire::findType(document.type())) {
+        QStringList about{textOf(type->frame), textOf(type->remark)};
+        about.removeAll(QString());
+        lines += about.join(QStringLiteral(" · "));
+        lines += tr("Revisions %1 · § %2").arg(textOf(type->revisions), textOf(type->section));
+        lines.removeAll(QString());
+    }
+    return lines;
+}
+
 QString fieldTitle(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
     switch (node.kind) {

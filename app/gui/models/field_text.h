@@ -25,6 +25,10 @@ namespace posewire::gui {
 /// "02 Pose, quaternion"; for what is no datagram, what it is.
 [[nodiscard]] QString documentTitle(const FieldDocument& document);
 
+/// What there is to say about the packet as a whole: size and place in its stream; frame of its values and
+/// where real senders and the specification differ; revisions and section.
+[[nodiscard]] QStringList documentLines(const FieldDocument& document);
+
 /// `node` of `document` less `otherNode` of `other`, with unit; "" where both are the same, "differs" where
 /// there is no difference to take.
 [[nodiscard]] QString difference(const FieldDocument& document, std::int32_t node, const FieldDocument& other,

@@ -296,9 +296,24 @@ void InspectorPanel::describeProblems() {
     m_problemLine->setVisible(!lines.isEmpty());
 }
 
+/// While no field is selected, its room tells of the packet as a whole.
+void InspectorPanel::describePacket() {
+    if (!m_isShown) {
+        m_detail->clear();
+        return;
+    }
+    const QStringList facts = documentLines(*m_document);
+    QStringList lines{QStringLiteral("<b>%1</b>").arg(documentTitle(*m_document).toHtmlEscaped()),
+                      facts.value(0).toHtmlEscaped()};
+    for (const QString& fact : facts.mid(1)) {
+        lines += coloured(theme().dim, fact.toHtmlEscaped());
+    }
+    m_detail->setText(lines.join(QStringLiteral("<br>")));
+}
+
 void InspectorPanel::describe(std::int32_t node) {
     if (node < 0 || node >= m_document->count()) {
-        m_detail->clear();
+        describePacket();
         return;
     }
     const std::int32_t item = m_document->itemOf(node);
@@ -311,7 +326,7 @@ void InspectorPanel::describe(std::int32_t node) {
     QStringList lines{title};
     lines +=
         (wire.isEmpty() || wire == value
-             ? value
+             ? value.left(200).toHtmlEscaped()
              : tr("%1 <span style=\"color:%3\">on the wire, means</span> %2")
                    .arg(wire.left(200).toHtmlEscaped(), value.left(200).toHtmlEscaped(), theme().dim.name()));
     QStringList about{fieldPlace(*m_document, node), fieldMeaning(*m_document, node),

@@ -47,6 +47,7 @@ private:
     void showEmpty();
     void describeProblems();
     void describe(std::int32_t node);
+    void describePacket();
     void describeCurrent();
     void followSelection(bool isNewPacket);
 

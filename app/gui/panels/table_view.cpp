@@ -94,7 +94,7 @@ void TableView::leaveOutWhatDoesNotFit(int open) {
     int width = textWidth(m_leastOpen);
     for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
         width += column == open ? 0 : sampleWidth(column);
-        if (column >= m_firstOptional) {
+        if (column >= m_firstOptional && column != open) {
             setColumnHidden(column, width > viewport()->width());
         }
     }

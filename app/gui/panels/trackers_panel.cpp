@@ -23,7 +23,9 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
     layOut();
     m_table->setModel(&m_trackers);
     const QString number = QStringLiteral("99.99");
-    m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()});
+    m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()},
+                              QStringLiteral("▲ magnetic"));
+    m_table->setOptionalColumns(TrackerModel::kFree);
     m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
                              "Kinematics (type 23)."));
     m_factTable->setModel(&m_facts);
@@ -65,7 +67,9 @@ void TrackersPanel::refresh() {
     if (hasTracker && !m_isDivided) {
         m_isDivided = true;
         m_detail->show();
-        m_splitter->setSizes({1, 3}); // shares; plots need the room, the table scrolls
+        // Shares: below the table plots need the room; beside them the table shows its columns.
+        const bool isBeside = m_splitter->orientation() == Qt::Horizontal;
+        m_splitter->setSizes(isBeside ? QList<int>{2, 3} : QList<int>{1, 3});
     }
     m_detail->setVisible(hasTracker);
     if (m_detail->isVisible()) {
@@ -98,9 +102,22 @@ QString TrackersPanel::summary() const {
                               : QStringLiteral("%1 · %2").arg(trackerName(tracker->id)).arg(tracker->id);
 }
 
+QJsonObject TrackersPanel::state() const {
+    const QJsonArray columns = m_table->chosenColumns();
+    return columns.isEmpty() ? QJsonObject() : QJsonObject{{"columns", columns}};
+}
+
+void TrackersPanel::restoreState(const QJsonObject& state) {
+    m_table->setChosenColumns(state["columns"].toArray());
+}
+
 void TrackersPanel::resizeEvent(QResizeEvent* event) {
     Panel::resizeEvent(event);
-    m_splitter->setOrientation(width() > height() * 3 / 2 ? Qt::Horizontal : Qt::Vertical);
+    const Qt::Orientation orientation = width() > height() * 3 / 2 ? Qt::Horizontal : Qt::Vertical;
+    if (orientation != m_splitter->orientation()) {
+        m_splitter->setOrientation(orientation);
+        m_isDivided = false;
+    }
 }
 
 } // namespace posewire::gui

@@ -20,6 +20,8 @@ public:
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QJsonObject state() const override;
+    void restoreState(const QJsonObject& state) override;
 
 protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -7,6 +7,8 @@
 
 #include <QDockWidget>
 #include <QScreen>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -74,6 +76,32 @@ TEST_F(MainWindowTest, WritesItsSettingsWhenItCloses) {
     QString problem;
     EXPECT_FALSE(file.read(&problem).docks.isEmpty());
     EXPECT_TRUE(problem.isEmpty());
+}
+
+TEST_F(MainWindowTest, FitsASmallScreenInEveryLayout) {
+    const auto window = makeWindow();
+    for (const QString& layout : layoutNames()) {
+        window->useLayout(layout);
+        QTest::qWait(1);
+        window->resize(1280, 720);
+        QTest::qWait(1);
+        EXPECT_EQ(window->size(), QSize(1280, 720)) << layout.toStdString();
+    }
+}
+
+TEST_F(MainWindowTest, ScrollsDocksThatAreLowerThanTheirContent) {
+    const auto window = makeWindow();
+    window->useLayout("Debug");
+    QDockWidget* timecode = dock(*window, "timecode");
+    timecode->setFloating(true);
+    timecode->resize(400, 120);
+    QTest::qWait(1);
+    const auto* area = timecode->findChild<QAbstractScrollArea*>(QString(), Qt::FindDirectChildrenOnly);
+    ASSERT_NE(area, nullptr);
+    EXPECT_GT(area->verticalScrollBar()->maximum(), 0);
+    timecode->resize(400, 700);
+    QTest::qWait(1);
+    EXPECT_EQ(area->verticalScrollBar()->maximum(), 0);
 }
 
 TEST_F(MainWindowTest, DockAllBringsFloatingDocksBack) {
