@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "core/performer/corruption.h"
+
+#include "core/wire/codec.h"
+#include "core/wire/type_table.h"
+
+#include <cmath>
+#include <cstdlib>
+
+namespace posewire::performer {
+namespace {
+
+constexpr int kTries = 16;
+constexpr std::uint64_t kKeysPerDatagram = 4096;
+/// Further from every other counter than any loss, delay or restart.
+constexpr std::int64_t kFar = 1'000'000;
+/// Ahead by so much, the samples in between are reordered but clearly not late.
+constexpr double kNearMs = 20.0;
+/// Less than a jump back that could be a restart.
+constexpr std::int64_t kMostBack = 90;
+
+std::uint64_t flip(std::vector<std::byte>& bytes, const KeyedRandom& random, std::uint64_t key) {
+    const std::uint64_t count = 1 + random.bits(key) % 4;
+    for (std::uint64_t flipped = 0; flipped < count; ++flipped) {
+        const std::uint64_t bits = random.bits(++key);
+        bytes[bits % bytes.size()] ^= static_cast<std::byte>(1 + (bits >> 32) % 255);
+    }
+    return key;
+}
+
+bool isClearCounter(const Origin& origin, std::uint32_t sample, double periodMs) {
+    const std::int64_t moved = static_cast<std::int32_t>(sample - origin.sample);
+    if (std::abs(moved) >= kFar) {
+        return true;
+    }
+    const auto most = static_cast<std::int64_t>(std::floor(kNearMs / periodMs));
+    return moved % origin.step == 0 && moved <= most && moved >= -kMostBack;
+}
+
+/// Whether there is one answer to what a datagram with this header counts as.
+bool isClear(const wire::Header& original, const wire::Header& now, const Origin& origin,
+             const CorruptionBounds& bounds) {
+    const bool isSame = now.type() == original.type() && now.character == original.character &&
+                        now.sampleCounter == original.sampleCounter;
+    if (now.datagramCounter != original.datagramCounter) {
+        return false;
+    }
+    if (isSame) {
+        return true;
+    }
+    return bounds.mayChangeIdentity && original.datagramCounter == 0x80 && wire::isSampled(original.type()) &&
+           wire::isSampled(now.type()) && isClearCounter(origin, now.sampleCounter, bounds.periodMs);
+}
+
+/// Damage to the payload alone; where it cannot be decoded any more, that is clear too.
+void flipPayload(Sending& sending, const KeyedRandom& random, std::uint64_t key) {
+    if (sending.bytes.size() > wire::kHeaderSize) {
+        const std::uint64_t bits = random.bits(key);
+        const std::size_t payload = sending.bytes.size() - wire::kHeaderSize;
+        sending.bytes[wire::kHeaderSize + bits % payload] ^= static_cast<std::byte>(1 + (bits >> 32) % 255);
+    }
+}
+
+} // namespace
+
+void corrupt(Sending& sending, const CorruptionBounds& bounds, const KeyedRandom& random, std::uint64_t key) {
+    const auto original = wire::decodeHeader(sending.bytes);
+    if (!original || sending.bytes.empty()) {
+        return;
+    }
+    const std::vector<std::byte> intact = sending.bytes;
+    std::uint64_t next = key * kKeysPerDatagram;
+    for (int attempt = 0; attempt < kTries; ++attempt) {
+        sending.bytes = intact;
+        next = flip(sending.bytes, random, next + 1);
+        const auto now = wire::decode(sending.bytes);
+        sending.isReadable = now.has_value();
+        if (!now || isClear(*original, now->header, sending.origin, bounds)) {
+            return;
+        }
+    }
+    sending.bytes = intact;
+    flipPayload(sending, random, next + 1);
+    sending.isReadable = wire::decode(sending.bytes).has_value();
+}
+
+void truncate(Sending& sending, const KeyedRandom& random, std::uint64_t key) {
+    if (!sending.bytes.empty()) {
+        sending.bytes.resize(random.bits(key) % sending.bytes.size());
+        sending.isReadable = wire::decode(sending.bytes).has_value();
+    }
+}
+
+} // namespace posewire::performer

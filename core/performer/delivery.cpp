@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT
+#include "core/performer/delivery.h"
+
+#include "core/wire/header.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace posewire::performer {
+namespace {
+
+constexpr std::int64_t kDoubtfulFromNs = 25'000'000;
+constexpr std::int64_t kDoubtfulToNs = 100'000'000;
+constexpr std::int64_t kClearlyLateNs = 110'000'000;
+/// A jump back by more than the first or forward by more than the second may be a restart (RFC 3550 A.1).
+constexpr std::int64_t kMostBack = 100;
+constexpr std::int64_t kMostForward = 3000;
+/// A stream goes on by so many samples between two that are far behind.
+constexpr std::uint64_t kAdvancesBetween = 4;
+constexpr std::uint64_t kSettled = 16;
+constexpr std::size_t kRecent = 4096;
+
+constexpr auto isLater = [](const auto& a, const auto& b) {
+    return std::pair(a.sending.dueNs, a.order) > std::pair(b.sending.dueNs, b.order);
+};
+
+std::int64_t distance(std::uint32_t to, std::uint32_t from) {
+    return static_cast<std::int32_t>(to - from);
+}
+
+} // namespace
+
+bool QuietTimes::contains(std::int64_t timeNs) const {
+    return std::ranges::any_of(momentsNs, [&](std::int64_t moment) {
+        return timeNs >= moment - widthNs && timeNs <= moment + widthNs;
+    });
+}
+
+Delivery::Delivery(double periodNs, QuietTimes quiet)
+    : m_periodNs(static_cast<std::int64_t>(std::max(periodNs, 1.0))), m_quiet(std::move(quiet)) {}
+
+void Delivery::push(Sending sending) {
+    m_heap.push_back({std::move(sending), m_pushed++});
+    std::ranges::push_heap(m_heap, isLater);
+}
+
+void Delivery::pushAfter(Sending sending, std::uint64_t count) {
+    m_counted.push_back({std::move(sending), count});
+}
+
+void Delivery::notePassed(std::int64_t timeNs) {
+    for (Counted& counted : m_counted) {
+        if (counted.left > 0) {
+            --counted.left;
+        } else {
+            counted.sending.dueNs = std::max(timeNs, counted.sending.dueNs);
+            push(std::move(counted.sending));
+            counted.sending.bytes.clear();
+        }
+    }
+    std::erase_if(m_counted, [](const Counted& counted) { return counted.sending.bytes.empty(); });
+}
+
+Delivery::Entry Delivery::pop() {
+    std::ranges::pop_heap(m_heap, isLater);
+    Entry entry = std::move(m_heap.back());
+    m_heap.pop_back();
+    return entry;
+}
+
+void Delivery::advance(Front& front, std::uint32_t sample, std::int64_t timeNs) {
+    front.highest = sample;
+    ++front.advances;
+    front.recent.push_back({sample, timeNs});
+    if (front.recent.size() > kRecent) {
+        front.recent.pop_front();
+    }
+}
+
+Delivery::Verdict Delivery::judgeFar(Sending& sending, Front& front, bool isAtEnd) const {
+    if (isAtEnd || front.advances < kSettled) {
+        return Verdict::GiveUp;
+    }
+    if (front.advances < front.advancesAtFar + kAdvancesBetween || m_quiet.contains(sending.dueNs)) {
+        sending.dueNs += m_periodNs;
+        return Verdict::Wait;
+    }
+    front.advancesAtFar = front.advances;
+    return Verdict::Deliver;
+}
+
+Delivery::Verdict Delivery::judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
+                                        bool isAtEnd) const {
+    const auto after = std::ranges::partition_point(
+        front.recent, [&](const Advance& advance) { return distance(advance.sample, sample) <= 0; });
+    if (after != front.recent.end()) {
+        const std::int64_t lateNs = sending.dueNs - after->timeNs;
+        if (lateNs > kDoubtfulFromNs && lateNs < kDoubtfulToNs) {
+            sending.dueNs = after->timeNs + kClearlyLateNs;
+            return Verdict::Wait;
+        }
+    }
+    return distance(sample, front.highest) < -kMostBack ? judgeFar(sending, front, isAtEnd)
+                                                        : Verdict::Deliver;
+}
+
+Delivery::Verdict Delivery::begin(Front& front, const Sending& sending, std::uint32_t sample) {
+    if (sample != sending.origin.sample) {
+        return Verdict::GiveUp;
+    }
+    const bool isNative = front.isNative;
+    front = {};
+    front.hasBegun = true;
+    front.isNative = isNative;
+    front.epoch = sending.origin.epoch;
+    front.regime = sending.origin.regime;
+    front.first = sample;
+    advance(front, sample, sending.dueNs);
+    return Verdict::Deliver;
+}
+
+Delivery::Verdict Delivery::judge(Sending& sending, bool isAtEnd) {
+    const auto header = wire::decodeHeader(sending.bytes);
+    if (!sending.isReadable || !header || !wire::isSampled(header->type())) {
+        return Verdict::Deliver;
+    }
+    const Origin& origin = sending.origin;
+    const std::uint32_t sample = header->sampleCounter;
+    Front& front = m_fronts[{header->type(), header->character}];
+    const bool isNative = header->type() == origin.type && header->character == origin.character;
+    const bool wasNative = std::exchange(front.isNative, front.isNative || isNative);
+    const std::int64_t moved = distance(sample, front.highest);
+    const bool isRestart = origin.epoch > front.epoch && (moved < -kMostBack || moved > kMostForward);
+    if (!front.hasBegun || isRestart || (isNative && !wasNative)) {
+        return begin(front, sending, sample);
+    }
+    if (!front.isNative) {
+        // How many apart the samples of such a stream should be, nobody could say.
+        return moved == 0 ? Verdict::Deliver : Verdict::GiveUp;
+    }
+    front.epoch = std::max(front.epoch, origin.epoch);
+    return judgeNative(sending, front, sample, isAtEnd);
+}
+
+Delivery::Verdict Delivery::judgeNative(Sending& sending, Front& front, std::uint32_t sample,
+                                        bool isAtEnd) const {
+    const Origin& origin = sending.origin;
+    const bool isIntact = sample == origin.sample;
+    const bool isElsewhere = !isIntact && std::abs(distance(sample, origin.sample)) > kMostForward;
+    if (front.epoch != origin.epoch && !m_keepsStragglers) {
+        return Verdict::GiveUp;
+    }
+    if (front.epoch != origin.epoch || isElsewhere) {
+        return judgeFar(sending, front, isAtEnd);
+    }
+    if (!isIntact && (distance(sample, front.first) < 0 || m_quiet.contains(sending.dueNs))) {
+        return Verdict::GiveUp;
+    }
+    const std::int64_t moved = distance(sample, front.highest);
+    if (moved > 0) {
+        if (std::exchange(front.regime, origin.regime) != origin.regime) {
+            front.first = sample;
+        }
+        advance(front, sample, sending.dueNs);
+    }
+    return moved >= 0 ? Verdict::Deliver : judgeBehind(sending, front, sample, isAtEnd);
+}
+
+void Delivery::take(std::optional<std::int64_t> untilNs, std::vector<Sending>& into) {
+    while (!m_heap.empty() && (!untilNs || m_heap.front().sending.dueNs < *untilNs)) {
+        Entry entry = pop();
+        switch (judge(entry.sending, !untilNs.has_value())) {
+        case Verdict::Deliver:
+            m_latestNs = entry.sending.dueNs;
+            into.push_back(std::move(entry.sending));
+            break;
+        case Verdict::Wait:
+            push(std::move(entry.sending));
+            break;
+        case Verdict::GiveUp:
+            ++m_givenUp;
+            break;
+        }
+    }
+}
+
+void Delivery::takeUntil(std::int64_t untilNs, std::vector<Sending>& into) {
+    take(untilNs, into);
+}
+
+void Delivery::takeRest(std::vector<Sending>& into) {
+    for (Counted& counted : m_counted) {
+        counted.sending.dueNs = std::max(counted.sending.dueNs, m_latestNs);
+        push(std::move(counted.sending));
+    }
+    m_counted.clear();
+    take(std::nullopt, into);
+}
+
+} // namespace posewire::performer

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/performer/sending.h"
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace posewire::performer {
+
+/// Moments around which what belongs to what would be open to doubt: a restart, a change of rate.
+struct QuietTimes {
+    std::vector<std::int64_t> momentsNs;
+    std::int64_t widthNs = 0; ///< before and after each
+
+    [[nodiscard]] bool contains(std::int64_t timeNs) const;
+};
+
+/// Datagrams under way: they come out in the order of their due times. Where their order would leave it to
+/// chance what a receiver has to count, it is changed by as little as makes it clear:
+///
+/// - a sample that comes behind a later one by 25 to 100 ms would be late or not by the whims of a scheduler;
+///   it waits until it is late beyond doubt;
+/// - two samples in a row from more than 100 before look like a restart; the second waits until the stream
+///   has gone on, and is given up at the end of the stream.
+class Delivery {
+public:
+    Delivery(double periodNs, QuietTimes quiet);
+
+    void push(Sending sending);
+    /// Comes out after so many more have been pushed or noted.
+    void pushAfter(Sending sending, std::uint64_t count);
+    /// One more datagram of this sender has passed at this time.
+    void notePassed(std::int64_t timeNs);
+    /// Whether what a stream has overtaken by a restart still comes; else it is given up, as it is to begin
+    /// with.
+    void keepStragglers(bool keeps) { m_keepsStragglers = keeps; }
+
+    /// All that are due before this time, in order, appended. Nothing due earlier may be pushed afterwards.
+    void takeUntil(std::int64_t untilNs, std::vector<Sending>& into);
+    /// The rest: the streams have ended.
+    void takeRest(std::vector<Sending>& into);
+
+    [[nodiscard]] std::uint64_t givenUp() const { return m_givenUp; }
+
+private:
+    struct Entry {
+        Sending sending;
+        std::uint64_t order = 0;
+    };
+    struct Counted {
+        Sending sending;
+        std::uint64_t left = 0;
+    };
+    struct Advance {
+        std::uint32_t sample;
+        std::int64_t timeNs;
+    };
+    /// How far a stream has come, as a receiver sees it.
+    struct Front {
+        bool hasBegun = false;
+        bool isNative = false; ///< false while all of it is damaged datagrams of other streams
+        std::uint32_t epoch = 0;
+        std::uint32_t regime = 0;
+        std::uint32_t first = 0;
+        std::uint32_t highest = 0;
+        std::uint64_t advances = 0;
+        std::uint64_t advancesAtFar = 0;
+        std::deque<Advance> recent;
+    };
+    enum class Verdict : std::uint8_t { Deliver, Wait, GiveUp };
+
+    [[nodiscard]] static Verdict begin(Front& front, const Sending& sending, std::uint32_t sample);
+    [[nodiscard]] Verdict judge(Sending& sending, bool isAtEnd);
+    [[nodiscard]] Verdict judgeNative(Sending& sending, Front& front, std::uint32_t sample,
+                                      bool isAtEnd) const;
+    [[nodiscard]] Verdict judgeFar(Sending& sending, Front& front, bool isAtEnd) const;
+    [[nodiscard]] Verdict judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
+                                      bool isAtEnd) const;
+    static void advance(Front& front, std::uint32_t sample, std::int64_t timeNs);
+    void take(std::optional<std::int64_t> untilNs, std::vector<Sending>& into);
+    Entry pop();
+
+    std::int64_t m_periodNs;
+    QuietTimes m_quiet;
+    std::vector<Entry> m_heap;
+    std::vector<Counted> m_counted;
+    std::map<std::pair<std::uint8_t, std::uint8_t>, Front> m_fronts;
+    std::int64_t m_latestNs = 0; ///< of what has come out
+    std::uint64_t m_pushed = 0;
+    std::uint64_t m_givenUp = 0;
+    bool m_keepsStragglers = false;
+};
+
+} // namespace posewire::performer

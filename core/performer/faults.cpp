@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: MIT
+#include "core/performer/faults.h"
+
+#include "core/performer/sample_split.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+
+namespace posewire::performer {
+namespace {
+
+constexpr double kNsPerSecond = 1e9;
+constexpr double kNsPerMs = 1e6;
+/// Samples before and after a restart or a change of rate that reach the receiver as they are.
+constexpr double kQuietSamples = 16.0;
+/// Restarts further away than this leave no doubt where a straggler belongs.
+constexpr std::int64_t kFarRestart = 20'000;
+/// Of the sample counter in the header (§2.4.1.2).
+constexpr std::size_t kCounterOffset = 6;
+
+/// One independent source of chance for each kind of fault, so that one kind does not change another.
+enum Chance : std::uint64_t {
+    Loss,
+    Duplication,
+    CopyTime,
+    Reordering,
+    HoldKind,
+    HoldTime,
+    Corruption,
+    CorruptedBytes,
+    Truncation,
+    TruncatedSize,
+    Jitter,
+    Parts
+};
+
+std::int64_t nanoseconds(double seconds) {
+    return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
+}
+
+QuietTimes quietTimes(const FaultSettings& settings) {
+    QuietTimes quiet;
+    double samples = kQuietSamples;
+    if (settings.restart) {
+        quiet.momentsNs.push_back(nanoseconds(settings.restart->atSeconds));
+    }
+    if (settings.reduction) {
+        quiet.momentsNs.push_back(nanoseconds(settings.reduction->atSeconds));
+        samples *= settings.reduction->step;
+    }
+    quiet.widthNs = nanoseconds(samples / settings.rateHz);
+    return quiet;
+}
+
+void writeCounter(std::vector<std::byte>& bytes, std::uint32_t sample) {
+    for (std::size_t place = 0; place < 4; ++place) {
+        bytes[kCounterOffset + place] = static_cast<std::byte>(sample >> (24 - 8 * place));
+    }
+}
+
+} // namespace
+
+Faults::Faults(const FaultSettings& settings)
+    : m_settings(settings),
+      m_random(KeyedRandom(settings.seed).fork(0xfa17)),
+      m_quiet(quietTimes(settings)),
+      m_loss(settings, m_random.fork(Loss)),
+      m_delivery(kNsPerSecond / settings.rateHz, m_quiet) {}
+
+bool Faults::isPaused(std::int64_t dueNs) const {
+    const auto& pause = m_settings.pause;
+    return pause && dueNs >= nanoseconds(pause->atSeconds) &&
+           dueNs < nanoseconds(pause->atSeconds + pause->seconds);
+}
+
+bool Faults::isReduced(std::uint32_t sample, std::int64_t dueNs) {
+    const auto& reduction = m_settings.reduction;
+    if (!reduction || dueNs < nanoseconds(reduction->atSeconds)) {
+        return false;
+    }
+    if (!m_reductionSample) {
+        m_reductionSample = sample;
+    }
+    return true;
+}
+
+void Faults::restartAt(std::int64_t dueNs, Sending& sending) {
+    const auto& restart = m_settings.restart;
+    if (m_epoch != 0 || !restart || dueNs < nanoseconds(restart->atSeconds)) {
+        return;
+    }
+    m_epoch = 1;
+    m_shift = sending.origin.sample - restart->firstSample;
+    const std::int64_t jump = static_cast<std::int32_t>(m_shift);
+    m_delivery.keepStragglers(std::abs(jump) > kFarRestart);
+}
+
+void Faults::offer(std::vector<std::byte> datagram, std::int64_t dueNs) {
+    m_delivery.takeUntil(dueNs, m_ready);
+    const auto header = wire::decodeHeader(datagram);
+    Sending sending{std::move(datagram), dueNs, {}, header.has_value()};
+    sending.origin.momentNs = dueNs;
+    if (header) {
+        sending.origin.sample = header->sampleCounter;
+        sending.origin.type = header->type();
+        sending.origin.character = header->character;
+    }
+    if (header && wire::isSampled(header->type())) {
+        if (isReduced(header->sampleCounter, dueNs)) {
+            sending.origin.regime = 1;
+            sending.origin.step = m_settings.reduction->step;
+            if ((header->sampleCounter - *m_reductionSample) % sending.origin.step != 0) {
+                ++m_tally.withheld;
+                return;
+            }
+        }
+        restartAt(dueNs, sending);
+        sending.origin.epoch = m_epoch;
+        sending.origin.sample -= m_shift;
+        writeCounter(sending.bytes, sending.origin.sample);
+    }
+    if (isPaused(dueNs)) {
+        ++m_tally.withheld;
+        return;
+    }
+    send(std::move(sending));
+}
+
+void Faults::send(Sending sending) {
+    const std::uint64_t whole = ++m_wholes;
+    if (!m_settings.splits) {
+        deliver(std::move(sending), ++m_datagrams);
+        return;
+    }
+    const std::size_t parts = 2 + m_random.fork(Parts).bits(whole) % 3;
+    for (auto& part : splitSample(sending.bytes, parts)) {
+        deliver({std::move(part), sending.dueNs, sending.origin, sending.isReadable}, ++m_datagrams);
+    }
+}
+
+void Faults::damage(Sending& sending, std::uint64_t key) {
+    if (happens(m_settings.corrupt, m_random.fork(Corruption), key)) {
+        ++m_tally.corrupted;
+        const bool isPlain = !m_settings.splits || sending.origin.type == 24 || sending.origin.type == 25;
+        corrupt(sending, {1000.0 / m_settings.rateHz, isPlain}, m_random.fork(CorruptedBytes), key);
+    }
+    if (happens(m_settings.truncate, m_random.fork(Truncation), key)) {
+        ++m_tally.truncated;
+        truncate(sending, m_random.fork(TruncatedSize), key);
+    }
+}
+
+/// Less than the time of a few samples, clearly late, or so long that more than 100 samples overtake it.
+double Faults::holdMs(std::uint64_t key) const {
+    const double chance = m_random.fork(HoldKind).uniform(key);
+    const KeyedRandom time = m_random.fork(HoldTime);
+    if (chance < 0.6) {
+        return time.uniform(key, 4.0, 24.0);
+    }
+    if (chance < 0.9) {
+        return time.uniform(key, 120.0, 400.0);
+    }
+    const double periodMs = 1000.0 / m_settings.rateHz;
+    return std::min(time.uniform(key, 110.0, 200.0) * periodMs, 3000.0);
+}
+
+void Faults::deliver(Sending sending, std::uint64_t key) {
+    ++m_tally.offered;
+    const std::int64_t passedNs = sending.dueNs;
+    const bool isQuiet = m_quiet.contains(passedNs);
+    if (const bool loses = m_loss.loses(); loses && !isQuiet) {
+        ++m_tally.dropped;
+        m_delivery.notePassed(passedNs);
+        return;
+    }
+    sending.dueNs += std::llround(m_settings.delayMs * kNsPerMs);
+    if (isQuiet) {
+        m_delivery.push(std::move(sending));
+        m_delivery.notePassed(passedNs);
+        return;
+    }
+    sending.dueNs += std::llround(m_settings.jitterMs * m_random.fork(Jitter).uniform(key) * kNsPerMs);
+    damage(sending, key);
+    if (happens(m_settings.duplicate, m_random.fork(Duplication), key)) {
+        sendCopy(sending, key);
+    }
+    if (!happens(m_settings.reorder, m_random.fork(Reordering), key)) {
+        m_delivery.push(std::move(sending));
+    } else {
+        ++m_tally.reordered;
+        const std::uint64_t bits = m_random.fork(HoldTime).bits(key);
+        if (bits % 3 == 0) {
+            m_delivery.pushAfter(std::move(sending), 1 + (bits >> 8) % 150);
+        } else {
+            sending.dueNs += std::llround(holdMs(key) * kNsPerMs);
+            m_delivery.push(std::move(sending));
+        }
+    }
+    m_delivery.notePassed(passedNs);
+}
+
+/// Half of the copies follow at once, the others come some milliseconds to half a second later.
+void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
+    ++m_tally.duplicated;
+    Sending copy = sending;
+    const std::uint64_t bits = m_random.fork(CopyTime).bits(key);
+    if (bits % 2 == 0) {
+        const std::uint64_t milliseconds = bits % 4 == 0 ? 1 + (bits >> 8) % 25 : 120 + (bits >> 8) % 380;
+        copy.dueNs += static_cast<std::int64_t>(milliseconds) * 1'000'000;
+    }
+    m_delivery.push(std::move(copy));
+}
+
+void Faults::takeUntil(std::int64_t untilNs, std::vector<Sending>& into) {
+    m_delivery.takeUntil(untilNs, m_ready);
+    into.insert(into.end(), std::move_iterator(m_ready.begin()), std::move_iterator(m_ready.end()));
+    m_ready.clear();
+}
+
+void Faults::takeRest(std::vector<Sending>& into) {
+    m_delivery.takeRest(m_ready);
+    into.insert(into.end(), std::move_iterator(m_ready.begin()), std::move_iterator(m_ready.end()));
+    m_ready.clear();
+}
+
+FaultTally Faults::tally() const {
+    FaultTally tally = m_tally;
+    tally.dropped += m_delivery.givenUp();
+    return tally;
+}
+
+} // namespace posewire::performer

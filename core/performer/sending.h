@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace posewire::performer {
+
+/// What the sender meant a datagram to be, whatever became of its bytes on the way.
+struct Origin {
+    std::uint32_t sample = 0; ///< counter as sent, after restarts
+    std::uint8_t type = 0;
+    std::uint8_t character = 0;
+    std::uint32_t epoch = 0;   ///< how often the counter has begun anew
+    std::uint32_t regime = 0;  ///< how often the rate has changed
+    std::uint32_t step = 1;    ///< samples from one that is sent to the next
+    std::int64_t momentNs = 0; ///< nanoseconds after the start; the same for all parts of a message
+};
+
+/// A datagram on its way.
+struct Sending {
+    std::vector<std::byte> bytes;
+    std::int64_t dueNs = 0; ///< nanoseconds after the start
+    Origin origin;
+    bool isReadable = true; ///< false once it is too damaged to be decoded
+};
+
+} // namespace posewire::performer

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "core/performer/stream_truth.h"
+
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <ranges>
+
+namespace posewire::performer {
+namespace {
+
+/// A jump of the counter further back or forward is a restart (RFC 3550 A.1).
+constexpr std::int64_t kMostBack = 100;
+constexpr std::int64_t kMostForward = 3000;
+
+std::int64_t distance(std::uint32_t to, std::uint32_t from) {
+    return static_cast<std::int32_t>(to - from);
+}
+
+bool isRestart(std::int64_t moved) {
+    return moved < -kMostBack || moved > kMostForward;
+}
+
+} // namespace
+
+bool StreamTruth::Parts::isComplete() const {
+    for (unsigned index = 0; last >= 0 && index <= static_cast<unsigned>(last); ++index) {
+        if ((arrived[index / 64] >> (index % 64) & 1U) == 0) {
+            return false;
+        }
+    }
+    return last >= 0;
+}
+
+bool StreamTruth::Parts::add(const wire::Header& header) {
+    const unsigned index = header.datagramIndex();
+    std::uint64_t& word = arrived[index / 64];
+    const std::uint64_t bit = std::uint64_t{1} << (index % 64);
+    if ((word & bit) != 0) {
+        return false;
+    }
+    word |= bit;
+    if (header.isLast()) {
+        last = static_cast<std::int16_t>(index);
+    }
+    return true;
+}
+
+std::int64_t StreamTruth::Run::place(std::uint32_t sample) const {
+    return last + distance(sample, static_cast<std::uint32_t>(last));
+}
+
+StreamTruth::Parts& StreamTruth::Run::at(std::int64_t position) {
+    for (; position < base; --base) {
+        samples.emplace_front();
+    }
+    const auto place = static_cast<std::size_t>(position - base);
+    if (place >= samples.size()) {
+        samples.resize(place + 1);
+    }
+    return samples[place];
+}
+
+void StreamTruth::add(const wire::Header& header, const Sending& sending) {
+    ++m_figures.datagrams;
+    if (wire::isSampled(header.type())) {
+        addSample(header, sending);
+    } else {
+        addMessage(header, sending.origin);
+    }
+}
+
+void StreamTruth::addMessage(const wire::Header& header, const Origin& origin) {
+    auto found = std::ranges::find(m_messages, origin.momentNs, &std::pair<std::int64_t, Parts>::first);
+    if (found == m_messages.end()) {
+        found = m_messages.insert(found, {origin.momentNs, Parts{}});
+    }
+    found->second.add(header);
+}
+
+void StreamTruth::addSample(const wire::Header& header, const Sending& sending) {
+    const Origin& origin = sending.origin;
+    if (Run* run = runOf(header, origin)) {
+        addTo(*run, header, sending.dueNs);
+    }
+}
+
+StreamTruth::Run* StreamTruth::runOf(const wire::Header& header, const Origin& origin) {
+    const std::uint32_t sample = header.sampleCounter;
+    const bool isIntact = sample == origin.sample;
+    if (!isIntact && std::abs(distance(sample, origin.sample)) > kMostForward) {
+        return nullptr;
+    }
+    bool isKnown = false;
+    for (Run& run : std::views::reverse(m_runs)) {
+        if (run.epoch != origin.epoch || run.regime != origin.regime) {
+            continue;
+        }
+        isKnown = true;
+        const std::int64_t place = run.place(sample);
+        if (place >= run.first - kMostBack && place <= run.last + kMostForward) {
+            return &run;
+        }
+    }
+    const std::int64_t moved =
+        m_runs.empty() ? 0 : distance(sample, static_cast<std::uint32_t>(m_runs.back().last));
+    if (isRestart(moved) && (!isKnown || moved > 0)) {
+        ++m_figures.restarts;
+        return &beginRun(header, origin);
+    }
+    if (isKnown) {
+        return nullptr;
+    }
+    if (!m_runs.empty() && m_runs.back().regime == origin.regime) {
+        // So short a way back is a repetition of samples, not a restart.
+        m_runs.back().epoch = origin.epoch;
+        return &m_runs.back();
+    }
+    return &beginRun(header, origin);
+}
+
+StreamTruth::Run& StreamTruth::beginRun(const wire::Header& header, const Origin& origin) {
+    Run& run = m_runs.emplace_back();
+    run.epoch = origin.epoch;
+    run.regime = origin.regime;
+    run.step = origin.step;
+    run.first = run.last = run.base = header.sampleCounter;
+    return run;
+}
+
+void StreamTruth::addTo(Run& run, const wire::Header& header, std::int64_t timeNs) {
+    const std::int64_t place = run.place(header.sampleCounter);
+    if (!run.at(place).add(header)) {
+        ++m_figures.duplicates;
+        return;
+    }
+    run.first = std::min(run.first, place);
+    if (run.advances.empty() || place > run.last) {
+        run.last = place;
+        run.advances.emplace_back(place, timeNs);
+        return;
+    }
+    if (place == run.last) {
+        return;
+    }
+    ++m_figures.reordered;
+    const auto overtaking = std::ranges::partition_point(
+        run.advances, [&](const auto& advance) { return advance.first <= place; });
+    m_figures.late += timeNs - overtaking->second > kLateNs ? 1 : 0;
+}
+
+StreamFigures StreamTruth::figures() const {
+    StreamFigures figures = m_figures;
+    for (const auto& message : m_messages) {
+        figures.incomplete += message.second.isComplete() ? 0 : 1;
+    }
+    for (const Run& run : m_runs) {
+        std::uint64_t touched = 0;
+        for (const Parts& parts : run.samples) {
+            touched += parts.isTouched() ? 1 : 0;
+            figures.samples += parts.isComplete() ? 1 : 0;
+            figures.incomplete += parts.isTouched() && !parts.isComplete() ? 1 : 0;
+        }
+        const auto expected = static_cast<std::uint64_t>((run.last - run.first) / run.step + 1);
+        figures.lost += expected - touched;
+        figures.step = touched > 1 ? run.step : 0;
+    }
+    if (!m_runs.empty()) {
+        figures.firstSample = static_cast<std::uint32_t>(m_runs.front().first);
+        figures.lastSample = static_cast<std::uint32_t>(m_runs.back().last);
+    }
+    return figures;
+}
+
+} // namespace posewire::performer

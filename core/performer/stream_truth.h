@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/performer/sending.h"
+#include "core/wire/header.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace posewire::performer {
+
+/// What a receiver that misses nothing has to count about one stream: one type of one character of one
+/// source. Types 10 to 13 have datagrams and incomplete alone.
+struct StreamFigures {
+    std::uint64_t datagrams = 0;
+    std::uint64_t samples = 0;
+    std::uint64_t lost = 0;
+    std::uint64_t duplicates = 0;
+    std::uint64_t reordered = 0;
+    std::uint64_t late = 0;
+    std::uint64_t incomplete = 0;
+    std::uint64_t restarts = 0;
+    std::uint32_t step = 0;
+    std::uint32_t firstSample = 0;
+    std::uint32_t lastSample = 0;
+
+    friend bool operator==(const StreamFigures&, const StreamFigures&) = default;
+};
+
+/// Behind a later sample by more than this, a sample is late: the waiting time of the display.
+inline constexpr std::int64_t kLateNs = 50'000'000;
+
+/// Keeps book of the datagrams of one stream as they leave, with what the sender knows about each: what it
+/// was meant to be, where restarts and changes of rate are. Nothing is inferred, so nothing of the receiver's
+/// accounting is needed. Keeps 24 bytes a sample.
+class StreamTruth {
+public:
+    /// A datagram that can be decoded, with the header that it has now.
+    void add(const wire::Header& header, const Sending& sending);
+
+    [[nodiscard]] StreamFigures figures() const;
+
+private:
+    /// The datagrams of a sample, or of a message outside sample accounting.
+    struct Parts {
+        std::array<std::uint64_t, 2> arrived{};
+        std::int16_t last = -1; ///< index of the one with the last flag; -1 where that has not come
+
+        [[nodiscard]] bool isTouched() const { return (arrived[0] | arrived[1]) != 0; }
+        [[nodiscard]] bool isComplete() const;
+        /// False where it is there already.
+        bool add(const wire::Header& header);
+    };
+    /// Samples with one spacing between two restarts.
+    struct Run {
+        std::uint32_t epoch = 0;
+        std::uint32_t regime = 0;
+        std::uint32_t step = 1;
+        std::int64_t first = 0; ///< counters without wrap-around
+        std::int64_t last = 0;
+        std::int64_t base = 0; ///< of samples.front()
+        std::deque<Parts> samples;
+        std::vector<std::pair<std::int64_t, std::int64_t>> advances; ///< counter, time
+
+        [[nodiscard]] std::int64_t place(std::uint32_t sample) const;
+        Parts& at(std::int64_t position);
+    };
+
+    void addMessage(const wire::Header& header, const Origin& origin);
+    void addSample(const wire::Header& header, const Sending& sending);
+    /// Null where the counter is damaged so that it can belong to nothing.
+    Run* runOf(const wire::Header& header, const Origin& origin);
+    Run& beginRun(const wire::Header& header, const Origin& origin);
+    void addTo(Run& run, const wire::Header& header, std::int64_t timeNs);
+
+    StreamFigures m_figures; ///< those that are counted as they come
+    std::vector<Run> m_runs;
+    std::deque<std::pair<std::int64_t, Parts>> m_messages; ///< by their moments
+};
+
+} // namespace posewire::performer
