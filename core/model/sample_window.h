@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace posewire::model {
+
+/// The newest samples of a stream that arrived, in the order of their counters, with what arrived of each.
+/// Counters are compared modulo 2^32. Memory grows with the samples up to kKept of them.
+class SampleWindow {
+public:
+    static constexpr std::size_t kKept = 4096;
+    static constexpr std::uint16_t kWhole = 0xffff;    ///< parts: one datagram, which has come
+    static constexpr std::uint16_t kUnmarked = 0xfffe; ///< parts: nothing has come yet
+
+    struct Entry {
+        std::int64_t stampNs = 0; ///< of its first datagram
+        std::uint32_t sample = 0;
+        std::uint16_t parts = kUnmarked; ///< place of its mask, or one of the above
+        std::uint8_t last = 0xff;        ///< index of its last datagram, 0xff before that is known
+        bool isAdvance : 1 = false;      ///< it was the highest when it came
+        bool isComplete : 1 = false;     ///< all its datagrams came
+    };
+
+    [[nodiscard]] std::size_t size() const { return m_size; }
+    [[nodiscard]] bool empty() const { return m_size == 0; }
+    [[nodiscard]] const Entry& operator[](std::size_t index) const {
+        return m_entries[(m_front + index) & (m_entries.size() - 1)];
+    }
+    [[nodiscard]] const Entry& back() const { return (*this)[m_size - 1]; }
+    /// True once samples below the first have been forgotten.
+    [[nodiscard]] bool hasForgotten() const { return m_hasForgotten; }
+
+    /// Where a sample is, or where it would be inserted.
+    struct Place {
+        std::size_t index = 0;
+        bool isThere = false;
+    };
+    [[nodiscard]] Place find(std::uint32_t sample) const;
+
+    /// Inserts a sample of which nothing has arrived. Forgets the lowest one where the window is full;
+    /// nothing may be inserted below that one then. Returns its index.
+    std::size_t insert(std::size_t index, std::uint32_t sample, std::int64_t stampNs);
+
+    enum class Mark : std::uint8_t { Duplicate, Part, Completing };
+    /// Notes a datagram of the sample at an index.
+    Mark mark(std::size_t index, std::uint8_t datagram, bool isLast);
+    /// Whether a datagram of the sample at an index has arrived.
+    [[nodiscard]] bool contains(std::size_t index, std::uint8_t datagram) const;
+
+    void clear();
+
+private:
+    using Mask = std::array<std::uint64_t, 2>;
+
+    [[nodiscard]] Entry& at(std::size_t index) {
+        return m_entries[(m_front + index) & (m_entries.size() - 1)];
+    }
+    [[nodiscard]] static bool isWhole(const Mask& mask, std::uint8_t last);
+    std::uint16_t takeMask();
+    void giveMask(std::uint16_t parts);
+    void forgetFront();
+    void grow();
+
+    std::vector<Entry> m_entries; ///< a ring; its size is a power of two
+    std::size_t m_front = 0;
+    std::size_t m_size = 0;
+    bool m_hasForgotten = false;
+    std::vector<Mask> m_masks;
+    std::vector<std::uint16_t> m_spareMasks;
+};
+
+} // namespace posewire::model

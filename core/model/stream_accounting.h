@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/model/count_history.h"
+#include "core/model/message_rounds.h"
+#include "core/model/probation.h"
+#include "core/model/sample_ledger.h"
+#include "core/model/sender_clock.h"
+#include "core/model/stream_counts.h"
+#include "core/wire/header.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace posewire::model {
+
+/// What one datagram turned out to be.
+struct Verdict {
+    std::uint64_t packet = 0;
+    std::int64_t stampNs = 0;
+    std::uint32_t sample = 0;
+    std::uint32_t gap = 0;          ///< samples missing just before it
+    std::uint32_t sampleBefore = 0; ///< the highest before it
+    bool isDuplicate = false;
+    bool isReordered = false;
+    bool isLate = false;
+    bool isRestart = false; ///< the first after the sender's counter began anew
+    bool isStray = false;   ///< belongs to no sample: its counter is corrupt, or it is very old
+    bool isFirstOfSample = false;
+};
+
+/// Counts exactly what came and what did not come of one stream. Follows the log: figures are of what was
+/// added, never of a clock. O(1) for each datagram, no allocation once its bounded memory (at most about 0.5
+/// MB) has grown to what the stream needs.
+///
+/// Whether a step changed, the counter began anew or a datagram was only late is known only after the fact:
+/// figures are always those of the best present knowledge, and right in hindsight.
+class StreamAccounting {
+public:
+    explicit StreamAccounting(std::uint8_t type = 2) : m_countsSamples(countsSamples(type)) {}
+
+    /// Adds a well-formed datagram of the stream. Returns the verdicts that this made possible, in the order
+    /// of arrival: usually its own, none while it is in doubt, and several when a doubt ends. Valid until the
+    /// next call.
+    std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
+    std::span<const Verdict> add(std::int64_t stampNs, std::size_t bytes, const wire::Header& header);
+
+    /// Reordered by more than this is late; counts from the next datagram on. 50 ms unless set.
+    void setLateAfter(std::int64_t lateAfterNs) { m_ledger.setLateAfter(lateAfterNs); }
+
+    [[nodiscard]] StreamCounts counts() const;
+    [[nodiscard]] ClockFigures clock() const { return m_clock.figures(); }
+    [[nodiscard]] InterArrival interArrival() const;
+    /// Since the newest restart.
+    [[nodiscard]] LossPattern lossPattern() const { return m_ledger.lossPattern(); }
+
+    /// Figures of a range of time, at a cost that does not depend on it. The ends are rounded to the
+    /// resolution, at first 0.1 s. What belongs to samples counts when they were due.
+    [[nodiscard]] StreamCounts countsBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] InterArrival interArrivalBetween(std::int64_t fromNs, std::int64_t toNs) const {
+        return m_history.arrivalsBetween(fromNs, toNs);
+    }
+    [[nodiscard]] double jitterMsAt(std::int64_t toNs) const { return m_history.jitterMsAt(toNs); }
+    [[nodiscard]] std::int64_t resolutionNs() const { return m_history.widthNs(); }
+
+    /// Samples between two counters, both exclusive, that are still missing. After a restart, those of before
+    /// are known for a while.
+    [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
+
+    [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
+    [[nodiscard]] std::uint64_t bytes() const { return m_bytes; }
+    [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
+    [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
+    [[nodiscard]] std::int64_t firstStampNs() const { return m_firstStampNs; }
+    [[nodiscard]] std::int64_t lastStampNs() const { return m_lastStampNs; }
+
+private:
+    void takeSample(const Probation::Waiting& datagram);
+    void settle(const Probation::Waiting& datagram, Probation::Place place, bool isMoved);
+    static Placement carryOut(const Probation::Waiting& datagram, Probation::Place place, bool isMoved,
+                              SampleLedger& ledger, CountHistory* history);
+    [[nodiscard]] SampleLedger ledgerInHindsight() const;
+
+    bool m_countsSamples;
+    std::uint64_t m_datagrams = 0;
+    std::uint64_t m_bytes = 0;
+    std::int64_t m_firstStampNs = 0;
+    std::int64_t m_lastStampNs = 0;
+    std::int64_t m_lastSampleNs = 0; ///< stamp of the newest first arrival of a sample
+    bool m_hasSample = false;
+    SampleLedger m_ledger;
+    Probation m_probation;
+    MessageRounds m_rounds;
+    SenderClock m_clock;
+    CountHistory m_history;
+    std::vector<Verdict> m_verdicts;
+};
+
+} // namespace posewire::model

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace posewire::model {
+
+/// Whether sample accounting applies to a message type: types 10 to 13 carry sample 0 and are sent again and
+/// again on purpose.
+[[nodiscard]] constexpr bool countsSamples(std::uint8_t type) {
+    return type < 10 || type > 13;
+}
+
+/// What came and what did not, of a stream or of several. A sum has the step and the samples 0.
+struct StreamCounts {
+    std::uint64_t datagrams = 0; ///< well-formed ones, duplicates included
+    std::uint64_t bytes = 0;
+    std::uint64_t samples = 0; ///< sample counters of which all datagrams arrived
+    std::uint64_t lost = 0;    ///< expected between the first and the last of a run, of which nothing arrived
+    std::uint64_t duplicates = 0; ///< same sample and datagram counter as one before
+    std::uint64_t reordered = 0;  ///< first arrivals below the highest sample counter (RFC 4737 §3)
+    std::uint64_t late = 0;       ///< reordered by more than the display's waiting time
+    std::uint64_t incomplete =
+        0; ///< sample counters, or messages, of which some but not all datagrams arrived
+    std::uint64_t restarts = 0;
+    std::uint64_t longestGapSamples = 0; ///< most samples lost in a row
+    std::uint32_t step = 0;        ///< of the newest run; 0 where there is none: irregular, or one sample
+    std::uint32_t firstSample = 0; ///< as on the wire
+    std::uint32_t lastSample = 0;  ///< the highest of the newest run, as on the wire
+
+    /// Samples that should have come.
+    [[nodiscard]] std::uint64_t expected() const { return samples + incomplete + lost; }
+    /// Of those, the share of which nothing or not all came; 0 where none were expected.
+    [[nodiscard]] double lossRatio() const {
+        return expected() == 0 ? 0 : static_cast<double>(lost + incomplete) / static_cast<double>(expected());
+    }
+
+    StreamCounts& operator+=(const StreamCounts& other);
+    friend bool operator==(const StreamCounts&, const StreamCounts&) = default;
+};
+
+/// Bursts and gaps of loss as RFC 3611 §4.7.2 with Gmin = 16: a burst begins and ends with a loss and has
+/// fewer than 16 samples received in a row; all else is gap.
+struct LossPattern {
+    std::uint64_t bursts = 0;
+    double burstDensity = 0;     ///< share of the samples in bursts that were lost
+    double gapDensity = 0;       ///< share of the samples in gaps that were lost
+    double meanBurstSamples = 0; ///< length of a burst
+};
+
+/// Time between the first arrivals of successive samples.
+struct InterArrival {
+    std::uint64_t count = 0;
+    double meanMs = 0;
+    double leastMs = 0;
+    double mostMs = 0;
+    double deviationMs = 0;
+};
+
+/// The sender's clock against ours.
+struct ClockFigures {
+    bool isFromTimeCode = false; ///< else the sample counter times its own period is the sender's clock
+    double jitterMs = 0;         ///< RFC 3550 §6.4.1
+    /// How much faster the sender's clock goes than ours, in parts per million, and what that made since the
+    /// first sample; both 0 where only the sample counter tells the sender's time, and in the first seconds.
+    double skewPpm = 0;
+    double driftMs = 0;
+};
+
+} // namespace posewire::model
