@@ -17,7 +17,7 @@
 
 namespace posewire::gui {
 
-AddPortDialog::AddPortDialog(std::function<QString(const UdpPort&)> problemOf, QWidget* parent)
+AddPortDialog::AddPortDialog(std::function<QString(const InputAddress&)> problemOf, QWidget* parent)
     : QDialog(parent),
       m_problemOf(std::move(problemOf)),
       m_edit(new QLineEdit(this)),
@@ -48,7 +48,7 @@ AddPortDialog::AddPortDialog(std::function<QString(const UdpPort&)> problemOf, Q
 
 void AddPortDialog::accept() {
     const QString text = m_edit->text().trimmed();
-    const auto port = parseUdpPort(text.isEmpty() ? m_edit->placeholderText() : text);
+    const auto port = parseInputAddress(text.isEmpty() ? m_edit->placeholderText() : text);
     const QString problem =
         port ? m_problemOf(*port) : tr("'%1' is not a port from 1 to 65535, nor address:port.").arg(text);
     if (problem.isEmpty()) {

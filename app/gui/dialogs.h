@@ -20,18 +20,18 @@ class AddPortDialog final : public QDialog {
 
 public:
     /// `problemOf` says what would keep a port from being opened; empty for nothing.
-    AddPortDialog(std::function<QString(const UdpPort&)> problemOf, QWidget* parent);
+    AddPortDialog(std::function<QString(const InputAddress&)> problemOf, QWidget* parent);
 
     /// What was entered and can be opened, once accepted.
-    [[nodiscard]] const UdpPort& port() const { return m_port; }
+    [[nodiscard]] const InputAddress& port() const { return m_port; }
 
     void accept() override;
 
 private:
-    std::function<QString(const UdpPort&)> m_problemOf;
+    std::function<QString(const InputAddress&)> m_problemOf;
     QLineEdit* m_edit;
     QLabel* m_problem;
-    UdpPort m_port;
+    InputAddress m_port;
 };
 
 /// Gives Markdown's tables, which come with raised white borders, the look of the theme.

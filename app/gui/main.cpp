@@ -70,12 +70,16 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
 /// What takes its time waits until the window can be seen.
 void openSources(MainWindow& window, const Options& options) {
     SessionDriver& driver = window.driver();
-    std::vector<UdpPort> ports = options.udpPorts;
-    if (ports.empty() && (options.file.isEmpty() || options.demoCharacters > 0)) {
+    std::vector<InputAddress> ports = options.udpPorts;
+    const bool hasOther = !options.file.isEmpty() || !options.tcpInputs.empty();
+    if (ports.empty() && (!hasOther || options.demoCharacters > 0)) {
         ports.push_back({});
     }
-    for (const UdpPort& port : ports) {
+    for (const InputAddress& port : ports) {
         driver.receiving().addPort(port);
+    }
+    for (const InputAddress& input : options.tcpInputs) {
+        driver.receiving().addPort(input);
     }
     if (options.demoCharacters > 0) {
         driver.setDemo(options.demoCharacters);

@@ -27,6 +27,9 @@ void describe(QCommandLineParser& parser) {
     parser.addOptions({
         {"udp", tr("Listen on a UDP port (repeatable; 9763 if nothing else is asked for)."),
          "[ADDRESS:]PORT"},
+        {"multicast", tr("Join a multicast group at the UDP ports (repeatable)."), "GROUP"},
+        {"tcp-listen", tr("Let senders connect by TCP, as MVN does (repeatable)."), "[ADDRESS:]PORT"},
+        {"tcp", tr("Connect to a sender that listens (repeatable)."), "HOST:PORT"},
         {"demo", tr("Send walking characters to the listening port, by UDP on this computer; 2 unless told."),
          "CHARACTERS"},
         {"layout", tr("Begin with a layout: Check, Debug, Inspect, or a file."), "NAME|FILE"},
@@ -52,15 +55,35 @@ QStringList completed(QStringList arguments) {
     return arguments;
 }
 
-tl::expected<void, QString> readPorts(const QCommandLineParser& parser, Options& options) {
-    for (const QString& text : parser.values(QStringLiteral("udp"))) {
-        const auto port = parseUdpPort(text);
-        if (!port) {
-            return tl::unexpected(port.error());
+tl::expected<void, QString> readInputs(const QCommandLineParser& parser, const QString& option,
+                                       InputAddress::Kind kind, std::vector<InputAddress>& inputs) {
+    for (const QString& text : parser.values(option)) {
+        const auto input = parseInputAddress(text, kind);
+        if (!input) {
+            return tl::unexpected(input.error());
         }
-        options.udpPorts.push_back(*port);
+        inputs.push_back(*input);
     }
     return {};
+}
+
+tl::expected<void, QString> readPorts(const QCommandLineParser& parser, Options& options) {
+    using Kind = InputAddress::Kind;
+    auto result = readInputs(parser, QStringLiteral("udp"), Kind::Udp, options.udpPorts);
+    if (result) {
+        result = readInputs(parser, QStringLiteral("tcp-listen"), Kind::TcpListen, options.tcpInputs);
+    }
+    if (result) {
+        result = readInputs(parser, QStringLiteral("tcp"), Kind::TcpConnect, options.tcpInputs);
+    }
+    const QStringList groups = parser.values(QStringLiteral("multicast"));
+    if (!groups.isEmpty() && options.udpPorts.empty()) {
+        options.udpPorts.push_back({});
+    }
+    for (InputAddress& port : options.udpPorts) {
+        port.groups = groups;
+    }
+    return result;
 }
 
 tl::expected<void, QString> readTheme(const QCommandLineParser& parser, Options& options) {
@@ -125,30 +148,40 @@ tl::expected<void, QString> readFiles(const QCommandLineParser& parser, Options&
 
 } // namespace
 
-tl::expected<UdpPort, QString> parseUdpPort(const QString& text) {
+tl::expected<InputAddress, QString> parseInputAddress(const QString& text, InputAddress::Kind kind) {
     const auto colon = text.lastIndexOf(QLatin1Char(':'));
-    UdpPort result;
+    InputAddress result;
+    result.kind = kind;
     result.address = colon < 0 ? QString() : text.left(colon);
     if (result.address.startsWith(QLatin1Char('[')) && result.address.endsWith(QLatin1Char(']'))) {
         result.address = result.address.mid(1, result.address.size() - 2);
     }
     bool isNumber = false;
     const int port = text.mid(colon + 1).toInt(&isNumber);
-    if (!isNumber || port < 1 || port > 65'535) {
-        return tl::unexpected(tr("--udp: '%1' is not [ADDRESS:]PORT with a port from 1 to 65535.").arg(text));
+    const bool hasPort = isNumber && port >= 1 && port <= 65'535;
+    if (kind == InputAddress::Kind::TcpConnect && (!hasPort || result.address.isEmpty())) {
+        return tl::unexpected(tr("--tcp: '%1' is not HOST:PORT with a port from 1 to 65535.").arg(text));
+    }
+    if (!hasPort) {
+        const QString option =
+            kind == InputAddress::Kind::Udp ? QStringLiteral("--udp") : QStringLiteral("--tcp-listen");
+        return tl::unexpected(
+            tr("%1: '%2' is not [ADDRESS:]PORT with a port from 1 to 65535.").arg(option, text));
     }
     result.port = static_cast<std::uint16_t>(port);
     return result;
 }
 
-QString displayText(const UdpPort& port) {
-    if (port.address.isEmpty()) {
-        return QStringLiteral("UDP %1").arg(port.port);
+QString displayText(const InputAddress& input) {
+    const QString transport = input.kind == InputAddress::Kind::Udp          ? QStringLiteral("UDP ")
+                              : input.kind == InputAddress::Kind::TcpConnect ? tr("TCP to ")
+                                                                             : QStringLiteral("TCP ");
+    QString address = input.address;
+    if (address.contains(QLatin1Char(':'))) {
+        address = QLatin1Char('[') + address + QLatin1Char(']');
     }
-    const bool isVersion6 = port.address.contains(QLatin1Char(':'));
-    return QString(isVersion6 ? QStringLiteral("UDP [%1]:%2") : QStringLiteral("UDP %1:%2"))
-        .arg(port.address)
-        .arg(port.port);
+    return transport + (address.isEmpty() ? address : address + QLatin1Char(':')) +
+           QString::number(input.port);
 }
 
 tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {

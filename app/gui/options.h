@@ -17,24 +17,33 @@ namespace posewire::gui {
 
 inline constexpr std::uint16_t kDefaultPort = 9763;
 
-/// Where to listen: an address of this computer, empty for all of them.
-struct UdpPort {
-    QString address;
+/// Where datagrams come from, as the operator says it.
+struct InputAddress {
+    enum class Kind : std::uint8_t {
+        Udp,
+        TcpListen,  ///< MVN connects
+        TcpConnect, ///< to a sender that listens
+    };
+    QString address; ///< of this computer, empty for all of them; where to connect, that of the sender
     std::uint16_t port = kDefaultPort;
-    friend bool operator==(const UdpPort&, const UdpPort&) = default;
+    Kind kind = Kind::Udp;
+    QStringList groups{}; ///< UDP: multicast groups to join
+    friend bool operator==(const InputAddress&, const InputAddress&) = default;
 };
 
-/// "9763", "127.0.0.1:9763", "[::1]:9763"; the error tells what is wrong.
-[[nodiscard]] tl::expected<UdpPort, QString> parseUdpPort(const QString& text);
+/// "9763", "127.0.0.1:9763", "[::1]:9763"; the error tells what is wrong, and begins with the option's name.
+[[nodiscard]] tl::expected<InputAddress, QString>
+parseInputAddress(const QString& text, InputAddress::Kind kind = InputAddress::Kind::Udp);
 
-/// "UDP 9763", "UDP 127.0.0.1:9763".
-[[nodiscard]] QString displayText(const UdpPort& port);
+/// "UDP 9763", "UDP 127.0.0.1:9763", "TCP 9763", "TCP to studio:9763".
+[[nodiscard]] QString displayText(const InputAddress& input);
 
 struct Options {
     QString file;
-    std::vector<UdpPort> udpPorts;
-    int demoCharacters = 0; ///< 0 for no demo
-    QString layout;         ///< name or file; empty for the one in use when the program ended
+    std::vector<InputAddress> udpPorts;  ///< multicast groups are joined at each
+    std::vector<InputAddress> tcpInputs; ///< listening first
+    int demoCharacters = 0;              ///< 0 for no demo
+    QString layout;                      ///< name or file; empty for the one in use when the program ended
     bool resetsLayout = false;
     QString settingsFile; ///< empty for the user's own
     QString screenshotFile;

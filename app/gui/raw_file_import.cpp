@@ -8,7 +8,6 @@
 #include <QFileInfo>
 
 #include <optional>
-#include <vector>
 
 namespace posewire::gui {
 
@@ -18,59 +17,56 @@ constexpr std::int64_t kNsPerMs = 1'000'000;
 /// Longer jumps of the time code are taken for a new beginning.
 constexpr std::int64_t kGreatestStepNs = 10'000 * kNsPerMs;
 
-struct Record {
-    std::size_t offset;
-    std::size_t size;
-    std::int64_t stampNs;
-    bool isSkipped;
-};
-
-/// All of a file, with stamps that begin at 0.
-struct Recording {
-    std::vector<std::byte> bytes;
-    std::vector<Record> records;
-    std::int64_t endNs = 0;
-    std::optional<std::uint32_t> timeCode;
-
-    void add(const log::FileRecord& record) {
+/// Time within a raw file, told by its time codes, from 0.
+class TimeCodeStamps {
+public:
+    std::int64_t next(const log::FileRecord& record) {
         const auto header = wire::decodeHeader(record.bytes);
         if (!record.isSkipped && header) {
             const std::int64_t step =
-                timeCode ? (static_cast<std::int64_t>(header->timeCode) - *timeCode) * kNsPerMs : 0;
-            endNs += step > 0 && step <= kGreatestStepNs ? step : 0;
-            timeCode = header->timeCode;
+                m_timeCode ? (static_cast<std::int64_t>(header->timeCode) - *m_timeCode) * kNsPerMs : 0;
+            m_stampNs += step > 0 && step <= kGreatestStepNs ? step : 0;
+            m_timeCode = header->timeCode;
         }
-        records.push_back({bytes.size(), record.bytes.size(), endNs, record.isSkipped});
-        bytes.insert(bytes.end(), record.bytes.begin(), record.bytes.end());
+        return m_stampNs;
     }
+
+private:
+    std::int64_t m_stampNs = 0;
+    std::optional<std::uint32_t> m_timeCode;
 };
 
-} // namespace
-
-QString importRawFile(const QString& path, log::PacketLog& log, std::int64_t endNs) {
+/// Reads a file from its beginning to its end.
+QString visitFile(const QString& path, const log::FileVisitor& visit) {
     const auto source = log::openFile(path.toStdString());
     if (!source) {
         return QString::fromStdString(source.error().text);
     }
-    Recording recording;
-    const auto read = log::readFile(**source, [&](const log::FileRecord& record) { recording.add(record); });
-    if (!read) {
-        return QString::fromStdString(read.error().text);
+    const auto read = log::readFile(**source, visit);
+    return read ? QString() : QString::fromStdString(read.error().text);
+}
+
+} // namespace
+
+QString importRawFile(const QString& path, const PacketTaker& take, std::int64_t endNs) {
+    // Twice over: how long a raw file lasts is known at its end, and it may be larger than memory.
+    TimeCodeStamps measuring;
+    std::int64_t lengthNs = 0;
+    std::uint64_t count = 0;
+    QString problem = visitFile(path, [&](const log::FileRecord& record) {
+        lengthNs = measuring.next(record);
+        ++count;
+    });
+    if (!problem.isEmpty() || count == 0) {
+        return problem.isEmpty() ? QCoreApplication::translate("RawFileImport", "%1 is empty.").arg(path)
+                                 : problem;
     }
-    if (recording.records.empty()) {
-        return QCoreApplication::translate("RawFileImport", "%1 is empty.").arg(path);
-    }
-    const log::SourceId id =
-        log.sources().intern({QFileInfo(path).fileName().toStdString(), log::Transport::File, 0});
-    for (const Record& record : recording.records) {
-        log::Arrival arrival;
-        arrival.stampNs = endNs - recording.endNs + record.stampNs;
-        arrival.source = id;
-        arrival.flags.skipped = record.isSkipped;
-        log.writer().append(std::span(recording.bytes).subspan(record.offset, record.size), arrival);
-    }
-    log.writer().publish();
-    return {};
+    const log::SourceInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
+    TimeCodeStamps stamps;
+    return visitFile(path, [&](const log::FileRecord& record) {
+        const std::int64_t stampNs = endNs - lengthNs + stamps.next(record);
+        take(record.bytes, record.source.value_or(file), log::arrivalOf(record, {}, stampNs));
+    });
 }
 
 } // namespace posewire::gui

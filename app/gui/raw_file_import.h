@@ -1,15 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/log/packet_log.h"
+#include "core/log/packet.h"
 
 #include <QString>
 
+#include <functional>
+#include <span>
+
 namespace posewire::gui {
 
-/// Appends the datagrams of a file to the log, spaced by their time codes (by their order where those stand
-/// still or go back), the newest at `endNs`. Needs the log's writer. The answer is what went wrong, empty for
-/// nothing.
-[[nodiscard]] QString importRawFile(const QString& path, log::PacketLog& log, std::int64_t endNs);
+/// Takes one packet of a file on its way to the log; sets `arrival.source` itself.
+using PacketTaker = std::function<void(std::span<const std::byte> bytes, const log::SourceInfo& source,
+                                       const log::Arrival& arrival)>;
+
+/// Reads a file of datagrams. Those of a capture keep their stamps and senders. Those of a raw file are one
+/// source, spaced by their time codes (by their order where those stand still or go back), the newest at
+/// `endNs`. The answer is what went wrong, empty for nothing.
+[[nodiscard]] QString importRawFile(const QString& path, const PacketTaker& take, std::int64_t endNs);
 
 } // namespace posewire::gui

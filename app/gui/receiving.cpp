@@ -12,116 +12,117 @@ namespace posewire::gui {
 
 namespace {
 
+using Kind = InputAddress::Kind;
+
 constexpr int kTrialBufferBytes = 1 << 16;
 constexpr std::int64_t kRateWindowNs = 1'000'000'000;
 
-net::Endpoint endpointOf(const UdpPort& port) {
+net::Endpoint endpointOf(const InputAddress& port) {
     return {port.address.toStdString(), port.port};
+}
+
+net::UdpInput udpOf(const InputAddress& port) {
+    net::UdpInput input{endpointOf(port), {}};
+    for (const QString& group : port.groups) {
+        input.groups.push_back(group.toStdString());
+    }
+    return input;
 }
 
 } // namespace
 
-void Receiving::addPort(const UdpPort& port) {
-    const bool isKnown =
-        std::ranges::any_of(m_state.ports, [&](const PortState& state) { return state.port == port; });
-    if (!isKnown) {
-        m_state.ports.push_back({port, {}});
-    }
-    listen();
-}
-
-QString Receiving::problemOf(const UdpPort& port) {
-    const auto trial = net::bindUdp(endpointOf(port), kTrialBufferBytes);
-    return trial ? QString() : QString::fromStdString(trial.error().text);
-}
-
-/// Ports are tried one by one, so that each has its own answer; those that open are closed again for the
-/// receiver.
-std::vector<net::Endpoint> Receiving::endpointsThatOpen() {
-    std::vector<net::Endpoint> endpoints;
-    for (PortState& state : m_state.ports) {
-        state.problem = problemOf(state.port);
-        if (state.problem.isEmpty()) {
-            endpoints.push_back(endpointOf(state.port));
+void Receiving::addPort(const InputAddress& port) {
+    const auto known = std::ranges::find(m_state.ports, port, &PortState::port);
+    if (known != m_state.ports.end()) {
+        if (!known->id) {
+            open(*known);
         }
-    }
-    return endpoints;
-}
-
-void Receiving::addCounters() {
-    if (m_receiver != nullptr) {
-        m_datagramsBefore += m_receiver->counters().datagrams;
-        m_bytesBefore += m_receiver->counters().bytes;
-        m_droppedBefore += m_receiver->counters().kernelDropped;
-    }
-}
-
-void Receiving::listen() {
-    addCounters();
-    m_receiver.reset();
-    net::ReceiveOptions options;
-    options.endpoints = endpointsThatOpen();
-    if (options.endpoints.empty()) {
         return;
     }
-    auto receiver = net::UdpReceiver::start(m_log, m_clock, options);
-    if (receiver) {
-        m_receiver = std::move(*receiver);
-        takePortNumbers();
-        return;
+    m_state.ports.push_back({port, {}});
+    open(m_state.ports.back());
+}
+
+bool Receiving::removePort(const InputAddress& port) {
+    const auto known = std::ranges::find(m_state.ports, port, &PortState::port);
+    if (known == m_state.ports.end()) {
+        return false;
     }
-    for (PortState& state : m_state.ports) {
-        if (state.problem.isEmpty()) {
-            state.problem = QString::fromStdString(receiver.error().text);
+    if (known->id) {
+        m_receiver.remove(*known->id);
+    }
+    m_state.ports.erase(known);
+    return true;
+}
+
+void Receiving::open(PortState& state) {
+    net::NetResult<net::InputId> id;
+    switch (state.port.kind) {
+    case Kind::Udp:
+        id = m_receiver.addUdp(udpOf(state.port));
+        break;
+    case Kind::TcpListen:
+        id = m_receiver.addTcpListener(endpointOf(state.port));
+        break;
+    case Kind::TcpConnect:
+        id = m_receiver.addTcpConnection(endpointOf(state.port));
+        break;
+    }
+    state.problem = id ? QString() : QString::fromStdString(id.error().text);
+    if (id) {
+        state.id = *id;
+        readStatus();
+        state.port.port = state.status.endpoint.port; // where the system was to choose one
+    }
+}
+
+void Receiving::readStatus() {
+    for (net::InputStatus& status : m_receiver.inputs()) {
+        const auto state = std::ranges::find(m_state.ports, std::optional(status.id), &PortState::id);
+        if (state != m_state.ports.end()) {
+            const bool isRetrying = status.state == net::InputState::Retrying;
+            state->problem = isRetrying ? QString::fromStdString(status.text) : QString();
+            state->status = std::move(status);
         }
     }
 }
 
-/// Where the system was to choose a port, its choice is kept from then on.
-void Receiving::takePortNumbers() {
-    auto endpoint = m_receiver->endpoints().begin();
-    for (PortState& state : m_state.ports) {
-        if (state.problem.isEmpty() && endpoint != m_receiver->endpoints().end()) {
-            state.port.port = endpoint->port;
-            ++endpoint;
-        }
+QString Receiving::problemOf(const InputAddress& port) {
+    if (port.kind != Kind::Udp) {
+        return {};
     }
+    const auto trial = net::bindUdp(udpOf(port), kTrialBufferBytes);
+    return trial ? QString() : QString::fromStdString(net::withHolder(trial.error(), port.port, false).text);
 }
 
 void Receiving::retry() {
-    const bool canImprove = std::ranges::any_of(m_state.ports, [](const PortState& state) {
-        return !state.problem.isEmpty() && problemOf(state.port).isEmpty();
-    });
-    if (canImprove) {
-        listen();
+    for (PortState& state : m_state.ports) {
+        if (!state.id) {
+            open(state);
+        }
     }
 }
 
 QString Receiving::openFile(const QString& path) {
-    // The log has one writer at a time: the receiver makes room, and what arrives meanwhile waits in no
-    // socket.
-    addCounters();
-    m_receiver.reset();
-    const QString problem = importRawFile(path, m_log, m_clock.wallNs());
+    const QString problem = importRawFile(
+        path,
+        [this](std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival) {
+            m_receiver.submitWaiting(bytes, source, arrival);
+        },
+        m_clock.wallNs());
+    m_receiver.flush();
     if (problem.isEmpty()) {
         m_state.file = QFileInfo(path).fileName();
-    }
-    if (!m_state.ports.empty()) {
-        listen();
     }
     return problem;
 }
 
 void Receiving::measure(std::int64_t nowNs) {
-    Totals totals{nowNs, m_datagramsBefore, m_bytesBefore};
-    m_state.kernelDropped = m_droppedBefore;
-    if (m_receiver != nullptr) {
-        const net::ReceiveCounters& counters = m_receiver->counters();
-        totals.datagrams += counters.datagrams;
-        totals.bytes += counters.bytes;
-        m_state.kernelDropped += counters.kernelDropped;
-        m_state.receiveBufferBytes = counters.receiveBufferBytes;
-    }
+    readStatus();
+    const net::ReceiveTotals figures = m_receiver.totals();
+    m_state.kernelDropped = figures.kernelDropped + figures.queueDropped;
+    m_state.receiveBufferBytes = figures.receiveBufferBytes;
+    const Totals totals{nowNs, figures.datagrams, figures.bytes};
     m_totals.push_back(totals);
     while (m_totals.size() > 2 && m_totals[1].stampNs <= nowNs - kRateWindowNs) {
         m_totals.pop_front();
@@ -135,8 +136,9 @@ void Receiving::measure(std::int64_t nowNs) {
 }
 
 std::uint16_t Receiving::openPort() const {
-    return m_receiver == nullptr || m_receiver->endpoints().empty() ? std::uint16_t{0}
-                                                                    : m_receiver->endpoints().front().port;
+    const auto open = std::ranges::find_if(
+        m_state.ports, [](const PortState& state) { return state.id && state.port.kind == Kind::Udp; });
+    return open == m_state.ports.end() ? std::uint16_t{0} : open->port.port;
 }
 
 } // namespace posewire::gui

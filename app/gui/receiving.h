@@ -2,39 +2,45 @@
 #pragma once
 
 #include "app/gui/receiving_state.h"
-#include "app/net/udp_receiver.h"
+#include "app/net/receiver.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 
 #include <deque>
-#include <memory>
 
 namespace posewire::gui {
 
-/// Everything that writes the log: the receiving thread with its ports, and files, one at a time.
+/// Everything that the window lets into the log: the receiver with its inputs, and files.
 class Receiving {
 public:
-    Receiving(log::PacketLog& log, const log::Clock& clock) : m_log(log), m_clock(clock) {}
+    Receiving(log::PacketLog& log, const log::Clock& clock) : m_clock(clock), m_receiver(log, clock) {}
 
-    /// Listens on one more port; what is wrong with it is in state(), and it is tried again by tick().
-    void addPort(const UdpPort& port);
+    /// Listens or connects to one more; what is wrong with it is in state(), and it is tried again by
+    /// retry().
+    void addPort(const InputAddress& port);
 
-    /// What would keep a port from being opened; empty for nothing.
-    [[nodiscard]] static QString problemOf(const UdpPort& port);
+    /// False where it was not there.
+    bool removePort(const InputAddress& port);
+
+    /// What would keep a UDP port from being opened; empty for nothing, and for TCP.
+    [[nodiscard]] static QString problemOf(const InputAddress& port);
 
     /// Opens every port that should be open and is not, where that has become possible. For now and then.
     void retry();
 
-    /// Appends a file of raw datagrams. They are spaced by their time codes, the newest being now. The answer
-    /// is what went wrong, empty for nothing.
+    /// Appends a file of datagrams, beside whatever is received meanwhile. Without stamps of their own they
+    /// are spaced by their time codes, the newest being now. The answer is what went wrong, empty for
+    /// nothing.
     [[nodiscard]] QString openFile(const QString& path);
 
     /// `nowNs` is what rates are measured against.
     void measure(std::int64_t nowNs);
     [[nodiscard]] const ReceivingState& state() const { return m_state; }
 
-    /// The first port that is open; 0 where none is.
+    /// The first UDP port that is open; 0 where none is.
     [[nodiscard]] std::uint16_t openPort() const;
+
+    [[nodiscard]] net::Receiver& receiver() { return m_receiver; }
 
 private:
     struct Totals {
@@ -43,19 +49,12 @@ private:
         std::uint64_t bytes;
     };
 
-    void listen();
-    [[nodiscard]] std::vector<net::Endpoint> endpointsThatOpen();
-    void takePortNumbers();
-    void addCounters();
+    void open(PortState& state);
+    void readStatus();
 
-    log::PacketLog& m_log;
     const log::Clock& m_clock;
     ReceivingState m_state;
-    std::unique_ptr<net::UdpReceiver> m_receiver;
-    /// Of receivers that have ended.
-    std::uint64_t m_datagramsBefore = 0;
-    std::uint64_t m_bytesBefore = 0;
-    std::uint64_t m_droppedBefore = 0;
+    net::Receiver m_receiver;
     std::deque<Totals> m_totals;
 };
 

@@ -1,19 +1,86 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/packet_queue.h"
 
+#include <algorithm>
+
 namespace posewire::net {
 
+namespace {
+
+/// Losses of more sources than this at a time are told as those of the last of them.
+constexpr std::size_t kMostLosses = 64;
+
+} // namespace
+
 bool PacketQueue::push(std::span<const std::byte> bytes, const log::SourceInfo& source,
-                       log::Arrival arrival) {
-    const std::lock_guard lock(m_mutex);
-    if (m_bytes.size() + bytes.size() + m_entries.size() * sizeof(Entry) > m_byteLimit) {
-        m_refused.fetch_add(1, std::memory_order_relaxed);
-        return false;
+                       const log::Arrival& arrival) {
+    bool isFirst = false;
+    {
+        const std::lock_guard lock(m_mutex);
+        if (!hasRoomFor(bytes.size())) {
+            remember(source, arrival.stampNs);
+            return false;
+        }
+        isFirst = place(bytes, source, arrival);
+    }
+    if (isFirst && m_onFilled) {
+        m_onFilled();
+    }
+    return true;
+}
+
+bool PacketQueue::pushWaiting(std::span<const std::byte> bytes, const log::SourceInfo& source,
+                              const log::Arrival& arrival) {
+    bool isFirst = false;
+    {
+        std::unique_lock lock(m_mutex);
+        m_hasRoom.wait(lock, [&] { return m_isClosed || hasRoomFor(bytes.size()); });
+        if (m_isClosed) {
+            return false;
+        }
+        isFirst = place(bytes, source, arrival);
+    }
+    if (isFirst && m_onFilled) {
+        m_onFilled();
+    }
+    return true;
+}
+
+void PacketQueue::close() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_isClosed = true;
+    }
+    m_hasRoom.notify_all();
+}
+
+/// An empty queue takes anything, so that nobody waits for ever.
+bool PacketQueue::hasRoomFor(std::size_t bytes) const {
+    return m_entries.empty() || m_bytes.size() + bytes + m_entries.size() * sizeof(Entry) <= m_byteLimit;
+}
+
+/// True where the queue was empty.
+bool PacketQueue::place(std::span<const std::byte> bytes, const log::SourceInfo& source,
+                        const log::Arrival& arrival) {
+    if (!m_lastSource || *m_lastSource != source) {
+        m_lastSource = std::make_shared<const log::SourceInfo>(source);
     }
     m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
-    m_entries.push_back({bytes.size(), source, arrival});
-    m_count.store(m_entries.size(), std::memory_order_release);
-    return true;
+    m_entries.push_back({bytes.size(), m_lastSource, arrival});
+    m_isEmpty.store(false, std::memory_order_release);
+    return m_entries.size() == 1;
+}
+
+void PacketQueue::remember(const log::SourceInfo& source, std::int64_t stampNs) {
+    m_refused.fetch_add(1, std::memory_order_relaxed);
+    const auto known = std::ranges::find(m_losses, source, &Loss::source);
+    if (known != m_losses.end() || m_losses.size() == kMostLosses) {
+        Loss& loss = known != m_losses.end() ? *known : m_losses.back();
+        ++loss.count;
+        loss.stampNs = stampNs;
+        return;
+    }
+    m_losses.push_back({source, stampNs, 1});
 }
 
 std::size_t PacketQueue::moveTo(log::PacketLog& log) {
@@ -21,19 +88,42 @@ std::size_t PacketQueue::moveTo(log::PacketLog& log) {
         const std::lock_guard lock(m_mutex);
         m_entries.swap(m_takenEntries);
         m_bytes.swap(m_takenBytes);
-        m_count.store(0, std::memory_order_release);
+        m_losses.swap(m_takenLosses);
+        m_isEmpty.store(true, std::memory_order_release);
     }
+    m_hasRoom.notify_all();
     std::span<const std::byte> bytes(m_takenBytes);
+    const log::SourceInfo* last = nullptr;
+    log::SourceId id{};
     for (Entry& entry : m_takenEntries) {
-        entry.arrival.source = log.sources().intern(entry.source);
+        if (entry.source.get() != last) {
+            last = entry.source.get();
+            id = log.sources().intern(*last);
+        }
+        entry.arrival.source = id;
         log.writer().append(bytes.first(entry.size), entry.arrival);
         bytes = bytes.subspan(entry.size);
     }
+    appendLosses(log);
+    log.writer().publish();
     const std::size_t moved = m_takenEntries.size();
     m_takenEntries.clear();
     m_takenBytes.clear();
-    log.writer().publish();
     return moved;
+}
+
+/// A queue that refused is not empty, so that losses never wait for another packet to be told.
+void PacketQueue::appendLosses(log::PacketLog& log) {
+    for (const Loss& loss : m_takenLosses) {
+        log::Arrival arrival;
+        arrival.stampNs = loss.stampNs;
+        arrival.source = log.sources().intern(loss.source);
+        arrival.kernelDropsBefore = loss.count;
+        arrival.flags.skipped = true;
+        arrival.flags.isDropRecord = true;
+        log.writer().append({}, arrival);
+    }
+    m_takenLosses.clear();
 }
 
 } // namespace posewire::net

@@ -4,44 +4,75 @@
 #include "core/log/packet_log.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <vector>
 
 namespace posewire::net {
 
-/// Packets that other threads have for the one thread that writes the log: from TCP connections, from the
-/// performer. Bounded: what does not fit is refused, and counted.
+/// Packets that other threads have for the one thread that writes the log: from TCP connections, from files,
+/// from a performer. Bounded, and no larger than what can be appended without keeping sockets waiting.
 class PacketQueue {
 public:
-    explicit PacketQueue(std::size_t byteLimit = std::size_t{64} << 20) : m_byteLimit(byteLimit) {}
+    static constexpr std::size_t kByteLimit = std::size_t{4} << 20;
 
-    /// False where the queue is full. `arrival.source` is set when the packet reaches the log. From any
-    /// thread.
-    bool push(std::span<const std::byte> bytes, const log::SourceInfo& source, log::Arrival arrival);
+    /// `onFilled` is called, by the pushing thread, whenever the queue was empty and is not any more.
+    explicit PacketQueue(std::function<void()> onFilled = {}, std::size_t byteLimit = kByteLimit)
+        : m_onFilled(std::move(onFilled)), m_byteLimit(byteLimit) {}
+
+    /// False where there is no room: the packet is lost, counted, and the log gets a record of the loss after
+    /// the packets that are queued. `arrival.source` is set when the packet reaches the log. From any thread.
+    bool push(std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival);
+
+    /// Waits for room. False once the queue is closed.
+    bool pushWaiting(std::span<const std::byte> bytes, const log::SourceInfo& source,
+                     const log::Arrival& arrival);
+
+    /// Nobody empties the queue any more: ends the waiting of others.
+    void close();
 
     /// Appends everything to the log and publishes it; tells how many packets. The log's writing thread only.
     std::size_t moveTo(log::PacketLog& log);
 
-    [[nodiscard]] bool isEmpty() const { return m_count.load(std::memory_order_acquire) == 0; }
+    [[nodiscard]] bool isEmpty() const { return m_isEmpty.load(std::memory_order_acquire); }
     [[nodiscard]] std::uint64_t refused() const { return m_refused.load(std::memory_order_relaxed); }
 
 private:
+    using Source = std::shared_ptr<const log::SourceInfo>;
     struct Entry {
         std::size_t size;
-        log::SourceInfo source;
+        Source source; ///< one for many: packets come in runs from one source
         log::Arrival arrival;
     };
+    struct Loss {
+        log::SourceInfo source;
+        std::int64_t stampNs;
+        std::uint32_t count;
+    };
 
+    [[nodiscard]] bool hasRoomFor(std::size_t bytes) const;
+    bool place(std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival);
+    void remember(const log::SourceInfo& source, std::int64_t stampNs);
+    void appendLosses(log::PacketLog& log);
+
+    const std::function<void()> m_onFilled;
     const std::size_t m_byteLimit;
-    std::mutex m_mutex;
+    std::mutex m_mutex; ///< guards all that is not atomic nor taken
+    std::condition_variable m_hasRoom;
     std::vector<Entry> m_entries;
     std::vector<std::byte> m_bytes;
+    std::vector<Loss> m_losses;
+    Source m_lastSource;
+    bool m_isClosed = false;
     std::vector<Entry> m_takenEntries; ///< swapped with the above, so that both keep their memory
     std::vector<std::byte> m_takenBytes;
-    std::atomic<std::size_t> m_count = 0;
+    std::vector<Loss> m_takenLosses;
+    std::atomic<bool> m_isEmpty = true;
     std::atomic<std::uint64_t> m_refused = 0;
 };
 

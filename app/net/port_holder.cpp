@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <vector>
 
@@ -19,22 +20,28 @@ unsigned long portOf(const std::string& hexadecimal) {
     return std::strtoul(hexadecimal.c_str(), nullptr, 16);
 }
 
+/// The states of sockets in the kernel's tables; a UDP socket that hears everybody is told as closed.
+constexpr std::string_view kUdpUnconnected = "07";
+constexpr std::string_view kTcpListening = "0A";
+
 /// Targets of the links in /proc/PID/fd that belong to sockets bound to the port, from one of the kernel's
 /// tables.
-void collectSockets(const char* table, std::uint16_t port, std::vector<std::string>& sockets) {
+void collectSockets(const char* table, std::string_view state, std::uint16_t port,
+                    std::vector<std::string>& sockets) {
     std::ifstream file(table);
     std::string line;
     std::getline(file, line); // the headings
     while (std::getline(file, line)) {
         std::istringstream columns(line);
-        std::string slot, local, skipped, inode;
-        columns >> slot >> local;
-        for (int i = 0; i < 7; ++i) {
-            columns >> skipped; // remote, state, queues, timer, retransmits, user, timeout
+        std::string slot, local, remote, stateNow, skipped, inode;
+        columns >> slot >> local >> remote >> stateNow;
+        for (int i = 0; i < 5; ++i) {
+            columns >> skipped; // queues, timer, retransmits, user, timeout
         }
         columns >> inode;
         const std::size_t colon = local.rfind(':');
-        if (columns && colon != std::string::npos && portOf(local.substr(colon + 1)) == port) {
+        if (columns && stateNow == state && colon != std::string::npos &&
+            portOf(local.substr(colon + 1)) == port) {
             sockets.push_back("socket:[" + inode + "]");
         }
     }
@@ -53,12 +60,7 @@ bool holdsAnyOf(const fs::path& process, const std::vector<std::string>& sockets
     return false;
 }
 
-} // namespace
-
-std::optional<Process> holderOfUdpPort(std::uint16_t port) {
-    std::vector<std::string> sockets;
-    collectSockets("/proc/net/udp", port, sockets);
-    collectSockets("/proc/net/udp6", port, sockets);
+std::optional<Process> holderOf(const std::vector<std::string>& sockets) {
     if (sockets.empty()) {
         return std::nullopt;
     }
@@ -74,6 +76,22 @@ std::optional<Process> holderOfUdpPort(std::uint16_t port) {
         }
     }
     return std::nullopt;
+}
+
+} // namespace
+
+std::optional<Process> holderOfUdpPort(std::uint16_t port) {
+    std::vector<std::string> sockets;
+    collectSockets("/proc/net/udp", kUdpUnconnected, port, sockets);
+    collectSockets("/proc/net/udp6", kUdpUnconnected, port, sockets);
+    return holderOf(sockets);
+}
+
+std::optional<Process> holderOfTcpPort(std::uint16_t port) {
+    std::vector<std::string> sockets;
+    collectSockets("/proc/net/tcp", kTcpListening, port, sockets);
+    collectSockets("/proc/net/tcp6", kTcpListening, port, sockets);
+    return holderOf(sockets);
 }
 
 } // namespace posewire::net

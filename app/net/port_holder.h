@@ -12,8 +12,9 @@ struct Process {
     std::int64_t id = 0;
 };
 
-/// The process that listens on a UDP port of this computer. Nothing where the system does not tell: other
-/// systems than Linux, and processes of other users.
+/// The process that listens on a port of this computer. Nothing where the system does not tell: other systems
+/// than Linux, and processes of other users.
 [[nodiscard]] std::optional<Process> holderOfUdpPort(std::uint16_t port);
+[[nodiscard]] std::optional<Process> holderOfTcpPort(std::uint16_t port);
 
 } // namespace posewire::net

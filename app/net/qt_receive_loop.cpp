@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/qt_receive_loop.h"
 
+#include "app/net/address_text.h"
 #include "app/net/udp_binding.h"
 
 #include <QEventLoop>
-#include <QHostAddress>
 
 #include <algorithm>
 #include <mutex>
@@ -14,18 +14,12 @@ namespace posewire::net {
 
 namespace {
 
-/// The text of an address as the operator writes it: IPv4 as such also where an IPv6 socket received it.
-std::string addressText(const QHostAddress& address) {
-    bool isIpv4 = false;
-    const QHostAddress ipv4(address.toIPv4Address(&isIpv4));
-    return (isIpv4 ? ipv4 : address).toString().toStdString();
-}
-
 class QtReceiveLoop final : public ReceiveLoop {
 public:
     explicit QtReceiveLoop(const ReceiveContext& context) : m_context(context) {}
 
-    NetResult<std::vector<Endpoint>> open(const ReceiveOptions& options) override;
+    NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) override;
+    void remove(InputId id) override;
     void run() override;
     void wake() override;
 
@@ -36,6 +30,7 @@ private:
         log::SourceId id{};
     };
     struct Socket {
+        std::shared_ptr<Input> input;
         std::unique_ptr<QUdpSocket> socket;
         std::optional<Last> last;
     };
@@ -43,6 +38,7 @@ private:
     void drain(Socket& socket);
     bool takeOne(Socket& socket);
     log::SourceId sourceOf(Socket& socket, const QHostAddress& address, quint16 port);
+    void ensureEventLoop();
     void close();
 
     ReceiveContext m_context;
@@ -51,36 +47,48 @@ private:
     std::vector<Socket> m_sockets;
 };
 
-NetResult<std::vector<Endpoint>> QtReceiveLoop::open(const ReceiveOptions& options) {
-    {
-        const std::lock_guard lock(m_mutex);
-        m_eventLoop = std::make_unique<QEventLoop>(); // first: sockets need the thread's event dispatcher
+/// Sockets need the event dispatcher of their thread.
+void QtReceiveLoop::ensureEventLoop() {
+    const std::lock_guard lock(m_mutex);
+    if (!m_eventLoop) {
+        m_eventLoop = std::make_unique<QEventLoop>();
     }
-    std::vector<Endpoint> endpoints;
-    std::int64_t smallest = INT64_MAX;
-    for (const Endpoint& endpoint : options.endpoints) {
-        auto socket = bindUdp(endpoint, options.bufferBytes);
-        if (!socket) {
-            close();
-            return tl::unexpected(socket.error());
+}
+
+NetResult<void> QtReceiveLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
+    ensureEventLoop();
+    auto sockets = bindUdp(where, m_context.options.bufferBytes);
+    if (!sockets) {
+        return tl::unexpected(sockets.error());
+    }
+    input->setEndpoint({where.endpoint.host, sockets->front()->localPort()});
+    input->counters().receiveBufferBytes = receiveBufferBytes(*sockets->front());
+    for (auto& socket : *sockets) {
+        m_sockets.push_back({input, std::move(socket), std::nullopt});
+    }
+    return {};
+}
+
+void QtReceiveLoop::remove(InputId id) {
+    for (Socket& socket : m_sockets) {
+        if (socket.input->id() == id) {
+            drain(socket);
         }
-        smallest = std::min<std::int64_t>(smallest, receiveBufferBytes(**socket));
-        endpoints.push_back({endpoint.host, (*socket)->localPort()});
-        m_sockets.push_back({std::move(*socket), std::nullopt});
     }
-    m_context.counters.receiveBufferBytes = smallest == INT64_MAX ? 0 : smallest;
-    return endpoints;
+    std::erase_if(m_sockets, [id](const Socket& socket) { return socket.input->id() == id; });
 }
 
 void QtReceiveLoop::run() {
+    ensureEventLoop();
     while (!isStopping()) {
-        m_eventLoop->processEvents(QEventLoop::WaitForMoreEvents);
+        m_context.commands.run();
         for (Socket& socket : m_sockets) {
             drain(socket);
         }
         if (!m_context.queue.isEmpty()) {
             m_context.queue.moveTo(m_context.log);
         }
+        m_eventLoop->processEvents(QEventLoop::WaitForMoreEvents);
     }
     for (Socket& socket : m_sockets) {
         drain(socket);
@@ -130,8 +138,11 @@ bool QtReceiveLoop::takeOne(Socket& socket) {
     } else {
         writer.append(into.first(static_cast<std::size_t>(size)), arrival);
     }
-    add<std::uint64_t>(m_context.counters.datagrams, 1);
-    add<std::uint64_t>(m_context.counters.bytes, static_cast<std::uint64_t>(size));
+    const auto bytes = static_cast<std::uint64_t>(size);
+    increase<std::uint64_t>(m_context.counters.datagrams, 1);
+    increase<std::uint64_t>(m_context.counters.bytes, bytes);
+    increase<std::uint64_t>(socket.input->counters().datagrams, 1);
+    increase<std::uint64_t>(socket.input->counters().bytes, bytes);
     return true;
 }
 

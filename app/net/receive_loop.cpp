@@ -8,9 +8,9 @@
 
 namespace posewire::net {
 
-std::unique_ptr<ReceiveLoop> makeReceiveLoop(ReceivePath path, const ReceiveContext& context) {
+std::unique_ptr<ReceiveLoop> makeReceiveLoop(const ReceiveContext& context) {
 #ifdef __linux__
-    if (path == ReceivePath::Native) {
+    if (context.options.path == ReceivePath::Native) {
         return makeRecvmmsgLoop(context);
     }
 #endif

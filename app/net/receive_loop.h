@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/net/udp_receiver.h"
+#include "app/net/command_queue.h"
+#include "app/net/input.h"
+#include "app/net/net_error.h"
+#include "app/net/packet_queue.h"
+#include "app/net/receiver.h"
+#include "core/log/clock.h"
+#include "core/log/packet_log.h"
 
 #include <atomic>
 #include <memory>
-#include <vector>
 
 namespace posewire::net {
 
@@ -14,22 +19,28 @@ struct ReceiveContext {
     log::PacketLog& log;
     const log::Clock& clock;
     PacketQueue& queue;
+    CommandQueue& commands;
     ReceiveCounters& counters;
+    ReceiverOptions options;
 };
 
-/// What the receiving thread does: made, opened, run and destroyed in that thread; only stop() and wake()
-/// come from others.
+/// What the receiving thread does. Made, fed and destroyed in that thread; only stop() and wake() come from
+/// others.
 class ReceiveLoop {
 public:
     virtual ~ReceiveLoop() = default;
 
-    /// Opens the sockets and tells their endpoints.
-    virtual NetResult<std::vector<Endpoint>> open(const ReceiveOptions& options) = 0;
+    /// Opens the input's sockets and tells the input its port and buffer. A port in use is told without its
+    /// holder: looking for that takes time, and other sockets wait.
+    virtual NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) = 0;
+
+    /// Takes what the input's sockets still hold and closes them.
+    virtual void remove(InputId id) = 0;
 
     /// Receives until stop(), then once more what is there already.
     virtual void run() = 0;
 
-    /// Makes an idle loop look at the queue. From any thread.
+    /// Makes an idle loop look at the queues. From any thread.
     virtual void wake() = 0;
 
     void stop() {
@@ -44,12 +55,12 @@ private:
     std::atomic<bool> m_isStopping = false;
 };
 
-/// The loop for a path on this system. The sockets are opened by open().
-[[nodiscard]] std::unique_ptr<ReceiveLoop> makeReceiveLoop(ReceivePath path, const ReceiveContext& context);
+/// The loop for a path on this system.
+[[nodiscard]] std::unique_ptr<ReceiveLoop> makeReceiveLoop(const ReceiveContext& context);
 
 /// Adds for the one thread that writes it: cheaper than an atomic addition.
 template <typename Number>
-void add(std::atomic<Number>& counter, Number amount) {
+void increase(std::atomic<Number>& counter, Number amount) {
     counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
 }
 

@@ -52,19 +52,27 @@ private:
 };
 
 struct Socket {
+    std::shared_ptr<Input> input;
     Descriptor descriptor;
     SourceCache sources;
-    std::uint32_t dropsOfLastPacket = 0; ///< as the kernel counts them for the socket
-    std::uint32_t dropsCounted = 0;      ///< so many of them are in the counters
+    std::uint32_t dropsInLog = 0;   ///< so many of those that the kernel counts for the socket
+    std::uint32_t dropsCounted = 0; ///< so many of them are in the counters
+    log::SourceId lastSource{};
+    bool hasSource = false;
+    bool isEmpty = true; ///< when it was last looked at
     MessageBatch batch{};
 };
 
 class RecvmmsgLoop final : public ReceiveLoop {
 public:
     explicit RecvmmsgLoop(const ReceiveContext& context)
-        : m_context(context), m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {}
+        : m_context(context),
+          m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+          m_longestNap(context.options.nap),
+          m_nap(context.options.nap) {}
 
-    NetResult<std::vector<Endpoint>> open(const ReceiveOptions& options) override;
+    NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) override;
+    void remove(InputId id) override;
     void run() override;
     void wake() override;
 
@@ -74,15 +82,19 @@ private:
     /// Bytes of the datagram.
     std::size_t commit(Socket& socket, std::size_t index);
     void countDrops(Socket& socket, std::uint32_t drops);
-    void checkDrops();
+    void recordDrops(Socket& socket, std::uint32_t drops);
+    void checkDrops(Socket& socket);
+    void checkAllDrops();
+    void measureBuffers();
     void rest(std::size_t received);
     void adaptNap(std::size_t received);
     void waitForSomething();
 
     ReceiveContext m_context;
     Descriptor m_wake;
-    std::chrono::nanoseconds m_longestNap{};
-    std::chrono::nanoseconds m_nap{};
+    std::chrono::nanoseconds m_longestNap;
+    std::chrono::nanoseconds m_nap;
+    std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
     std::vector<std::unique_ptr<Socket>> m_sockets;
     int m_idleNaps = 0;
     int m_roundsSinceDropCheck = 0;
@@ -95,38 +107,58 @@ void enable(int descriptor, int option) {
                  sizeof on); // where it is refused, stamps come from the clock
 }
 
-NetResult<std::vector<Endpoint>> RecvmmsgLoop::open(const ReceiveOptions& options) {
+NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
     const QEventLoop dispatcher; // Qt's sockets want one in their thread, if only to be opened
-    m_longestNap = options.nap;
-    m_nap = options.nap;
-    std::vector<Endpoint> endpoints;
-    std::int64_t smallest = INT64_MAX;
-    for (const Endpoint& endpoint : options.endpoints) {
-        const auto bound = bindUdp(endpoint, options.bufferBytes);
-        if (!bound) {
-            m_sockets.clear();
-            return tl::unexpected(bound.error());
-        }
-        smallest = std::min<std::int64_t>(smallest, receiveBufferBytes(**bound));
-        endpoints.push_back({endpoint.host, (*bound)->localPort()});
+    const auto bound = bindUdp(where, m_context.options.bufferBytes);
+    if (!bound) {
+        return tl::unexpected(bound.error());
+    }
+    const std::uint16_t port = bound->front()->localPort();
+    input->setEndpoint({where.endpoint.host, port});
+    input->counters().receiveBufferBytes = receiveBufferBytes(*bound->front());
+    for (const auto& socket : *bound) {
         // A descriptor of our own, on which Qt's notifiers have no hold; Qt's goes at the end of this turn.
-        Descriptor descriptor(::fcntl(static_cast<int>((*bound)->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
+        Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
         enable(descriptor.get(), SO_TIMESTAMPNS);
         enable(descriptor.get(), SO_RXQ_OVFL);
         m_sockets.push_back(std::unique_ptr<Socket>(
-            new Socket{std::move(descriptor), SourceCache(m_context.log.sources(), endpoints.back().port)}));
+            new Socket{input, std::move(descriptor), SourceCache(m_context.log.sources(), port)}));
     }
-    m_context.counters.receiveBufferBytes = smallest == INT64_MAX ? 0 : smallest;
-    return endpoints;
+    measureBuffers();
+    return {};
+}
+
+void RecvmmsgLoop::remove(InputId id) {
+    for (const auto& socket : m_sockets) {
+        if (socket->input->id() == id) {
+            drain(*socket);
+            socket->isEmpty = true; // there is no later
+            checkDrops(*socket);
+        }
+    }
+    std::erase_if(m_sockets, [id](const auto& socket) { return socket->input->id() == id; });
+    measureBuffers();
+}
+
+void RecvmmsgLoop::measureBuffers() {
+    m_smallestBuffer = SIZE_MAX;
+    for (const auto& socket : m_sockets) {
+        const auto granted = socket->input->counters().receiveBufferBytes.load(std::memory_order_relaxed);
+        m_smallestBuffer = std::min(m_smallestBuffer, static_cast<std::size_t>(granted));
+    }
 }
 
 void RecvmmsgLoop::run() {
     m_lookedNs = m_context.clock.monotonicNs();
     while (!isStopping()) {
+        m_context.commands.run();
         rest(drainAll());
     }
     drainAll();
-    checkDrops();
+    for (const auto& socket : m_sockets) {
+        socket->isEmpty = true;
+    }
+    checkAllDrops();
 }
 
 void RecvmmsgLoop::wake() {
@@ -145,7 +177,7 @@ std::size_t RecvmmsgLoop::drainAll() {
         count += m_context.queue.moveTo(m_context.log);
     }
     if (++m_roundsSinceDropCheck >= kRoundsPerDropCheck) {
-        checkDrops();
+        checkAllDrops();
     }
     return count;
 }
@@ -163,13 +195,16 @@ std::size_t RecvmmsgLoop::drain(Socket& socket) {
         total += count;
         if (count > 0) {
             writer.publish();
-            add<std::uint64_t>(m_context.counters.datagrams, count);
-            add<std::uint64_t>(m_context.counters.bytes, bytes);
+            increase<std::uint64_t>(m_context.counters.datagrams, count);
+            increase<std::uint64_t>(m_context.counters.bytes, bytes);
+            increase<std::uint64_t>(socket.input->counters().datagrams, count);
+            increase<std::uint64_t>(socket.input->counters().bytes, bytes);
         }
         if (count < lanes.size()) {
             break;
         }
     }
+    socket.isEmpty = total == 0;
     return total;
 }
 
@@ -177,12 +212,15 @@ std::size_t RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
     const Received received = socket.batch.received(index);
     log::Arrival arrival;
     arrival.source = socket.sources.idOf(socket.batch.sender(index));
+    socket.lastSource = arrival.source;
+    socket.hasSource = true;
     arrival.flags.truncated = received.isTruncated;
     arrival.flags.stampedByKernel = received.stampNs != 0;
     arrival.stampNs = received.stampNs != 0 ? received.stampNs : m_context.clock.wallNs();
-    if (received.drops != socket.dropsOfLastPacket && received.drops != 0) {
-        arrival.kernelDropsBefore = received.drops - socket.dropsOfLastPacket;
-        socket.dropsOfLastPacket = received.drops;
+    // 0 is none. A packet may tell of fewer than a record that was made when it was already on its way.
+    if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {
+        arrival.kernelDropsBefore = received.drops - socket.dropsInLog;
+        socket.dropsInLog = received.drops;
         countDrops(socket, received.drops);
     }
     m_context.log.writer().commit(index, received.size, arrival);
@@ -195,28 +233,51 @@ void RecvmmsgLoop::countDrops(Socket& socket, std::uint32_t drops) {
     const auto more = static_cast<std::int32_t>(drops - socket.dropsCounted);
     if (more > 0) {
         socket.dropsCounted = drops;
-        add<std::uint64_t>(m_context.counters.kernelDropped, static_cast<std::uint64_t>(more));
+        increase<std::uint64_t>(m_context.counters.kernelDropped, static_cast<std::uint64_t>(more));
+        increase<std::uint64_t>(socket.input->counters().kernelDropped, static_cast<std::uint64_t>(more));
     }
 }
 
+/// What no packet came to tell becomes a record of its own.
+void RecvmmsgLoop::recordDrops(Socket& socket, std::uint32_t drops) {
+    const auto more = static_cast<std::int32_t>(drops - socket.dropsInLog);
+    if (more <= 0 || !socket.hasSource) { // a full buffer has packets, so that a source is known by then
+        return;
+    }
+    log::Arrival arrival;
+    arrival.stampNs = m_context.clock.wallNs();
+    arrival.source = socket.lastSource;
+    arrival.kernelDropsBefore = static_cast<std::uint32_t>(more);
+    arrival.flags.skipped = true;
+    arrival.flags.isDropRecord = true;
+    socket.dropsInLog = drops;
+    m_context.log.writer().append({}, arrival);
+    m_context.log.writer().publish();
+}
+
 /// Loss shows in a packet only when the next one comes; the socket itself tells at once.
-void RecvmmsgLoop::checkDrops() {
+void RecvmmsgLoop::checkDrops(Socket& socket) {
+    std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
+    socklen_t size = sizeof info;
+    if (::getsockopt(socket.descriptor.get(), SOL_SOCKET, SO_MEMINFO, info.data(), &size) == 0) {
+        countDrops(socket, info[SK_MEMINFO_DROPS]);
+        if (socket.isEmpty) {
+            recordDrops(socket, info[SK_MEMINFO_DROPS]);
+        }
+    }
+}
+
+void RecvmmsgLoop::checkAllDrops() {
     m_roundsSinceDropCheck = 0;
     for (const auto& socket : m_sockets) {
-        std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
-        socklen_t size = sizeof info;
-        if (::getsockopt(socket->descriptor.get(), SOL_SOCKET, SO_MEMINFO, info.data(), &size) == 0) {
-            countDrops(*socket, info[SK_MEMINFO_DROPS]);
-        }
+        checkDrops(*socket);
     }
 }
 
 /// Naps as long as it may, and never so long that what arrives at this rate fills more than an eighth of the
 /// buffer.
 void RecvmmsgLoop::adaptNap(std::size_t received) {
-    const auto room =
-        static_cast<std::size_t>(m_context.counters.receiveBufferBytes.load(std::memory_order_relaxed));
-    if (received * kBufferPerDatagram > room / 8) {
+    if (received * kBufferPerDatagram > m_smallestBuffer / 8) {
         m_nap = std::max<std::chrono::nanoseconds>(
             m_nap / 2, std::min<std::chrono::nanoseconds>(kShortestNap, m_longestNap));
     } else {
@@ -228,7 +289,7 @@ void RecvmmsgLoop::rest(std::size_t received) {
     m_idleNaps = received != 0 ? 0 : m_idleNaps + 1;
     adaptNap(received);
     if (m_idleNaps > kNapsUntilIdle) {
-        checkDrops();
+        checkAllDrops();
         waitForSomething();
         m_lookedNs = m_context.clock.monotonicNs();
         return;

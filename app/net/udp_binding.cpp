@@ -4,11 +4,16 @@
 #include "app/net/port_holder.h"
 
 #include <QHostAddress>
+#include <QNetworkInterface>
 #include <QVariant>
+
+#include <algorithm>
 
 namespace posewire::net {
 
 namespace {
+
+using Kind = NetError::Kind;
 
 std::string portText(const Endpoint& endpoint) {
     const std::string port = "UDP port " + std::to_string(endpoint.port);
@@ -16,15 +21,11 @@ std::string portText(const Endpoint& endpoint) {
 }
 
 tl::unexpected<NetError> bindError(const QUdpSocket& socket, const Endpoint& endpoint) {
-    using Kind = NetError::Kind;
     switch (socket.error()) {
-    case QAbstractSocket::AddressInUseError: {
-        const auto holder = holderOfUdpPort(endpoint.port);
-        const std::string by = holder ? "by " + holder->name + " (process " + std::to_string(holder->id) + ")"
-                                      : std::string("by another program");
-        return netError(Kind::PortInUse, portText(endpoint) + " is in use " + by +
-                                             "; close that program or choose another port");
-    }
+    case QAbstractSocket::AddressInUseError:
+        return netError(Kind::PortInUse, portText(endpoint) +
+                                             " is in use by another program; close that program or choose "
+                                             "another port");
     case QAbstractSocket::SocketAccessError:
         return netError(Kind::NoPermission,
                         portText(endpoint) + " may not be opened by this user; choose a port from 1024 on");
@@ -39,22 +40,122 @@ tl::unexpected<NetError> bindError(const QUdpSocket& socket, const Endpoint& end
     }
 }
 
-} // namespace
-
-NetResult<std::unique_ptr<QUdpSocket>> bindUdp(const Endpoint& endpoint, int bufferBytes) {
-    const QHostAddress address = endpoint.host.empty() ? QHostAddress(QHostAddress::Any)
-                                                       : QHostAddress(QString::fromStdString(endpoint.host));
-    if (address.isNull()) {
-        return netError(NetError::Kind::BadEndpoint,
-                        "\"" + endpoint.host +
-                            "\" is not an IP address to listen on; write one, or leave it out");
-    }
+NetResult<std::unique_ptr<QUdpSocket>> bindOne(const QHostAddress& address, const Endpoint& endpoint,
+                                               int bufferBytes) {
     auto socket = std::make_unique<QUdpSocket>();
     if (!socket->bind(address, endpoint.port, QUdpSocket::DontShareAddress)) {
         return bindError(*socket, endpoint);
     }
     socket->setSocketOption(QAbstractSocket::ReceiveBufferSizeSocketOption, bufferBytes);
     return socket;
+}
+
+/// Joins on every interface that is up: a sender may be behind any of them.
+NetResult<void> join(QUdpSocket& socket, const QHostAddress& group) {
+    int joined = 0;
+    for (const QNetworkInterface& interface : QNetworkInterface::allInterfaces()) {
+        const auto flags = interface.flags();
+        const bool canMulticast =
+            flags.testFlag(QNetworkInterface::CanMulticast) || flags.testFlag(QNetworkInterface::IsLoopBack);
+        if (flags.testFlag(QNetworkInterface::IsUp) && canMulticast) {
+            joined += socket.joinMulticastGroup(group, interface) ? 1 : 0;
+        }
+    }
+    if (joined == 0) {
+        return netError(Kind::Other, "cannot join the multicast group " + group.toString().toStdString() +
+                                         " on any network interface; check that the network is connected");
+    }
+    return {};
+}
+
+NetResult<std::vector<QHostAddress>> groupsOf(const UdpInput& where) {
+    std::vector<QHostAddress> groups;
+    for (const std::string& text : where.groups) {
+        const QHostAddress group(QString::fromStdString(text));
+        if (!group.isMulticast()) {
+            return netError(Kind::BadEndpoint, "\"" + text +
+                                                   "\" is no multicast group; those are 224.0.0.0 to "
+                                                   "239.255.255.255 and addresses that begin with ff");
+        }
+        groups.push_back(group);
+    }
+    return groups;
+}
+
+NetResult<UdpSockets> bindGroups(Endpoint endpoint, const std::vector<QHostAddress>& groups,
+                                 int bufferBytes) {
+    using Protocol = QAbstractSocket::NetworkLayerProtocol;
+    UdpSockets sockets;
+    for (const Protocol protocol : {Protocol::IPv4Protocol, Protocol::IPv6Protocol}) {
+        const bool isIpv4 = protocol == Protocol::IPv4Protocol;
+        const bool isAskedFor = std::ranges::find(groups, protocol, &QHostAddress::protocol) != groups.end();
+        auto socket = bindOne(isIpv4 ? QHostAddress::AnyIPv4 : QHostAddress::AnyIPv6, endpoint, bufferBytes);
+        if (!socket) {
+            if (isAskedFor || socket.error().kind == Kind::PortInUse) {
+                return tl::unexpected(socket.error());
+            }
+            continue; // a computer without IPv6
+        }
+        endpoint.port = (*socket)->localPort();
+        for (const QHostAddress& group : groups) {
+            if (group.protocol() != protocol) {
+                continue;
+            }
+            if (const auto joined = join(**socket, group); !joined) {
+                return tl::unexpected(joined.error());
+            }
+        }
+        sockets.push_back(std::move(*socket));
+    }
+    return sockets;
+}
+
+} // namespace
+
+NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes) {
+    const QHostAddress address = where.endpoint.host.empty()
+                                     ? QHostAddress(QHostAddress::Any)
+                                     : QHostAddress(QString::fromStdString(where.endpoint.host));
+    if (address.isNull()) {
+        return netError(Kind::BadEndpoint,
+                        "\"" + where.endpoint.host +
+                            "\" is not an IP address to listen on; write one, or leave it out");
+    }
+    auto groups = groupsOf(where);
+    if (!groups) {
+        return tl::unexpected(groups.error());
+    }
+    if (address.isMulticast()) {
+        groups->push_back(address);
+        return bindGroups({{}, where.endpoint.port}, *groups, bufferBytes);
+    }
+    if (!groups->empty() && !where.endpoint.host.empty()) {
+        return netError(Kind::BadEndpoint,
+                        "a port of " + where.endpoint.host +
+                            " alone hears no multicast; leave the address out to join a group");
+    }
+    if (!groups->empty()) {
+        return bindGroups(where.endpoint, *groups, bufferBytes);
+    }
+    auto socket = bindOne(address, where.endpoint, bufferBytes);
+    if (!socket) {
+        return tl::unexpected(socket.error());
+    }
+    UdpSockets sockets;
+    sockets.push_back(std::move(*socket));
+    return sockets;
+}
+
+NetError withHolder(NetError error, std::uint16_t port, bool isTcp) {
+    constexpr std::string_view unknown = "by another program";
+    const std::size_t place = error.text.find(unknown);
+    if (error.kind == Kind::PortInUse && place != std::string::npos) {
+        if (const auto holder = isTcp ? holderOfTcpPort(port) : holderOfUdpPort(port)) {
+            error.text.replace(place, unknown.size(),
+                               "by " + holder->name + " (process " + std::to_string(holder->id) + ")");
+        }
+    }
+    return error;
 }
 
 int receiveBufferBytes(QUdpSocket& socket) {

@@ -90,18 +90,18 @@ struct Bench {
     log::PacketLog log;
     log::SystemClock clock;
     net::PacketQueue queue;
+    net::CommandQueue commands;
     net::ReceiveCounters counters;
 
     std::unique_ptr<net::ReceiveLoop> open(std::uint16_t& port) {
-        auto loop = net::makeReceiveLoop(net::ReceivePath::Native, {log, clock, queue, counters});
-        net::ReceiveOptions options;
-        options.endpoints = {net::Endpoint{"127.0.0.1", 0}};
-        const auto endpoints = loop->open(options);
-        if (!endpoints) {
-            std::fprintf(stderr, "receive_bench: %s\n", endpoints.error().text.c_str());
+        auto loop = net::makeReceiveLoop({log, clock, queue, commands, counters, {}});
+        const net::UdpInput where{net::Endpoint{"127.0.0.1", 0}, {}};
+        const auto input = std::make_shared<net::Input>(net::InputId{}, net::InputKind::Udp, where.endpoint);
+        if (const auto added = loop->add(input, where); !added) {
+            std::fprintf(stderr, "receive_bench: %s\n", added.error().text.c_str());
             std::exit(2);
         }
-        port = endpoints->front().port;
+        port = input->status().endpoint.port;
         return loop;
     }
 };

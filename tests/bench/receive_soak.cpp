@@ -2,7 +2,7 @@
 // 10,000 datagrams a second for a minute, while a reader of the log is blocked for a second in the middle:
 // none may be lost in this computer.
 //   receive_soak [--check] [--brief]
-#include "app/net/udp_receiver.h"
+#include "app/net/receiver.h"
 #include "tests/bench/udp_bench.h"
 
 #include <QCoreApplication>
@@ -51,7 +51,7 @@ struct Result {
     std::uint64_t seenInOrder = 0;
 };
 
-Result soak(net::UdpReceiver& receiver, const log::PacketLog& log, double duration) {
+Result soak(net::Receiver& receiver, const log::PacketLog& log, double duration) {
     Result result;
     std::atomic<bool> isStopping = false;
     std::thread reading([&] {
@@ -67,15 +67,15 @@ Result soak(net::UdpReceiver& receiver, const log::PacketLog& log, double durati
         reader.look();
         result.seenInOrder = reader.seenInOrder();
     });
-    LoopbackSender sender(receiver.endpoints().front().port);
+    LoopbackSender sender(receiver.inputs().front().endpoint.port);
     sender.sendPaced(kRate, duration, 0.001);
     result.sent = sender.sent();
-    for (int i = 0; i < 1000 && receiver.counters().datagrams < result.sent; ++i) {
+    for (int i = 0; i < 1000 && receiver.totals().datagrams < result.sent; ++i) {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     isStopping = true;
     reading.join();
-    result.received = receiver.counters().datagrams;
+    result.received = receiver.totals().datagrams;
     return result;
 }
 
@@ -91,24 +91,21 @@ int main(int argc, char** argv) {
     }
     log::PacketLog log;
     const log::SystemClock clock;
-    net::ReceiveOptions options;
-    options.endpoints = {net::Endpoint{"127.0.0.1", 0}};
-    const auto receiver = net::UdpReceiver::start(log, clock, options);
-    if (!receiver) {
-        std::fprintf(stderr, "receive_soak: %s\n", receiver.error().text.c_str());
+    net::Receiver receiver(log, clock);
+    if (const auto id = receiver.addUdp(net::Endpoint{"127.0.0.1", 0}); !id) {
+        std::fprintf(stderr, "receive_soak: %s\n", id.error().text.c_str());
         return 2;
     }
-    const Result result = soak(**receiver, log, duration);
-    const net::ReceiveCounters& counters = (*receiver)->counters();
-    std::fprintf(stderr,
-                 "sent %llu, received %llu, seen in order by the reader %llu, dropped by the kernel %llu, "
-                 "longest delay "
-                 "%.1f ms, receive buffer %lld bytes\n",
-                 static_cast<unsigned long long>(result.sent),
-                 static_cast<unsigned long long>(result.received),
-                 static_cast<unsigned long long>(result.seenInOrder),
-                 static_cast<unsigned long long>(counters.kernelDropped.load()),
-                 static_cast<double>(counters.longestDelayNs) * 1e-6,
-                 static_cast<long long>(counters.receiveBufferBytes));
+    const Result result = soak(receiver, log, duration);
+    const net::ReceiveTotals totals = receiver.totals();
+    std::fprintf(
+        stderr,
+        "sent %llu, received %llu, seen in order by the reader %llu, dropped by the kernel %llu, "
+        "longest delay "
+        "%.1f ms, receive buffer %lld bytes\n",
+        static_cast<unsigned long long>(result.sent), static_cast<unsigned long long>(result.received),
+        static_cast<unsigned long long>(result.seenInOrder),
+        static_cast<unsigned long long>(totals.kernelDropped),
+        static_cast<double>(totals.longestDelayNs) * 1e-6, static_cast<long long>(totals.receiveBufferBytes));
     return verdict("receive_soak_lost", static_cast<double>(result.sent - result.seenInOrder), 0, isChecked);
 }

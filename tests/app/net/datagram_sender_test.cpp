@@ -20,10 +20,7 @@ SendTarget tcp(const QTcpServer& server) {
 }
 
 TEST(DatagramSender, ReachesEveryTarget) {
-    ReceiveOptions options;
-    options.endpoints.assign(2, Endpoint{"127.0.0.1", 0});
-    Receiving receiving(options);
-    ASSERT_TRUE(receiving.isRunning());
+    Receiving receiving({}, 2);
     auto sender = DatagramSender::connect({receiving.target(0), receiving.target(1)});
     ASSERT_TRUE(sender.has_value());
     for (std::size_t i = 0; i < 10; ++i) {
@@ -85,10 +82,7 @@ TEST(DatagramSender, TcpThatEndedIsAnError) {
 }
 
 TEST(DatagramSender, DatagramTooLongForUdpIsCounted) {
-    ReceiveOptions options;
-    options.endpoints = {Endpoint{"127.0.0.1", 0}};
-    const Receiving receiving(options);
-    ASSERT_TRUE(receiving.isRunning());
+    const Receiving receiving;
     auto sender = DatagramSender::connect({receiving.target()});
     ASSERT_TRUE(sender->send(numbered(70'000, 1)).has_value());
     EXPECT_EQ(sender->refused(), 1U);

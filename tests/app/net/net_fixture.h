@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/net/datagram_sender.h"
-#include "app/net/udp_receiver.h"
+#include "app/net/receiver.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 
@@ -48,18 +48,43 @@ inline std::string pathName(const ::testing::TestParamInfo<ReceivePath>& path) {
     return path.param == ReceivePath::Native ? "Native" : "Portable";
 }
 
-/// A log with a receiver that listens on loopback, on ports that the system chooses.
+/// A log with a receiver that listens on loopback, on UDP ports that the system chooses.
 struct Receiving {
-    explicit Receiving(ReceiveOptions options) : receiver(UdpReceiver::start(log, clock, options)) {}
+    explicit Receiving(const ReceiverOptions& options = {}, std::size_t ports = 1)
+        : receiver(std::make_unique<Receiver>(log, clock, options)) {
+        for (std::size_t i = 0; i < ports; ++i) {
+            EXPECT_TRUE(receiver->addUdp(Endpoint{"127.0.0.1", 0}));
+        }
+    }
 
-    [[nodiscard]] bool isRunning() const { return receiver.has_value(); }
-    [[nodiscard]] SendTarget target(std::size_t index = 0) const { return {(*receiver)->endpoints()[index]}; }
-    [[nodiscard]] const ReceiveCounters& counters() const { return (*receiver)->counters(); }
+    [[nodiscard]] Endpoint endpoint(std::size_t index = 0) const {
+        return receiver->inputs().at(index).endpoint;
+    }
+    [[nodiscard]] SendTarget target(std::size_t index = 0) const { return {endpoint(index)}; }
+    [[nodiscard]] ReceiveTotals totals() const { return receiver->totals(); }
     [[nodiscard]] std::uint64_t packets() const { return log.figures().end; }
+
+    /// Datagrams that the log says were lost in this computer.
+    [[nodiscard]] std::uint64_t dropsInLog() const {
+        std::uint64_t drops = 0;
+        log::LogReader reader(log);
+        for (std::uint64_t i = reader.begin(); i < reader.end(); ++i) {
+            drops += reader.packet(i)->kernelDropsBefore;
+        }
+        return drops;
+    }
+    [[nodiscard]] std::uint64_t dropRecords() const {
+        std::uint64_t records = 0;
+        log::LogReader reader(log);
+        for (std::uint64_t i = reader.begin(); i < reader.end(); ++i) {
+            records += reader.packet(i)->flags.isDropRecord ? 1 : 0;
+        }
+        return records;
+    }
 
     log::PacketLog log;
     log::SystemClock clock;
-    NetResult<std::unique_ptr<UdpReceiver>> receiver;
+    std::unique_ptr<Receiver> receiver;
 };
 
 } // namespace posewire::net

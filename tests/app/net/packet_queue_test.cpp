@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <thread>
+
 namespace posewire::net {
 namespace {
 
@@ -35,7 +38,7 @@ TEST(PacketQueue, HandsPacketsOverInOrderWithAllThatIsKnownOfThem) {
 }
 
 TEST(PacketQueue, RefusesAndCountsWhatDoesNotFit) {
-    PacketQueue queue(4000);
+    PacketQueue queue({}, 4000);
     log::PacketLog log;
     std::size_t taken = 0;
     while (queue.push(numbered(760, taken), kSource, {})) {
@@ -46,6 +49,69 @@ TEST(PacketQueue, RefusesAndCountsWhatDoesNotFit) {
     EXPECT_EQ(queue.refused(), 1U);
     EXPECT_EQ(queue.moveTo(log), taken);
     EXPECT_TRUE(queue.push(numbered(760, 0), kSource, {}));
+}
+
+TEST(PacketQueue, LossesReachTheLogAfterWhatWasQueuedBefore) {
+    PacketQueue queue({}, 4000);
+    log::PacketLog log;
+    std::size_t taken = 0;
+    while (queue.push(numbered(760, taken), kSource, {.stampNs = 5})) {
+        ++taken;
+    }
+    const log::SourceInfo other{"10.0.0.6:50000", log::Transport::Tcp, 9763};
+    EXPECT_FALSE(queue.push(numbered(760, 0), kSource, {.stampNs = 6}));
+    EXPECT_FALSE(queue.push(numbered(760, 0), other, {.stampNs = 7}));
+    queue.moveTo(log);
+
+    log::LogReader reader(log);
+    ASSERT_EQ(reader.end(), taken + 2);
+    const auto first = reader.packet(taken);
+    EXPECT_TRUE(first->flags.isDropRecord);
+    EXPECT_TRUE(first->flags.skipped);
+    EXPECT_TRUE(first->bytes.empty());
+    EXPECT_EQ(first->kernelDropsBefore, 2U);
+    EXPECT_EQ(first->stampNs, 6);
+    EXPECT_EQ(*log.sources().find(first->source), kSource);
+    EXPECT_EQ(reader.packet(taken + 1)->kernelDropsBefore, 1U);
+    EXPECT_EQ(*log.sources().find(reader.packet(taken + 1)->source), other);
+}
+
+TEST(PacketQueue, TellsOnceThatItIsNotEmptyAnyMore) {
+    int told = 0;
+    PacketQueue queue([&] { ++told; });
+    log::PacketLog log;
+    for (int round = 1; round <= 3; ++round) {
+        for (std::size_t i = 0; i < 10; ++i) {
+            EXPECT_TRUE(queue.push(numbered(10, i), kSource, {}));
+        }
+        EXPECT_EQ(told, round);
+        queue.moveTo(log);
+    }
+}
+
+TEST(PacketQueue, WaitingForRoomLosesNothingAndEndsWithTheQueue) {
+    PacketQueue queue({}, 4000);
+    log::PacketLog log;
+    std::atomic<std::size_t> pushed = 0;
+    std::thread pushing([&] {
+        while (queue.pushWaiting(numbered(760, 1), kSource, {})) {
+            ++pushed;
+        }
+    });
+    std::size_t moved = 0;
+    while (moved < 500) {
+        moved += queue.moveTo(log);
+    }
+    queue.close();
+    pushing.join();
+    moved += queue.moveTo(log);
+    EXPECT_EQ(moved, pushed);
+    EXPECT_EQ(queue.refused(), 0U);
+}
+
+TEST(PacketQueue, AnEmptyOneTakesWhatIsLargerThanItsLimit) {
+    PacketQueue queue({}, 100);
+    EXPECT_TRUE(queue.pushWaiting(numbered(760, 1), kSource, {}));
 }
 
 } // namespace

@@ -13,7 +13,7 @@ const QStringList kAddresses{"192.168.10.5"};
 
 ReceivingState listening() {
     ReceivingState state;
-    state.ports.push_back({UdpPort{}, {}});
+    state.ports.push_back({InputAddress{}, {}});
     return state;
 }
 

@@ -25,7 +25,8 @@ TEST(Options, TakeSeveralPortsWithAndWithoutAddress) {
     const auto options = parse({"--udp", "9763", "--udp", "127.0.0.1:9764", "--udp=[::1]:9765"});
     ASSERT_TRUE(options);
     EXPECT_THAT(options->udpPorts,
-                testing::ElementsAre(UdpPort{"", 9763}, UdpPort{"127.0.0.1", 9764}, UdpPort{"::1", 9765}));
+                testing::ElementsAre(InputAddress{"", 9763}, InputAddress{"127.0.0.1", 9764},
+                                     InputAddress{"::1", 9765}));
 }
 
 TEST(Options, DemoHasTwoCharactersUnlessTold) {
@@ -77,8 +78,8 @@ TEST(Options, HelpAndVersionEndWithStatusZero) {
 }
 
 TEST(Options, PortsAreShownAsTheyAreTyped) {
-    EXPECT_EQ(displayText(UdpPort{"", 9763}), "UDP 9763");
-    EXPECT_EQ(displayText(UdpPort{"::1", 9763}), "UDP [::1]:9763");
+    EXPECT_EQ(displayText(InputAddress{"", 9763}), "UDP 9763");
+    EXPECT_EQ(displayText(InputAddress{"::1", 9763}), "UDP [::1]:9763");
 }
 
 } // namespace

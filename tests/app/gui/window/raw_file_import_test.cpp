@@ -26,6 +26,16 @@ protected:
             file.write(reinterpret_cast<const char*>(bytes->data()), static_cast<qint64>(bytes->size()));
         }
     }
+    QString import(const QString& file) {
+        return importRawFile(
+            file,
+            [this](std::span<const std::byte> bytes, const log::SourceInfo& source, log::Arrival arrival) {
+                arrival.source = log.sources().intern(source);
+                log.writer().append(bytes, arrival);
+                log.writer().publish();
+            },
+            Stage::kStart);
+    }
     std::vector<std::int64_t> stamps() {
         std::vector<std::int64_t> result;
         log::LogReader reader(log);
@@ -43,7 +53,7 @@ protected:
 
 TEST_F(RawFileImport, SpacesDatagramsByTheirTimeCodesWithTheNewestAtTheEnd) {
     writeFile({1000, 1000, 1010, 1030});
-    ASSERT_EQ(importRawFile(path, log, Stage::kStart), "");
+    ASSERT_EQ(import(path), "");
     const std::int64_t ms = Stage::kMillisecond;
     EXPECT_EQ(stamps(), (std::vector<std::int64_t>{Stage::kStart - 30 * ms, Stage::kStart - 30 * ms,
                                                    Stage::kStart - 20 * ms, Stage::kStart}));
@@ -51,16 +61,16 @@ TEST_F(RawFileImport, SpacesDatagramsByTheirTimeCodesWithTheNewestAtTheEnd) {
 
 TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {
     writeFile({1000, 1020, 5, 15});
-    ASSERT_EQ(importRawFile(path, log, Stage::kStart), "");
+    ASSERT_EQ(import(path), "");
     const auto found = stamps();
     EXPECT_TRUE(std::ranges::is_sorted(found));
     EXPECT_EQ(found.back(), Stage::kStart);
 }
 
 TEST_F(RawFileImport, SaysWhyAFileCannotBeRead) {
-    EXPECT_NE(importRawFile(folder.filePath("none.bin"), log, 0), "");
+    EXPECT_NE(import(folder.filePath("none.bin")), "");
     writeFile({});
-    EXPECT_NE(importRawFile(path, log, 0), "");
+    EXPECT_NE(import(path), "");
     EXPECT_TRUE(stamps().empty());
 }
 

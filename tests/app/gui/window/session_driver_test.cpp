@@ -96,15 +96,15 @@ TEST_F(SessionDriverTest, ASelectionMovesTheViewAtTheNextTick) {
 }
 
 TEST_F(SessionDriverTest, APortThatIsTakenIsToldAndTriedAgain) {
-    auto holder = net::bindUdp({"127.0.0.1", 0}, 1 << 16);
+    auto holder = net::bindUdp({{"127.0.0.1", 0}, {}}, 1 << 16);
     ASSERT_TRUE(holder);
-    const std::uint16_t port = (*holder)->localPort();
+    const std::uint16_t port = holder->front()->localPort();
     driver.receiving().addPort({"127.0.0.1", port});
     ASSERT_EQ(driver.receiving().state().ports.size(), 1U);
     EXPECT_THAT(driver.receiving().state().ports[0].problem.toStdString(),
                 testing::HasSubstr(std::to_string(port)));
     EXPECT_EQ(driver.receiving().openPort(), 0);
-    holder->reset();
+    holder->clear();
     driver.receiving().retry();
     EXPECT_TRUE(driver.receiving().state().ports[0].problem.isEmpty());
     EXPECT_EQ(driver.receiving().openPort(), port);

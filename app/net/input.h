@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/endpoint.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace posewire::net {
+
+/// One place that a Receiver hears; never used again for another.
+enum class InputId : std::uint32_t {};
+
+enum class InputKind : std::uint8_t { Udp, TcpListener, TcpConnection };
+
+/// What a UDP input listens to. Broadcasts come where the host is empty.
+struct UdpInput {
+    Endpoint endpoint; ///< a multicast group as host is the same as that group with an empty host
+    /// Multicast groups to join, IPv4 and IPv6, on every interface that can; the host must then be empty.
+    std::vector<std::string> groups;
+
+    friend bool operator==(const UdpInput&, const UdpInput&) = default;
+};
+
+enum class InputState : std::uint8_t {
+    Listening,  ///< UDP, and TCP whether or not somebody has connected
+    Connecting, ///< a TCP connection that has not answered yet
+    Connected,
+    Retrying, ///< a TCP connection that failed or ended and is tried again after a pause
+};
+
+/// Counters of an input: each written by one thread, read by any.
+struct InputCounters {
+    std::atomic<std::uint64_t> datagrams = 0;
+    std::atomic<std::uint64_t> bytes = 0;
+    std::atomic<std::uint64_t> skippedBytes = 0;      ///< TCP: belong to no datagram
+    std::atomic<std::uint64_t> kernelDropped = 0;     ///< UDP: lost in this computer for want of buffer room
+    std::atomic<std::int64_t> receiveBufferBytes = 0; ///< UDP: what the kernel granted
+};
+
+/// The other end of a TCP connection.
+struct Peer {
+    std::string address;          ///< "10.0.0.5:50123"
+    std::int64_t connectedNs = 0; ///< since 1970-01-01 UTC
+    std::uint64_t datagrams = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t skippedBytes = 0;
+};
+
+/// A copy of what there is to know about an input.
+struct InputStatus {
+    InputId id{};
+    InputKind kind = InputKind::Udp;
+    Endpoint endpoint; ///< the real port where 0 was asked for
+    std::vector<std::string> groups;
+    InputState state = InputState::Listening;
+    std::string text; ///< the state in words, one line
+    std::uint64_t datagrams = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t skippedBytes = 0;
+    std::uint64_t kernelDropped = 0;
+    std::int64_t receiveBufferBytes = 0;
+    std::uint64_t refusedPeers = 0; ///< connections closed because there were too many
+    std::vector<Peer> peers;        ///< connected now
+};
+
+/// An input as its threads share it.
+class Input {
+public:
+    Input(InputId id, InputKind kind, Endpoint endpoint, std::vector<std::string> groups = {})
+        : m_id(id), m_kind(kind), m_groups(std::move(groups)), m_endpoint(std::move(endpoint)) {}
+
+    [[nodiscard]] InputId id() const { return m_id; }
+    [[nodiscard]] InputKind kind() const { return m_kind; }
+    [[nodiscard]] InputCounters& counters() { return m_counters; }
+    [[nodiscard]] const InputCounters& counters() const { return m_counters; }
+
+    // From any thread.
+    void setEndpoint(const Endpoint& endpoint);
+    void setState(InputState state, std::string text);
+    void setPeers(std::vector<Peer> peers, std::uint64_t refused);
+    [[nodiscard]] InputStatus status() const;
+
+private:
+    const InputId m_id;
+    const InputKind m_kind;
+    const std::vector<std::string> m_groups;
+    InputCounters m_counters;
+    mutable std::mutex m_mutex; ///< guards all that follows
+    Endpoint m_endpoint;
+    InputState m_state = InputState::Listening;
+    std::string m_text;
+    std::vector<Peer> m_peers;
+    std::uint64_t m_refusedPeers = 0;
+};
+
+} // namespace posewire::net

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/receiver.h"
+
+#include "app/net/receive_loop.h"
+#include "app/net/tcp_thread.h"
+#include "app/net/udp_binding.h"
+
+#include <algorithm>
+#include <future>
+
+namespace posewire::net {
+
+Receiver::Receiver(log::PacketLog& log, const log::Clock& clock, const ReceiverOptions& options)
+    : m_log(log),
+      m_clock(clock),
+      m_queue([this] { m_loop->wake(); }),
+      m_loop(makeReceiveLoop({log, clock, m_queue, m_commands, m_counters, options})) {
+    m_thread = std::thread([this] { m_loop->run(); });
+}
+
+Receiver::~Receiver() {
+    m_tcp.reset(); // while its last packets still find their way into the log
+    m_loop->stop();
+    m_thread.join();
+    m_queue.close();
+}
+
+std::shared_ptr<Input> Receiver::makeInput(InputKind kind, const Endpoint& endpoint,
+                                           std::vector<std::string> groups) {
+    const std::lock_guard lock(m_mutex);
+    return std::make_shared<Input>(InputId{m_nextId++}, kind, endpoint, std::move(groups));
+}
+
+void Receiver::keep(const std::shared_ptr<Input>& input) {
+    const std::lock_guard lock(m_mutex);
+    m_inputs.push_back(input);
+}
+
+TcpThread& Receiver::tcp() {
+    const std::lock_guard lock(m_mutex);
+    if (!m_tcp) {
+        m_tcp = std::make_unique<TcpThread>(m_clock, m_queue, m_tcpTotals);
+    }
+    return *m_tcp;
+}
+
+void Receiver::callAndWait(const CommandQueue::Command& command) {
+    std::promise<void> promise;
+    m_commands.push([&] {
+        command();
+        promise.set_value();
+    });
+    m_loop->wake();
+    promise.get_future().wait();
+}
+
+NetResult<InputId> Receiver::addUdp(const UdpInput& where) {
+    // Qt's sockets belong to the thread that makes them, so even opening them is the receiving thread's.
+    const auto input = makeInput(InputKind::Udp, where.endpoint, where.groups);
+    NetResult<void> result;
+    callAndWait([&] { result = m_loop->add(input, where); });
+    if (!result) {
+        return tl::unexpected(withHolder(result.error(), where.endpoint.port, false));
+    }
+    input->setState(InputState::Listening, "listening");
+    keep(input);
+    return input->id();
+}
+
+NetResult<InputId> Receiver::addTcpListener(const Endpoint& endpoint) {
+    const auto input = makeInput(InputKind::TcpListener, endpoint);
+    if (const auto result = tcp().listen(input, endpoint); !result) {
+        return tl::unexpected(withHolder(result.error(), endpoint.port, true));
+    }
+    keep(input);
+    return input->id();
+}
+
+InputId Receiver::addTcpConnection(const Endpoint& endpoint) {
+    const auto input = makeInput(InputKind::TcpConnection, endpoint);
+    input->setState(InputState::Connecting, "connecting to " + textOf(endpoint));
+    keep(input);
+    tcp().connect(input, endpoint);
+    return input->id();
+}
+
+bool Receiver::remove(InputId id) {
+    std::shared_ptr<Input> input;
+    {
+        const std::lock_guard lock(m_mutex);
+        const auto place = std::ranges::find(m_inputs, id, &Input::id);
+        if (place == m_inputs.end()) {
+            return false;
+        }
+        input = *place;
+        m_inputs.erase(place);
+    }
+    if (input->kind() == InputKind::Udp) {
+        callAndWait([&] { m_loop->remove(id); });
+    } else {
+        tcp().remove(id);
+    }
+    return true;
+}
+
+void Receiver::flush() {
+    callAndWait([&] { m_queue.moveTo(m_log); });
+}
+
+std::vector<InputStatus> Receiver::inputs() const {
+    const std::lock_guard lock(m_mutex);
+    std::vector<InputStatus> result;
+    result.reserve(m_inputs.size());
+    for (const auto& input : m_inputs) {
+        result.push_back(input->status());
+    }
+    return result;
+}
+
+ReceiveTotals Receiver::totals() const {
+    ReceiveTotals totals;
+    totals.datagrams = m_counters.datagrams + m_tcpTotals.datagrams;
+    totals.bytes = m_counters.bytes + m_tcpTotals.bytes;
+    totals.kernelDropped = m_counters.kernelDropped;
+    totals.queueDropped = m_queue.refused();
+    totals.longestDelayNs = m_counters.longestDelayNs;
+    const std::lock_guard lock(m_mutex);
+    for (const auto& input : m_inputs) {
+        const std::int64_t granted = input->counters().receiveBufferBytes;
+        if (input->kind() == InputKind::Udp) {
+            totals.receiveBufferBytes =
+                totals.receiveBufferBytes == 0 ? granted : std::min(totals.receiveBufferBytes, granted);
+        }
+    }
+    return totals;
+}
+
+bool Receiver::submit(std::span<const std::byte> bytes, const log::SourceInfo& source,
+                      const log::Arrival& arrival) {
+    return m_queue.push(bytes, source, arrival);
+}
+
+bool Receiver::submitWaiting(std::span<const std::byte> bytes, const log::SourceInfo& source,
+                             const log::Arrival& arrival) {
+    return m_queue.pushWaiting(bytes, source, arrival);
+}
+
+} // namespace posewire::net

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/net_error.h"
+#include "app/net/tcp_peer.h"
+
+#include <QTcpServer>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace posewire::net {
+
+/// An input whose bytes come by TCP. Belongs to one thread, whose event loop runs between its turns.
+class TcpInput {
+public:
+    explicit TcpInput(std::shared_ptr<Input> input) : m_input(std::move(input)) {}
+    virtual ~TcpInput() = default;
+    TcpInput(const TcpInput&) = delete;
+    TcpInput& operator=(const TcpInput&) = delete;
+
+    [[nodiscard]] InputId id() const { return m_input->id(); }
+
+    /// Does what there is to do; true where there is more that nothing will announce.
+    virtual bool turn(std::int64_t nowNs) = 0;
+
+    /// When it wants a turn even if nothing happens, monotonic; nothing for never.
+    [[nodiscard]] virtual std::optional<std::int64_t> dueNs() const = 0;
+
+    /// Reads what has arrived, before it is destroyed.
+    virtual void drain() = 0;
+
+protected:
+    std::shared_ptr<Input> m_input;
+};
+
+/// Lets senders connect, as MVN does.
+class TcpListener final : public TcpInput {
+public:
+    TcpListener(const TcpContext& context, std::shared_ptr<Input> input);
+    NetResult<void> listen(const Endpoint& endpoint);
+
+    bool turn(std::int64_t nowNs) override;
+    [[nodiscard]] std::optional<std::int64_t> dueNs() const override { return m_publishNs; }
+    void drain() override;
+
+private:
+    bool accept();
+    void publish();
+
+    const TcpContext& m_context;
+    QTcpServer m_server;
+    std::vector<std::unique_ptr<TcpPeer>> m_peers;
+    std::uint64_t m_refused = 0;
+    std::optional<std::int64_t> m_publishNs; ///< when the counters of peers are to be told
+};
+
+/// Connects to a sender that listens, again and again.
+class TcpDialer final : public TcpInput {
+public:
+    TcpDialer(const TcpContext& context, std::shared_ptr<Input> input, Endpoint endpoint);
+
+    bool turn(std::int64_t nowNs) override;
+    [[nodiscard]] std::optional<std::int64_t> dueNs() const override;
+    void drain() override;
+
+private:
+    void begin(std::int64_t nowNs);
+    void await(std::int64_t nowNs);
+    void pause(std::int64_t nowNs, const std::string& why);
+    void publish();
+
+    const TcpContext& m_context;
+    Endpoint m_endpoint;
+    std::unique_ptr<QTcpSocket> m_socket; ///< while it connects
+    std::unique_ptr<TcpPeer> m_peer;      ///< once it has
+    std::int64_t m_begunNs = 0;           ///< the attempt
+    std::int64_t m_nextNs = 0;            ///< the next attempt
+    std::int64_t m_pauseNs;
+    std::optional<std::int64_t> m_publishNs;
+};
+
+} // namespace posewire::net

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/command_queue.h"
+#include "app/net/input.h"
+#include "app/net/net_error.h"
+#include "app/net/packet_queue.h"
+#include "core/log/clock.h"
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+class QEventLoop;
+
+namespace posewire::net {
+
+class TcpInput;
+
+/// Reads TCP connections and hands their datagrams to the queue; where that is full it waits, and TCP makes
+/// the senders wait. One thread for all of them, apart from the one that receives UDP.
+class TcpThread {
+public:
+    /// All must outlive it. `totals` is written by its thread.
+    TcpThread(const log::Clock& clock, PacketQueue& queue, InputCounters& totals);
+
+    /// Ends all connections. Somebody must go on emptying the queue, or have closed it.
+    ~TcpThread();
+    TcpThread(const TcpThread&) = delete;
+    TcpThread& operator=(const TcpThread&) = delete;
+
+    // From any other thread.
+    NetResult<void> listen(const std::shared_ptr<Input>& input, const Endpoint& endpoint);
+    void connect(const std::shared_ptr<Input>& input, const Endpoint& endpoint);
+    void remove(InputId id);
+
+private:
+    struct Inside;
+
+    void run();
+    void wake();
+    void callAndWait(const CommandQueue::Command& command);
+
+    const log::Clock& m_clock;
+    PacketQueue& m_queue;
+    InputCounters& m_totals;
+    CommandQueue m_commands;
+    std::atomic<bool> m_isStopping = false;
+    std::mutex m_mutex; ///< guards m_eventLoop
+    std::unique_ptr<QEventLoop> m_eventLoop;
+    std::unique_ptr<Inside> m_inside; ///< the thread's own
+    std::thread m_thread;
+};
+
+} // namespace posewire::net

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/receiver.h"
+
+#include "tests/app/net/net_fixture.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+namespace posewire::net {
+namespace {
+
+class ReceiverTest : public ::testing::TestWithParam<ReceivePath> {
+protected:
+    [[nodiscard]] static ReceiverOptions options() {
+        ReceiverOptions options;
+        options.path = GetParam();
+        return options;
+    }
+};
+
+TEST_P(ReceiverTest, ReceivesWhatWasSentBitForBitAndInOrder) {
+    Receiving receiving(options());
+    auto sender = DatagramSender::connect({receiving.target()});
+    ASSERT_TRUE(sender.has_value());
+    const auto sizeOf = [](std::size_t i) { return i * 97 % 2169; };
+    constexpr std::size_t kCount = 2000;
+    for (std::size_t i = 0; i < kCount; ++i) {
+        ASSERT_TRUE(sender->send(numbered(sizeOf(i), i)).has_value());
+        if (i % 100 == 99) { // the kernel's buffer is not what this test is about
+            ASSERT_TRUE(eventually([&] { return receiving.packets() == i + 1; })) << receiving.packets();
+        }
+    }
+    log::LogReader reader(receiving.log);
+    for (std::size_t i = 0; i < kCount; ++i) {
+        const auto packet = reader.packet(i);
+        ASSERT_TRUE(packet);
+        ASSERT_TRUE(equal(packet->bytes, numbered(sizeOf(i), i))) << i;
+        ASSERT_EQ(packet->kernelDropsBefore, 0U);
+        ASSERT_FALSE(packet->flags.truncated);
+    }
+    EXPECT_EQ(receiving.totals().datagrams, kCount);
+    EXPECT_EQ(receiving.totals().kernelDropped, 0U);
+}
+
+TEST_P(ReceiverTest, OversizedDatagramsArriveWhole) {
+    Receiving receiving(options());
+    auto sender = DatagramSender::connect({receiving.target()});
+    ASSERT_TRUE(sender.has_value());
+    const std::vector<std::size_t> sizes{65'507, 10, 9000, 40'000, 2305, 0, 65'507};
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        ASSERT_TRUE(sender->send(numbered(sizes[i], i)).has_value());
+    }
+    ASSERT_EQ(sender->refused(), 0U);
+    ASSERT_TRUE(eventually([&] { return receiving.packets() == sizes.size(); })) << receiving.packets();
+    log::LogReader reader(receiving.log);
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+        EXPECT_TRUE(equal(reader.packet(i)->bytes, numbered(sizes[i], i))) << sizes[i];
+    }
+}
+
+TEST_P(ReceiverTest, StampsAreOfNowAndDoNotGoBack) {
+    Receiving receiving(options());
+    auto sender = DatagramSender::connect({receiving.target()});
+    const std::int64_t before = receiving.clock.wallNs();
+    for (std::size_t i = 0; i < 50; ++i) {
+        ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
+    }
+    ASSERT_TRUE(eventually([&] { return receiving.packets() == 50; }));
+    const std::int64_t after = receiving.clock.wallNs();
+    log::LogReader reader(receiving.log);
+    std::int64_t last = before - 1'000'000; // the kernel's clock and ours are read apart
+    for (std::size_t i = 0; i < 50; ++i) {
+        const auto packet = reader.packet(i);
+        EXPECT_GE(packet->stampNs, last);
+        EXPECT_LE(packet->stampNs, after);
+        last = packet->stampNs;
+#ifdef __linux__
+        EXPECT_EQ(packet->flags.stampedByKernel, GetParam() == ReceivePath::Native);
+#endif
+    }
+}
+
+TEST_P(ReceiverTest, SeveralPortsShareOneLogAndTellTheirSourcesApart) {
+    Receiving receiving(options(), 3);
+    auto first = DatagramSender::connect({receiving.target(0), receiving.target(1), receiving.target(2)});
+    auto second = DatagramSender::connect({receiving.target(0)});
+    ASSERT_TRUE(first->send(numbered(100, 1)).has_value());
+    ASSERT_TRUE(second->send(numbered(100, 2)).has_value());
+    ASSERT_TRUE(eventually([&] { return receiving.packets() == 4; }));
+    EXPECT_EQ(receiving.log.sources().size(), 4U) << "two senders to one port, one of them to two more";
+    log::LogReader reader(receiving.log);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const log::SourceInfo* source = receiving.log.sources().find(reader.packet(i)->source);
+        ASSERT_NE(source, nullptr);
+        EXPECT_EQ(source->transport, log::Transport::Udp);
+        EXPECT_EQ(source->address.find("127.0.0.1:"), 0U) << source->address;
+        EXPECT_TRUE(std::ranges::any_of(receiving.receiver->inputs(), [&](const InputStatus& input) {
+            return input.endpoint.port == source->localPort;
+        }));
+    }
+}
+
+TEST_P(ReceiverTest, ReceivesOverIpv6) {
+    Receiving receiving(options(), 0);
+    if (const auto id = receiving.receiver->addUdp(Endpoint{"::1", 0}); !id) {
+        GTEST_SKIP() << "this computer has no IPv6 loopback: " << id.error().text;
+    }
+    auto sender = DatagramSender::connect({receiving.target()});
+    ASSERT_TRUE(sender->send(numbered(760, 5)).has_value());
+    ASSERT_TRUE(eventually([&] { return receiving.packets() == 1; }));
+    log::LogReader reader(receiving.log);
+    EXPECT_TRUE(equal(reader.packet(0)->bytes, numbered(760, 5)));
+    EXPECT_EQ(receiving.log.sources().find(reader.packet(0)->source)->address.find("[::1]:"), 0U);
+}
+
+TEST_P(ReceiverTest, AnyAddressTakesIpv4AndShowsItAsSuch) {
+    Receiving receiving(options(), 0);
+    ASSERT_TRUE(receiving.receiver->addUdp(Endpoint{"", 0}));
+    auto sender = DatagramSender::connect({receiving.target()});
+    ASSERT_TRUE(sender->send(numbered(24, 5)).has_value());
+    ASSERT_TRUE(eventually([&] { return receiving.packets() == 1; }));
+    EXPECT_EQ(receiving.log.sources().find(log::SourceId{})->address.find("127.0.0.1:"), 0U);
+}
+
+TEST_P(ReceiverTest, WakesAfterALongPause) {
+    ReceiverOptions brisk = options();
+    brisk.nap = std::chrono::microseconds(1); // so that idleness begins soon
+    Receiving receiving(brisk);
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    auto sender = DatagramSender::connect({receiving.target()});
+    for (std::size_t i = 1; i <= 3; ++i) {
+        ASSERT_TRUE(sender->send(numbered(24, i)).has_value());
+        ASSERT_TRUE(eventually([&] { return receiving.packets() == i; }));
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+}
+
+TEST_P(ReceiverTest, PacketsOfOtherThreadsJoinTheLog) {
+    Receiving receiving(options());
+    const log::SourceInfo source{"demo", log::Transport::Performer, 0};
+    std::vector<std::jthread> threads;
+    for (std::size_t t = 0; t < 4; ++t) {
+        threads.emplace_back([&, t] {
+            for (std::size_t i = 0; i < 500; ++i) {
+                receiving.receiver->submit(numbered(100 + t, i), source, {.stampNs = 7});
+            }
+        });
+    }
+    EXPECT_TRUE(eventually([&] { return receiving.packets() == 2000; }));
+    EXPECT_EQ(*receiving.log.sources().find(log::SourceId{}), source);
+    EXPECT_EQ(receiving.totals().datagrams, 0U);
+}
+
+TEST_P(ReceiverTest, StopsAtOnceAndStartsAgainOnTheSamePort) {
+    log::PacketLog log;
+    const log::SystemClock clock;
+    Endpoint endpoint{"127.0.0.1", 0};
+    for (std::size_t i = 1; i <= 5; ++i) {
+        Receiver receiver(log, clock, options());
+        ASSERT_TRUE(receiver.addUdp(endpoint));
+        endpoint = receiver.inputs()[0].endpoint;
+        auto sender = DatagramSender::connect({{endpoint}});
+        ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
+        // what is in the socket by now is in the log when the receiver has gone
+        EXPECT_TRUE(receiver.remove(receiver.inputs()[0].id));
+        EXPECT_EQ(log.figures().end, i);
+    }
+}
+
+TEST_P(ReceiverTest, WhatIsInTheSocketWhenItEndsIsInTheLog) {
+    log::PacketLog log;
+    const log::SystemClock clock;
+    auto receiver = std::make_unique<Receiver>(log, clock, options());
+    ASSERT_TRUE(receiver->addUdp(Endpoint{"127.0.0.1", 0}));
+    auto sender = DatagramSender::connect({{receiver->inputs()[0].endpoint}});
+    ASSERT_TRUE(sender->send(numbered(760, 1)).has_value());
+    receiver.reset();
+    EXPECT_EQ(log.figures().end, 1U);
+}
+
+TEST_P(ReceiverTest, InputsComeAndGoAndOthersLoseNothing) {
+    Receiving receiving(options());
+    std::atomic<bool> isStopping = false;
+    std::uint64_t sent = 0;
+    std::thread sending([&, target = receiving.target()] {
+        auto sender = DatagramSender::connect({target});
+        for (; !isStopping; ++sent) {
+            EXPECT_TRUE(sender->send(numbered(760, sent)).has_value());
+            std::this_thread::sleep_for(std::chrono::microseconds(100));
+        }
+    });
+    for (int i = 0; i < 100; ++i) {
+        const auto id = receiving.receiver->addUdp(Endpoint{"127.0.0.1", 0});
+        ASSERT_TRUE(id);
+        const auto listener = receiving.receiver->addTcpListener(Endpoint{"127.0.0.1", 0});
+        ASSERT_TRUE(listener);
+        EXPECT_EQ(receiving.receiver->inputs().size(), 3U);
+        EXPECT_TRUE(receiving.receiver->remove(*id));
+        EXPECT_TRUE(receiving.receiver->remove(*listener));
+        EXPECT_FALSE(receiving.receiver->remove(*id));
+    }
+    isStopping = true;
+    sending.join();
+    EXPECT_TRUE(eventually([&] { return receiving.packets() == sent; }))
+        << receiving.packets() << " of " << sent;
+}
+
+TEST_P(ReceiverTest, EachInputHasItsOwnCounters) {
+    Receiving receiving(options(), 2);
+    auto sender = DatagramSender::connect({receiving.target(1)});
+    for (std::size_t i = 0; i < 5; ++i) {
+        ASSERT_TRUE(sender->send(numbered(100, i)).has_value());
+    }
+    ASSERT_TRUE(eventually([&] { return receiving.receiver->inputs()[1].datagrams == 5; }));
+    EXPECT_EQ(receiving.receiver->inputs()[1].bytes, 500U);
+    EXPECT_EQ(receiving.receiver->inputs()[0].datagrams, 0U);
+    EXPECT_EQ(receiving.totals().datagrams, 5U);
+    EXPECT_TRUE(receiving.receiver->remove(receiving.receiver->inputs()[1].id));
+    EXPECT_EQ(receiving.totals().datagrams, 5U) << "what was counted stays";
+}
+
+TEST_P(ReceiverTest, TellsTheReceiveBufferItGot) {
+    ReceiverOptions small = options();
+    small.bufferBytes = 65'536;
+    Receiving receiving(small);
+    EXPECT_EQ(receiving.receiver->inputs()[0].receiveBufferBytes, 65'536);
+    EXPECT_EQ(receiving.totals().receiveBufferBytes, 65'536);
+}
+
+TEST_P(ReceiverTest, LossesOfTheQueueAreInTheLog) {
+    Receiving receiving(options());
+    const log::SourceInfo source{"demo", log::Transport::Performer, 0};
+    std::uint64_t submitted = 0;
+    while (receiving.totals().queueDropped == 0 && submitted < 10'000'000) {
+        receiving.receiver->submit(numbered(60'000, submitted), source, {.stampNs = 7});
+        ++submitted;
+    }
+    receiving.receiver->flush();
+    EXPECT_GT(receiving.totals().queueDropped, 0U);
+    EXPECT_EQ(receiving.dropsInLog(), receiving.totals().queueDropped);
+    log::LogReader reader(receiving.log);
+    EXPECT_EQ(reader.end() - receiving.dropRecords() + receiving.totals().queueDropped, submitted);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, ReceiverTest, ::testing::Values(ReceivePath::Native, ReceivePath::Portable),
+                         &pathName);
+
+#ifdef __linux__
+ReceiverOptions narrow(std::chrono::milliseconds nap) {
+    ReceiverOptions options;
+    options.bufferBytes = 4096;
+    options.nap = nap; // the thread sleeps while the buffer overflows
+    return options;
+}
+
+TEST(ReceiverKernelDrops, AreInTheLogThoughNoPacketComesToTell) {
+    Receiving receiving(narrow(std::chrono::milliseconds(20)));
+    auto sender = DatagramSender::connect({receiving.target()});
+    constexpr std::size_t kSent = 3000;
+    for (std::size_t i = 0; i < kSent; ++i) {
+        ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
+    }
+    const auto told = [&] { return receiving.packets() - receiving.dropRecords() + receiving.dropsInLog(); };
+    EXPECT_TRUE(eventually([&] { return told() == kSent; })) << told();
+    EXPECT_GT(receiving.dropsInLog(), 0U);
+    EXPECT_EQ(receiving.totals().kernelDropped, receiving.dropsInLog());
+    EXPECT_EQ(receiving.totals().datagrams + receiving.totals().kernelDropped, kSent);
+    EXPECT_EQ(receiving.log.sources().size(), 1U) << "a record has the source last heard";
+}
+
+TEST(ReceiverKernelDrops, AreCountedOnceWhetherAPacketOrARecordTellsThem) {
+    Receiving receiving(narrow(std::chrono::milliseconds(5)));
+    auto sender = DatagramSender::connect({receiving.target()});
+    std::uint64_t sent = 0;
+    for (int burst = 0; burst < 20; ++burst) {
+        for (std::size_t i = 0; i < 100; ++i, ++sent) {
+            ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(burst % 3 * 40)); // some idle, some not
+    }
+    receiving.receiver.reset();
+    EXPECT_EQ(receiving.packets() - receiving.dropRecords() + receiving.dropsInLog(), sent);
+    EXPECT_GT(receiving.dropRecords(), 0U);
+}
+
+TEST(ReceiverKernelDrops, OfAnInputThatIsRemovedAreInTheLog) {
+    Receiving receiving(narrow(std::chrono::milliseconds(50)));
+    auto sender = DatagramSender::connect({receiving.target()});
+    for (std::size_t i = 0; i < 500; ++i) {
+        ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
+    }
+    receiving.receiver->remove(receiving.receiver->inputs()[0].id);
+    EXPECT_EQ(receiving.packets() - receiving.dropRecords() + receiving.dropsInLog(), 500U);
+}
+#endif
+
+} // namespace
+} // namespace posewire::net
