@@ -20,13 +20,6 @@ std::int32_t away(std::uint32_t sample, std::uint32_t from) {
     return static_cast<std::int32_t>(sample - from);
 }
 
-std::int32_t forwardLimit(std::uint32_t step) {
-    // Losses of more in a row are counted too, but only once what comes next agrees.
-    constexpr std::uint32_t kSteps = 100;
-    return step == 0 || step >= Probation::kMostForward / kSteps ? Probation::kMostForward
-                                                                 : static_cast<std::int32_t>(kSteps * step);
-}
-
 /// Whether datagrams from there may have been on the way for long.
 bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, std::int64_t stampNs) {
     constexpr std::int32_t kBefore = 4'096;
@@ -48,14 +41,27 @@ bool isMissing(const SampleSequence& sequence, const SampleLedger::Datagram& dat
     return !place.isThere || !sequence.window().contains(place.index, datagram.index);
 }
 
+/// Losses of more in a row are counted too, but only once what comes next agrees.
+std::int32_t forwardLimit(const SampleLedger& ledger, const SampleLedger::Datagram& datagram) {
+    constexpr std::uint32_t kSteps = 100;
+    constexpr std::uint32_t kStepsInDoubt = 8;
+    const std::uint32_t step = ledger.present().step();
+    const bool isStraggling = ledger.hasBefore(datagram.stampNs) && isMissing(ledger.before(), datagram);
+    if (step == 0 && !isStraggling) {
+        return Probation::kMostForward;
+    }
+    const std::uint32_t limit = std::max(step, 1U) * (isStraggling ? kStepsInDoubt : kSteps);
+    return static_cast<std::int32_t>(std::min(limit, static_cast<std::uint32_t>(Probation::kMostForward)));
+}
+
 } // namespace
 
-bool Probation::isExpected(const SampleSequence& sequence, std::uint32_t sample) {
-    if (sequence.empty()) {
+bool Probation::isExpected(const SampleLedger& ledger, const SampleLedger::Datagram& datagram) {
+    if (ledger.present().empty()) {
         return true;
     }
-    const std::int32_t moved = away(sample, sequence.highest());
-    return moved >= -kMostBack && moved <= forwardLimit(sequence.step());
+    const std::int32_t moved = away(datagram.sample, ledger.present().highest());
+    return moved >= -kMostBack && moved <= forwardLimit(ledger, datagram);
 }
 
 void Probation::add(const Waiting& waiting) {
@@ -108,16 +114,19 @@ void Probation::takeUnexpected(const Waiting& waiting, std::size_t near, const S
 
 void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
     scan.highest = ledger.present().highest();
-    const std::int32_t limit = forwardLimit(ledger.present().step());
+    const auto reach = static_cast<std::int32_t>(kMostBack * std::clamp(ledger.present().step(), 1U, 30U));
     for (std::size_t i = 0; i < m_waiting.size(); ++i) {
         const std::uint32_t sample = m_waiting[i].datagram.sample;
         const std::int32_t fromExpected = away(sample, scan.highest);
+        const std::int32_t limit = forwardLimit(ledger, m_waiting[i].datagram);
         std::size_t near = scan.groupCount;
         std::int32_t distance =
             fromExpected >= -kMostBack && fromExpected <= limit ? std::abs(fromExpected) : INT32_MAX;
         for (std::size_t g = 0; g < scan.groupCount; ++g) {
             const std::int32_t from = away(sample, scan.groups[g].highest);
-            if (from >= -kMostBack && from <= kMostForward && std::abs(from) < distance) {
+            // What came late is behind what is expected, what follows a long loss is ahead.
+            const bool isOneSide = (away(scan.groups[g].highest, scan.highest) > 0) == (fromExpected > 0);
+            if (isOneSide && from >= -kMostBack && from <= reach && std::abs(from) < distance) {
                 near = g;
                 distance = std::abs(from);
             }

@@ -34,7 +34,7 @@ public:
     };
 
     /// Whether a counter is near enough to what was expected to be counted at once.
-    [[nodiscard]] static bool isExpected(const SampleSequence& sequence, std::uint32_t sample);
+    [[nodiscard]] static bool isExpected(const SampleLedger& ledger, const SampleLedger::Datagram& datagram);
 
     [[nodiscard]] bool empty() const { return m_waiting.empty(); }
     [[nodiscard]] const std::vector<Waiting>& waiting() const { return m_waiting; }

@@ -29,6 +29,24 @@ NewestDifferences differencesFrom(const SampleWindow& window, std::size_t first)
     return result;
 }
 
+/// The difference at which spacing that was regular became irregular, or the other way round.
+std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint32_t before,
+                          std::uint32_t after) {
+    const std::uint32_t step = after == 0 ? before : after;
+    std::ptrdiff_t best = PTRDIFF_MIN;
+    std::ptrdiff_t score = 0;
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        const bool isEqual = differences[i] == step;
+        score += isEqual == (after == 0) ? 1 : -1;
+        if (score > best) {
+            best = score;
+            place = i;
+        }
+    }
+    return std::min(place + 1, differences.size() - 1);
+}
+
 } // namespace
 
 std::int64_t SampleSequence::Run::lost() const {
@@ -261,29 +279,15 @@ void SampleSequence::changeStep(std::size_t first, std::span<const std::uint32_t
         }
     }
     const std::uint32_t step = findStep(differences);
-    if (step == run.step) {
-        return;
-    }
     if (isYoung) {
         run.step = step;
-        return;
+    } else if (step != run.step && !stillHolds(differences, run.step)) {
+        constexpr std::size_t kLasting = 32;
+        const std::size_t place = placeOfChange(differences, run.step, step);
+        if (place + kLasting < differences.size()) {
+            splitRun(first + place + 1, step);
+        }
     }
-    // The spacing became irregular, or was and is no more.
-    const auto isFraction = [multiple = step == 0 ? run.step : step](std::uint32_t difference) {
-        return difference % multiple != 0;
-    };
-    std::size_t cut = 0;
-    if (step == 0) {
-        const auto newest = differences.last(std::min(differences.size(), kStepDifferences));
-        cut = static_cast<std::size_t>(std::find_if(newest.begin(), newest.end(), isFraction) -
-                                       newest.begin()) +
-              differences.size() - newest.size();
-    } else {
-        cut = static_cast<std::size_t>(differences.rend() -
-                                       std::find_if(differences.rbegin(), differences.rend(), isFraction));
-        cut -= cut == 0 ? 0 : 1;
-    }
-    splitRun(first + std::min(cut, differences.size() - 1) + 1, step);
 }
 
 SampleSequence::LostByEntry SampleSequence::lostAfter(std::size_t first) const {

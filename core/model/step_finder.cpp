@@ -13,6 +13,7 @@ using Differences = std::span<const std::uint32_t>;
 constexpr double kNearlyMost = 0.8;
 constexpr double kFewNearlyMost = 0.5;
 constexpr std::size_t kFew = 16;
+constexpr double kStillFrequent = 0.6;
 // Multiples of a step are what loss makes too: a change to one must last.
 constexpr std::size_t kLastingMultiples = 32;
 constexpr std::size_t kLastingFractions = 7;
@@ -59,19 +60,42 @@ Candidates byFrequency(Differences differences) {
     return found;
 }
 
-/// The place where differences equal to `before` in front of it and to `after` behind it are most.
+constexpr std::uint32_t kMostLost = 4;
+
+/// The most frequent one that is no multiple of a step; 0 where there is none.
+std::uint32_t mostFrequentFraction(Differences differences, std::uint32_t step) {
+    const Candidates candidates = byFrequency(differences);
+    for (std::size_t i = 0; i < candidates.size; ++i) {
+        if (candidates.items[i].value % step != 0) {
+            return candidates.items[i].value;
+        }
+    }
+    return 0;
+}
+
+/// How unlikely a difference is for a step: each sample lost makes it so, and what is no multiple far more.
+std::uint32_t unlikeliness(std::uint32_t difference, std::uint32_t step) {
+    constexpr std::uint32_t kFraction = 8;
+    return difference == step       ? 0
+           : difference % step != 0 ? kFraction
+                                    : std::min(difference / step - 1, kMostLost);
+}
+
+/// The place where differences before and behind it are the most likely; the latest of equal ones.
 std::size_t bestPlace(Differences differences, std::uint32_t before, std::uint32_t after) {
-    auto score = std::count(differences.begin(), differences.end(), after);
-    auto best = score;
+    std::int64_t score = 0;
+    std::int64_t least = INT64_MAX;
     std::size_t place = 0;
-    std::ptrdiff_t equalBefore = 0;
     for (std::size_t i = 0; i < differences.size(); ++i) {
-        score -= differences[i] == after ? 1 : 0;
-        if (i == 0 || score + equalBefore >= best) {
-            best = score + equalBefore;
+        const std::int64_t own = unlikeliness(differences[i], after);
+        const std::int64_t other = unlikeliness(differences[i], before);
+        // Relative to all being behind; the one at the place may be of either.
+        const std::int64_t here = score - own + std::min({own, other, std::int64_t{kMostLost}});
+        if (here <= least) {
+            least = here;
             place = i;
         }
-        equalBefore += differences[i] == before ? 1 : 0;
+        score += other - own;
     }
     return place;
 }
@@ -118,15 +142,27 @@ std::uint32_t findStep(Differences differences) {
     return 0;
 }
 
+bool stillHolds(Differences differences, std::uint32_t step) {
+    const Differences looked = newest(differences, kStepHistory);
+    if (step == 0 || !areMostlyMultiples(newest(differences, kStepDifferences), step)) {
+        return false;
+    }
+    const auto count = [&](std::uint32_t value) { return std::count(looked.begin(), looked.end(), value); };
+    return static_cast<double>(count(step)) >=
+           kStillFrequent * static_cast<double>(count(mostFrequent(looked)));
+}
+
 std::optional<StepChange> findStepChange(Differences differences, std::uint32_t step) {
     const Differences looked = newest(differences, kStepHistory);
     const std::size_t skipped = differences.size() - looked.size();
     if (step == 0 || looked.size() < kLeastBefore + kLastingFractions) {
         return std::nullopt;
     }
-    for (const std::size_t tail : {kLastingMultiples + 1, kLastingFractions}) {
-        const std::uint32_t after = mostFrequent(newest(looked, tail));
-        if (after == step) {
+    const Differences tail = newest(looked, kLastingMultiples + 1);
+    const std::array candidates{mostFrequent(tail), mostFrequent(newest(looked, kLastingFractions)),
+                                mostFrequentFraction(tail, step)};
+    for (const std::uint32_t after : candidates) {
+        if (after == step || after == 0) {
             continue;
         }
         const std::size_t place = bestPlace(looked, step, after);

@@ -26,6 +26,10 @@ struct StepChange {
     std::uint32_t step = 0; ///< after it
 };
 
+/// Whether a step that held until now is not yet disproved: nearly all newest differences are multiples of it
+/// and it is still among the frequent ones.
+[[nodiscard]] bool stillHolds(std::span<const std::uint32_t> differences, std::uint32_t step);
+
 /// Looks for a lasting change from `step` to another one among the newest kStepHistory differences. The place
 /// is the one that leaves most differences equal to the old step before it and to the new one behind it.
 [[nodiscard]] std::optional<StepChange> findStepChange(std::span<const std::uint32_t> differences,

@@ -50,7 +50,7 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
 }
 
 void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
-    if (m_probation.empty() && Probation::isExpected(m_ledger.present(), datagram.datagram.sample)) {
+    if (m_probation.empty() && Probation::isExpected(m_ledger, datagram.datagram)) {
         settle(datagram, Probation::Place::Expected, false);
         return;
     }
