@@ -14,6 +14,8 @@ public:
     virtual ~Commands() = default;
 
     virtual void select(const model::Selection& selection) = 0;
+    /// What time statistics are of.
+    virtual void selectRange(const model::RangeChoice& range) = 0;
     /// Selects a packet with its source and character. Nothing happens where there is no such packet.
     virtual void selectPacket(std::uint64_t number) = 0;
     virtual void setMarked(std::uint64_t packet, bool isMarked) = 0;

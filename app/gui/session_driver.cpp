@@ -88,6 +88,11 @@ void SessionDriver::select(const model::Selection& selection) {
     announceChange();
 }
 
+void SessionDriver::selectRange(const model::RangeChoice& range) {
+    m_session.setRange(range);
+    announceChange();
+}
+
 void SessionDriver::selectPacket(std::uint64_t number) {
     const auto packet = m_session.packet(number);
     const model::PacketDigest* digest = m_session.digests().find(number);

@@ -43,6 +43,7 @@ public:
 
     // Commands
     void select(const model::Selection& selection) override;
+    void selectRange(const model::RangeChoice& range) override;
     void selectPacket(std::uint64_t number) override;
     void setMarked(std::uint64_t packet, bool isMarked) override;
     void setComment(std::uint64_t packet, const QString& comment) override;

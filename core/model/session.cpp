@@ -274,6 +274,15 @@ std::uint64_t Session::visibleEnd() const {
     return m_cursor.mode == Cursor::Mode::Following ? m_end : std::min(m_end, m_cursor.packet + 1);
 }
 
+std::optional<TimeRange> Session::range() const {
+    if (m_range.fixed || m_range.lastNs <= 0) {
+        return m_range.fixed;
+    }
+    // What arrives at this very moment belongs to it.
+    const std::int64_t end = cursorStampNs() + 1;
+    return TimeRange{end - m_range.lastNs, end};
+}
+
 std::int64_t Session::cursorStampNs() const {
     if (m_cursor.mode == Cursor::Mode::Following) {
         return m_nowNs;

@@ -11,6 +11,7 @@
 #include "core/model/null_pose.h"
 #include "core/model/packet_digest.h"
 #include "core/model/stream_statistics.h"
+#include "core/model/time_range.h"
 
 #include <deque>
 #include <functional>
@@ -100,6 +101,8 @@ public:
 
     void setCursor(Cursor cursor) { m_cursor = cursor; }
     void setSelection(const Selection& selection) { m_selection = selection; }
+    /// What time statistics are of. Apart from the selection, so that it stays while others select.
+    void setRange(const RangeChoice& range) { m_range = range; }
     /// What packets are listed; in the filter language, empty for all. It is not checked here.
     void setDisplayFilter(std::string filter) { m_displayFilter = std::move(filter); }
     /// What the operator declares about a source counts instead of what was detected, also for the sources
@@ -134,6 +137,9 @@ public:
 
     [[nodiscard]] const Cursor& cursor() const { return m_cursor; }
     [[nodiscard]] const Selection& selection() const { return m_selection; }
+    [[nodiscard]] const RangeChoice& rangeChoice() const { return m_range; }
+    /// The range that was chosen, as it is at the cursor; nothing for all there is.
+    [[nodiscard]] std::optional<TimeRange> range() const;
     [[nodiscard]] const std::string& displayFilter() const { return m_displayFilter; }
     [[nodiscard]] const Annotations& annotations() const { return m_annotations; }
     [[nodiscard]] std::int64_t nowNs() const { return m_nowNs; }
@@ -238,6 +244,7 @@ private:
     std::int64_t m_firstStampNs = 0;
     Cursor m_cursor;
     Selection m_selection;
+    RangeChoice m_range;
     std::string m_displayFilter;
     Annotations m_annotations;
     PacketDigester m_digester;

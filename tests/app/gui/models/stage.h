@@ -23,6 +23,7 @@ public:
         m_session.setSelection(selection);
         ++selections;
     }
+    void selectRange(const model::RangeChoice& range) override { m_session.setRange(range); }
     void selectPacket(std::uint64_t number) override {
         model::Selection selection = m_session.selection();
         selection.packet = number;
