@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/connection_help.h"
+
+#include "app/net/foreign_protocol.h"
+
+#include <algorithm>
+
+namespace posewire::net {
+
+namespace {
+
+using Kind = Finding::Kind;
+using Findings = std::vector<Finding>;
+
+constexpr std::int64_t kSilenceNs = 2'000'000'000;
+constexpr std::string_view kWhereInMvn = "In MVN: Options > Preferences > Network Streamer";
+
+const char* protocolOf(InputKind kind) {
+    return kind == InputKind::Udp ? "UDP" : "TCP";
+}
+
+bool has(const ConnectionFacts& facts, InputKind kind) {
+    return std::ranges::any_of(facts.inputs, [kind](const InputStatus& input) { return input.kind == kind; });
+}
+
+std::string secondsText(std::int64_t nanoseconds) {
+    return std::to_string(nanoseconds / 1'000'000'000) + " s";
+}
+
+/// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)".
+std::string addressesText(const ConnectionFacts& facts) {
+    constexpr std::size_t kMost = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(facts.addresses.size(), kMost); ++i) {
+        const LocalAddress& address = facts.addresses[i];
+        text += (i == 0 ? "" : " or ") + address.address + " (" + address.interface + ")";
+    }
+    return text.empty() ? "the address of this computer" : text;
+}
+
+void findFailed(const ConnectionFacts& facts, Findings& findings) {
+    for (const FailedInput& failed : facts.failed) {
+        const std::size_t cut = failed.error.text.rfind("; ");
+        const bool hasAdvice = cut != std::string::npos;
+        findings.push_back({Kind::CannotOpen, failed.error.text.substr(0, cut),
+                            hasAdvice ? failed.error.text.substr(cut + 2) : "choose another port"});
+    }
+    if (facts.inputs.empty() && facts.failed.empty()) {
+        findings.push_back(
+            {Kind::NoInput, "no port is open", "add UDP port 9763, where MVN sends unless told"});
+    }
+}
+
+void findForeign(const ConnectionFacts& facts, Findings& findings) {
+    for (const ForeignSender& sender : facts.foreign) {
+        const std::string guess = protocolThatBegins(sender.firstBytes);
+        std::string text = std::to_string(sender.count) + " datagrams from " + sender.address +
+                           " are not MXTP; the newest begins with " + shownBytes(sender.firstBytes);
+        text += guess.empty() ? "" : ", which looks like " + guess;
+        findings.push_back({Kind::NotMxtp, text,
+                            "another program sends to this port: stop it, or have MVN send to another port "
+                            "and listen there"});
+    }
+}
+
+void findPeers(const ConnectionFacts& facts, Findings& findings) {
+    for (const InputStatus& input : facts.inputs) {
+        if (input.state == InputState::Retrying) {
+            findings.push_back({Kind::NotReachable, input.text,
+                                "check host and port, and that the sender listens; MVN itself does not "
+                                "listen but connects: for MVN, listen on a TCP port here"});
+        }
+        for (const Peer& peer : input.peers) {
+            if (peer.bytes == 0 && facts.nowNs - peer.connectedNs >= kSilenceNs) {
+                findings.push_back(
+                    {Kind::SilentPeer,
+                     peer.address + " is connected by TCP and has sent nothing for " +
+                         secondsText(facts.nowNs - peer.connectedNs),
+                     std::string(kWhereInMvn) +
+                         ", switch on datagrams to send, and press play or switch on Send Paused"});
+            } else if (peer.datagrams == 0 && peer.skippedBytes != 0) {
+                findings.push_back({Kind::GarbledPeer,
+                                    peer.address + " is connected by TCP, and none of its " +
+                                        std::to_string(peer.bytes) + " bytes are MXTP",
+                                    "another program has connected to this port: stop it, or listen on "
+                                    "another port"});
+            }
+        }
+    }
+}
+
+void findSilence(const ConnectionFacts& facts, Findings& findings) {
+    const bool listens = has(facts, InputKind::Udp) || has(facts, InputKind::TcpListener);
+    if (!listens || facts.silenceNs < kSilenceNs) {
+        return;
+    }
+    if (facts.mxtpDatagrams != 0) {
+        findings.push_back({Kind::WentSilent, "nothing has come for " + secondsText(facts.silenceNs),
+                            "look whether MVN plays and streams: paused, it sends only with Send Paused on"});
+        return;
+    }
+    const auto open = std::ranges::find_if(
+        facts.inputs, [](const InputStatus& input) { return input.kind != InputKind::TcpConnection; });
+    findings.push_back({Kind::NothingArrives,
+                        std::string("nothing has arrived on ") + protocolOf(open->kind) + " port " +
+                            std::to_string(open->endpoint.port),
+                        std::string(kWhereInMvn) + ", host " + addressesText(facts) + ", port " +
+                            std::to_string(open->endpoint.port) + ", protocol " + protocolOf(open->kind)});
+}
+
+/// What goes to a transport that nobody listens to cannot be seen from here: say so.
+void findTransport(const ConnectionFacts& facts, Findings& findings) {
+    const bool hasUdp = has(facts, InputKind::Udp);
+    const bool hasTcp = has(facts, InputKind::TcpListener);
+    if (facts.mxtpDatagrams != 0 || facts.silenceNs < kSilenceNs || hasUdp == hasTcp) {
+        return;
+    }
+    const char* other = hasUdp ? "TCP" : "UDP";
+    findings.push_back(
+        {Kind::OtherTransport,
+         std::string("only ") + (hasUdp ? "UDP" : "TCP") + " is listened to; a sender that uses " + other +
+             " would not be noticed",
+         std::string("look at Protocol in MVN's Network Streamer, or listen to ") + other + " as well"});
+}
+
+void findFirewall(const ConnectionFacts& facts, Findings& findings) {
+    if (!facts.firewall || facts.mxtpDatagrams != 0 || facts.silenceNs < kSilenceNs || facts.inputs.empty()) {
+        return;
+    }
+    const InputStatus& input = facts.inputs.front();
+    std::string remedy = facts.firewall->remedy;
+    if (const auto place = remedy.find("PORT"); place != std::string::npos) {
+        remedy.replace(place, 4, std::to_string(input.endpoint.port));
+    }
+    const auto protocol = remedy.find("udp");
+    if (input.kind != InputKind::Udp && protocol != std::string::npos) {
+        remedy.replace(protocol, 3, "tcp");
+    }
+    findings.push_back({Kind::FirewallOn,
+                        "a firewall (" + facts.firewall->name +
+                            ") is switched on in this computer; its rules are not known here, and it may "
+                            "keep datagrams out",
+                        remedy});
+}
+
+} // namespace
+
+std::vector<Finding> connectionHelp(const ConnectionFacts& facts) {
+    Findings findings;
+    for (const auto find : {findFailed, findForeign, findPeers, findSilence, findTransport, findFirewall}) {
+        find(facts, findings);
+    }
+    return findings;
+}
+
+} // namespace posewire::net

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace posewire::net {
+
+/// An address that this computer has.
+struct LocalAddress {
+    std::string address;   ///< "192.168.1.20", "fe80::1%eth0"
+    std::string interface; ///< as the system calls it: "eth0", "Ethernet 2"
+    bool isIpv4 = true;
+    bool isLoopback = false;
+    bool isLinkLocal = false; ///< good in its own network segment only
+
+    friend bool operator==(const LocalAddress&, const LocalAddress&) = default;
+};
+
+/// All addresses of interfaces that are up, as the system orders them.
+[[nodiscard]] std::vector<LocalAddress> localAddresses();
+
+/// Those to type into a sender, the best first: IPv4 before IPv6, link-local ones last; the loopback's only
+/// where there are no others.
+[[nodiscard]] std::vector<LocalAddress> reachable(std::vector<LocalAddress> addresses);
+
+} // namespace posewire::net

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/relay.h"
+
+#include "app/net/host_lookup.h"
+#include "app/net/local_addresses.h"
+#include "app/net/receive_loop.h"
+
+#include <QEventLoop>
+#include <QUdpSocket>
+
+#include <algorithm>
+#include <chrono>
+#include <future>
+
+namespace posewire::net {
+
+namespace {
+
+/// So many packets are forwarded before commands have their turn.
+constexpr std::uint64_t kAtOnce = 1024;
+constexpr std::chrono::milliseconds kNap{2};
+/// A packet so much older than the last time when none was left is no live one.
+constexpr std::int64_t kOldNs = 1'000'000'000;
+/// The send buffer of the socket is emptied by the network; so long it is waited for.
+constexpr int kAttempts = 10;
+constexpr std::chrono::microseconds kAttemptPause{200};
+
+bool isOfThisComputer(const QHostAddress& address) {
+    const std::string text = address.toString().toStdString();
+    return address.isLoopback() || address == QHostAddress(QHostAddress::AnyIPv4) ||
+           address == QHostAddress(QHostAddress::AnyIPv6) ||
+           std::ranges::any_of(localAddresses(),
+                               [&](const LocalAddress& local) { return local.address == text; });
+}
+
+/// Whether what is sent there comes back by one of the inputs.
+bool isHeardBy(const InputStatus& input, const QHostAddress& address, std::uint16_t port) {
+    if (input.kind != InputKind::Udp || input.endpoint.port != port) {
+        return false;
+    }
+    const std::string text = address.toString().toStdString();
+    if (address.isMulticast()) {
+        return input.endpoint.host == text || std::ranges::find(input.groups, text) != input.groups.end();
+    }
+    if (!input.endpoint.host.empty() && !address.isEqual(QHostAddress(QHostAddress::AnyIPv4))) {
+        return input.endpoint.host == text;
+    }
+    return address.isBroadcast() || isOfThisComputer(address);
+}
+
+} // namespace
+
+struct Relay::Target {
+    RelayId id;
+    Endpoint endpoint;
+    QHostAddress address;
+    std::atomic<std::uint64_t> sent = 0;
+    std::atomic<std::uint64_t> refused = 0;
+    std::atomic<std::uint64_t> skipped = 0;
+    mutable std::mutex mutex{};
+    std::string problem{}; ///< guarded by the mutex
+};
+
+/// Made and used in the relay's thread. Bound, so that what comes back from it can be told by its port.
+struct Relay::Sockets {
+    QEventLoop dispatcher; // first: sockets want one in their thread
+    QUdpSocket ipv4;
+    QUdpSocket ipv6;
+
+    Sockets() {
+        ipv4.bind(QHostAddress::AnyIPv4, 0, QUdpSocket::DontShareAddress);
+        ipv6.bind(QHostAddress::AnyIPv6, 0, QUdpSocket::DontShareAddress);
+    }
+    QUdpSocket& of(const QHostAddress& address) {
+        return address.protocol() == QAbstractSocket::IPv4Protocol ? ipv4 : ipv6;
+    }
+};
+
+Relay::Relay(const log::PacketLog& log, const log::Clock& clock)
+    : m_log(log), m_clock(clock), m_reader(log), m_thread([this] { run(); }) {}
+
+Relay::~Relay() {
+    m_isStopping.store(true, std::memory_order_release);
+    call([] {});
+    m_thread.join();
+}
+
+NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputStatus>& inputs) {
+    const auto address = lookUp(target);
+    if (!address) {
+        return tl::unexpected(address.error());
+    }
+    const bool isLoop = std::ranges::any_of(
+        inputs, [&](const InputStatus& input) { return isHeardBy(input, *address, target.port); });
+    if (isLoop) {
+        return netError(NetError::Kind::BadEndpoint,
+                        textOf(target) +
+                            " is where this monitor itself listens: every datagram would come back and go "
+                            "round for ever; choose another host or port");
+    }
+    auto added = std::make_shared<Target>();
+    added->endpoint = target;
+    added->address = *address;
+    call([&] {
+        const std::lock_guard lock(m_mutex);
+        added->id = RelayId{m_nextId++};
+        if (m_targets.empty()) {
+            m_reader.refresh();
+            m_next = m_reader.end();
+            m_caughtUpNs = m_clock.wallNs();
+        }
+        m_targets.push_back(added);
+    });
+    return added->id;
+}
+
+bool Relay::remove(RelayId id) {
+    bool isRemoved = false;
+    call([&] {
+        const std::lock_guard lock(m_mutex);
+        isRemoved = std::erase_if(m_targets, [id](const auto& target) { return target->id == id; }) != 0;
+    });
+    return isRemoved;
+}
+
+std::vector<RelayTarget> Relay::targets() const {
+    const std::lock_guard lock(m_mutex);
+    std::vector<RelayTarget> result;
+    for (const auto& target : m_targets) {
+        const std::lock_guard problemLock(target->mutex);
+        result.push_back(
+            {target->id, target->endpoint, target->sent, target->refused, target->skipped, target->problem});
+    }
+    return result;
+}
+
+void Relay::call(const CommandQueue::Command& command) {
+    std::promise<void> promise;
+    m_commands.push([&] {
+        command();
+        promise.set_value();
+    });
+    {
+        const std::lock_guard lock(m_wakeMutex);
+        m_isWoken = true;
+    }
+    m_wake.notify_one();
+    promise.get_future().wait();
+}
+
+void Relay::run() {
+    m_sockets = std::make_unique<Sockets>();
+    while (!m_isStopping.load(std::memory_order_acquire)) {
+        m_commands.run();
+        if (!m_targets.empty() && forwardSome()) {
+            continue;
+        }
+        std::unique_lock lock(m_wakeMutex);
+        const auto isWoken = [this] { return m_isWoken; };
+        if (m_targets.empty()) {
+            m_wake.wait(lock, isWoken);
+        } else {
+            m_wake.wait_for(lock, kNap, isWoken);
+        }
+        m_isWoken = false;
+    }
+    m_commands.run();
+    m_sockets.reset();
+}
+
+/// True where there is more.
+bool Relay::forwardSome() {
+    m_reader.refresh();
+    skipWhatIsOld();
+    const std::uint64_t end = std::min(m_reader.end(), m_next + kAtOnce);
+    for (; m_next < end; ++m_next) {
+        if (const auto packet = m_reader.packet(m_next); packet && isForwarded(*packet)) {
+            forward(*packet);
+        }
+    }
+    if (m_next == m_reader.end()) {
+        m_caughtUpNs = m_clock.wallNs();
+        return false;
+    }
+    return true;
+}
+
+void Relay::skipWhatIsOld() {
+    const std::uint64_t end = m_reader.end();
+    const std::uint64_t first = end - m_next > kMostBehind ? end - kMostBehind / 2 : m_reader.begin();
+    std::uint64_t skipped = 0;
+    for (; m_next < first; ++m_next) {
+        const auto packet = m_reader.packet(m_next);
+        skipped += !packet || isForwarded(*packet) ? 1 : 0;
+    }
+    for (const auto& target : m_targets) {
+        increase<std::uint64_t>(target->skipped, skipped);
+    }
+}
+
+bool Relay::isForwarded(const log::Packet& packet) {
+    const auto index = static_cast<std::size_t>(packet.source);
+    if (index >= m_verdicts.size()) {
+        m_verdicts.resize(index + 1, Verdict::Unknown);
+    }
+    if (m_verdicts[index] == Verdict::Unknown) {
+        m_verdicts[index] = judge(packet.source);
+    }
+    return m_verdicts[index] == Verdict::Forward && !packet.flags.skipped &&
+           packet.stampNs >= m_caughtUpNs - kOldNs;
+}
+
+/// Not what this relay has sent itself, should it come back on some way that add() did not see.
+Relay::Verdict Relay::judge(log::SourceId source) const {
+    const log::SourceInfo* info = m_log.sources().find(source);
+    if (info == nullptr ||
+        (info->transport != log::Transport::Udp && info->transport != log::Transport::Tcp)) {
+        return Verdict::Ignore;
+    }
+    const auto endpoint = parseEndpoint(info->address);
+    const bool hasOurPort = endpoint && (endpoint->port == m_sockets->ipv4.localPort() ||
+                                         endpoint->port == m_sockets->ipv6.localPort());
+    return hasOurPort && isOfThisComputer(QHostAddress(QString::fromStdString(endpoint->host)))
+               ? Verdict::Ignore
+               : Verdict::Forward;
+}
+
+void Relay::forward(const log::Packet& packet) {
+    for (const auto& target : m_targets) {
+        sendTo(*target, packet);
+    }
+}
+
+void Relay::sendTo(Target& target, const log::Packet& packet) {
+    QUdpSocket& socket = m_sockets->of(target.address);
+    const auto size = static_cast<qint64>(packet.bytes.size());
+    for (int attempt = 0; attempt < kAttempts && !packet.flags.truncated; ++attempt) {
+        if (socket.writeDatagram(reinterpret_cast<const char*>(packet.bytes.data()), size, target.address,
+                                 target.endpoint.port) == size) {
+            increase<std::uint64_t>(target.sent, 1);
+            return;
+        }
+        if (socket.error() != QAbstractSocket::TemporaryError) {
+            break;
+        }
+        std::this_thread::sleep_for(kAttemptPause);
+    }
+    increase<std::uint64_t>(target.refused, 1);
+    const std::lock_guard lock(target.mutex);
+    target.problem = packet.flags.truncated
+                         ? "datagrams that were too long to be received whole are not forwarded"
+                         : socket.errorString().toStdString();
+}
+
+} // namespace posewire::net

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/command_queue.h"
+#include "app/net/input.h"
+#include "app/net/net_error.h"
+#include "core/log/clock.h"
+#include "core/log/packet_log.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace posewire::net {
+
+/// A host that gets every datagram; never used again for another.
+enum class RelayId : std::uint32_t {};
+
+struct RelayTarget {
+    RelayId id{};
+    Endpoint endpoint;
+    std::uint64_t sent = 0;
+    std::uint64_t refused = 0; ///< this system did not take them: no route, or too long for UDP
+    std::uint64_t skipped = 0; ///< left out because the relay had fallen too far behind
+    std::string problem;       ///< why the newest was refused; empty where it was not
+};
+
+/// Forwards every datagram that is received, unchanged, to other hosts by UDP: a follower of the log with a
+/// thread of its own, so that it never delays receiving. What comes from files is not forwarded. Targets come
+/// and go while it runs. Every member may be called from any thread.
+class Relay {
+public:
+    /// Further behind than this many packets it leaves some out: what is old is of no use to who wants it
+    /// live.
+    static constexpr std::uint64_t kMostBehind = 20'000;
+
+    /// Both must outlive it.
+    Relay(const log::PacketLog& log, const log::Clock& clock);
+    ~Relay();
+    Relay(const Relay&) = delete;
+    Relay& operator=(const Relay&) = delete;
+
+    /// Forwards from now on. Looks up names, which may take seconds. Refuses a port that one of `inputs`
+    /// listens on, since every datagram would come back and go round for ever.
+    NetResult<RelayId> add(const Endpoint& target, const std::vector<InputStatus>& inputs);
+
+    bool remove(RelayId id);
+    [[nodiscard]] std::vector<RelayTarget> targets() const;
+
+private:
+    struct Target;
+    struct Sockets;
+    enum class Verdict : std::uint8_t { Unknown, Forward, Ignore };
+
+    void run();
+    bool forwardSome();
+    void skipWhatIsOld();
+    void forward(const log::Packet& packet);
+    void sendTo(Target& target, const log::Packet& packet);
+    [[nodiscard]] bool isForwarded(const log::Packet& packet);
+    [[nodiscard]] Verdict judge(log::SourceId source) const;
+    void call(const CommandQueue::Command& command);
+
+    const log::PacketLog& m_log;
+    const log::Clock& m_clock;
+    CommandQueue m_commands;
+    std::mutex m_wakeMutex;
+    std::condition_variable m_wake;
+    bool m_isWoken = false; ///< guarded by m_wakeMutex
+    std::atomic<bool> m_isStopping = false;
+
+    mutable std::mutex m_mutex; ///< guards m_targets against other threads' looking
+    std::vector<std::shared_ptr<Target>> m_targets;
+    std::uint32_t m_nextId = 0;
+
+    // The thread's own.
+    log::LogReader m_reader;
+    std::uint64_t m_next = 0;        ///< the packet to forward
+    std::int64_t m_caughtUpNs = 0;   ///< when it was last at the end, wall clock
+    std::vector<Verdict> m_verdicts; ///< of sources, by id
+    std::unique_ptr<Sockets> m_sockets;
+    std::thread m_thread;
+};
+
+} // namespace posewire::net

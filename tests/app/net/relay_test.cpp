@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/relay.h"
+#include "tests/app/net/net_fixture.h"
+
+#include <QHostAddress>
+#include <QUdpSocket>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace posewire::net {
+namespace {
+
+using ::testing::HasSubstr;
+
+class RelayTest : public ::testing::Test {
+protected:
+    void append(std::size_t size, std::size_t number, const log::SourceInfo& source, std::int64_t ageNs = 0) {
+        log::Arrival arrival;
+        arrival.stampNs = clock.wallNs() - ageNs;
+        arrival.source = log.sources().intern(source);
+        log.writer().append(numbered(size, number), arrival);
+        log.writer().publish();
+    }
+
+    log::PacketLog log;
+    log::SystemClock clock;
+    Receiving consumer;
+    const log::SourceInfo sender{"10.0.0.5:50000", log::Transport::Udp, 9763};
+};
+
+TEST_F(RelayTest, ForwardsEveryDatagramUnchangedAndInOrder) {
+    append(100, 0, sender); // before there was a target
+    Relay relay(log, clock);
+    ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+    for (std::size_t i = 1; i <= 1000; ++i) {
+        append(i * 2, i, sender);
+        if (i % 100 == 0) { // the consumer's buffer is not what this test is about
+            ASSERT_TRUE(eventually([&] { return consumer.packets() == i; })) << consumer.packets();
+        }
+    }
+    log::LogReader reader(consumer.log);
+    for (std::size_t i = 1; i <= 1000; ++i) {
+        ASSERT_TRUE(equal(reader.packet(i - 1)->bytes, numbered(i * 2, i))) << i;
+    }
+    ASSERT_TRUE(eventually([&] { return relay.targets()[0].sent == 1000; }));
+    EXPECT_EQ(relay.targets()[0].refused, 0U);
+    EXPECT_EQ(relay.targets()[0].skipped, 0U);
+}
+
+TEST_F(RelayTest, TargetsComeAndGoWithCountersOfTheirOwn) {
+    const Receiving second;
+    Relay relay(log, clock);
+    const auto a = relay.add(consumer.endpoint(), {});
+    append(100, 1, sender);
+    ASSERT_TRUE(eventually([&] { return consumer.packets() == 1; }));
+    const auto b = relay.add(second.endpoint(), {});
+    append(100, 2, sender);
+    ASSERT_TRUE(eventually([&] { return consumer.packets() == 2 && second.packets() == 1; }));
+    ASSERT_EQ(relay.targets().size(), 2U);
+    EXPECT_TRUE(relay.remove(*a));
+    EXPECT_FALSE(relay.remove(*a));
+    append(100, 3, sender);
+    ASSERT_TRUE(eventually([&] { return second.packets() == 2; }));
+    EXPECT_EQ(consumer.packets(), 2U);
+    EXPECT_TRUE(relay.remove(*b));
+}
+
+TEST_F(RelayTest, WhatIsNoLiveDatagramStaysHere) {
+    Relay relay(log, clock);
+    ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+    append(100, 1, {"take.bin", log::Transport::File, 0});
+    append(100, 2, {"10.0.0.5:50000", log::Transport::Udp, 1}, 3'600'000'000'000); // from a capture
+    log::Arrival record;
+    record.stampNs = clock.wallNs();
+    record.source = log.sources().intern(sender);
+    record.kernelDropsBefore = 3;
+    record.flags.skipped = true;
+    record.flags.isDropRecord = true;
+    log.writer().append({}, record);
+    append(100, 3, {"10.0.0.5:50000", log::Transport::Tcp, 9763});
+    ASSERT_TRUE(eventually([&] { return consumer.packets() == 1; }));
+    log::LogReader reader(consumer.log);
+    EXPECT_TRUE(equal(reader.packet(0)->bytes, numbered(100, 3)));
+}
+
+TEST_F(RelayTest, RefusesThePortsItsMonitorListensOn) {
+    Relay relay(log, clock);
+    const auto inputs = consumer.receiver->inputs();
+    const auto loop = relay.add(consumer.endpoint(), inputs);
+    ASSERT_FALSE(loop);
+    EXPECT_THAT(loop.error().text, HasSubstr("itself listens"));
+    EXPECT_TRUE(relay.add({"127.0.0.1", static_cast<std::uint16_t>(consumer.endpoint().port ^ 1U)}, inputs));
+
+    InputStatus any;
+    any.endpoint = {"", 9763};
+    any.groups = {"239.1.1.1"};
+    for (const char* host : {"", "127.0.0.1", "::1", "255.255.255.255", "239.1.1.1"}) {
+        EXPECT_FALSE(relay.add({host, 9763}, {any})) << host;
+    }
+    EXPECT_TRUE(relay.add({"192.0.2.7", 9763}, {any}));
+    EXPECT_TRUE(relay.add({"239.1.1.2", 9763}, {any}));
+    any.kind = InputKind::TcpListener;
+    EXPECT_TRUE(relay.add({"127.0.0.1", 9763}, {any})) << "UDP does not come back by TCP";
+}
+
+TEST_F(RelayTest, WhatItSentItselfDoesNotGoRound) {
+    Relay relay(consumer.log, consumer.clock); // a loop that nobody told it of
+    ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+    auto source = DatagramSender::connect({consumer.target()});
+    ASSERT_TRUE(source->send(numbered(100, 1)).has_value());
+    ASSERT_TRUE(eventually([&] { return consumer.packets() == 2; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(consumer.packets(), 2U);
+}
+
+TEST_F(RelayTest, TooLongForUdpIsRefusedAndToldSo) {
+    Relay relay(log, clock);
+    ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+    append(100'000, 1, {"10.0.0.5:50000", log::Transport::Tcp, 9763});
+    ASSERT_TRUE(eventually([&] { return relay.targets()[0].refused == 1; }));
+    EXPECT_FALSE(relay.targets()[0].problem.empty());
+}
+
+TEST_F(RelayTest, FallenBehindItLeavesOutAndCounts) {
+    Relay relay(log, clock);
+    ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+    log::Arrival arrival;
+    arrival.source = log.sources().intern(sender);
+    constexpr std::uint64_t kCount = 3 * Relay::kMostBehind;
+    const auto bytes = numbered(24, 1);
+    for (std::uint64_t i = 0; i < kCount; ++i) {
+        arrival.stampNs = clock.wallNs();
+        log.writer().append(bytes, arrival);
+    }
+    log.writer().publish(); // all at once
+    const auto target = [&] { return relay.targets()[0]; };
+    ASSERT_TRUE(eventually([&] { return target().sent + target().skipped + target().refused == kCount; }))
+        << target().sent << " " << target().skipped;
+    EXPECT_GE(target().skipped, kCount - Relay::kMostBehind);
+}
+
+} // namespace
+} // namespace posewire::net
