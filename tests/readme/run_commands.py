@@ -27,7 +27,8 @@ def commands(readme):
 def run_monitor(root, command):
     """The window must appear on a bare X server. Returns a text where it does not."""
     with tempfile.TemporaryDirectory() as home:
-        environment = dict(os.environ, HOME=home, XDG_RUNTIME_DIR=home)
+        cache = os.environ.get("CCACHE_DIR", str(pathlib.Path.home() / ".cache" / "ccache"))
+        environment = dict(os.environ, HOME=home, XDG_RUNTIME_DIR=home, CCACHE_DIR=cache)
         environment.pop("QT_QPA_PLATFORM", None)
         inner = f'{command} & wait_for=$!; while kill -0 $wait_for 2>/dev/null; do sleep 0.5; ' \
                 'xdotool search --onlyvisible --name Posewire >/dev/null 2>&1 && { sleep 3; ' \
