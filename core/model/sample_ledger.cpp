@@ -7,9 +7,9 @@
 namespace posewire::model {
 namespace {
 
-bool isWithin(const SampleSequence& sequence, std::uint32_t sample, std::int32_t slack) {
-    return !sequence.empty() && static_cast<std::int32_t>(sample - sequence.window()[0].sample) >= -slack &&
-           static_cast<std::int32_t>(sample - sequence.highest()) <= slack;
+bool isWithin(const SampleSequence& sequence, std::uint32_t sample, std::int32_t below, std::int32_t above) {
+    return !sequence.empty() && static_cast<std::int32_t>(sample - sequence.window()[0].sample) >= -below &&
+           static_cast<std::int32_t>(sample - sequence.highest()) <= above;
 }
 
 } // namespace
@@ -42,11 +42,12 @@ Placement SampleLedger::placeBefore(const Datagram& datagram, CountHistory* hist
 }
 
 Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* history) {
-    if (isWithin(m_present, datagram.sample, 0)) {
+    constexpr std::int32_t kNear = 100;
+    // The first samples of a stream may come late too.
+    if (isWithin(m_present, datagram.sample, kNear, 0)) {
         return place(datagram, history);
     }
-    constexpr std::int32_t kNear = 100;
-    return hasBefore(datagram.stampNs) && isWithin(m_before, datagram.sample, kNear)
+    return hasBefore(datagram.stampNs) && isWithin(m_before, datagram.sample, kNear, kNear)
                ? placeBefore(datagram, history)
                : Placement{};
 }
