@@ -11,7 +11,8 @@ namespace posewire::performer {
 /// as: the counter moves by a little, or so far that it can belong to nothing.
 struct CorruptionBounds {
     double periodMs = 1000.0 / 240.0; ///< of the samples
-    bool mayChangeIdentity = true;    ///< false where samples come in parts
+    bool mayChangeIdentity = true;    ///< false where its samples come in parts
+    bool mayChangeType = true;        ///< false where samples of other types do
 };
 
 /// Flips bits in one to four bytes. `key` chooses where and which.

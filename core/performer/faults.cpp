@@ -18,6 +18,8 @@ constexpr double kNsPerMs = 1e6;
 constexpr double kQuietSamples = 16.0;
 /// Restarts further away than this leave no doubt where a straggler belongs.
 constexpr std::int64_t kFarRestart = 20'000;
+/// Parts of character information further apart would not be told from those of its next repetition.
+constexpr double kTogetherMs = 60.0;
 /// Of the sample counter in the header (§2.4.1.2).
 constexpr std::size_t kCounterOffset = 6;
 
@@ -130,12 +132,14 @@ void Faults::offer(std::vector<std::byte> datagram, std::int64_t dueNs) {
 }
 
 void Faults::send(Sending sending) {
-    const std::uint64_t whole = ++m_wholes;
     if (!m_settings.splits) {
         deliver(std::move(sending), ++m_datagrams);
         return;
     }
-    const std::size_t parts = 2 + m_random.fork(Parts).bits(whole) % 3;
+    // A sample that is sent again after a short restart has the same parts again.
+    const Origin& origin = sending.origin;
+    const KeyedRandom random = m_random.fork(Parts).fork(256U * origin.type + origin.character);
+    const std::size_t parts = 2 + random.bits(origin.sample) % 3;
     for (auto& part : splitSample(sending.bytes, parts)) {
         deliver({std::move(part), sending.dueNs, sending.origin, sending.isReadable}, ++m_datagrams);
     }
@@ -145,7 +149,8 @@ void Faults::damage(Sending& sending, std::uint64_t key) {
     if (happens(m_settings.corrupt, m_random.fork(Corruption), key)) {
         ++m_tally.corrupted;
         const bool isPlain = !m_settings.splits || sending.origin.type == 24 || sending.origin.type == 25;
-        corrupt(sending, {1000.0 / m_settings.rateHz, isPlain}, m_random.fork(CorruptedBytes), key);
+        corrupt(sending, {1000.0 / m_settings.rateHz, isPlain, !m_settings.splits},
+                m_random.fork(CorruptedBytes), key);
     }
     if (happens(m_settings.truncate, m_random.fork(Truncation), key)) {
         ++m_tally.truncated;
@@ -182,7 +187,9 @@ void Faults::deliver(Sending sending, std::uint64_t key) {
         m_delivery.notePassed(passedNs);
         return;
     }
-    sending.dueNs += std::llround(m_settings.jitterMs * m_random.fork(Jitter).uniform(key) * kNsPerMs);
+    const bool isSampled = wire::isSampled(sending.origin.type);
+    const double jitterMs = isSampled ? m_settings.jitterMs : std::min(m_settings.jitterMs, kTogetherMs);
+    sending.dueNs += std::llround(jitterMs * m_random.fork(Jitter).uniform(key) * kNsPerMs);
     damage(sending, key);
     if (happens(m_settings.duplicate, m_random.fork(Duplication), key)) {
         sendCopy(sending, key);
@@ -192,10 +199,10 @@ void Faults::deliver(Sending sending, std::uint64_t key) {
     } else {
         ++m_tally.reordered;
         const std::uint64_t bits = m_random.fork(HoldTime).bits(key);
-        if (bits % 3 == 0) {
+        if (isSampled && bits % 3 == 0) {
             m_delivery.pushAfter(std::move(sending), 1 + (bits >> 8) % 150);
         } else {
-            sending.dueNs += std::llround(holdMs(key) * kNsPerMs);
+            sending.dueNs += std::llround((isSampled ? holdMs(key) : kTogetherMs) * kNsPerMs);
             m_delivery.push(std::move(sending));
         }
     }
@@ -208,7 +215,8 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
     Sending copy = sending;
     const std::uint64_t bits = m_random.fork(CopyTime).bits(key);
     if (bits % 2 == 0) {
-        const std::uint64_t milliseconds = bits % 4 == 0 ? 1 + (bits >> 8) % 25 : 120 + (bits >> 8) % 380;
+        const bool isNear = bits % 4 == 0 || !wire::isSampled(sending.origin.type);
+        const std::uint64_t milliseconds = isNear ? 1 + (bits >> 8) % 25 : 120 + (bits >> 8) % 380;
         copy.dueNs += static_cast<std::int64_t>(milliseconds) * 1'000'000;
     }
     m_delivery.push(std::move(copy));

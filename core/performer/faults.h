@@ -68,7 +68,6 @@ private:
     std::optional<std::uint32_t> m_reductionSample; ///< first one of the reduced rate
     std::uint32_t m_shift = 0;                      ///< off every counter, since the restart
     std::uint32_t m_epoch = 0;
-    std::uint64_t m_wholes = 0;
     std::uint64_t m_datagrams = 0;
     FaultTally m_tally;
 };
