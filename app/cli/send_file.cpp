@@ -13,9 +13,10 @@ namespace {
 /// Sends records when they are due, as long as nothing goes wrong.
 class RecordSender {
 public:
-    RecordSender(const SendOptions& options, net::DatagramSender& sender)
-        : m_sender(sender),
+    RecordSender(const SendOptions& options, std::vector<SendLine>& lines)
+        : m_lines(lines),
           m_schedule(m_clock),
+          m_round(lines, m_schedule),
           m_pacer(1.0 / options.performer.rateHz, options.speed),
           m_endNs(options.durationSeconds > 0.0 ? static_cast<std::int64_t>(options.durationSeconds * 1e9)
                                                 : std::numeric_limits<std::int64_t>::max()) {}
@@ -33,11 +34,18 @@ public:
         if (m_isDone) {
             return;
         }
-        m_schedule.waitUntil(due);
         ++m_datagrams;
-        if (const auto sent = m_sender.send(record.bytes); !sent) {
-            m_failure = sent.error().text;
-            m_isDone = true;
+        note(m_round.sendUntil(due));
+        for (SendLine& line : m_lines) {
+            line.faults().offer({record.bytes.begin(), record.bytes.end()}, due);
+        }
+        note(m_round.sendUntil(due + 1));
+    }
+
+    /// The recording has ended for good.
+    void finish() {
+        if (m_failure.empty()) {
+            note(m_round.sendRest());
         }
     }
 
@@ -48,9 +56,17 @@ public:
     [[nodiscard]] const std::string& failure() const { return m_failure; }
 
 private:
-    net::DatagramSender& m_sender;
+    void note(const net::NetResult<void>& sent) {
+        if (!sent && m_failure.empty()) {
+            m_failure = sent.error().text;
+            m_isDone = true;
+        }
+    }
+
+    std::vector<SendLine>& m_lines;
     log::SystemClock m_clock;
     net::SendSchedule m_schedule;
+    SendRound m_round;
     DatagramPacer m_pacer;
     std::int64_t m_endNs;
     std::uint64_t m_datagrams = 0;
@@ -86,8 +102,8 @@ ExitStatus conclude(const std::string& path, const RecordSender& sender, Console
 
 } // namespace
 
-ExitStatus sendFile(const SendOptions& options, net::DatagramSender& sender, Console& console) {
-    RecordSender records(options, sender);
+ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Console& console) {
+    RecordSender records(options, lines);
     bool isToBegin = true;
     while (isToBegin) {
         const std::uint64_t before = records.datagrams();
@@ -99,6 +115,7 @@ ExitStatus sendFile(const SendOptions& options, net::DatagramSender& sender, Con
         isToBegin = options.loops && hadSome && !records.isDone() && options.file != "-";
         records.beginAgain();
     }
+    records.finish();
     return conclude(options.file, records, console);
 }
 

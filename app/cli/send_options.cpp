@@ -4,6 +4,7 @@
 #include "core/wire/type_table.h"
 
 #include <charconv>
+#include <cmath>
 
 namespace posewire::cli {
 namespace {
@@ -35,6 +36,87 @@ tl::expected<performer::Revision, Complaint> revisionOf(const std::string& name)
     return static_cast<performer::Revision>(place);
 }
 
+/// "1.5:2" with ':' as two numbers.
+std::optional<std::vector<double>> numbersIn(std::string_view text, char separator) {
+    std::vector<double> numbers;
+    while (true) {
+        const std::size_t end = std::min(text.find(separator), text.size());
+        double number = 0.0;
+        const char* last = text.data() + end;
+        const auto parsed = std::from_chars(text.data(), last, number);
+        if (end == 0 || parsed.ec != std::errc{} || parsed.ptr != last) {
+            return std::nullopt;
+        }
+        numbers.push_back(number);
+        if (end == text.size()) {
+            return numbers;
+        }
+        text.remove_prefix(end + 1);
+    }
+}
+
+tl::unexpected<Complaint> misread(const std::string& option, const std::string& text,
+                                  const std::string& expected) {
+    return tl::unexpected(option + ": \"" + text + "\" cannot be read; give " + expected);
+}
+
+bool isWhole(double value, double most) {
+    return value >= 0.0 && value <= most && value == std::floor(value);
+}
+
+tl::expected<void, Complaint> readGilbertElliott(const std::string& text, performer::FaultSettings& faults) {
+    if (text.empty()) {
+        return {};
+    }
+    const auto numbers = numbersIn(text, ',');
+    if (!numbers || (numbers->size() != 2 && numbers->size() != 4)) {
+        return misread("--gilbert-elliott", text, "p,r or p,r,k,h, such as 0.01,0.2 or 0.01,0.2,1,0");
+    }
+    faults.gilbertElliott = performer::GilbertElliott{(*numbers)[0], (*numbers)[1]};
+    if (numbers->size() == 4) {
+        faults.gilbertElliott->passesInGood = (*numbers)[2];
+        faults.gilbertElliott->passesInBad = (*numbers)[3];
+    }
+    return {};
+}
+
+tl::expected<void, Complaint> readMoments(const SendOptions& options, performer::FaultSettings& faults) {
+    constexpr double highestCounter = 4294967295.0;
+    if (!options.restart.empty()) {
+        const auto numbers = numbersIn(options.restart, ':');
+        const bool isGood = numbers && numbers->size() <= 2 &&
+                            (numbers->size() == 1 || isWhole(numbers->back(), highestCounter));
+        if (!isGood) {
+            return misread("--restart-at", options.restart,
+                           "seconds, or SECONDS:SAMPLE, such as 2.5 or 2.5:100");
+        }
+        const auto sample = numbers->size() == 2 ? static_cast<std::uint32_t>(numbers->back())
+                                                 : options.performer.firstSample;
+        faults.restart = performer::FaultSettings::Restart{numbers->front(), sample};
+    }
+    if (!options.pause.empty()) {
+        const auto numbers = numbersIn(options.pause, ':');
+        if (!numbers || numbers->size() != 2) {
+            return misread("--pause-at", options.pause, "START:LENGTH in seconds, such as 2:0.5");
+        }
+        faults.pause = performer::FaultSettings::Pause{numbers->front(), numbers->back()};
+    }
+    if (!options.reduction.empty()) {
+        const auto numbers = numbersIn(options.reduction, ':');
+        if (!numbers || numbers->size() != 2 || !isWhole(numbers->back(), 1e9)) {
+            return misread("--reduce-at", options.reduction,
+                           "SECONDS:K to send every Kth sample, such as 2:4");
+        }
+        faults.reduction = performer::FaultSettings::Reduction{numbers->front(),
+                                                               static_cast<std::uint32_t>(numbers->back())};
+    }
+    return {};
+}
+
+Complaint withoutStop(const std::string& problem) {
+    return problem.substr(0, problem.find_last_not_of('.') + 1) + "; see posewire-cli send --help";
+}
+
 } // namespace
 
 tl::expected<std::vector<net::SendTarget>, Complaint> targetsOf(const SendOptions& options) {
@@ -63,10 +145,25 @@ tl::expected<performer::PerformerSettings, Complaint> performerOf(const SendOpti
     settings.types = std::move(*types);
     settings.revision = *revision;
     if (auto problem = performer::findProblem(settings)) {
-        return tl::unexpected(problem->substr(0, problem->find_last_not_of('.') + 1) +
-                              "; see posewire-cli send --help");
+        return tl::unexpected(withoutStop(*problem));
     }
     return settings;
+}
+
+tl::expected<performer::FaultSettings, Complaint> faultsOf(const SendOptions& options) {
+    performer::FaultSettings faults = options.faults;
+    faults.seed = options.performer.seed;
+    faults.rateHz = options.performer.rateHz;
+    if (const auto read = readGilbertElliott(options.gilbertElliott, faults); !read) {
+        return tl::unexpected(read.error());
+    }
+    if (const auto read = readMoments(options, faults); !read) {
+        return tl::unexpected(read.error());
+    }
+    if (const auto problem = performer::findProblem(faults)) {
+        return tl::unexpected(withoutStop(*problem));
+    }
+    return faults;
 }
 
 } // namespace posewire::cli

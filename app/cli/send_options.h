@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/command.h"
+#include "app/cli/send_line.h"
 #include "app/net/datagram_sender.h"
 #include "core/performer/performer.h"
 
@@ -18,6 +19,14 @@ struct SendOptions {
     double durationSeconds = 0.0; ///< 0: without end
     performer::PerformerSettings performer;
 
+    int senders = 1;
+    performer::FaultSettings faults;
+    std::string gilbertElliott; ///< p,r or p,r,k,h; empty: none
+    std::string restart;        ///< S or S:SAMPLE
+    std::string pause;          ///< S:S
+    std::string reduction;      ///< S:K
+    std::string truth;          ///< file to write what was sent to; empty: none
+
     std::string file; ///< empty: the performer
     double speed = 1.0;
     bool loops = false;
@@ -28,9 +37,11 @@ using Complaint = std::string;
 [[nodiscard]] tl::expected<std::vector<net::SendTarget>, Complaint> targetsOf(const SendOptions& options);
 [[nodiscard]] tl::expected<performer::PerformerSettings, Complaint> performerOf(const SendOptions& options);
 
+[[nodiscard]] tl::expected<performer::FaultSettings, Complaint> faultsOf(const SendOptions& options);
+
 /// Both send until they are through or `durationSeconds` have passed.
 ExitStatus sendPerformance(const SendOptions& options, const performer::PerformerSettings& settings,
-                           net::DatagramSender& sender, Console& console);
-ExitStatus sendFile(const SendOptions& options, net::DatagramSender& sender, Console& console);
+                           std::vector<SendLine>& lines, Console& console);
+ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Console& console);
 
 } // namespace posewire::cli

@@ -32,6 +32,10 @@ NetResult<QHostAddress> lookUp(const Endpoint& endpoint) {
     return ipv4 == addresses.end() ? addresses.front() : *ipv4;
 }
 
+std::string textOf(const QHostAddress& address, quint16 port) {
+    return net::textOf(Endpoint{address.toString().toStdString(), port});
+}
+
 } // namespace
 
 /// One target.
@@ -41,16 +45,28 @@ public:
     /// False where the datagram was not taken and nothing can be done about it.
     virtual NetResult<bool> send(const char* bytes, qint64 size) = 0;
     virtual NetResult<void> flush() = 0;
+    [[nodiscard]] virtual std::string localAddress() const = 0;
 };
 
 class DatagramSender::UdpChannel final : public Channel {
 public:
-    UdpChannel(QHostAddress address, quint16 port) : m_address(std::move(address)), m_port(port) {}
+    UdpChannel(QHostAddress address, quint16 port) : m_address(std::move(address)), m_port(port) {
+        const bool isIpv4 = m_address.protocol() == QAbstractSocket::IPv4Protocol;
+        m_socket.bind(isIpv4 ? QHostAddress::AnyIPv4 : QHostAddress::AnyIPv6, 0);
+    }
 
     NetResult<bool> send(const char* bytes, qint64 size) override {
         return m_socket.writeDatagram(bytes, size, m_address, m_port) == size;
     }
     NetResult<void> flush() override { return {}; }
+
+    /// The system chooses the address on sending; a connection that sends nothing tells which.
+    [[nodiscard]] std::string localAddress() const override {
+        QUdpSocket probe;
+        probe.connectToHost(m_address, m_port);
+        const QHostAddress address = probe.waitForConnected(0) ? probe.localAddress() : QHostAddress();
+        return textOf(address.isNull() ? m_socket.localAddress() : address, m_socket.localPort());
+    }
 
 private:
     QUdpSocket m_socket;
@@ -66,7 +82,7 @@ public:
         m_socket.connectToHost(address, m_endpoint.port);
         if (!m_socket.waitForConnected(kPatienceMs)) {
             return netError(NetError::Kind::NotConnected,
-                            "cannot connect to " + textOf(m_endpoint) +
+                            "cannot connect to " + net::textOf(m_endpoint) +
                                 " by TCP: " + m_socket.errorString().toStdString() +
                                 "; start the receiver first and check address and port");
         }
@@ -96,9 +112,13 @@ public:
         return {};
     }
 
+    [[nodiscard]] std::string localAddress() const override {
+        return textOf(m_socket.localAddress(), m_socket.localPort());
+    }
+
 private:
     [[nodiscard]] tl::unexpected<NetError> ended() const {
-        return netError(NetError::Kind::NotConnected, "the TCP connection to " + textOf(m_endpoint) +
+        return netError(NetError::Kind::NotConnected, "the TCP connection to " + net::textOf(m_endpoint) +
                                                           " ended: " + m_socket.errorString().toStdString() +
                                                           "; start the receiver again and connect anew");
     }
@@ -151,6 +171,14 @@ NetResult<void> DatagramSender::flush() {
         }
     }
     return {};
+}
+
+std::vector<std::string> DatagramSender::localAddresses() const {
+    std::vector<std::string> addresses;
+    for (const auto& channel : m_channels) {
+        addresses.push_back(channel->localAddress());
+    }
+    return addresses;
 }
 
 } // namespace posewire::net

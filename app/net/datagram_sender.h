@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace posewire::net {
@@ -39,6 +40,9 @@ public:
 
     /// Waits until TCP has taken everything, at most five seconds.
     NetResult<void> flush();
+
+    /// Where the datagrams come from in the eyes of each target, in their order: "127.0.0.1:40001".
+    [[nodiscard]] std::vector<std::string> localAddresses() const;
 
     [[nodiscard]] std::uint64_t sent() const { return m_sent; } ///< datagrams, counted for each target
     [[nodiscard]] std::uint64_t refused() const {

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/send_line.h"
+
+#include <algorithm>
+
+namespace posewire::cli {
+
+net::NetResult<SendLine> SendLine::open(const std::vector<net::SendTarget>& targets,
+                                        const performer::FaultSettings& faults, bool keepsTruth) {
+    SendLine line(faults, keepsTruth);
+    for (const net::SendTarget& target : targets) {
+        auto sender = net::DatagramSender::connect({target});
+        if (!sender) {
+            return tl::unexpected(sender.error());
+        }
+        std::string address = sender->localAddresses().front();
+        const bool isTcp = target.transport == net::SendTarget::Transport::Tcp;
+        line.m_sources.push_back({std::move(address), isTcp, std::move(*sender), {}, {}});
+    }
+    return line;
+}
+
+net::NetResult<void> SendLine::send(const performer::Sending& sending) {
+    for (Source& source : m_sources) {
+        const std::uint64_t before = source.sender.sent();
+        if (auto sent = source.sender.send(sending.bytes); !sent) {
+            return sent;
+        }
+        if (!m_keepsTruth || source.sender.sent() == before) {
+            continue; // what the system did not take was not sent
+        }
+        if (source.isTcp) {
+            source.streamed.add(sending);
+        } else {
+            source.datagrams.add(sending);
+        }
+    }
+    return {};
+}
+
+net::NetResult<void> SendLine::finish() {
+    for (Source& source : m_sources) {
+        source.streamed.finish();
+        if (auto flushed = source.sender.flush(); !flushed) {
+            return flushed;
+        }
+    }
+    return {};
+}
+
+template <typename Take>
+void SendRound::collect(const Take& take) {
+    m_leaving.clear();
+    for (std::size_t line = 0; line < m_lines.size(); ++line) {
+        m_taken.clear();
+        take(m_lines[line].faults());
+        for (performer::Sending& sending : m_taken) {
+            m_leaving.push_back({line, std::move(sending)});
+        }
+    }
+    if (m_lines.size() > 1) {
+        std::ranges::stable_sort(m_leaving, {}, [](const Leaving& leaving) { return leaving.sending.dueNs; });
+    }
+}
+
+net::NetResult<void> SendRound::sendCollected() {
+    for (const Leaving& leaving : m_leaving) {
+        m_schedule.waitUntil(leaving.sending.dueNs);
+        if (auto sent = m_lines[leaving.line].send(leaving.sending); !sent) {
+            return sent;
+        }
+    }
+    return {};
+}
+
+net::NetResult<void> SendRound::sendUntil(std::int64_t untilNs) {
+    collect([&](performer::Faults& faults) { faults.takeUntil(untilNs, m_taken); });
+    return sendCollected();
+}
+
+net::NetResult<void> SendRound::sendRest() {
+    collect([&](performer::Faults& faults) { faults.takeRest(m_taken); });
+    return sendCollected();
+}
+
+} // namespace posewire::cli

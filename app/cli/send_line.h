@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/datagram_sender.h"
+#include "app/net/send_schedule.h"
+#include "core/performer/faults.h"
+#include "core/performer/streamed_truth.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace posewire::cli {
+
+/// One sender with the faults of its way, a socket for each target, and book of what went through each.
+class SendLine {
+public:
+    struct Source {
+        std::string address;
+        bool isTcp = false;
+        net::DatagramSender sender;
+        performer::Truth datagrams;        ///< used by UDP
+        performer::StreamedTruth streamed; ///< used by TCP
+    };
+
+    static net::NetResult<SendLine> open(const std::vector<net::SendTarget>& targets,
+                                         const performer::FaultSettings& faults, bool keepsTruth);
+
+    [[nodiscard]] performer::Faults& faults() { return m_faults; }
+    [[nodiscard]] const performer::Faults& faults() const { return m_faults; }
+    /// To all targets.
+    net::NetResult<void> send(const performer::Sending& sending);
+    /// Waits until everything is handed over.
+    net::NetResult<void> finish();
+
+    [[nodiscard]] const std::vector<Source>& sources() const { return m_sources; }
+
+private:
+    SendLine(const performer::FaultSettings& faults, bool keepsTruth)
+        : m_faults(faults), m_keepsTruth(keepsTruth) {}
+
+    performer::Faults m_faults;
+    std::vector<Source> m_sources;
+    bool m_keepsTruth;
+};
+
+/// Sends what the lines have to give, at its time.
+class SendRound {
+public:
+    SendRound(std::vector<SendLine>& lines, net::SendSchedule& schedule)
+        : m_lines(lines), m_schedule(schedule) {}
+
+    /// All that is due before this time after the start. Fails with what ended a connection.
+    net::NetResult<void> sendUntil(std::int64_t untilNs);
+    /// The rest.
+    net::NetResult<void> sendRest();
+
+private:
+    struct Leaving {
+        std::size_t line = 0;
+        performer::Sending sending;
+    };
+    template <typename Take>
+    void collect(const Take& take);
+    net::NetResult<void> sendCollected();
+
+    std::vector<SendLine>& m_lines;
+    net::SendSchedule& m_schedule;
+    std::vector<performer::Sending> m_taken;
+    std::vector<Leaving> m_leaving;
+};
+
+} // namespace posewire::cli
