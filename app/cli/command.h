@@ -38,7 +38,9 @@ struct Command {
 
 Command addDecodeCommand(CLI::App& program);
 Command addEncodeCommand(CLI::App& program);
+Command addMonitorCommand(CLI::App& program);
 Command addReferenceCommand(CLI::App& program);
+Command addReportCommand(CLI::App& program);
 Command addSendCommand(CLI::App& program);
 
 } // namespace posewire::cli

@@ -36,8 +36,12 @@ void Output::write(std::span<const std::byte> bytes) {
     note(std::fwrite(bytes.data(), 1, bytes.size(), m_file.get()) == bytes.size());
 }
 
-tl::expected<void, std::string> Output::finish() {
+void Output::flush() {
     note(std::fflush(m_file.get()) == 0);
+}
+
+tl::expected<void, std::string> Output::finish() {
+    flush();
     if (!m_failure.empty()) {
         return tl::unexpected(m_failure);
     }

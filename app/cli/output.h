@@ -24,6 +24,9 @@ public:
     /// False once the reader at the other end has gone or a write has failed: what follows is not needed.
     [[nodiscard]] bool isWanted() const { return m_isWanted; }
 
+    /// What was written can be seen at once.
+    void flush();
+
     /// Hands everything over. Fails with one line for the user; a reader that has gone is no failure.
     tl::expected<void, std::string> finish();
 

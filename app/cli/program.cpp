@@ -60,12 +60,14 @@ int runProgram(int argumentCount, const char* const* arguments) {
     std::signal(SIGPIPE, SIG_IGN);
 #endif
     std::ios::sync_with_stdio(false);
-    CLI::App program("Decodes, encodes and sends MXTP motion-capture datagrams.", "posewire-cli");
+    CLI::App program("Decodes, encodes, sends and watches MXTP motion-capture datagrams.", "posewire-cli");
     program.set_version_flag("--version", "posewire-cli " POSEWIRE_VERSION, "Print the version and exit");
-    program.footer(
-        "Exit status: 0 fine; 1 the input had faults; 2 wrong usage or a file that cannot be opened.");
+    program.footer("Exit status: 0 fine; 1 the input had faults, or a limit was exceeded; 2 wrong usage, or "
+                   "a file or port "
+                   "that cannot be opened.");
     const std::vector<Command> commands{addDecodeCommand(program), addEncodeCommand(program),
-                                        addSendCommand(program), addReferenceCommand(program)};
+                                        addSendCommand(program),   addMonitorCommand(program),
+                                        addReportCommand(program), addReferenceCommand(program)};
     try {
         program.parse(argumentCount, arguments);
     } catch (const CLI::ParseError& what) {

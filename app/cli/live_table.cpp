@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/live_table.h"
+
+#include "core/export/html.h"
+#include "core/export/stream_figures.h"
+#include "core/wire/type_table.h"
+#include "core/wire/utf8.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/ioctl.h>
+#include <unistd.h>
+#elif defined(_WIN32)
+#include <io.h>
+#endif
+
+namespace posewire::cli {
+namespace {
+
+using exporting::fixed;
+using exporting::grouped;
+
+constexpr std::size_t kNameWidth = 34;
+
+struct Column {
+    std::string_view title;
+    std::size_t width;
+};
+constexpr std::array<Column, 8> kColumns{{{"Hz", 9},
+                                          {"lost", 9},
+                                          {"loss %", 8},
+                                          {"double", 8},
+                                          {"reord.", 8},
+                                          {"late", 7},
+                                          {"jitter ms", 10},
+                                          {"gap ms", 9}}};
+
+bool isContinuation(char byte) {
+    return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U;
+}
+
+std::size_t widthOf(std::string_view text) {
+    return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, isContinuation));
+}
+
+/// At most so many characters.
+std::string_view cut(std::string_view text, std::size_t most) {
+    std::size_t at = 0;
+    for (std::size_t count = 0; at < text.size(); ++at) {
+        count += isContinuation(text[at]) ? 0 : 1;
+        if (count > most) {
+            break;
+        }
+    }
+    return text.substr(0, at);
+}
+
+std::string left(std::string_view text, std::size_t width) {
+    const std::string_view shown = cut(text, width);
+    return std::string(shown) + std::string(width - widthOf(shown), ' ');
+}
+
+std::string right(const std::string& text, std::size_t width) {
+    return std::string(width - std::min(width, widthOf(text)), ' ') + text;
+}
+
+std::string row(std::string_view name, const std::array<std::string, kColumns.size()>& cells) {
+    std::string line = left(name, kNameWidth);
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        line += right(cells[i], kColumns[i].width);
+    }
+    return line;
+}
+
+std::string heading() {
+    std::array<std::string, kColumns.size()> titles;
+    std::ranges::transform(kColumns, titles.begin(),
+                           [](const Column& column) { return std::string(column.title); });
+    return row("", titles);
+}
+
+std::string streamLine(const model::Session& session, const model::Stream& stream) {
+    const exporting::StreamFigures figures = exporting::figuresOf(session, stream);
+    const model::StreamCounts& counts = figures.counts;
+    const std::string name = "    " + wire::typeTitle(stream.key.type);
+    if (!wire::isSampled(stream.key.type)) {
+        return row(name, {fixed(figures.rateHz, 1), "", "", "", "", "", "", ""});
+    }
+    return row(name,
+               {fixed(figures.rateHz, 1), grouped(counts.lost + counts.incomplete),
+                fixed(100 * counts.lossRatio(), 3), grouped(counts.duplicates), grouped(counts.reordered),
+                grouped(counts.late), fixed(figures.clock.jitterMs, 3), fixed(figures.arrivals.mostMs, 1)});
+}
+
+std::string summaryLine(const model::Session& session, double elapsedS) {
+    std::uint64_t datagrams = 0;
+    std::uint64_t malformed = 0;
+    std::uint64_t foreign = 0;
+    std::uint64_t dropped = 0;
+    for (const model::Source& source : session.sources()) {
+        datagrams += source.datagrams;
+        malformed += source.malformed;
+        foreign += source.foreign;
+        dropped += source.kernelDrops;
+    }
+    return fixed(elapsedS, 1) + " s   " + grouped(datagrams) + " datagrams   malformed " +
+           grouped(malformed) + "   not MXTP " + grouped(foreign) + "   dropped by this computer " +
+           grouped(dropped);
+}
+
+std::vector<const model::Stream*> streamsOf(const model::Session& session, const model::CharacterKey& key) {
+    std::vector<const model::Stream*> streams;
+    for (const model::Stream& stream : session.streams()) {
+        if (stream.key.source == key.source && stream.key.character == key.character) {
+            streams.push_back(&stream);
+        }
+    }
+    std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
+    return streams;
+}
+
+} // namespace
+
+std::string printable(std::string_view text) {
+    std::string result;
+    while (!text.empty()) {
+        const std::size_t sound = wire::firstInvalidUtf8(text);
+        for (std::size_t i = 0; i < sound; ++i) {
+            const auto byte = static_cast<unsigned char>(text[i]);
+            const bool isLateControl =
+                byte == 0xc2 && i + 1 < sound && static_cast<unsigned char>(text[i + 1]) < 0xa0;
+            result += byte < 0x20 || byte == 0x7f || isLateControl ? '?' : text[i];
+            i += isLateControl ? 1 : 0;
+        }
+        text.remove_prefix(sound);
+        if (!text.empty()) {
+            result += '?';
+            text.remove_prefix(1);
+        }
+    }
+    return result;
+}
+
+std::vector<std::string> liveTable(const model::Session& session, double elapsedS) {
+    std::vector<std::string> lines{summaryLine(session, elapsedS)};
+    if (session.streams().empty()) {
+        lines.emplace_back("No MXTP datagram so far.");
+        return lines;
+    }
+    lines.push_back(heading());
+    for (const model::Source& source : session.sources()) {
+        if (source.foreign == source.datagrams && source.skippedBytes == 0) {
+            continue;
+        }
+        lines.push_back(printable(source.info.address) + " (" +
+                        std::string(exporting::transportName(source.info.transport)) + ")");
+        for (const model::Character& character : session.characters()) {
+            if (character.key.source != source.id) {
+                continue;
+            }
+            lines.push_back("  " + printable(session.displayName(character.key)) + " (" +
+                            std::to_string(character.key.character) + ")");
+            for (const model::Stream* stream : streamsOf(session, character.key)) {
+                lines.push_back(streamLine(session, *stream));
+            }
+        }
+    }
+    return lines;
+}
+
+bool LiveDisplay::isOnTerminal() {
+#if defined(__unix__) || defined(__APPLE__)
+    return ::isatty(STDOUT_FILENO) == 1;
+#elif defined(_WIN32)
+    return ::_isatty(::_fileno(stdout)) != 0;
+#else
+    return false;
+#endif
+}
+
+LiveDisplay::Size LiveDisplay::terminalSize() {
+    Size size;
+#if defined(__unix__) || defined(__APPLE__)
+    winsize window{};
+    if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0 && window.ws_row > 1 && window.ws_col > 1) {
+        size = {window.ws_row, window.ws_col};
+    }
+#endif
+    return size;
+}
+
+std::string LiveDisplay::show(const std::vector<std::string>& lines, std::size_t rows, std::size_t columns) {
+    std::string text;
+    if (!m_isTerminal) {
+        for (const std::string& line : lines) {
+            text += line + '\n';
+        }
+        return text + '\n';
+    }
+    // A table longer than the terminal would scroll, and the next one could not be written over it.
+    const bool isWhole = lines.size() < rows;
+    const std::size_t shown = isWhole ? lines.size() : rows - 2;
+    text = m_shown != 0 ? "\x1b[" + std::to_string(m_shown) + "A" : "";
+    for (std::size_t i = 0; i < shown; ++i) {
+        text += "\x1b[2K" + std::string(cut(lines[i], columns)) + '\n';
+    }
+    if (!isWhole) {
+        const std::string more =
+            "… " + std::to_string(lines.size() - shown) + " lines more; make the window higher";
+        text += "\x1b[2K" + std::string(cut(more, columns)) + '\n';
+    }
+    m_shown = shown + (isWhole ? 0 : 1);
+    return text + "\x1b[J";
+}
+
+} // namespace posewire::cli

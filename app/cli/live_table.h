@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model/session.h"
+
+#include <string>
+#include <vector>
+
+namespace posewire::cli {
+
+/// What `monitor` shows while it runs: a line for the whole, then each source with its characters and a line
+/// for each of their streams. Texts from the wire are made harmless for a terminal.
+[[nodiscard]] std::vector<std::string> liveTable(const model::Session& session, double elapsedS);
+
+/// Characters as they may be printed: what controls a terminal, or is no UTF-8, becomes "?".
+[[nodiscard]] std::string printable(std::string_view text);
+
+/// Shows tables one after another: over each other on a terminal, else as blocks of lines.
+class LiveDisplay {
+public:
+    /// Is standard output a terminal?
+    [[nodiscard]] static bool isOnTerminal();
+
+    explicit LiveDisplay(bool isTerminal) : m_isTerminal(isTerminal) {}
+
+    /// What to write to show these lines; `rows` and `columns` are what the terminal has.
+    [[nodiscard]] std::string show(const std::vector<std::string>& lines, std::size_t rows,
+                                   std::size_t columns);
+
+    struct Size {
+        std::size_t rows = 24;
+        std::size_t columns = 80;
+    };
+    [[nodiscard]] static Size terminalSize();
+
+private:
+    bool m_isTerminal;
+    std::size_t m_shown = 0; ///< lines on the terminal that are to be written over
+};
+
+} // namespace posewire::cli

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/datagram_pacer.h"
+#include "app/cli/input.h"
+#include "app/cli/monitor_run.h"
+#include "core/log/raw_file.h"
+#include "core/log/recorder.h"
+
+#include <filesystem>
+#include <limits>
+
+namespace posewire::cli {
+namespace {
+
+/// Brings the records of a file into the log, as fast as they are followed, with their own stamps; where
+/// there are none, time codes space them.
+class Replay {
+public:
+    Replay(const MonitorOptions& options, MonitorRun& run, log::Recorder* recorder)
+        : m_run(run),
+          m_recorder(recorder),
+          m_name(std::filesystem::path(options.file).filename().string()),
+          m_longestNs(options.durationSeconds > 0 ? static_cast<std::int64_t>(options.durationSeconds * 1e9)
+                                                  : std::numeric_limits<std::int64_t>::max()) {}
+
+    void operator()(const log::FileRecord& record) {
+        if (m_isDone) {
+            return;
+        }
+        const std::int64_t stampNs =
+            record.stampNs ? *record.stampNs : m_pacer.due(record.bytes, std::nullopt);
+        m_firstNs = m_hasBegun ? m_firstNs : stampNs;
+        m_hasBegun = true;
+        m_isDone = stampNs - m_firstNs > m_longestNs || m_run.isOver() || !m_recorded;
+        if (m_isDone) {
+            return;
+        }
+        m_lastNs = std::max(m_lastNs, stampNs);
+        auto& log = m_run.log();
+        const log::SourceId source =
+            log.sources().intern(record.source.value_or(log::SourceInfo{m_name, log::Transport::File, 0}));
+        log.writer().append(record.bytes, log::arrivalOf(record, source, stampNs));
+        constexpr std::size_t batch = 4096;
+        if (++m_waiting == batch) {
+            flush();
+        }
+    }
+
+    /// Follows what has come so far.
+    void flush() {
+        m_waiting = 0;
+        m_run.log().writer().publish();
+        m_run.follow(m_lastNs);
+        if (m_recorder != nullptr && m_recorded) {
+            m_recorded = m_recorder->follow();
+        }
+        m_run.show(durationS());
+    }
+
+    [[nodiscard]] double durationS() const { return static_cast<double>(m_lastNs - m_firstNs) * 1e-9; }
+    [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
+
+private:
+    MonitorRun& m_run;
+    log::Recorder* m_recorder;
+    const std::string m_name;
+    const std::int64_t m_longestNs;
+    DatagramPacer m_pacer{1.0 / 240, 1.0};
+    std::size_t m_waiting = 0;
+    std::int64_t m_firstNs = 0;
+    std::int64_t m_lastNs = 0;
+    bool m_hasBegun = false;
+    bool m_isDone = false;
+    log::Recorder::Result m_recorded;
+};
+
+/// The file that was asked for, or none.
+struct RecordFile {
+    std::unique_ptr<log::ByteSink> sink;
+    std::unique_ptr<log::Recorder> recorder;
+};
+
+tl::expected<RecordFile, log::FileError> recordFile(const std::string& path, MonitorRun& run) {
+    if (path.empty()) {
+        return RecordFile{};
+    }
+    auto sink = log::createFile(path);
+    if (!sink) {
+        return tl::unexpected(sink.error());
+    }
+    RecordFile file{std::move(*sink), nullptr};
+    file.recorder = std::make_unique<log::Recorder>(run.log(), *file.sink);
+    if (const auto begun = file.recorder->begin(recordingInfo()); !begun) {
+        return tl::unexpected(begun.error());
+    }
+    return file;
+}
+
+} // namespace
+
+ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
+    const auto source = openInput(options.file);
+    if (!source) {
+        console.complain(source.error().text);
+        return ExitStatus::Unusable;
+    }
+    MonitorRun run(options, console);
+    auto file = recordFile(options.record, run);
+    if (!file) {
+        console.complain(file.error().text);
+        return ExitStatus::Unusable;
+    }
+    Replay replay(options, run, file->recorder.get());
+    const auto read = log::readFile(**source, std::ref(replay));
+    replay.flush();
+    log::Recorder::Result recorded = replay.recorded();
+    if (file->recorder && recorded) {
+        recorded = file->recorder->finish();
+    }
+    ExitStatus status = ExitStatus::Fine;
+    for (const auto& result : {read, recorded}) {
+        if (!result) {
+            console.complain(result.error().text);
+            status = ExitStatus::Unusable;
+        }
+    }
+    exporting::MonitorFacts facts;
+    facts.durationS = replay.durationS();
+    return run.conclude(facts, status);
+}
+
+} // namespace posewire::cli

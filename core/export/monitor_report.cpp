@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/monitor_report.h"
+
+#include "core/wire/type_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace posewire::exporting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double rounded(double value, double perUnit) {
+    return std::isfinite(value) ? std::round(value * perUnit) / perUnit : 0.0;
+}
+
+std::string digits(std::uint8_t type) {
+    const auto characters = wire::typeDigits(type);
+    return {characters.begin(), characters.end()};
+}
+
+Json streamJson(const StreamFigures& figures) {
+    const model::StreamCounts& counts = figures.counts;
+    const auto& causes = figures.lostByCause;
+    return {{"type", digits(figures.key.type)},
+            {"datagrams", counts.datagrams},
+            {"samples", counts.samples},
+            {"lost", counts.lost},
+            {"duplicates", counts.duplicates},
+            {"reordered", counts.reordered},
+            {"late", counts.late},
+            {"incomplete", counts.incomplete},
+            {"restarts", counts.restarts},
+            {"step", counts.step},
+            {"rateHz", rounded(figures.rateHz, 1e3)},
+            {"jitterMs", rounded(figures.clock.jitterMs, 1e4)},
+            {"longestGapSamples", counts.longestGapSamples},
+            {"firstSample", counts.firstSample},
+            {"lastSample", counts.lastSample},
+            {"bytes", counts.bytes},
+            {"malformed", figures.malformed},
+            {"lossPercent", rounded(100 * counts.lossRatio(), 1e4)},
+            {"causes",
+             {{"thisComputer", causes[0]},
+              {"network", causes[1]},
+              {"sender", causes[2]},
+              {"unknown", causes[3]}}},
+            {"bursts", figures.pattern.bursts},
+            {"burstDensity", rounded(figures.pattern.burstDensity, 1e4)},
+            {"gapDensity", rounded(figures.pattern.gapDensity, 1e4)},
+            {"meanBurstSamples", rounded(figures.pattern.meanBurstSamples, 1e2)},
+            {"intervalMs",
+             {{"mean", rounded(figures.arrivals.meanMs, 1e4)},
+              {"least", rounded(figures.arrivals.leastMs, 1e4)},
+              {"most", rounded(figures.arrivals.mostMs, 1e4)},
+              {"deviation", rounded(figures.arrivals.deviationMs, 1e4)}}},
+            {"clock",
+             {{"from", figures.clock.isFromTimeCode ? "time code" : "sample counter"},
+              {"skewPpm", rounded(figures.clock.skewPpm, 1e2)},
+              {"driftMs", rounded(figures.clock.driftMs, 1e3)}}}};
+}
+
+Json charactersJson(const model::Session& session, const model::Source& source) {
+    Json characters = Json::array();
+    for (const model::Character& character : session.characters()) {
+        if (character.key.source != source.id) {
+            continue;
+        }
+        Json streams = Json::array();
+        for (const model::Stream& stream : session.streams()) {
+            if (stream.key.source == source.id && stream.key.character == character.key.character) {
+                streams.push_back(streamJson(figuresOf(session, stream)));
+            }
+        }
+        characters.push_back({{"id", character.key.character},
+                              {"name", sentName(session, character.key)},
+                              {"streams", std::move(streams)}});
+    }
+    return characters;
+}
+
+bool isMxtp(const model::Source& source) {
+    return source.datagrams > source.foreign || source.skippedBytes != 0;
+}
+
+/// Of all streams of a source.
+struct WellFormed {
+    std::uint64_t datagrams = 0;
+    std::uint64_t bytes = 0;
+};
+
+WellFormed wellFormedOf(const model::Session& session, const model::Source& source) {
+    WellFormed sum;
+    for (const model::Stream& stream : session.streams()) {
+        if (stream.key.source == source.id) {
+            const StreamFigures figures = figuresOf(session, stream);
+            sum.datagrams += figures.counts.datagrams;
+            sum.bytes += figures.counts.bytes;
+        }
+    }
+    return sum;
+}
+
+Json sourceJson(const model::Session& session, const model::Source& source) {
+    const WellFormed wellFormed = wellFormedOf(session, source);
+    return {{"address", source.info.address},
+            {"transport", transportName(source.info.transport)},
+            {"datagrams", wellFormed.datagrams},
+            {"bytes", wellFormed.bytes},
+            {"malformed", source.malformed},
+            {"skippedBytes", source.skippedBytes},
+            {"characters", charactersJson(session, source)},
+            {"localPort", source.info.localPort},
+            {"kernelDropped", source.kernelDrops}};
+}
+
+} // namespace
+
+std::string monitorReport(const model::Session& session, const MonitorFacts& facts) {
+    std::uint64_t kernelDropped = 0;
+    std::uint64_t foreign = 0;
+    Json sources = Json::array();
+    Json foreignSources = Json::array();
+    for (const model::Source& source : session.sources()) {
+        kernelDropped += source.kernelDrops;
+        foreign += source.foreign;
+        if (isMxtp(source)) {
+            sources.push_back(sourceJson(session, source));
+        }
+        if (source.foreign != 0) {
+            foreignSources.push_back({{"address", source.info.address},
+                                      {"datagrams", source.foreign},
+                                      {"firstBytes", source.firstForeignBytes}});
+        }
+    }
+    const Json report{
+        {"durationS", rounded(facts.durationS, 1e3)},
+        {"local", {{"kernelDropped", kernelDropped}, {"receiveBufferBytes", facts.receiveBufferBytes}}},
+        {"foreignDatagrams", foreign},
+        {"sources", std::move(sources)},
+        {"foreignSources", std::move(foreignSources)},
+        {"exceeded", facts.exceeded}};
+    // Names come from the wire and may hold anything.
+    return report.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace posewire::exporting

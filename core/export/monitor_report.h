@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/export/stream_figures.h"
+
+#include <string>
+
+namespace posewire::exporting {
+
+/// What a session cannot know of itself.
+struct MonitorFacts {
+    double durationS = 0;
+    std::int64_t receiveBufferBytes = 0; ///< the smallest that a socket was granted; 0 without any
+    std::vector<std::string> exceeded{}; ///< one line for each limit that was not kept
+};
+
+/// One JSON object without a newline: every source with its characters, their streams and all their figures.
+[[nodiscard]] std::string monitorReport(const model::Session& session, const MonitorFacts& facts);
+
+} // namespace posewire::exporting

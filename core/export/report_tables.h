@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/export/report_series.h"
+
+#include <string>
+
+namespace posewire::exporting {
+
+/// Every figure of the streams of one character; sparklines of rate and loss beside them.
+[[nodiscard]] std::string streamTable(const model::Session& session, const model::CharacterKey& key,
+                                      const std::vector<StreamFigures>& figures, const ReportSteps& steps);
+
+/// What a character said about itself; empty where it said nothing.
+[[nodiscard]] std::string metadataList(const model::Session& session, const model::CharacterKey& key);
+
+/// "2026-11-21 16:01:32.123 UTC".
+[[nodiscard]] std::string utcText(std::int64_t stampNs);
+
+} // namespace posewire::exporting

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/report_verdict.h"
+
+#include "core/export/html.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+
+namespace posewire::exporting {
+namespace {
+
+/// From here on a loss is visible in most figures.
+constexpr double kMuchLoss = 0.01;
+
+std::string counted(std::uint64_t count, const std::string& one, const std::string& many) {
+    return grouped(count) + ' ' + (count == 1 ? one : many);
+}
+
+std::string percent(double ratio) {
+    const double value = 100 * ratio;
+    return fixed(value, value >= 10 ? 1 : value >= 0.1 ? 2 : 4) + " %";
+}
+
+struct Sums {
+    model::StreamCounts counts;
+    std::array<std::uint64_t, 4> lostByCause{};
+};
+
+Sums sumsOf(const std::vector<StreamFigures>& streams) {
+    Sums sums;
+    for (const StreamFigures& stream : streams) {
+        sums.counts += stream.counts;
+        for (std::size_t i = 0; i < sums.lostByCause.size(); ++i) {
+            sums.lostByCause[i] += stream.lostByCause[i];
+        }
+    }
+    return sums;
+}
+
+Finding lossFinding(const model::StreamCounts& counts) {
+    const std::uint64_t missing = counts.lost + counts.incomplete;
+    if (missing == 0) {
+        return {ReportSeverity::Good, "Good: " + counted(counts.samples, "sample", "samples") +
+                                          " expected, every one of them received."};
+    }
+    const double ratio = counts.lossRatio();
+    const std::string where = grouped(missing) + " of " + counted(counts.expected(), "sample", "samples") +
+                              " (" + percent(ratio) + ")";
+    return ratio >= kMuchLoss
+               ? Finding{ReportSeverity::Error, "Not good: " + where + " did not arrive whole."}
+               : Finding{ReportSeverity::Warning, "Some loss: " + where + " did not arrive whole."};
+}
+
+/// Whose losses they were, most first.
+void addCauses(std::vector<Finding>& findings, const std::array<std::uint64_t, 4>& lostByCause) {
+    struct Share {
+        std::uint64_t lost;
+        std::string words;
+    };
+    std::vector<Share> shares{{lostByCause[0], "in this computer, which did not fetch them in time"},
+                              {lostByCause[1], "on the network"},
+                              {lostByCause[2], "at the sender"},
+                              {lostByCause[3], "without evidence whose fault it was"}};
+    std::ranges::stable_sort(shares, std::greater{}, &Share::lost);
+    for (const Share& share : shares) {
+        if (share.lost != 0) {
+            findings.push_back(
+                {ReportSeverity::Warning,
+                 counted(share.lost, "sample was lost ", "samples were lost ") + share.words + '.'});
+        }
+    }
+}
+
+void addOrder(std::vector<Finding>& findings, const model::StreamCounts& counts) {
+    const auto add = [&](std::uint64_t count, const std::string& one, const std::string& many) {
+        if (count != 0) {
+            findings.push_back({ReportSeverity::Warning, counted(count, one, many)});
+        }
+    };
+    add(counts.duplicates, "datagram came more than once.", "datagrams came more than once.");
+    add(counts.reordered, "datagram came after a later one.", "datagrams came after later ones.");
+    add(counts.late, "of these was too late to be shown.", "of these were too late to be shown.");
+    add(counts.restarts, "time a sample counter began anew.", "times a sample counter began anew.");
+}
+
+void addSources(std::vector<Finding>& findings, const model::Session& session) {
+    for (const model::Source& source : session.sources()) {
+        if (source.kernelDrops != 0) {
+            findings.push_back(
+                {ReportSeverity::Error, "This computer dropped " +
+                                            counted(source.kernelDrops, "datagram", "datagrams") +
+                                            " at the socket that hears " + source.info.address +
+                                            ": it was too busy, or its receive buffer is too small."});
+        }
+        if (source.malformed != 0) {
+            findings.push_back({ReportSeverity::Warning, counted(source.malformed, "datagram", "datagrams") +
+                                                             " from " + source.info.address +
+                                                             " could not be decoded."});
+        }
+        if (source.skippedBytes != 0) {
+            findings.push_back({ReportSeverity::Warning, counted(source.skippedBytes, "byte", "bytes") +
+                                                             " from " + source.info.address +
+                                                             " belonged to no datagram."});
+        }
+        if (source.foreign != 0) {
+            findings.push_back({ReportSeverity::Warning, counted(source.foreign, "datagram", "datagrams") +
+                                                             " from " + source.info.address +
+                                                             " were not MXTP; the newest begins with " +
+                                                             source.firstForeignBytes + '.'});
+        }
+    }
+}
+
+} // namespace
+
+std::string_view severityName(ReportSeverity severity) {
+    constexpr std::array<std::string_view, 3> names{"good", "warning", "error"};
+    return names[static_cast<std::size_t>(severity)];
+}
+
+std::string_view severityMark(ReportSeverity severity) {
+    constexpr std::array<std::string_view, 3> marks{"●", "▲", "■"};
+    return marks[static_cast<std::size_t>(severity)];
+}
+
+std::vector<Finding> verdictOn(const model::Session& session, const std::vector<StreamFigures>& streams,
+                               const StreamReportOptions& options) {
+    std::vector<Finding> findings;
+    const Sums sums = sumsOf(streams);
+    if (sums.counts.datagrams == 0) {
+        findings.push_back({ReportSeverity::Error, "No MXTP datagram was received."});
+    } else {
+        findings.push_back(lossFinding(sums.counts));
+        addCauses(findings, sums.lostByCause);
+        addOrder(findings, sums.counts);
+    }
+    addSources(findings, session);
+    for (const std::string& line : options.exceeded) {
+        findings.push_back({ReportSeverity::Error, line + '.'});
+    }
+    return findings;
+}
+
+} // namespace posewire::exporting

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/stream_figures.h"
+
+#include <limits>
+
+namespace posewire::exporting {
+namespace {
+
+constexpr std::int64_t kBeginning = std::numeric_limits<std::int64_t>::min();
+constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+
+/// Between the first and the last, so that a stream that ended long ago keeps its rate.
+double rateOf(const StreamFigures& figures, double seconds) {
+    const bool isSampled = model::countsSamples(figures.key.type);
+    const std::uint64_t count = isSampled ? figures.counts.samples : figures.counts.datagrams;
+    return count > 1 && seconds > 0 ? static_cast<double>(count - 1) / seconds : 0;
+}
+
+} // namespace
+
+StreamFigures figuresOf(const model::Session& session, const model::Stream& stream, const TimeRange& range) {
+    const model::StreamAccounting& accounting = stream.accounting;
+    StreamFigures figures;
+    figures.key = stream.key;
+    figures.pattern = accounting.lossPattern();
+    figures.clock = accounting.clock();
+    figures.malformed = stream.malformed;
+    std::int64_t from = accounting.firstStampNs();
+    std::int64_t to = accounting.lastStampNs();
+    if (range.isWhole()) {
+        figures.counts = accounting.counts();
+        figures.arrivals = accounting.interArrival();
+    } else {
+        const std::int64_t rangeFrom = range.fromNs.value_or(kBeginning);
+        const std::int64_t rangeTo = range.toNs.value_or(kEnd);
+        figures.counts = accounting.countsBetween(rangeFrom, rangeTo);
+        figures.counts.step = accounting.step();
+        figures.arrivals = accounting.interArrivalBetween(rangeFrom, rangeTo);
+        figures.clock.jitterMs = accounting.jitterMsAt(rangeTo);
+        from = std::max(from, rangeFrom);
+        to = std::min(to, rangeTo);
+    }
+    figures.rateHz = rateOf(figures, static_cast<double>(to - from) * 1e-9);
+    figures.lostByCause[3] = figures.counts.lost;
+    static_cast<void>(session);
+    return figures;
+}
+
+std::string sentName(const model::Session& session, const model::CharacterKey& key) {
+    const model::MetadataTag* tag = session.metadata(key).find("name");
+    return tag != nullptr ? tag->values.back().text : std::string();
+}
+
+std::string_view transportName(log::Transport transport) {
+    switch (transport) {
+    case log::Transport::Udp:
+        return "udp";
+    case log::Transport::Tcp:
+        return "tcp";
+    case log::Transport::File:
+        return "file";
+    case log::Transport::Performer:
+        return "performer";
+    }
+    return "unknown";
+}
+
+} // namespace posewire::exporting

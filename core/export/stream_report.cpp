@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/stream_report.h"
+
+#include "core/export/html.h"
+#include "core/export/report_series.h"
+#include "core/export/report_style.h"
+#include "core/export/report_tables.h"
+#include "core/export/report_verdict.h"
+
+namespace posewire::exporting {
+namespace {
+
+/// Stamps before this are counted from the beginning of a file that has none.
+constexpr std::int64_t kFirstRealStampNs = 86'400'000'000'000;
+
+std::vector<StreamFigures> allFigures(const model::Session& session, const TimeRange& range) {
+    std::vector<StreamFigures> all;
+    for (const model::Stream& stream : session.streams()) {
+        StreamFigures figures = figuresOf(session, stream, range);
+        if (figures.counts.datagrams != 0 || range.isWhole()) {
+            all.push_back(std::move(figures));
+        }
+    }
+    return all;
+}
+
+std::string fact(std::string_view name, const std::string& html) {
+    return "<dt>" + escaped(name) + "</dt><dd>" + html + "</dd>\n";
+}
+
+std::string timeFacts(const ReportSteps& steps) {
+    if (steps.count == 0) {
+        return fact("Time", "nothing was received");
+    }
+    const std::string duration = fact("Duration", fixed(steps.durationS(), 3) + " s");
+    return steps.fromNs < kFirstRealStampNs
+               ? fact("Time",
+                      "not known: the file has no stamps; time codes of the sender took their place") +
+                     duration
+               : fact("From", utcText(steps.fromNs)) + fact("To", utcText(steps.toNs)) + duration;
+}
+
+std::string verdictList(const std::vector<Finding>& findings) {
+    std::string html =
+        "<ul class=\"verdict " + std::string(severityName(findings.front().severity)) + "\">\n";
+    for (const Finding& finding : findings) {
+        html += "<li class=\"" + std::string(severityName(finding.severity)) +
+                "\"><span class=\"mark\" aria-label=\"" + std::string(severityName(finding.severity)) +
+                "\">" + std::string(severityMark(finding.severity)) + "</span><span>" +
+                escaped(finding.text) + "</span></li>\n";
+    }
+    return html + "</ul>\n";
+}
+
+std::string plotSection(const model::Session& session, const ReportSteps& steps) {
+    if (steps.count < 2) {
+        return {};
+    }
+    std::string html = "<h2>Over time</h2>\n<div class=\"plots\">\n";
+    for (const SvgPlot& plot : plotsOf(session, steps)) {
+        html += svgPlot(plot);
+    }
+    return html + "</div>\n";
+}
+
+std::string sourceSection(const model::Session& session, const std::vector<StreamFigures>& figures,
+                          const ReportSteps& steps) {
+    std::string html;
+    for (const model::Source& source : session.sources()) {
+        html += "<h2>" + escaped(source.info.address) + " <span class=\"dim\">" +
+                escaped(transportName(source.info.transport)) +
+                (source.info.localPort != 0 ? " to port " + std::to_string(source.info.localPort) : "") +
+                "</span></h2>\n<dl class=\"facts\">\n" +
+                fact("Datagrams", grouped(source.datagrams) + ", " + grouped(source.bytes) + " bytes") +
+                fact("Malformed", grouped(source.malformed)) + fact("Not MXTP", grouped(source.foreign)) +
+                (source.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(source.skippedBytes)) : "") +
+                fact("Dropped by this computer", grouped(source.kernelDrops)) + "</dl>\n";
+        for (const model::Character& character : session.characters()) {
+            if (character.key.source == source.id) {
+                html += "<h3>" + escaped(session.displayName(character.key)) +
+                        " <span class=\"dim\">character " + std::to_string(character.key.character) +
+                        "</span></h3>\n" + metadataList(session, character.key) + "<p></p>" +
+                        streamTable(session, character.key, figures, steps);
+            }
+        }
+    }
+    return html;
+}
+
+std::string settingsSection(const StreamReportOptions& options) {
+    std::string html;
+    for (const auto& [name, value] : options.settings) {
+        html += fact(name, escaped(value));
+    }
+    return html.empty() ? html : "<h2>Settings</h2>\n<dl class=\"facts\">\n" + html + "</dl>\n";
+}
+
+} // namespace
+
+std::string streamReport(const model::Session& session, const StreamReportOptions& options) {
+    const std::vector<StreamFigures> figures = allFigures(session, options.range);
+    const ReportSteps steps = stepsOf(session, options.range);
+    return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+           "<title>Stream report</title>\n<style>" +
+           std::string(reportStyle()) + "</style>\n</head>\n<body>\n<h1>Stream report</h1>\n" +
+           verdictList(verdictOn(session, figures, options)) +
+           "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(steps) +
+           fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
+           sourceSection(session, figures, steps) + settingsSection(options) + "</body>\n</html>\n";
+}
+
+} // namespace posewire::exporting

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/export/stream_figures.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace posewire::exporting {
+
+struct StreamReportOptions {
+    TimeRange range{};
+    std::string application{};           ///< name and version of who writes it
+    std::vector<std::string> exceeded{}; ///< one line for each limit that was not kept
+    std::vector<std::pair<std::string, std::string>> settings{}; ///< what was set, in words
+};
+
+/// What a technician attaches to a ticket: one HTML file without anything outside it, light and dark, to be
+/// read and to be printed. A verdict in words, plots over time, every figure of every stream, gaps with their
+/// causes, events, what the characters said about themselves.
+[[nodiscard]] std::string streamReport(const model::Session& session, const StreamReportOptions& options);
+
+} // namespace posewire::exporting
