@@ -38,6 +38,7 @@ struct Source {
     std::uint64_t bytes = 0;
     std::uint64_t malformed = 0; ///< begins with MXTP and cannot be decoded
     std::uint64_t foreign = 0;   ///< does not begin with MXTP
+    std::uint64_t foreignBytes = 0;
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
     std::int64_t lastStampNs = 0;
