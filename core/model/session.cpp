@@ -86,6 +86,7 @@ void Session::take(const log::Packet& packet) {
         break;
     case PacketKind::Foreign:
         ++source->foreign;
+        source->foreignBytes += packet.bytes.size();
         source->firstForeignBytes = shownBytes(packet.bytes);
         break;
     case PacketKind::Skipped:
