@@ -12,5 +12,7 @@ inline constexpr int kSuffixRole = Qt::UserRole + 3; ///< QString: dim text afte
 /// bool: the text of the cell before stretches over this one too.
 inline constexpr int kSpanRole = Qt::UserRole + 5;
 inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it
+/// QList<float>: where the curve is to be marked, as many as it has values; 0 for no mark.
+inline constexpr int kMarksRole = Qt::UserRole + 6;
 
 } // namespace posewire::gui

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/statistics_model.h"
+#include "core/wire/type_table.h"
+
+#include <QStringList>
+
+namespace posewire::gui {
+
+namespace {
+
+QString quoted(QString text) {
+    if (!text.contains(QLatin1Char('"')) && !text.contains(QLatin1Char(',')) &&
+        !text.contains(QLatin1Char('\n'))) {
+        return text;
+    }
+    text.replace(QLatin1String("\""), QLatin1String("\"\""));
+    return QLatin1Char('"') + text + QLatin1Char('"');
+}
+
+/// As a program reads it: digits without spaces, an ASCII minus, nothing where nothing is known.
+QString number(QString text) {
+    return text.remove(QChar(0x202f))
+        .replace(QChar(0x2212), QLatin1Char('-'))
+        .remove(QStringLiteral("–"))
+        .remove(QLatin1Char('+'));
+}
+
+bool isFigure(int column) {
+    return column != static_cast<int>(StatisticsColumn::Stream) &&
+           column != static_cast<int>(StatisticsColumn::Curve);
+}
+
+QString lineOf(model::SessionView& view, const model::Stream& stream, const StatisticsFigures& figures) {
+    const model::CharacterKey key{stream.key.source, stream.key.character};
+    const model::Source* source = view.find(key.source);
+    const auto digits = wire::typeDigits(stream.key.type);
+    QStringList cells{source == nullptr ? QString() : quoted(QString::fromStdString(source->info.address)),
+                      QString::number(key.character), quoted(characterName(view, key)),
+                      QString::fromLatin1(digits.data(), 2)};
+    for (int column = 0; column < kStatisticsColumns; ++column) {
+        if (isFigure(column)) {
+            cells += number(statisticsText(figures, static_cast<StatisticsColumn>(column)));
+        }
+    }
+    return cells.join(QLatin1Char(','));
+}
+
+} // namespace
+
+QString StatisticsModel::csv() const {
+    QStringList titles{tr("Source"), tr("Character"), tr("Name"), tr("Type")};
+    for (int column = 0; column < kStatisticsColumns; ++column) {
+        if (isFigure(column)) {
+            titles += quoted(headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+        }
+    }
+    QString text = titles.join(QLatin1Char(',')) + QStringLiteral("\r\n");
+    for (int i = 0; i < rowCount(); ++i) {
+        const QModelIndex source = index(i, 0);
+        for (int j = 0; j < rowCount(source); ++j) {
+            const QModelIndex character = index(j, 0, source);
+            for (int k = 0; k < rowCount(character); ++k) {
+                const QModelIndex row = index(k, 0, character);
+                text += lineOf(view(), *stream(row), figures(row)) + QStringLiteral("\r\n");
+            }
+        }
+    }
+    return text;
+}
+
+} // namespace posewire::gui
