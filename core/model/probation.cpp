@@ -122,11 +122,14 @@ void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
         std::size_t near = scan.groupCount;
         std::int32_t distance =
             fromExpected >= -kMostBack && fromExpected <= limit ? std::abs(fromExpected) : INT32_MAX;
+        const bool isExplained = distance != INT32_MAX;
         for (std::size_t g = 0; g < scan.groupCount; ++g) {
             const std::int32_t from = away(sample, scan.groups[g].highest);
             // What came late is behind what is expected, what follows a long loss is ahead.
             const bool isOneSide = (away(scan.groups[g].highest, scan.highest) > 0) == (fromExpected > 0);
-            if (isOneSide && from >= -kMostBack && from <= reach && std::abs(from) < distance) {
+            // What the expected place can explain is no sign of another one that it has refuted.
+            const bool isRefuted = isExplained && scan.groups[g].count == 0;
+            if (isOneSide && !isRefuted && from >= -kMostBack && from <= reach && std::abs(from) < distance) {
                 near = g;
                 distance = std::abs(from);
             }

@@ -48,8 +48,10 @@ bool isClear(const wire::Header& original, const wire::Header& now, const Origin
     if (isSame) {
         return true;
     }
-    return bounds.mayChangeIdentity && original.datagramCounter == 0x80 && wire::isSampled(original.type()) &&
-           wire::isSampled(now.type()) && isClearCounter(origin, now.sampleCounter, bounds.periodMs);
+    const bool mayBeOfType = bounds.mayChangeType || now.type() == original.type();
+    return bounds.mayChangeIdentity && mayBeOfType && original.datagramCounter == 0x80 &&
+           wire::isSampled(original.type()) && wire::isSampled(now.type()) &&
+           isClearCounter(origin, now.sampleCounter, bounds.periodMs);
 }
 
 /// Damage to the payload alone; where it cannot be decoded any more, that is clear too.
