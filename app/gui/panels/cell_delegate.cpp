@@ -19,6 +19,8 @@ namespace {
 
 /// A steady rate is a flat line, not its noise blown up.
 constexpr float kLeastSpread = 0.2F;
+/// So many values of a curve fill its cell.
+constexpr double kPlaces = 120;
 
 bool isNumber(const QModelIndex& index) {
     return (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
@@ -95,7 +97,9 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         const QVariant colour = index.data(Qt::ForegroundRole);
         painter->setPen(QPen(colour.isValid() ? colour.value<QColor>() : theme().accent, 1.3));
         const int inset = option.rect.height() / 5;
-        paintSeries(*painter, QRectF(rect.adjusted(0, inset, 0, -inset)), series.value<QList<float>>());
+        const QRectF place(rect.adjusted(0, inset, 0, -inset));
+        paintSeries(*painter, place, series.value<QList<float>>());
+        paintMarks(*painter, place, index.data(kMarksRole).value<QList<float>>());
     } else if (index.data(kSpanRole).toBool()) {
         const QModelIndex before = index.siblingAtColumn(index.column() - 1);
         rect.setLeft(rect.left() - widthOf(option, before.column()));
@@ -106,6 +110,19 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         paintText(*painter, rect, option, index);
     }
     painter->restore();
+}
+
+void CellDelegate::paintMarks(QPainter& painter, const QRectF& rect, const QList<float>& marks) const {
+    constexpr double kWide = 1.5;
+    const double step = rect.width() / (kPlaces - 1);
+    for (qsizetype i = 0; i < marks.size(); ++i) {
+        if (marks[i] > 0) {
+            const double right = rect.right() - step * static_cast<double>(marks.size() - 1 - i);
+            painter.fillRect(
+                QRectF(right - kWide, rect.bottom() - rect.height() / 3, kWide, rect.height() / 3),
+                theme().warning);
+        }
+    }
 }
 
 void CellDelegate::paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& series) const {
@@ -120,7 +137,6 @@ void CellDelegate::paintSeries(QPainter& painter, const QRectF& rect, const QLis
     const float spread = std::max(most - least, std::max(kLeastSpread * most, 1e-6F));
     const float bottom = (most + least - spread) / 2;
     // The newest value stands at the right edge; a short history leaves the left empty.
-    constexpr double kPlaces = 120;
     const double step = rect.width() / (kPlaces - 1);
     QPainterPath path;
     bool isDown = false;

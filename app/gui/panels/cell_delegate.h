@@ -22,6 +22,7 @@ public:
 
 private:
     void paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& series) const;
+    void paintMarks(QPainter& painter, const QRectF& rect, const QList<float>& marks) const;
     void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option,
                    const QModelIndex& index) const;
 };

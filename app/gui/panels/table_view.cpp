@@ -127,28 +127,32 @@ void TableView::setChosenColumns(const QJsonArray& columns) {
 
 void TableView::showHeaderMenu(const QPoint& at) {
     QMenu menu(this);
+    addColumnActions(menu);
+    menu.exec(header()->mapToGlobal(at));
+}
+
+void TableView::addColumnActions(QMenu& menu) {
     QAction* fitting = menu.addAction(tr("As many columns as fit"));
     fitting->setCheckable(true);
     fitting->setChecked(!m_isChosen);
+    connect(fitting, &QAction::triggered, this, [this] { setChosenColumns({}); });
     menu.addSeparator();
-    QList<QAction*> actions;
     for (int column = 1; column < static_cast<int>(m_samples.size()); ++column) {
         QAction* action = menu.addAction(model()->headerData(column, Qt::Horizontal).toString());
+        action->setToolTip(model()->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString());
         action->setCheckable(true);
         action->setChecked(!isColumnHidden(column));
-        actions.append(action);
+        connect(action, &QAction::toggled, this,
+                [this, column](bool isShown) { chooseColumn(column, isShown); });
     }
-    const QAction* chosen = menu.exec(header()->mapToGlobal(at));
-    if (chosen == nullptr) {
-        return;
-    }
-    QJsonArray columns;
-    if (chosen != fitting) {
-        columns.append(0);
-        for (int i = 0; i < actions.size(); ++i) {
-            if (actions[i]->isChecked()) {
-                columns.append(i + 1);
-            }
+    menu.setToolTipsVisible(true);
+}
+
+void TableView::chooseColumn(int column, bool isShown) {
+    QJsonArray columns{0};
+    for (int each = 1; each < static_cast<int>(m_samples.size()); ++each) {
+        if (each == column ? isShown : !isColumnHidden(each)) {
+            columns.append(each);
         }
     }
     setChosenColumns(columns);
@@ -207,20 +211,19 @@ void TableView::contextMenuEvent(QContextMenuEvent* event) {
     const bool isByKey = event->reason() == QContextMenuEvent::Keyboard;
     const QModelIndex index = isByKey ? currentIndex() : indexAt(event->pos());
     QMenu menu(this);
-    QAction* cell = menu.addAction(tr("Copy cell"));
-    QAction* row = menu.addAction(tr("Copy row"));
-    QAction* all = menu.addAction(tr("Copy all as text"));
-    cell->setEnabled(index.isValid());
-    row->setEnabled(index.isValid());
-    const QString texts[] = {index.isValid() ? cellText(index) : QString(),
-                             index.isValid() ? rowText(index) : QString()};
-    const QPoint at = isByKey ? viewport()->mapToGlobal(visualRect(index).center()) : event->globalPos();
-    const QAction* chosen = menu.exec(at);
-    if (chosen == cell || chosen == row) {
-        emit copyRequested(chosen == cell ? texts[0] : texts[1]);
-    } else if (chosen == all) {
-        emit copyRequested(allText());
+    emit menuRequested(menu, index);
+    const auto add = [this, &menu](const QString& title, const QString& text) {
+        connect(menu.addAction(title), &QAction::triggered, this, [this, text] { emit copyRequested(text); });
+        menu.actions().back()->setEnabled(!text.isEmpty());
+    };
+    add(tr("Copy cell"), index.isValid() ? cellText(index) : QString());
+    add(tr("Copy row"), index.isValid() ? rowText(index) : QString());
+    add(tr("Copy all as text"), allText());
+    if (m_firstOptional >= 0) {
+        menu.addSeparator();
+        addColumnActions(*menu.addMenu(tr("Columns")));
     }
+    menu.exec(isByKey ? viewport()->mapToGlobal(visualRect(index).center()) : event->globalPos());
 }
 
 void TableView::keyPressEvent(QKeyEvent* event) {

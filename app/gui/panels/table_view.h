@@ -6,6 +6,8 @@
 
 #include <vector>
 
+class QMenu;
+
 namespace posewire::gui {
 
 /// The one way in which docks show a model: rows of the theme's height, cells by CellDelegate, columns as
@@ -44,6 +46,8 @@ public:
 
 signals:
     void copyRequested(const QString& text);
+    /// The menu of a row, or of none, is about to be shown; what is added to it stands first.
+    void menuRequested(QMenu& menu, const QModelIndex& index);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -57,6 +61,8 @@ private:
     void fitOpenColumn();
     void leaveOutWhatDoesNotFit(int open);
     void showHeaderMenu(const QPoint& at);
+    void addColumnActions(QMenu& menu);
+    void chooseColumn(int column, bool isShown);
     [[nodiscard]] int textWidth(const QString& text) const;
     [[nodiscard]] int sampleWidth(int column) const;
     void addRows(QString& text, const QModelIndex& parent) const;
