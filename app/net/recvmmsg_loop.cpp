@@ -79,6 +79,7 @@ public:
 private:
     std::size_t drainAll();
     std::size_t drain(Socket& socket);
+    void drainToTheEnd(Socket& socket);
     /// Bytes of the datagram.
     std::size_t commit(Socket& socket, std::size_t index);
     void countDrops(Socket& socket, std::uint32_t drops);
@@ -131,9 +132,7 @@ NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const Udp
 void RecvmmsgLoop::remove(InputId id) {
     for (const auto& socket : m_sockets) {
         if (socket->input->id() == id) {
-            drain(*socket);
-            socket->isEmpty = true; // there is no later
-            checkDrops(*socket);
+            drainToTheEnd(*socket);
         }
     }
     std::erase_if(m_sockets, [id](const auto& socket) { return socket->input->id() == id; });
@@ -154,11 +153,19 @@ void RecvmmsgLoop::run() {
         m_context.commands.run();
         rest(drainAll());
     }
-    drainAll();
     for (const auto& socket : m_sockets) {
-        socket->isEmpty = true;
+        drainToTheEnd(*socket);
     }
-    checkAllDrops();
+    m_context.queue.moveTo(m_context.log);
+}
+
+/// All that a full buffer holds, and what was dropped: there is no later. Not for ever what goes on arriving.
+void RecvmmsgLoop::drainToTheEnd(Socket& socket) {
+    constexpr int kMostTurns = 16;
+    for (int turn = 0; turn < kMostTurns && drain(socket) != 0; ++turn) {
+    }
+    socket.isEmpty = true;
+    checkDrops(socket);
 }
 
 void RecvmmsgLoop::wake() {
