@@ -18,7 +18,7 @@ QString tr(const char* text) {
 
 /// Counts over all streams of a character.
 struct Totals {
-    std::uint64_t gaps = 0;
+    std::uint64_t lost = 0;
     std::uint64_t malformed = 0;
     double rateHz = 0;
 };
@@ -32,7 +32,7 @@ Totals totalsOf(const model::Session& session, const model::CharacterKey& key) {
         }
         totals.malformed += stream.malformed;
         if (pose != nullptr && stream.key.type == pose->type) {
-            totals.gaps = stream.statistics.gaps();
+            totals.lost = stream.accounting.counts().lost;
             totals.rateHz = stream.statistics.rateHz();
         }
     }
@@ -44,10 +44,6 @@ QString contradictionOf(const model::Session& session, const model::CharacterKey
     const model::Source* source = session.find(key.source);
     const auto found = source != nullptr ? source->contradictions() : std::vector<model::Contradiction>();
     return found.empty() ? QString() : QString::fromStdString(found.front().brief);
-}
-
-QString countText(std::uint64_t count, const char* one, const char* many) {
-    return grouped(count) + QLatin1Char(' ') + tr(count == 1 ? one : many);
 }
 
 } // namespace
@@ -78,8 +74,8 @@ CharacterHealth characterHealth(const model::Session& session, const model::Char
     if (const QString words = contradictionOf(session, key); !words.isEmpty()) {
         return {Health::Warning, words, age};
     }
-    if (totals.gaps > 0) {
-        return {Health::Warning, countText(totals.gaps, "gap", "gaps"), age};
+    if (totals.lost > 0) {
+        return {Health::Warning, tr("%1 lost").arg(grouped(totals.lost)), age};
     }
     if (totals.rateHz <= 0) {
         return {Health::Good, tr("one sample"), age};

@@ -11,7 +11,7 @@ namespace posewire::gui {
 /// How one character does, in one look.
 struct CharacterHealth {
     Health level = Health::Unknown;
-    QString words; ///< "240 Hz", "31 gaps", "stale 3.2 s"
+    QString words; ///< "240 Hz", "31 lost", "stale 3.2 s"
     double ageSeconds = 0;
 };
 

@@ -28,8 +28,8 @@ void writeSources(QTextStream& out, const model::Session& session) {
     for (const model::Stream& stream : session.streams()) {
         const model::CharacterKey key{stream.key.source, stream.key.character};
         out << "stream " << QString::fromStdString(session.displayName(key)) << " type " << stream.key.type
-            << ": " << stream.statistics.datagrams() << " datagrams, " << stream.statistics.rateHz()
-            << " Hz, " << stream.statistics.gaps() << " gaps, " << stream.malformed << " malformed\n";
+            << ": " << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz()
+            << " Hz, " << stream.accounting.counts().lost << " lost, " << stream.malformed << " malformed\n";
     }
 }
 

@@ -24,8 +24,8 @@ double historySeconds(const model::Session& session) {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     std::int64_t last = 0;
     for (const model::Stream& stream : session.streams()) {
-        first = std::min(first, stream.statistics.firstStampNs());
-        last = std::max(last, stream.statistics.lastStampNs());
+        first = std::min(first, stream.accounting.firstStampNs());
+        last = std::max(last, stream.accounting.lastStampNs());
     }
     return last <= first ? 0.0 : static_cast<double>(last - first) * 1e-9;
 }

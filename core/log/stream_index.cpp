@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/stream_index.h"
 
-#include "core/wire/header.h"
-
 #include <algorithm>
 
 namespace posewire::log {
@@ -84,17 +82,20 @@ void StreamIndex::add(const Packet& packet) {
     if (packet.flags.skipped) {
         return;
     }
-    const auto header = wire::decodeHeader(packet.bytes);
-    if (!header) {
-        return;
+    if (const auto header = wire::decodeHeader(packet.bytes)) {
+        add(packet, *header);
     }
-    StreamEntries* entries = entriesFor({packet.source, header->character, header->type()});
+}
+
+void StreamIndex::add(const Packet& packet, const wire::Header& header) {
+    m_end = packet.number + 1;
+    StreamEntries* entries = entriesFor({packet.source, header.character, header.type()});
     if (entries == nullptr) {
         ++m_unindexed;
         return;
     }
     entries->append(
-        {packet.number, packet.stampNs, header->sampleCounter, header->datagramIndex(), header->isLast()},
+        {packet.number, packet.stampNs, header.sampleCounter, header.datagramIndex(), header.isLast()},
         m_spare);
 }
 

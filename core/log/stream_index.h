@@ -3,6 +3,7 @@
 
 #include "core/log/log_reader.h"
 #include "core/log/packet.h"
+#include "core/wire/header.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -80,6 +81,8 @@ public:
 
     /// Takes in one packet: for whoever walks over the packets anyway. Numbers must grow.
     void add(const Packet& packet);
+    /// The same for one whose header was read already.
+    void add(const Packet& packet, const wire::Header& header);
     /// Forgets entries of packets below `begin`, and streams of which nothing is left.
     void dropBefore(std::uint64_t begin);
 

@@ -177,7 +177,7 @@ NullPoseEvidence nullPoseEvidence(const Session& session, const CharacterKey& ke
     if (const CharacterPose* pose = session.pose(key)) {
         evidence.layout = pose->layout;
         if (const Stream* stream = session.find(log::StreamKey{key.source, key.character, pose->type})) {
-            evidence.poseSeconds = secondsSince(stream->statistics.firstStampNs(), pose->stampNs);
+            evidence.poseSeconds = secondsSince(stream->accounting.firstStampNs(), pose->stampNs);
         }
     }
     return evidence;

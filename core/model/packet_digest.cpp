@@ -7,86 +7,69 @@ namespace posewire::model {
 namespace {
 
 constexpr double kSecondsPerNs = 1e-9;
-// RFC 3550 appendix A.1: a jump that is no loss.
-constexpr std::uint32_t kMostBack = 100;
-constexpr std::uint32_t kMostForward = 3'000;
-
-/// Types 10 to 13 carry sample 0 and are sent again and again on purpose.
-bool countsSamples(std::uint8_t type) {
-    return type < 10 || type > 13;
-}
 
 } // namespace
 
-PacketDigest PacketDigester::add(const log::Packet& packet, const wire::Datagram* datagram) {
+PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram) {
     PacketDigest digest;
     digest.isTruncated = packet.flags.truncated;
     digest.followsDrops = packet.kernelDropsBefore != 0;
+    if (datagram != nullptr) {
+        digest.type = datagram->header.type();
+        digest.character = datagram->header.character;
+        digest.hasNotices = !datagram->notices.empty();
+        return digest;
+    }
+    const auto header = wire::decodeHeader(packet.bytes);
+    digest.kind = packet.flags.skipped                  ? PacketKind::Skipped
+                  : wire::startsWithMagic(packet.bytes) ? PacketKind::Malformed
+                                                        : PacketKind::Foreign;
+    if (header && digest.kind == PacketKind::Malformed) {
+        digest.type = header->type();
+        digest.character = header->character;
+    }
+    return digest;
+}
+
+void applyVerdict(const Verdict& verdict, PacketDigest& digest) {
+    digest.gap = verdict.gap;
+    digest.isDuplicate = verdict.isDuplicate;
+    digest.isReordered = verdict.isReordered;
+    digest.isRestart = verdict.isRestart;
+}
+
+std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
+                                     StreamAccounting& accounting, PacketDigest& digest) {
+    if (accounting.datagrams() != 0) {
+        const auto since = static_cast<double>(packet.stampNs - accounting.lastStampNs());
+        digest.deltaS = static_cast<float>(std::max(0.0, since * kSecondsPerNs));
+    }
+    const bool wasInDoubt = accounting.isInDoubt();
+    const auto verdicts = accounting.add(packet, header);
+    if (!verdicts.empty() && verdicts.back().packet == packet.number) {
+        applyVerdict(verdicts.back(), digest);
+    } else {
+        digest.isRestart = !wasInDoubt;
+    }
+    return verdicts;
+}
+
+PacketDigest PacketDigester::add(const log::Packet& packet, const wire::Datagram* datagram) {
+    PacketDigest digest = digestOf(packet, datagram);
     if (datagram == nullptr) {
-        const auto header = wire::decodeHeader(packet.bytes);
-        digest.kind = packet.flags.skipped                  ? PacketKind::Skipped
-                      : wire::startsWithMagic(packet.bytes) ? PacketKind::Malformed
-                                                            : PacketKind::Foreign;
-        if (header && digest.kind == PacketKind::Malformed) {
-            digest.type = header->type();
-            digest.character = header->character;
-        }
         return digest;
     }
     const wire::Header& header = datagram->header;
-    digest.type = header.type();
-    digest.character = header.character;
-    digest.hasNotices = !datagram->notices.empty();
     const log::StreamKey key{packet.source, header.character, header.type()};
     auto stream = m_streams.find(key);
     if (stream == m_streams.end()) {
         if (m_streams.size() == log::StreamIndex::kStreamLimit) {
             return digest;
         }
-        stream = m_streams.try_emplace(key).first;
+        stream = m_streams.try_emplace(key, key.type).first;
     }
-    Recent& recent = stream->second;
-    if (recent.isKnown) {
-        digest.deltaS = static_cast<float>(
-            std::max(0.0, static_cast<double>(packet.stampNs - recent.stampNs) * kSecondsPerNs));
-    }
-    recent.isKnown = true;
-    recent.stampNs = packet.stampNs;
-    if (countsSamples(digest.type)) {
-        compare(header, recent, digest);
-    }
+    addToStream(packet, header, stream->second, digest);
     return digest;
-}
-
-void PacketDigester::compare(const wire::Header& header, Recent& recent, PacketDigest& digest) {
-    const std::uint32_t sample = header.sampleCounter;
-    const std::uint8_t index = header.datagramIndex();
-    const auto kept = std::min(recent.count, Recent::kKept);
-    const auto begin = recent.arrivals.begin();
-    digest.isDuplicate =
-        std::any_of(begin, begin + static_cast<std::ptrdiff_t>(kept), [&](const Recent::Arrival& arrival) {
-            return arrival.sample == sample && arrival.datagram == index;
-        });
-    if (recent.count == 0) {
-        recent.highest = sample;
-    } else if (!digest.isDuplicate && sample != recent.highest) {
-        const std::uint32_t forward = sample - recent.highest;
-        const std::uint32_t back = recent.highest - sample;
-        if (back <= kMostBack) {
-            digest.isReordered = true;
-        } else if (forward > kMostForward) {
-            digest.isRestart = true;
-            recent.highest = sample;
-            recent.count = 0;
-        } else {
-            const std::uint32_t step = recent.step.value();
-            digest.gap = step != 0 && forward > step ? forward / step - 1 : 0;
-            recent.step.add(forward);
-            recent.highest = sample;
-        }
-    }
-    recent.arrivals[recent.count % Recent::kKept] = {sample, index};
-    ++recent.count;
 }
 
 void PacketDigests::append(std::uint64_t number, const PacketDigest& digest) {
@@ -94,7 +77,7 @@ void PacketDigests::append(std::uint64_t number, const PacketDigest& digest) {
         m_firstOfBlocks = m_begin = m_end = number;
     }
     while (number - m_firstOfBlocks >= m_blocks.size() * kBlock) {
-        m_blocks.push_back(std::make_unique<Block>());
+        m_blocks.push_back(std::make_shared<Block>());
     }
     const std::uint64_t place = number - m_firstOfBlocks;
     Block& block = *m_blocks[place / kBlock];
@@ -111,12 +94,46 @@ void PacketDigests::dropBefore(std::uint64_t begin) {
     }
 }
 
+void PacketDigests::amend(const Verdict& verdict) {
+    if (verdict.packet < m_begin || verdict.packet >= m_end) {
+        return;
+    }
+    const std::uint64_t place = verdict.packet - m_firstOfBlocks;
+    std::shared_ptr<Block>& block = m_blocks[place / kBlock];
+    PacketDigest amended = block->digests[place % kBlock];
+    const bool wasProblem = amended.isProblem();
+    applyVerdict(verdict, amended);
+    if (block.use_count() > 1) {
+        block = std::make_shared<Block>(*block);
+    }
+    block->digests[place % kBlock] = amended;
+    block->problems += amended.isProblem() ? 1 : 0;
+    block->problems -= wasProblem ? 1 : 0;
+}
+
 const PacketDigest* PacketDigests::find(std::uint64_t number) const {
     if (number < m_begin || number >= m_end) {
         return nullptr;
     }
     const std::uint64_t place = number - m_firstOfBlocks;
     return &m_blocks[place / kBlock]->digests[place % kBlock];
+}
+
+PacketDigests::Excerpt PacketDigests::excerpt(std::uint64_t from) const {
+    Excerpt excerpt;
+    excerpt.m_begin = std::clamp(from, m_begin, m_end);
+    excerpt.m_end = m_end;
+    if (excerpt.m_begin == m_end) {
+        return excerpt;
+    }
+    const std::uint64_t first = (excerpt.m_begin - m_firstOfBlocks) / kBlock;
+    excerpt.m_firstOfBlocks = m_firstOfBlocks + first * kBlock;
+    excerpt.m_blocks.assign(m_blocks.begin() + static_cast<std::ptrdiff_t>(first), m_blocks.end());
+    const bool isLastComplete = (m_end - m_firstOfBlocks) % kBlock == 0;
+    if (!isLastComplete) {
+        excerpt.m_blocks.back() = std::make_shared<const Block>(*m_blocks.back());
+    }
+    return excerpt;
 }
 
 std::optional<std::uint64_t> PacketDigests::nextProblem(std::uint64_t after) const {

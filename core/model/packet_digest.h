@@ -3,7 +3,7 @@
 
 #include "core/log/packet.h"
 #include "core/log/stream_index.h"
-#include "core/model/sample_step.h"
+#include "core/model/stream_accounting.h"
 #include "core/wire/codec.h"
 
 #include <array>
@@ -11,7 +11,9 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <span>
 #include <unordered_map>
+#include <vector>
 
 namespace posewire::model {
 
@@ -23,7 +25,8 @@ enum class PacketKind : std::uint8_t {
 };
 
 /// What can be told about a packet without its bytes at hand: enough to list it, to colour it and to find
-/// problems among millions. How it relates to the packets of its stream before it was known when it came.
+/// problems among millions. How it relates to the packets of its stream before it is what the accounting of
+/// the stream says: known when it came, or a few packets later where its sample counter was unexpected.
 struct PacketDigest {
     float deltaS = -1;     ///< seconds since the packet before it in its stream, -1 for the first of a stream
     std::uint32_t gap = 0; ///< samples that are missing just before it, counted in the stream's own step
@@ -45,46 +48,68 @@ struct PacketDigest {
 };
 static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the log");
 
-/// Makes digests of packets in the order of the log. Deterministic: whoever walks over the same packets from
-/// the same beginning gets the same digests. Memory is bounded: of streams beyond StreamIndex::kStreamLimit
-/// nothing is compared.
+/// What a packet tells by itself. `datagram` is what it was decoded to, null where that failed.
+[[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
+
+/// Puts in what the accounting of its stream says.
+void applyVerdict(const Verdict& verdict, PacketDigest& digest);
+
+/// Adds the packet of a digest to the accounting of its stream and puts in what that says now. One that must
+/// wait for a verdict seems to begin anew where the doubt began with it; the verdicts on those before it are
+/// among those returned.
+std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
+                                     StreamAccounting& accounting, PacketDigest& digest);
+
+/// Makes digests of packets in the order of the log, without a session. Deterministic: whoever walks over the
+/// same packets from the same beginning gets the same digests. Memory is bounded: of streams beyond
+/// StreamIndex::kStreamLimit nothing is compared.
 class PacketDigester {
 public:
-    /// `datagram` is what the packet was decoded to, null where that failed.
     PacketDigest add(const log::Packet& packet, const wire::Datagram* datagram);
 
 private:
-    /// The newest datagrams of one stream.
-    struct Recent {
-        static constexpr std::size_t kKept = 64;
-        struct Arrival {
-            std::uint32_t sample;
-            std::uint8_t datagram;
-        };
-        std::array<Arrival, kKept> arrivals{};
-        std::size_t count = 0;     ///< since the counter last began
-        std::uint32_t highest = 0; ///< sample counter
-        std::int64_t stampNs = 0;
-        bool isKnown = false;
-        SampleStep step;
-    };
     struct Hash {
         std::size_t operator()(const log::StreamKey& key) const {
             return (static_cast<std::size_t>(key.source) << 16 | std::size_t{key.character} << 8 | key.type) *
                    0x9e3779b97f4a7c15U;
         }
     };
-    static void compare(const wire::Header& header, Recent& recent, PacketDigest& digest);
-
-    std::unordered_map<log::StreamKey, Recent, Hash> m_streams;
+    std::unordered_map<log::StreamKey, StreamAccounting, Hash> m_streams;
 };
 
 /// The digests of the packets that a log holds. Belongs to one thread.
 class PacketDigests {
+    static constexpr std::size_t kBlock = 4096;
+    struct Block {
+        std::array<PacketDigest, kBlock> digests;
+        std::size_t problems = 0; ///< a block without one is passed over
+    };
+
 public:
+    /// Digests [begin(), end()) as they were; for one other thread to read while more are appended.
+    class Excerpt {
+    public:
+        [[nodiscard]] std::uint64_t begin() const { return m_begin; }
+        [[nodiscard]] std::uint64_t end() const { return m_end; }
+        /// The number must lie within.
+        [[nodiscard]] const PacketDigest& at(std::uint64_t number) const {
+            const std::uint64_t place = number - m_firstOfBlocks;
+            return m_blocks[place / kBlock]->digests[place % kBlock];
+        }
+
+    private:
+        friend class PacketDigests;
+        std::vector<std::shared_ptr<const Block>> m_blocks;
+        std::uint64_t m_firstOfBlocks = 0;
+        std::uint64_t m_begin = 0;
+        std::uint64_t m_end = 0;
+    };
+
     /// Numbers grow; those that are left out have an empty digest.
     void append(std::uint64_t number, const PacketDigest& digest);
     void dropBefore(std::uint64_t begin);
+    /// Corrects a digest by a verdict that took its time. Excerpts that were given out stay as they are.
+    void amend(const Verdict& verdict);
 
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_end; }
@@ -96,15 +121,12 @@ public:
     [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
     [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
 
-private:
-    static constexpr std::size_t kBlock = 4096;
-    struct Block {
-        std::array<PacketDigest, kBlock> digests;
-        std::size_t problems = 0; ///< a block without one is passed over
-    };
+    /// From a packet on; whole blocks are shared, at most one is copied.
+    [[nodiscard]] Excerpt excerpt(std::uint64_t from) const;
 
-    std::deque<std::unique_ptr<Block>> m_blocks;
-    std::uint64_t m_firstOfBlocks = 0; ///< number of the first digest of the first block
+private:
+    std::deque<std::shared_ptr<Block>> m_blocks; ///< all but the last are complete
+    std::uint64_t m_firstOfBlocks = 0;           ///< number of the first digest of the first block
     std::uint64_t m_begin = 0;
     std::uint64_t m_end = 0;
 };

@@ -73,7 +73,7 @@ private:
     };
     static constexpr std::size_t kRuns = 8;
     /// So far behind the highest, losses are taken for settled by bursts().
-    static constexpr std::size_t kSettling = 1024;
+    static constexpr std::size_t kSettling = 512;
 
     [[nodiscard]] Run& newestRun() { return m_runs[m_runCount - 1]; }
     [[nodiscard]] const Run& newestRun() const { return m_runs[m_runCount - 1]; }

@@ -64,33 +64,35 @@ bool Session::follow(std::int64_t nowNs, std::size_t most) {
 
 void Session::take(const log::Packet& packet) {
     const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_scratch).has_value();
-    const PacketDigest digest = m_digester.add(packet, isRead ? &m_scratch : nullptr);
+    PacketDigest digest = digestOf(packet, isRead ? &m_scratch : nullptr);
     if (m_digests.end() == 0) {
         m_firstStampNs = packet.stampNs;
     }
-    m_digests.append(packet.number, digest);
-    Source* source = sourceOf(packet);
-    if (source == nullptr) {
-        return;
+    if (Source* source = sourceOf(packet)) {
+        source->lastStampNs = packet.stampNs;
+        source->kernelDrops += packet.kernelDropsBefore;
+        source->bytes += packet.bytes.size();
+        source->datagrams += digest.kind == PacketKind::Skipped ? 0 : 1;
+        takeFrom(packet, *source, digest);
     }
-    source->lastStampNs = packet.stampNs;
-    source->kernelDrops += packet.kernelDropsBefore;
-    source->bytes += packet.bytes.size();
-    source->datagrams += digest.kind == PacketKind::Skipped ? 0 : 1;
+    m_digests.append(packet.number, digest);
+}
+
+void Session::takeFrom(const log::Packet& packet, Source& source, PacketDigest& digest) {
     switch (digest.kind) {
     case PacketKind::Datagram:
-        takeDatagram(packet, *source);
+        takeDatagram(packet, source, digest);
         break;
     case PacketKind::Malformed:
-        takeMalformed(packet, *source, digest);
+        takeMalformed(packet, source, digest);
         break;
     case PacketKind::Foreign:
-        ++source->foreign;
-        source->foreignBytes += packet.bytes.size();
-        source->firstForeignBytes = shownBytes(packet.bytes);
+        ++source.foreign;
+        source.foreignBytes += packet.bytes.size();
+        source.firstForeignBytes = shownBytes(packet.bytes);
         break;
     case PacketKind::Skipped:
-        source->skippedBytes += packet.bytes.size();
+        source.skippedBytes += packet.bytes.size();
         break;
     }
 }
@@ -103,7 +105,7 @@ void Session::takeMalformed(const log::Packet& packet, Source& source, const Pac
     }
 }
 
-void Session::takeDatagram(const log::Packet& packet, Source& source) {
+void Session::takeDatagram(const log::Packet& packet, Source& source, PacketDigest& digest) {
     const wire::Header& header = m_scratch.header;
     source.detector.addHeader(header);
     Stream* stream = streamOf({packet.source, header.character, header.type()});
@@ -111,9 +113,13 @@ void Session::takeDatagram(const log::Packet& packet, Source& source) {
     if (stream == nullptr || character == nullptr) {
         return;
     }
-    m_index.add(packet);
-    stream->statistics.add(packet.stampNs, packet.bytes.size(), header.sampleCounter,
-                           header.datagramIndex() == 0);
+    m_index.add(packet, header);
+    stream->statistics.add(packet.stampNs, packet.bytes.size(), header.datagramIndex() == 0);
+    for (const Verdict& verdict : addToStream(packet, header, stream->accounting, digest)) {
+        if (verdict.packet != packet.number) {
+            m_digests.amend(verdict);
+        }
+    }
     character->lastStampNs = packet.stampNs;
     character->lastPacket = packet.number;
     takeContent(packet, *character, source);
@@ -178,9 +184,7 @@ Stream* Session::streamOf(const log::StreamKey& key) {
         return nullptr;
     }
     m_streamIndex.emplace(key, m_streams.size());
-    Stream& stream = m_streams.emplace_back();
-    stream.key = key;
-    return &stream;
+    return &m_streams.emplace_back(key);
 }
 
 std::optional<CharacterKey> Session::lastOfSameHost(const CharacterKey& key) const {
@@ -269,6 +273,59 @@ const Character* Session::find(const CharacterKey& key) const {
 const Stream* Session::find(const log::StreamKey& key) const {
     const auto found = m_streamIndex.find(key);
     return found == m_streamIndex.end() ? nullptr : &m_streams[found->second];
+}
+
+template <class Selected, class Counts>
+StreamCounts Session::sumOf(Selected isSelected, Counts counts) const {
+    StreamCounts sum;
+    for (const Stream& stream : m_streams) {
+        if (isSelected(stream.key)) {
+            sum += counts(stream.accounting);
+        }
+    }
+    return sum;
+}
+
+namespace {
+
+auto ofCharacter(const CharacterKey& key) {
+    return [key](const log::StreamKey& stream) {
+        return CharacterKey{stream.source, stream.character} == key;
+    };
+}
+
+auto ofSource(log::SourceId id) {
+    return [id](const log::StreamKey& stream) { return stream.source == id; };
+}
+
+auto within(const TimeRange& range) {
+    return [range](const StreamAccounting& accounting) {
+        return accounting.countsBetween(range.fromNs, range.toNs);
+    };
+}
+
+constexpr auto kAll = [](const StreamAccounting& accounting) { return accounting.counts(); };
+
+} // namespace
+
+StreamCounts Session::countsOf(const CharacterKey& key) const {
+    return sumOf(ofCharacter(key), kAll);
+}
+
+StreamCounts Session::countsOf(log::SourceId id) const {
+    return sumOf(ofSource(id), kAll);
+}
+
+StreamCounts Session::countsOf(const CharacterKey& key, const TimeRange& range) const {
+    return sumOf(ofCharacter(key), within(range));
+}
+
+StreamCounts Session::countsOf(log::SourceId id, const TimeRange& range) const {
+    return sumOf(ofSource(id), within(range));
+}
+
+StreamCounts Session::countsBetween(const TimeRange& range) const {
+    return sumOf([](const log::StreamKey&) { return true; }, within(range));
 }
 
 std::uint64_t Session::visibleEnd() const {

@@ -10,6 +10,7 @@
 #include "core/model/metadata.h"
 #include "core/model/null_pose.h"
 #include "core/model/packet_digest.h"
+#include "core/model/stream_accounting.h"
 #include "core/model/stream_statistics.h"
 #include "core/model/time_range.h"
 
@@ -25,8 +26,11 @@ namespace posewire::model {
 
 /// One message type of one character on the air.
 struct Stream {
+    explicit Stream(const log::StreamKey& streamKey) : key(streamKey), accounting(streamKey.type) {}
+
     log::StreamKey key;
-    StreamStatistics statistics;
+    StreamStatistics statistics; ///< how fast it is now
+    StreamAccounting accounting; ///< what came and what did not
     std::uint64_t malformed = 0; ///< datagrams with a header of this stream that could not be decoded
 };
 
@@ -121,6 +125,13 @@ public:
     [[nodiscard]] const Character* find(const CharacterKey& key) const;
     [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
 
+    /// Sums over the streams of a character, a source, or all, without what makes no sense of several.
+    [[nodiscard]] StreamCounts countsOf(const CharacterKey& key) const;
+    [[nodiscard]] StreamCounts countsOf(log::SourceId id) const;
+    [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
+    [[nodiscard]] StreamCounts countsOf(log::SourceId id, const TimeRange& range) const;
+    [[nodiscard]] StreamCounts countsBetween(const TimeRange& range) const;
+
     /// A sender that starts again has another port, and some senders use a port for each kind of message. So
     /// a character of the same host with the same ID that fell silent before this one came is the same
     /// person: what this one has not sent yet is taken from there. Null where there is none, or where both
@@ -203,7 +214,8 @@ public:
 
 private:
     void take(const log::Packet& packet);
-    void takeDatagram(const log::Packet& packet, Source& source);
+    void takeFrom(const log::Packet& packet, Source& source, PacketDigest& digest);
+    void takeDatagram(const log::Packet& packet, Source& source, PacketDigest& digest);
     void takeMalformed(const log::Packet& packet, Source& source, const PacketDigest& digest);
     void takeContent(const log::Packet& packet, Character& character, Source& source);
     // Null where there are too many already.
@@ -211,6 +223,8 @@ private:
     Character* characterOf(const CharacterKey& key, std::uint64_t packetNumber);
     Stream* streamOf(const log::StreamKey& key);
     [[nodiscard]] std::uint64_t visibleEnd() const;
+    template <class Selected, class Counts>
+    [[nodiscard]] StreamCounts sumOf(Selected isSelected, Counts counts) const;
     [[nodiscard]] std::optional<CharacterKey> lastOfSameHost(const CharacterKey& key) const;
     [[nodiscard]] std::string_view metadataValue(const CharacterKey& key, std::string_view tag) const;
     [[nodiscard]] const log::StreamEntries* entries(const log::StreamKey& key) const {
@@ -248,7 +262,6 @@ private:
     RangeChoice m_range;
     std::string m_displayFilter;
     Annotations m_annotations;
-    PacketDigester m_digester;
     PacketDigests m_digests;
     std::deque<Source> m_sources;
     std::deque<Character> m_characters;

@@ -12,28 +12,13 @@ constexpr double kNsPerSecond = 1e9;
 
 } // namespace
 
-void StreamStatistics::add(std::int64_t stampNs, std::size_t bytes, std::uint32_t sample, bool beginsSample) {
-    m_firstStampNs = m_datagrams == 0 ? stampNs : m_firstStampNs;
+void StreamStatistics::add(std::int64_t stampNs, std::size_t bytes, bool beginsSample) {
     m_lastStampNs = stampNs;
-    ++m_datagrams;
     m_bytes += bytes;
-    if (!beginsSample) {
-        return;
+    if (beginsSample) {
+        m_arrivals[m_samples % kWindow] = {stampNs, m_bytes};
+        ++m_samples;
     }
-    if (m_samples != 0) {
-        addStep(sample - m_lastSample);
-    }
-    m_lastSample = sample;
-    m_arrivals[m_samples % kWindow] = {stampNs, m_bytes};
-    ++m_samples;
-}
-
-void StreamStatistics::addStep(std::uint32_t moved) {
-    const std::uint32_t usual = step();
-    if (moved != 0 && usual != 0 && moved != usual) {
-        ++m_gaps;
-    }
-    m_step.add(moved);
 }
 
 std::size_t StreamStatistics::windowSize() const {

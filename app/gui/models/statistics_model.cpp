@@ -27,9 +27,9 @@ constexpr std::array<ColumnText, StatisticsModel::kColumnCount> kColumns{{
                        "Samples a second as they arrive at this computer, not as they were sent")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "2 min"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Datagrams a second over the last two minutes")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Gaps"),
+    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Lost"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "How often the sample counter moved by something else than its step")},
+                       "Samples that should have come, by the sender's own step, and of which nothing came")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Dev. ms"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
                        "Standard deviation of the time between samples over the newest 256 or 2 s")},
@@ -78,7 +78,7 @@ void StatisticsModel::addTrend() {
     m_trendSecond = second;
     for (std::size_t row = 0; row < m_trends.size(); ++row) {
         Trend& trend = m_trends[row];
-        const std::uint64_t datagrams = stream(static_cast<int>(row)).statistics.datagrams();
+        const std::uint64_t datagrams = stream(static_cast<int>(row)).accounting.datagrams();
         // A stream that has just appeared was there for a part of the second only.
         const bool isNew = trend.datagrams == 0;
         const std::uint64_t arrived = datagrams - std::exchange(trend.datagrams, datagrams);
@@ -115,8 +115,8 @@ QString StatisticsModel::text(const model::Stream& stream, int column) const {
         return characterName(m_view, {stream.key.source, stream.key.character});
     case kRate:
         return fixed(figures.rateHz(), 1);
-    case kGaps:
-        return grouped(figures.gaps());
+    case kLost:
+        return grouped(stream.accounting.counts().lost);
     case kDeviation:
         return fixed(figures.spacing().deviation * kMsPerNs, 2);
     case kLeast:
@@ -128,7 +128,7 @@ QString StatisticsModel::text(const model::Stream& stream, int column) const {
     case kBandwidth:
         return fixed(figures.bytesPerSecond() / 1000, 1);
     case kDatagrams:
-        return grouped(figures.datagrams());
+        return grouped(stream.accounting.datagrams());
     case kMalformed:
         return grouped(stream.malformed);
     default:
@@ -137,7 +137,7 @@ QString StatisticsModel::text(const model::Stream& stream, int column) const {
 }
 
 Health StatisticsModel::health(const model::Stream& stream, int column) const {
-    if (column == kGaps && stream.statistics.gaps() != 0) {
+    if (column == kLost && stream.accounting.counts().lost != 0) {
         return Health::Warning;
     }
     if (column == kMalformed && stream.malformed != 0) {

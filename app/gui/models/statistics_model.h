@@ -22,7 +22,7 @@ public:
         kStream,
         kRate,
         kTrend,
-        kGaps,
+        kLost,
         kDeviation,
         kLeast,
         kMean,

@@ -36,11 +36,11 @@ State ageState(double age, double rateHz) {
     return {};
 }
 
-State countState(std::uint64_t malformed, std::uint64_t gaps) {
+State countState(std::uint64_t malformed, std::uint64_t lost) {
     if (malformed != 0) {
         return {Health::Error, tr("%1 malformed").arg(grouped(malformed))};
     }
-    return {gaps == 0 ? Health::Good : Health::Warning, grouped(gaps)};
+    return {lost == 0 ? Health::Good : Health::Warning, grouped(lost)};
 }
 
 /// Another source has taken over: nothing is wrong, and nothing more will come.
@@ -72,7 +72,7 @@ QString State::display() const {
 }
 
 double streamAge(model::SessionView& view, const model::Stream& stream) {
-    return ageOf(view, stream.statistics.lastStampNs());
+    return ageOf(view, stream.accounting.lastStampNs());
 }
 
 State streamState(model::SessionView& view, const model::Stream& stream) {
@@ -85,7 +85,7 @@ State streamState(model::SessionView& view, const model::Stream& stream) {
             return age;
         }
     }
-    return countState(stream.malformed, stream.statistics.gaps());
+    return countState(stream.malformed, stream.accounting.counts().lost);
 }
 
 State characterState(model::SessionView& view, const model::Character& character) {
@@ -97,15 +97,15 @@ State characterState(model::SessionView& view, const model::Character& character
         return age;
     }
     std::uint64_t malformed = 0;
-    std::uint64_t gaps = 0;
+    std::uint64_t lost = 0;
     for (const model::Stream& stream : view.streams()) {
         if (stream.key.source == character.key.source && stream.key.character == character.key.character) {
             malformed += stream.malformed;
             // What is missing of one sample is missing in each of its types: the worst stream counts.
-            gaps = std::max(gaps, stream.statistics.gaps());
+            lost = std::max(lost, stream.accounting.counts().lost);
         }
     }
-    return countState(malformed, gaps);
+    return countState(malformed, lost);
 }
 
 State sourceState(model::SessionView& view, const model::Source& source) {

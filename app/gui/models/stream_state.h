@@ -24,7 +24,8 @@ struct State {
 /// Seconds since the newest datagram of a stream; at least 0, also when the cursor lies before it.
 [[nodiscard]] double streamAge(model::SessionView& view, const model::Stream& stream);
 
-/// Age first, then malformed datagrams, then gaps. Types that are sent now and then (12, 13) never get stale.
+/// Age first, then malformed datagrams, then lost samples. Types that are sent now and then (12, 13) never
+/// get stale.
 [[nodiscard]] State streamState(model::SessionView& view, const model::Stream& stream);
 [[nodiscard]] State characterState(model::SessionView& view, const model::Character& character);
 [[nodiscard]] State sourceState(model::SessionView& view, const model::Source& source);

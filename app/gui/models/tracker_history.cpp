@@ -55,7 +55,7 @@ void TrackerHistory::follow(model::SessionView& view, const std::optional<model:
     }
     const log::StreamKey stream{key->source, key->character, wire::TrackerKinematics::kType};
     const model::Stream* figures = view.find(stream);
-    const std::uint32_t step = figures == nullptr ? 0 : figures->statistics.step();
+    const std::uint32_t step = figures == nullptr ? 0 : figures->accounting.step();
     const std::int64_t from = std::max(newest->stampNs - kPlotNs, m_lastStampNs + 1);
     const std::size_t added =
         view.visit(stream, from, kMostMessages, [&](const auto& message) { add(message, step); });

@@ -113,7 +113,7 @@ TEST_F(PanelsTest, StatisticsShowAsManyColumnsAsFitOrThoseThatWereChosen) {
     TableView* view = table(*panel);
     panel->resize(380, 400);
     EXPECT_LE(view->header()->length(), view->viewport()->width());
-    EXPECT_FALSE(view->isColumnHidden(StatisticsModel::kGaps));
+    EXPECT_FALSE(view->isColumnHidden(StatisticsModel::kLost));
     EXPECT_TRUE(view->isColumnHidden(StatisticsModel::kMalformed));
     EXPECT_TRUE(panel->state().isEmpty());
     panel->resize(1400, 400);
