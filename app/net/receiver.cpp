@@ -3,6 +3,7 @@
 
 #include "app/net/receive_loop.h"
 #include "app/net/tcp_thread.h"
+#include "app/net/thread_time.h"
 #include "app/net/udp_binding.h"
 
 #include <algorithm>
@@ -133,6 +134,20 @@ ReceiveTotals Receiver::totals() const {
         }
     }
     return totals;
+}
+
+std::optional<double> Receiver::cpuSeconds() {
+    return net::cpuSeconds(m_thread);
+}
+
+std::optional<double> Receiver::takeBufferFill() {
+    constexpr double kThousand = 1000;
+    const std::int32_t fill = m_counters.bufferFill;
+    if (fill < 0) {
+        return std::nullopt;
+    }
+    m_counters.bufferFill = 0;
+    return fill / kThousand;
 }
 
 bool Receiver::submit(std::span<const std::byte> bytes, const log::SourceInfo& source,

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
@@ -44,6 +45,8 @@ struct ReceiveCounters {
     std::atomic<std::uint64_t> datagrams = 0;
     std::atomic<std::uint64_t> bytes = 0;
     std::atomic<std::uint64_t> kernelDropped = 0; ///< datagrams lost in this computer for want of buffer room
+    /// In thousandths, the most since it was taken; -1 before it was looked at.
+    std::atomic<std::int32_t> bufferFill = -1;
     std::atomic<std::int64_t> longestDelayNs =
         0; ///< the longest time the thread did not come to look at its sockets
 };
@@ -92,6 +95,13 @@ public:
     /// In the order in which they were added.
     [[nodiscard]] std::vector<InputStatus> inputs() const;
     [[nodiscard]] ReceiveTotals totals() const;
+
+    /// Processor time of the receiving thread in seconds; nothing where the system does not tell.
+    [[nodiscard]] std::optional<double> cpuSeconds();
+
+    /// Share of a UDP input's buffer that was full, the most that was seen since the last call, some ten
+    /// times a second and after each delay; nothing where the system does not tell or no UDP input is open.
+    [[nodiscard]] std::optional<double> takeBufferFill();
 
     /// Brings a packet into the log; `arrival.source` need not be set. False where the queue is full: the
     /// packet is lost, and the log will tell so.

@@ -87,6 +87,7 @@ private:
     void checkDrops(Socket& socket);
     void checkAllDrops();
     void measureBuffers();
+    void measureFill();
     void rest(std::size_t received);
     void adaptNap(std::size_t received);
     void waitForSomething();
@@ -98,6 +99,7 @@ private:
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
     std::vector<std::unique_ptr<Socket>> m_sockets;
     int m_idleNaps = 0;
+    bool m_isDelayed = false; ///< the sockets had to wait for longer than usual
     int m_roundsSinceDropCheck = 0;
     std::int64_t m_lookedNs = 0; ///< when the sockets were last looked at, monotonic
 };
@@ -177,6 +179,9 @@ void RecvmmsgLoop::wake() {
 /// How many packets there were.
 std::size_t RecvmmsgLoop::drainAll() {
     std::size_t count = 0;
+    if (m_roundsSinceDropCheck == 0 || m_isDelayed) {
+        measureFill();
+    }
     for (const auto& socket : m_sockets) {
         count += drain(*socket);
     }
@@ -274,6 +279,22 @@ void RecvmmsgLoop::checkDrops(Socket& socket) {
     }
 }
 
+/// Before the sockets are emptied; the fullest counts.
+void RecvmmsgLoop::measureFill() {
+    m_isDelayed = false;
+    for (const auto& socket : m_sockets) {
+        std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
+        socklen_t size = sizeof info;
+        if (::getsockopt(socket->descriptor.get(), SOL_SOCKET, SO_MEMINFO, info.data(), &size) == 0 &&
+            info[SK_MEMINFO_RCVBUF] != 0) {
+            const auto fill = static_cast<std::int32_t>(std::uint64_t{info[SK_MEMINFO_RMEM_ALLOC]} * 1000 /
+                                                        info[SK_MEMINFO_RCVBUF]);
+            std::atomic<std::int32_t>& most = m_context.counters.bufferFill;
+            most.store(std::max(most.load(std::memory_order_relaxed), fill), std::memory_order_relaxed);
+        }
+    }
+}
+
 void RecvmmsgLoop::checkAllDrops() {
     m_roundsSinceDropCheck = 0;
     for (const auto& socket : m_sockets) {
@@ -304,6 +325,7 @@ void RecvmmsgLoop::rest(std::size_t received) {
     std::this_thread::sleep_for(m_nap);
     const std::int64_t nowNs = m_context.clock.monotonicNs();
     const std::int64_t delayNs = nowNs - std::exchange(m_lookedNs, nowNs);
+    m_isDelayed = std::chrono::nanoseconds(delayNs) > 2 * m_longestNap;
     if (delayNs > m_context.counters.longestDelayNs.load(std::memory_order_relaxed)) {
         m_context.counters.longestDelayNs.store(delayNs, std::memory_order_relaxed);
     }
