@@ -32,8 +32,8 @@ struct Column {
 constexpr std::array<Column, 8> kColumns{{{"Hz", 9},
                                           {"lost", 9},
                                           {"loss %", 8},
-                                          {"double", 8},
-                                          {"reord.", 8},
+                                          {"doubled", 9},
+                                          {"reordered", 11},
                                           {"late", 7},
                                           {"jitter ms", 10},
                                           {"gap ms", 9}}};

@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace posewire::exporting {
@@ -62,21 +63,35 @@ Json streamJson(const StreamFigures& figures) {
               {"driftMs", rounded(figures.clock.driftMs, 1e3)}}}};
 }
 
+/// By type, whatever came first.
+Json streamsJson(const model::Session& session, const model::CharacterKey& key) {
+    std::vector<const model::Stream*> streams;
+    for (const model::Stream& stream : session.streams()) {
+        if (stream.key.source == key.source && stream.key.character == key.character) {
+            streams.push_back(&stream);
+        }
+    }
+    std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
+    Json list = Json::array();
+    for (const model::Stream* stream : streams) {
+        list.push_back(streamJson(figuresOf(session, *stream)));
+    }
+    return list;
+}
+
 Json charactersJson(const model::Session& session, const model::Source& source) {
-    Json characters = Json::array();
+    std::vector<model::CharacterKey> keys;
     for (const model::Character& character : session.characters()) {
-        if (character.key.source != source.id) {
-            continue;
+        if (character.key.source == source.id) {
+            keys.push_back(character.key);
         }
-        Json streams = Json::array();
-        for (const model::Stream& stream : session.streams()) {
-            if (stream.key.source == source.id && stream.key.character == character.key.character) {
-                streams.push_back(streamJson(figuresOf(session, stream)));
-            }
-        }
-        characters.push_back({{"id", character.key.character},
-                              {"name", sentName(session, character.key)},
-                              {"streams", std::move(streams)}});
+    }
+    std::ranges::sort(keys);
+    Json characters = Json::array();
+    for (const model::CharacterKey& key : keys) {
+        characters.push_back({{"id", key.character},
+                              {"name", sentName(session, key)},
+                              {"streams", streamsJson(session, key)}});
     }
     return characters;
 }
@@ -85,30 +100,11 @@ bool isMxtp(const model::Source& source) {
     return source.datagrams > source.foreign || source.skippedBytes != 0;
 }
 
-/// Of all streams of a source.
-struct WellFormed {
-    std::uint64_t datagrams = 0;
-    std::uint64_t bytes = 0;
-};
-
-WellFormed wellFormedOf(const model::Session& session, const model::Source& source) {
-    WellFormed sum;
-    for (const model::Stream& stream : session.streams()) {
-        if (stream.key.source == source.id) {
-            const StreamFigures figures = figuresOf(session, stream);
-            sum.datagrams += figures.counts.datagrams;
-            sum.bytes += figures.counts.bytes;
-        }
-    }
-    return sum;
-}
-
 Json sourceJson(const model::Session& session, const model::Source& source) {
-    const WellFormed wellFormed = wellFormedOf(session, source);
     return {{"address", source.info.address},
             {"transport", transportName(source.info.transport)},
-            {"datagrams", wellFormed.datagrams},
-            {"bytes", wellFormed.bytes},
+            {"datagrams", source.datagrams - source.malformed - source.foreign},
+            {"bytes", source.bytes - source.skippedBytes - source.foreignBytes},
             {"malformed", source.malformed},
             {"skippedBytes", source.skippedBytes},
             {"characters", charactersJson(session, source)},

@@ -40,13 +40,13 @@ svg text{fill:var(--dim);font:11px system-ui,"Segoe UI","Noto Sans",sans-serif;f
 .c0{color:var(--c0)}.c1{color:var(--c1)}.c2{color:var(--c2)}.c3{color:var(--c3)}
 .c4{color:var(--c4)}.c5{color:var(--c5)}.c6{color:var(--c6)}.c7{color:var(--c7)}
 svg.spark{width:90px;height:18px;margin:0}
-.scroll{overflow-x:auto;border:1px solid var(--line);border-radius:6px}
+.scroll{overflow-x:auto;margin-top:10px;border:1px solid var(--line);border-radius:6px}
 table{border-collapse:collapse;width:100%;font-size:13px}
 th,td{padding:5px 9px;text-align:left;vertical-align:top;unicode-bidi:isolate}
 th{background:var(--panel);color:var(--dim);font-weight:600;white-space:nowrap;border-bottom:1px solid var(--line)}
+td:first-child{white-space:nowrap}
 tr+tr td{border-top:1px solid var(--line)}
 .n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap;overflow-wrap:normal}
-td.n,th.n{padding-left:6px;padding-right:8px}
 .swatch{display:inline-block;width:12px;height:12px;border-radius:3px;border:1px solid var(--line);
 vertical-align:-1px;margin-right:7px}
 @media print{:root{color-scheme:light;--ground:#fff;--panel:#fff;--line:#bbb;--text:#000;--dim:#444;

@@ -22,78 +22,88 @@ std::string cssColour(const model::Colour& colour) {
     return text;
 }
 
-const model::Stream* streamOf(const model::Session& session, const log::StreamKey& key) {
-    return session.find(key);
+std::string alarming(std::uint64_t count) {
+    return count == 0 ? grouped(count) : "<span class=\"warning\">" + grouped(count) + "</span>";
 }
 
-std::vector<HtmlTable::Column> columns() {
-    return {{"Type", false, ""},
-            {"Rate", false, "samples a second over time"},
+std::vector<HtmlTable::Column> deliveryColumns() {
+    return {{"What arrived", false, ""},
+            {"Over time", false, "samples a second"},
             {"Hz", true, "samples a second between the first and the last"},
             {"Datagrams", true, "well-formed, duplicates included"},
             {"Samples", true, "all datagrams of the sample arrived"},
             {"Lost", true, "expected, and nothing of them arrived"},
             {"Incomplete", true, "some but not all datagrams of the sample arrived"},
             {"Loss %", true, "lost and incomplete, of all expected"},
-            {"Loss", false, "percent lost over time"},
+            {"Over time", false, "percent lost"},
             {"Doubled", true, "the same sample and datagram counter came before"},
             {"Reordered", true, "came after a later sample (RFC 4737)"},
             {"Late", true, "reordered by more than 50 ms"},
-            {"Restarts", true, "times the sample counter began anew"},
-            {"Step", true, "spacing of the sample counter; 0: irregular"},
-            {"Longest gap", true, "most samples lost in a row"},
-            {"Bursts", true, "of loss (RFC 3611): fewer than 16 samples between two losses"},
-            {"Jitter ms", true, "RFC 3550"},
-            {"Mean ms", true, "between the arrivals of successive samples"},
-            {"Least", true, "milliseconds between successive samples"},
-            {"Most", true, "milliseconds between successive samples"},
-            {"Deviation", true, "of the time between samples, milliseconds"},
-            {"Skew ppm", true, "how much faster the sender's clock goes than ours"},
-            {"First", true, "sample counter"},
-            {"Last", true, "sample counter"}};
+            {"Restarts", true, "times the sample counter began anew"}};
 }
 
-std::vector<std::string> sampledCells(const StreamFigures& figures, const std::string& rate,
-                                      const std::string& loss) {
+std::vector<std::string> deliveryCells(const StreamFigures& figures, const model::Stream& stream,
+                                       const ReportSteps& steps) {
     const model::StreamCounts& counts = figures.counts;
     const bool hasLoss = counts.lost + counts.incomplete != 0;
-    const auto alarming = [](std::uint64_t count) {
-        return count == 0 ? grouped(count) : "<span class=\"warning\">" + grouped(count) + "</span>";
-    };
     return {escaped(wire::typeTitle(figures.key.type)),
-            rate,
+            svgSparkline(rateSeries(stream, steps), 0),
             fixed(figures.rateHz, 2),
             grouped(counts.datagrams),
             grouped(counts.samples),
             alarming(counts.lost),
             alarming(counts.incomplete),
             hasLoss ? "<span class=\"warning\">" + fixed(100 * counts.lossRatio(), 3) + "</span>" : "0",
-            hasLoss ? loss : "",
+            hasLoss ? svgSparkline(lossSeries(stream, steps), 1) : "",
             alarming(counts.duplicates),
             alarming(counts.reordered),
             alarming(counts.late),
-            alarming(counts.restarts),
-            grouped(counts.step),
-            grouped(counts.longestGapSamples),
-            grouped(figures.pattern.bursts),
+            alarming(counts.restarts)};
+}
+
+/// Types 10 to 13 are sent again and again: only how often, and whether whole, says anything.
+std::vector<std::string> messageCells(const StreamFigures& figures) {
+    std::vector<std::string> cells(deliveryColumns().size());
+    cells[0] = escaped(wire::typeTitle(figures.key.type));
+    cells[2] = figures.rateHz > 0 ? fixed(figures.rateHz, 2) : "";
+    cells[3] = grouped(figures.counts.datagrams);
+    cells[6] = alarming(figures.counts.incomplete);
+    return cells;
+}
+
+std::vector<HtmlTable::Column> timingColumns() {
+    return {{"When it arrived", false, ""},
+            {"Jitter ms", true, "RFC 3550"},
+            {"Mean ms", true, "between the arrivals of successive samples"},
+            {"Least ms", true, "between the arrivals of successive samples"},
+            {"Most ms", true, "between the arrivals of successive samples"},
+            {"Deviation ms", true, "of the time between the arrivals of successive samples"},
+            {"Skew ppm", true, "how much faster the sender's clock goes than ours; needs time codes"},
+            {"Drift ms", true, "what that made since the first sample"},
+            {"Longest gap", true, "most samples lost in a row"},
+            {"Bursts", true, "of loss (RFC 3611): fewer than 16 samples between two losses"},
+            {"Burst %", true, "samples lost, of those in bursts"},
+            {"Step", true, "spacing of the sample counter; 0: irregular"},
+            {"First", true, "sample counter"},
+            {"Last", true, "sample counter"}};
+}
+
+std::vector<std::string> timingCells(const StreamFigures& figures) {
+    const model::StreamCounts& counts = figures.counts;
+    return {escaped(wire::typeTitle(figures.key.type)),
             fixed(figures.clock.jitterMs, 3),
             fixed(figures.arrivals.meanMs, 3),
             fixed(figures.arrivals.leastMs, 3),
             fixed(figures.arrivals.mostMs, 3),
             fixed(figures.arrivals.deviationMs, 3),
             figures.clock.isFromTimeCode ? fixed(figures.clock.skewPpm, 1) : "",
+            figures.clock.isFromTimeCode ? fixed(figures.clock.driftMs, 3) : "",
+            grouped(counts.longestGapSamples),
+            grouped(figures.pattern.bursts),
+            figures.pattern.bursts != 0 ? fixed(100 * figures.pattern.burstDensity, 1) : "",
+            grouped(counts.step),
             std::to_string(counts.firstSample),
             std::to_string(counts.lastSample)};
-}
-
-/// Types 10 to 13 are sent again and again: only how often, and whether whole, says anything.
-std::vector<std::string> unsampledCells(const StreamFigures& figures) {
-    std::vector<std::string> cells(columns().size());
-    cells[0] = escaped(wire::typeTitle(figures.key.type));
-    cells[2] = fixed(figures.rateHz, 2);
-    cells[3] = grouped(figures.counts.datagrams);
-    cells[6] = grouped(figures.counts.incomplete);
-    return cells;
 }
 
 } // namespace
@@ -107,17 +117,18 @@ std::string streamTable(const model::Session& session, const model::CharacterKey
         }
     }
     std::ranges::sort(own, {}, [](const StreamFigures* one) { return one->key.type; });
-    HtmlTable table(columns());
+    HtmlTable delivery(deliveryColumns());
+    HtmlTable timing(timingColumns());
     for (const StreamFigures* one : own) {
-        const model::Stream* stream = streamOf(session, one->key);
+        const model::Stream* stream = session.find(one->key);
         if (stream == nullptr || !model::countsSamples(one->key.type)) {
-            table.add(unsampledCells(*one));
+            delivery.add(messageCells(*one));
             continue;
         }
-        table.add(sampledCells(*one, svgSparkline(rateSeries(*stream, steps), 0),
-                               svgSparkline(lossSeries(*stream, steps), 1)));
+        delivery.add(deliveryCells(*one, *stream, steps));
+        timing.add(timingCells(*one));
     }
-    return table.html();
+    return delivery.html() + (timing.isEmpty() ? "" : timing.html());
 }
 
 std::string metadataList(const model::Session& session, const model::CharacterKey& key) {

@@ -13,7 +13,9 @@ constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
 double rateOf(const StreamFigures& figures, double seconds) {
     const bool isSampled = model::countsSamples(figures.key.type);
     const std::uint64_t count = isSampled ? figures.counts.samples : figures.counts.datagrams;
-    return count > 1 && seconds > 0 ? static_cast<double>(count - 1) / seconds : 0;
+    // Messages come seldom and in several datagrams at once: a moment tells nothing of how often.
+    const double least = isSampled ? 0 : 1;
+    return count > 1 && seconds > least ? static_cast<double>(count - 1) / seconds : 0;
 }
 
 } // namespace

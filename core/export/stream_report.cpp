@@ -79,7 +79,7 @@ std::string sourceSection(const model::Session& session, const std::vector<Strea
             if (character.key.source == source.id) {
                 html += "<h3>" + escaped(session.displayName(character.key)) +
                         " <span class=\"dim\">character " + std::to_string(character.key.character) +
-                        "</span></h3>\n" + metadataList(session, character.key) + "<p></p>" +
+                        "</span></h3>\n" + metadataList(session, character.key) +
                         streamTable(session, character.key, figures, steps);
             }
         }

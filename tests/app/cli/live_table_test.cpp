@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/live_table.h"
+
+#include "app/cli/monitor_options.h"
+
+#include <gmock/gmock.h>
+
+namespace posewire::cli {
+namespace {
+
+TEST(LiveDisplay, WritesOneTableOverTheOtherOnATerminal) {
+    LiveDisplay display(true);
+    EXPECT_EQ(display.show({"one", "two"}, 24, 80), "\x1b[2Kone\n\x1b[2Ktwo\n\x1b[J");
+    EXPECT_EQ(display.show({"three"}, 24, 80), "\x1b[2A\x1b[2Kthree\n\x1b[J");
+    EXPECT_EQ(display.show({"four"}, 24, 80), "\x1b[1A\x1b[2Kfour\n\x1b[J");
+}
+
+TEST(LiveDisplay, NeverWritesMoreThanTheTerminalHolds) {
+    LiveDisplay display(true);
+    const std::vector<std::string> lines(50, "äöüßéè");
+    const std::string text = display.show(lines, 10, 3);
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 9);
+    EXPECT_EQ(text.find("ß"), std::string::npos);
+    EXPECT_THAT(display.show(lines, 10, 80), testing::StartsWith("\x1b[9A"));
+}
+
+TEST(LiveDisplay, WritesBlocksElsewhere) {
+    LiveDisplay display(false);
+    EXPECT_EQ(display.show({"one", "two"}, 24, 80), "one\ntwo\n\n");
+}
+
+TEST(Printable, ReplacesWhatControlsATerminal) {
+    EXPECT_EQ(printable("Zoë \x1b[2J\n\x7f"), "Zoë ?[2J??");
+    EXPECT_EQ(printable("a\xc2\x9b"
+                        "31m\xff\xc3"),
+              "a?31m??");
+}
+
+TEST(MonitorPlaces, AreTheUsualPortWhereNothingIsNamed) {
+    const auto places = placesOf({});
+    ASSERT_TRUE(places);
+    ASSERT_EQ(places->udp.size(), 1U);
+    EXPECT_EQ(places->udp[0].endpoint, net::Endpoint{});
+    MonitorOptions tcp;
+    tcp.tcpListen = {"9764"};
+    EXPECT_TRUE(placesOf(tcp)->udp.empty());
+}
+
+TEST(MonitorPlaces, JoinGroupsAtThePortsThatHearAllAddresses) {
+    MonitorOptions options;
+    options.multicast = {"239.1.2.3"};
+    EXPECT_EQ(placesOf(options)->udp, (std::vector<net::UdpInput>{{net::Endpoint{}, {"239.1.2.3"}}}));
+    options.udp = {"127.0.0.1:1", "2"};
+    const auto places = placesOf(options);
+    ASSERT_EQ(places->udp.size(), 2U);
+    EXPECT_TRUE(places->udp[0].groups.empty());
+    EXPECT_EQ(places->udp[1].groups.size(), 1U);
+}
+
+} // namespace
+} // namespace posewire::cli

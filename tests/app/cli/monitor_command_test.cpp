@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/cli/monitor_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace posewire::cli::test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::vector<std::byte> bytesOfText(const std::string& text) {
+    const auto bytes = std::as_bytes(std::span(text));
+    return {bytes.begin(), bytes.end()};
+}
+
+/// Samples 0 to 999 without 100 to 109, one twice, two swapped.
+std::string faultyRecording() {
+    RecordingFile file;
+    for (std::uint32_t sample = 0; sample < 1000; ++sample) {
+        if (sample >= 100 && sample < 110) {
+            continue;
+        }
+        file.addPose(sample == 500 ? 501 : sample == 501 ? 500 : sample);
+        if (sample == 300) {
+            file.addPose(sample);
+        }
+    }
+    return file.finish();
+}
+
+TEST(MonitorCommand, ReportsWithTheKeysOfTheInterfaceInItsOrder) {
+    const Json report = reportOf(faultyRecording());
+    const auto first = [](std::vector<std::string> keys, std::size_t count) {
+        keys.resize(std::min(count, keys.size()));
+        return keys;
+    };
+    EXPECT_THAT(first(keysOf(report), 4), ElementsAre("durationS", "local", "foreignDatagrams", "sources"));
+    EXPECT_THAT(keysOf(report["local"]), ElementsAre("kernelDropped", "receiveBufferBytes"));
+    const Json& source = report["sources"][0];
+    EXPECT_THAT(first(keysOf(source), 7), ElementsAre("address", "transport", "datagrams", "bytes",
+                                                      "malformed", "skippedBytes", "characters"));
+    EXPECT_THAT(keysOf(source["characters"][0]), ElementsAre("id", "name", "streams"));
+    EXPECT_THAT(first(keysOf(source["characters"][0]["streams"][0]), 15),
+                ElementsAre("type", "datagrams", "samples", "lost", "duplicates", "reordered", "late",
+                            "incomplete", "restarts", "step", "rateHz", "jitterMs", "longestGapSamples",
+                            "firstSample", "lastSample"));
+}
+
+TEST(MonitorCommand, CountsWhatAFileLacks) {
+    const Json report = reportOf(faultyRecording());
+    EXPECT_NEAR(report["durationS"], 999.0 / 240, 0.001);
+    const Json& source = report["sources"][0];
+    EXPECT_EQ(source["address"], "10.0.0.2:40001");
+    EXPECT_EQ(source["transport"], "udp");
+    EXPECT_EQ(source["datagrams"], 991);
+    EXPECT_EQ(source["bytes"], 991 * 56);
+    const Json& stream = source["characters"][0]["streams"][0];
+    EXPECT_EQ(stream["type"], "02");
+    EXPECT_EQ(stream["datagrams"], 991);
+    EXPECT_EQ(stream["samples"], 990);
+    EXPECT_EQ(stream["lost"], 10);
+    EXPECT_EQ(stream["duplicates"], 1);
+    EXPECT_EQ(stream["reordered"], 1);
+    EXPECT_EQ(stream["step"], 1);
+    EXPECT_EQ(stream["longestGapSamples"], 10);
+    EXPECT_EQ(stream["firstSample"], 0);
+    EXPECT_EQ(stream["lastSample"], 999);
+    EXPECT_NEAR(stream["rateHz"], 238, 1);
+}
+
+TEST(MonitorCommand, TellsMalformedAndForeignDatagramsApart) {
+    RecordingFile file;
+    for (std::uint32_t sample = 0; sample < 10; ++sample) {
+        file.addPose(sample);
+    }
+    const std::int64_t later = RecordingFile::kStartNs + 1'000'000'000;
+    file.add(bytesOfText("MXTP02 but nothing more"), later);
+    file.add(bytesOfText("/osc/address"), later);
+    file.add(bytesOfText("/osc/address"), later, {"10.0.0.9:1", log::Transport::Udp, 9763});
+    file.add(bytesOfText("rubbish"), later, {"10.0.0.7:1", log::Transport::Tcp, 9763}, 0, {.skipped = true});
+    file.add({}, later, {"10.0.0.2:40001", log::Transport::Udp, 9763}, 17,
+             {.skipped = true, .isDropRecord = true});
+    const Json report = reportOf(file.finish());
+    EXPECT_EQ(report["foreignDatagrams"], 2);
+    EXPECT_EQ(report["local"]["kernelDropped"], 17);
+    ASSERT_EQ(report["sources"].size(), 2U);
+    EXPECT_EQ(report["sources"][0]["datagrams"], 10);
+    EXPECT_EQ(report["sources"][0]["malformed"], 1);
+    EXPECT_EQ(report["sources"][1]["transport"], "tcp");
+    EXPECT_EQ(report["sources"][1]["skippedBytes"], 7);
+    ASSERT_EQ(report["foreignSources"].size(), 2U);
+    EXPECT_EQ(report["foreignSources"][1]["address"], "10.0.0.9:1");
+}
+
+TEST(MonitorCommand, SortsCharactersAndStreams) {
+    RecordingFile file;
+    file.addPose(0, 3);
+    file.add(RecordingFile::metadata("Ana"), RecordingFile::kStartNs);
+    file.addPose(1, 0);
+    const Json characters = reportOf(file.finish())["sources"][0]["characters"];
+    ASSERT_EQ(characters.size(), 2U);
+    EXPECT_EQ(characters[0]["name"], "Ana");
+    EXPECT_EQ(characters[0]["streams"][0]["type"], "02");
+    EXPECT_EQ(characters[0]["streams"][1]["type"], "12");
+    EXPECT_EQ(characters[1]["id"], 3);
+    EXPECT_EQ(characters[1]["name"], "");
+}
+
+TEST(MonitorCommand, SaysWhichLimitIsExceeded) {
+    const std::string path = faultyRecording();
+    EXPECT_EQ(runProgram({"monitor", path, "--json", "--max-loss", "2", "--max-gap", "1000"}).status, 0);
+    const ProgramRun run = runProgram(
+        {"monitor", path, "--json", "--max-loss", "0.5", "--max-gap", "20", "--max-jitter", "1000"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 2) << run.err;
+    EXPECT_THAT(run.err, HasSubstr("10.0.0.2:40001"));
+    EXPECT_THAT(run.err, HasSubstr("loss 1.000 % is above the limit of 0.500 %"));
+    EXPECT_EQ(Json::parse(run.out)["exceeded"].size(), 2U);
+}
+
+TEST(MonitorCommand, KeepsNoLimitWhereNothingWasReceived) {
+    const ProgramRun run = runProgram({"monitor", fileWith(""), "--json", "--max-loss", "1"});
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.err, HasSubstr("no datagram was received"));
+    EXPECT_EQ(runProgram({"monitor", fileWith(""), "--json"}).status, 0);
+}
+
+TEST(MonitorCommand, ShowsATableInPlainLinesWhereThereIsNoTerminal) {
+    const ProgramRun run = runProgram({"monitor", faultyRecording()});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, HasSubstr("991 datagrams"));
+    EXPECT_THAT(run.out, HasSubstr("10.0.0.2:40001 (udp)"));
+    EXPECT_THAT(run.out, HasSubstr("02 Pose, quaternion"));
+    EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
+}
+
+TEST(MonitorCommand, LetsNoNameControlTheTerminal) {
+    RecordingFile file;
+    file.add(RecordingFile::metadata("\x1b[31mred\x07"), RecordingFile::kStartNs);
+    const ProgramRun run = runProgram({"monitor", file.finish()});
+    EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
+    EXPECT_THAT(run.out, HasSubstr("?[31mred?"));
+}
+
+TEST(MonitorCommand, RecordsAFileThatTellsTheSame) {
+    const std::string path = faultyRecording();
+    const std::string copy = fileWith("");
+    const Json first = reportOf(path, {"--record", copy});
+    EXPECT_EQ(reportOf(copy), first);
+    EXPECT_EQ(first["sources"][0]["datagrams"], 991);
+}
+
+TEST(MonitorCommand, StopsWhereItWasTold) {
+    const Json report = reportOf(faultyRecording(), {"--duration", "1"});
+    EXPECT_EQ(report["sources"][0]["characters"][0]["streams"][0]["lastSample"], 240);
+}
+
+TEST(MonitorCommand, SpacesDatagramsOfARawFileByTheirTimeCodes) {
+    std::string raw;
+    for (std::uint32_t sample = 0; sample < 241; ++sample) {
+        raw += asText(RecordingFile::pose(sample));
+    }
+    const Json report = reportOf(fileWith(raw));
+    EXPECT_NEAR(report["durationS"], 1.0, 0.005);
+    EXPECT_EQ(report["sources"][0]["transport"], "file");
+    EXPECT_NEAR(report["sources"][0]["characters"][0]["streams"][0]["rateHz"], 240, 1);
+}
+
+TEST(MonitorCommand, EndsWithStatusTwoOnWrongUsage) {
+    const std::vector<std::vector<std::string>> wrong{
+        {"monitor", "--udp", "here:there"},
+        {"monitor", "--tcp", "9763"},
+        {"monitor", "--max-loss", "-1"},
+        {"monitor", "--interval", "0"},
+        {"monitor", "a", "--udp", "1"},
+        {"monitor", "/no/such/file"},
+        {"monitor", fileWith(""), "--record", "/no/such/folder/file"},
+        {"monitor", fileWith(""), "--report", "/no/such/folder/file"},
+        {"report", fileWith("")},
+        {"report", fileWith(""), "-o", "x", "--from", "2", "--to", "1"}};
+    for (const auto& arguments : wrong) {
+        const ProgramRun run = runProgram(arguments);
+        EXPECT_EQ(run.status, 2) << testing::PrintToString(arguments);
+        EXPECT_THAT(run.err, StartsWith("posewire-cli"));
+        EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    }
+}
+
+TEST(ReportCommand, WritesHtmlAboutTheRangeThatWasAskedFor) {
+    const std::string path = faultyRecording();
+    const std::string whole = fileWith("");
+    EXPECT_EQ(runProgram({"report", path, "-o", whole}).status, 0);
+    EXPECT_THAT(textOfFile(whole), StartsWith("<!DOCTYPE html>"));
+    EXPECT_THAT(textOfFile(whole), HasSubstr("10 of 1,000 samples (1.00 %)"));
+    const ProgramRun later = runProgram({"report", path, "-o", "-", "--from", "2"});
+    EXPECT_EQ(later.status, 0);
+    EXPECT_THAT(later.out, HasSubstr("every one of them received"));
+}
+
+} // namespace
+} // namespace posewire::cli::test

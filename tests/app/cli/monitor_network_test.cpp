@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/app/cli/monitor_fixture.h"
+
+#include <QHostAddress>
+#include <QProcess>
+#include <QTcpServer>
+#include <QUdpSocket>
+
+#include <gmock/gmock.h>
+
+namespace posewire::cli::test {
+namespace {
+
+/// `posewire-cli monitor` on a port of its own, from when it listens until it is asked to end.
+class Monitor {
+public:
+    explicit Monitor(const QStringList& more, bool isTcp = false) : m_isTcp(isTcp) {
+        m_port = freePort();
+        m_process.start(POSEWIRE_CLI, QStringList{"monitor", "--json", isTcp ? "--tcp-listen" : "--udp",
+                                                  QString("127.0.0.1:%1").arg(m_port)} +
+                                          more);
+        for (int i = 0; i < 500 && !isListening(); ++i) {
+            m_process.waitForFinished(20);
+        }
+    }
+    ~Monitor() {
+        m_process.kill();
+        m_process.waitForFinished();
+    }
+    [[nodiscard]] std::string place() const { return "127.0.0.1:" + std::to_string(m_port); }
+
+    ProgramRun end() {
+        m_process.terminate(); // as Ctrl+C
+        m_process.waitForFinished(30000);
+        return {m_process.exitCode(), m_process.readAllStandardOutput().toStdString(),
+                m_process.readAllStandardError().toStdString()};
+    }
+
+private:
+    [[nodiscard]] quint16 freePort() const {
+        QUdpSocket udp;
+        QTcpServer tcp;
+        udp.bind(QHostAddress::LocalHost, 0);
+        tcp.listen(QHostAddress::LocalHost, 0);
+        return m_isTcp ? tcp.serverPort() : udp.localPort();
+    }
+    [[nodiscard]] bool isListening() const {
+        QUdpSocket udp;
+        QTcpServer tcp;
+        return m_isTcp ? !tcp.listen(QHostAddress::LocalHost, m_port)
+                       : !udp.bind(QHostAddress::LocalHost, m_port, QAbstractSocket::DontShareAddress);
+    }
+
+    bool m_isTcp;
+    quint16 m_port = 0;
+    QProcess m_process;
+};
+
+std::uint64_t sentBy(const ProgramRun& run) {
+    const std::size_t place = run.out.find("sent ");
+    return place == std::string::npos ? 0 : std::stoull(run.out.substr(place + 5));
+}
+
+TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
+    const std::string recording = fileWith("");
+    Monitor monitor({"--record", QString::fromStdString(recording)});
+    const ProgramRun sender =
+        runProgram({"send", "--to", monitor.place(), "--characters", "2", "--duration", "0.5"});
+    ASSERT_EQ(sender.status, 0) << sender.err;
+    const ProgramRun run = monitor.end();
+    EXPECT_EQ(run.status, 0) << run.err;
+    const Json report = Json::parse(run.out, nullptr, false);
+    ASSERT_TRUE(report.is_object()) << run.out;
+    ASSERT_EQ(report["sources"].size(), 1U);
+    const std::uint64_t received = report["sources"][0]["datagrams"];
+    EXPECT_EQ(received + report["local"]["kernelDropped"].get<std::uint64_t>(), sentBy(sender));
+    EXPECT_GT(report["local"]["receiveBufferBytes"], 0);
+    EXPECT_EQ(report["sources"][0]["characters"].size(), 2U);
+    EXPECT_EQ(reportOf(recording)["sources"], report["sources"]);
+}
+
+TEST(MonitorNetwork, WaitsForASenderToConnectByTcp) {
+    Monitor monitor({}, true);
+    const ProgramRun sender =
+        runProgram({"send", "--tcp", "--to", monitor.place(), "--characters", "1", "--duration", "0.2"});
+    ASSERT_EQ(sender.status, 0) << sender.err;
+    const Json report = Json::parse(monitor.end().out, nullptr, false);
+    ASSERT_TRUE(report.is_object());
+    ASSERT_EQ(report["sources"].size(), 1U);
+    EXPECT_EQ(report["sources"][0]["transport"], "tcp");
+    EXPECT_EQ(report["sources"][0]["datagrams"], sentBy(sender));
+}
+
+TEST(MonitorNetwork, EndsByItselfAfterItsDuration) {
+    const ProgramRun run = runProgram({"monitor", "--json", "--udp", "127.0.0.1:0", "--duration", "0.1"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_GE(Json::parse(run.out)["durationS"].get<double>(), 0.1);
+}
+
+TEST(MonitorNetwork, SaysWhoHoldsAPort) {
+    QUdpSocket holder;
+    ASSERT_TRUE(holder.bind(QHostAddress::LocalHost, 0, QAbstractSocket::DontShareAddress));
+    const std::string place = "127.0.0.1:" + std::to_string(holder.localPort());
+    const ProgramRun run = runProgram({"monitor", "--udp", place, "--duration", "0.1"});
+    EXPECT_EQ(run.status, 2);
+    EXPECT_THAT(run.err, testing::HasSubstr(std::to_string(holder.localPort())));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+}
+
+} // namespace
+} // namespace posewire::cli::test
