@@ -3,6 +3,7 @@
 
 #include "core/filter/field.h"
 #include "core/model/character_pose.h"
+#include "core/model/points.h"
 #include "core/model/segments.h"
 
 #include <algorithm>
@@ -31,7 +32,24 @@ int numberAt(const model::SegmentPlace& place) {
     return 0;
 }
 
+/// Nothing where no segment has such a point.
+std::optional<model::PointReference> pointBy(model::PointIdCoding coding, std::uint32_t id) {
+    const auto point = model::decodePointId(coding, id);
+    const bool isOne = point && point->segmentId >= 1 && point->segmentId <= model::kMaxSegmentCount &&
+                       point->localId >= 1 && point->localId <= model::kMaxLocalPointId;
+    return isOne ? point : std::nullopt;
+}
+
 } // namespace
+
+double pointSegment(std::span<const wire::Point> points, std::size_t item) {
+    using enum model::PointIdCoding;
+    const std::uint32_t id = points[item].id;
+    const auto by256 = pointBy(By256, id);
+    const auto by100 = pointBy(By100, id);
+    const bool isOld = by256 && by100 ? !pointBy(By256, points.front().id) : by100.has_value();
+    return isOld ? by100->segmentId : id >> 8;
+}
 
 std::span<const std::string_view> segmentNames() {
     static const auto names = [] {

@@ -4,6 +4,8 @@
 #include "core/wire/header.h"
 #include "core/wire/messages.h"
 
+#include <span>
+
 /// Which segment an item of a message is about.
 namespace posewire::filter {
 
@@ -21,14 +23,11 @@ concept HasSegmentId = std::is_same_v<Item, wire::SegmentEuler> ||
     std::is_same_v<Item, wire::LinearSegment> || std::is_same_v<Item, wire::AngularSegment> ||
     std::is_same_v<Item, wire::Tracker> || std::is_same_v<Item, wire::Prop>;
 
-/// The wire's own number. Points are taken to be numbered 256 × segment + point; null-pose segments, which
-/// have no number, count from 1; a joint belongs to its child.
+/// The wire's own number; null-pose segments, which have no number, count from 1; a joint belongs to its
+/// child.
 template <HasSegmentId Item>
 double segmentId(const Item& item, std::size_t) {
     return item.id;
-}
-inline double segmentId(const wire::Point& point, std::size_t) {
-    return point.id >> 8;
 }
 inline double segmentId(const wire::Joint& joint, std::size_t) {
     return joint.child >> 8;
@@ -36,6 +35,10 @@ inline double segmentId(const wire::Joint& joint, std::size_t) {
 inline double segmentId(const wire::NullPoseSegment&, std::size_t item) {
     return static_cast<double>(item + 1);
 }
+
+/// Points are numbered 256 × segment + point, in revision E 100 × segment + point. The few ids that could be
+/// either are taken as the first point of the datagram is.
+[[nodiscard]] double pointSegment(std::span<const wire::Point> points, std::size_t item);
 
 /// The number that a name stands for (see segmentNumber), since the ids of props and fingers differ between
 /// revisions; 0 where the item has no name.

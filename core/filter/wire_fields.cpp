@@ -63,15 +63,26 @@ template <class T, auto List, auto Member>
 Value readListed(const Datagram& datagram, std::size_t item, std::size_t component) {
     return valueOf((bodyOf<T>(datagram).*List)[item].*Member, component);
 }
+template <auto List>
+constexpr bool kHasPoints = std::is_same_v<typename wire::MemberValue<List>::value_type, wire::Point>;
+
 template <class T, auto List>
 Value readSegment(const Datagram& datagram, std::size_t item, std::size_t) {
-    return {segmentId((bodyOf<T>(datagram).*List)[item], item), {}};
+    if constexpr (kHasPoints<List>) {
+        return {pointSegment(bodyOf<T>(datagram).*List, item), {}};
+    } else {
+        return {segmentId((bodyOf<T>(datagram).*List)[item], item), {}};
+    }
 }
 template <class T, auto List>
 Value readNamedSegment(const Datagram& datagram, std::size_t item, std::size_t) {
-    const ItemPlace place{datagram.header, item, (bodyOf<T>(datagram).*List).size(),
-                          std::is_same_v<T, wire::PoseUnity>};
-    return {namedSegment((bodyOf<T>(datagram).*List)[item], place), {}};
+    if constexpr (kHasPoints<List>) {
+        return {pointSegment(bodyOf<T>(datagram).*List, item), {}};
+    } else {
+        const ItemPlace place{datagram.header, item, (bodyOf<T>(datagram).*List).size(),
+                              std::is_same_v<T, wire::PoseUnity>};
+        return {namedSegment((bodyOf<T>(datagram).*List)[item], place), {}};
+    }
 }
 template <auto Member>
 bool readHeader(Subject& subject, std::size_t index, Value& value) {
@@ -206,6 +217,10 @@ private:
     void addList(const wire::About& about) {
         using Item = typename wire::MemberValue<List>::value_type;
         add(m_found, m_spot, about, {Kind::Number, 1, &readCount<T, List>});
+        Spot counted = m_spot;
+        counted.qualifier = about.name;
+        add(m_found, counted, {"count", wire::Unit::Count, "number of items in the list", ""},
+            {Kind::Number, 1, &readCount<T, List>});
         Spot spot = m_spot;
         spot.list = ++m_lists;
         spot.qualifier = about.name;
@@ -213,7 +228,7 @@ private:
             return (bodyOf<T>(datagram).*List).size();
         };
         wire::forEachField<Item, ItemForm>(ItemWalker<T, List>(m_found, spot));
-        if constexpr (requires(const Item& item) { segmentId(item, 0); }) {
+        if constexpr (kHasPoints<List> || requires(const Item& item) { segmentId(item, 0); }) {
             constexpr wire::About segment{"segment", wire::Unit::Identifier,
                                           "the segment that the item is about, by id or name", ""};
             add(m_found, spot, segment,

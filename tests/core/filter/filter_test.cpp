@@ -113,6 +113,36 @@ TEST(Filter, NamesTheSegmentsOfEveryMessageThatHasThem) {
     }
 }
 
+TEST(Filter, ReadsPointNumbersOfBothRevisions) {
+    const auto points = [](std::initializer_list<std::uint32_t> ids) {
+        wire::PointPositions body;
+        for (const std::uint32_t id : ids) {
+            body.points.push_back({id, {0, 0, 0}});
+        }
+        wire::Datagram datagram;
+        datagram.body = std::move(body);
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        return Case(datagram);
+    };
+    // 513 is point 1 of segment 2, in revision E point 13 of segment 5.
+    EXPECT_TRUE(matches(points({257, 513}), "segment == 2"));
+    EXPECT_FALSE(matches(points({257, 513}), "segment == 5"));
+    EXPECT_TRUE(matches(points({101, 513}), "segment == 5 && id == 513"));
+    EXPECT_FALSE(matches(points({101, 513}), "segment == 2"));
+    EXPECT_TRUE(matches(points({101, 1502}), "segment == LeftHand"));
+}
+
+TEST(Filter, CountsTheItemsOfEachList) {
+    EXPECT_TRUE(matches(golden("02_quaternion_counted"), "segments.count > 0 && segments.count <= 67"));
+    wire::PropInformation props;
+    props.props = {{24, "Sword"}, {25, "Shield"}};
+    wire::Datagram datagram;
+    datagram.body = props;
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    EXPECT_TRUE(matches(Case(datagram), "props.count == 2"));
+    EXPECT_FALSE(matches(Case(datagram), "props.count == 1"));
+}
+
 TEST(Filter, IsFalseAboutFieldsThatAreNotThere) {
     const Case packet = golden("12_metadata_counted");
     for (const char* text :
