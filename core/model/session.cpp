@@ -73,6 +73,7 @@ void Session::take(const log::Packet& packet) {
         source->kernelDrops += packet.kernelDropsBefore;
         source->bytes += packet.bytes.size();
         source->datagrams += digest.kind == PacketKind::Skipped ? 0 : 1;
+        m_attribution.takePacket(packet, source->info.localPort);
         takeFrom(packet, *source, digest);
     }
     m_digests.append(packet.number, digest);
@@ -99,6 +100,9 @@ void Session::takeFrom(const log::Packet& packet, Source& source, PacketDigest& 
 
 void Session::takeMalformed(const log::Packet& packet, Source& source, const PacketDigest& digest) {
     ++source.malformed;
+    if (const auto header = wire::decodeHeader(packet.bytes)) {
+        m_attribution.takeMalformed(packet, *header);
+    }
     const auto stream = m_streamIndex.find({packet.source, digest.character, digest.type});
     if (stream != m_streamIndex.end()) {
         ++m_streams[stream->second].malformed;
@@ -108,17 +112,22 @@ void Session::takeMalformed(const log::Packet& packet, Source& source, const Pac
 void Session::takeDatagram(const log::Packet& packet, Source& source, PacketDigest& digest) {
     const wire::Header& header = m_scratch.header;
     source.detector.addHeader(header);
-    Stream* stream = streamOf({packet.source, header.character, header.type()});
+    Stream* stream = streamOf({packet.source, header.character, header.type()}, source);
     Character* character = characterOf({packet.source, header.character}, packet.number);
     if (stream == nullptr || character == nullptr) {
         return;
     }
     m_index.add(packet, header);
     stream->statistics.add(packet.stampNs, packet.bytes.size(), header.datagramIndex() == 0);
+    if (countsSamples(digest.type)) {
+        m_attribution.takeSampled(packet.source, packet.stampNs);
+    }
+    const std::size_t place = m_streamIndex.at(stream->key);
     for (const Verdict& verdict : addToStream(packet, header, stream->accounting, digest)) {
         if (verdict.packet != packet.number) {
             m_digests.amend(verdict);
         }
+        m_attribution.takeVerdict(place, verdict);
     }
     character->lastStampNs = packet.stampNs;
     character->lastPacket = packet.number;
@@ -176,7 +185,7 @@ Character* Session::characterOf(const CharacterKey& key, std::uint64_t packetNum
     return &character;
 }
 
-Stream* Session::streamOf(const log::StreamKey& key) {
+Stream* Session::streamOf(const log::StreamKey& key, const Source& source) {
     if (const auto found = m_streamIndex.find(key); found != m_streamIndex.end()) {
         return &m_streams[found->second];
     }
@@ -184,7 +193,9 @@ Stream* Session::streamOf(const log::StreamKey& key) {
         return nullptr;
     }
     m_streamIndex.emplace(key, m_streams.size());
-    return &m_streams.emplace_back(key);
+    Stream& stream = m_streams.emplace_back(key);
+    m_attribution.addStream(m_streams.size() - 1, source.info);
+    return &stream;
 }
 
 std::optional<CharacterKey> Session::lastOfSameHost(const CharacterKey& key) const {

@@ -4,14 +4,14 @@
 #include "core/log/packet_log.h"
 #include "core/log/stream_index.h"
 #include "core/model/annotations.h"
+#include "core/model/attribution.h"
 #include "core/model/character_pose.h"
 #include "core/model/detection.h"
 #include "core/model/keys.h"
 #include "core/model/metadata.h"
 #include "core/model/null_pose.h"
 #include "core/model/packet_digest.h"
-#include "core/model/stream_accounting.h"
-#include "core/model/stream_statistics.h"
+#include "core/model/stream.h"
 #include "core/model/time_range.h"
 
 #include <deque>
@@ -23,16 +23,6 @@
 #include <vector>
 
 namespace posewire::model {
-
-/// One message type of one character on the air.
-struct Stream {
-    explicit Stream(const log::StreamKey& streamKey) : key(streamKey), accounting(streamKey.type) {}
-
-    log::StreamKey key;
-    StreamStatistics statistics; ///< how fast it is now
-    StreamAccounting accounting; ///< what came and what did not
-    std::uint64_t malformed = 0; ///< datagrams with a header of this stream that could not be decoded
-};
 
 /// One sender.
 struct Source {
@@ -132,6 +122,10 @@ public:
     [[nodiscard]] StreamCounts countsOf(log::SourceId id, const TimeRange& range) const;
     [[nodiscard]] StreamCounts countsBetween(const TimeRange& range) const;
 
+    /// Every gap in a stream with whose loss it was; the newest ones.
+    [[nodiscard]] const Attribution& attribution() const { return m_attribution; }
+    [[nodiscard]] const std::deque<Gap>& gaps() const { return m_attribution.gaps(); }
+
     /// A sender that starts again has another port, and some senders use a port for each kind of message. So
     /// a character of the same host with the same ID that fell silent before this one came is the same
     /// person: what this one has not sent yet is taken from there. Null where there is none, or where both
@@ -221,7 +215,7 @@ private:
     // Null where there are too many already.
     Source* sourceOf(const log::Packet& packet);
     Character* characterOf(const CharacterKey& key, std::uint64_t packetNumber);
-    Stream* streamOf(const log::StreamKey& key);
+    Stream* streamOf(const log::StreamKey& key, const Source& source);
     [[nodiscard]] std::uint64_t visibleEnd() const;
     template <class Selected, class Counts>
     [[nodiscard]] StreamCounts sumOf(Selected isSelected, Counts counts) const;
@@ -266,6 +260,7 @@ private:
     std::deque<Source> m_sources;
     std::deque<Character> m_characters;
     std::deque<Stream> m_streams;
+    Attribution m_attribution{m_streams};
     std::map<CharacterKey, std::size_t> m_characterIndex;
     std::map<log::StreamKey, std::size_t, StreamOrder> m_streamIndex;
     std::map<log::SourceId, std::size_t> m_sourceIndex;

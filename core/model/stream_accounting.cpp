@@ -92,7 +92,13 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
     verdict.stampNs = datagram.datagram.stampNs;
     verdict.sample = datagram.datagram.sample;
     verdict.gap = placement.gap;
-    verdict.sampleBefore = placement.sampleBefore;
+    verdict.timeCode = datagram.timeCode;
+    if (placement.gap != 0) {
+        verdict.sampleBefore = placement.sampleBefore;
+        verdict.timeCodeBefore = m_highest.timeCode;
+        verdict.packetBefore = m_highest.packet;
+        verdict.stampBeforeNs = m_highest.datagram.stampNs;
+    }
     verdict.isDuplicate = placement.kind == Placement::Kind::Duplicate;
     verdict.isReordered = placement.isReordered;
     verdict.isLate = placement.isReordered && placement.lateNs > m_ledger.lateAfterNs();
@@ -106,6 +112,9 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
     }
     if (verdict.isRestart) {
         m_clock.restart();
+    }
+    if (placement.kind == Placement::Kind::Advance) {
+        m_highest = datagram;
     }
     m_clock.add({verdict.stampNs, verdict.sample, datagram.timeCode});
     if (m_hasSample) {
@@ -147,6 +156,30 @@ StreamCounts StreamAccounting::countsBetween(std::int64_t fromNs, std::int64_t t
 InterArrival StreamAccounting::interArrival() const {
     return m_history.arrivalsBetween(std::numeric_limits<std::int64_t>::min(),
                                      std::numeric_limits<std::int64_t>::max());
+}
+
+std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,
+                                                              const TimeRange& when) const {
+    const SampleWindow& window = m_ledger.present().window();
+    const auto isBelow = [](std::uint32_t a, std::uint32_t b) {
+        return static_cast<std::int32_t>(a - b) < 0;
+    };
+    for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
+        const SampleWindow::Entry& entry = window[i];
+        if (!isBelow(entry.sample, to) || !isBelow(from, entry.sample)) {
+            break;
+        }
+        if (entry.stampNs >= when.fromNs && entry.stampNs < when.toNs) {
+            return entry.sample;
+        }
+    }
+    return std::nullopt;
+}
+
+bool StreamAccounting::isIncomplete(std::uint32_t sample) const {
+    const SampleWindow& window = m_ledger.present().window();
+    const auto place = window.find(sample);
+    return place.isThere && !window[place.index].isComplete;
 }
 
 std::uint32_t StreamAccounting::missingBetween(std::uint32_t from, std::uint32_t to) const {

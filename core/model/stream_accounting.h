@@ -8,9 +8,11 @@
 #include "core/model/sample_ledger.h"
 #include "core/model/sender_clock.h"
 #include "core/model/stream_counts.h"
+#include "core/model/time_range.h"
 #include "core/wire/header.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,8 +23,13 @@ struct Verdict {
     std::uint64_t packet = 0;
     std::int64_t stampNs = 0;
     std::uint32_t sample = 0;
-    std::uint32_t gap = 0;          ///< samples missing just before it
-    std::uint32_t sampleBefore = 0; ///< the highest before it
+    std::uint32_t timeCode = 0; ///< ms
+    std::uint32_t gap = 0;      ///< samples missing just before it
+    // Of the highest sample before it, where there is a gap:
+    std::uint32_t sampleBefore = 0;
+    std::uint32_t timeCodeBefore = 0;
+    std::uint64_t packetBefore = 0;
+    std::int64_t stampBeforeNs = 0;
     bool isDuplicate = false;
     bool isReordered = false;
     bool isLate = false;
@@ -65,6 +72,12 @@ public:
     [[nodiscard]] double jitterMsAt(std::int64_t toNs) const { return m_history.jitterMsAt(toNs); }
     [[nodiscard]] std::int64_t resolutionNs() const { return m_history.widthNs(); }
 
+    /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
+    [[nodiscard]] std::optional<std::uint32_t> arrivedBetween(std::uint32_t from, std::uint32_t to,
+                                                              const TimeRange& when) const;
+    /// Whether some but not all datagrams of a sample came.
+    [[nodiscard]] bool isIncomplete(std::uint32_t sample) const;
+
     /// Samples between two counters, both exclusive, that are still missing. After a restart, those of before
     /// are known for a while.
     [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
@@ -90,6 +103,7 @@ private:
     std::int64_t m_lastStampNs = 0;
     std::int64_t m_lastSampleNs = 0; ///< stamp of the newest first arrival of a sample
     bool m_hasSample = false;
+    Probation::Waiting m_highest; ///< the first datagram of the highest sample
     SampleLedger m_ledger;
     Probation m_probation;
     MessageRounds m_rounds;
