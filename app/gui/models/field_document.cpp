@@ -128,9 +128,20 @@ std::int32_t FieldDocument::nodeAt(std::uint32_t offset) const {
 }
 
 std::int32_t FieldDocument::find(const std::string& path) const {
-    for (std::int32_t i = 0; i < count(); ++i) {
-        if (m_tree.path(i) == path) {
-            return i;
+    // From the top down: only what stands beside the way has its path built.
+    std::int32_t around = kNone;
+    for (bool isDeeper = true; isDeeper;) {
+        isDeeper = false;
+        for (const std::int32_t child : children(around)) {
+            const std::string begin = m_tree.path(child);
+            if (begin == path) {
+                return child;
+            }
+            if (path.starts_with(begin) && (path[begin.size()] == '.' || path[begin.size()] == '[')) {
+                around = child;
+                isDeeper = true;
+                break;
+            }
         }
     }
     return kNone;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_filter_run.h"
 
-#include "core/log/log_reader.h"
-
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -14,8 +13,15 @@ constexpr std::uint64_t kPacketsAtATime = 8192;
 
 } // namespace
 
-PacketFilterRun::PacketFilterRun(const log::PacketLog& log, filter::Filter filter, std::int64_t firstStampNs)
-    : m_log(log), m_filter(std::move(filter)), m_firstStampNs(firstStampNs) {
+PacketFilterRun::PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests,
+                                 filter::Filter filter, std::int64_t firstStampNs)
+    : m_log(log),
+      m_filter(std::move(filter)),
+      m_firstStampNs(firstStampNs),
+      m_begin(digests.begin()),
+      m_next(digests.begin()),
+      m_end(digests.end()) {
+    m_excerpts.push_back(digests.excerpt(m_begin));
     m_thread = std::thread([this] { run(); });
 }
 
@@ -30,75 +36,81 @@ void PacketFilterRun::cancel() {
     m_changed.notify_all();
 }
 
-std::vector<std::uint64_t> PacketFilterRun::take(std::uint64_t end) {
+PacketFilterRun::Found PacketFilterRun::take(const model::PacketDigests& digests) {
     const std::lock_guard lock(m_mutex);
-    const auto kept = std::ranges::lower_bound(m_found, end);
-    std::vector<std::uint64_t> taken(m_found.begin(), kept);
-    m_found.erase(m_found.begin(), kept);
-    m_isAwake = true;
-    m_changed.notify_all();
-    return taken;
+    const std::uint64_t end = m_end.load(std::memory_order_relaxed);
+    if (digests.end() > end && !isCancelled()) {
+        m_excerpts.push_back(digests.excerpt(end));
+        m_end.store(digests.end(), std::memory_order_relaxed);
+        m_changed.notify_all();
+    }
+    return std::exchange(m_found, {});
 }
 
 PacketFilterRun::Progress PacketFilterRun::progress() const {
-    const std::uint64_t begin = m_begin.load(std::memory_order_relaxed);
-    return {m_next.load(std::memory_order_relaxed) - begin, m_end.load(std::memory_order_relaxed) - begin};
+    return {m_next.load(std::memory_order_relaxed) - m_begin,
+            m_end.load(std::memory_order_relaxed) - m_begin};
 }
 
 void PacketFilterRun::wait() {
-    const std::uint64_t end = m_log.figures().end;
     std::unique_lock lock(m_mutex);
-    m_isAwake = true;
-    m_changed.notify_all();
-    m_changed.wait(lock, [&] { return isCancelled() || m_next.load(std::memory_order_relaxed) >= end; });
+    m_changed.wait(lock, [&] {
+        return isCancelled() ||
+               m_next.load(std::memory_order_relaxed) == m_end.load(std::memory_order_relaxed);
+    });
 }
 
-/// Sleeps where there is nothing to do; false where the run is over.
-bool PacketFilterRun::rest(std::uint64_t end) {
+/// Sleeps where there is nothing to do; nothing where the run is over.
+std::optional<model::PacketDigests::Excerpt> PacketFilterRun::nextExcerpt() {
     std::unique_lock lock(m_mutex);
-    if (m_next.load(std::memory_order_relaxed) == end) {
-        m_changed.wait(lock, [this] { return isCancelled() || m_isAwake; });
+    m_changed.wait(lock, [this] { return isCancelled() || !m_excerpts.empty(); });
+    if (isCancelled()) {
+        return std::nullopt;
     }
-    m_isAwake = false;
-    return !isCancelled();
+    model::PacketDigests::Excerpt excerpt = std::move(m_excerpts.front());
+    m_excerpts.pop_front();
+    return excerpt;
 }
 
-void PacketFilterRun::hand(std::vector<std::uint64_t>& found, std::uint64_t number) {
+void PacketFilterRun::hand(Found& found, std::uint64_t next) {
     const std::lock_guard lock(m_mutex);
-    m_found.insert(m_found.end(), found.begin(), found.end());
-    found.clear();
-    m_next.store(number, std::memory_order_relaxed);
+    m_found.packets.insert(m_found.packets.end(), found.packets.begin(), found.packets.end());
+    m_found.problems.insert(m_found.problems.end(), found.problems.begin(), found.problems.end());
+    found.packets.clear();
+    found.problems.clear();
+    m_next.store(next, std::memory_order_relaxed);
     m_changed.notify_all();
+}
+
+void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader) {
+    Found found;
+    for (std::uint64_t number = excerpt.begin(); number < excerpt.end() && !isCancelled(); ++number) {
+        if ((number - excerpt.begin()) % kPacketsAtATime == 0) {
+            hand(found, number);
+            reader.refresh();
+        }
+        const auto packet = reader.packet(number);
+        if (!packet) {
+            continue;
+        }
+        const model::PacketDigest& digest = excerpt.at(number);
+        const bool isRead = !packet->flags.skipped && wire::decodeInto(packet->bytes, m_datagram).has_value();
+        const log::SourceInfo* source = m_log.sources().find(packet->source);
+        if (m_filter.matches({*packet, digest, isRead ? &m_datagram : nullptr, source, m_firstStampNs})) {
+            found.packets.push_back(number);
+            if (digest.isProblem()) {
+                found.problems.push_back(number);
+            }
+        }
+    }
+    hand(found, excerpt.end());
 }
 
 void PacketFilterRun::run() {
     log::LogReader reader(m_log);
-    model::PacketDigester digester;
-    wire::Datagram datagram;
-    std::vector<std::uint64_t> found;
-    m_begin.store(reader.begin(), std::memory_order_relaxed);
-    std::uint64_t number = reader.begin();
-    do {
-        reader.refresh();
-        number = std::max(number, reader.begin());
-        m_end.store(reader.end(), std::memory_order_relaxed);
-        const std::uint64_t end = std::min(reader.end(), number + kPacketsAtATime);
-        for (; number < end && !isCancelled(); ++number) {
-            const auto packet = reader.packet(number);
-            if (!packet) {
-                continue;
-            }
-            const bool isRead =
-                !packet->flags.skipped && wire::decodeInto(packet->bytes, datagram).has_value();
-            const wire::Datagram* read = isRead ? &datagram : nullptr;
-            const model::PacketDigest digest = digester.add(*packet, read);
-            const log::SourceInfo* source = m_log.sources().find(packet->source);
-            if (m_filter.matches({*packet, digest, read, source, m_firstStampNs})) {
-                found.push_back(number);
-            }
-        }
-        hand(found, number);
-    } while (rest(reader.end()));
+    while (const auto excerpt = nextExcerpt()) {
+        lookAt(*excerpt, reader);
+    }
 }
 
 } // namespace posewire::gui

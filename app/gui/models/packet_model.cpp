@@ -83,6 +83,7 @@ void PacketModel::removeDropped() {
             beginRemoveRows({}, 0, static_cast<int>(rows) - 1);
         }
         m_matches.erase(m_matches.begin(), kept);
+        m_problems.erase(m_problems.begin(), std::ranges::lower_bound(m_problems, begin));
         m_matchRows -= rows;
         m_removed += rows;
         if (rows > 0) {
@@ -130,12 +131,15 @@ void PacketModel::beginMatches() {
     m_facts.reset();
     m_isFiltered = true;
     m_matches.clear();
+    m_problems.clear();
     m_matchRows = 0;
     endResetModel();
 }
 
-void PacketModel::addMatches(const std::vector<std::uint64_t>& numbers) {
+void PacketModel::addMatches(const std::vector<std::uint64_t>& numbers,
+                             const std::vector<std::uint64_t>& problems) {
     m_matches.insert(m_matches.end(), numbers.begin(), numbers.end());
+    m_problems.insert(m_problems.end(), problems.begin(), problems.end());
 }
 
 void PacketModel::endMatches() {
@@ -143,6 +147,7 @@ void PacketModel::endMatches() {
     m_facts.reset();
     m_isFiltered = false;
     m_matches.clear();
+    m_problems.clear();
     m_matchRows = 0;
     m_begin = m_view.digests().begin();
     m_end = std::min(m_view.digests().end(), m_begin + kMostRows);
@@ -182,6 +187,28 @@ int PacketModel::rowFrom(std::uint64_t number) const {
 int PacketModel::rowOf(std::uint64_t number) const {
     const int row = rowFrom(number);
     return row < rowCount() && packetAt(row) == number ? row : -1;
+}
+
+std::optional<std::uint64_t> PacketModel::nextProblem(std::uint64_t after) const {
+    if (!m_isFiltered) {
+        return m_view.digests().nextProblem(after);
+    }
+    const auto found = std::ranges::upper_bound(m_problems, after);
+    return found == m_problems.end() || rowOf(*found) < 0 ? std::nullopt : std::optional(*found);
+}
+
+std::optional<std::uint64_t> PacketModel::previousProblem(std::uint64_t before) const {
+    if (!m_isFiltered) {
+        return m_view.digests().previousProblem(before);
+    }
+    const auto found = std::ranges::lower_bound(m_problems, before);
+    return found == m_problems.begin() || rowOf(*(found - 1)) < 0 ? std::nullopt
+                                                                  : std::optional(*(found - 1));
+}
+
+std::vector<std::uint64_t> PacketModel::matches() const {
+    const auto end = m_matches.begin() + static_cast<std::ptrdiff_t>(m_matchRows);
+    return {m_matches.begin(), end};
 }
 
 int PacketModel::rowCount(const QModelIndex& parent) const {

@@ -46,8 +46,10 @@ public:
 
     /// Lists only what addMatches() gives from now on.
     void beginMatches();
-    /// Numbers that grow and lie above those given before; they show with the next refresh().
-    void addMatches(const std::vector<std::uint64_t>& numbers);
+    /// Numbers that grow and lie above those given before, and those of them that are problems; they show
+    /// with the next refresh().
+    void addMatches(const std::vector<std::uint64_t>& numbers,
+                    const std::vector<std::uint64_t>& problems = {});
     /// Lists all packets.
     void endMatches();
     [[nodiscard]] bool isFiltered() const { return m_isFiltered; }
@@ -63,6 +65,11 @@ public:
     [[nodiscard]] int rowOf(std::uint64_t number) const;
     /// The first row at or after a packet; rowCount() where there is none.
     [[nodiscard]] int rowFrom(std::uint64_t number) const;
+    /// The nearest listed problem after or before a packet; nothing where there is none.
+    [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
+    [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
+    /// With a filter: the numbers of all rows.
+    [[nodiscard]] std::vector<std::uint64_t> matches() const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }
 
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
@@ -83,7 +90,8 @@ private:
     bool m_isFiltered = false;
     std::uint64_t m_begin = 0; ///< without a filter rows are the packets [m_begin, m_end)
     std::uint64_t m_end = 0;
-    std::deque<std::uint64_t> m_matches; ///< with a filter; the first m_matchRows of them are rows
+    std::deque<std::uint64_t> m_matches;  ///< with a filter; the first m_matchRows of them are rows
+    std::deque<std::uint64_t> m_problems; ///< those of m_matches that are problems
     std::size_t m_matchRows = 0;
     std::uint64_t m_removed = 0; ///< rows that went at the front
     TimeMode m_timeMode = TimeMode::SinceFirst;

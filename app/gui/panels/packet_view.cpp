@@ -7,6 +7,7 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme.h"
 
+#include <QContextMenuEvent>
 #include <QHeaderView>
 #include <QKeyEvent>
 #include <QPainter>
@@ -47,6 +48,9 @@ PacketView::PacketView(const QString& name, QWidget* parent)
     m_newest->setFocusPolicy(Qt::NoFocus); // the End key does the same
     m_newest->hide();
     connect(m_newest, &QPushButton::clicked, this, &PacketView::newestRequested);
+    m_header->setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(m_header, &QWidget::customContextMenuRequested, this,
+            [this](const QPoint& at) { showHeaderMenu(m_header->mapToGlobal(at)); });
     connect(m_header, &QHeaderView::sectionResized, this, [this] {
         updateGeometries();
         viewport()->update();
@@ -69,23 +73,10 @@ void PacketView::setModel(QAbstractItemModel* model) {
     fitColumns();
 }
 
-void PacketView::setColumnSamples(std::vector<QString> samples) {
-    m_samples = std::move(samples);
-    fitColumns();
-}
-
 void PacketView::setEmptyText(const QString& text) {
     if (text != m_emptyText) {
         m_emptyText = text;
         setAccessibleDescription(text);
-        viewport()->update();
-    }
-}
-
-void PacketView::setColumnShown(int column, bool isShown) {
-    if (m_header->isSectionHidden(column) == isShown) {
-        m_header->setSectionHidden(column, !isShown);
-        fitColumns();
         viewport()->update();
     }
 }
@@ -100,33 +91,6 @@ int PacketView::topRow() const {
 
 int PacketView::wholeRows() const {
     return std::max(1, viewport()->height() / rowHeight());
-}
-
-int PacketView::sampleWidth(int column) const {
-    const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    const int margins = 2 * CellDelegate::margin(fontMetrics()) + 2;
-    const int text =
-        QFontMetrics(packetFont()).horizontalAdvance(m_samples[static_cast<std::size_t>(column)]);
-    return std::max(text + margins, fontMetrics().horizontalAdvance(title) + 14);
-}
-
-void PacketView::fitColumns() {
-    if (model() == nullptr || m_samples.empty()) {
-        return;
-    }
-    int open = -1;
-    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
-        if (m_samples[static_cast<std::size_t>(column)].isEmpty()) {
-            open = column;
-        } else if (!m_header->isSectionHidden(column)) {
-            m_header->resizeSection(column, sampleWidth(column));
-        }
-    }
-    if (open >= 0) {
-        const int others = m_header->length() - m_header->sectionSize(open);
-        m_header->resizeSection(
-            open, std::max(fontMetrics().averageCharWidth() * 16, viewport()->width() - others));
-    }
 }
 
 void PacketView::updateGeometries() {
@@ -198,10 +162,9 @@ void PacketView::placeButton() {
     }
     m_newest->setText(m_missed == 0 ? tr("↓ Follow") : tr("↓ %1 new").arg(grouped(m_missed)));
     m_newest->setToolTip(tr("Go to the newest packet and follow (End)"));
-    m_newest->resize(m_newest->sizeHint());
-    const int space = CellDelegate::margin(fontMetrics());
-    m_newest->move(viewport()->geometry().right() - m_newest->width() - space,
-                   viewport()->geometry().bottom() - m_newest->height() - space);
+    // In the line of column titles it covers no row.
+    m_newest->resize(m_newest->sizeHint().width(), m_header->height() - 2);
+    m_newest->move(m_header->geometry().right() - m_newest->width(), m_header->y());
     m_newest->raise();
 }
 
@@ -242,13 +205,16 @@ QRect PacketView::visualRect(const QModelIndex& index) const {
             rowHeight()};
 }
 
+bool PacketView::isShown(const QModelIndex& index) const {
+    return index.isValid() && index.row() >= topRow() && index.row() < topRow() + wholeRows();
+}
+
 void PacketView::scrollTo(const QModelIndex& index, ScrollHint hint) {
     if (!index.isValid()) {
         return;
     }
     const int row = index.row();
-    const bool isVisible = row >= topRow() && row < topRow() + wholeRows();
-    if (isVisible && hint == EnsureVisible) {
+    if (isShown(index) && hint == EnsureVisible) {
         return;
     }
     // A row next to the shown ones scrolls by little; one from elsewhere is shown among its neighbours.
@@ -293,6 +259,18 @@ void PacketView::keyPressEvent(QKeyEvent* event) {
     } else {
         QAbstractItemView::keyPressEvent(event);
     }
+}
+
+/// By keyboard the menu belongs to the current row, not to where the pointer happens to be.
+void PacketView::contextMenuEvent(QContextMenuEvent* event) {
+    if (event->reason() != QContextMenuEvent::Keyboard) {
+        emit menuRequested(event->globalPos());
+        return;
+    }
+    scrollTo(currentIndex());
+    const QRect cell = visualRect(currentIndex());
+    const int x = std::clamp(cell.left(), 0, std::max(0, viewport()->width() - rowHeight()));
+    emit menuRequested(viewport()->mapToGlobal(cell.isNull() ? QPoint(0, 0) : QPoint(x, cell.bottom())));
 }
 
 QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*modifiers*/) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QAbstractItemView>
+#include <QList>
 
 #include <vector>
 
@@ -26,7 +27,14 @@ public:
     void setColumnSamples(std::vector<QString> samples);
     /// What to do where the table is empty.
     void setEmptyText(const QString& text);
-    void setColumnShown(int column, bool isShown);
+    /// Columns that say nothing are left out altogether.
+    void setColumnUseful(int column, bool isUseful);
+    /// Where not all columns fit, these give way to the one that takes the room left, the first one first;
+    /// as long as the operator has not chosen columns by the menu of the header.
+    void setGivingWay(std::vector<int> columns);
+    /// The columns that the operator chose; empty for as many as fit.
+    [[nodiscard]] const QList<int>& chosenColumns() const { return m_chosen; }
+    void setChosenColumns(const QList<int>& columns);
     [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
 
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
@@ -34,6 +42,8 @@ public:
     void setFollowing(bool isFollowing);
     /// Makes a row the current and only selected one and shows it.
     void showRow(int row);
+    /// Whether the whole row is in sight.
+    [[nodiscard]] bool isShown(const QModelIndex& index) const;
     [[nodiscard]] int rowHeight() const;
     [[nodiscard]] QHeaderView* header() const { return m_header; }
     /// Rows that are selected, in order, at most `most`.
@@ -51,12 +61,14 @@ signals:
     /// The operator asks for the newest packet: by the button or the End key.
     void newestRequested();
     void copyRequested();
+    void menuRequested(const QPoint& globalPosition);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void changeEvent(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
+    void contextMenuEvent(QContextMenuEvent* event) override;
     bool event(QEvent* event) override;
     void scrollContentsBy(int dx, int dy) override;
     void updateGeometries() override;
@@ -73,6 +85,9 @@ private:
     void onReset();
     void fitScrollBars();
     void fitColumns();
+    [[nodiscard]] std::vector<bool> shownColumns(int open) const;
+    void showHeaderMenu(const QPoint& at);
+    [[nodiscard]] int leastOpenWidth() const;
     void placeButton();
     void noteFollowing(bool isFollowing);
     [[nodiscard]] int topRow() const;
@@ -84,7 +99,11 @@ private:
     QHeaderView* m_header;
     QPushButton* m_newest;
     std::vector<QString> m_samples;
+    std::vector<int> m_givingWay;
+    QList<int> m_useless;
+    QList<int> m_chosen;
     QString m_emptyText;
+    bool m_isFitting = false; ///< columns
     bool m_isFollowing = true;
     bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls
     std::uint64_t m_missed = 0; ///< rows that came while not following

@@ -184,16 +184,14 @@ void PacketsPanel::addTimeMenu(QMenu& menu) {
         action->setCheckable(true);
         action->setChecked(isChecked);
     };
-    const bool isSinceFirst = m_packets.timeMode() == PacketModel::TimeMode::SinceFirst;
-    const bool isInStream = m_packets.deltaMode() == PacketModel::DeltaMode::Stream;
-    add(tr("Since the &first packet"), isSinceFirst, &PacketsPanel::timeSinceFirst);
-    add(tr("Date and time of &day"), !isSinceFirst, &PacketsPanel::timeOfDay);
+    add(tr("Since the &first packet"), !isTimeOfDay(), &PacketsPanel::timeSinceFirst);
+    add(tr("Date and time of &day"), isTimeOfDay(), &PacketsPanel::timeOfDay);
     times->addSeparator();
-    add(tr("Δ to the packet before in its &stream"), isInStream, &PacketsPanel::deltaInStream);
-    add(tr("Δ to the row &above"), !isInStream, &PacketsPanel::deltaToRowAbove);
+    add(tr("Δ to the packet before in its &stream"), !isDeltaToRowAbove(), &PacketsPanel::deltaInStream);
+    add(tr("Δ to the row &above"), isDeltaToRowAbove(), &PacketsPanel::deltaToRowAbove);
 }
 
-void PacketsPanel::showMenu(const QPoint& place) {
+void PacketsPanel::showMenu(const QPoint& globalPlace) {
     QMenu menu(this);
     addFilterMenu(menu);
     menu.addSeparator();
@@ -206,7 +204,7 @@ void PacketsPanel::showMenu(const QPoint& place) {
     menu.addAction(tr("&Previous of this stream"), this, &PacketsPanel::previousOfStream)
         ->setEnabled(isEnabled);
     addTimeMenu(menu);
-    menu.exec(m_list->viewport()->mapToGlobal(place));
+    menu.exec(globalPlace);
 }
 
 } // namespace posewire::gui

@@ -55,27 +55,16 @@ void PacketsPanel::goToRow(bool isForward, const Condition& isWanted, const QStr
 }
 
 void PacketsPanel::goToProblem(bool isForward) {
-    const model::PacketDigests& digests = m_view.digests();
-    const QString nothing =
-        isForward ? tr("No problem after this packet.") : tr("No problem before this packet.");
-    if (m_packets.isFiltered()) {
-        goToRow(
-            isForward,
-            [&](std::uint64_t number) {
-                const model::PacketDigest* digest = digests.find(number);
-                return digest != nullptr && digest->isProblem();
-            },
-            nothing);
-        return;
-    }
-    // Without a filter whole blocks without problems are passed over.
     const auto from = selected();
-    const bool isAtBegin =
-        isForward && !from && digests.begin() != digests.end() && digests.find(digests.begin())->isProblem();
-    const auto found = isAtBegin   ? std::optional(digests.begin())
-                       : isForward ? digests.nextProblem(from.value_or(digests.begin()))
-                                   : digests.previousProblem(from.value_or(digests.end()));
-    found ? showPacket(*found) : say(nothing);
+    const bool isFirst = isForward && !from;
+    const std::uint64_t begin = m_view.digests().begin();
+    const model::PacketDigest* first = m_view.digests().find(begin);
+    const bool isAtBegin = isFirst && first != nullptr && first->isProblem() && m_packets.rowOf(begin) >= 0;
+    const auto found = isAtBegin   ? std::optional(begin)
+                       : isForward ? m_packets.nextProblem(from.value_or(begin))
+                                   : m_packets.previousProblem(from.value_or(m_view.digests().end()));
+    found ? showPacket(*found)
+          : say(isForward ? tr("No problem after this packet.") : tr("No problem before this packet."));
 }
 
 void PacketsPanel::nextProblem() {
@@ -184,9 +173,7 @@ void PacketsPanel::search(bool isForward) {
     }
     PacketSearch::Request request{*std::move(pattern), selected().value_or(m_view.end()), isForward, {}};
     if (m_packets.isFiltered()) {
-        for (int row = 0; row < m_packets.rowCount(); ++row) {
-            request.among.push_back(m_packets.packetAt(row));
-        }
+        request.among = m_packets.matches();
         if (request.among.empty()) {
             m_find->say(tr("No packet is listed"), true);
             return;

@@ -7,6 +7,7 @@
 #include "app/gui/panels/line.h"
 #include "app/gui/panels/packet_view.h"
 
+#include <QJsonArray>
 #include <QLabel>
 #include <QPushButton>
 #include <QScopedValueRollback>
@@ -35,7 +36,7 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
       m_message(new QLabel(this)) {
     layOut();
     m_list->setModel(&m_packets);
-    m_list->setContextMenuPolicy(Qt::CustomContextMenu);
+    m_list->setGivingWay({PacketModel::kPart, PacketModel::kSize, PacketModel::kDelta, PacketModel::kTime});
     m_clear->setObjectName(QStringLiteral("clearFilter"));
     m_clear->hide();
     m_message->setForegroundRole(QPalette::PlaceholderText);
@@ -67,7 +68,7 @@ void PacketsPanel::connectParts() {
             &PacketsPanel::selectRow);
     connect(m_list, &PacketView::newestRequested, this, &PacketsPanel::newestPacket);
     connect(m_list, &PacketView::copyRequested, this, &PacketsPanel::copyRows);
-    connect(m_list, &QWidget::customContextMenuRequested, this, &PacketsPanel::showMenu);
+    connect(m_list, &PacketView::menuRequested, this, &PacketsPanel::showMenu);
     connect(m_filter, &FilterBar::applied, this, [this](const QString& text) {
         m_commands.setDisplayFilter(text);
         refresh();
@@ -95,7 +96,8 @@ void PacketsPanel::refresh() {
     const QScopedValueRollback guard(m_isFollowing, true);
     followFilter();
     if (m_run) {
-        m_packets.addMatches(m_run->take(m_view.digests().end()));
+        const PacketFilterRun::Found found = m_run->take(m_view.digests());
+        m_packets.addMatches(found.packets, found.problems);
         const auto [done, total] = m_run->progress();
         if (m_run->isCancelled() || done >= total) {
             m_filter->endProgress();
@@ -105,7 +107,7 @@ void PacketsPanel::refresh() {
     }
     m_packets.refresh();
     // Where everything comes from one sender its address says nothing, and the note has the room.
-    m_list->setColumnShown(PacketModel::kSource, m_view.sources().size() > 1);
+    m_list->setColumnUseful(PacketModel::kSource, m_view.sources().size() > 1);
     followSelection();
     showEmptyState();
 }
@@ -128,7 +130,8 @@ void PacketsPanel::followFilter() {
         m_packets.endMatches();
     } else {
         m_packets.beginMatches();
-        m_run = std::make_unique<PacketFilterRun>(m_view.log(), *std::move(compiled), m_view.firstStampNs());
+        m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled),
+                                                  m_view.firstStampNs());
     }
 }
 
@@ -202,9 +205,14 @@ QString PacketsPanel::summary() const {
 }
 
 void PacketsPanel::say(const QString& text) {
+    const bool isSelectionSeen = m_list->isShown(m_list->currentIndex());
     m_message->setText(text);
     m_message->show();
     m_messageTimer.start();
+    if (isSelectionSeen) {
+        layout()->activate(); // the list is lower from here on
+        m_list->scrollTo(m_list->currentIndex());
+    }
 }
 
 QString PacketsPanel::message() const {
@@ -241,11 +249,23 @@ QJsonObject PacketsPanel::state() const {
     if (m_packets.deltaMode() == PacketModel::DeltaMode::RowAbove) {
         state["delta"] = QStringLiteral("row");
     }
+    if (!m_list->chosenColumns().isEmpty()) {
+        QJsonArray columns;
+        for (const int column : m_list->chosenColumns()) {
+            columns.append(column);
+        }
+        state["columns"] = columns;
+    }
     return state;
 }
 
 void PacketsPanel::restoreState(const QJsonObject& state) {
     m_filter->restoreState(state);
+    QList<int> columns;
+    for (const QJsonValue& column : state["columns"].toArray()) {
+        columns.append(column.toInt());
+    }
+    m_list->setChosenColumns(columns);
     setTimes(state["time"].toString() == QLatin1String("day") ? PacketModel::TimeMode::TimeOfDay
                                                               : PacketModel::TimeMode::SinceFirst,
              state["delta"].toString() == QLatin1String("row") ? PacketModel::DeltaMode::RowAbove

@@ -27,6 +27,8 @@ class PacketView;
 /// The slots are what the menus of the window do here, by name.
 class PacketsPanel : public Panel {
     Q_OBJECT
+    Q_PROPERTY(bool isTimeOfDay READ isTimeOfDay)
+    Q_PROPERTY(bool isDeltaToRowAbove READ isDeltaToRowAbove)
 
 public:
     PacketsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
@@ -38,6 +40,12 @@ public:
     void restoreState(const QJsonObject& state) override;
 
     [[nodiscard]] const PacketModel& packets() const { return m_packets; }
+    [[nodiscard]] bool isTimeOfDay() const {
+        return m_packets.timeMode() == PacketModel::TimeMode::TimeOfDay;
+    }
+    [[nodiscard]] bool isDeltaToRowAbove() const {
+        return m_packets.deltaMode() == PacketModel::DeltaMode::RowAbove;
+    }
     [[nodiscard]] const PacketFilterRun* filterRun() const { return m_run.get(); }
     /// What was said last below the list, such as "No problem after packet 12"; empty again after a while.
     [[nodiscard]] QString message() const;
@@ -101,7 +109,7 @@ private:
     void copyBytes(ByteFormat format);
     void applyCell(FilterJoin join);
     void setTimes(PacketModel::TimeMode time, PacketModel::DeltaMode delta);
-    void showMenu(const QPoint& place);
+    void showMenu(const QPoint& globalPlace);
     void addFilterMenu(QMenu& menu);
     void addCopyMenu(QMenu& menu);
     void addTimeMenu(QMenu& menu);

@@ -69,7 +69,7 @@ void TrackersPanel::refresh() {
         m_detail->show();
         // Shares: below the table plots need the room; beside them the table shows its columns.
         const bool isBeside = m_splitter->orientation() == Qt::Horizontal;
-        m_splitter->setSizes(isBeside ? QList<int>{2, 3} : QList<int>{1, 3});
+        m_splitter->setSizes(isBeside ? QList<int>{1, 1} : QList<int>{1, 3});
     }
     m_detail->setVisible(hasTracker);
     if (m_detail->isVisible()) {
