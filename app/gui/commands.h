@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/receiving_state.h"
 #include "core/model/session.h"
 
 #include <QString>
@@ -34,6 +35,8 @@ public:
     /// Stops the display at the newest packet, or follows the stream again. Receiving goes on.
     virtual void setPaused(bool isPaused) = 0;
     virtual void copyText(const QString& text) = 0;
+    /// How receiving stands: ports, buffers, what was dropped here.
+    [[nodiscard]] virtual ReceivingState receivingState() const { return {}; }
 };
 
 } // namespace posewire::gui

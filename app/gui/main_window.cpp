@@ -291,25 +291,15 @@ void MainWindow::nextDock() {
     (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
 }
 
-const MainWindow::Dock* MainWindow::find(const char* dock) const {
+bool MainWindow::inDock(const char* dock, const char* slot) {
     const auto found = std::ranges::find_if(
         m_docks, [dock](const Dock& each) { return each.dock->objectName() == QLatin1String(dock); });
-    return found == m_docks.end() ? nullptr : &*found;
-}
-
-bool MainWindow::inDock(const char* dock, const char* slot) {
-    const Dock* found = find(dock);
-    if (found == nullptr) {
+    if (found == m_docks.end()) {
         return false;
     }
     found->dock->show();
     found->dock->raise();
     return QMetaObject::invokeMethod(found->panel, slot, Qt::DirectConnection);
-}
-
-QVariant MainWindow::ofDock(const char* dock, const char* property) const {
-    const Dock* found = find(dock);
-    return found == nullptr ? QVariant() : found->panel->property(property);
 }
 
 void MainWindow::toggleFullScreen() {

@@ -122,6 +122,7 @@ void Receiving::measure(std::int64_t nowNs) {
     const net::ReceiveTotals figures = m_receiver.totals();
     m_state.kernelDropped = figures.kernelDropped + figures.queueDropped;
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
+    m_state.longestDelayNs = figures.longestDelayNs;
     const Totals totals{nowNs, figures.datagrams, figures.bytes};
     m_totals.push_back(totals);
     while (m_totals.size() > 2 && m_totals[1].stampNs <= nowNs - kRateWindowNs) {

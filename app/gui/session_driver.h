@@ -56,6 +56,7 @@ public:
     [[nodiscard]] bool isGhostVisible() const override { return m_isGhostVisible; }
     void setPaused(bool isPaused) override;
     void copyText(const QString& text) override;
+    [[nodiscard]] ReceivingState receivingState() const override { return m_receiving.state(); }
 
 signals:
     /// The view moved: at most once a tick.

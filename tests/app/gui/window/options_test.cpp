@@ -29,6 +29,27 @@ TEST(Options, TakeSeveralPortsWithAndWithoutAddress) {
                                      InputAddress{"::1", 9765}));
 }
 
+TEST(Options, TakeTcpInputsAndMulticastGroups) {
+    using Kind = InputAddress::Kind;
+    const auto options = parse({"--tcp", "studio:9764", "--tcp-listen", "9763", "--tcp-listen=[::1]:9765",
+                                "--multicast", "239.1.2.3", "--multicast", "ff15::7"});
+    ASSERT_TRUE(options);
+    EXPECT_THAT(options->tcpInputs, testing::ElementsAre(InputAddress{"", 9763, Kind::TcpListen},
+                                                         InputAddress{"::1", 9765, Kind::TcpListen},
+                                                         InputAddress{"studio", 9764, Kind::TcpConnect}));
+    ASSERT_EQ(options->udpPorts.size(), 1U) << "a group without a port is heard at the usual one";
+    EXPECT_EQ(options->udpPorts[0].port, kDefaultPort);
+    EXPECT_EQ(options->udpPorts[0].groups, (QStringList{"239.1.2.3", "ff15::7"}));
+}
+
+TEST(Options, InputsAreShownWithTheirTransport) {
+    using Kind = InputAddress::Kind;
+    EXPECT_EQ(displayText({"", 9763}), "UDP 9763");
+    EXPECT_EQ(displayText({"::1", 9763}), "UDP [::1]:9763");
+    EXPECT_EQ(displayText({"", 9763, Kind::TcpListen}), "TCP 9763");
+    EXPECT_EQ(displayText({"studio", 9764, Kind::TcpConnect}), "TCP to studio:9764");
+}
+
 TEST(Options, DemoHasTwoCharactersUnlessTold) {
     EXPECT_EQ(parse({"--demo"})->demoCharacters, 2);
     EXPECT_EQ(parse({"--demo=5"})->demoCharacters, 5);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/raw_file_import.h"
 
+#include "core/log/pcapng_writer.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QFile>
@@ -65,6 +66,38 @@ TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {
     const auto found = stamps();
     EXPECT_TRUE(std::ranges::is_sorted(found));
     EXPECT_EQ(found.back(), Stage::kStart);
+}
+
+TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
+    const std::vector<log::SourceInfo> sources{{"10.0.0.5:50000", log::Transport::Udp, 9763},
+                                               {"10.0.0.6:50001", log::Transport::Udp, 9763},
+                                               {"10.0.0.7:50002", log::Transport::Tcp, 9764}};
+    const std::vector<std::byte> bytes(40, std::byte{7});
+    {
+        const auto sink = log::createFile(path.toStdString());
+        ASSERT_TRUE(sink);
+        log::PcapngWriter writer(**sink);
+        ASSERT_TRUE(writer.begin({}));
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            log::Packet packet;
+            packet.stampNs = Stage::kStart + static_cast<std::int64_t>(i) * 1'000'003;
+            packet.kernelDropsBefore = i == 1 ? 17 : 0;
+            packet.bytes = bytes;
+            ASSERT_TRUE(writer.add(packet, sources[i]));
+        }
+        ASSERT_TRUE(writer.finish());
+    }
+    ASSERT_EQ(import(path), "");
+    EXPECT_EQ(stamps(), (std::vector<std::int64_t>{Stage::kStart, Stage::kStart + 1'000'003,
+                                                   Stage::kStart + 2'000'006}));
+    log::LogReader reader(log);
+    ASSERT_EQ(reader.end(), 3U);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const auto packet = reader.packet(i);
+        EXPECT_EQ(*log.sources().find(packet->source), sources[i]);
+        EXPECT_EQ(packet->kernelDropsBefore, i == 1 ? 17U : 0U);
+        EXPECT_EQ(packet->bytes.size(), 40U);
+    }
 }
 
 TEST_F(RawFileImport, SaysWhyAFileCannotBeRead) {

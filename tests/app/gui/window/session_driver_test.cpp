@@ -5,7 +5,9 @@
 #include "app/net/udp_binding.h"
 #include "tests/app/gui/models/stage.h"
 
+#include <QFile>
 #include <QSignalSpy>
+#include <QTemporaryDir>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -108,6 +110,57 @@ TEST_F(SessionDriverTest, APortThatIsTakenIsToldAndTriedAgain) {
     driver.receiving().retry();
     EXPECT_TRUE(driver.receiving().state().ports[0].problem.isEmpty());
     EXPECT_EQ(driver.receiving().openPort(), port);
+}
+
+TEST_F(SessionDriverTest, AFileIsOpenedWhileThePortGoesOnReceiving) {
+    QTemporaryDir folder;
+    const QString path = folder.filePath("take.bin");
+    {
+        QFile file(path);
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        performer::Performer other{sending(1, {2})};
+        for (std::uint64_t frame = 0; frame < 2000; ++frame) {
+            for (const wire::Datagram& datagram : other.frame(frame)) {
+                const auto bytes = *wire::encode(datagram);
+                file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
+            }
+        }
+    }
+    listenAndSend(50);
+    ASSERT_EQ(driver.openFile(path), "");
+    EXPECT_TRUE(driver.isPaused());
+    EXPECT_EQ(driver.receiving().state().file, "take.bin");
+    listenAndSend(50);
+    const auto datagrams = [&](log::Transport transport) {
+        std::uint64_t count = 0;
+        for (const model::Source& source : driver.session().sources()) {
+            count += source.info.transport == transport ? source.datagrams : 0;
+        }
+        return count;
+    };
+    EXPECT_TRUE(tickUntil(driver, [&] { return datagrams(log::Transport::Udp) == 100; }));
+    EXPECT_EQ(datagrams(log::Transport::File), 2000U);
+    EXPECT_EQ(driver.session().sources().size(), 2U);
+}
+
+TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
+    using Kind = InputAddress::Kind;
+    driver.receiving().addPort({"127.0.0.1", 0, Kind::TcpListen});
+    ASSERT_EQ(driver.receiving().state().ports.size(), 1U);
+    const InputAddress listening = driver.receiving().state().ports[0].port;
+    EXPECT_NE(listening.port, 0);
+    EXPECT_EQ(driver.receiving().openPort(), 0) << "the demo sends by UDP";
+    auto sender =
+        net::DatagramSender::connect({{{"127.0.0.1", listening.port}, net::SendTarget::Transport::Tcp}});
+    ASSERT_TRUE(sender);
+    for (const wire::Datagram& datagram : performer.frame(0)) {
+        ASSERT_TRUE(sender->send(*wire::encode(datagram)));
+    }
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().characters().size() == 1; }));
+    EXPECT_EQ(driver.session().sources()[0].info.transport, log::Transport::Tcp);
+    EXPECT_TRUE(driver.receiving().removePort(listening));
+    EXPECT_FALSE(driver.receiving().removePort(listening));
+    EXPECT_TRUE(driver.receiving().state().ports.empty());
 }
 
 TEST_F(SessionDriverTest, TheDemoGoesThroughARealSocket) {
