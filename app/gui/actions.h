@@ -15,6 +15,7 @@ struct ActionInfo {
     const char* shortcut; ///< portable text, empty for none
     bool isCheckable = false;
     void (*run)(MainWindow& window) = nullptr;
+    bool (*isOn)(MainWindow& window) = nullptr; ///< asked when its menu opens, where it is known elsewhere
 };
 
 [[nodiscard]] std::span<const ActionInfo> actionTable();

@@ -291,15 +291,25 @@ void MainWindow::nextDock() {
     (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
 }
 
-bool MainWindow::inDock(const char* dock, const char* slot) {
+const MainWindow::Dock* MainWindow::find(const char* dock) const {
     const auto found = std::ranges::find_if(
         m_docks, [dock](const Dock& each) { return each.dock->objectName() == QLatin1String(dock); });
-    if (found == m_docks.end()) {
+    return found == m_docks.end() ? nullptr : &*found;
+}
+
+bool MainWindow::inDock(const char* dock, const char* slot) {
+    const Dock* found = find(dock);
+    if (found == nullptr) {
         return false;
     }
     found->dock->show();
     found->dock->raise();
     return QMetaObject::invokeMethod(found->panel, slot, Qt::DirectConnection);
+}
+
+QVariant MainWindow::ofDock(const char* dock, const char* property) const {
+    const Dock* found = find(dock);
+    return found == nullptr ? QVariant() : found->panel->property(property);
 }
 
 void MainWindow::toggleFullScreen() {

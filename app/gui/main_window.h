@@ -8,6 +8,7 @@
 #include "app/gui/viewport_widget.h"
 
 #include <QMainWindow>
+#include <QVariant>
 
 #include <vector>
 
@@ -45,6 +46,8 @@ public:
     /// Shows a dock before the others and has its panel do what a slot of that name does. False where there
     /// is no such dock or slot.
     bool inDock(const char* dock, const char* slot);
+    /// A property of a dock's panel; invalid where there is no such dock or property.
+    [[nodiscard]] QVariant ofDock(const char* dock, const char* property) const;
     void toggleFullScreen();
     void copyDiagnostics();
     void showShortcuts();
@@ -68,6 +71,7 @@ private:
         Panel* panel;
     };
 
+    [[nodiscard]] const Dock* find(const char* dock) const;
     void makeDocks();
     void makeBars();
     void listDocks();

@@ -23,12 +23,16 @@ QMenu* childMenu(Parent& parent, const QString& name) {
     return menu;
 }
 
-QAction* makeAction(const ActionInfo& info, MainWindow& window) {
+QAction* makeAction(const ActionInfo& info, QMenu& menu, MainWindow& window) {
     auto* action = new QAction(QCoreApplication::translate("Action", info.text), &window);
     action->setObjectName(QLatin1String(info.id));
     action->setShortcut(QKeySequence(QLatin1String(info.shortcut), QKeySequence::PortableText));
     action->setCheckable(info.isCheckable);
     QObject::connect(action, &QAction::triggered, &window, [run = info.run, &window] { run(window); });
+    if (info.isOn != nullptr) {
+        QObject::connect(&menu, &QMenu::aboutToShow, action,
+                         [action, isOn = info.isOn, &window] { action->setChecked(isOn(window)); });
+    }
     // Also reachable while the menu bar is hidden.
     window.addAction(action);
     return action;
@@ -53,7 +57,7 @@ ActionMap makeMenus(MainWindow& window, QMenuBar& bar) {
             menu->addSeparator();
             continue;
         }
-        QAction* action = makeAction(info, window);
+        QAction* action = makeAction(info, *menu, window);
         menu->addAction(action);
         actions.insert(QLatin1String(info.id), action);
     }

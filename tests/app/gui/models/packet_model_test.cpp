@@ -165,18 +165,22 @@ TEST_F(PacketModelTest, ListsWhatAFilterLetsThroughAndFollowsIt) {
     }
     refresh();
     m_model.beginMatches();
-    PacketFilterRun run(m_stage.log, *filter::Filter::compile("type == 12"), m_stage.session.firstStampNs());
-    run.wait();
-    m_model.addMatches(run.take(m_stage.session.end()));
+    PacketFilterRun run(m_stage.log, m_stage.session.digests(), *filter::Filter::compile("type == 12"),
+                        m_stage.session.firstStampNs());
+    const auto take = [&] {
+        run.wait();
+        return run.take(m_stage.session.digests()).packets;
+    };
+    m_model.addMatches(take());
     refresh();
     EXPECT_EQ(m_model.rowCount(), 7);
     EXPECT_EQ(m_model.packetAt(0), 3'000U);
     EXPECT_EQ(m_model.rowOf(2'999), -1);
     m_stage.sendMetadata("name:Ana\n", Stage::kStart);
-    run.wait();
-    EXPECT_TRUE(run.take(m_stage.session.end()).empty()) << "the session has not followed yet";
+    EXPECT_TRUE(take().empty()) << "the session has not followed yet";
     m_stage.follow();
-    m_model.addMatches(run.take(m_stage.session.end()));
+    EXPECT_TRUE(take().empty()) << "handed over by this call only";
+    m_model.addMatches(take());
     refresh();
     EXPECT_EQ(m_model.rowCount(), 8);
     m_model.endMatches();
@@ -185,14 +189,44 @@ TEST_F(PacketModelTest, ListsWhatAFilterLetsThroughAndFollowsIt) {
 
 TEST_F(PacketModelTest, FilterStopsAtOnceWhenItIsCancelled) {
     steadyPoses(50'000);
-    PacketFilterRun run(m_stage.log, *filter::Filter::compile("type == 02"), 0);
+    PacketFilterRun run(m_stage.log, m_stage.session.digests(), *filter::Filter::compile("type == 02"), 0);
     run.cancel();
     run.wait();
-    const auto found = run.take(UINT64_MAX).size();
+    const auto found = run.take(m_stage.session.digests()).packets.size();
     EXPECT_TRUE(run.isCancelled());
     pose(60'000);
+    m_stage.follow();
     run.wait();
-    EXPECT_LE(run.take(UINT64_MAX).size() + found, 50'000U);
+    EXPECT_LE(run.take(m_stage.session.digests()).packets.size() + found, 50'000U);
+}
+
+TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
+    log::PacketLog log({.memoryCap = 1 << 20, .chunkSize = 1 << 18});
+    model::Session session(log);
+    std::vector<std::byte> bytes = test::golden("02_quaternion_counted").bytes;
+    const auto source = log.sources().intern({"sender", log::Transport::Udp, 9763});
+    std::uint32_t sample = 0;
+    while (session.begin() == 0) {
+        for (int i = 0; i < 500; ++i) {
+            sample += i % 5 == 4 ? 3 : 1; // two are missing again and again
+            bytes[8] = static_cast<std::byte>(sample >> 8);
+            bytes[9] = static_cast<std::byte>(sample);
+            log.writer().append(bytes, {.stampNs = Stage::kStart, .source = source});
+        }
+        log.writer().publish();
+        session.follow(Stage::kStart);
+    }
+    PacketFilterRun run(log, session.digests(), *filter::Filter::compile("gap > 0"), 0);
+    run.wait();
+    std::vector<std::uint64_t> gaps;
+    for (std::uint64_t number = session.digests().begin(); number < session.digests().end(); ++number) {
+        if (session.digests().find(number)->gap > 0) {
+            gaps.push_back(number);
+        }
+    }
+    const auto found = run.take(session.digests());
+    EXPECT_EQ(found.packets, gaps);
+    EXPECT_EQ(found.problems, gaps);
 }
 
 TEST_F(PacketModelTest, PaintsEveryCellOfDamagedDatagrams) {

@@ -104,6 +104,23 @@ TEST_F(MainWindowTest, ScrollsDocksThatAreLowerThanTheirContent) {
     EXPECT_EQ(area->verticalScrollBar()->maximum(), 0);
 }
 
+TEST_F(MainWindowTest, MenuChecksTheTimesThatPacketsShow) {
+    const auto window = makeWindow();
+    QMenu* times = menuAt(*window->menuBar(), QStringLiteral("&View/&Packet times"));
+    const auto checked = [&] {
+        emit times->aboutToShow();
+        QStringList ids;
+        for (const QAction* action : times->actions()) {
+            ids += action->isChecked() ? QStringList(action->objectName()) : QStringList();
+        }
+        return ids;
+    };
+    EXPECT_EQ(checked(), QStringList({"timeSinceFirst", "deltaInStream"}));
+    window->inDock("packets", "timeOfDay");
+    window->inDock("packets", "deltaToRowAbove");
+    EXPECT_EQ(checked(), QStringList({"timeOfDay", "deltaToRowAbove"}));
+}
+
 TEST_F(MainWindowTest, DockAllBringsFloatingDocksBack) {
     const auto window = makeWindow();
     dock(*window, "statistics")->setFloating(true);
