@@ -1,0 +1,160 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Two network namespaces joined by a veth pair that loses, doubles and reorders: what `posewire-cli monitor` counts
+must agree with what the kernel counted on the way.
+
+    network_namespaces_test.py PATH/TO/posewire-cli [SEED…]
+
+Skips (status 77) where the kernel or the user's rights forbid namespaces or impairments. Where there is no netem, a rate
+limit with a short queue loses datagrams instead, and nothing is doubled or reordered."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+SKIPPED = 77
+SENDER, RECEIVER = "10.77.0.1", "10.77.0.2"
+PORT = 9763
+SECONDS = 4
+
+
+def skip(why):
+    print(f"SKIPPED: {why}")
+    sys.exit(SKIPPED)
+
+
+def run(*command):
+    return subprocess.run(command, capture_output=True, text=True)
+
+
+class Namespaces:
+    """Two namespaces of this process's own; they end with it."""
+
+    def __init__(self):
+        self.names = [f"posewire-{os.getpid()}-{side}" for side in ("sender", "receiver")]
+
+    def __enter__(self):
+        for name in self.names:
+            if run("ip", "netns", "add", name).returncode != 0:
+                self.__exit__()
+                skip("network namespaces are forbidden here")
+        link = run("ip", "link", "add", "sender", "netns", self.names[0], "type", "veth", "peer", "name", "receiver",
+                   "netns", self.names[1])
+        if link.returncode != 0:
+            self.__exit__()
+            skip("there are no veth pairs here: " + link.stderr.strip())
+        for name, device, address in zip(self.names, ("sender", "receiver"), (SENDER, RECEIVER)):
+            run("ip", "netns", "exec", name, "sysctl", "-q", "-w", "net.ipv6.conf.all.disable_ipv6=1")
+            self.run(name, "ip", "address", "add", address + "/24", "dev", device)
+            self.run(name, "ip", "link", "set", device, "up")
+        # Neighbours are known beforehand: nothing but the datagrams goes through the queue that counts.
+        link = json.loads(self.run(self.names[1], "ip", "-j", "link", "show", "dev", "receiver"))
+        self.run(self.names[0], "ip", "neighbour", "add", RECEIVER, "lladdr", link[0]["address"], "dev", "sender")
+        return self
+
+    def __exit__(self, *_):
+        for name in self.names:
+            run("ip", "netns", "delete", name)
+
+    def run(self, name, *command):
+        result = run("ip", "netns", "exec", name, *command)
+        if result.returncode != 0:
+            raise RuntimeError(f"{' '.join(command)}: {result.stderr.strip()}")
+        return result.stdout
+
+    def start(self, name, *command):
+        return subprocess.Popen(["ip", "netns", "exec", name, *command], stdout=subprocess.PIPE, text=True)
+
+    def udp(self, name, field):
+        lines = [line.split() for line in self.run(name, "cat", "/proc/net/snmp").splitlines() if line.startswith("Udp:")]
+        return int(dict(zip(*lines))[field])
+
+    def queue(self):
+        """Datagrams that left the sender's queue (doubles included), and those it dropped."""
+        text = self.run(self.names[0], "tc", "-s", "qdisc", "show", "dev", "sender")
+        match = re.search(r"Sent \d+ bytes (\d+) pkts? \(dropped (\d+)", text.replace("packets", "pkt"))
+        return int(match[1]), int(match[2])
+
+
+def impair(spaces, seed):
+    """Tells what the path does from now on, and what to send over it. A rate limit loses in a pattern that may look like
+    a stream sent at a fraction of its rate; with one stream, evenly spaced, it does not."""
+    netem = ["tc", "qdisc", "add", "dev", "sender", "root", "netem", "delay", "2ms", "1ms", "loss", f"{2 + seed % 5}%",
+             "duplicate", "2%", "reorder", "3%", "50%"]
+    if run("ip", "netns", "exec", spaces.names[0], *netem).returncode == 0:
+        return "loses, doubles and reorders", ["--characters", "2", "--types", "02,21"]
+    limit = ["tc", "qdisc", "add", "dev", "sender", "root", "tbf", "rate", f"{1400 + 25 * (seed % 5)}kbit", "burst", "4k",
+             "limit", "8k"]
+    if run("ip", "netns", "exec", spaces.names[0], *limit).returncode == 0:
+        return ("loses (a rate limit: this kernel has no netem, so nothing is doubled or reordered)",
+                ["--characters", "1", "--types", "02"])
+    return skip("this kernel has neither netem nor tbf")
+
+
+def streams_of(report):
+    return [stream for source in report["sources"] for character in source["characters"] for stream in character["streams"]]
+
+
+def total(streams, field):
+    return sum(stream[field] for stream in streams)
+
+
+def check(seed, cli):
+    with Namespaces() as spaces, tempfile.TemporaryDirectory() as folder:
+        effect, streams = impair(spaces, seed)
+        sender, receiver = spaces.names
+        monitor = spaces.start(receiver, cli, "monitor", "--udp", str(PORT), "--duration", str(SECONDS + 3), "--json")
+        while spaces.run(receiver, "cat", "/proc/net/udp", "/proc/net/udp6").count(f":{PORT:04X} ") == 0:
+            if monitor.poll() is not None:
+                raise RuntimeError("posewire-cli monitor ended at once")
+        arrived = spaces.udp(receiver, "InDatagrams")
+        before = spaces.queue()
+        truth_file = os.path.join(folder, "truth.json")
+        spaces.run(sender, cli, "send", "--to", f"{RECEIVER}:{PORT}", *streams, "--rate", "240", "--duration",
+                   str(SECONDS), "--seed", str(seed), "--truth", truth_file)
+        report = json.loads(monitor.communicate(timeout=60)[0])
+        left, dropped = (now - then for now, then in zip(spaces.queue(), before))
+        arrived = spaces.udp(receiver, "InDatagrams") + spaces.udp(receiver, "InErrors") - arrived
+        with open(truth_file, encoding="utf-8") as file:
+            sent = total(streams_of(json.load(file)), "datagrams")
+        return compare(seed, effect, report, {"sent": sent, "arrived": arrived, "dropped": dropped, "left": left})
+
+
+def compare(seed, effect, report, kernel):
+    streams = streams_of(report)
+    counted = {field: total(streams, field) for field in ("datagrams", "samples", "lost", "duplicates", "reordered")}
+    print(f"seed {seed}: the path {effect}; the kernel: {kernel}; the monitor: {counted}")
+    faults = []
+    here = report["local"]["kernelDropped"]
+    if counted["datagrams"] + here != kernel["arrived"]:
+        faults.append(f"{kernel['arrived']} datagrams arrived, {counted['datagrams']} counted, {here} dropped here")
+    if counted["datagrams"] - counted["duplicates"] != counted["samples"]:
+        faults.append("a sample of one datagram is neither counted once nor a duplicate")
+    # What is lost before the first and after the last datagram that came, a receiver cannot know.
+    unknown = kernel["sent"] - counted["samples"] - counted["lost"]
+    if not 0 <= unknown <= 4 * 20:
+        faults.append(f"of {kernel['sent']} samples {counted['samples']} came and {counted['lost']} are lost")
+    if kernel["sent"] - counted["samples"] - here != kernel["dropped"]:
+        faults.append(f"{kernel['dropped']} dropped on the way, {kernel['sent'] - counted['samples']} missing")
+    if kernel["dropped"] == 0:
+        faults.append("nothing was lost on the way: this proves nothing")
+    for fault in faults:
+        print(f"  FAULT: {fault}")
+    return not faults
+
+
+def main():
+    cli = os.path.abspath(sys.argv[1])
+    seeds = [int(text) for text in sys.argv[2:]] or [1]
+    if os.geteuid() != 0:
+        skip("this takes the rights of an administrator")
+    if run("ip", "-V").returncode != 0:
+        skip("there is no ip command")
+    sys.exit(0 if all([check(seed, cli) for seed in seeds]) else 1)
+
+
+if __name__ == "__main__":
+    main()
