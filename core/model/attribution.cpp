@@ -100,7 +100,8 @@ void Attribution::addStream(std::size_t stream, const log::SourceInfo& info) {
     m_steps.resize(std::max(m_steps.size(), stream + 1));
 }
 
-void Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
+std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
+    m_judged.clear();
     while (!m_due.empty()) {
         const Gap* gap = find(m_due.front().gap);
         if (gap != nullptr && packet.stampNs - gap->toStampNs < kPatienceNs) {
@@ -108,6 +109,7 @@ void Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort)
         }
         if (gap != nullptr) {
             judge(m_due.front().gap, m_due.front().stream);
+            m_judged.push_back(*gap);
         }
         m_due.pop_front();
     }
@@ -115,6 +117,7 @@ void Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort)
         m_drops.push_back({packet.number, packet.kernelDropsBefore, localPort});
         keepNewest(m_drops, kMostDrops);
     }
+    return m_judged;
 }
 
 void Attribution::takeSampled(log::SourceId source, std::int64_t stampNs) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -60,8 +61,9 @@ public:
 
     void addStream(std::size_t stream, const log::SourceInfo& info);
 
-    /// Each packet, before its content: notes drops and judges what is due.
-    void takePacket(const log::Packet& packet, std::uint16_t localPort);
+    /// Each packet, before its content: notes drops and judges what is due. Returns the gaps that were
+    /// judged, valid until the next call.
+    std::span<const Gap> takePacket(const log::Packet& packet, std::uint16_t localPort);
     /// Each datagram of a type that counts samples.
     void takeSampled(log::SourceId source, std::int64_t stampNs);
     /// One that has a header and cannot be decoded.
@@ -119,6 +121,7 @@ private:
     std::uint64_t m_firstGap = 0;
     std::uint64_t m_version = 0;
     std::deque<Place> m_due; ///< yet to be judged, oldest first
+    std::vector<Gap> m_judged;
     std::deque<Drop> m_drops;
     std::deque<Damage> m_damages;
 };

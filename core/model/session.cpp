@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
 constexpr std::size_t kMostCharacters = 1024;
+/// Packets that are not older than this when they are followed are live: silence after them is silence.
+constexpr std::int64_t kLiveNs = 10'000'000'000;
 
 std::string shownBytes(wire::Bytes bytes) {
     constexpr std::string_view digits = "0123456789abcdef";
@@ -43,6 +45,22 @@ std::optional<double> pelvisHeight(const wire::Datagram& datagram) {
 
 } // namespace
 
+namespace {
+
+/// What a packet changed, tag by tag; empty where it said nothing else than what was known.
+std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
+    std::string text;
+    for (const MetadataTag& tag : metadata.tags()) {
+        if (tag.values.size() > 1 && tag.values.back().packet == packet) {
+            text += (text.empty() ? "" : ", ") + tag.name + ": " + tag.values[tag.values.size() - 2].text +
+                    " → " + tag.values.back().text;
+        }
+    }
+    return text;
+}
+
+} // namespace
+
 Session::Session(const log::PacketLog& log) : m_log(log), m_reader(log) {}
 
 bool Session::follow(std::int64_t nowNs, std::size_t most) {
@@ -57,6 +75,13 @@ bool Session::follow(std::int64_t nowNs, std::size_t most) {
         }
     }
     m_end = std::max(m_end, to);
+    if (to > from) {
+        const auto newest = m_reader.packet(to - 1);
+        m_isLive = newest && nowNs - newest->stampNs < kLiveNs && newest->stampNs - nowNs < kLiveNs;
+    }
+    if (m_isLive && to == m_reader.end()) {
+        m_follower.advance(nowNs);
+    }
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
     return to > from;
@@ -73,7 +98,10 @@ void Session::take(const log::Packet& packet) {
         source->kernelDrops += packet.kernelDropsBefore;
         source->bytes += packet.bytes.size();
         source->datagrams += digest.kind == PacketKind::Skipped ? 0 : 1;
-        m_attribution.takePacket(packet, source->info.localPort);
+        m_follower.takePacket(packet, digest, m_streams);
+        for (const Gap& gap : m_attribution.takePacket(packet, source->info.localPort)) {
+            m_follower.takeGap(gap);
+        }
         takeFrom(packet, *source, digest);
     }
     m_digests.append(packet.number, digest);
@@ -119,6 +147,7 @@ void Session::takeDatagram(const log::Packet& packet, Source& source, PacketDige
     }
     m_index.add(packet, header);
     stream->statistics.add(packet.stampNs, packet.bytes.size(), header.datagramIndex() == 0);
+    m_follower.takeDatagram(packet, header);
     if (countsSamples(digest.type)) {
         m_attribution.takeSampled(packet.source, packet.stampNs);
     }
@@ -128,6 +157,7 @@ void Session::takeDatagram(const log::Packet& packet, Source& source, PacketDige
             m_digests.amend(verdict);
         }
         m_attribution.takeVerdict(place, verdict);
+        m_follower.takeVerdict(stream->key, verdict);
     }
     character->lastStampNs = packet.stampNs;
     character->lastPacket = packet.number;
@@ -137,8 +167,16 @@ void Session::takeDatagram(const log::Packet& packet, Source& source, PacketDige
 void Session::takeContent(const log::Packet& packet, Character& character, Source& source) {
     if (const auto* metadata = std::get_if<wire::MetaData>(&m_scratch.body)) {
         character.metadata.add(*metadata, packet.number, packet.stampNs);
+        if (std::string change = changeBy(character.metadata, packet.number); !change.empty()) {
+            m_follower.takeChange(EventKind::MetadataChange, character.key, packet, std::move(change));
+        }
     } else if (const auto* part = std::get_if<wire::NullPose>(&m_scratch.body)) {
+        const std::int64_t changedNs = character.nullPoses.record(packet.number).changedNs;
         character.nullPoses.add(*part, m_scratch.header.datagramCounter, packet.number, packet.stampNs);
+        const NullPoseRecord record = character.nullPoses.record(packet.number);
+        if (record.before != nullptr && record.changedNs != changedNs) {
+            m_follower.takeChange(EventKind::ScaleChange, character.key, packet, {});
+        }
     } else if (const auto height = pelvisHeight(m_scratch)) {
         source.detector.addPelvisHeight(*height);
     }

@@ -7,6 +7,7 @@
 #include "core/model/attribution.h"
 #include "core/model/character_pose.h"
 #include "core/model/detection.h"
+#include "core/model/event_follower.h"
 #include "core/model/keys.h"
 #include "core/model/metadata.h"
 #include "core/model/null_pose.h"
@@ -98,6 +99,8 @@ public:
     void setSelection(const Selection& selection) { m_selection = selection; }
     /// What time statistics are of. Apart from the selection, so that it stays while others select.
     void setRange(const RangeChoice& range) { m_range = range; }
+    /// Holds for what comes from now on.
+    void setThresholds(const Thresholds& thresholds) { m_follower.setThresholds(thresholds); }
     /// What packets are listed; in the filter language, empty for all. It is not checked here.
     void setDisplayFilter(std::string filter) { m_displayFilter = std::move(filter); }
     /// What the operator declares about a source counts instead of what was detected, also for the sources
@@ -121,6 +124,12 @@ public:
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
     [[nodiscard]] StreamCounts countsOf(log::SourceId id, const TimeRange& range) const;
     [[nodiscard]] StreamCounts countsBetween(const TimeRange& range) const;
+
+    /// What happened, in the time of the log; with conditions that go on.
+    [[nodiscard]] const Events& events() const { return m_follower.events(); }
+    [[nodiscard]] const Thresholds& thresholds() const { return m_follower.thresholds(); }
+    /// How a character does, by what goes on at the end of the log.
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key) const { return m_follower.conditionOf(key); }
 
     /// Every gap in a stream with whose loss it was; the newest ones.
     [[nodiscard]] const Attribution& attribution() const { return m_attribution; }
@@ -261,6 +270,8 @@ private:
     std::deque<Character> m_characters;
     std::deque<Stream> m_streams;
     Attribution m_attribution{m_streams};
+    EventFollower m_follower;
+    bool m_isLive = false; ///< packets have come as they were stamped
     std::map<CharacterKey, std::size_t> m_characterIndex;
     std::map<log::StreamKey, std::size_t, StreamOrder> m_streamIndex;
     std::map<log::SourceId, std::size_t> m_sourceIndex;

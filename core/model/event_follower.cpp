@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/event_follower.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr std::int64_t kSilentNs = kSecondNs;
+constexpr std::int64_t kCheckNs = 100'000'000;
+constexpr std::int64_t kWatchNs = 500'000'000;
+constexpr std::int64_t kJumpMs = 500;
+constexpr std::size_t kMostSenders = 4'096;
+/// So many samples lost in a row are a burst.
+constexpr std::uint32_t kBurstSamples = 10;
+
+} // namespace
+
+Event EventFollower::eventOf(EventKind kind, const log::Packet& packet) {
+    Event event;
+    event.kind = kind;
+    event.source = packet.source;
+    event.firstStampNs = event.lastStampNs = packet.stampNs;
+    event.firstPacket = event.lastPacket = packet.number;
+    return event;
+}
+
+void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
+                               const std::deque<Stream>& streams) {
+    if (packet.stampNs >= m_nextCheckNs) {
+        check(packet.stampNs);
+        m_nextCheckNs = packet.stampNs + kCheckNs;
+    }
+    if (packet.stampNs >= m_nextWatchNs) {
+        m_watch.check(streams, packet.stampNs, m_events);
+        m_nextWatchNs = packet.stampNs + kWatchNs;
+    }
+    if (packet.kernelDropsBefore != 0) {
+        Event event = eventOf(EventKind::Dropped, packet);
+        event.samples = packet.kernelDropsBefore;
+        m_events.report(event);
+    }
+    if (digest.kind == PacketKind::Malformed) {
+        m_events.report(eventOf(EventKind::Malformed, packet));
+    } else if (digest.kind == PacketKind::Foreign) {
+        m_events.report(eventOf(EventKind::Foreign, packet));
+    }
+}
+
+void EventFollower::takeDatagram(const log::Packet& packet, const wire::Header& header) {
+    auto sender = m_senders.find(packet.source);
+    if (sender == m_senders.end()) {
+        if (m_senders.size() == kMostSenders) {
+            return;
+        }
+        sender = m_senders.try_emplace(packet.source).first;
+        m_events.report(eventOf(EventKind::SourceUp, packet));
+    }
+    if (countsSamples(header.type())) {
+        sender->second.lastSampledNs = packet.stampNs;
+        if (std::exchange(sender->second.isDown, false)) {
+            m_events.end(eventOf(EventKind::SourceDown, packet), packet.stampNs);
+        }
+        noteSampled(packet, header);
+    }
+}
+
+void EventFollower::noteSampled(const log::Packet& packet, const wire::Header& header) {
+    const CharacterKey key{packet.source, header.character};
+    Person& person = m_persons[key];
+    if (std::exchange(person.isStale, false)) {
+        Event event = eventOf(EventKind::Stale, packet);
+        event.character = header.character;
+        m_events.end(event, packet.stampNs);
+    }
+    noteTimeCode(packet, header, person);
+    person.lastSampledNs = packet.stampNs;
+    person.lastPacket = packet.number;
+    noteClaim(packet, header);
+}
+
+/// A time code that moves otherwise than our clock, though the counter goes on.
+void EventFollower::noteTimeCode(const log::Packet& packet, const wire::Header& header, Person& person) {
+    const auto moved = static_cast<std::int32_t>(header.sampleCounter - person.sample);
+    if (person.stampNs != 0 && moved == 0) {
+        return;
+    }
+    const bool goesOn = person.stampNs != 0 && moved > 0 && moved < Probation::kMostForward;
+    const std::int64_t passedMs = (packet.stampNs - person.stampNs) / 1'000'000;
+    const std::int64_t jumpMs = static_cast<std::int32_t>(header.timeCode - person.timeCode) - passedMs;
+    if (goesOn && header.timeCode != person.timeCode && std::abs(jumpMs) > kJumpMs) {
+        Event event = eventOf(EventKind::TimeCodeJump, packet);
+        event.character = header.character;
+        event.value = static_cast<double>(jumpMs);
+        m_events.report(event);
+    }
+    if (moved > 0 || moved < -Probation::kMostBack || person.stampNs == 0) {
+        person.sample = header.sampleCounter;
+        person.timeCode = header.timeCode;
+        person.stampNs = packet.stampNs;
+    }
+}
+
+/// Two sources that take turns with one character in one type.
+void EventFollower::noteClaim(const log::Packet& packet, const wire::Header& header) {
+    Claim& claim = m_claims[{header.character, header.type()}];
+    if (claim.stampNs == 0) {
+        claim.source = packet.source;
+    } else if (claim.source != packet.source) {
+        const bool isBack =
+            claim.hasBefore && claim.before == packet.source && packet.stampNs - claim.beforeNs < kSecondNs;
+        if (isBack) {
+            Event event = eventOf(EventKind::CharacterConflict, packet);
+            event.source = std::min(packet.source, claim.source);
+            event.character = header.character;
+            m_events.report(event);
+        }
+        claim.before = claim.source;
+        claim.beforeNs = claim.stampNs;
+        claim.hasBefore = true;
+        claim.source = packet.source;
+    }
+    claim.stampNs = packet.stampNs;
+}
+
+void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& verdict) {
+    if (!verdict.isRestart) {
+        return;
+    }
+    Event event;
+    event.kind = EventKind::Restart;
+    event.source = stream.source;
+    event.character = stream.character;
+    event.firstStampNs = event.lastStampNs = verdict.stampNs;
+    event.firstPacket = event.lastPacket = verdict.packet;
+    m_events.report(event);
+}
+
+void EventFollower::takeGap(const Gap& gap) {
+    if (gap.lost == 0) {
+        return;
+    }
+    Event event;
+    event.kind = gap.lost >= kBurstSamples ? EventKind::Burst : EventKind::Gap;
+    event.source = gap.stream.source;
+    event.character = gap.stream.character;
+    event.type = gap.stream.type;
+    event.firstStampNs = gap.fromStampNs;
+    event.lastStampNs = gap.toStampNs;
+    event.firstPacket = gap.fromPacket;
+    event.lastPacket = gap.toPacket;
+    event.samples = gap.lost;
+    event.cause = gap.cause;
+    event.detail = gap.evidenceText();
+    m_events.report(event);
+}
+
+void EventFollower::takeChange(EventKind kind, const CharacterKey& key, const log::Packet& packet,
+                               std::string detail) {
+    Event event = eventOf(kind, packet);
+    event.character = key.character;
+    event.detail = std::move(detail);
+    m_events.report(event);
+}
+
+void EventFollower::advance(std::int64_t stampNs) {
+    if (stampNs >= m_nextCheckNs) {
+        check(stampNs);
+    }
+}
+
+void EventFollower::check(std::int64_t stampNs) {
+    m_events.advance(stampNs);
+    for (auto& [id, sender] : m_senders) {
+        const bool isSilent = sender.lastSampledNs != 0 && stampNs - sender.lastSampledNs > kSilentNs;
+        if (isSilent && !sender.isDown) {
+            sender.isDown = true;
+            Event event;
+            event.kind = EventKind::SourceDown;
+            event.source = id;
+            event.firstStampNs = event.lastStampNs = sender.lastSampledNs + kSilentNs;
+            m_events.report(event);
+        }
+    }
+    for (auto& [key, person] : m_persons) {
+        const auto sender = m_senders.find(key.source);
+        const bool isSilent = stampNs - person.lastSampledNs > kSilentNs;
+        if (isSilent && !person.isStale && sender != m_senders.end() && !sender->second.isDown) {
+            person.isStale = true;
+            Event event;
+            event.kind = EventKind::Stale;
+            event.source = key.source;
+            event.character = key.character;
+            event.firstStampNs = event.lastStampNs = person.lastSampledNs + kSilentNs;
+            event.firstPacket = event.lastPacket = person.lastPacket;
+            m_events.report(event);
+        }
+    }
+}
+
+Condition EventFollower::conditionOf(const CharacterKey& key) const {
+    Condition condition;
+    const Event* worst = nullptr;
+    for (const Event& event : m_events.all()) {
+        const bool isConcerned =
+            event.source == key.source && event.character.value_or(key.character) == key.character;
+        if (!event.isCurrent || !isConcerned || event.severity() == EventSeverity::Info) {
+            continue;
+        }
+        if (worst == nullptr || event.severity() >= worst->severity()) {
+            worst = &event;
+        }
+    }
+    if (worst != nullptr) {
+        condition.level =
+            worst->severity() == EventSeverity::Error ? Condition::Level::Error : Condition::Level::Warning;
+        condition.reason = worst->text();
+    }
+    return condition;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/model/attribution.h"
+#include "core/model/events.h"
+#include "core/model/packet_digest.h"
+#include "core/model/thresholds.h"
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+namespace posewire::model {
+
+/// How a character does, for all who show it.
+struct Condition {
+    enum class Level : std::uint8_t { Good, Warning, Error };
+    Level level = Level::Good;
+    std::string reason; ///< one line; empty where it is good
+};
+
+/// Turns what the session finds in the log into events.
+class EventFollower {
+public:
+    [[nodiscard]] const Events& events() const { return m_events; }
+    void setThresholds(const Thresholds& thresholds) { m_watch.set(thresholds); }
+    [[nodiscard]] const Thresholds& thresholds() const { return m_watch.thresholds(); }
+
+    /// Each packet before its content: moves the time of the log, and notes what is no datagram.
+    void takePacket(const log::Packet& packet, const PacketDigest& digest, const std::deque<Stream>& streams);
+    /// Each datagram with its header.
+    void takeDatagram(const log::Packet& packet, const wire::Header& header);
+    void takeVerdict(const log::StreamKey& stream, const Verdict& verdict);
+    void takeGap(const Gap& gap);
+    void takeChange(EventKind kind, const CharacterKey& key, const log::Packet& packet, std::string detail);
+
+    /// Time goes on without packets: only what is silent is told then.
+    void advance(std::int64_t stampNs);
+
+    /// From what goes on now; everything that concerns the character or its source.
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
+
+private:
+    struct Sender {
+        std::int64_t lastSampledNs = 0;
+        bool isDown = false;
+    };
+    struct Person {
+        std::int64_t lastSampledNs = 0;
+        std::uint64_t lastPacket = 0;
+        bool isStale = false;
+        // Of the newest sample, for jumps of the time code:
+        std::uint32_t sample = 0;
+        std::uint32_t timeCode = 0;
+        std::int64_t stampNs = 0;
+    };
+    /// Who sends a character in a type.
+    struct Claim {
+        log::SourceId source{};
+        std::int64_t stampNs = 0;
+        log::SourceId before{}; ///< the other one
+        std::int64_t beforeNs = 0;
+        bool hasBefore = false;
+    };
+    void check(std::int64_t stampNs);
+    void noteSampled(const log::Packet& packet, const wire::Header& header);
+    void noteTimeCode(const log::Packet& packet, const wire::Header& header, Person& person);
+    void noteClaim(const log::Packet& packet, const wire::Header& header);
+    [[nodiscard]] static Event eventOf(EventKind kind, const log::Packet& packet);
+
+    Events m_events;
+    ThresholdWatch m_watch;
+    std::map<log::SourceId, Sender> m_senders;
+    std::map<CharacterKey, Person> m_persons;
+    std::map<std::pair<std::uint8_t, std::uint8_t>, Claim> m_claims;
+    std::int64_t m_nextCheckNs = 0;
+    std::int64_t m_nextWatchNs = 0;
+};
+
+} // namespace posewire::model
