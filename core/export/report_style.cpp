@@ -14,7 +14,7 @@ std::string_view reportStyle() {
 --good:#4ac26b;--warning:#e0a63a;--error:#ff7b72;
 --c0:#58a6ff;--c1:#f0883e;--c2:#3fc7b2;--c3:#bc8cff;--c4:#f778ba;--c5:#d9b93c;--c6:#a6b0bb;--c7:#56d364}}
 *{box-sizing:border-box}
-body{margin:0 auto;max-width:1180px;padding:28px 24px 48px;background:var(--ground);color:var(--text);
+body{margin:0 auto;max-width:1260px;padding:28px 24px 48px;background:var(--ground);color:var(--text);
 font:15px/1.5 system-ui,"Segoe UI","Noto Sans",sans-serif;overflow-wrap:anywhere}
 h1{font-size:26px;line-height:1.25;margin:0}h2{font-size:19px;margin:36px 0 10px}h3{font-size:16px;margin:22px 0 8px}
 p{margin:6px 0}.dim{color:var(--dim)}
@@ -42,7 +42,7 @@ svg text{fill:var(--dim);font:11px system-ui,"Segoe UI","Noto Sans",sans-serif;f
 svg.spark{width:90px;height:18px;margin:0}
 .scroll{overflow-x:auto;margin-top:10px;border:1px solid var(--line);border-radius:6px}
 table{border-collapse:collapse;width:100%;font-size:13px}
-th,td{padding:5px 9px;text-align:left;vertical-align:top;unicode-bidi:isolate}
+th,td{padding:5px 7px;text-align:left;vertical-align:top;unicode-bidi:isolate}
 th{background:var(--panel);color:var(--dim);font-weight:600;white-space:nowrap;border-bottom:1px solid var(--line)}
 td:first-child{white-space:nowrap}
 tr+tr td{border-top:1px solid var(--line)}

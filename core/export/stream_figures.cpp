@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/stream_figures.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace posewire::exporting {
@@ -16,6 +17,23 @@ double rateOf(const StreamFigures& figures, double seconds) {
     // Messages come seldom and in several datagrams at once: a moment tells nothing of how often.
     const double least = isSampled ? 0 : 1;
     return count > 1 && seconds > least ? static_cast<double>(count - 1) / seconds : 0;
+}
+
+/// What is not attributed is unknown.
+std::array<std::uint64_t, model::kLossCauses> causesIn(const model::Session& session,
+                                                       const StreamFigures& figures, const TimeRange& range) {
+    std::array<std::uint64_t, model::kLossCauses> causes{};
+    std::uint64_t known = 0;
+    for (const model::Gap& gap : session.gaps()) {
+        if (gap.stream == figures.key && gap.toStampNs >= range.fromNs.value_or(kBeginning) &&
+            gap.toStampNs < range.toNs.value_or(kEnd) && gap.cause != model::LossCause::Unknown) {
+            causes[static_cast<std::size_t>(gap.cause)] += gap.lost;
+            known += gap.lost;
+        }
+    }
+    causes[static_cast<std::size_t>(model::LossCause::Unknown)] =
+        figures.counts.lost - std::min(known, figures.counts.lost);
+    return causes;
 }
 
 } // namespace
@@ -43,8 +61,7 @@ StreamFigures figuresOf(const model::Session& session, const model::Stream& stre
         to = std::min(to, rangeTo);
     }
     figures.rateHz = rateOf(figures, static_cast<double>(to - from) * 1e-9);
-    figures.lostByCause[3] = figures.counts.lost;
-    static_cast<void>(session);
+    figures.lostByCause = range.isWhole() ? stream.lostByCause() : causesIn(session, figures, range);
     return figures;
 }
 

@@ -27,7 +27,7 @@ struct StreamFigures {
         0; ///< samples a second between the first and the last; of types without samples, datagrams
     std::uint64_t malformed = 0;
     /// Samples lost, by model::LossCause.
-    std::array<std::uint64_t, 4> lostByCause{};
+    std::array<std::uint64_t, model::kLossCauses> lostByCause{};
 };
 
 /// What is only known of a whole stream (pattern, clock's skew) is that of the whole stream also where a

@@ -2,6 +2,7 @@
 #include "core/export/stream_report.h"
 
 #include "core/export/html.h"
+#include "core/export/report_gaps.h"
 #include "core/export/report_series.h"
 #include "core/export/report_style.h"
 #include "core/export/report_tables.h"
@@ -60,7 +61,7 @@ std::string plotSection(const model::Session& session, const ReportSteps& steps)
     for (const SvgPlot& plot : plotsOf(session, steps)) {
         html += svgPlot(plot);
     }
-    return html + "</div>\n";
+    return html + svgPlot(causePlot(session, steps)) + "</div>\n";
 }
 
 std::string sourceSection(const model::Session& session, const std::vector<StreamFigures>& figures,
@@ -107,7 +108,8 @@ std::string streamReport(const model::Session& session, const StreamReportOption
            verdictList(verdictOn(session, figures, options)) +
            "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
-           sourceSection(session, figures, steps) + settingsSection(options) + "</body>\n</html>\n";
+           sourceSection(session, figures, steps) + gapSection(session, steps) + settingsSection(options) +
+           "</body>\n</html>\n";
 }
 
 } // namespace posewire::exporting

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/export/report_series.h"
+
+#include <string>
+
+namespace posewire::exporting {
+
+/// Samples lost over time, in a colour for each cause.
+[[nodiscard]] SvgPlot causePlot(const model::Session& session, const ReportSteps& steps);
+
+/// The longest gaps of the range with cause and evidence, in the order of time; empty where there are none.
+[[nodiscard]] std::string gapSection(const model::Session& session, const ReportSteps& steps);
+
+} // namespace posewire::exporting

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/stream_report.h"
+
+#include "core/export/monitor_report.h"
+#include "tests/core/model/session_fixture.h"
+
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+namespace posewire::exporting {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// What is wrong with the nesting of elements; empty where all is well.
+std::string faultOf(std::string_view html) {
+    const std::set<std::string_view> empty{"meta", "line", "path", "rect"};
+    std::vector<std::string_view> open;
+    for (std::size_t at = html.find('<'); at != std::string_view::npos; at = html.find('<', at + 1)) {
+        const std::size_t end = html.find('>', at);
+        if (end == std::string_view::npos) {
+            return "an element without an end";
+        }
+        const std::string_view element = html.substr(at + 1, end - at - 1);
+        const std::string_view name = element.substr(element.front() == '/' ? 1 : 0);
+        const std::string_view tag = name.substr(0, name.find_first_of(" /"));
+        if (tag == "!DOCTYPE" || empty.contains(tag)) {
+            continue;
+        }
+        if (element.front() != '/') {
+            open.push_back(tag);
+        } else if (open.empty() || open.back() != tag) {
+            return "</" + std::string(tag) + "> closes " +
+                   (open.empty() ? "nothing" : std::string(open.back()));
+        } else {
+            open.pop_back();
+        }
+    }
+    return open.empty() ? "" : "<" + std::string(open.back()) + "> is left open";
+}
+
+class StreamReportTest : public model::SessionTest {
+protected:
+    /// 240 a second; every `every`th is lost.
+    void stream(std::uint32_t count, std::uint32_t every = 0) {
+        for (std::uint32_t sample = 0; sample < count; ++sample) {
+            if (every == 0 || sample % every != every / 2) {
+                send(standingAt(0), sample, kStart + sample * kSecond / 240);
+            }
+        }
+        follow();
+    }
+    void metadata(const std::string& text) {
+        wire::MetaData message;
+        message.text = text;
+        send(message, 0, kStart);
+    }
+    [[nodiscard]] std::string report(const StreamReportOptions& options = {}) const {
+        return streamReport(m_session, options);
+    }
+    static constexpr std::int64_t kStart = 1'700'000'000 * kSecond;
+};
+
+TEST_F(StreamReportTest, SaysInWordsThatAllIsWell) {
+    stream(480);
+    const std::string html = report();
+    EXPECT_EQ(faultOf(html), "");
+    EXPECT_THAT(html, HasSubstr("verdict good"));
+    EXPECT_THAT(html, HasSubstr("Good: 480 samples expected, every one of them received."));
+    EXPECT_THAT(html, HasSubstr("2023-11-14 22:13:20.000 UTC"));
+}
+
+TEST_F(StreamReportTest, SaysInWordsHowMuchWasLost) {
+    stream(2000, 50);
+    const std::string html = report();
+    EXPECT_EQ(faultOf(html), "");
+    EXPECT_THAT(html, HasSubstr("verdict error"));
+    EXPECT_THAT(html, HasSubstr("40 of 2,000 samples (2.00 %)"));
+}
+
+TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
+    for (std::uint32_t sample = 0; sample < 480; ++sample) {
+        if (sample == 100) {
+            m_log.writer().append(
+                {}, {kStart + sample * kSecond / 240, source(), 1, {.skipped = true, .isDropRecord = true}});
+        } else if (sample != 200) {
+            send(standingAt(0), sample, kStart + sample * kSecond / 240);
+        }
+    }
+    follow();
+    const std::string html = report();
+    EXPECT_EQ(faultOf(html), "");
+    EXPECT_THAT(html, HasSubstr("<h2>Gaps</h2>"));
+    EXPECT_THAT(html, HasSubstr("2 gaps."));
+    EXPECT_THAT(html, HasSubstr("99–101"));
+    EXPECT_THAT(html, HasSubstr("<td>this computer</td>"));
+    EXPECT_THAT(html, HasSubstr("<td>unknown</td>"));
+    EXPECT_THAT(html, HasSubstr("1 sample was lost in this computer"));
+    EXPECT_THAT(html, HasSubstr("1 sample was lost without evidence whose fault it was."));
+}
+
+TEST_F(StreamReportTest, SaysThatNothingCame) {
+    const std::string html = report();
+    EXPECT_EQ(faultOf(html), "");
+    EXPECT_THAT(html, HasSubstr("No MXTP datagram was received."));
+}
+
+TEST_F(StreamReportTest, IsAboutTheRangeThatWasAskedFor) {
+    stream(960);
+    const std::string html = report({.range = {kStart + kSecond, kStart + 3 * kSecond}});
+    EXPECT_THAT(html, HasSubstr("Good: 480 samples"));
+    EXPECT_THAT(html, HasSubstr("2023-11-14 22:13:21.000 UTC"));
+    EXPECT_THAT(report({.range = {kStart + 100 * kSecond, std::nullopt}}), HasSubstr("nothing was received"));
+}
+
+TEST_F(StreamReportTest, LetsNothingFromTheWireBecomeMarkup) {
+    metadata("name:<script>alert(1)</script>\n</style>:\"><img src=x>\ncolor:e96417\n");
+    sendBytes(std::as_bytes(std::span("<svg onload=x>", 14)), kStart, "\"<i>\":1");
+    stream(240);
+    const std::string html = report({.exceeded = {"<u>"}, .settings = {{"<s>", "<q>"}}});
+    EXPECT_EQ(faultOf(html), "");
+    for (const char* markup : {"<script", "<img", "<i>", "<u>", "<s>", "<q>", "onload=x>"}) {
+        EXPECT_THAT(html, Not(HasSubstr(markup)));
+    }
+    EXPECT_THAT(html, HasSubstr("background:#e96417"));
+}
+
+TEST_F(StreamReportTest, NeedsNothingOutsideItself) {
+    stream(480, 10);
+    const std::string html = report();
+    for (const char* reference : {"http", "src=", "href=", "@import", "url("}) {
+        EXPECT_THAT(html, Not(HasSubstr(reference)));
+    }
+    EXPECT_THAT(html, HasSubstr("prefers-color-scheme:dark"));
+    EXPECT_THAT(html, HasSubstr("@media print"));
+}
+
+TEST_F(StreamReportTest, TellsOfLimitsAndSettings) {
+    stream(10);
+    const std::string html =
+        report({.exceeded = {"gap 12 ms is above the limit"}, .settings = {{"Loss", "none"}}});
+    EXPECT_THAT(html, HasSubstr("gap 12 ms is above the limit."));
+    EXPECT_THAT(html, HasSubstr("<dt>Loss</dt><dd>none</dd>"));
+}
+
+TEST_F(StreamReportTest, IsJsonForProgramsWhateverTheNames) {
+    metadata("name:\xff\"\n");
+    stream(240);
+    const auto json = nlohmann::json::parse(monitorReport(m_session, {1.5, 4096, {}}), nullptr, false);
+    ASSERT_TRUE(json.is_object());
+    EXPECT_EQ(json["durationS"], 1.5);
+    EXPECT_EQ(json["local"]["receiveBufferBytes"], 4096);
+    EXPECT_EQ(json["sources"][0]["characters"][0]["streams"][0]["samples"], 240);
+}
+
+} // namespace
+} // namespace posewire::exporting
