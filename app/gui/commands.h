@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/monitor_health.h"
 #include "app/gui/receiving_state.h"
 #include "core/model/session.h"
 
@@ -35,8 +36,12 @@ public:
     /// Stops the display at the newest packet, or follows the stream again. Receiving goes on.
     virtual void setPaused(bool isPaused) = 0;
     virtual void copyText(const QString& text) = 0;
+    /// Brings a dock before the others, by its object name.
+    virtual void showDock(const QString& /*dock*/) {}
     /// How receiving stands: ports, buffers, what was dropped here.
     [[nodiscard]] virtual ReceivingState receivingState() const { return {}; }
+    /// How this program itself fares.
+    [[nodiscard]] virtual MonitorHealth monitorHealth() const { return {}; }
 };
 
 } // namespace posewire::gui

@@ -122,6 +122,7 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::visibilityChanged, m_viewport, &ViewportWidget::setCharacterVisible);
     connect(&m_driver, &SessionDriver::ghostChanged, m_viewport, &ViewportWidget::setGhostVisible);
     connect(&m_driver, &SessionDriver::ghostChanged, m_actions["ghost"], &QAction::setChecked);
+    connect(&m_driver, &SessionDriver::dockRequested, this, &MainWindow::showDock);
     connect(&m_driver, &SessionDriver::pausedChanged, m_actions["pause"], &QAction::setChecked);
     connect(&m_driver, &SessionDriver::demoChanged, m_actions["demo"], &QAction::setChecked);
     connect(m_viewport, &ViewportWidget::optionsChanged, this, [this] {
@@ -216,6 +217,7 @@ void MainWindow::showReceiving() {
     m_transport->setReceiving(state);
     m_health->refresh(state);
     m_viewport->setReceiving(state);
+    m_driver.setPicturesShown(m_viewport->picturesShown());
 }
 
 void MainWindow::openFile() {
@@ -295,6 +297,13 @@ const MainWindow::Dock* MainWindow::find(const char* dock) const {
     const auto found = std::ranges::find_if(
         m_docks, [dock](const Dock& each) { return each.dock->objectName() == QLatin1String(dock); });
     return found == m_docks.end() ? nullptr : &*found;
+}
+
+void MainWindow::showDock(const QString& dock) {
+    if (const Dock* found = find(dock.toLatin1().constData())) {
+        found->dock->show();
+        found->dock->raise();
+    }
 }
 
 bool MainWindow::inDock(const char* dock, const char* slot) {

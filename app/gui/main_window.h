@@ -48,6 +48,7 @@ public:
     bool inDock(const char* dock, const char* slot);
     /// A property of a dock's panel; invalid where there is no such dock or property.
     [[nodiscard]] QVariant ofDock(const char* dock, const char* property) const;
+    void showDock(const QString& dock);
     void toggleFullScreen();
     void copyDiagnostics();
     void showShortcuts();

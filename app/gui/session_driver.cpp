@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/session_driver.h"
 
+#include "app/gui/process_figures.h"
+
 #include <QClipboard>
 #include <QGuiApplication>
 
@@ -42,7 +44,10 @@ void SessionDriver::start() {
 
 void SessionDriver::tick() {
     const std::int64_t nowNs = m_clock.wallNs();
+    const std::uint64_t endBefore = m_session.end();
+    const std::int64_t beginNs = m_clock.monotonicNs();
     const bool hasNew = m_session.follow(nowNs, kPacketsPerTick);
+    m_meter.addFollow(m_clock.monotonicNs() - beginNs, m_session.end() - endBefore);
     const bool isTableTick = std::abs(nowNs - m_tableTickNs) >= kTableTickNs;
     if (std::abs(nowNs - m_retryNs) >= kRetryNs) {
         m_retryNs = nowNs;
@@ -57,7 +62,17 @@ void SessionDriver::tick() {
     if (isTableTick) {
         m_tableTickNs = nowNs;
         m_receiving.measure(nowNs);
+        measureHealth();
         emit tableTick();
+    }
+}
+
+void SessionDriver::measureHealth() {
+    const std::int64_t nowNs = m_clock.monotonicNs();
+    if (m_meter.isDue(nowNs)) {
+        net::Receiver& receiver = m_receiving.receiver();
+        m_meter.add({nowNs, receiver.cpuSeconds(), processCpuSeconds(), receiver.takeBufferFill(),
+                     processMemoryBytes(), m_pictures});
     }
 }
 
@@ -172,6 +187,10 @@ void SessionDriver::setPaused(bool isPaused) {
 
 void SessionDriver::copyText(const QString& text) {
     QGuiApplication::clipboard()->setText(text);
+}
+
+void SessionDriver::showDock(const QString& dock) {
+    emit dockRequested(dock);
 }
 
 } // namespace posewire::gui

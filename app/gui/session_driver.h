@@ -3,6 +3,7 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/demo_sender.h"
+#include "app/gui/health_meter.h"
 #include "app/gui/receiving.h"
 #include "core/model/session.h"
 
@@ -39,6 +40,9 @@ public:
     void setDemo(int characters);
     [[nodiscard]] bool isDemoRunning() const { return m_demo != nullptr; }
 
+    /// So many pictures were shown since the start.
+    void setPicturesShown(std::uint64_t pictures) { m_pictures = pictures; }
+
     [[nodiscard]] bool isPaused() const { return m_session.cursor().mode == model::Cursor::Mode::Paused; }
 
     // Commands
@@ -56,6 +60,8 @@ public:
     [[nodiscard]] bool isGhostVisible() const override { return m_isGhostVisible; }
     void setPaused(bool isPaused) override;
     void copyText(const QString& text) override;
+    void showDock(const QString& dock) override;
+    [[nodiscard]] MonitorHealth monitorHealth() const override { return m_meter.health(); }
     [[nodiscard]] ReceivingState receivingState() const override { return m_receiving.state(); }
 
 signals:
@@ -68,10 +74,12 @@ signals:
     void frameRequested(const model::CharacterKey& key);
     void visibilityChanged(const model::CharacterKey& key, bool isVisible);
     void ghostChanged(bool isVisible);
+    void dockRequested(const QString& dock);
 
 private:
     /// What panels show has changed otherwise than by new packets.
     void announceChange();
+    void measureHealth();
 
     const log::Clock& m_clock;
     log::PacketLog m_log;
@@ -80,6 +88,8 @@ private:
     std::unique_ptr<DemoSender> m_demo;
     QTimer m_timer;
     std::set<model::CharacterKey> m_hidden;
+    HealthMeter m_meter;
+    std::uint64_t m_pictures = 0;
     std::int64_t m_tableTickNs = 0;
     std::int64_t m_retryNs = 0;
     bool m_isGhostVisible = false;

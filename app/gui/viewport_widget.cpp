@@ -110,6 +110,7 @@ void ViewportWidget::followCharacters(SceneFrame& frame) {
 }
 
 void ViewportWidget::onPresented() {
+    ++m_picturesShown;
     if (m_drawing != nullptr) {
         m_shown = std::move(m_drawing);
         m_drawing = nullptr;

@@ -49,6 +49,8 @@ public:
     [[nodiscard]] bool isSettled() const;
     [[nodiscard]] const ViewportOverlay& overlay() const { return *m_overlay; }
     [[nodiscard]] QString rendererName() const;
+    /// So many since the start.
+    [[nodiscard]] std::uint64_t picturesShown() const { return m_picturesShown; }
     /// Why there is no picture; empty where there is one.
     [[nodiscard]] QString failure() const;
 
@@ -88,6 +90,7 @@ private:
     std::shared_ptr<const SceneFrame> m_shown;
     bool m_isOutdated = true;
     std::int64_t m_followedNs = 0;
+    std::uint64_t m_picturesShown = 0;
     QPointF m_pressed;
     QPointF m_pointer;
     bool m_isDragging = false;

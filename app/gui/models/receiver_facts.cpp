@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/statistics_model.h"
+#include "app/gui/models/receiver_facts.h"
 
 #include "app/gui/models/text.h"
 

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/statistics_model.h"
 
-#include "app/gui/models/columns.h"
 #include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
-#include "app/gui/models/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -16,178 +14,247 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-constexpr double kMsPerNs = 1e-6;
+using Column = StatisticsColumn;
 
-constexpr std::array<ColumnText, StatisticsModel::kColumnCount> kColumns{{
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Stream"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Character and message type"), false},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Hz"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "Samples a second as they arrive at this computer, not as they were sent")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "2 min"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Datagrams a second over the last two minutes")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Lost"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "Samples that should have come, by the sender's own step, and of which nothing came")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Dev. ms"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "Standard deviation of the time between samples over the newest 256 or 2 s")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Min. ms"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Least time between samples over the same window")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Mean ms"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Mean time between samples over the same window")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Max. ms"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Most time between samples over the same window")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "kB/s"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "Thousands of payload bytes of UDP or TCP a second")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Datagrams"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Well-formed datagrams since the start")},
-    {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Malformed"),
-     QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "Datagrams that begin with MXTP and cannot be decoded")},
-}};
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+/// Shorter parts show the beat of samples and buckets, not the rate.
+constexpr std::int64_t kLeastPartNs = 500'000'000;
+
+Column columnOf(const QModelIndex &index) {
+  return static_cast<Column>(index.column());
+}
 
 } // namespace
 
-StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent)
-    : QAbstractTableModel(parent), m_view(view) {}
+StatisticsModel::StatisticsModel(model::SessionView &view, QObject *parent)
+    : StreamTreeModel(view, parent) {}
 
 void StatisticsModel::refresh() {
-    const int rows = static_cast<int>(m_view.streams().size());
-    if (rows > m_rows) {
-        beginInsertRows({}, m_rows, rows - 1);
-        m_rows = rows;
-        m_trends.resize(static_cast<std::size_t>(rows));
-        endInsertRows();
-    }
-    addTrend();
-    if (m_rows > 0) {
-        emit dataChanged(index(0, 0), index(m_rows - 1, kColumnCount - 1));
-    }
+  ++m_turn;
+  const std::int64_t second = view().cursorStampNs() / kSecondNs;
+  if (second != m_curveSecond || m_choice != view().rangeChoice()) {
+    m_curveSecond = second;
+    m_choice = view().rangeChoice();
+    ++m_curveTurn;
+  }
+  m_range = view().range();
+  insertNew();
+  announceChange();
 }
 
-void StatisticsModel::addTrend() {
-    const std::int64_t second = m_view.nowNs() / kNsPerSecond;
-    const bool isFirst = !m_trendSecond.has_value();
-    const std::int64_t passed = isFirst ? 0 : second - *m_trendSecond;
-    if (!isFirst && passed == 0) {
-        return;
-    }
-    m_trendSecond = second;
-    for (std::size_t row = 0; row < m_trends.size(); ++row) {
-        Trend& trend = m_trends[row];
-        const std::uint64_t datagrams = stream(static_cast<int>(row)).accounting.datagrams();
-        // A stream that has just appeared was there for a part of the second only.
-        const bool isNew = trend.datagrams == 0;
-        const std::uint64_t arrived = datagrams - std::exchange(trend.datagrams, datagrams);
-        for (std::int64_t i = 1; i < std::min<std::int64_t>(passed, kTrendSeconds); ++i) {
-            trend.rates.append(std::numeric_limits<float>::quiet_NaN());
-        }
-        if (passed == 1 && !isNew) {
-            trend.rates.append(static_cast<float>(arrived));
-        } else if (passed != 0) {
-            trend.rates.append(std::numeric_limits<float>::quiet_NaN());
-        }
-        if (trend.rates.size() > kTrendSeconds) {
-            trend.rates.remove(0, trend.rates.size() - kTrendSeconds);
-        }
-    }
+StatisticsModel::Cached &
+StatisticsModel::cached(const QModelIndex &index) const {
+  const auto node = static_cast<std::size_t>(index.internalId());
+  if (node >= m_cache.size()) {
+    m_cache.resize(node + 1);
+  }
+  return m_cache[node];
 }
 
-const model::Stream& StatisticsModel::stream(int row) const {
-    return m_view.streams()[static_cast<std::size_t>(row)];
+const StatisticsFigures &
+StatisticsModel::figures(const QModelIndex &index) const {
+  if (cached(index).turn != m_turn) {
+    const model::Stream *shown = stream(index);
+    StatisticsFigures made =
+        shown != nullptr ? streamFigures(*shown) : sumOf(index);
+    cached(index).figures =
+        std::move(made); // sums fill the cache of others: look again
+    cached(index).turn = m_turn;
+  }
+  return cached(index).figures;
 }
 
-int StatisticsModel::rowCount(const QModelIndex& parent) const {
-    return parent.isValid() ? 0 : m_rows;
+StatisticsFigures
+StatisticsModel::streamFigures(const model::Stream &stream) const {
+  StatisticsFigures figures;
+  figures.isSampled = model::countsSamples(stream.key.type);
+  figures.range = model::figuresOf(stream.accounting, m_range);
+  figures.rateHz =
+      m_range ? figures.range.rate.meanHz : stream.statistics.rateHz();
+  if (!m_range) {
+    figures.malformed = stream.malformed;
+  }
+  return figures;
 }
 
-int StatisticsModel::columnCount(const QModelIndex& parent) const {
-    return parent.isValid() ? 0 : static_cast<int>(kColumnCount);
+StatisticsFigures StatisticsModel::sumOf(const QModelIndex &index) const {
+  StatisticsFigures sum;
+  sum.isSum = true;
+  sum.isSampled = false;
+  const bool isKnown = !m_range.has_value();
+  sum.malformed = isKnown ? std::optional<std::uint64_t>(0) : std::nullopt;
+  for (int row = 0; row < rowCount(index); ++row) {
+    sum.add(figures(this->index(row, 0, index)));
+  }
+  const bool isSource = nodeOf(index).kind == Kind::Source;
+  if (isSource && isKnown) {
+    sum.malformed = view()
+                        .sources()[nodeOf(index).entry]
+                        .malformed; // also those without a header
+  }
+  return sum;
 }
 
-QString StatisticsModel::text(const model::Stream& stream, int column) const {
-    const model::StreamStatistics& figures = stream.statistics;
-    switch (column) {
-    case kStream:
-        return characterName(m_view, {stream.key.source, stream.key.character});
-    case kRate:
-        return fixed(figures.rateHz(), 1);
-    case kLost:
-        return grouped(stream.accounting.counts().lost);
-    case kDeviation:
-        return fixed(figures.spacing().deviation * kMsPerNs, 2);
-    case kLeast:
-        return fixed(figures.spacing().least * kMsPerNs, 2);
-    case kMean:
-        return fixed(figures.spacing().mean * kMsPerNs, 2);
-    case kMost:
-        return fixed(figures.spacing().most * kMsPerNs, 2);
-    case kBandwidth:
-        return fixed(figures.bytesPerSecond() / 1000, 1);
-    case kDatagrams:
-        return grouped(stream.accounting.datagrams());
-    case kMalformed:
-        return grouped(stream.malformed);
-    default:
-        return {};
-    }
+void StatisticsModel::addStreams(
+    const QModelIndex &index,
+    std::vector<const model::Stream *> &streams) const {
+  if (const model::Stream *shown = stream(index)) {
+    streams.push_back(shown);
+  }
+  for (int row = 0; row < rowCount(index); ++row) {
+    addStreams(this->index(row, 0, index), streams);
+  }
 }
 
-Health StatisticsModel::health(const model::Stream& stream, int column) const {
-    if (column == kLost && stream.accounting.counts().lost != 0) {
-        return Health::Warning;
-    }
-    if (column == kMalformed && stream.malformed != 0) {
-        return Health::Error;
-    }
-    return Health::Unknown;
+const StatisticsModel::Curve &
+StatisticsModel::curve(const QModelIndex &index) const {
+  Cached &kept = cached(index);
+  if (kept.curveTurn != m_curveTurn) {
+    kept.curve = makeCurve(index);
+    kept.curveTurn = m_curveTurn;
+  }
+  return kept.curve;
 }
 
-QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
-    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
-        return {};
-    }
-    const model::Stream& shown = stream(index.row());
-    const Health found = health(shown, index.column());
-    switch (role) {
-    case Qt::DisplayRole: {
-        const QString value = text(shown, index.column());
-        return found == Health::Unknown ? value : healthSymbol(found) + QLatin1Char(' ') + value;
-    }
-    case kSuffixRole: {
-        const auto digits = wire::typeDigits(shown.key.type);
-        return index.column() == kStream ? QVariant(QString::fromLatin1(digits.data(), 2)) : QVariant();
-    }
-    case kDotRole:
-        return index.column() == kStream
-                   ? QVariant(characterColour(m_view, {shown.key.source, shown.key.character}))
-                   : QVariant();
-    case kSeriesRole:
-        return index.column() == kTrend && wire::isSampled(shown.key.type)
-                   ? QVariant::fromValue(m_trends[static_cast<std::size_t>(index.row())].rates)
-                   : QVariant();
-    case Qt::ForegroundRole:
-        if (index.column() == kTrend) {
-            return healthColour(streamState(m_view, shown).health);
-        }
-        return found == Health::Unknown ? QVariant() : healthColour(found);
-    case Qt::TextAlignmentRole:
-        return index.column() == kStream ? QVariant() : numberAlignment();
-    case Qt::ToolTipRole:
-        return index.column() == kStream ? QString::fromStdString(wire::typeTitle(shown.key.type))
-                                         : headerData(index.column(), Qt::Horizontal, role);
-    default:
-        return {};
-    }
+StatisticsModel::Curve
+StatisticsModel::makeCurve(const QModelIndex &index) const {
+  std::vector<const model::Stream *> streams;
+  addStreams(index, streams);
+  const bool isSum = stream(index) == nullptr;
+  std::erase_if(streams, [](const auto *each) {
+    return !model::countsSamples(each->key.type);
+  });
+  if (streams.empty()) {
+    return {};
+  }
+  std::int64_t first = std::numeric_limits<std::int64_t>::max();
+  std::int64_t resolution = 1;
+  for (const model::Stream *each : streams) {
+    first = std::min(first, each->accounting.firstStampNs());
+    resolution = std::max(resolution, each->accounting.resolutionNs());
+  }
+  const std::int64_t end = view().cursorStampNs();
+  const model::TimeRange shown =
+      m_range.value_or(model::TimeRange{end - kCurveNs, end});
+  const model::RangeParts parts =
+      model::partsOf(shown, kCurvePoints, kLeastPartNs, resolution);
+  std::array<model::RangePart, kCurvePoints> counted{};
+  for (const model::Stream *each : streams) {
+    model::addParts(each->accounting, parts, counted);
+  }
+  Curve made;
+  const double seconds = static_cast<double>(parts.widthNs) * 1e-9;
+  // Fewer parts than points are drawn as steps, so that the curve always fills
+  // its room.
+  for (std::size_t point = 0; point < kCurvePoints && parts.count > 0;
+       ++point) {
+    const std::size_t part = point * parts.count / kCurvePoints;
+    const bool isThere =
+        parts.beginOf(part) >= first && parts.beginOf(part + 1) <= end;
+    const double rate =
+        (isSum ? counted[part].datagrams : counted[part].samples) / seconds;
+    made.rates.append(isThere ? static_cast<float>(rate)
+                              : std::numeric_limits<float>::quiet_NaN());
+    made.marks.append(static_cast<float>(counted[part].lost));
+  }
+  return made;
 }
 
-QVariant StatisticsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    return orientation == Qt::Horizontal
-               ? columnHeader(kColumns, "posewire::gui::StatisticsModel", section, role)
-               : QVariant();
+int StatisticsModel::columnCount(const QModelIndex &) const {
+  return kStatisticsColumns;
+}
+
+QVariant StatisticsModel::data(const QModelIndex &index, int role) const {
+  if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
+    return {};
+  }
+  switch (columnOf(index)) {
+  case Column::Stream:
+    return nameData(index, role);
+  case Column::Curve:
+    return curveData(index, role);
+  default:
+    return figureData(index, role);
+  }
+}
+
+QVariant StatisticsModel::nameData(const QModelIndex &index, int role) const {
+  if (const model::Stream *shown = stream(index)) {
+    const QString title =
+        QString::fromStdString(wire::typeTitle(shown->key.type));
+    return role == Qt::DisplayRole || role == Qt::ToolTipRole ? title
+                                                              : QVariant();
+  }
+  const auto key = character(index);
+  if (!key) {
+    const model::Source &shown = view().sources()[nodeOf(index).entry];
+    return role == Qt::DisplayRole ? QString::fromStdString(shown.info.address)
+                                   : QVariant();
+  }
+  switch (role) {
+  case Qt::DisplayRole:
+    return characterName(view(), *key);
+  case kSuffixRole:
+    return QStringLiteral("· %1").arg(key->character);
+  case kDotRole:
+    return characterColour(view(), *key);
+  default:
+    return {};
+  }
+}
+
+QVariant StatisticsModel::curveData(const QModelIndex &index, int role) const {
+  switch (role) {
+  case kSeriesRole:
+    return QVariant::fromValue(curve(index).rates);
+  case kMarksRole:
+    return QVariant::fromValue(curve(index).marks);
+  case Qt::ForegroundRole:
+    if (const model::Stream *shown = stream(index)) {
+      return healthColour(streamState(view(), *shown).health);
+    }
+    return theme().dim;
+  case Qt::ToolTipRole:
+    return headerData(index.column(), Qt::Horizontal, role);
+  default:
+    return role == Qt::TextAlignmentRole ? numberAlignment() : QVariant();
+  }
+}
+
+QVariant StatisticsModel::figureData(const QModelIndex &index, int role) const {
+  switch (role) {
+  case Qt::DisplayRole: {
+    const QString text = statisticsText(figures(index), columnOf(index));
+    const Health health =
+        text.isEmpty() ? Health::Unknown
+                       : statisticsHealth(figures(index), columnOf(index));
+    return health == Health::Unknown
+               ? text
+               : healthSymbol(health) + QLatin1Char(' ') + text;
+  }
+  case Qt::ForegroundRole: {
+    const Health health = statisticsHealth(figures(index), columnOf(index));
+    if (health == Health::Unknown) {
+      return isQuiet(figures(index), columnOf(index)) ? QVariant(theme().dim)
+                                                      : QVariant();
+    }
+    return healthColour(health);
+  }
+  case Qt::TextAlignmentRole:
+    return numberAlignment();
+  case Qt::ToolTipRole:
+    return headerData(index.column(), Qt::Horizontal, role);
+  default:
+    return {};
+  }
+}
+
+QVariant StatisticsModel::headerData(int section, Qt::Orientation orientation,
+                                     int role) const {
+  return orientation == Qt::Horizontal
+             ? columnHeader(statisticsColumns(), kStatisticsContext, section,
+                            role)
+             : QVariant();
 }
 
 } // namespace posewire::gui

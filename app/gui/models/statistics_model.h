@@ -1,66 +1,82 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/property_model.h"
-#include "core/model/session.h"
+#include "app/gui/models/statistics_columns.h"
+#include "app/gui/models/stream_tree_model.h"
 
-#include <QAbstractTableModel>
 #include <QList>
 
+#include <deque>
 #include <optional>
 #include <vector>
 
 namespace posewire::gui {
 
-/// One row for each stream in the order of first appearance: rates, spacing and counts as they are now (they
-/// go on while the display is paused), and the rate of the last two minutes as a small curve.
-class StatisticsModel : public QAbstractTableModel {
-    Q_OBJECT
+/// Every figure of every stream, with sums for each character and source, over
+/// the range that is chosen. Over all there is they go on while the display is
+/// paused. Figures are made when they are asked for, once a refresh, and curves
+/// once a second.
+class StatisticsModel : public StreamTreeModel {
+  Q_OBJECT
 
 public:
-    enum Column : int {
-        kStream,
-        kRate,
-        kTrend,
-        kLost,
-        kDeviation,
-        kLeast,
-        kMean,
-        kMost,
-        kBandwidth,
-        kDatagrams,
-        kMalformed,
-        kColumnCount
-    };
-    static constexpr int kTrendSeconds = 120;
+  /// The curve of a row has so many points, and spans two minutes where no
+  /// range is chosen.
+  static constexpr int kCurvePoints = 120;
+  static constexpr std::int64_t kCurveNs = 120'000'000'000;
 
-    explicit StatisticsModel(model::SessionView& view, QObject* parent = nullptr);
+  explicit StatisticsModel(model::SessionView &view, QObject *parent = nullptr);
 
-    void refresh();
-    [[nodiscard]] const model::Stream& stream(int row) const;
+  void refresh();
 
-    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
-    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+  /// Valid until the next refresh.
+  [[nodiscard]] const StatisticsFigures &
+  figures(const QModelIndex &index) const;
+  /// The range of the figures; nothing for all.
+  [[nodiscard]] const std::optional<model::TimeRange> &range() const {
+    return m_range;
+  }
+
+  /// A line for each stream, with titles (RFC 4180): source, character, type,
+  /// and every figure.
+  [[nodiscard]] QString csv() const;
+
+  [[nodiscard]] int columnCount(const QModelIndex &parent = {}) const override;
+  [[nodiscard]] QVariant data(const QModelIndex &index,
+                              int role) const override;
+  [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation,
+                                    int role) const override;
 
 private:
-    /// Rates of the last two minutes, one a second; NaN for seconds in which nobody looked.
-    struct Trend {
-        QList<float> rates;
-        std::uint64_t datagrams = 0; ///< at the last second
-    };
-    void addTrend();
-    [[nodiscard]] QString text(const model::Stream& stream, int column) const;
-    [[nodiscard]] Health health(const model::Stream& stream, int column) const;
+  struct Curve {
+    QList<float> rates; ///< NaN where the stream was not there
+    QList<float> marks; ///< above 0 where samples were lost
+  };
+  struct Cached {
+    std::uint64_t turn = 0;      ///< of the figures
+    std::uint64_t curveTurn = 0; ///< likewise
+    StatisticsFigures figures;
+    Curve curve;
+  };
 
-    model::SessionView& m_view;
-    int m_rows = 0;
-    std::vector<Trend> m_trends;
-    std::optional<std::int64_t> m_trendSecond;
+  [[nodiscard]] Cached &cached(const QModelIndex &index) const;
+  [[nodiscard]] StatisticsFigures
+  streamFigures(const model::Stream &stream) const;
+  [[nodiscard]] StatisticsFigures sumOf(const QModelIndex &index) const;
+  [[nodiscard]] const Curve &curve(const QModelIndex &index) const;
+  [[nodiscard]] Curve makeCurve(const QModelIndex &index) const;
+  void addStreams(const QModelIndex &index,
+                  std::vector<const model::Stream *> &streams) const;
+  [[nodiscard]] QVariant nameData(const QModelIndex &index, int role) const;
+  [[nodiscard]] QVariant curveData(const QModelIndex &index, int role) const;
+  [[nodiscard]] QVariant figureData(const QModelIndex &index, int role) const;
+
+  std::optional<model::TimeRange> m_range;
+  model::RangeChoice m_choice;
+  std::uint64_t m_turn = 1;
+  std::uint64_t m_curveTurn = 1;
+  std::int64_t m_curveSecond = 0;
+  mutable std::deque<Cached> m_cache; ///< by the node of the row
 };
-
-/// What this computer and program do: memory, packets kept, datagrams dropped here.
-[[nodiscard]] std::vector<Property> receiverFacts(model::SessionView& view);
 
 } // namespace posewire::gui

@@ -1,17 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/statistics_model.h"
 
+#include "app/gui/models/health_facts.h"
+#include "app/gui/models/receiver_facts.h"
 #include "app/gui/models/roles.h"
+#include "app/gui/models/statistics_filter.h"
+#include "core/filter/filter.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
 #include <QSignalSpy>
 
+#include <algorithm>
 #include <cmath>
 
 namespace posewire::gui {
 
 namespace {
+
+using Column = StatisticsColumn;
 
 class StatisticsModelTest : public testing::Test {
 protected:
@@ -19,7 +26,21 @@ protected:
         m_stage.follow();
         m_model.refresh();
     }
-    QString text(int row, int column) const { return m_model.index(row, column).data().toString(); }
+    QModelIndex source(int row = 0) const { return m_model.index(row, 0); }
+    QModelIndex character(int row = 0) const { return m_model.index(row, 0, source()); }
+    QModelIndex stream(int row = 0) const { return m_model.index(row, 0, character()); }
+    static QModelIndex cell(const QModelIndex& row, Column column) {
+        return row.siblingAtColumn(static_cast<int>(column));
+    }
+    static QString text(const QModelIndex& row, Column column) { return cell(row, column).data().toString(); }
+    static double number(const QModelIndex& row, Column column) { return text(row, column).toDouble(); }
+
+    /// 100 samples a second for so many seconds; frame 520 never arrives.
+    void performSeconds(std::uint64_t seconds) {
+        performer::Performer performer(sending(1, {2}, 100.0));
+        m_stage.perform(performer, 0, seconds * 100, [](std::uint64_t frame) { return frame != 520; });
+        refresh();
+    }
 
     Stage m_stage;
     StatisticsModel m_model{m_stage.session};
@@ -32,65 +53,137 @@ TEST_F(StatisticsModelTest, ShowsRateSpacingAndBandwidthOfAStream) {
         m_stage.send(smallPose(), i, i * 10, Stage::kStart + i * 10 * Stage::kMillisecond + late);
     }
     refresh();
-    ASSERT_EQ(m_model.rowCount(), 1);
-    EXPECT_EQ(m_model.index(0, 0).data(kSuffixRole).toString(), "02");
-    EXPECT_EQ(text(0, StatisticsModel::kLeast), "9.00");
-    EXPECT_EQ(text(0, StatisticsModel::kMost), "11.00");
-    EXPECT_NEAR(text(0, StatisticsModel::kMean).toDouble(), 10.0, 0.02);
-    EXPECT_NEAR(text(0, StatisticsModel::kDeviation).toDouble(), 1.0, 0.02);
-    EXPECT_NEAR(text(0, StatisticsModel::kRate).toDouble(), 100.0, 0.2);
-    EXPECT_NEAR(text(0, StatisticsModel::kBandwidth).toDouble(), 5.6, 0.1); // 56 bytes each
-    EXPECT_EQ(text(0, StatisticsModel::kDatagrams), "200");
-    EXPECT_EQ(text(0, StatisticsModel::kLost), "0");
+    ASSERT_EQ(m_model.rowCount(character()), 1);
+    EXPECT_EQ(text(stream(), Column::SpacingLeast), "9.00");
+    EXPECT_EQ(text(stream(), Column::SpacingMost), "11.00");
+    EXPECT_NEAR(number(stream(), Column::SpacingMean), 10.0, 0.02);
+    EXPECT_NEAR(number(stream(), Column::SpacingDeviation), 1.0, 0.02);
+    EXPECT_NEAR(number(stream(), Column::Rate), 100.0, 0.2);
+    EXPECT_NEAR(number(stream(), Column::Bandwidth), 5.6, 0.1); // 56 bytes each
+    EXPECT_NEAR(number(stream(), Column::Jitter), 1.0, 0.1);
+    EXPECT_EQ(text(stream(), Column::Datagrams), "200");
+    EXPECT_EQ(text(stream(), Column::Lost), "0");
 }
 
-TEST_F(StatisticsModelTest, CountsLostSamplesExactly) {
+TEST_F(StatisticsModelTest, ZeroIsQuietAndLossHasShapeColourAndText) {
+    performSeconds(3);
+    EXPECT_EQ(cell(stream(), Column::Lost).data(Qt::ForegroundRole).value<QColor>(), theme().dim);
     performer::Performer performer(sending(1, {2}, 100.0));
-    m_stage.perform(performer, 0, 300, [](std::uint64_t frame) { return frame < 120 || frame > 122; });
+    m_stage.perform(performer, 300, 600, [](std::uint64_t frame) { return frame != 520; });
     refresh();
-    EXPECT_EQ(text(0, StatisticsModel::kLost), QStringLiteral("▲ 3"));
+    EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Column::LongestGap), QStringLiteral("▲ 1"));
+    EXPECT_EQ(cell(stream(), Column::Lost).data(Qt::ForegroundRole).value<QColor>(),
+              healthColour(Health::Warning));
 }
 
-TEST_F(StatisticsModelTest, DrawsTheRateSecondBySecondAndBreaksWhereNobodyLooked) {
-    performer::Performer performer(sending(1, {2}, 50.0));
-    const auto look = [&](std::uint64_t second) {
-        m_stage.perform(performer, second * 50, second * 50 + 50);
-        m_stage.now = Stage::kStart + static_cast<std::int64_t>(second + 1) * Stage::kSecond;
-        refresh();
-    };
-    for (std::uint64_t second = 0; second < 4; ++second) {
-        look(second);
-    }
-    m_stage.now += 3 * Stage::kSecond;
+TEST_F(StatisticsModelTest, FiguresAreOfTheRangeThatIsChosen) {
+    performSeconds(20);
+    EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
+    const std::int64_t start = Stage::kStart;
+    m_stage.commands.selectRange(
+        {0, model::TimeRange{start + 10 * Stage::kSecond, start + 15 * Stage::kSecond}});
     refresh();
-    const auto series = m_model.index(0, StatisticsModel::kTrend).data(kSeriesRole).value<QList<float>>();
-    ASSERT_EQ(series.size(), 6);
-    EXPECT_FLOAT_EQ(series[0], 50.0F);
-    EXPECT_FLOAT_EQ(series[2], 50.0F);
-    EXPECT_TRUE(std::isnan(series[3]));
-    EXPECT_TRUE(std::isnan(series[5]));
+    EXPECT_EQ(text(stream(), Column::Lost), "0");
+    EXPECT_EQ(text(stream(), Column::Samples), "500");
+    EXPECT_EQ(text(stream(), Column::Rate), "100.0");
+    EXPECT_EQ(text(stream(), Column::Bursts), QStringLiteral("–"));
+    EXPECT_EQ(text(source(), Column::Samples), "500");
+    m_stage.commands.selectRange({10 * Stage::kSecond, std::nullopt});
+    refresh();
+    EXPECT_NEAR(number(stream(), Column::Samples), 1000, 11);
+    m_stage.commands.selectRange({});
+    refresh();
+    EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
 }
 
-TEST_F(StatisticsModelTest, KeepsTwoMinutesAndNoMore) {
-    m_stage.send(smallPose(), 1, 1, Stage::kStart);
+TEST_F(StatisticsModelTest, SumsOfCharacterAndSourceAddUpAndLeaveOutWhatMakesNoSense) {
+    performer::Performer performer(sending(2, {2, 20, 12}, 100.0));
+    m_stage.perform(performer, 0, 300, [](std::uint64_t frame) { return frame != 120; });
     refresh();
-    for (int i = 0; i < 300; ++i) {
-        m_stage.now += Stage::kSecond;
-        refresh();
-    }
-    const auto series = m_model.index(0, StatisticsModel::kTrend).data(kSeriesRole).value<QList<float>>();
-    EXPECT_EQ(series.size(), StatisticsModel::kTrendSeconds);
+    EXPECT_EQ(m_model.rowCount(source()), 2);
+    EXPECT_EQ(text(character(), Column::Lost), QStringLiteral("▲ 2"));
+    EXPECT_EQ(text(source(), Column::Lost), QStringLiteral("▲ 4"));
+    EXPECT_EQ(text(source(), Column::Rate), "");
+    EXPECT_EQ(text(source(), Column::Skew), "");
+    QString datagrams = text(source(), Column::Datagrams);
+    EXPECT_EQ(datagrams.remove(QChar(0x202f)).toULongLong(), m_stage.session.sources().front().datagrams);
 }
 
-TEST_F(StatisticsModelTest, AnnouncesOneInsertionAndOneChange) {
-    QSignalSpy inserted(&m_model, &QAbstractItemModel::rowsInserted);
-    QSignalSpy changed(&m_model, &QAbstractItemModel::dataChanged);
+TEST_F(StatisticsModelTest, MessagesWithoutSamplesHaveNoFiguresOfSamples) {
+    m_stage.sendMetadata("name: Ana\n", Stage::kStart);
+    refresh();
+    EXPECT_EQ(text(stream(), Column::Lost), "");
+    EXPECT_EQ(text(stream(), Column::Datagrams), "1");
+    EXPECT_EQ(text(stream(), Column::Incomplete), "0");
+}
+
+TEST_F(StatisticsModelTest, CurveSpansTwoMinutesAndIsMarkedWhereSamplesWereLost) {
+    performSeconds(20);
+    const auto rates = cell(stream(), Column::Curve).data(kSeriesRole).value<QList<float>>();
+    const auto marks = cell(stream(), Column::Curve).data(kMarksRole).value<QList<float>>();
+    ASSERT_EQ(rates.size(), StatisticsModel::kCurvePoints);
+    ASSERT_EQ(marks.size(), StatisticsModel::kCurvePoints);
+    EXPECT_TRUE(std::isnan(rates.first()));
+    EXPECT_FLOAT_EQ(rates[rates.size() - 4], 100.0F);
+    EXPECT_EQ(std::ranges::count_if(marks, [](float mark) { return mark > 0; }), 1);
+}
+
+TEST_F(StatisticsModelTest, AnnouncesAtMostOneInsertionAndOneChangeEachTime) {
     performer::Performer performer(sending(4));
     m_stage.perform(performer, 0, 24);
+    for (int i = 0; i < 6; ++i) {
+        QSignalSpy inserted(&m_model, &QAbstractItemModel::rowsInserted);
+        QSignalSpy changed(&m_model, &QAbstractItemModel::dataChanged);
+        refresh();
+        EXPECT_LE(inserted.count(), 1);
+        EXPECT_EQ(changed.count(), 1);
+    }
+    EXPECT_EQ(m_model.rowCount(source()), 4);
+    EXPECT_EQ(m_model.rowCount(character()),
+              static_cast<int>(performer::typesOf(performer::Revision::N).size()));
+}
+
+TEST_F(StatisticsModelTest, EveryColumnHasATitleAndSaysWhatItIs) {
+    for (int column = 0; column < m_model.columnCount(); ++column) {
+        EXPECT_NE(m_model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString(), "");
+        EXPECT_GT(m_model.headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString().size(), 20);
+    }
+}
+
+TEST_F(StatisticsModelTest, ACellIsAFilterThatThePacketListUnderstands) {
+    performSeconds(6);
+    const auto filter = [&](const QModelIndex& row, Column column) {
+        return statisticsFilter(m_stage.session, m_model, cell(row, column));
+    };
+    EXPECT_EQ(filter(stream(), Column::Lost), "type == 02 && character == 0 && gap > 0");
+    EXPECT_EQ(filter(stream(), Column::Duplicates), "type == 02 && character == 0 && duplicate");
+    EXPECT_EQ(filter(character(), Column::Restarts), "character == 0 && restart");
+    EXPECT_EQ(filter(source(), Column::Malformed), "source == \"192.168.10.21:52011\" && malformed");
+    m_stage.sendBytes({}, m_stage.now, "192.168.10.22:52011");
+    m_stage.commands.selectRange(
+        {0, model::TimeRange{Stage::kStart + Stage::kSecond, Stage::kStart + 2 * Stage::kSecond}});
     refresh();
-    EXPECT_EQ(inserted.count(), 1);
-    EXPECT_EQ(changed.count(), 1);
-    EXPECT_EQ(m_model.rowCount(), 4 * static_cast<int>(performer::typesOf(performer::Revision::N).size()));
+    EXPECT_EQ(filter(stream(), Column::Reordered),
+              "type == 02 && character == 0 && source == \"192.168.10.21:52011\" && reordered && "
+              "time >= 1.000 && time < 2.000");
+    for (int column = 0; column < kStatisticsColumns; ++column) {
+        const QString text = filter(stream(), static_cast<Column>(column));
+        EXPECT_TRUE(filter::Filter::compile(text.toStdString()).has_value()) << text.toStdString();
+    }
+}
+
+TEST_F(StatisticsModelTest, CsvHasALineForEachStreamAndNumbersThatProgramsRead) {
+    performer::Performer performer(sending(2, {2, 20}, 100.0));
+    m_stage.perform(performer, 0, 1200);
+    refresh();
+    const QStringList lines = m_model.csv().split(QStringLiteral("\r\n"));
+    ASSERT_EQ(lines.size(), 6);
+    EXPECT_TRUE(lines[0].startsWith("Source,Character,Name,Type,Hz,"));
+    EXPECT_TRUE(lines[1].startsWith("192.168.10.21:52011,0,"));
+    EXPECT_EQ(lines[1].count(QLatin1Char(',')), lines[0].count(QLatin1Char(',')));
+    EXPECT_FALSE(m_model.csv().contains(QChar(0x202f)));
+    EXPECT_TRUE(lines[1].contains(",1200,"));
 }
 
 TEST(ReceiverFacts, TellsWhatThisComputerDropped) {
@@ -110,6 +203,20 @@ TEST(ReceiverFacts, TellsWhatThisComputerDropped) {
     stage.log.writer().publish();
     stage.follow();
     EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("■ 17"));
+}
+
+TEST(HealthFacts, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
+    Stage stage;
+    MonitorHealth health;
+    PropertyModel facts(healthFacts(stage.session, [&health] { return health; }));
+    QAbstractItemModelTester tester(&facts, QAbstractItemModelTester::FailureReportingMode::Fatal);
+    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("● buffer – · dropped 0 · 0 fps"));
+    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("receiving – · program –"));
+    health = {0.61, 0.021, 1.5, std::uint64_t{412} << 20, 0.92, 0.0123, 59.6};
+    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("▲ buffer 61 % · dropped 0 · 60 fps"));
+    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("receiving 2.1 % · program 150 %"));
+    EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("0.92 µs a packet · 1.2 %"));
+    EXPECT_TRUE(facts.index(3, 1).data().toString().startsWith("412 MB"));
 }
 
 } // namespace

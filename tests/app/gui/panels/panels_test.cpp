@@ -106,25 +106,6 @@ TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
     EXPECT_EQ(m_stage.session.selection().segment, 3);
 }
 
-TEST_F(PanelsTest, StatisticsShowAsManyColumnsAsFitOrThoseThatWereChosen) {
-    performer::Performer performer(sending(1, {2}));
-    m_stage.perform(performer, 0, 10);
-    const auto panel = open<StatisticsPanel>();
-    TableView* view = table(*panel);
-    panel->resize(380, 400);
-    EXPECT_LE(view->header()->length(), view->viewport()->width());
-    EXPECT_FALSE(view->isColumnHidden(StatisticsModel::kLost));
-    EXPECT_TRUE(view->isColumnHidden(StatisticsModel::kMalformed));
-    EXPECT_TRUE(panel->state().isEmpty());
-    panel->resize(1400, 400);
-    EXPECT_FALSE(view->isColumnHidden(StatisticsModel::kMalformed));
-    panel->restoreState({{"columns", QJsonArray{0, StatisticsModel::kMalformed}}});
-    EXPECT_TRUE(view->isColumnHidden(StatisticsModel::kRate));
-    panel->resize(380, 400);
-    EXPECT_FALSE(view->isColumnHidden(StatisticsModel::kMalformed));
-    EXPECT_EQ(panel->state()["columns"].toArray().size(), 2);
-}
-
 TEST_F(PanelsTest, KeepsWhatTheOperatorCollapsed) {
     performer::Performer performer(sending(1, {2}));
     m_stage.perform(performer, 0, 10);

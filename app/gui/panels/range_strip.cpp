@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/range_strip.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme.h"
+
+#include <QHelpEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QPainterPath>
+#include <QToolTip>
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr double kGrip = 4; // pixels at either side of an edge
+
+QColor withAlpha(QColor colour, double alpha) {
+    colour.setAlphaF(static_cast<float>(alpha));
+    return colour;
+}
+
+} // namespace
+
+RangeStrip::RangeStrip(model::SessionView& view, Commands& commands, QWidget* parent)
+    : QWidget(parent), m_view(view), m_commands(commands), m_overview(view) {
+    setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true);
+    setCursor(Qt::IBeamCursor);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setAccessibleName(tr("Range of time"));
+    setAccessibleDescription(tr("Arrow keys move the range, with Shift its end, with Control ten times as "
+                                "far. Escape takes it away."));
+}
+
+void RangeStrip::refresh() {
+    m_overview.refresh();
+    update();
+}
+
+QSize RangeStrip::sizeHint() const {
+    return {fontMetrics().height() * 12, fontMetrics().height() * 2};
+}
+
+QSize RangeStrip::minimumSizeHint() const {
+    return {fontMetrics().height() * 4, sizeHint().height()};
+}
+
+double RangeStrip::placeOf(std::int64_t stampNs) const {
+    const model::TimeRange& span = m_overview.span();
+    const auto length = static_cast<double>(std::max<std::int64_t>(1, span.toNs - span.fromNs));
+    return static_cast<double>(stampNs - span.fromNs) / length * width();
+}
+
+std::int64_t RangeStrip::stampAt(double place) const {
+    const model::TimeRange& span = m_overview.span();
+    const double share = std::clamp(place / std::max(1, width()), 0.0, 1.0);
+    return span.fromNs + static_cast<std::int64_t>(share * static_cast<double>(span.toNs - span.fromNs));
+}
+
+void RangeStrip::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.fillRect(rect(), theme().raised);
+    if (m_overview.empty()) {
+        painter.setPen(theme().dim);
+        painter.drawText(rect(), Qt::AlignCenter, tr("no history yet"));
+    } else {
+        paintRate(painter);
+        paintLosses(painter);
+        paintRange(painter);
+    }
+    if (hasFocus()) {
+        painter.setPen(theme().accent);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+    }
+}
+
+void RangeStrip::paintRate(QPainter& painter) const {
+    const model::RangeParts& parts = m_overview.parts();
+    const auto& counted = m_overview.counted();
+    // The last part goes on: it would always look like a loss.
+    const std::size_t count = parts.beginOf(parts.count) > m_overview.span().toNs && parts.count > 1
+                                  ? parts.count - 1
+                                  : parts.count;
+    std::uint32_t most = 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        most = std::max(most, counted[i].datagrams);
+    }
+    const double bottom = height();
+    const double scale = (height() - 4.0) / most;
+    QPolygonF area{{std::max(0.0, placeOf(parts.firstNs)), bottom}};
+    double right = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double y = bottom - counted[i].datagrams * scale;
+        right = i + 1 == count ? width() : placeOf(parts.beginOf(i + 1));
+        area << QPointF(std::max(0.0, placeOf(parts.beginOf(i))), y) << QPointF(right, y);
+    }
+    area << QPointF(right, bottom);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(withAlpha(theme().accent, 0.35));
+    painter.drawPolygon(area);
+}
+
+void RangeStrip::paintLosses(QPainter& painter) const {
+    const model::RangeParts& parts = m_overview.parts();
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme().warning);
+    for (std::size_t i = 0; i < parts.count; ++i) {
+        if (m_overview.counted()[i].lost != 0) {
+            const double left = std::max(0.0, placeOf(parts.beginOf(i)));
+            const double wide =
+                std::max(2.0, std::min<double>(placeOf(parts.beginOf(i + 1)), width()) - left);
+            painter.drawRect(QRectF(left, height() - height() / 3.0, wide, height() / 3.0));
+        }
+    }
+}
+
+void RangeStrip::paintRange(QPainter& painter) const {
+    const auto range = m_view.range();
+    if (!range) {
+        return;
+    }
+    const double from = std::clamp(placeOf(range->fromNs), 0.0, width() - 1.0);
+    const double to = std::clamp(placeOf(range->toNs), from + 1, static_cast<double>(width()));
+    const QColor shade = withAlpha(theme().panel, 0.62);
+    painter.fillRect(QRectF(0, 0, from, height()), shade);
+    painter.fillRect(QRectF(to, 0, width() - to, height()), shade);
+    painter.setPen(QPen(theme().accent, 2));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(QRectF(from, 0, to - from, height()).adjusted(1, 1, -1, -1));
+}
+
+void RangeStrip::choose(std::int64_t fromNs, std::int64_t toNs) {
+    const model::TimeRange& span = m_overview.span();
+    const std::int64_t resolution = m_overview.resolutionNs();
+    model::TimeRange range{std::min(fromNs, toNs), std::max(fromNs, toNs)};
+    range.fromNs = std::clamp(range.fromNs, span.fromNs, span.toNs);
+    range.toNs = std::clamp(range.toNs, range.fromNs, span.toNs);
+    // As buckets go: what is shown as chosen is what is counted.
+    range.fromNs -= range.fromNs % resolution;
+    range.toNs += (resolution - range.toNs % resolution) % resolution;
+    if (range.toNs == range.fromNs) {
+        range.toNs += resolution;
+    }
+    m_commands.selectRange({0, range});
+    update();
+}
+
+bool RangeStrip::isAtEdge(double place, double edge) const {
+    return std::abs(place - edge) <= kGrip;
+}
+
+void RangeStrip::mousePressEvent(QMouseEvent* event) {
+    if (event->button() != Qt::LeftButton || m_overview.empty()) {
+        return;
+    }
+    const double place = event->position().x();
+    m_pressed = place;
+    m_isMoved = false;
+    m_anchorNs = stampAt(place);
+    if (const auto range = m_view.range()) {
+        if (isAtEdge(place, placeOf(range->fromNs))) {
+            m_anchorNs = range->toNs;
+        } else if (isAtEdge(place, placeOf(range->toNs))) {
+            m_anchorNs = range->fromNs;
+        }
+    }
+}
+
+void RangeStrip::mouseMoveEvent(QMouseEvent* event) {
+    const double place = event->position().x();
+    if (!m_anchorNs) {
+        const auto range = m_view.range();
+        const bool isEdge =
+            range && (isAtEdge(place, placeOf(range->fromNs)) || isAtEdge(place, placeOf(range->toNs)));
+        setCursor(isEdge ? Qt::SizeHorCursor : Qt::IBeamCursor);
+        return;
+    }
+    if (m_isMoved || std::abs(place - m_pressed) >= kGrip) {
+        m_isMoved = true;
+        choose(*m_anchorNs, stampAt(place));
+    }
+}
+
+void RangeStrip::mouseReleaseEvent(QMouseEvent*) {
+    if (m_anchorNs && !m_isMoved) {
+        m_commands.selectRange({}); // a click beside the range takes it away, as in any text
+        update();
+    }
+    m_anchorNs.reset();
+}
+
+/// A fiftieth of the history, in round steps.
+std::int64_t RangeStrip::keyStepNs() const {
+    const model::TimeRange& span = m_overview.span();
+    const std::int64_t resolution = m_overview.resolutionNs();
+    const std::int64_t step = (span.toNs - span.fromNs) / 50;
+    return std::max(resolution, step - step % resolution);
+}
+
+void RangeStrip::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape) {
+        m_commands.selectRange({});
+        update();
+        return;
+    }
+    const bool isLeft = event->key() == Qt::Key_Left;
+    if ((!isLeft && event->key() != Qt::Key_Right) || m_overview.empty()) {
+        QWidget::keyPressEvent(event);
+        return;
+    }
+    const bool isFar = event->modifiers().testFlag(Qt::ControlModifier);
+    const std::int64_t moved = (isLeft ? -1 : 1) * keyStepNs() * (isFar ? 10 : 1);
+    const model::TimeRange& span = m_overview.span();
+    const auto range = m_view.range();
+    if (!range) {
+        choose(span.toNs - std::min(5 * keyStepNs(), span.toNs - span.fromNs), span.toNs);
+        return;
+    }
+    if (event->modifiers().testFlag(Qt::ShiftModifier)) {
+        choose(range->fromNs, std::max(range->fromNs, range->toNs + moved));
+        return;
+    }
+    const std::int64_t length = range->toNs - range->fromNs;
+    const std::int64_t from =
+        std::clamp(range->fromNs + moved, span.fromNs, std::max(span.fromNs, span.toNs - length));
+    choose(from, from + length);
+}
+
+QString RangeStrip::partText(double place) const {
+    const model::RangeParts& parts = m_overview.parts();
+    const std::int64_t at = stampAt(place) - parts.firstNs;
+    const auto part = static_cast<std::size_t>(std::max<std::int64_t>(0, at) / parts.widthNs);
+    if (part >= parts.count) {
+        return {};
+    }
+    const model::RangePart& counted = m_overview.counted()[part];
+    const double seconds = static_cast<double>(parts.widthNs) * 1e-9;
+    return tr("%1: %2 datagrams/s, %3 samples lost\nDrag to choose a range.")
+        .arg(timeOfDay(parts.beginOf(part)).chopped(4), fixed(counted.datagrams / seconds, 0),
+             grouped(counted.lost));
+}
+
+bool RangeStrip::event(QEvent* event) {
+    if (event->type() == QEvent::ToolTip && !m_overview.empty()) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        QToolTip::showText(help->globalPos(), partText(help->pos().x()), this);
+        return true;
+    }
+    return QWidget::event(event);
+}
+
+} // namespace posewire::gui

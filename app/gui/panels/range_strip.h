@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/commands.h"
+#include "app/gui/models/range_overview.h"
+
+#include <QWidget>
+
+#include <optional>
+
+namespace posewire::gui {
+
+/// The whole history as a small picture, datagrams a second with the losses marked, in which a range is
+/// dragged: by the mouse, or by the arrow keys (they move it, with Shift its end, with Ctrl ten times as far;
+/// Escape takes it away). Dragging an edge moves that edge.
+class RangeStrip : public QWidget {
+    Q_OBJECT
+
+public:
+    RangeStrip(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    void refresh();
+
+    /// Pixels from the left at which a stamp stands, and back.
+    [[nodiscard]] double placeOf(std::int64_t stampNs) const;
+    [[nodiscard]] std::int64_t stampAt(double place) const;
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    bool event(QEvent* event) override;
+
+private:
+    void paintRate(QPainter& painter) const;
+    void paintLosses(QPainter& painter) const;
+    void paintRange(QPainter& painter) const;
+    void choose(std::int64_t fromNs, std::int64_t toNs);
+    [[nodiscard]] bool isAtEdge(double place, double edge) const;
+    [[nodiscard]] std::int64_t keyStepNs() const;
+    [[nodiscard]] QString partText(double place) const;
+
+    model::SessionView& m_view;
+    Commands& m_commands;
+    RangeOverview m_overview;
+    std::optional<std::int64_t> m_anchorNs; ///< while dragging: the end that stays
+    double m_pressed = 0;
+    bool m_isMoved = false;
+};
+
+} // namespace posewire::gui

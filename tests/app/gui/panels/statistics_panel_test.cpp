@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/statistics_panel.h"
+
+#include "tests/app/gui/models/stage.h"
+
+#include <QContextMenuEvent>
+#include <QHeaderView>
+#include <QMenu>
+#include <QTest>
+#include <QToolButton>
+
+#include <cstdlib>
+#include <memory>
+
+namespace posewire::gui {
+namespace {
+
+using Column = StatisticsColumn;
+
+/// Remembers which dock was asked for.
+class DockCommands : public ImmediateCommands {
+public:
+    using ImmediateCommands::ImmediateCommands;
+    void showDock(const QString& name) override { dock = name; }
+    QString dock;
+};
+
+class StatisticsPanelTest : public testing::Test {
+protected:
+    void open(int width = 420) {
+        m_panel = std::make_unique<StatisticsPanel>(m_stage.session, m_commands, nullptr);
+        m_panel->resize(width, 400);
+        m_panel->show();
+        refresh();
+    }
+    void perform(std::uint64_t seconds) {
+        performer::Performer performer(sending(2, {2, 20, 12}, 100.0));
+        m_stage.perform(performer, 0, seconds * 100, [](std::uint64_t frame) { return frame != 520; });
+    }
+    void refresh() {
+        m_stage.follow();
+        m_panel->refresh();
+        QCoreApplication::processEvents();
+    }
+    TableView& table() { return *m_panel->findChild<TableView*>(); }
+    RangeStrip& strip() { return *m_panel->findChild<RangeStrip*>(); }
+    QModelIndex stream(Column column) {
+        const QAbstractItemModel& model = *table().model();
+        return model.index(0, static_cast<int>(column), model.index(0, 0, model.index(0, 0)));
+    }
+    std::optional<model::TimeRange> range() const { return m_stage.session.range(); }
+
+    Stage m_stage;
+    DockCommands m_commands{m_stage.session};
+    std::unique_ptr<StatisticsPanel> m_panel;
+};
+
+TEST_F(StatisticsPanelTest, ShowsAsManyColumnsAsFitOrThoseThatWereChosen) {
+    perform(1);
+    open(380);
+    EXPECT_LE(table().header()->length(), table().viewport()->width());
+    EXPECT_FALSE(table().isColumnHidden(static_cast<int>(Column::Lost)));
+    EXPECT_TRUE(table().isColumnHidden(static_cast<int>(Column::Drift)));
+    EXPECT_TRUE(m_panel->state().isEmpty());
+    m_panel->resize(4000, 400);
+    EXPECT_FALSE(table().isColumnHidden(static_cast<int>(Column::Drift)));
+    m_panel->restoreState({{"columns", QJsonArray{0, static_cast<int>(Column::Drift)}}});
+    EXPECT_TRUE(table().isColumnHidden(static_cast<int>(Column::Rate)));
+    m_panel->resize(380, 400);
+    EXPECT_FALSE(table().isColumnHidden(static_cast<int>(Column::Drift)));
+    EXPECT_EQ(m_panel->state()["columns"].toArray().size(), 2);
+}
+
+TEST_F(StatisticsPanelTest, ACellJumpsToItsPacketsByDoubleClickAndByKey) {
+    perform(6);
+    open();
+    QTest::mouseDClick(table().viewport(), Qt::LeftButton, {},
+                       table().visualRect(stream(Column::Lost)).center());
+    table().activated(stream(Column::Lost)); // what a double click is depends on the platform's style
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0 && gap > 0");
+    EXPECT_EQ(m_commands.dock, "packets");
+    table().setCurrentIndex(stream(Column::Stream));
+    table().setFocus();
+    QTest::keyClick(&table(), Qt::Key_Return);
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0");
+}
+
+TEST_F(StatisticsPanelTest, ClickingARowSelectsItsCharacter) {
+    perform(1);
+    open();
+    const QModelIndex second = table().model()->index(1, 0, table().model()->index(0, 0));
+    QTest::mouseClick(table().viewport(), Qt::LeftButton, {}, table().visualRect(second).center());
+    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(1));
+}
+
+TEST_F(StatisticsPanelTest, DraggingInTheStripChoosesARangeAndAClickTakesItAway) {
+    perform(20);
+    open();
+    const int middle = strip().height() / 2;
+    const int from = strip().width() / 4;
+    const int to = strip().width() / 2;
+    QTest::mousePress(&strip(), Qt::LeftButton, {}, {from, middle});
+    QTest::mouseMove(&strip(), {to, middle});
+    QTest::mouseRelease(&strip(), Qt::LeftButton, {}, {to, middle});
+    ASSERT_TRUE(range().has_value());
+    EXPECT_NEAR(static_cast<double>(range()->fromNs - Stage::kStart) * 1e-9, 5.0, 0.5);
+    EXPECT_NEAR(range()->seconds(), 5.0, 0.5);
+    EXPECT_TRUE(m_panel->summary().endsWith(" s"));
+    QTest::mouseClick(&strip(), Qt::LeftButton, {}, {2, middle});
+    EXPECT_FALSE(range().has_value());
+    EXPECT_EQ(m_panel->summary(), "6 streams");
+}
+
+TEST_F(StatisticsPanelTest, ArrowKeysMoveTheRangeAndShiftExtendsIt) {
+    perform(20);
+    open();
+    strip().setFocus();
+    QTest::keyClick(&strip(), Qt::Key_Left);
+    ASSERT_TRUE(range().has_value());
+    const model::TimeRange first = *range();
+    QTest::keyClick(&strip(), Qt::Key_Left, Qt::ControlModifier);
+    EXPECT_LT(range()->fromNs, first.fromNs);
+    EXPECT_NEAR(range()->seconds(), first.seconds(), 0.21);
+    const model::TimeRange moved = *range();
+    QTest::keyClick(&strip(), Qt::Key_Right, Qt::ShiftModifier);
+    EXPECT_EQ(range()->fromNs, moved.fromNs);
+    EXPECT_GT(range()->toNs, moved.toNs);
+    QTest::keyClick(&strip(), Qt::Key_Escape);
+    EXPECT_FALSE(range().has_value());
+}
+
+TEST_F(StatisticsPanelTest, ButtonsChooseTheNewestSecondsAndTheTitleSaysSo) {
+    perform(20);
+    open();
+    for (QToolButton* button : m_panel->findChildren<QToolButton*>()) {
+        if (button->text() == "10 s") {
+            button->click();
+        }
+    }
+    EXPECT_EQ(m_stage.session.rangeChoice().lastNs, 10 * Stage::kSecond);
+    EXPECT_EQ(m_panel->summary(), "last 10 s");
+    refresh();
+    const double samples = stream(Column::Samples).data().toString().remove(QChar(0x202f)).toDouble();
+    EXPECT_NEAR(samples, 1000, 11);
+}
+
+TEST_F(StatisticsPanelTest, EmptyStripTakesKeysAndMouseWithoutARange) {
+    open();
+    QTest::keyClick(&strip(), Qt::Key_Left);
+    QTest::mouseClick(&strip(), Qt::LeftButton, {}, {10, 5});
+    EXPECT_FALSE(range().has_value());
+}
+
+TEST_F(StatisticsPanelTest, MenuOffersThePacketsAndCsv) {
+    perform(6);
+    open();
+    QMenu menu;
+    emit table().menuRequested(menu, stream(Column::Stream));
+    ASSERT_EQ(menu.actions().size(), 3);
+    QMenu* packets = menu.actions().front()->menu();
+    ASSERT_NE(packets, nullptr);
+    ASSERT_EQ(packets->actions().size(), 6);
+    packets->actions()[1]->trigger();
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0 && gap > 0");
+    menu.actions().back()->trigger();
+    EXPECT_TRUE(m_commands.copied.startsWith("Source,Character"));
+}
+
+} // namespace
+} // namespace posewire::gui
