@@ -20,241 +20,211 @@ constexpr std::int64_t kSecondNs = 1'000'000'000;
 /// Shorter parts show the beat of samples and buckets, not the rate.
 constexpr std::int64_t kLeastPartNs = 500'000'000;
 
-Column columnOf(const QModelIndex &index) {
-  return static_cast<Column>(index.column());
+Column columnOf(const QModelIndex& index) {
+    return static_cast<Column>(index.column());
 }
 
 } // namespace
 
-StatisticsModel::StatisticsModel(model::SessionView &view, QObject *parent)
-    : StreamTreeModel(view, parent) {}
+StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent) : StreamTreeModel(view, parent) {}
 
 void StatisticsModel::refresh() {
-  ++m_turn;
-  const std::int64_t second = view().cursorStampNs() / kSecondNs;
-  if (second != m_curveSecond || m_choice != view().rangeChoice()) {
-    m_curveSecond = second;
-    m_choice = view().rangeChoice();
-    ++m_curveTurn;
-  }
-  m_range = view().range();
-  insertNew();
-  announceChange();
-}
-
-StatisticsModel::Cached &
-StatisticsModel::cached(const QModelIndex &index) const {
-  const auto node = static_cast<std::size_t>(index.internalId());
-  if (node >= m_cache.size()) {
-    m_cache.resize(node + 1);
-  }
-  return m_cache[node];
-}
-
-const StatisticsFigures &
-StatisticsModel::figures(const QModelIndex &index) const {
-  if (cached(index).turn != m_turn) {
-    const model::Stream *shown = stream(index);
-    StatisticsFigures made =
-        shown != nullptr ? streamFigures(*shown) : sumOf(index);
-    cached(index).figures =
-        std::move(made); // sums fill the cache of others: look again
-    cached(index).turn = m_turn;
-  }
-  return cached(index).figures;
-}
-
-StatisticsFigures
-StatisticsModel::streamFigures(const model::Stream &stream) const {
-  StatisticsFigures figures;
-  figures.isSampled = model::countsSamples(stream.key.type);
-  figures.range = model::figuresOf(stream.accounting, m_range);
-  figures.rateHz =
-      m_range ? figures.range.rate.meanHz : stream.statistics.rateHz();
-  if (!m_range) {
-    figures.malformed = stream.malformed;
-  }
-  return figures;
-}
-
-StatisticsFigures StatisticsModel::sumOf(const QModelIndex &index) const {
-  StatisticsFigures sum;
-  sum.isSum = true;
-  sum.isSampled = false;
-  const bool isKnown = !m_range.has_value();
-  sum.malformed = isKnown ? std::optional<std::uint64_t>(0) : std::nullopt;
-  for (int row = 0; row < rowCount(index); ++row) {
-    sum.add(figures(this->index(row, 0, index)));
-  }
-  const bool isSource = nodeOf(index).kind == Kind::Source;
-  if (isSource && isKnown) {
-    sum.malformed = view()
-                        .sources()[nodeOf(index).entry]
-                        .malformed; // also those without a header
-  }
-  return sum;
-}
-
-void StatisticsModel::addStreams(
-    const QModelIndex &index,
-    std::vector<const model::Stream *> &streams) const {
-  if (const model::Stream *shown = stream(index)) {
-    streams.push_back(shown);
-  }
-  for (int row = 0; row < rowCount(index); ++row) {
-    addStreams(this->index(row, 0, index), streams);
-  }
-}
-
-const StatisticsModel::Curve &
-StatisticsModel::curve(const QModelIndex &index) const {
-  Cached &kept = cached(index);
-  if (kept.curveTurn != m_curveTurn) {
-    kept.curve = makeCurve(index);
-    kept.curveTurn = m_curveTurn;
-  }
-  return kept.curve;
-}
-
-StatisticsModel::Curve
-StatisticsModel::makeCurve(const QModelIndex &index) const {
-  std::vector<const model::Stream *> streams;
-  addStreams(index, streams);
-  const bool isSum = stream(index) == nullptr;
-  std::erase_if(streams, [](const auto *each) {
-    return !model::countsSamples(each->key.type);
-  });
-  if (streams.empty()) {
-    return {};
-  }
-  std::int64_t first = std::numeric_limits<std::int64_t>::max();
-  std::int64_t resolution = 1;
-  for (const model::Stream *each : streams) {
-    first = std::min(first, each->accounting.firstStampNs());
-    resolution = std::max(resolution, each->accounting.resolutionNs());
-  }
-  const std::int64_t end = view().cursorStampNs();
-  const model::TimeRange shown =
-      m_range.value_or(model::TimeRange{end - kCurveNs, end});
-  const model::RangeParts parts =
-      model::partsOf(shown, kCurvePoints, kLeastPartNs, resolution);
-  std::array<model::RangePart, kCurvePoints> counted{};
-  for (const model::Stream *each : streams) {
-    model::addParts(each->accounting, parts, counted);
-  }
-  Curve made;
-  const double seconds = static_cast<double>(parts.widthNs) * 1e-9;
-  // Fewer parts than points are drawn as steps, so that the curve always fills
-  // its room.
-  for (std::size_t point = 0; point < kCurvePoints && parts.count > 0;
-       ++point) {
-    const std::size_t part = point * parts.count / kCurvePoints;
-    const bool isThere =
-        parts.beginOf(part) >= first && parts.beginOf(part + 1) <= end;
-    const double rate =
-        (isSum ? counted[part].datagrams : counted[part].samples) / seconds;
-    made.rates.append(isThere ? static_cast<float>(rate)
-                              : std::numeric_limits<float>::quiet_NaN());
-    made.marks.append(static_cast<float>(counted[part].lost));
-  }
-  return made;
-}
-
-int StatisticsModel::columnCount(const QModelIndex &) const {
-  return kStatisticsColumns;
-}
-
-QVariant StatisticsModel::data(const QModelIndex &index, int role) const {
-  if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
-    return {};
-  }
-  switch (columnOf(index)) {
-  case Column::Stream:
-    return nameData(index, role);
-  case Column::Curve:
-    return curveData(index, role);
-  default:
-    return figureData(index, role);
-  }
-}
-
-QVariant StatisticsModel::nameData(const QModelIndex &index, int role) const {
-  if (const model::Stream *shown = stream(index)) {
-    const QString title =
-        QString::fromStdString(wire::typeTitle(shown->key.type));
-    return role == Qt::DisplayRole || role == Qt::ToolTipRole ? title
-                                                              : QVariant();
-  }
-  const auto key = character(index);
-  if (!key) {
-    const model::Source &shown = view().sources()[nodeOf(index).entry];
-    return role == Qt::DisplayRole ? QString::fromStdString(shown.info.address)
-                                   : QVariant();
-  }
-  switch (role) {
-  case Qt::DisplayRole:
-    return characterName(view(), *key);
-  case kSuffixRole:
-    return QStringLiteral("· %1").arg(key->character);
-  case kDotRole:
-    return characterColour(view(), *key);
-  default:
-    return {};
-  }
-}
-
-QVariant StatisticsModel::curveData(const QModelIndex &index, int role) const {
-  switch (role) {
-  case kSeriesRole:
-    return QVariant::fromValue(curve(index).rates);
-  case kMarksRole:
-    return QVariant::fromValue(curve(index).marks);
-  case Qt::ForegroundRole:
-    if (const model::Stream *shown = stream(index)) {
-      return healthColour(streamState(view(), *shown).health);
+    ++m_turn;
+    const std::int64_t second = view().cursorStampNs() / kSecondNs;
+    if (second != m_curveSecond || m_choice != view().rangeChoice()) {
+        m_curveSecond = second;
+        m_choice = view().rangeChoice();
+        ++m_curveTurn;
     }
-    return theme().dim;
-  case Qt::ToolTipRole:
-    return headerData(index.column(), Qt::Horizontal, role);
-  default:
-    return role == Qt::TextAlignmentRole ? numberAlignment() : QVariant();
-  }
+    m_range = view().range();
+    insertNew();
+    announceChange();
 }
 
-QVariant StatisticsModel::figureData(const QModelIndex &index, int role) const {
-  switch (role) {
-  case Qt::DisplayRole: {
-    const QString text = statisticsText(figures(index), columnOf(index));
-    const Health health =
-        text.isEmpty() ? Health::Unknown
-                       : statisticsHealth(figures(index), columnOf(index));
-    return health == Health::Unknown
-               ? text
-               : healthSymbol(health) + QLatin1Char(' ') + text;
-  }
-  case Qt::ForegroundRole: {
-    const Health health = statisticsHealth(figures(index), columnOf(index));
-    if (health == Health::Unknown) {
-      return isQuiet(figures(index), columnOf(index)) ? QVariant(theme().dim)
-                                                      : QVariant();
+StatisticsModel::Cached& StatisticsModel::cached(const QModelIndex& index) const {
+    const auto node = static_cast<std::size_t>(index.internalId());
+    if (node >= m_cache.size()) {
+        m_cache.resize(node + 1);
     }
-    return healthColour(health);
-  }
-  case Qt::TextAlignmentRole:
-    return numberAlignment();
-  case Qt::ToolTipRole:
-    return headerData(index.column(), Qt::Horizontal, role);
-  default:
-    return {};
-  }
+    return m_cache[node];
 }
 
-QVariant StatisticsModel::headerData(int section, Qt::Orientation orientation,
-                                     int role) const {
-  return orientation == Qt::Horizontal
-             ? columnHeader(statisticsColumns(), kStatisticsContext, section,
-                            role)
-             : QVariant();
+const StatisticsFigures& StatisticsModel::figures(const QModelIndex& index) const {
+    if (cached(index).turn != m_turn) {
+        const model::Stream* shown = stream(index);
+        StatisticsFigures made = shown != nullptr ? streamFigures(*shown) : sumOf(index);
+        cached(index).figures = std::move(made); // sums fill the cache of others: look again
+        cached(index).turn = m_turn;
+    }
+    return cached(index).figures;
+}
+
+StatisticsFigures StatisticsModel::streamFigures(const model::Stream& stream) const {
+    StatisticsFigures figures;
+    figures.isSampled = model::countsSamples(stream.key.type);
+    figures.range = model::figuresOf(stream.accounting, m_range);
+    figures.rateHz = m_range ? figures.range.rate.meanHz : stream.statistics.rateHz();
+    if (!m_range) {
+        figures.malformed = stream.malformed;
+    }
+    return figures;
+}
+
+StatisticsFigures StatisticsModel::sumOf(const QModelIndex& index) const {
+    StatisticsFigures sum;
+    sum.isSum = true;
+    sum.isSampled = false;
+    const bool isKnown = !m_range.has_value();
+    sum.malformed = isKnown ? std::optional<std::uint64_t>(0) : std::nullopt;
+    for (int row = 0; row < rowCount(index); ++row) {
+        sum.add(figures(this->index(row, 0, index)));
+    }
+    const bool isSource = nodeOf(index).kind == Kind::Source;
+    if (isSource && isKnown) {
+        sum.malformed = view().sources()[nodeOf(index).entry].malformed; // also those without a header
+    }
+    return sum;
+}
+
+void StatisticsModel::addStreams(const QModelIndex& index, std::vector<const model::Stream*>& streams) const {
+    if (const model::Stream* shown = stream(index)) {
+        streams.push_back(shown);
+    }
+    for (int row = 0; row < rowCount(index); ++row) {
+        addStreams(this->index(row, 0, index), streams);
+    }
+}
+
+const StatisticsModel::Curve& StatisticsModel::curve(const QModelIndex& index) const {
+    Cached& kept = cached(index);
+    if (kept.curveTurn != m_curveTurn) {
+        kept.curve = makeCurve(index);
+        kept.curveTurn = m_curveTurn;
+    }
+    return kept.curve;
+}
+
+StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) const {
+    std::vector<const model::Stream*> streams;
+    addStreams(index, streams);
+    const bool isSum = stream(index) == nullptr;
+    std::erase_if(streams, [](const auto* each) { return !model::countsSamples(each->key.type); });
+    if (streams.empty()) {
+        return {};
+    }
+    std::int64_t first = std::numeric_limits<std::int64_t>::max();
+    std::int64_t resolution = 1;
+    for (const model::Stream* each : streams) {
+        first = std::min(first, each->accounting.firstStampNs());
+        resolution = std::max(resolution, each->accounting.resolutionNs());
+    }
+    const std::int64_t end = view().cursorStampNs();
+    const model::TimeRange shown = m_range.value_or(model::TimeRange{end - kCurveNs, end});
+    const model::RangeParts parts = model::partsOf(shown, kCurvePoints, kLeastPartNs, resolution);
+    std::array<model::RangePart, kCurvePoints> counted{};
+    for (const model::Stream* each : streams) {
+        model::addParts(each->accounting, parts, counted);
+    }
+    Curve made;
+    const double seconds = static_cast<double>(parts.widthNs) * 1e-9;
+    // Fewer parts than points are drawn as steps, so that the curve always fills
+    // its room.
+    for (std::size_t point = 0; point < kCurvePoints && parts.count > 0; ++point) {
+        const std::size_t part = point * parts.count / kCurvePoints;
+        const bool isThere = parts.beginOf(part) >= first && parts.beginOf(part + 1) <= end;
+        const double rate = (isSum ? counted[part].datagrams : counted[part].samples) / seconds;
+        made.rates.append(isThere ? static_cast<float>(rate) : std::numeric_limits<float>::quiet_NaN());
+        made.marks.append(static_cast<float>(counted[part].lost));
+    }
+    return made;
+}
+
+int StatisticsModel::columnCount(const QModelIndex&) const {
+    return kStatisticsColumns;
+}
+
+QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
+    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
+        return {};
+    }
+    switch (columnOf(index)) {
+    case Column::Stream:
+        return nameData(index, role);
+    case Column::Curve:
+        return curveData(index, role);
+    default:
+        return figureData(index, role);
+    }
+}
+
+QVariant StatisticsModel::nameData(const QModelIndex& index, int role) const {
+    if (const model::Stream* shown = stream(index)) {
+        const QString title = QString::fromStdString(wire::typeTitle(shown->key.type));
+        return role == Qt::DisplayRole || role == Qt::ToolTipRole ? title : QVariant();
+    }
+    const auto key = character(index);
+    if (!key) {
+        const model::Source& shown = view().sources()[nodeOf(index).entry];
+        return role == Qt::DisplayRole ? QString::fromStdString(shown.info.address) : QVariant();
+    }
+    switch (role) {
+    case Qt::DisplayRole:
+        return characterName(view(), *key);
+    case kSuffixRole:
+        return QStringLiteral("· %1").arg(key->character);
+    case kDotRole:
+        return characterColour(view(), *key);
+    default:
+        return {};
+    }
+}
+
+QVariant StatisticsModel::curveData(const QModelIndex& index, int role) const {
+    switch (role) {
+    case kSeriesRole:
+        return QVariant::fromValue(curve(index).rates);
+    case kMarksRole:
+        return QVariant::fromValue(curve(index).marks);
+    case Qt::ForegroundRole:
+        if (const model::Stream* shown = stream(index)) {
+            return healthColour(streamState(view(), *shown).health);
+        }
+        return theme().dim;
+    case Qt::ToolTipRole:
+        return headerData(index.column(), Qt::Horizontal, role);
+    default:
+        return role == Qt::TextAlignmentRole ? numberAlignment() : QVariant();
+    }
+}
+
+QVariant StatisticsModel::figureData(const QModelIndex& index, int role) const {
+    switch (role) {
+    case Qt::DisplayRole: {
+        const QString text = statisticsText(figures(index), columnOf(index));
+        const Health health =
+            text.isEmpty() ? Health::Unknown : statisticsHealth(figures(index), columnOf(index));
+        return health == Health::Unknown ? text : healthSymbol(health) + QLatin1Char(' ') + text;
+    }
+    case Qt::ForegroundRole: {
+        const Health health = statisticsHealth(figures(index), columnOf(index));
+        if (health == Health::Unknown) {
+            return isQuiet(figures(index), columnOf(index)) ? QVariant(theme().dim) : QVariant();
+        }
+        return healthColour(health);
+    }
+    case Qt::TextAlignmentRole:
+        return numberAlignment();
+    case Qt::ToolTipRole:
+        return headerData(index.column(), Qt::Horizontal, role);
+    default:
+        return {};
+    }
+}
+
+QVariant StatisticsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    return orientation == Qt::Horizontal
+               ? columnHeader(statisticsColumns(), kStatisticsContext, section, role)
+               : QVariant();
 }
 
 } // namespace posewire::gui

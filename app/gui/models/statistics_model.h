@@ -17,66 +17,59 @@ namespace posewire::gui {
 /// paused. Figures are made when they are asked for, once a refresh, and curves
 /// once a second.
 class StatisticsModel : public StreamTreeModel {
-  Q_OBJECT
+    Q_OBJECT
 
 public:
-  /// The curve of a row has so many points, and spans two minutes where no
-  /// range is chosen.
-  static constexpr int kCurvePoints = 120;
-  static constexpr std::int64_t kCurveNs = 120'000'000'000;
+    /// The curve of a row has so many points, and spans two minutes where no
+    /// range is chosen.
+    static constexpr int kCurvePoints = 120;
+    static constexpr std::int64_t kCurveNs = 120'000'000'000;
 
-  explicit StatisticsModel(model::SessionView &view, QObject *parent = nullptr);
+    explicit StatisticsModel(model::SessionView& view, QObject* parent = nullptr);
 
-  void refresh();
+    void refresh();
 
-  /// Valid until the next refresh.
-  [[nodiscard]] const StatisticsFigures &
-  figures(const QModelIndex &index) const;
-  /// The range of the figures; nothing for all.
-  [[nodiscard]] const std::optional<model::TimeRange> &range() const {
-    return m_range;
-  }
+    /// Valid until the next refresh.
+    [[nodiscard]] const StatisticsFigures& figures(const QModelIndex& index) const;
+    /// The range of the figures; nothing for all.
+    [[nodiscard]] const std::optional<model::TimeRange>& range() const { return m_range; }
 
-  /// A line for each stream, with titles (RFC 4180): source, character, type,
-  /// and every figure.
-  [[nodiscard]] QString csv() const;
+    /// A line for each stream, with titles (RFC 4180): source, character, type,
+    /// and every figure.
+    [[nodiscard]] QString csv() const;
 
-  [[nodiscard]] int columnCount(const QModelIndex &parent = {}) const override;
-  [[nodiscard]] QVariant data(const QModelIndex &index,
-                              int role) const override;
-  [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation,
-                                    int role) const override;
+    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
 private:
-  struct Curve {
-    QList<float> rates; ///< NaN where the stream was not there
-    QList<float> marks; ///< above 0 where samples were lost
-  };
-  struct Cached {
-    std::uint64_t turn = 0;      ///< of the figures
-    std::uint64_t curveTurn = 0; ///< likewise
-    StatisticsFigures figures;
-    Curve curve;
-  };
+    struct Curve {
+        QList<float> rates; ///< NaN where the stream was not there
+        QList<float> marks; ///< above 0 where samples were lost
+    };
+    struct Cached {
+        std::uint64_t turn = 0;      ///< of the figures
+        std::uint64_t curveTurn = 0; ///< likewise
+        StatisticsFigures figures;
+        Curve curve;
+    };
 
-  [[nodiscard]] Cached &cached(const QModelIndex &index) const;
-  [[nodiscard]] StatisticsFigures
-  streamFigures(const model::Stream &stream) const;
-  [[nodiscard]] StatisticsFigures sumOf(const QModelIndex &index) const;
-  [[nodiscard]] const Curve &curve(const QModelIndex &index) const;
-  [[nodiscard]] Curve makeCurve(const QModelIndex &index) const;
-  void addStreams(const QModelIndex &index,
-                  std::vector<const model::Stream *> &streams) const;
-  [[nodiscard]] QVariant nameData(const QModelIndex &index, int role) const;
-  [[nodiscard]] QVariant curveData(const QModelIndex &index, int role) const;
-  [[nodiscard]] QVariant figureData(const QModelIndex &index, int role) const;
+    [[nodiscard]] Cached& cached(const QModelIndex& index) const;
+    [[nodiscard]] StatisticsFigures streamFigures(const model::Stream& stream) const;
+    [[nodiscard]] StatisticsFigures sumOf(const QModelIndex& index) const;
+    [[nodiscard]] const Curve& curve(const QModelIndex& index) const;
+    [[nodiscard]] Curve makeCurve(const QModelIndex& index) const;
+    void addStreams(const QModelIndex& index, std::vector<const model::Stream*>& streams) const;
+    [[nodiscard]] QVariant nameData(const QModelIndex& index, int role) const;
+    [[nodiscard]] QVariant curveData(const QModelIndex& index, int role) const;
+    [[nodiscard]] QVariant figureData(const QModelIndex& index, int role) const;
 
-  std::optional<model::TimeRange> m_range;
-  model::RangeChoice m_choice;
-  std::uint64_t m_turn = 1;
-  std::uint64_t m_curveTurn = 1;
-  std::int64_t m_curveSecond = 0;
-  mutable std::deque<Cached> m_cache; ///< by the node of the row
+    std::optional<model::TimeRange> m_range;
+    model::RangeChoice m_choice;
+    std::uint64_t m_turn = 1;
+    std::uint64_t m_curveTurn = 1;
+    std::int64_t m_curveSecond = 0;
+    mutable std::deque<Cached> m_cache; ///< by the node of the row
 };
 
 } // namespace posewire::gui

@@ -2,6 +2,7 @@
 #include "app/gui/panels/statistics_panel.h"
 
 #include "app/gui/models/health_facts.h"
+#include "app/gui/models/loss_facts.h"
 #include "app/gui/models/receiver_facts.h"
 #include "app/gui/models/receiving_facts.h"
 #include "app/gui/models/shown_character.h"
@@ -19,152 +20,143 @@ namespace {
 
 constexpr int kFactsShown = 4;
 
-std::vector<Property> computerFacts(model::SessionView &view,
-                                    Commands &commands) {
-  std::vector<Property> facts =
-      healthFacts(view, [&commands] { return commands.monitorHealth(); });
-  for (auto &more :
-       {receivingFacts([&commands] { return commands.receivingState(); }),
-        receiverFacts(view)}) {
-    facts.insert(facts.end(), more.begin(), more.end());
-  }
-  return facts;
+std::vector<Property> computerFacts(model::SessionView& view, Commands& commands) {
+    std::vector<Property> facts = lossFacts(view);
+    for (auto& more :
+         {healthFacts(view, [&commands] { return commands.monitorHealth(); }),
+          receivingFacts([&commands] { return commands.receivingState(); }), receiverFacts(view)}) {
+        facts.insert(facts.end(), more.begin(), more.end());
+    }
+    return facts;
 }
 
 } // namespace
 
-StatisticsPanel::StatisticsPanel(model::SessionView &view, Commands &commands,
-                                 QWidget *parent)
-    : Panel(parent), m_view(view), m_commands(commands), m_streams(view),
+StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(parent),
+      m_view(view),
+      m_commands(commands),
+      m_streams(view),
       m_computer(computerFacts(view, commands)),
       m_range(new RangeBar(view, commands, this)),
       m_table(new TableView(tr("Statistics of streams"), this)),
       m_facts(new TableView(tr("This computer"), this)),
       m_parts(new QSplitter(Qt::Vertical, this)) {
-  setUpStreams();
-  setUpFacts();
-  layOut();
-  for (TableView *table : {m_table, m_facts}) {
-    connect(table, &TableView::copyRequested, this,
-            [this](const QString &text) { m_commands.copyText(text); });
-  }
+    setUpStreams();
+    setUpFacts();
+    layOut();
+    for (TableView* table : {m_table, m_facts}) {
+        connect(table, &TableView::copyRequested, this,
+                [this](const QString& text) { m_commands.copyText(text); });
+    }
 }
 
 void StatisticsPanel::layOut() {
-  auto *layout = new QVBoxLayout(this);
-  layout->setContentsMargins({});
-  layout->setSpacing(0);
-  layout->addWidget(m_range);
-  layout->addWidget(new Line(this));
-  layout->addWidget(m_parts, 1);
-  m_parts->setHandleWidth(1);
-  m_parts->addWidget(m_table);
-  m_parts->addWidget(m_facts);
-  m_parts->setStretchFactor(0, 1);
-  m_parts->setStretchFactor(1, 0);
-  m_parts->setCollapsible(0, false);
-  const int shown = m_facts->heightForRows(kFactsShown);
-  m_parts->setSizes({4 * shown, shown});
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins({});
+    layout->setSpacing(0);
+    layout->addWidget(m_range);
+    layout->addWidget(new Line(this));
+    layout->addWidget(m_parts, 1);
+    m_parts->setHandleWidth(1);
+    m_parts->addWidget(m_table);
+    m_parts->addWidget(m_facts);
+    m_parts->setStretchFactor(0, 1);
+    m_parts->setStretchFactor(1, 0);
+    m_parts->setCollapsible(0, false);
+    const int shown = m_facts->heightForRows(kFactsShown);
+    m_parts->setSizes({4 * shown, shown});
 }
 
 void StatisticsPanel::setUpStreams() {
-  m_table->setModel(&m_streams);
-  m_table->setRootIsDecorated(true);
-  std::vector<QString> samples;
-  for (int column = 0; column < kStatisticsColumns; ++column) {
-    samples.push_back(statisticsSample(static_cast<StatisticsColumn>(column)));
-  }
-  m_table->setColumnSamples(std::move(samples),
-                            QStringLiteral("    02 Pose, qu"));
-  m_table->setOptionalColumns(static_cast<int>(kFirstOptionalStatistic));
-  m_table->setEmptyText(tr("No stream on the air.\nRates, jitter and losses of "
-                           "every stream show here."));
-  connect(&m_streams, &QAbstractItemModel::rowsInserted, this,
-          &StatisticsPanel::expandNew);
-  connect(m_table, &QAbstractItemView::clicked, this, &StatisticsPanel::select);
-  connect(m_table, &QAbstractItemView::activated, this,
-          &StatisticsPanel::showPackets);
-  connect(m_table, &TableView::menuRequested, this,
-          &StatisticsPanel::addActions);
+    m_table->setModel(&m_streams);
+    m_table->setRootIsDecorated(true);
+    std::vector<QString> samples;
+    for (int column = 0; column < kStatisticsColumns; ++column) {
+        samples.push_back(statisticsSample(static_cast<StatisticsColumn>(column)));
+    }
+    m_table->setColumnSamples(std::move(samples), QStringLiteral("    02 Pose, qu"));
+    m_table->setOptionalColumns(static_cast<int>(kFirstOptionalStatistic));
+    m_table->setEmptyText(tr("No stream on the air.\nRates, jitter and losses of "
+                             "every stream show here."));
+    connect(&m_streams, &QAbstractItemModel::rowsInserted, this, &StatisticsPanel::expandNew);
+    connect(m_table, &QAbstractItemView::clicked, this, &StatisticsPanel::select);
+    connect(m_table, &QAbstractItemView::activated, this, &StatisticsPanel::showPackets);
+    connect(m_table, &TableView::menuRequested, this, &StatisticsPanel::addActions);
 }
 
 void StatisticsPanel::setUpFacts() {
-  m_facts->setModel(&m_computer);
-  m_facts->setHeaderHidden(true);
-  m_facts->setColumnSamples({QStringLiteral("Foreign datagrams"), QString()});
-  m_facts->setMinimumHeight(m_facts->heightForRows(1));
-  m_facts->setMaximumHeight(m_facts->heightForRows(m_computer.rowCount()));
+    m_facts->setModel(&m_computer);
+    m_facts->setHeaderHidden(true);
+    m_facts->setColumnSamples({QStringLiteral("Foreign datagrams"), QString()});
+    m_facts->setMinimumHeight(m_facts->heightForRows(1));
+    m_facts->setMaximumHeight(m_facts->heightForRows(m_computer.rowCount()));
 }
 
-void StatisticsPanel::expandNew(const QModelIndex &parent, int first,
-                                int last) {
-  if (parent.isValid() && parent.parent().isValid()) {
-    return; // streams of a character: whether they show is up to the operator
-            // by now
-  }
-  for (int row = first; row <= last; ++row) {
-    m_table->expandRecursively(m_streams.index(row, 0, parent));
-  }
+void StatisticsPanel::expandNew(const QModelIndex& parent, int first, int last) {
+    if (parent.isValid() && parent.parent().isValid()) {
+        return; // streams of a character: whether they show is up to the operator
+                // by now
+    }
+    for (int row = first; row <= last; ++row) {
+        m_table->expandRecursively(m_streams.index(row, 0, parent));
+    }
 }
 
 void StatisticsPanel::refresh() {
-  m_range->refresh();
-  m_streams.refresh();
-  m_computer.refresh();
+    m_range->refresh();
+    m_streams.refresh();
+    m_computer.refresh();
 }
 
 QString StatisticsPanel::summary() const {
-  const std::size_t count = m_view.streams().size();
-  if (count == 0) {
-    return {};
-  }
-  const QString streams =
-      count == 1 ? tr("1 stream") : tr("%1 streams").arg(count);
-  const QString range = m_range->rangeText();
-  return range.isEmpty() ? streams : range;
+    const std::size_t count = m_view.streams().size();
+    if (count == 0) {
+        return {};
+    }
+    const QString streams = count == 1 ? tr("1 stream") : tr("%1 streams").arg(count);
+    const QString range = m_range->rangeText();
+    return range.isEmpty() ? streams : range;
 }
 
 QJsonObject StatisticsPanel::state() const {
-  const QJsonArray columns = m_table->chosenColumns();
-  return columns.isEmpty() ? QJsonObject() : QJsonObject{{"columns", columns}};
+    const QJsonArray columns = m_table->chosenColumns();
+    return columns.isEmpty() ? QJsonObject() : QJsonObject{{"columns", columns}};
 }
 
-void StatisticsPanel::restoreState(const QJsonObject &state) {
-  m_table->setChosenColumns(state["columns"].toArray());
+void StatisticsPanel::restoreState(const QJsonObject& state) {
+    m_table->setChosenColumns(state["columns"].toArray());
 }
 
-void StatisticsPanel::select(const QModelIndex &index) {
-  const auto key = m_streams.character(index);
-  model::Selection selection =
-      key ? selectionOf(m_view, *key) : model::Selection{};
-  selection.source = m_streams.source(index);
-  m_commands.select(selection);
+void StatisticsPanel::select(const QModelIndex& index) {
+    const auto key = m_streams.character(index);
+    model::Selection selection = key ? selectionOf(m_view, *key) : model::Selection{};
+    selection.source = m_streams.source(index);
+    m_commands.select(selection);
 }
 
-void StatisticsPanel::showPackets(const QModelIndex &index) {
-  if (index.isValid()) {
-    m_commands.setDisplayFilter(statisticsFilter(m_view, m_streams, index));
-    m_commands.showDock(QStringLiteral("packets"));
-  }
-}
-
-void StatisticsPanel::addActions(QMenu &menu, const QModelIndex &index) {
-  if (index.isValid()) {
-    QMenu *packets = menu.addMenu(tr("Show packets"));
-    for (int column = 0; column < kStatisticsColumns; ++column) {
-      const auto kind = static_cast<StatisticsColumn>(column);
-      if (const QString title = statisticsFilterTitle(kind); !title.isEmpty()) {
-        const QPersistentModelIndex cell = index.siblingAtColumn(column);
-        QAction *action = packets->addAction(title);
-        connect(action, &QAction::triggered, this,
-                [this, cell] { showPackets(cell); });
-      }
+void StatisticsPanel::showPackets(const QModelIndex& index) {
+    if (index.isValid()) {
+        m_commands.setDisplayFilter(statisticsFilter(m_view, m_streams, index));
+        m_commands.showDock(QStringLiteral("packets"));
     }
-    menu.addSeparator();
-  }
-  QAction *csv = menu.addAction(tr("Copy all as CSV"));
-  connect(csv, &QAction::triggered, this,
-          [this] { m_commands.copyText(m_streams.csv()); });
+}
+
+void StatisticsPanel::addActions(QMenu& menu, const QModelIndex& index) {
+    if (index.isValid()) {
+        QMenu* packets = menu.addMenu(tr("Show packets"));
+        for (int column = 0; column < kStatisticsColumns; ++column) {
+            const auto kind = static_cast<StatisticsColumn>(column);
+            if (const QString title = statisticsFilterTitle(kind); !title.isEmpty()) {
+                const QPersistentModelIndex cell = index.siblingAtColumn(column);
+                QAction* action = packets->addAction(title);
+                connect(action, &QAction::triggered, this, [this, cell] { showPackets(cell); });
+            }
+        }
+        menu.addSeparator();
+    }
+    QAction* csv = menu.addAction(tr("Copy all as CSV"));
+    connect(csv, &QAction::triggered, this, [this] { m_commands.copyText(m_streams.csv()); });
 }
 
 } // namespace posewire::gui

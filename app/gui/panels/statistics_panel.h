@@ -14,36 +14,35 @@ namespace posewire::gui {
 /// Dock `statistics`: the range of time, figures of every stream in it, and
 /// below them those of this computer.
 class StatisticsPanel : public Panel {
-  Q_OBJECT
+    Q_OBJECT
 
 public:
-  StatisticsPanel(model::SessionView &view, Commands &commands,
-                  QWidget *parent);
+    StatisticsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
 
-  void refresh() override;
-  [[nodiscard]] QString summary() const override;
-  [[nodiscard]] QJsonObject state() const override;
-  void restoreState(const QJsonObject &state) override;
+    void refresh() override;
+    [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QJsonObject state() const override;
+    void restoreState(const QJsonObject& state) override;
 
-  /// Lists the packets that a cell counts in the dock of packets.
-  void showPackets(const QModelIndex &index);
+    /// Lists the packets that a cell counts in the dock of packets.
+    void showPackets(const QModelIndex& index);
 
 private:
-  void layOut();
-  void setUpStreams();
-  void setUpFacts();
-  void expandNew(const QModelIndex &parent, int first, int last);
-  void select(const QModelIndex &index);
-  void addActions(QMenu &menu, const QModelIndex &index);
+    void layOut();
+    void setUpStreams();
+    void setUpFacts();
+    void expandNew(const QModelIndex& parent, int first, int last);
+    void select(const QModelIndex& index);
+    void addActions(QMenu& menu, const QModelIndex& index);
 
-  model::SessionView &m_view;
-  Commands &m_commands;
-  StatisticsModel m_streams;
-  PropertyModel m_computer;
-  RangeBar *m_range;
-  TableView *m_table;
-  TableView *m_facts;
-  QSplitter *m_parts;
+    model::SessionView& m_view;
+    Commands& m_commands;
+    StatisticsModel m_streams;
+    PropertyModel m_computer;
+    RangeBar* m_range;
+    TableView* m_table;
+    TableView* m_facts;
+    QSplitter* m_parts;
 };
 
 } // namespace posewire::gui

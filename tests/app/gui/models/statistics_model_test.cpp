@@ -2,6 +2,7 @@
 #include "app/gui/models/statistics_model.h"
 
 #include "app/gui/models/health_facts.h"
+#include "app/gui/models/loss_facts.h"
 #include "app/gui/models/receiver_facts.h"
 #include "app/gui/models/roles.h"
 #include "app/gui/models/statistics_filter.h"
@@ -203,6 +204,30 @@ TEST(ReceiverFacts, TellsWhatThisComputerDropped) {
     stage.log.writer().publish();
     stage.follow();
     EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("■ 17"));
+}
+
+TEST(LossFacts, TellWhoseLossesTheyWereInTheRange) {
+    Stage stage;
+    PropertyModel facts(lossFacts(stage.session));
+    QAbstractItemModelTester tester(&facts, QAbstractItemModelTester::FailureReportingMode::Fatal);
+    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("● nothing lost"));
+    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("● none"));
+    performer::Performer performer(sending(1, {2}, 100.0));
+    stage.perform(performer, 0, 1000, [](std::uint64_t frame) { return frame < 500 || frame > 503; });
+    stage.follow();
+    EXPECT_EQ(facts.index(0, 1).data().toString(),
+              QStringLiteral("▲ network 0 · sender 0 · here 0 · unknown 4"));
+    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("▲ 4 samples · 40.0 ms"));
+    const auto rangeOf = [](int from, int to) {
+        return model::RangeChoice{
+            0, model::TimeRange{Stage::kStart + from * Stage::kSecond, Stage::kStart + to * Stage::kSecond}};
+    };
+    stage.session.setRange(rangeOf(7, 9));
+    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("● nothing lost"));
+    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("● none"));
+    stage.session.setRange(rangeOf(4, 6));
+    EXPECT_EQ(facts.index(0, 1).data().toString(),
+              QStringLiteral("▲ network 0 · sender 0 · here 0 · unknown 4"));
 }
 
 TEST(HealthFacts, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
