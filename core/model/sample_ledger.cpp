@@ -54,6 +54,8 @@ Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* histo
 
 void SampleLedger::restart(std::int64_t stampNs, CountHistory* history) {
     if (!m_before.empty()) {
+        // A straggler may have been the first sample of all.
+        m_firstSample = m_settled.restarts == 1 ? m_before.first() : m_firstSample;
         const auto totals = m_before.totals();
         m_settled.samples += totals.samples;
         m_settled.incomplete += totals.incomplete;
@@ -88,7 +90,10 @@ StreamCounts SampleLedger::counts() const {
     }
     if (!m_present.empty()) {
         counts.step = m_present.step();
-        counts.firstSample = counts.restarts == 0 ? m_present.first() : m_firstSample;
+        const bool isBeforeFirst = counts.restarts == 1 && !m_before.empty();
+        counts.firstSample = counts.restarts == 0 ? m_present.first()
+                             : isBeforeFirst      ? m_before.first()
+                                                  : m_firstSample;
         counts.lastSample = m_present.highest();
     }
     return counts;
