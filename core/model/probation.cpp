@@ -87,9 +87,10 @@ void Probation::takeUnexpected(const Waiting& waiting, std::size_t near, const S
         if (scan.groupCount == kGroups) {
             std::move(scan.groups.begin() + 1, scan.groups.end(), scan.groups.begin());
             for (std::uint8_t& label : scan.labels) {
-                label = label == kExpected ? label
-                        : label == 0       ? static_cast<std::uint8_t>(kGroups)
-                                           : static_cast<std::uint8_t>(label - 1);
+                // The first group is given up; its members are of none from now on.
+                label = label >= kGroups ? label
+                        : label == 0     ? kNoGroup
+                                         : static_cast<std::uint8_t>(label - 1);
             }
             --near;
         } else {

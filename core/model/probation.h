@@ -55,6 +55,7 @@ private:
     };
     static constexpr std::size_t kGroups = 4;
     static constexpr std::uint8_t kExpected = 0xff;
+    static constexpr std::uint8_t kNoGroup = 0xfe;
     struct Scan {
         std::array<Group, kGroups> groups{};
         std::size_t groupCount = 0;
