@@ -2,6 +2,7 @@
 #include "core/export/stream_report.h"
 
 #include "core/export/html.h"
+#include "core/export/report_events.h"
 #include "core/export/report_gaps.h"
 #include "core/export/report_series.h"
 #include "core/export/report_style.h"
@@ -108,8 +109,8 @@ std::string streamReport(const model::Session& session, const StreamReportOption
            verdictList(verdictOn(session, figures, options)) +
            "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
-           sourceSection(session, figures, steps) + gapSection(session, steps) + settingsSection(options) +
-           "</body>\n</html>\n";
+           sourceSection(session, figures, steps) + gapSection(session, steps) +
+           eventSection(session, steps) + settingsSection(options) + "</body>\n</html>\n";
 }
 
 } // namespace posewire::exporting

@@ -99,6 +99,8 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
     EXPECT_THAT(html, HasSubstr("99–101"));
     EXPECT_THAT(html, HasSubstr("<td>this computer</td>"));
     EXPECT_THAT(html, HasSubstr("<td>unknown</td>"));
+    EXPECT_THAT(html, HasSubstr("<h2>Events</h2>"));
+    EXPECT_THAT(html, HasSubstr("source up"));
     EXPECT_THAT(html, HasSubstr("1 sample was lost in this computer"));
     EXPECT_THAT(html, HasSubstr("1 sample was lost without evidence whose fault it was."));
 }

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/event_sheet.h"
+
+#include "core/wire/type_table.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+
+namespace posewire::exporting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using model::Event;
+
+constexpr std::string_view kHeader =
+    "number,severity,group,event,source,character,type,from,to,firstPacket,lastPacket,count,samples,cause,"
+    "current,text\r\n";
+
+std::string addressOf(const model::Session& session, const Event& event) {
+    const model::Source* source = session.find(event.source);
+    return source == nullptr ? std::string() : source->info.address;
+}
+
+std::string digitsOf(std::uint8_t type) {
+    const auto digits = wire::typeDigits(type);
+    return {digits.begin(), digits.end()};
+}
+
+std::string secondsText(std::int64_t stampNs) {
+    constexpr std::int64_t kSecondNs = 1'000'000'000;
+    std::array<char, 40> text{};
+    std::snprintf(text.data(), text.size(), "%lld.%09lld", static_cast<long long>(stampNs / kSecondNs),
+                  static_cast<long long>(stampNs % kSecondNs));
+    return text.data();
+}
+
+/// Quoted where it must be.
+std::string cellText(const std::string& content) {
+    if (content.find_first_of(",\"\r\n") == std::string::npos) {
+        return content;
+    }
+    std::string text = "\"";
+    for (const char letter : content) {
+        text += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+    }
+    return text + "\"";
+}
+
+Json objectOf(const model::Session& session, const Event& event) {
+    Json object{{"number", event.number},
+                {"severity", nameOf(event.severity())},
+                {"group", nameOf(event.group())},
+                {"event", model::nameOf(event.kind)},
+                {"source", addressOf(session, event)}};
+    if (event.character) {
+        object["character"] = *event.character;
+    }
+    if (event.type) {
+        object["type"] = digitsOf(*event.type);
+    }
+    object["fromNs"] = event.firstStampNs;
+    object["toNs"] = event.lastStampNs;
+    object["firstPacket"] = event.firstPacket;
+    object["lastPacket"] = event.lastPacket;
+    object["count"] = event.count;
+    object["samples"] = event.samples;
+    if (event.cause) {
+        object["cause"] = model::nameOf(*event.cause);
+    }
+    object["current"] = event.isCurrent;
+    object["text"] = event.text();
+    return object;
+}
+
+} // namespace
+
+std::string_view nameOf(model::EventSeverity severity) {
+    constexpr std::array<std::string_view, 3> kNames{"info", "warning", "error"};
+    return kNames[static_cast<std::size_t>(severity)];
+}
+
+std::string_view nameOf(model::EventGroup group) {
+    constexpr std::array<std::string_view, 4> kNames{"source", "loss", "content", "limit"};
+    return kNames[static_cast<std::size_t>(group)];
+}
+
+std::string eventsCsv(const model::Session& session, std::span<const Event* const> events) {
+    std::string text(kHeader);
+    for (const Event* event : events) {
+        const std::array<std::string, 16> cells{
+            std::to_string(event->number),
+            std::string(nameOf(event->severity())),
+            std::string(nameOf(event->group())),
+            std::string(model::nameOf(event->kind)),
+            addressOf(session, *event),
+            event->character ? std::to_string(*event->character) : std::string(),
+            event->type ? digitsOf(*event->type) : std::string(),
+            secondsText(event->firstStampNs),
+            secondsText(event->lastStampNs),
+            std::to_string(event->firstPacket),
+            std::to_string(event->lastPacket),
+            std::to_string(event->count),
+            std::to_string(event->samples),
+            event->cause ? std::string(model::nameOf(*event->cause)) : std::string(),
+            event->isCurrent ? "yes" : "no",
+            event->text()};
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            text += (i == 0 ? "" : ",") + cellText(cells[i]);
+        }
+        text += "\r\n";
+    }
+    return text;
+}
+
+std::string eventsJson(const model::Session& session, std::span<const Event* const> events) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        // What a sender put into a name may be no UTF-8.
+        text += (i == 0 ? "\n" : ",\n") +
+                objectOf(session, *events[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+    return text + "\n]\n";
+}
+
+} // namespace posewire::exporting
