@@ -56,6 +56,8 @@ QVariant stateData(const State& state, int role) {
         return state.display();
     case Qt::ForegroundRole:
         return healthColour(state.health);
+    case Qt::ToolTipRole:
+        return state.display(); // a narrow column cuts it
     default:
         return role == Qt::TextAlignmentRole ? numberAlignment() : QVariant();
     }
@@ -115,9 +117,19 @@ QVariant CharacterModel::data(const QModelIndex& index, int role) const {
     return streamData(m_view.streams()[node.entry], index.column(), role);
 }
 
+/// The state in full, and each contradiction in what the sender sends.
+QString CharacterModel::sourceWords(const model::Source& source) const {
+    QStringList lines{sourceState(m_view, source).display()};
+    for (const model::Contradiction& one : source.contradictions()) {
+        lines += healthSymbol(Health::Warning) + QLatin1Char(' ') + QString::fromStdString(one.text);
+    }
+    lines.removeAll(QString());
+    return lines.join(QLatin1Char('\n'));
+}
+
 QVariant CharacterModel::sourceData(const model::Source& source, int column, int role) const {
     if (column == kState) {
-        return stateData(sourceState(m_view, source), role);
+        return role == Qt::ToolTipRole ? sourceWords(source) : stateData(sourceState(m_view, source), role);
     }
     if (column == kName) {
         return role == Qt::DisplayRole ? QString::fromStdString(source.info.address) : QVariant();

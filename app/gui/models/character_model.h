@@ -33,6 +33,7 @@ public:
 private:
     void readRates();
 
+    [[nodiscard]] QString sourceWords(const model::Source& source) const;
     [[nodiscard]] QVariant sourceData(const model::Source& source, int column, int role) const;
     [[nodiscard]] QVariant characterData(const model::Character& character, int column, int role) const;
     [[nodiscard]] QVariant characterName(const model::Character& character, int role) const;

@@ -137,7 +137,8 @@ std::int32_t FieldDocument::find(const std::string& path) const {
             if (begin == path) {
                 return child;
             }
-            if (path.starts_with(begin) && (path[begin.size()] == '.' || path[begin.size()] == '[')) {
+            if (path.starts_with(begin) && !children(child).empty() &&
+                (path[begin.size()] == '.' || path[begin.size()] == '[')) {
                 around = child;
                 isDeeper = true;
                 break;

@@ -86,6 +86,15 @@ void PacketView::fitColumns() {
     viewport()->update();
 }
 
+int PacketView::columnBeside(int column, int direction) const {
+    for (int beside = column + direction; beside >= 0 && beside < m_header->count(); beside += direction) {
+        if (!m_header->isSectionHidden(beside)) {
+            return beside;
+        }
+    }
+    return column;
+}
+
 void PacketView::showHeaderMenu(const QPoint& at) {
     QMenu menu(this);
     QAction* fitting = menu.addAction(tr("As many columns as fit"));

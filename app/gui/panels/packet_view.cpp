@@ -302,14 +302,14 @@ QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*
         break;
     case MoveLeft:
     case MovePrevious:
-        --column;
+        column = columnBeside(column, -1);
         break;
     case MoveRight:
     case MoveNext:
-        ++column;
+        column = columnBeside(column, 1);
         break;
     }
-    return model()->index(std::clamp(row, 0, rows - 1), std::clamp(column, 0, model()->columnCount() - 1));
+    return model()->index(std::clamp(row, 0, rows - 1), column);
 }
 
 int PacketView::horizontalOffset() const {

@@ -86,6 +86,8 @@ private:
     void fitScrollBars();
     void fitColumns();
     [[nodiscard]] std::vector<bool> shownColumns(int open) const;
+    /// The next column that is shown; the same one at the end.
+    [[nodiscard]] int columnBeside(int column, int direction) const;
     void showHeaderMenu(const QPoint& at);
     [[nodiscard]] int leastOpenWidth() const;
     void placeButton();

@@ -131,6 +131,17 @@ TEST_F(CharacterModelTest, NamesForeignDatagramsOfASource) {
     EXPECT_EQ(m_model.rowCount(source()), 0);
 }
 
+TEST_F(CharacterModelTest, SaysInFullWhatContradictsADeclarationWhereTheRowHasNoRoom) {
+    m_stage.send(smallPose(), 1, 1, Stage::kStart);
+    refresh();
+    model::SourceOverride declared;
+    declared.revision = model::Revision::JOrK;
+    m_stage.commands.setOverride(m_stage.source(), declared);
+    const QModelIndex state = source().siblingAtColumn(CharacterModel::kState);
+    EXPECT_TRUE(state.data(Qt::ToolTipRole).toString().contains("header counts are filled"))
+        << state.data(Qt::ToolTipRole).toString().toStdString();
+}
+
 TEST_F(CharacterModelTest, AsksToHideACharacterByItsCheckMark) {
     m_stage.send(smallPose(), 1, 1, Stage::kStart);
     refresh();

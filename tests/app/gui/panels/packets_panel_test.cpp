@@ -6,6 +6,9 @@
 #include "app/gui/panels/packet_view.h"
 #include "tests/app/gui/models/stage.h"
 
+#include <QApplication>
+#include <QContextMenuEvent>
+#include <QHeaderView>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QScrollBar>
@@ -157,6 +160,63 @@ TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
     EXPECT_NE(m_panel.goTo("9999"), "");
     m_panel.firstPacket();
     EXPECT_EQ(selected(), 0U);
+}
+
+TEST_F(PacketsPanelTest, KeepsRoomForNotesWhereNotAllColumnsFit) {
+    poses(0, 10);
+    const auto isShown = [&](int column) { return !list().header()->isSectionHidden(column); };
+    m_panel.resize(1400, 300);
+    EXPECT_TRUE(isShown(PacketModel::kPart) && isShown(PacketModel::kSize));
+    m_panel.resize(560, 300);
+    EXPECT_FALSE(isShown(PacketModel::kPart));
+    EXPECT_TRUE(isShown(PacketModel::kNote) && isShown(PacketModel::kSample));
+    EXPECT_EQ(list().horizontalScrollBar()->maximum(), 0);
+    list().setChosenColumns({PacketModel::kNumber, PacketModel::kPart});
+    EXPECT_TRUE(isShown(PacketModel::kPart));
+    EXPECT_FALSE(isShown(PacketModel::kSample));
+    list().setCurrentIndex(m_panel.packets().index(3, PacketModel::kNumber));
+    QTest::keyClick(&list(), Qt::Key_Right);
+    EXPECT_EQ(list().currentIndex().column(), PacketModel::kPart);
+}
+
+TEST_F(PacketsPanelTest, OpensTheMenuOfTheKeyboardAtTheCurrentRow) {
+    poses(0, 100);
+    m_stage.commands.selectPacket(50);
+    refresh();
+    std::optional<QPoint> asked;
+    QObject::disconnect(&list(), &PacketView::menuRequested, &m_panel, nullptr);
+    QObject::connect(&list(), &PacketView::menuRequested, [&](const QPoint& place) { asked = place; });
+    list().verticalScrollBar()->setValue(0);
+    QContextMenuEvent event(QContextMenuEvent::Keyboard, QPoint(400, 5), QPoint(400, 5));
+    QApplication::sendEvent(list().viewport(), &event);
+    ASSERT_TRUE(asked.has_value());
+    const QRect row = list().visualRect(list().currentIndex());
+    const QPoint place = list().viewport()->mapFromGlobal(*asked);
+    EXPECT_TRUE(row.contains(place)) << place.y();
+    EXPECT_TRUE(list().isShown(list().currentIndex()));
+}
+
+TEST_F(PacketsPanelTest, MessagesKeepTheSelectedRowInSight) {
+    poses(0, 200);
+    m_stage.commands.selectPacket(199);
+    refresh();
+    ASSERT_TRUE(list().isShown(list().currentIndex()));
+    m_panel.nextProblem();
+    EXPECT_FALSE(m_panel.message().isEmpty());
+    EXPECT_TRUE(list().isShown(list().currentIndex()));
+}
+
+TEST_F(PacketsPanelTest, GoesToProblemsThatTheFilterShows) {
+    poses(0, 100);
+    poses(104, 150); // packet 100 follows a gap
+    poses(160, 200); // and packet 146
+    filterBy("sample > 120");
+    m_panel.nextProblem();
+    EXPECT_EQ(selected(), 146U);
+    m_panel.nextProblem();
+    EXPECT_TRUE(m_panel.message().contains("No problem after")) << m_panel.message().toStdString();
+    m_panel.previousProblem();
+    EXPECT_EQ(selected(), 146U) << "packet 100 is not listed";
 }
 
 TEST_F(PacketsPanelTest, FiltersByTheCellUnderTheCursor) {
