@@ -76,8 +76,9 @@ StatisticsFigures StatisticsModel::sumOf(const QModelIndex& index) const {
     sum.isSampled = false;
     const bool isKnown = !m_range.has_value();
     sum.malformed = isKnown ? std::optional<std::uint64_t>(0) : std::nullopt;
-    for (int row = 0; row < rowCount(index); ++row) {
-        sum.add(figures(this->index(row, 0, index)));
+    const QModelIndex parent = index.siblingAtColumn(0); // only that has rows under it
+    for (int row = 0; row < rowCount(parent); ++row) {
+        sum.add(figures(this->index(row, 0, parent)));
     }
     const bool isSource = nodeOf(index).kind == Kind::Source;
     if (isSource && isKnown) {
@@ -90,8 +91,9 @@ void StatisticsModel::addStreams(const QModelIndex& index, std::vector<const mod
     if (const model::Stream* shown = stream(index)) {
         streams.push_back(shown);
     }
-    for (int row = 0; row < rowCount(index); ++row) {
-        addStreams(this->index(row, 0, index), streams);
+    const QModelIndex parent = index.siblingAtColumn(0);
+    for (int row = 0; row < rowCount(parent); ++row) {
+        addStreams(this->index(row, 0, parent), streams);
     }
 }
 

@@ -41,10 +41,14 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, Q
       m_range(new RangeBar(view, commands, this)),
       m_table(new TableView(tr("Statistics of streams"), this)),
       m_facts(new TableView(tr("This computer"), this)),
+      m_filterToRange(new QAction(tr("Filter packets to this range"), this)),
       m_parts(new QSplitter(Qt::Vertical, this)) {
     setUpStreams();
     setUpFacts();
     layOut();
+    m_range->setContextMenuPolicy(Qt::ActionsContextMenu);
+    m_range->addAction(m_filterToRange);
+    connect(m_filterToRange, &QAction::triggered, this, &StatisticsPanel::filterToRange);
     for (TableView* table : {m_table, m_facts}) {
         connect(table, &TableView::copyRequested, this,
                 [this](const QString& text) { m_commands.copyText(text); });
@@ -69,6 +73,7 @@ void StatisticsPanel::layOut() {
 }
 
 void StatisticsPanel::setUpStreams() {
+    m_table->setObjectName(QStringLiteral("streams"));
     m_table->setModel(&m_streams);
     m_table->setRootIsDecorated(true);
     std::vector<QString> samples;
@@ -105,6 +110,7 @@ void StatisticsPanel::expandNew(const QModelIndex& parent, int first, int last) 
 
 void StatisticsPanel::refresh() {
     m_range->refresh();
+    m_filterToRange->setEnabled(m_view.range().has_value());
     m_streams.refresh();
     m_computer.refresh();
 }
@@ -142,6 +148,13 @@ void StatisticsPanel::showPackets(const QModelIndex& index) {
     }
 }
 
+void StatisticsPanel::filterToRange() {
+    if (const auto range = m_view.range()) {
+        m_commands.setDisplayFilter(rangeFilter(m_view, *range));
+        m_commands.showDock(QStringLiteral("packets"));
+    }
+}
+
 void StatisticsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     if (index.isValid()) {
         QMenu* packets = menu.addMenu(tr("Show packets"));
@@ -153,6 +166,7 @@ void StatisticsPanel::addActions(QMenu& menu, const QModelIndex& index) {
                 connect(action, &QAction::triggered, this, [this, cell] { showPackets(cell); });
             }
         }
+        menu.addAction(m_filterToRange);
         menu.addSeparator();
     }
     QAction* csv = menu.addAction(tr("Copy all as CSV"));

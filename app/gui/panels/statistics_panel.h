@@ -26,6 +26,8 @@ public:
 
     /// Lists the packets that a cell counts in the dock of packets.
     void showPackets(const QModelIndex& index);
+    /// Lists all packets of the range in the dock of packets.
+    void filterToRange();
 
 private:
     void layOut();
@@ -42,6 +44,7 @@ private:
     RangeBar* m_range;
     TableView* m_table;
     TableView* m_facts;
+    QAction* m_filterToRange;
     QSplitter* m_parts;
 };
 

@@ -34,7 +34,9 @@ protected:
         return row.siblingAtColumn(static_cast<int>(column));
     }
     static QString text(const QModelIndex& row, Column column) { return cell(row, column).data().toString(); }
-    static double number(const QModelIndex& row, Column column) { return text(row, column).toDouble(); }
+    static double number(const QModelIndex& row, Column column) {
+        return text(row, column).remove(QChar(0x202f)).toDouble();
+    }
 
     /// 100 samples a second for so many seconds; frame 520 never arrives.
     void performSeconds(std::uint64_t seconds) {

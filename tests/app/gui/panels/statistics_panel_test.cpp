@@ -34,7 +34,7 @@ protected:
         refresh();
     }
     void perform(std::uint64_t seconds) {
-        performer::Performer performer(sending(2, {2, 20, 12}, 100.0));
+        performer::Performer performer(sending(2, {2, 20, 23}, 100.0));
         m_stage.perform(performer, 0, seconds * 100, [](std::uint64_t frame) { return frame != 520; });
     }
     void refresh() {
@@ -42,7 +42,7 @@ protected:
         m_panel->refresh();
         QCoreApplication::processEvents();
     }
-    TableView& table() { return *m_panel->findChild<TableView*>(); }
+    TableView& table() { return *m_panel->findChild<TableView*>("streams"); }
     RangeStrip& strip() { return *m_panel->findChild<RangeStrip*>(); }
     QModelIndex stream(Column column) {
         const QAbstractItemModel& model = *table().model();
@@ -144,6 +144,18 @@ TEST_F(StatisticsPanelTest, ButtonsChooseTheNewestSecondsAndTheTitleSaysSo) {
     EXPECT_NEAR(samples, 1000, 11);
 }
 
+TEST_F(StatisticsPanelTest, FiltersThePacketsToTheRange) {
+    perform(6);
+    open();
+    m_panel->filterToRange();
+    EXPECT_EQ(m_commands.dock, "");
+    m_commands.selectRange(
+        {0, model::TimeRange{Stage::kStart + 2 * Stage::kSecond, Stage::kStart + 4 * Stage::kSecond}});
+    m_panel->filterToRange();
+    EXPECT_EQ(m_stage.session.displayFilter(), "time >= 2.000 && time < 4.000");
+    EXPECT_EQ(m_commands.dock, "packets");
+}
+
 TEST_F(StatisticsPanelTest, EmptyStripTakesKeysAndMouseWithoutARange) {
     open();
     QTest::keyClick(&strip(), Qt::Key_Left);
@@ -156,7 +168,7 @@ TEST_F(StatisticsPanelTest, MenuOffersThePacketsAndCsv) {
     open();
     QMenu menu;
     emit table().menuRequested(menu, stream(Column::Stream));
-    ASSERT_EQ(menu.actions().size(), 3);
+    ASSERT_EQ(menu.actions().size(), 4);
     QMenu* packets = menu.actions().front()->menu();
     ASSERT_NE(packets, nullptr);
     ASSERT_EQ(packets->actions().size(), 6);
