@@ -3,8 +3,9 @@
 
 #include "core/wire/utf8.h"
 
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 namespace posewire::exporting {
 namespace {
@@ -67,13 +68,10 @@ std::string fixed(double number, int places) {
     if (!std::isfinite(number)) {
         return "–";
     }
-    std::string text(64, '\0');
-    const int length = std::snprintf(text.data(), text.size(), "%.*f", places, number);
-    if (length < 0 || static_cast<std::size_t>(length) >= text.size()) {
-        return "–";
-    }
-    text.resize(static_cast<std::size_t>(length));
-    return text;
+    std::array<char, 64> digits{};
+    const auto [end, error] =
+        std::to_chars(digits.data(), digits.data() + digits.size(), number, std::chars_format::fixed, places);
+    return error == std::errc() ? std::string(digits.data(), end) : "–";
 }
 
 void HtmlTable::add(const std::vector<std::string>& cells, std::string_view kind) {

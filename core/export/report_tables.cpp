@@ -7,19 +7,25 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 
 namespace posewire::exporting {
 namespace {
 
 std::string cssColour(const model::Colour& colour) {
-    const auto part = [](float value) { return std::clamp(std::lround(value * 255), 0L, 255L); };
-    std::string text(8, '\0');
-    std::snprintf(text.data(), text.size(), "#%02lx%02lx%02lx", static_cast<unsigned long>(part(colour.red)),
-                  static_cast<unsigned long>(part(colour.green)),
-                  static_cast<unsigned long>(part(colour.blue)));
-    text.resize(7);
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text = "#";
+    for (const float part : {colour.red, colour.green, colour.blue}) {
+        const auto value = static_cast<std::size_t>(std::clamp(std::lround(part * 255), 0L, 255L));
+        text += digits[value >> 4];
+        text += digits[value & 0xf];
+    }
     return text;
+}
+
+/// With zeros in front.
+std::string padded(std::int64_t number, std::size_t width) {
+    const std::string digits = std::to_string(number);
+    return std::string(width - std::min(width, digits.size()), '0') + digits;
 }
 
 std::string alarming(std::uint64_t count) {
@@ -149,14 +155,10 @@ std::string utcText(std::int64_t stampNs) {
     const auto day = floor<days>(stamp);
     const year_month_day date{day};
     const hh_mm_ss time{stamp - day};
-    std::string text(64, '\0');
-    const int length = std::snprintf(
-        text.data(), text.size(), "%04d-%02u-%02u %02d:%02d:%02d.%03d UTC", static_cast<int>(date.year()),
-        static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()),
-        static_cast<int>(time.hours().count()), static_cast<int>(time.minutes().count()),
-        static_cast<int>(time.seconds().count()), static_cast<int>(time.subseconds().count()));
-    text.resize(static_cast<std::size_t>(std::max(length, 0)));
-    return text;
+    return padded(static_cast<int>(date.year()), 4) + '-' + padded(static_cast<unsigned>(date.month()), 2) +
+           '-' + padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(time.hours().count(), 2) + ':' +
+           padded(time.minutes().count(), 2) + ':' + padded(time.seconds().count(), 2) + '.' +
+           padded(time.subseconds().count(), 3) + " UTC";
 }
 
 } // namespace posewire::exporting

@@ -2,32 +2,29 @@
 #include "core/log/byte_sink.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
+#include <fstream>
 
 namespace posewire::log {
 namespace {
 
-struct Closer {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-
 class FileSink final : public ByteSink {
 public:
-    FileSink(std::FILE* file, std::string name) : m_file(file), m_name(std::move(name)) {
-        constexpr std::size_t bufferSize = std::size_t{1} << 18;
-        std::setvbuf(m_file.get(), nullptr, _IOFBF, bufferSize);
-    }
+    FileSink(std::ofstream file, std::string name) : m_file(std::move(file)), m_name(std::move(name)) {}
 
     tl::expected<void, FileError> write(std::span<const std::byte> bytes) override {
-        return result(std::fwrite(bytes.data(), 1, bytes.size(), m_file.get()) == bytes.size());
+        m_file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        return result();
     }
-    tl::expected<void, FileError> flush() override { return result(std::fflush(m_file.get()) == 0); }
+    tl::expected<void, FileError> flush() override {
+        m_file.flush();
+        return result();
+    }
     [[nodiscard]] std::string name() const override { return m_name; }
 
 private:
-    [[nodiscard]] tl::expected<void, FileError> result(bool isWritten) const {
-        if (isWritten) {
+    [[nodiscard]] tl::expected<void, FileError> result() const {
+        if (m_file.good()) {
             return {};
         }
         const std::string why = errno == ENOSPC ? "the disk is full; make room or choose another disk"
@@ -36,7 +33,7 @@ private:
         return tl::unexpected(FileError{m_name + ": " + why + "; what was written before can be read"});
     }
 
-    std::unique_ptr<std::FILE, Closer> m_file;
+    std::ofstream m_file;
     std::string m_name;
 };
 
@@ -44,12 +41,12 @@ private:
 
 tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string& path) {
     errno = 0;
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) {
+    std::ofstream file(path, std::ios::binary | std::ios::trunc);
+    if (!file.is_open()) {
         return tl::unexpected(FileError{path + ": cannot be written (" + std::strerror(errno) +
                                         "); choose another file or folder"});
     }
-    return std::make_unique<FileSink>(file, path);
+    return std::make_unique<FileSink>(std::move(file), path);
 }
 
 } // namespace posewire::log
