@@ -2,6 +2,7 @@
 #include "app/gui/panel.h"
 
 #include "app/gui/panels/characters_panel.h"
+#include "app/gui/panels/events_panel.h"
 #include "app/gui/panels/inspector_panel.h"
 #include "app/gui/panels/metadata_panel.h"
 #include "app/gui/panels/nullpose_panel.h"
@@ -21,7 +22,7 @@ Panel* make(model::SessionView& view, Commands& commands, QWidget* parent) {
     return new T(view, commands, parent);
 }
 
-constexpr std::array<PanelInfo, 8> kPanels{{
+constexpr std::array<PanelInfo, 9> kPanels{{
     {"characters", QT_TRANSLATE_NOOP("Panel", "Characters"), Qt::LeftDockWidgetArea, make<CharactersPanel>},
     {"metadata", QT_TRANSLATE_NOOP("Panel", "Metadata"), Qt::LeftDockWidgetArea, make<MetadataPanel>},
     {"timecode", QT_TRANSLATE_NOOP("Panel", "Time code"), Qt::LeftDockWidgetArea, make<TimecodePanel>},
@@ -30,6 +31,7 @@ constexpr std::array<PanelInfo, 8> kPanels{{
     {"trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), Qt::RightDockWidgetArea, make<TrackersPanel>},
     {"packets", QT_TRANSLATE_NOOP("Panel", "Packets"), Qt::BottomDockWidgetArea, make<PacketsPanel>},
     {"nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), Qt::RightDockWidgetArea, make<NullPosePanel>},
+    {"events", QT_TRANSLATE_NOOP("Panel", "Events"), Qt::BottomDockWidgetArea, make<EventsPanel>},
 }};
 
 } // namespace

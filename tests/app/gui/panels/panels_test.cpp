@@ -46,7 +46,7 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnow) {
         EXPECT_NE(std::string(info.title), "");
     }
     EXPECT_THAT(ids, testing::ElementsAre("characters", "metadata", "timecode", "statistics", "inspector",
-                                          "trackers", "packets", "nullpose"));
+                                          "trackers", "packets", "nullpose", "events"));
 }
 
 TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {

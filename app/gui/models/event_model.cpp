@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/event_model.h"
+
+#include "app/gui/models/columns.h"
+#include "app/gui/models/event_words.h"
+#include "app/gui/models/text.h"
+
+#include <QStringList>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::array<ColumnText, EventModel::kColumnCount> kColumns{{
+    {QT_TRANSLATE_NOOP("EventModel", "Severity"), "", false},
+    {QT_TRANSLATE_NOOP("EventModel", "Time"), QT_TRANSLATE_NOOP("EventModel", "When it began"), true},
+    {QT_TRANSLATE_NOOP("EventModel", "Whose"),
+     QT_TRANSLATE_NOOP("EventModel", "Character and type, or the sender"), false},
+    {QT_TRANSLATE_NOOP("EventModel", "Text"), "", false},
+    {QT_TRANSLATE_NOOP("EventModel", "Count"),
+     QT_TRANSLATE_NOOP("EventModel", "How often it happened in this episode"), true},
+    {QT_TRANSLATE_NOOP("EventModel", "Event"), "", false},
+    {QT_TRANSLATE_NOOP("EventModel", "Group"), "", false},
+    {QT_TRANSLATE_NOOP("EventModel", "Lasted"),
+     QT_TRANSLATE_NOOP("EventModel", "From the first to the last of this episode"), true},
+}};
+
+QString latin(std::string_view text) {
+    return QString::fromLatin1(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+/// [first, end) of those in `from` that are not in `others`; both in the order of their numbers. `isWhole` is
+/// false where others lie between them.
+struct Span {
+    std::size_t first = 0;
+    std::size_t end = 0;
+    bool isWhole = true;
+};
+
+template <class Rows>
+Span missing(const Rows& from, const Rows& others) {
+    Span span;
+    std::size_t count = 0;
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        while (other < others.size() && others[other].number < from[i].number) {
+            ++other;
+        }
+        if (other == others.size() || others[other].number != from[i].number) {
+            span.first = count == 0 ? i : span.first;
+            span.end = i + 1;
+            ++count;
+        }
+    }
+    span.isWhole = span.end - span.first == count;
+    return span;
+}
+
+} // namespace
+
+EventModel::EventModel(model::SessionView& view, QObject* parent)
+    : QAbstractTableModel(parent), m_view(view) {}
+
+EventModel::Row EventModel::rowFor(const model::Event& event) {
+    return {event.number, event.count, event.samples, event.lastStampNs, event.value, event.isCurrent};
+}
+
+bool EventModel::matches(const model::Event& event) const {
+    if ((m_filter.onlyCurrent && !event.isCurrent) ||
+        !m_filter.severities[static_cast<std::size_t>(event.severity())] ||
+        !m_filter.groups[static_cast<std::size_t>(event.group())]) {
+        return false;
+    }
+    if (m_filter.text.isEmpty()) {
+        return true;
+    }
+    return std::ranges::any_of(std::array{kText, kWho, kKind}, [&](int column) {
+        return text(event, column).contains(m_filter.text, Qt::CaseInsensitive);
+    });
+}
+
+void EventModel::refresh() {
+    const model::Events& events = m_view.events();
+    if (events.version() == m_version) {
+        return;
+    }
+    m_version = events.version();
+    std::vector<Row> rows;
+    for (const model::Event& event : events.all()) {
+        if (matches(event)) {
+            rows.push_back(rowFor(event));
+        }
+    }
+    show(std::move(rows));
+}
+
+void EventModel::show(std::vector<Row> rows) {
+    const Span gone = missing(m_rows, rows);
+    const Span come = missing(rows, m_rows);
+    if (!gone.isWhole || !come.isWhole) {
+        beginResetModel();
+        m_rows = std::move(rows);
+        endResetModel();
+        return;
+    }
+    const auto place = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
+    if (gone.end > gone.first) {
+        beginRemoveRows({}, static_cast<int>(gone.first), static_cast<int>(gone.end) - 1);
+        m_rows.erase(place(m_rows, gone.first), place(m_rows, gone.end));
+        endRemoveRows();
+    }
+    if (come.end > come.first) {
+        beginInsertRows({}, static_cast<int>(come.first), static_cast<int>(come.end) - 1);
+        m_rows.insert(place(m_rows, come.first), place(rows, come.first), place(rows, come.end));
+        endInsertRows();
+    }
+    showSame(std::move(rows));
+}
+
+/// Rows of the same events as before.
+void EventModel::showSame(std::vector<Row> rows) {
+    const auto [first, ignored] = std::mismatch(rows.begin(), rows.end(), m_rows.begin());
+    if (first == rows.end()) {
+        return;
+    }
+    const auto [last, alsoIgnored] = std::mismatch(rows.rbegin(), rows.rend(), m_rows.rbegin());
+    const auto from = static_cast<int>(first - rows.begin());
+    const auto to = static_cast<int>(rows.rend() - last) - 1;
+    m_rows = std::move(rows);
+    emit dataChanged(index(from, 0), index(to, kColumnCount - 1));
+}
+
+void EventModel::setFilter(const Filter& filter) {
+    if (filter == m_filter) {
+        return;
+    }
+    m_filter = filter;
+    m_version = UINT64_MAX;
+    refresh();
+}
+
+void EventModel::markSeen() {
+    const auto& all = m_view.events().all();
+    m_seenEnd = all.empty() ? 0 : all.back().number + 1;
+    if (!m_rows.empty()) {
+        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1), {Qt::ForegroundRole});
+    }
+}
+
+EventModel::Counts EventModel::counts() const {
+    Counts counts;
+    for (const model::Event& event : m_view.events().all()) {
+        ++counts.all;
+        counts.current += event.isCurrent ? 1 : 0;
+        counts.unseen += isSeen(event) ? 0 : 1;
+        ++counts.severities[static_cast<std::size_t>(event.severity())];
+    }
+    return counts;
+}
+
+const model::Event* EventModel::find(std::uint64_t number) const {
+    const auto& all = m_view.events().all();
+    const auto found = std::ranges::lower_bound(all, number, {}, &model::Event::number);
+    return found != all.end() && found->number == number ? &*found : nullptr;
+}
+
+const model::Event* EventModel::event(const QModelIndex& index) const {
+    return index.isValid() && index.row() < rowCount()
+               ? find(m_rows[static_cast<std::size_t>(index.row())].number)
+               : nullptr;
+}
+
+int EventModel::rowOf(std::uint64_t number) const {
+    const auto found = std::ranges::lower_bound(m_rows, number, {}, &Row::number);
+    return found != m_rows.end() && found->number == number ? static_cast<int>(found - m_rows.begin()) : -1;
+}
+
+std::vector<const model::Event*> EventModel::listed() const {
+    std::vector<const model::Event*> events;
+    for (const Row& row : m_rows) {
+        if (const model::Event* event = find(row.number)) {
+            events.push_back(event);
+        }
+    }
+    return events;
+}
+
+int EventModel::rowCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+}
+
+int EventModel::columnCount(const QModelIndex& parent) const {
+    return parent.isValid() ? 0 : int{kColumnCount};
+}
+
+QString EventModel::text(const model::Event& event, int column) const {
+    switch (column) {
+    case kSeverity:
+        return healthSymbol(healthOf(event.severity())) + QLatin1Char(' ') + severityWord(event.severity());
+    case kTime:
+        return timeOfDay(event.firstStampNs);
+    case kWho:
+        return whoseWords(m_view, event);
+    case kText:
+        return QString::fromStdString(event.text());
+    case kCount:
+        return grouped(event.count);
+    case kKind:
+        return latin(model::nameOf(event.kind));
+    case kGroup:
+        return groupWord(event.group());
+    default:
+        return event.isCurrent ? tr("goes on")
+                               : duration(static_cast<double>(event.lastStampNs - event.firstStampNs) * 1e-9);
+    }
+}
+
+QString EventModel::toolTip(const model::Event& event, int column) const {
+    if (column == kTime) {
+        return tr("From %1 to %2")
+            .arg(timeOfDay(event.firstStampNs),
+                 event.isCurrent ? tr("now: it goes on, or may") : timeOfDay(event.lastStampNs));
+    }
+    return column == kText || column == kWho ? text(event, column) : QString();
+}
+
+QVariant EventModel::data(const QModelIndex& index, int role) const {
+    const model::Event* shown = checkIndex(index, CheckIndexOption::IndexIsValid) ? event(index) : nullptr;
+    if (shown == nullptr) {
+        return {};
+    }
+    switch (role) {
+    case Qt::DisplayRole:
+        return text(*shown, index.column());
+    case Qt::ToolTipRole: {
+        const QString tip = toolTip(*shown, index.column());
+        return tip.isEmpty() ? QVariant() : tip;
+    }
+    case Qt::ForegroundRole:
+        if (index.column() == kSeverity) {
+            return shown->severity() == model::EventSeverity::Info
+                       ? theme().dim
+                       : healthColour(healthOf(shown->severity()));
+        }
+        return isSeen(*shown) ? QVariant(theme().dim) : QVariant();
+    case Qt::TextAlignmentRole:
+        return kColumns[static_cast<std::size_t>(index.column())].isNumber ? numberAlignment() : QVariant();
+    default:
+        return {};
+    }
+}
+
+QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const {
+    return orientation == Qt::Horizontal ? columnHeader(kColumns, "EventModel", section, role) : QVariant();
+}
+
+} // namespace posewire::gui

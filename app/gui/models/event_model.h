@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model/session.h"
+
+#include <QAbstractTableModel>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace posewire::gui {
+
+/// The events of the session, or those that are asked for, in the order in which they began.
+class EventModel : public QAbstractTableModel {
+    Q_OBJECT
+
+public:
+    enum Column : int { kSeverity, kTime, kWho, kText, kCount, kKind, kGroup, kLasted, kColumnCount };
+
+    /// What is listed.
+    struct Filter {
+        bool onlyCurrent = false;
+        std::array<bool, 3> severities{true, true, true};   ///< by EventSeverity
+        std::array<bool, 4> groups{true, true, true, true}; ///< by EventGroup
+        QString text;                                       ///< in whose or text, whatever the case
+        friend bool operator==(const Filter&, const Filter&) = default;
+    };
+
+    explicit EventModel(model::SessionView& view, QObject* parent = nullptr);
+
+    /// Shows what has happened meanwhile: at most one removal, one insertion and one change, or a reset where
+    /// those would not do.
+    void refresh();
+
+    void setFilter(const Filter& filter);
+    [[nodiscard]] const Filter& filter() const { return m_filter; }
+
+    /// All there are now have been seen: they are dim from now on, and no longer counted as new.
+    void markSeen();
+
+    struct Counts {
+        std::size_t current = 0;
+        std::size_t all = 0;
+        std::size_t unseen = 0;
+        std::array<std::size_t, 3> severities{}; ///< by EventSeverity
+    };
+    /// Of all events, whatever the filter.
+    [[nodiscard]] Counts counts() const;
+
+    /// Null where the session has dropped it.
+    [[nodiscard]] const model::Event* event(const QModelIndex& index) const;
+    /// -1 where it is not listed.
+    [[nodiscard]] int rowOf(std::uint64_t number) const;
+    [[nodiscard]] std::vector<const model::Event*> listed() const;
+
+    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+
+private:
+    /// An event as it was last shown.
+    struct Row {
+        std::uint64_t number = 0;
+        std::uint64_t count = 0;
+        std::uint64_t samples = 0;
+        std::int64_t lastStampNs = 0;
+        double value = 0;
+        bool isCurrent = false;
+        friend bool operator==(const Row&, const Row&) = default;
+    };
+    [[nodiscard]] static Row rowFor(const model::Event& event);
+    [[nodiscard]] bool matches(const model::Event& event) const;
+    [[nodiscard]] const model::Event* find(std::uint64_t number) const;
+    void show(std::vector<Row> rows);
+    void showSame(std::vector<Row> rows);
+    [[nodiscard]] bool isSeen(const model::Event& event) const { return event.number < m_seenEnd; }
+    [[nodiscard]] QString text(const model::Event& event, int column) const;
+    [[nodiscard]] QString toolTip(const model::Event& event, int column) const;
+
+    model::SessionView& m_view;
+    Filter m_filter;
+    std::vector<Row> m_rows;
+    std::uint64_t m_version = 0; ///< of the events when last shown
+    std::uint64_t m_seenEnd = 0; ///< events before this number have been seen
+};
+
+} // namespace posewire::gui

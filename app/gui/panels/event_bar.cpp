@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/event_bar.h"
+
+#include "app/gui/models/event_words.h"
+#include "app/gui/models/text.h"
+#include "app/gui/theme.h"
+
+#include <QButtonGroup>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QMenu>
+#include <QSignalBlocker>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::array kSeverities{model::EventSeverity::Error, model::EventSeverity::Warning,
+                                 model::EventSeverity::Info};
+
+std::size_t placeOf(model::EventSeverity severity) {
+    return static_cast<std::size_t>(severity);
+}
+
+} // namespace
+
+EventBar::EventBar(QWidget* parent) : QWidget(parent) {
+    auto* row = new QHBoxLayout(this);
+    row->setContentsMargins(8, 6, 8, 6);
+    row->setSpacing(6);
+    addViews();
+    addSeverities();
+    addGroups();
+    addText();
+    QToolButton* seen =
+        addButton(QStringLiteral("markSeen"), tr("Mark seen"),
+                  tr("All events up to now have been seen: they are dim, and no longer counted as new"));
+    connect(seen, &QToolButton::clicked, this, &EventBar::seenRequested);
+    QToolButton* save =
+        addButton(QStringLiteral("exportEvents"), tr("Export…"), tr("Save the listed events as CSV or JSON"));
+    connect(save, &QToolButton::clicked, this, &EventBar::exportRequested);
+    showFilter();
+}
+
+QToolButton* EventBar::addButton(const QString& name, const QString& text, const QString& toolTip) {
+    auto* button = new QToolButton(this);
+    button->setObjectName(name);
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setProperty("framed", true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    layout()->addWidget(button);
+    return button;
+}
+
+void EventBar::addViews() {
+    m_current = addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what goes on, or may"));
+    m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
+    auto* group = new QButtonGroup(this);
+    for (QToolButton* button : {m_current, m_history}) {
+        button->setCheckable(true);
+        group->addButton(button);
+    }
+    connect(m_current, &QToolButton::toggled, this, &EventBar::change);
+}
+
+void EventBar::addSeverities() {
+    const std::array<std::pair<const char*, QString>, 3> texts{
+        {{"notes", tr("Show notes")}, {"warnings", tr("Show warnings")}, {"errors", tr("Show errors")}}};
+    for (const model::EventSeverity severity : kSeverities) {
+        const auto& [name, toolTip] = texts[placeOf(severity)];
+        QToolButton* button = addButton(QLatin1String(name), {}, toolTip);
+        button->setAccessibleName(toolTip);
+        button->setCheckable(true);
+        connect(button, &QToolButton::toggled, this, &EventBar::change);
+        m_severities[placeOf(severity)] = button;
+    }
+    showCounts({});
+    paintSeverities();
+}
+
+void EventBar::addGroups() {
+    m_groupButton = addButton(QStringLiteral("eventGroups"), {}, tr("Which groups of events are listed"));
+    m_groups = new QMenu(m_groupButton);
+    for (std::size_t i = 0; i < m_filter.groups.size(); ++i) {
+        QAction* action = m_groups->addAction(groupWord(static_cast<model::EventGroup>(i)));
+        action->setCheckable(true);
+        connect(action, &QAction::toggled, this, &EventBar::change);
+    }
+    m_groupButton->setMenu(m_groups);
+    m_groupButton->setPopupMode(QToolButton::InstantPopup);
+}
+
+void EventBar::addText() {
+    m_text = new QLineEdit(this);
+    m_text->setObjectName(QStringLiteral("eventText"));
+    m_text->setAccessibleName(tr("Text that events must have"));
+    m_text->setPlaceholderText(tr("Text, such as network"));
+    m_text->setClearButtonEnabled(true);
+    m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 12);
+    m_text->installEventFilter(this);
+    connect(m_text, &QLineEdit::textChanged, this, &EventBar::change);
+    static_cast<QHBoxLayout*>(layout())->addWidget(m_text, 1);
+}
+
+void EventBar::setFilter(const EventModel::Filter& filter) {
+    m_filter = filter;
+    showFilter();
+    emit filterChanged(m_filter);
+}
+
+void EventBar::showFilter() {
+    const QSignalBlocker blocker(this);
+    const EventModel::Filter filter = m_filter; // what follows reads back what is shown so far
+    (filter.onlyCurrent ? m_current : m_history)->setChecked(true);
+    for (std::size_t i = 0; i < m_severities.size(); ++i) {
+        m_severities[i]->setChecked(filter.severities[i]);
+    }
+    for (std::size_t i = 0; i < filter.groups.size(); ++i) {
+        m_groups->actions()[static_cast<qsizetype>(i)]->setChecked(filter.groups[i]);
+    }
+    m_text->setText(filter.text);
+    change();
+}
+
+void EventBar::change() {
+    if (m_text == nullptr) {
+        return; // still being made
+    }
+    m_filter.onlyCurrent = m_current->isChecked();
+    for (std::size_t i = 0; i < m_severities.size(); ++i) {
+        m_filter.severities[i] = m_severities[i]->isChecked();
+    }
+    for (std::size_t i = 0; i < m_filter.groups.size(); ++i) {
+        m_filter.groups[i] = m_groups->actions()[static_cast<qsizetype>(i)]->isChecked();
+    }
+    m_filter.text = m_text->text().trimmed();
+    const auto shown = std::ranges::count(m_filter.groups, true);
+    m_groupButton->setText(shown == static_cast<std::ptrdiff_t>(m_filter.groups.size())
+                               ? tr("All groups ▾")
+                               : tr("%1 of %2 groups ▾").arg(shown).arg(m_filter.groups.size()));
+    emit filterChanged(m_filter);
+}
+
+void EventBar::showCounts(const EventModel::Counts& counts) {
+    for (const model::EventSeverity severity : kSeverities) {
+        QToolButton* button = m_severities[placeOf(severity)];
+        const QString text = healthSymbol(healthOf(severity)) + QLatin1Char(' ') +
+                             grouped(counts.severities[placeOf(severity)]);
+        if (button->text() != text) {
+            button->setText(text);
+        }
+    }
+}
+
+void EventBar::paintSeverities() {
+    for (const model::EventSeverity severity : kSeverities) {
+        const QColor colour =
+            severity == model::EventSeverity::Info ? theme().dim : healthColour(healthOf(severity));
+        const QString sheet =
+            QStringLiteral("QToolButton:checked { color: %1; } QToolButton:!checked { color: %2; }")
+                .arg(colour.name(), theme().dim.name());
+        QToolButton* button = m_severities[placeOf(severity)];
+        if (button->styleSheet() != sheet) {
+            button->setStyleSheet(sheet);
+        }
+    }
+}
+
+bool EventBar::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::KeyPress) {
+        const int key = static_cast<QKeyEvent*>(event)->key();
+        if (key == Qt::Key_Escape && !m_text->text().isEmpty()) {
+            m_text->clear();
+            return true;
+        }
+        if (key == Qt::Key_Escape || key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Down) {
+            emit left();
+            return true;
+        }
+    }
+    return QWidget::eventFilter(watched, event);
+}
+
+void EventBar::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange && m_text != nullptr) {
+        paintSeverities();
+    }
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/events_panel.h"
+
+#include "app/gui/models/event_words.h"
+#include "app/gui/models/text.h"
+#include "app/gui/panels/event_bar.h"
+#include "app/gui/panels/line.h"
+#include "app/gui/panels/table_view.h"
+#include "core/export/event_sheet.h"
+
+#include <QEvent>
+#include <QFileDialog>
+#include <QHeaderView>
+#include <QJsonArray>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QScopedValueRollback>
+#include <QScrollBar>
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kMessageMs = 6000;
+
+QJsonArray flagsOf(std::span<const bool> flags) {
+    QJsonArray array;
+    for (const bool flag : flags) {
+        array.append(flag);
+    }
+    return array;
+}
+
+/// Flags that are not there stay as they are.
+void readFlags(const QJsonValue& value, std::span<bool> flags) {
+    const QJsonArray array = value.toArray();
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+        flags[i] = array.at(static_cast<qsizetype>(i)).toBool(flags[i]);
+    }
+}
+
+} // namespace
+
+EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(parent),
+      m_view(view),
+      m_commands(commands),
+      m_events(view),
+      m_bar(new EventBar(this)),
+      m_table(new TableView(tr("Events"), this)),
+      m_chip(new QPushButton(m_table)),
+      m_message(new QLabel(this)) {
+    layOut();
+    m_table->setModel(&m_events);
+    m_table->setColumnSamples({QStringLiteral("▲ warning"), QStringLiteral("10:42:17.508"),
+                               QStringLiteral("192.168.10.21:52011"), QString(), QStringLiteral("99 999"),
+                               QStringLiteral("character conflict"), QStringLiteral("Content"),
+                               QStringLiteral("goes on")},
+                              QStringLiteral("3 samples lost in 1 gap, cause: network"));
+    m_table->setOptionalColumns(EventModel::kCount);
+    connectParts();
+    showEmptyState();
+}
+
+void EventsPanel::layOut() {
+    auto* column = new QVBoxLayout(this);
+    column->setContentsMargins({});
+    column->setSpacing(0);
+    column->addWidget(m_bar);
+    column->addWidget(new Line(this));
+    column->addWidget(m_table, 1);
+    column->addWidget(m_message);
+    m_chip->setObjectName(QStringLiteral("newestEvent"));
+    m_chip->setFocusPolicy(Qt::NoFocus); // the End key does the same
+    m_chip->setToolTip(tr("Go to the newest event and follow (End)"));
+    m_chip->hide();
+    m_message->setForegroundRole(QPalette::PlaceholderText);
+    m_message->setContentsMargins(10, 3, 10, 4);
+    m_message->hide();
+    m_messageTimer.setSingleShot(true);
+    m_messageTimer.setInterval(kMessageMs);
+}
+
+void EventsPanel::connectParts() {
+    connect(m_bar, &EventBar::filterChanged, this, &EventsPanel::applyFilter);
+    connect(m_bar, &EventBar::seenRequested, this, &EventsPanel::markSeen);
+    connect(m_bar, &EventBar::exportRequested, this, &EventsPanel::exportFile);
+    connect(m_bar, &EventBar::left, m_table, qOverload<>(&QWidget::setFocus));
+    connect(m_table, &QAbstractItemView::activated, this, &EventsPanel::jump);
+    connect(m_table, &TableView::menuRequested, this, &EventsPanel::addActions);
+    connect(m_table, &TableView::copyRequested, this,
+            [this](const QString& text) { m_commands.copyText(text); });
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) {
+                if (!m_isRefreshing && index.isValid()) {
+                    m_currentEvent = m_events.event(index)->number;
+                    setFollowing(false);
+                }
+            });
+    connect(m_table->verticalScrollBar(), &QScrollBar::valueChanged, this, [this](int value) {
+        if (!m_isRefreshing) {
+            setFollowing(value == m_table->verticalScrollBar()->maximum() && !m_currentEvent);
+        }
+    });
+    connect(&m_events, &QAbstractItemModel::rowsInserted, this,
+            [this](const QModelIndex&, int first, int last) { m_missed += last - first + 1; });
+    connect(m_chip, &QPushButton::clicked, this, &EventsPanel::newest);
+    connect(&m_messageTimer, &QTimer::timeout, m_message, &QWidget::hide);
+    m_table->installEventFilter(this);
+    m_table->header()->installEventFilter(this);
+}
+
+void EventsPanel::refresh() {
+    const QScopedValueRollback guard(m_isRefreshing, true);
+    m_events.refresh();
+    m_bar->showCounts(m_events.counts());
+    keepCurrent();
+    showEmptyState();
+    if (m_isFollowing) {
+        m_missed = 0;
+        m_table->scrollToBottom();
+    }
+    placeChip();
+}
+
+/// A reset of the model takes the current row.
+void EventsPanel::keepCurrent() {
+    if (!m_currentEvent || m_table->currentIndex().isValid()) {
+        return;
+    }
+    const int row = m_events.rowOf(*m_currentEvent);
+    if (row >= 0) {
+        m_table->setCurrentIndex(m_events.index(row, 0));
+    }
+}
+
+void EventsPanel::applyFilter(const EventModel::Filter& filter) {
+    const QScopedValueRollback guard(m_isRefreshing, true);
+    m_events.setFilter(filter);
+    m_missed = 0;
+    keepCurrent();
+    showEmptyState();
+    placeChip();
+}
+
+void EventsPanel::setFollowing(bool isFollowing) {
+    if (isFollowing != m_isFollowing) {
+        m_isFollowing = isFollowing;
+        m_missed = 0;
+        placeChip();
+    }
+}
+
+void EventsPanel::newest() {
+    m_currentEvent.reset();
+    m_table->selectionModel()->clear();
+    m_table->scrollToBottom();
+    setFollowing(true);
+}
+
+void EventsPanel::placeChip() {
+    const QHeaderView* header = m_table->header();
+    m_chip->setVisible(!m_isFollowing && m_events.rowCount() > 0);
+    m_chip->setText(m_missed == 0 ? tr("↓ Follow")
+                                  : tr("↓ %1 new").arg(grouped(static_cast<std::uint64_t>(m_missed))));
+    // In the line of column titles it covers no row.
+    m_chip->resize(m_chip->sizeHint().width(), header->height() - 2);
+    m_chip->move(header->geometry().right() - m_chip->width(), header->y());
+    m_chip->raise();
+}
+
+void EventsPanel::showEmptyState() {
+    const bool isAll = m_view.events().all().empty();
+    const EventModel::Filter& filter = m_events.filter();
+    m_table->setEmptyText(isAll
+                              ? tr("Nothing has happened yet.\nGaps and whose they were, restarts, malformed "
+                                   "data, changes and exceeded limits are listed here.")
+                          : filter.onlyCurrent && m_events.counts().current == 0
+                              ? tr("Nothing goes on. What happened before is under History.")
+                              : tr("No event is of the chosen kind."));
+}
+
+void EventsPanel::jump(const QModelIndex& index) {
+    const model::Event* event = m_events.event(index);
+    if (event == nullptr) {
+        return;
+    }
+    const auto packet = eventPacket(m_view, *event);
+    if (!packet) {
+        say(tr("The packets of this event are no longer in memory."));
+        return;
+    }
+    m_commands.setDisplayFilter(packetFilterOf(m_view, *event));
+    m_commands.selectPacket(*packet);
+    m_commands.showDock(QStringLiteral("packets"));
+}
+
+void EventsPanel::markSeen() {
+    m_events.markSeen();
+}
+
+void EventsPanel::addActions(QMenu& menu, const QModelIndex& index) {
+    if (index.isValid()) {
+        const QPersistentModelIndex row(index);
+        connect(menu.addAction(tr("Show its packets")), &QAction::triggered, this,
+                [this, row] { jump(row); });
+        menu.addSeparator();
+    }
+    connect(menu.addAction(tr("Mark all as seen")), &QAction::triggered, this, &EventsPanel::markSeen);
+    connect(menu.addAction(tr("Export…")), &QAction::triggered, this, &EventsPanel::exportFile);
+    menu.addSeparator();
+    connect(menu.addAction(tr("Copy all as CSV")), &QAction::triggered, this, [this] {
+        m_commands.copyText(QString::fromStdString(exporting::eventsCsv(m_view, m_events.listed())));
+    });
+    connect(menu.addAction(tr("Copy all as JSON")), &QAction::triggered, this, [this] {
+        m_commands.copyText(QString::fromStdString(exporting::eventsJson(m_view, m_events.listed())));
+    });
+}
+
+void EventsPanel::exportFile() {
+    const QString path = QFileDialog::getSaveFileName(this, tr("Export events"), QStringLiteral("events.csv"),
+                                                      tr("Comma-separated values (*.csv);;JSON (*.json)"));
+    if (!path.isEmpty()) {
+        const QString problem = save(path);
+        say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
+    }
+}
+
+QString EventsPanel::save(const QString& path) {
+    const auto events = m_events.listed();
+    const std::string text = path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)
+                                 ? exporting::eventsJson(m_view, events)
+                                 : exporting::eventsCsv(m_view, events);
+    QSaveFile file(path);
+    const bool isWritten =
+        file.open(QIODevice::WriteOnly) &&
+        file.write(text.data(), static_cast<qint64>(text.size())) == static_cast<qint64>(text.size()) &&
+        file.commit();
+    return isWritten ? QString() : tr("%1 could not be written: %2").arg(path, file.errorString());
+}
+
+void EventsPanel::say(const QString& text) {
+    m_message->setText(text);
+    m_message->show();
+    m_messageTimer.start();
+}
+
+QString EventsPanel::message() const {
+    return m_message->isHidden() ? QString() : m_message->text();
+}
+
+QString EventsPanel::summary() const {
+    const EventModel::Counts counts = m_events.counts();
+    if (counts.all == 0) {
+        return {};
+    }
+    const QString text = tr("%1 current · %2").arg(grouped(counts.current), grouped(counts.all));
+    return counts.unseen == 0 || counts.unseen == counts.all
+               ? text
+               : text + QStringLiteral(" · ") + tr("%1 new").arg(grouped(counts.unseen));
+}
+
+QJsonObject EventsPanel::state() const {
+    QJsonObject state;
+    const EventModel::Filter& filter = m_events.filter();
+    const EventModel::Filter shipped;
+    if (filter.onlyCurrent) {
+        state["current"] = true;
+    }
+    if (filter.severities != shipped.severities) {
+        state["severities"] = flagsOf(filter.severities);
+    }
+    if (filter.groups != shipped.groups) {
+        state["groups"] = flagsOf(filter.groups);
+    }
+    if (const QJsonArray columns = m_table->chosenColumns(); !columns.isEmpty()) {
+        state["columns"] = columns;
+    }
+    return state;
+}
+
+void EventsPanel::restoreState(const QJsonObject& state) {
+    EventModel::Filter filter;
+    filter.onlyCurrent = state["current"].toBool();
+    readFlags(state["severities"], filter.severities);
+    readFlags(state["groups"], filter.groups);
+    m_bar->setFilter(filter);
+    m_table->setChosenColumns(state["columns"].toArray());
+}
+
+bool EventsPanel::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Resize) {
+        placeChip();
+    } else if (event->type() == QEvent::KeyPress && watched == m_table &&
+               static_cast<QKeyEvent*>(event)->key() == Qt::Key_End) {
+        newest();
+        return true;
+    }
+    return Panel::eventFilter(watched, event);
+}
+
+} // namespace posewire::gui

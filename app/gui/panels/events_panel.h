@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/event_model.h"
+#include "app/gui/panel.h"
+
+#include <QTimer>
+
+#include <optional>
+
+class QLabel;
+class QMenu;
+class QPushButton;
+
+namespace posewire::gui {
+
+class EventBar;
+class TableView;
+
+/// Dock `events`: what happened and what goes on, whose it was, and the way to the packets that show it.
+///
+/// The slots are what the menus of the window do here, by name.
+class EventsPanel : public Panel {
+    Q_OBJECT
+
+public:
+    EventsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    void refresh() override;
+    [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QJsonObject state() const override;
+    void restoreState(const QJsonObject& state) override;
+
+    /// Selects the packet of an event and shows it in the dock of packets, among its like.
+    void jump(const QModelIndex& index);
+    /// Saves the listed events, as JSON where the name ends so, else as CSV. The answer is what went wrong,
+    /// empty for nothing.
+    [[nodiscard]] QString save(const QString& path);
+    [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
+    /// What was said last below the list.
+    [[nodiscard]] QString message() const;
+
+public slots:
+    void exportFile();
+    void markSeen();
+    void newest();
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void layOut();
+    void connectParts();
+    void addActions(QMenu& menu, const QModelIndex& index);
+    void applyFilter(const EventModel::Filter& filter);
+    void setFollowing(bool isFollowing);
+    void placeChip();
+    void keepCurrent();
+    void say(const QString& text);
+    void showEmptyState();
+
+    model::SessionView& m_view;
+    Commands& m_commands;
+    EventModel m_events;
+    EventBar* m_bar;
+    TableView* m_table;
+    QPushButton* m_chip;
+    QLabel* m_message;
+    QTimer m_messageTimer;
+    std::optional<std::uint64_t> m_currentEvent; ///< of the current row, kept while rows come and go
+    int m_missed = 0;                            ///< came since following ended
+    bool m_isFollowing = true;
+    bool m_isRefreshing = false;
+};
+
+} // namespace posewire::gui
