@@ -4,6 +4,7 @@
 #include "app/gui/models/text.h"
 
 #include <QCoreApplication>
+#include <QStringList>
 
 #include <algorithm>
 #include <array>
@@ -58,10 +59,18 @@ PropertyValue causes(model::SessionView& view) {
     if (all == 0) {
         return {tr("nothing lost"), Health::Good, toolTip};
     }
-    return {tr("network %1 · sender %2 · here %3 · unknown %4")
-                .arg(grouped(at(lost, Network)), grouped(at(lost, Sender)), grouped(at(lost, ThisComputer)),
-                     grouped(at(lost, Unknown))),
-            at(lost, ThisComputer) == 0 ? Health::Warning : Health::Error, toolTip};
+    QStringList parts; // those that are nothing only take room
+    const auto add = [&](const QString& text, model::LossCause cause) {
+        if (at(lost, cause) != 0) {
+            parts += text.arg(grouped(at(lost, cause)));
+        }
+    };
+    add(tr("network %1"), Network);
+    add(tr("sender %1"), Sender);
+    add(tr("here %1"), ThisComputer);
+    add(tr("unknown %1"), Unknown);
+    return {parts.join(QStringLiteral(" · ")), at(lost, ThisComputer) == 0 ? Health::Warning : Health::Error,
+            toolTip};
 }
 
 PropertyValue longestGap(model::SessionView& view) {
