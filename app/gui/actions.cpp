@@ -109,8 +109,8 @@ const ActionInfo kActions[] = {
     {"findPrevious", "&Edit", QT_TRANSLATE_NOOP("Action", "Find pre&vious"), "Shift+F3", false,
      [](Window& w) { w.inDock("packets", "findPrevious"); }},
 
-    {"addUdpPort", QT_TRANSLATE_NOOP("Action", "&Source"), QT_TRANSLATE_NOOP("Action", "&Add UDP port…"),
-     "Ctrl+U", false, [](Window& w) { w.addUdpPort(); }},
+    {"sources", QT_TRANSLATE_NOOP("Action", "&Source"), QT_TRANSLATE_NOOP("Action", "&Sources…"), "Ctrl+U",
+     false, [](Window& w) { w.openSources(SourcesDialog::Page::Sources); }},
     {"demo", "&Source", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", kCheckable, toggleDemo},
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
@@ -216,9 +216,13 @@ const ActionInfo kActions[] = {
     {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End", false,
      [](Window& w) { w.driver().setPaused(false); }},
 
+    {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R", false,
+     [](Window& w) { w.openSources(SourcesDialog::Page::Relay); }},
     {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),
      QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", false, [](Window& w) { w.copyDiagnostics(); }},
 
+    {"connectionHelp", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Connection help"),
+     "Shift+F1", false, [](Window& w) { w.openSources(SourcesDialog::Page::Help); }},
     {"shortcuts", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Keyboard shortcuts"),
      "F1", false, [](Window& w) { w.showShortcuts(); }},
     {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "", false,

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/diagnostics.h"
 
+#include "app/gui/models/relay_model.h"
+#include "app/gui/models/source_model.h"
+
 #include <QGuiApplication>
 #include <QSysInfo>
 #include <QTextStream>
@@ -11,8 +14,15 @@ namespace {
 
 void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
     for (const PortState& port : receiving.ports) {
-        out << displayText(port.port) << ": "
-            << (port.problem.isEmpty() ? QStringLiteral("listening") : port.problem) << '\n';
+        out << displayText(port.port) << ": " << sourceState(port).text << ", " << port.status.datagrams
+            << " datagrams, " << port.status.kernelDropped << " dropped here\n";
+    }
+    for (const RelayState& relay : receiving.relays) {
+        out << "relay to " << displayText(relay.target) << ": " << relayStage(relay).text << ", "
+            << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped\n";
+    }
+    for (const net::Finding& finding : receiving.findings) {
+        out << "found: " << QString::fromStdString(finding.text) << '\n';
     }
     out << "receive buffer " << receiving.receiveBufferBytes << " bytes, dropped here "
         << receiving.kernelDropped << ", " << receiving.datagramsPerSecond << " datagrams/s, "

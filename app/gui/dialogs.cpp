@@ -5,59 +5,15 @@
 #include "app/gui/theme.h"
 
 #include <QCoreApplication>
+#include <QDialog>
 #include <QDialogButtonBox>
 #include <QKeySequence>
-#include <QLabel>
-#include <QLineEdit>
-#include <QPushButton>
 #include <QTextBrowser>
 #include <QTextDocument>
 #include <QTextTable>
 #include <QVBoxLayout>
 
 namespace posewire::gui {
-
-AddPortDialog::AddPortDialog(std::function<QString(const InputAddress&)> problemOf, QWidget* parent)
-    : QDialog(parent),
-      m_problemOf(std::move(problemOf)),
-      m_edit(new QLineEdit(this)),
-      m_problem(new QLabel(this)) {
-    setWindowTitle(tr("Add UDP port"));
-    auto* column = new QVBoxLayout(this);
-    auto* label = new QLabel(tr("&Port to listen on, or address:port"), this);
-    label->setBuddy(m_edit);
-    m_edit->setPlaceholderText(QString::number(kDefaultPort));
-    m_problem->setWordWrap(true);
-    m_problem->setMinimumWidth(fontMetrics().averageCharWidth() * 56);
-    // The room is there from the beginning, so that the dialog does not jump under the pointer.
-    m_problem->setMinimumHeight(3 * fontMetrics().lineSpacing());
-    m_problem->setAlignment(Qt::AlignTop);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
-    buttons->button(QDialogButtonBox::Ok)->setText(tr("Listen"));
-    column->addWidget(label);
-    column->addWidget(m_edit);
-    column->addWidget(m_problem);
-    column->addWidget(buttons);
-    connect(buttons, &QDialogButtonBox::accepted, this, &AddPortDialog::accept);
-    connect(buttons, &QDialogButtonBox::rejected, this, &AddPortDialog::reject);
-    connect(m_edit, &QLineEdit::textChanged, m_problem, &QLabel::clear);
-    QPalette palette = m_problem->palette();
-    palette.setColor(QPalette::WindowText, theme().error);
-    m_problem->setPalette(palette);
-}
-
-void AddPortDialog::accept() {
-    const QString text = m_edit->text().trimmed();
-    const auto port = parseInputAddress(text.isEmpty() ? m_edit->placeholderText() : text);
-    const QString problem =
-        port ? m_problemOf(*port) : tr("'%1' is not a port from 1 to 65535, nor address:port.").arg(text);
-    if (problem.isEmpty()) {
-        m_port = *port;
-        QDialog::accept();
-        return;
-    }
-    m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') + problem);
-}
 
 void styleTables(QTextDocument& document) {
     constexpr qreal kPadding = 4;

@@ -17,11 +17,6 @@ struct EmptyState {
     QStringList lines;
 };
 
-/// `addresses` are this computer's, as a sender would be told.
-[[nodiscard]] EmptyState emptyState(const model::Session& session, const ReceivingState& receiving,
-                                    const QStringList& addresses);
-
-/// IPv4 addresses of this computer that another can reach; the loopback's where there are no others.
-[[nodiscard]] QStringList reachableAddresses();
+[[nodiscard]] EmptyState emptyState(const model::Session& session, const ReceivingState& receiving);
 
 } // namespace posewire::gui

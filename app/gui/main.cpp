@@ -70,16 +70,12 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
 /// What takes its time waits until the window can be seen.
 void openSources(MainWindow& window, const Options& options) {
     SessionDriver& driver = window.driver();
-    std::vector<InputAddress> ports = options.udpPorts;
-    const bool hasOther = !options.file.isEmpty() || !options.tcpInputs.empty();
-    if (ports.empty() && (!hasOther || options.demoCharacters > 0)) {
-        ports.push_back({});
-    }
-    for (const InputAddress& port : ports) {
-        driver.receiving().addPort(port);
-    }
-    for (const InputAddress& input : options.tcpInputs) {
+    const SourceChoices choices = window.settings().sources;
+    for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);
+    }
+    for (const RelayChoice& relay : choices.relays) {
+        driver.receiving().relaying().add(relay);
     }
     if (options.demoCharacters > 0) {
         driver.setDemo(options.demoCharacters);

@@ -69,8 +69,9 @@ void MainWindow::makeBars() {
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
     menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
 
-    m_transport = new TransportBar(m_driver.session(),
-                                   {m_actions["pause"], m_actions["live"], m_actions["addUdpPort"]}, this);
+    m_transport = new TransportBar(
+        m_driver.session(), {m_actions["pause"], m_actions["live"], m_actions["sources"], m_actions["relay"]},
+        this);
     auto* bar = new QToolBar(tr("Transport"), this);
     bar->setObjectName(QStringLiteral("transportBar"));
     bar->setMovable(false);
@@ -217,6 +218,9 @@ void MainWindow::showReceiving() {
     m_transport->setReceiving(state);
     m_health->refresh(state);
     m_viewport->setReceiving(state);
+    if (m_sources != nullptr) {
+        m_sources->refresh();
+    }
     m_driver.setPicturesShown(m_viewport->picturesShown());
 }
 
@@ -239,12 +243,17 @@ void MainWindow::saveScreenshot() {
     }
 }
 
-void MainWindow::addUdpPort() {
-    AddPortDialog dialog(&Receiving::problemOf, this);
-    if (dialog.exec() == QDialog::Accepted) {
-        m_driver.receiving().addPort(dialog.port());
-        showReceiving();
+void MainWindow::openSources(SourcesDialog::Page page) {
+    if (m_sources == nullptr) {
+        m_sources = new SourcesDialog(m_driver.receiving(), this);
+        connect(m_sources, &SourcesDialog::openFileRequested, this, &MainWindow::openFile);
+        connect(m_sources, &SourcesDialog::copyRequested, &m_driver, &SessionDriver::copyText);
+        connect(m_sources, &SourcesDialog::choicesChanged, this, [this] {
+            m_settings.sources = m_driver.receiving().choices();
+            showReceiving();
+        });
     }
+    m_sources->open(page);
 }
 
 void MainWindow::useTheme(ThemeChoice choice) {

@@ -5,6 +5,7 @@
 #include "app/gui/panel.h"
 #include "app/gui/session_driver.h"
 #include "app/gui/settings.h"
+#include "app/gui/sources_dialog.h"
 #include "app/gui/viewport_widget.h"
 
 #include <QMainWindow>
@@ -35,7 +36,7 @@ public:
     // What the actions do.
     void openFile();
     void saveScreenshot();
-    void addUdpPort();
+    void openSources(SourcesDialog::Page page);
     void useTheme(ThemeChoice choice);
     /// Name of a layout that ships, or a file.
     void useLayout(const QString& nameOrFile);
@@ -87,6 +88,7 @@ private:
     ViewportWidget* m_viewport;
     TransportBar* m_transport = nullptr;
     HealthBar* m_health = nullptr;
+    SourcesDialog* m_sources = nullptr; ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
     ActionMap m_actions;
     std::vector<Dock> m_docks;

@@ -2,8 +2,8 @@
 #include "app/gui/receiving.h"
 
 #include "app/gui/raw_file_import.h"
-#include "app/net/udp_binding.h"
 
+#include <QCoreApplication>
 #include <QFileInfo>
 
 #include <algorithm>
@@ -14,7 +14,6 @@ namespace {
 
 using Kind = InputAddress::Kind;
 
-constexpr int kTrialBufferBytes = 1 << 16;
 constexpr std::int64_t kRateWindowNs = 1'000'000'000;
 
 net::Endpoint endpointOf(const InputAddress& port) {
@@ -50,6 +49,7 @@ bool Receiving::removePort(const InputAddress& port) {
     }
     if (known->id) {
         m_receiver.remove(*known->id);
+        m_portTotals.erase(*known->id);
     }
     m_state.ports.erase(known);
     return true;
@@ -87,12 +87,36 @@ void Receiving::readStatus() {
     }
 }
 
-QString Receiving::problemOf(const InputAddress& port) {
-    if (port.kind != Kind::Udp) {
+QString Receiving::tryPort(const InputAddress& port) {
+    if (std::ranges::find(m_state.ports, port, &PortState::port) != m_state.ports.end()) {
+        return QCoreApplication::translate("Receiving", "%1 is there already.").arg(displayText(port));
+    }
+    m_state.ports.push_back({port, {}});
+    open(m_state.ports.back());
+    if (m_state.ports.back().id) {
         return {};
     }
-    const auto trial = net::bindUdp(udpOf(port), kTrialBufferBytes);
-    return trial ? QString() : QString::fromStdString(net::withHolder(trial.error(), port.port, false).text);
+    const QString problem = m_state.ports.back().problem;
+    m_state.ports.pop_back();
+    return problem;
+}
+
+QString Receiving::changePort(const InputAddress& from, const InputAddress& to) {
+    const auto place = std::ranges::find(m_state.ports, from, &PortState::port);
+    if (place == m_state.ports.end()) {
+        return tryPort(to);
+    }
+    if (from == to) {
+        return {};
+    }
+    const auto row = place - m_state.ports.begin();
+    removePort(from); // first: the same port may be asked for with other groups
+    const QString problem = tryPort(to);
+    if (!problem.isEmpty()) {
+        addPort(from);
+    }
+    std::rotate(m_state.ports.begin() + row, m_state.ports.end() - 1, m_state.ports.end());
+    return problem;
 }
 
 void Receiving::retry() {
@@ -124,16 +148,59 @@ void Receiving::measure(std::int64_t nowNs) {
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
     m_state.longestDelayNs = figures.longestDelayNs;
     const Totals totals{nowNs, figures.datagrams, figures.bytes};
-    m_totals.push_back(totals);
-    while (m_totals.size() > 2 && m_totals[1].stampNs <= nowNs - kRateWindowNs) {
-        m_totals.pop_front();
-    }
-    const Totals& before = m_totals.front();
+    const Totals& before = oldest(m_totals, totals);
     const double seconds = static_cast<double>(nowNs - before.stampNs) * 1e-9;
     if (seconds > 0) {
         m_state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
         m_state.bytesPerSecond = static_cast<double>(totals.bytes - before.bytes) / seconds;
     }
+    measurePorts(nowNs);
+    m_relaying.measure(openInputs());
+    m_state.relays = m_relaying.states();
+}
+
+const Receiving::Totals& Receiving::oldest(Window& window, const Totals& totals) {
+    window.push_back(totals);
+    while (window.size() > 2 && window[1].stampNs <= totals.stampNs - kRateWindowNs) {
+        window.pop_front();
+    }
+    return window.front();
+}
+
+void Receiving::measurePorts(std::int64_t nowNs) {
+    for (PortState& state : m_state.ports) {
+        if (!state.id) {
+            state.datagramsPerSecond = 0;
+            continue;
+        }
+        const Totals totals{nowNs, state.status.datagrams, state.status.bytes};
+        const Totals& before = oldest(m_portTotals[*state.id], totals);
+        const double seconds = static_cast<double>(nowNs - before.stampNs) * 1e-9;
+        if (seconds > 0) {
+            state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
+        }
+    }
+}
+
+std::vector<net::InputStatus> Receiving::openInputs() const {
+    std::vector<net::InputStatus> inputs;
+    for (const PortState& state : m_state.ports) {
+        if (state.id) {
+            inputs.push_back(state.status);
+        }
+    }
+    return inputs;
+}
+
+SourceChoices Receiving::choices() const {
+    SourceChoices choices{std::vector<InputAddress>{}, {}};
+    for (const PortState& state : m_state.ports) {
+        choices.inputs->push_back(state.port);
+    }
+    for (const RelayState& relay : m_relaying.states()) {
+        choices.relays.push_back(relay.target);
+    }
+    return choices;
 }
 
 std::uint16_t Receiving::openPort() const {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include "app/gui/options.h"
+#include "app/gui/source_choices.h"
+#include "app/net/connection_help.h"
 #include "app/net/input.h"
+#include "app/net/local_addresses.h"
 
 #include <QString>
 
@@ -18,6 +21,18 @@ struct PortState {
     QString problem; ///< why nothing can come from it now, and what to do; empty where it can
     std::optional<net::InputId> id{}; ///< once it is open
     net::InputStatus status{};        ///< of an open one, as last measured
+    double datagramsPerSecond = 0;
+};
+
+/// One host that everything is to be forwarded to.
+struct RelayState {
+    enum class Stage : std::uint8_t { Off, LookingUp, Forwarding, Refused };
+    RelayChoice target;
+    Stage stage = Stage::Off;
+    QString problem{}; ///< why it was refused, or why the newest datagrams were
+    std::uint64_t sent = 0;
+    std::uint64_t refused = 0; ///< datagrams that this system did not take
+    std::uint64_t skipped = 0; ///< datagrams left out because the relay fell too far behind
 };
 
 /// What there is to say about receiving.
@@ -29,6 +44,9 @@ struct ReceivingState {
     std::int64_t longestDelayNs = 0; ///< the longest time the receiving thread did not look at its sockets
     double datagramsPerSecond = 0;
     double bytesPerSecond = 0;
+    std::vector<RelayState> relays{};
+    std::vector<net::Finding> findings{};       ///< why no characters are seen; empty where all is well
+    std::vector<net::LocalAddress> addresses{}; ///< of this computer, to type into a sender, the best first
 };
 
 } // namespace posewire::gui

@@ -62,6 +62,7 @@ void SessionDriver::tick() {
     if (isTableTick) {
         m_tableTickNs = nowNs;
         m_receiving.measure(nowNs);
+        m_receiving.examine(m_session, nowNs);
         measureHealth();
         emit tableTick();
     }

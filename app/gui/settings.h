@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/source_choices.h"
 #include "app/gui/theme.h"
 
 #include <QByteArray>
@@ -18,6 +19,7 @@ struct Settings {
     bool isMaximized = false;
     QByteArray docks;   ///< QMainWindow::saveState; empty for the layout as shipped
     QJsonObject panels; ///< Panel::state() by the name of the dock
+    SourceChoices sources;
 };
 
 /// Reads and writes settings as JSON with the number of their schema.

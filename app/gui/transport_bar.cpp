@@ -3,7 +3,9 @@
 
 #include "app/gui/colour_text.h"
 #include "app/gui/icons.h"
+#include "app/gui/models/relay_model.h"
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/source_model.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 
@@ -39,7 +41,8 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_session(session),
       m_pause(framedButton(actions.pause, this)),
       m_live(framedButton(actions.live, this)),
-      m_add(framedButton(actions.addPort, this)),
+      m_add(framedButton(actions.sources, this)),
+      m_relay(new ColourText(ColourText::Look::Pill, this)),
       m_time(new QLabel(this)),
       m_detail(new QLabel(this)),
       m_pillLayout(new QHBoxLayout) {
@@ -59,7 +62,11 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     row->addWidget(m_detail, 1);
     m_pillLayout->setSpacing(8);
     row->addLayout(m_pillLayout);
+    row->addWidget(m_relay);
     row->addWidget(m_add);
+    m_relay->setClickable(true);
+    m_relay->setVisible(false);
+    connect(m_relay, &QAbstractButton::clicked, actions.relay, &QAction::trigger);
     m_detail->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     restyle();
     refresh();
@@ -125,17 +132,39 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
     }
     for (std::size_t i = 0; i < receiving.ports.size(); ++i) {
         const PortState& state = receiving.ports[i];
-        const bool isOpen = state.problem.isEmpty();
-        m_pills[i]->setContent(isOpen ? Health::Unknown : Health::Error, displayText(state.port));
-        m_pills[i]->setToolTip(
-            isOpen ? tr("Listening; receive buffer %1")
-                         .arg(megabytes(static_cast<std::uint64_t>(receiving.receiveBufferBytes)))
-                   : state.problem);
+        const PropertyValue now = sourceState(state);
+        const bool isFine = now.health == Health::Good || now.health == Health::Unknown;
+        m_pills[i]->setVisible(true);
+        m_pills[i]->setContent(isFine ? Health::Unknown : now.health, displayText(state.port));
+        m_pills[i]->setToolTip(now.text);
     }
+    for (std::size_t i = count; i < m_pills.size(); ++i) {
+        m_pills[i]->setVisible(false);
+    }
+    showRelays(receiving.relays);
     if (!receiving.file.isEmpty()) {
+        m_pills[count - 1]->setVisible(true);
         m_pills[count - 1]->setContent(Health::Unknown, receiving.file);
         m_pills[count - 1]->setToolTip(tr("File"));
     }
+}
+
+void TransportBar::showRelays(const std::vector<RelayState>& relays) {
+    QStringList lines;
+    Health level = Health::Unknown;
+    qsizetype wanted = 0;
+    for (const RelayState& relay : relays) {
+        if (relay.target.isOn) {
+            ++wanted;
+            const PropertyValue stage = relayStage(relay);
+            const bool isWorse = stage.health == Health::Error || level == Health::Unknown;
+            level = stage.health != Health::Good && isWorse ? stage.health : level;
+            lines += tr("%1: %2, %3 sent").arg(displayText(relay.target), stage.text, grouped(relay.sent));
+        }
+    }
+    m_relay->setVisible(wanted > 0);
+    m_relay->setContent(level, wanted == 1 ? tr("⇉ Relay") : tr("⇉ Relay to %1").arg(wanted));
+    m_relay->setToolTip(lines.join(QLatin1Char('\n')));
 }
 
 void TransportBar::changeEvent(QEvent* event) {

@@ -22,11 +22,13 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `pause` stops and goes on, `live` goes to the end, `addPort` is for one more source.
+    /// `pause` stops and goes on, `live` goes to the end, `sources` is for one more source, `relay` tells
+    /// about forwarding.
     struct Actions {
         QAction* pause;
         QAction* live;
-        QAction* addPort;
+        QAction* sources;
+        QAction* relay;
     };
     TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);
 
@@ -45,11 +47,13 @@ private:
     [[nodiscard]] Mode modeNow() const;
     void restyle();
     void showMode(Mode mode);
+    void showRelays(const std::vector<RelayState>& relays);
 
     model::SessionView& m_session;
     QToolButton* m_pause;
     QToolButton* m_live;
     QToolButton* m_add;
+    ColourText* m_relay; ///< only while something is forwarded, or should be
     QLabel* m_time;
     QLabel* m_detail;
     QHBoxLayout* m_pillLayout;

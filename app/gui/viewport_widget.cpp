@@ -68,7 +68,6 @@ void ViewportWidget::start() {
     m_presenter->lower();
     m_presenter->setVisible(true);
     connect(m_presenter, &Presenter::presented, this, &ViewportWidget::onPresented);
-    m_addresses = reachableAddresses();
     outdate();
 }
 
@@ -142,7 +141,7 @@ void ViewportWidget::updateOverlay() {
              {problem, tr("Everything else in this window works. Installing Mesa's drivers (package "
                           "libgl1-mesa-dri) usually helps.")}});
     } else {
-        m_overlay->setCard(emptyState(m_session, m_receiving, m_addresses));
+        m_overlay->setCard(emptyState(m_session, m_receiving));
     }
 }
 

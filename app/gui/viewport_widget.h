@@ -7,8 +7,6 @@
 #include "app/gui/receiving_state.h"
 #include "app/gui/scene_builder.h"
 
-#include <QStringList>
-
 #include <memory>
 #include <optional>
 
@@ -85,7 +83,6 @@ private:
     Presenter* m_presenter = nullptr;
     ViewportOverlay* m_overlay;
     ReceivingState m_receiving;
-    QStringList m_addresses;
     std::shared_ptr<const SceneFrame> m_drawing; ///< with the presenter
     std::shared_ptr<const SceneFrame> m_shown;
     bool m_isOutdated = true;

@@ -48,6 +48,18 @@ bool isHeardBy(const InputStatus& input, const QHostAddress& address, std::uint1
     return address.isBroadcast() || isOfThisComputer(address);
 }
 
+std::optional<NetError> loopProblem(const Endpoint& target, const QHostAddress& address,
+                                    const std::vector<InputStatus>& inputs) {
+    const bool isLoop = std::ranges::any_of(
+        inputs, [&](const InputStatus& input) { return isHeardBy(input, address, target.port); });
+    if (!isLoop) {
+        return std::nullopt;
+    }
+    return NetError{NetError::Kind::BadEndpoint,
+                    textOf(target) + " is where this monitor itself listens: every datagram would come back "
+                                     "and go round for ever; choose another host or port"};
+}
+
 } // namespace
 
 struct Relay::Target {
@@ -90,13 +102,8 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
     if (!address) {
         return tl::unexpected(address.error());
     }
-    const bool isLoop = std::ranges::any_of(
-        inputs, [&](const InputStatus& input) { return isHeardBy(input, *address, target.port); });
-    if (isLoop) {
-        return netError(NetError::Kind::BadEndpoint,
-                        textOf(target) +
-                            " is where this monitor itself listens: every datagram would come back and go "
-                            "round for ever; choose another host or port");
+    if (auto problem = loopProblem(target, *address, inputs)) {
+        return tl::unexpected(*problem);
     }
     auto added = std::make_shared<Target>();
     added->endpoint = target;
@@ -112,6 +119,13 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
         m_targets.push_back(added);
     });
     return added->id;
+}
+
+std::optional<NetError> Relay::problemWith(RelayId id, const std::vector<InputStatus>& inputs) const {
+    const std::lock_guard lock(m_mutex);
+    const auto target = std::ranges::find(m_targets, id, [](const auto& each) { return each->id; });
+    return target == m_targets.end() ? std::nullopt
+                                     : loopProblem((*target)->endpoint, (*target)->address, inputs);
 }
 
 bool Relay::remove(RelayId id) {

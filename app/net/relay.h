@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -48,6 +49,10 @@ public:
     /// Forwards from now on. Looks up names, which may take seconds. Refuses a port that one of `inputs`
     /// listens on, since every datagram would come back and go round for ever.
     NetResult<RelayId> add(const Endpoint& target, const std::vector<InputStatus>& inputs);
+
+    /// Why a target can stay no longer with these inputs; nothing where it can, or is none.
+    [[nodiscard]] std::optional<NetError> problemWith(RelayId id,
+                                                      const std::vector<InputStatus>& inputs) const;
 
     bool remove(RelayId id);
     [[nodiscard]] std::vector<RelayTarget> targets() const;
