@@ -8,12 +8,12 @@ void Truth::add(const Sending& sending) {
         ++m_source.foreign;
         return;
     }
+    m_source.bytes += sending.bytes.size();
     if (!wire::decodeInto(sending.bytes, m_scratch)) {
         ++m_source.malformed;
         return;
     }
     ++m_source.datagrams;
-    m_source.bytes += sending.bytes.size();
     const wire::Header& header = m_scratch.header;
     m_streams[{header.character, header.type()}].add(header, sending);
 }

@@ -13,7 +13,7 @@ namespace posewire::performer {
 /// What a receiver that misses nothing has to count about one source.
 struct SourceFigures {
     std::uint64_t datagrams = 0; ///< that can be decoded
-    std::uint64_t bytes = 0;     ///< of these
+    std::uint64_t bytes = 0;     ///< of these and of malformed ones
     std::uint64_t malformed = 0; ///< begin with MXTP and cannot be decoded
     std::uint64_t foreign = 0;   ///< do not begin with MXTP
 

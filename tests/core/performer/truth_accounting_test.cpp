@@ -35,13 +35,13 @@ void receive(const log::Packet& packet, Received& received) {
         ++received.source.foreign;
         return;
     }
+    received.source.bytes += packet.bytes.size();
     const auto datagram = wire::decode(packet.bytes);
     if (!datagram) {
         ++received.source.malformed;
         return;
     }
     ++received.source.datagrams;
-    received.source.bytes += packet.bytes.size();
     const wire::Header& header = datagram->header;
     auto& stream =
         received.streams.try_emplace({header.character, header.type()}, header.type()).first->second;
