@@ -2,7 +2,6 @@
 #include "app/gui/character_health.h"
 
 #include "app/gui/models/stream_state.h"
-#include "app/gui/models/text.h"
 
 #include <QCoreApplication>
 
@@ -16,34 +15,12 @@ QString tr(const char* text) {
     return QCoreApplication::translate("CharacterHealth", text);
 }
 
-/// Counts over all streams of a character.
-struct Totals {
-    std::uint64_t lost = 0;
-    std::uint64_t malformed = 0;
-    double rateHz = 0;
-};
-
-Totals totalsOf(const model::Session& session, const model::CharacterKey& key) {
-    Totals totals;
+/// Of the poses that are shown; 0 where there is none.
+double poseRateHz(const model::Session& session, const model::CharacterKey& key) {
     const model::CharacterPose* pose = session.pose(key);
-    for (const model::Stream& stream : session.streams()) {
-        if (stream.key.source != key.source || stream.key.character != key.character) {
-            continue;
-        }
-        totals.malformed += stream.malformed;
-        if (pose != nullptr && stream.key.type == pose->type) {
-            totals.lost = stream.accounting.counts().lost;
-            totals.rateHz = stream.statistics.rateHz();
-        }
-    }
-    return totals;
-}
-
-/// What does not fit together about the sender, in brief; empty where all does.
-QString contradictionOf(const model::Session& session, const model::CharacterKey& key) {
-    const model::Source* source = session.find(key.source);
-    const auto found = source != nullptr ? source->contradictions() : std::vector<model::Contradiction>();
-    return found.empty() ? QString() : QString::fromStdString(found.front().brief);
+    const model::Stream* stream =
+        pose == nullptr ? nullptr : session.find(log::StreamKey{key.source, key.character, pose->type});
+    return stream == nullptr ? 0 : stream->statistics.rateHz();
 }
 
 } // namespace
@@ -58,29 +35,16 @@ double shownAgeSeconds(const model::Session& session, const model::CharacterKey&
 
 CharacterHealth characterHealth(const model::Session& session, const model::CharacterKey& key) {
     const double age = shownAgeSeconds(session, key);
-    const Totals totals = totalsOf(session, key);
-    if (age >= kStaleAge) {
-        return {Health::Error, tr("stale %1").arg(duration(age)), age};
-    }
-    if (age >= kSilentAge) {
-        return {Health::Warning, tr("silent %1").arg(duration(age)), age};
+    const model::Character* character = session.find(key);
+    const State state = character == nullptr ? State{} : characterState(session, *character);
+    if (state.health != Health::Good) {
+        return {state.health, state.text, age};
     }
     if (session.pose(key) == nullptr) {
-        return {Health::Warning, tr("no pose"), age};
+        return {Health::Good, tr("no pose"), age};
     }
-    if (totals.malformed > 0) {
-        return {Health::Error, tr("%1 malformed").arg(grouped(totals.malformed)), age};
-    }
-    if (const QString words = contradictionOf(session, key); !words.isEmpty()) {
-        return {Health::Warning, words, age};
-    }
-    if (totals.lost > 0) {
-        return {Health::Warning, tr("%1 lost").arg(grouped(totals.lost)), age};
-    }
-    if (totals.rateHz <= 0) {
-        return {Health::Good, tr("one sample"), age};
-    }
-    return {Health::Good, tr("%1 Hz").arg(totals.rateHz, 0, 'f', 0), age};
+    const double rateHz = poseRateHz(session, key);
+    return {Health::Good, rateHz <= 0 ? tr("one sample") : tr("%1 Hz").arg(rateHz, 0, 'f', 0), age};
 }
 
 } // namespace posewire::gui

@@ -8,10 +8,10 @@
 
 namespace posewire::gui {
 
-/// How one character does, in one look.
+/// How one character does, in one look: the session's judgement, with the rate where it is good.
 struct CharacterHealth {
     Health level = Health::Unknown;
-    QString words; ///< "240 Hz", "31 lost", "stale 3.2 s"
+    QString words; ///< "240 Hz", "3 lost · network", "stale 3.2 s"
     double ageSeconds = 0;
 };
 

@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
-#include <cstdio>
 
 namespace posewire::exporting {
 namespace {
@@ -30,10 +29,8 @@ std::string digitsOf(std::uint8_t type) {
 
 std::string secondsText(std::int64_t stampNs) {
     constexpr std::int64_t kSecondNs = 1'000'000'000;
-    std::array<char, 40> text{};
-    std::snprintf(text.data(), text.size(), "%lld.%09lld", static_cast<long long>(stampNs / kSecondNs),
-                  static_cast<long long>(stampNs % kSecondNs));
-    return text.data();
+    const std::string decimals = std::to_string(stampNs % kSecondNs);
+    return std::to_string(stampNs / kSecondNs) + '.' + std::string(9 - decimals.size(), '0') + decimals;
 }
 
 /// Quoted where it must be.

@@ -201,25 +201,26 @@ void EventFollower::check(std::int64_t stampNs) {
     }
 }
 
+std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key) const {
+    std::vector<const Event*> troubles = m_events.current();
+    std::erase_if(troubles, [&key](const Event* event) {
+        return event->source != key.source || event->character.value_or(key.character) != key.character ||
+               event->severity() == EventSeverity::Info;
+    });
+    std::ranges::sort(troubles, [](const Event* a, const Event* b) {
+        return std::pair(a->severity(), a->number) > std::pair(b->severity(), b->number);
+    });
+    return troubles;
+}
+
 Condition EventFollower::conditionOf(const CharacterKey& key) const {
-    Condition condition;
-    const Event* worst = nullptr;
-    for (const Event& event : m_events.all()) {
-        const bool isConcerned =
-            event.source == key.source && event.character.value_or(key.character) == key.character;
-        if (!event.isCurrent || !isConcerned || event.severity() == EventSeverity::Info) {
-            continue;
-        }
-        if (worst == nullptr || event.severity() >= worst->severity()) {
-            worst = &event;
-        }
+    const auto troubles = troublesOf(key);
+    if (troubles.empty()) {
+        return {};
     }
-    if (worst != nullptr) {
-        condition.level =
-            worst->severity() == EventSeverity::Error ? Condition::Level::Error : Condition::Level::Warning;
-        condition.reason = worst->text();
-    }
-    return condition;
+    const Event& worst = *troubles.front();
+    const bool isError = worst.severity() == EventSeverity::Error;
+    return {isError ? Condition::Level::Error : Condition::Level::Warning, worst.text(), worst.number};
 }
 
 } // namespace posewire::model

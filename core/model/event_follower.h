@@ -9,15 +9,23 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace posewire::model {
 
 /// How a character does, for all who show it.
 struct Condition {
+    /// Silent for so many seconds is a warning, for the second an error, also before an event says so.
+    static constexpr double kSilentS = 0.25;
+    static constexpr double kStaleS = 1.0;
+
     enum class Level : std::uint8_t { Good, Warning, Error };
     Level level = Level::Good;
     std::string reason; ///< one line; empty where it is good
+    /// What it rests on where that is an event: its number. Else silence or a contradiction.
+    std::optional<std::uint64_t> event{};
 };
 
 /// Turns what the session finds in the log into events.
@@ -38,7 +46,9 @@ public:
     /// Time goes on without packets: only what is silent is told then.
     void advance(std::int64_t stampNs);
 
-    /// From what goes on now; everything that concerns the character or its source.
+    /// What goes on and concerns the character or its source, worst first, then newest first; without notes.
+    [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const;
+    /// The worst of these.
     [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
 
 private:

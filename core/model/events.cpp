@@ -131,6 +131,19 @@ std::size_t Events::indexOf(std::uint64_t number) const {
     return static_cast<std::size_t>(found - m_events.begin());
 }
 
+std::vector<const Event*> Events::current() const {
+    std::vector<const Event*> events;
+    for (const std::uint64_t number : m_current) {
+        events.push_back(&at(number));
+    }
+    return events;
+}
+
+const Event* Events::find(std::uint64_t number) const {
+    const std::size_t index = indexOf(number);
+    return index < m_events.size() && m_events[index].number == number ? &m_events[index] : nullptr;
+}
+
 const Event* Events::findCurrent(const Event& like) const {
     for (auto number = m_current.rbegin(); number != m_current.rend(); ++number) {
         const Event& event = at(*number);

@@ -80,6 +80,11 @@ public:
     /// Grows whenever an event comes or changes.
     [[nodiscard]] std::uint64_t version() const { return m_version; }
 
+    /// Those that go on, in the order in which they began.
+    [[nodiscard]] std::vector<const Event*> current() const;
+    /// Null where there is none of that number, or none any more.
+    [[nodiscard]] const Event* find(std::uint64_t number) const;
+
     /// Something happened: a new event, or one more of an episode that goes on (same kind, source, character,
     /// type and cause).
     void report(const Event& event);

@@ -128,8 +128,13 @@ public:
     /// What happened, in the time of the log; with conditions that go on.
     [[nodiscard]] const Events& events() const { return m_follower.events(); }
     [[nodiscard]] const Thresholds& thresholds() const { return m_follower.thresholds(); }
-    /// How a character does, by what goes on at the end of the log.
-    [[nodiscard]] Condition conditionOf(const CharacterKey& key) const { return m_follower.conditionOf(key); }
+    /// What goes on at the end of the log and concerns a character or its source, worst first.
+    [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const {
+        return m_follower.troublesOf(key);
+    }
+    /// How a character does: the one rule for all who show it. By the worst of what goes on; else by its
+    /// silence, or a warning where what its sender says does not fit together.
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
 
     /// Every gap in a stream with whose loss it was; the newest ones.
     [[nodiscard]] const Attribution& attribution() const { return m_attribution; }

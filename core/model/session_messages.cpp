@@ -187,6 +187,27 @@ Colour Session::colour(const CharacterKey& key) const {
     return sent ? *sent : defaultColour(character != nullptr ? character->ordinal : 0);
 }
 
+Condition Session::conditionOf(const CharacterKey& key) const {
+    if (isSuperseded(key)) {
+        return {};
+    }
+    const Condition condition = m_follower.conditionOf(key);
+    if (condition.level != Condition::Level::Good) {
+        return condition;
+    }
+    const double age = ageSeconds(key);
+    if (age >= Condition::kStaleS) {
+        return {Condition::Level::Error, "Nothing has come for more than 1 s.", {}};
+    }
+    if (age >= Condition::kSilentS) {
+        return {Condition::Level::Warning, "Nothing has come for more than a quarter of a second.", {}};
+    }
+    const Source* source = find(key.source);
+    const auto contradictions = source != nullptr ? source->contradictions() : std::vector<Contradiction>();
+    return contradictions.empty() ? condition
+                                  : Condition{Condition::Level::Warning, contradictions.front().text, {}};
+}
+
 double Session::ageSeconds(const CharacterKey& key) const {
     const Character* character = find(key);
     if (character == nullptr) {

@@ -202,4 +202,15 @@ std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::
                                                                              : std::nullopt;
 }
 
+bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Event& event) {
+    const auto packet = eventPacket(view, event);
+    if (!packet) {
+        return false;
+    }
+    commands.setDisplayFilter(packetFilterOf(view, event));
+    commands.selectPacket(*packet);
+    commands.showDock(QStringLiteral("packets"));
+    return true;
+}
+
 } // namespace posewire::gui

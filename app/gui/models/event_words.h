@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/commands.h"
 #include "app/gui/theme.h"
 #include "core/model/session.h"
 
@@ -28,5 +29,9 @@ namespace posewire::gui {
 /// The packet where the newest of it is to be seen: its own, or the last one before where it has none.
 /// Nothing where the log has dropped it.
 [[nodiscard]] std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Event& event);
+
+/// Selects that packet and brings the dock of packets to the front, with its like. False where the log has
+/// dropped it.
+bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Event& event);
 
 } // namespace posewire::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/stream_state.h"
 
+#include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
 #include "core/wire/type_table.h"
 
@@ -48,6 +49,24 @@ State ended() {
     return {Health::Unknown, tr("ended")};
 }
 
+/// What is missing of one sample is missing in each of its types: the worst stream counts.
+std::uint64_t lostOf(model::SessionView& view, const model::CharacterKey& key) {
+    std::uint64_t lost = 0;
+    for (const model::Stream& stream : view.streams()) {
+        if (stream.key.source == key.source && stream.key.character == key.character) {
+            lost = std::max(lost, stream.accounting.counts().lost);
+        }
+    }
+    return lost;
+}
+
+/// What does not fit together about the sender, in brief; empty where all does.
+QString contradictionOf(model::SessionView& view, const model::CharacterKey& key) {
+    const model::Source* source = view.find(key.source);
+    const auto found = source != nullptr ? source->contradictions() : std::vector<model::Contradiction>();
+    return found.empty() ? QString() : QString::fromStdString(found.front().brief);
+}
+
 bool hasEnded(model::SessionView& view, const model::Source& source) {
     bool hasCharacters = false;
     for (const model::Character& character : view.characters()) {
@@ -92,20 +111,19 @@ State characterState(model::SessionView& view, const model::Character& character
     if (view.isSuperseded(character.key)) {
         return ended();
     }
-    const State age = ageState(view.ageSeconds(character.key), 0.0);
-    if (age.health != Health::Unknown) {
-        return age;
+    const model::Condition condition = view.conditionOf(character.key);
+    if (condition.level == model::Condition::Level::Good) {
+        return {Health::Good, grouped(lostOf(view, character.key))};
     }
-    std::uint64_t malformed = 0;
-    std::uint64_t lost = 0;
-    for (const model::Stream& stream : view.streams()) {
-        if (stream.key.source == character.key.source && stream.key.character == character.key.character) {
-            malformed += stream.malformed;
-            // What is missing of one sample is missing in each of its types: the worst stream counts.
-            lost = std::max(lost, stream.accounting.counts().lost);
-        }
+    const Health health = condition.level == model::Condition::Level::Error ? Health::Error : Health::Warning;
+    const double age = view.ageSeconds(character.key);
+    if (age >= kSilentAge) {
+        return {health, (age >= kStaleAge ? tr("stale %1") : tr("silent %1")).arg(duration(age))};
     }
-    return countState(malformed, lost);
+    if (const model::Event* event = condition.event ? view.events().find(*condition.event) : nullptr) {
+        return {health, briefWords(*event)};
+    }
+    return {health, contradictionOf(view, character.key)};
 }
 
 State sourceState(model::SessionView& view, const model::Source& source) {

@@ -9,8 +9,8 @@
 namespace posewire::gui {
 
 /// Without data for this long a stream is silent, and for the second it is stale (seconds).
-inline constexpr double kSilentAge = 0.25;
-inline constexpr double kStaleAge = 1.0;
+inline constexpr double kSilentAge = model::Condition::kSilentS;
+inline constexpr double kStaleAge = model::Condition::kStaleS;
 
 /// Whether a stream, character or source is well, in one cell: shape, colour and text.
 struct State {
@@ -27,6 +27,7 @@ struct State {
 /// Age first, then malformed datagrams, then lost samples. Types that are sent now and then (12, 13) never
 /// get stale.
 [[nodiscard]] State streamState(model::SessionView& view, const model::Stream& stream);
+/// The session's own judgement (Session::conditionOf) in a few words; what was lost in all where it is good.
 [[nodiscard]] State characterState(model::SessionView& view, const model::Character& character);
 [[nodiscard]] State sourceState(model::SessionView& view, const model::Source& source);
 

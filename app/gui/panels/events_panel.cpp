@@ -186,17 +186,9 @@ void EventsPanel::showEmptyState() {
 
 void EventsPanel::jump(const QModelIndex& index) {
     const model::Event* event = m_events.event(index);
-    if (event == nullptr) {
-        return;
-    }
-    const auto packet = eventPacket(m_view, *event);
-    if (!packet) {
+    if (event != nullptr && !showPacketsOf(m_view, m_commands, *event)) {
         say(tr("The packets of this event are no longer in memory."));
-        return;
     }
-    m_commands.setDisplayFilter(packetFilterOf(m_view, *event));
-    m_commands.selectPacket(*packet);
-    m_commands.showDock(QStringLiteral("packets"));
 }
 
 void EventsPanel::markSeen() {
