@@ -65,6 +65,10 @@ const ActionInfo kActions[] = {
      [](Window& w) { w.openFile(); }},
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S", false,
      [](Window& w) { w.saveScreenshot(); }},
+    {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", false,
+     [](Window& w) { w.saveReport(); }},
+    {"exportEvents", "&File", QT_TRANSLATE_NOOP("Action", "Export &events…"), "", false,
+     [](Window& w) { w.inDock("events", "exportFile"); }},
     lineIn("&File"),
     {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", false, [](Window& w) { w.close(); }},
 
@@ -218,6 +222,8 @@ const ActionInfo kActions[] = {
 
     {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R", false,
      [](Window& w) { w.openSources(SourcesDialog::Page::Relay); }},
+    {"thresholds", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Thresholds…"),
+     "Ctrl+T", false, [](Window& w) { w.editThresholds(); }},
     {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),
      QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", false, [](Window& w) { w.copyDiagnostics(); }},
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/colour_text.h"
 
+#include <QKeyEvent>
 #include <QPainter>
 
 namespace posewire::gui {
@@ -58,6 +59,15 @@ void ColourText::enterEvent(QEnterEvent* /*event*/) {
 
 void ColourText::leaveEvent(QEvent* /*event*/) {
     update();
+}
+
+/// Enter as well as the space bar.
+void ColourText::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+        click();
+        return;
+    }
+    QAbstractButton::keyPressEvent(event);
 }
 
 } // namespace posewire::gui

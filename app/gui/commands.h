@@ -38,6 +38,8 @@ public:
     virtual void copyText(const QString& text) = 0;
     /// Brings a dock before the others, by its object name.
     virtual void showDock(const QString& /*dock*/) {}
+    /// What streams must keep from now on.
+    virtual void setThresholds(const model::Thresholds& /*thresholds*/) {}
     /// How receiving stands: ports, buffers, what was dropped here.
     [[nodiscard]] virtual ReceivingState receivingState() const { return {}; }
     /// How this program itself fares.

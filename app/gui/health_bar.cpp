@@ -3,6 +3,7 @@
 
 #include "app/gui/character_health.h"
 #include "app/gui/colour_text.h"
+#include "app/gui/health_popup.h"
 #include "app/gui/models/text.h"
 
 #include <QHBoxLayout>
@@ -141,18 +142,22 @@ void HealthBar::fitEntries() {
 void HealthBar::addEntry() {
     auto* entry = new ColourText(ColourText::Look::Plain, this);
     entry->setClickable(true);
-    entry->setToolTip(tr("Select and show this character"));
+    entry->setToolTip(tr("Select this character and say how it does"));
     const std::size_t index = m_entries.size();
-    connect(entry, &ColourText::clicked, this, [this, index] { activate(index); });
+    connect(entry, &ColourText::clicked, this, [this, index] { explain(index); });
     m_entriesLayout->insertWidget(static_cast<int>(index), entry);
     m_entries.push_back(entry);
 }
 
-void HealthBar::activate(std::size_t entry) {
+QWidget* HealthBar::firstEntry() const {
+    return m_shown.empty() ? nullptr : m_entries.front();
+}
+
+void HealthBar::explain(std::size_t entry) {
     const model::CharacterKey key = m_shown[entry];
     m_commands.select({key.source, key, -1});
-    m_commands.setCharacterVisible(key, true);
-    m_commands.frameCharacter(key);
+    auto* popup = new HealthPopup(m_session, m_commands, key, this);
+    popup->showAbove(*m_entries[entry]);
 }
 
 } // namespace posewire::gui

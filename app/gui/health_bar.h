@@ -25,6 +25,11 @@ public:
 
     void refresh(const ReceivingState& receiving);
 
+    /// What the keyboard goes to here; null without characters.
+    [[nodiscard]] QWidget* firstEntry() const;
+    /// Says why a character is as it is; `entry` counts those that are shown.
+    void explain(std::size_t entry);
+
     /// Shows a line for a while, beside the rest.
     void say(const QString& text);
 
@@ -32,7 +37,6 @@ private:
     void refreshCharacters();
     void fitEntries();
     void addEntry();
-    void activate(std::size_t entry);
 
     model::SessionView& m_session;
     Commands& m_commands;

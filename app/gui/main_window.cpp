@@ -9,6 +9,8 @@
 #include "app/gui/health_bar.h"
 #include "app/gui/icons.h"
 #include "app/gui/reference_window.h"
+#include "app/gui/report_saving.h"
+#include "app/gui/thresholds_dialog.h"
 #include "app/gui/transport_bar.h"
 #include "app/gui/viewport_buttons.h"
 #include "core/wire/reference.h"
@@ -52,6 +54,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     makeDocks();
     listDocks();
     connectDriver();
+    m_driver.setThresholds(m_settings.alerts.thresholds);
     restore();
 }
 
@@ -119,6 +122,7 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::refreshPanels);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
     connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
     connect(&m_driver, &SessionDriver::visibilityChanged, m_viewport, &ViewportWidget::setCharacterVisible);
     connect(&m_driver, &SessionDriver::ghostChanged, m_viewport, &ViewportWidget::setGhostVisible);
@@ -256,6 +260,26 @@ void MainWindow::openSources(SourcesDialog::Page page) {
     m_sources->open(page);
 }
 
+void MainWindow::saveReport() {
+    if (const QString line = saveStreamReport(m_driver.session(), this); !line.isEmpty()) {
+        say(line);
+    }
+}
+
+void MainWindow::editThresholds() {
+    ThresholdsDialog dialog(m_settings.alerts, this);
+    if (dialog.exec() == QDialog::Accepted) {
+        m_settings.alerts = dialog.choices();
+        m_driver.setThresholds(m_settings.alerts.thresholds);
+    }
+}
+
+void MainWindow::alert() {
+    if (m_sounds.isDue(m_driver.session().events(), m_settings.alerts)) {
+        QApplication::beep();
+    }
+}
+
 void MainWindow::useTheme(ThemeChoice choice) {
     m_settings.theme = choice;
     applyTheme(*qApp, choice);
@@ -293,6 +317,10 @@ void MainWindow::nextDock() {
             current = stops.size();
         }
         stops.push_back(dock.panel);
+    }
+    if (m_health->firstEntry() != nullptr) {
+        current = m_health->isAncestorOf(QApplication::focusWidget()) ? stops.size() : current;
+        stops.push_back(m_health);
     }
     QWidget* next = stops[(current + 1) % stops.size()];
     const QList<QWidget*> children = next->findChildren<QWidget*>();

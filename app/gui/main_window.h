@@ -36,6 +36,8 @@ public:
     // What the actions do.
     void openFile();
     void saveScreenshot();
+    void saveReport();
+    void editThresholds();
     void openSources(SourcesDialog::Page page);
     void useTheme(ThemeChoice choice);
     /// Name of a layout that ships, or a file.
@@ -81,6 +83,7 @@ private:
     void restore();
     void refreshPanels();
     void showReceiving();
+    void alert();
 
     SessionDriver& m_driver;
     const SettingsFile& m_file;
@@ -91,6 +94,7 @@ private:
     SourcesDialog* m_sources = nullptr; ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
     ActionMap m_actions;
+    AlertSounds m_sounds;
     std::vector<Dock> m_docks;
     bool m_isRestored = false;
 };

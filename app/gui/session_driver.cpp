@@ -145,6 +145,11 @@ void SessionDriver::setDisplayFilter(const QString& filter) {
     announceChange();
 }
 
+void SessionDriver::setThresholds(const model::Thresholds& thresholds) {
+    m_session.setThresholds(thresholds);
+    announceChange();
+}
+
 void SessionDriver::announceChange() {
     m_isChanged = true;
     m_tableTickNs = 0;

@@ -53,6 +53,7 @@ public:
     void setComment(std::uint64_t packet, const QString& comment) override;
     void setOverride(log::SourceId source, const model::SourceOverride& overrides) override;
     void setDisplayFilter(const QString& filter) override;
+    void setThresholds(const model::Thresholds& thresholds) override;
     void frameCharacter(const model::CharacterKey& key) override;
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override;
     [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const override;

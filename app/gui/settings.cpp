@@ -38,6 +38,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.isMaximized = window["maximized"].toBool();
     settings.docks = QByteArray::fromBase64(object["docks"].toString().toLatin1());
     settings.panels = object["panels"].toObject();
+    settings.alerts = alertChoicesOf(object["alerts"].toObject());
     settings.sources = sourceChoicesOf(object["sources"].toObject());
     return settings;
 }
@@ -53,6 +54,7 @@ QJsonObject objectOf(const Settings& settings) {
             {"layout", settings.layout},
             {"window", window},
             {"docks", QString::fromLatin1(settings.docks.toBase64())},
+            {"alerts", jsonOf(settings.alerts)},
             {"panels", settings.panels},
             {"sources", jsonOf(settings.sources)}};
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/alerts.h"
 #include "app/gui/source_choices.h"
 #include "app/gui/theme.h"
 
@@ -19,6 +20,7 @@ struct Settings {
     bool isMaximized = false;
     QByteArray docks;   ///< QMainWindow::saveState; empty for the layout as shipped
     QJsonObject panels; ///< Panel::state() by the name of the dock
+    AlertChoices alerts;
     SourceChoices sources;
 };
 

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/model/session.h"
+
+#include <QJsonObject>
+
+namespace posewire::gui {
+
+/// When the operator wants to be alerted, and how: kept from one run to the next.
+struct AlertChoices {
+    model::Thresholds thresholds;
+    bool hasWarningSound = false;
+    bool hasErrorSound = false;
+    friend bool operator==(const AlertChoices&, const AlertChoices&) = default;
+};
+
+[[nodiscard]] QJsonObject jsonOf(const AlertChoices& choices);
+/// What is missing or makes no sense is as shipped.
+[[nodiscard]] AlertChoices alertChoicesOf(const QJsonObject& object);
+
+/// Tells which sounds are due: one for an episode, and none for what happened before.
+class AlertSounds {
+public:
+    /// True where an event began since the last call that the operator wants to hear.
+    [[nodiscard]] bool isDue(const model::Events& events, const AlertChoices& choices);
+
+private:
+    std::uint64_t m_end = 0; ///< events before this number were looked at
+    bool m_isFirst = true;
+};
+
+} // namespace posewire::gui
