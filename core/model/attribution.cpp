@@ -168,6 +168,11 @@ void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
     }
 }
 
+const Gap* Attribution::endedBy(std::uint64_t packet) const {
+    const auto found = std::ranges::lower_bound(m_gaps, packet, {}, &Gap::toPacket);
+    return found != m_gaps.end() && found->toPacket == packet ? &*found : nullptr;
+}
+
 /// Counts again what a gap still lacks, in it and in the sums of its stream.
 void Attribution::recount(Gap& gap, std::size_t stream) {
     const std::uint32_t lost = m_streams[stream].accounting.missingBetween(gap.fromSample, gap.toSample);

@@ -73,6 +73,8 @@ public:
 
     /// The newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
+    /// The gap that a packet ended; null where it ended none, or one that is forgotten.
+    [[nodiscard]] const Gap* endedBy(std::uint64_t packet) const;
     /// Number of the first one of gaps(), counted from the beginning of the session.
     [[nodiscard]] std::uint64_t firstGap() const { return m_firstGap; }
     /// Grows whenever a gap comes or changes.

@@ -54,7 +54,16 @@ QStringList notices(const log::Packet& packet) {
     return texts;
 }
 
-QString findingsOf(const log::Packet& packet, const model::PacketDigest& digest) {
+/// "gap: 3 samples missing · network", where it is known whose loss it was.
+QString gapText(model::SessionView& view, std::uint64_t number, std::uint64_t samples) {
+    const QString text =
+        samples == 1 ? tr("gap: 1 sample missing") : tr("gap: %1 samples missing").arg(grouped(samples));
+    const model::Gap* gap = view.attribution().endedBy(number);
+    const bool isKnown = gap != nullptr && gap->isJudged && gap->cause != model::LossCause::Unknown;
+    return isKnown ? text + dot() + QString::fromLatin1(model::nameOf(gap->cause).data()) : text;
+}
+
+QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {
     QStringList texts;
     switch (digest.kind) {
     case model::PacketKind::Malformed:
@@ -73,8 +82,7 @@ QString findingsOf(const log::Packet& packet, const model::PacketDigest& digest)
         texts += tr("this computer dropped %1 before").arg(grouped(packet.kernelDropsBefore));
     }
     if (digest.gap != 0) {
-        texts += digest.gap == 1 ? tr("gap: 1 sample missing")
-                                 : tr("gap: %1 samples missing").arg(grouped(digest.gap));
+        texts += gapText(view, packet.number, digest.gap);
     }
     if (digest.isDuplicate) {
         texts += tr("duplicate");
@@ -111,7 +119,7 @@ std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t n
         facts.firstText = beginning(packet->bytes);
     }
     if (digest->isProblem()) {
-        facts.findings = findingsOf(*packet, *digest);
+        facts.findings = findingsOf(view, *packet, *digest);
     }
     return facts;
 }
