@@ -7,6 +7,7 @@
 #include <QUdpSocket>
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <set>
 
@@ -126,6 +127,57 @@ TEST(SendCommand, SaysWhatIsWrongWithAFileWithoutDatagrams) {
         runProgram({"send", "--to", "127.0.0.1:9", "--file", fileWith("nothing of the kind")});
     EXPECT_EQ(run.status, 1);
     EXPECT_THAT(run.err, testing::HasSubstr("has no datagrams"));
+}
+
+TEST(SendCommand, WritesTheTruthAboutEveryDatagramThatLeft) {
+    Listener listener;
+    const std::string truthFile = fileWith("");
+    const ProgramRun run = runProgram({"send", "--to", listener.place(), "--types", "24", "--characters", "1",
+                                       "--rate", "200", "--duration", "0.5", "--drop", "0.2", "--duplicate",
+                                       "0.2", "--truncate", "0.1", "--truth", truthFile});
+    EXPECT_EQ(run.status, 0) << run.err;
+    const auto truth = nlohmann::json::parse(textOfFile(truthFile));
+    const auto& source = truth.at("sources").at(0);
+    const auto& stream = source.at("characters").at(0).at("streams").at(0);
+    const std::size_t arrived = listener.datagrams().size();
+    EXPECT_EQ(truth.at("foreignDatagrams").get<std::size_t>() + source.at("malformed").get<std::size_t>() +
+                  source.at("datagrams").get<std::size_t>(),
+              arrived);
+    EXPECT_EQ(stream.at("type"), "24");
+    EXPECT_EQ(stream.at("samples").get<std::size_t>() + stream.at("lost").get<std::size_t>(),
+              stream.at("lastSample").get<std::size_t>() - stream.at("firstSample").get<std::size_t>() + 1);
+    EXPECT_THAT(source.at("address").get<std::string>(), testing::StartsWith("127.0.0.1:"));
+}
+
+TEST(SendCommand, SendsFromTwoSocketsWithTheSameCharacters) {
+    Listener listener;
+    const std::string truthFile = fileWith("");
+    const ProgramRun run =
+        runProgram({"send", "--to", listener.place(), "--types", "02", "--characters", "1", "--rate", "100",
+                    "--duration", "0.1", "--senders", "2", "--truth", truthFile});
+    EXPECT_EQ(run.out, "sent 20 datagrams\n") << run.err;
+    const auto sources = nlohmann::json::parse(textOfFile(truthFile)).at("sources");
+    ASSERT_EQ(sources.size(), 2U);
+    EXPECT_NE(sources[0].at("address"), sources[1].at("address"));
+    EXPECT_EQ(sources[0].at("characters"), sources[1].at("characters"));
+}
+
+TEST(SendCommand, SaysHowFaultsAreToBeGiven) {
+    const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+        {{"--drop", "2"}, "--drop"},
+        {{"--burst", "3"}, "--drop"},
+        {{"--pause-at", "soon"}, "START:LENGTH"},
+        {{"--restart-at", "1:x"}, "SECONDS:SAMPLE"},
+        {{"--reduce-at", "1:0"}, "every 1st to 100th"},
+        {{"--gilbert-elliott", "0.1"}, "p,r,k,h"},
+        {{"--truth", "x"}, "--duration"}};
+    for (const auto& [arguments, expected] : cases) {
+        std::vector<std::string> all{"send"};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const ProgramRun run = runProgram(all);
+        EXPECT_EQ(run.status, 2);
+        EXPECT_THAT(run.err, testing::HasSubstr(expected));
+    }
 }
 
 } // namespace
