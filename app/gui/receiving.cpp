@@ -28,6 +28,13 @@ net::UdpInput udpOf(const InputAddress& port) {
     return input;
 }
 
+/// Whether one keeps the other from being opened.
+bool useTheSame(const InputAddress& a, const InputAddress& b) {
+    const bool isWide = a.address.isEmpty() || b.address.isEmpty();
+    return a.kind == b.kind && a.port == b.port &&
+           (a.address == b.address || (isWide && a.kind != Kind::TcpConnect));
+}
+
 } // namespace
 
 void Receiving::addPort(const InputAddress& port) {
@@ -88,8 +95,10 @@ void Receiving::readStatus() {
 }
 
 QString Receiving::tryPort(const InputAddress& port) {
-    if (std::ranges::find(m_state.ports, port, &PortState::port) != m_state.ports.end()) {
-        return QCoreApplication::translate("Receiving", "%1 is there already.").arg(displayText(port));
+    const auto same = std::ranges::find_if(
+        m_state.ports, [&](const PortState& state) { return useTheSame(state.port, port); });
+    if (same != m_state.ports.end()) {
+        return QCoreApplication::translate("Receiving", "%1 is there already.").arg(displayText(same->port));
     }
     m_state.ports.push_back({port, {}});
     open(m_state.ports.back());

@@ -68,7 +68,10 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
     connect(m_remove, &QPushButton::clicked, this, &RelayPage::removeSelected);
     connect(m_target, &QLineEdit::textChanged, this, [this] { setProblem({}); });
     connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this,
-            [this](const QModelIndex& current) { m_remove->setEnabled(current.isValid()); });
+            [this](const QModelIndex& current) {
+                m_remove->setEnabled(current.isValid());
+                showNote();
+            });
     auto* removeKey = new QShortcut(QKeySequence::Delete, m_table);
     removeKey->setContext(Qt::WidgetShortcut);
     connect(removeKey, &QShortcut::activated, this, &RelayPage::removeSelected);
@@ -108,6 +111,7 @@ void RelayPage::layOut() {
 void RelayPage::refresh() {
     m_model->refresh(m_relaying.states());
     m_remove->setEnabled(m_table->currentIndex().isValid());
+    showNote();
 }
 
 void RelayPage::submit() {
@@ -145,10 +149,22 @@ void RelayPage::switchTarget(int row, bool isOn) {
 
 void RelayPage::setProblem(const QString& problem) {
     m_problem = problem;
-    m_note->setText(problem.isEmpty() ? QString() : healthSymbol(Health::Error) + QLatin1Char(' ') + problem);
+    showNote();
+}
+
+/// What is wrong with what is typed, else with the selected target: the table has no room for sentences.
+void RelayPage::showNote() {
+    const QModelIndex state = m_table->currentIndex().siblingAtColumn(RelayModel::kState);
+    const bool isTyped = !m_problem.isEmpty();
+    const QString text =
+        isTyped ? healthSymbol(Health::Error) + QLatin1Char(' ') + m_problem : state.data().toString();
+    const QVariant colour = isTyped ? QVariant(theme().error) : state.data(Qt::ForegroundRole);
     QPalette palette = m_note->palette();
-    palette.setColor(QPalette::WindowText, theme().error);
-    m_note->setPalette(palette);
+    palette.setColor(QPalette::WindowText, colour.isValid() ? colour.value<QColor>() : theme().dim);
+    if (m_note->palette() != palette) {
+        m_note->setPalette(palette);
+    }
+    m_note->setText(text);
 }
 
 void RelayPage::keyPressEvent(QKeyEvent* event) {
@@ -162,7 +178,7 @@ void RelayPage::keyPressEvent(QKeyEvent* event) {
 void RelayPage::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() == QEvent::PaletteChange) {
-        setProblem(m_problem);
+        showNote();
     }
 }
 

@@ -43,6 +43,7 @@ private:
     void layOut();
     void switchTarget(int row, bool isOn);
     void setProblem(const QString& problem);
+    void showNote();
 
     Relaying& m_relaying;
     RelayModel* m_model;

@@ -36,7 +36,7 @@ SourcesDialog::SourcesDialog(Receiving& receiving, QWidget* parent)
     connect(m_relay, &RelayPage::copyRequested, this, &SourcesDialog::copyRequested);
     connect(m_help, &ConnectionPage::copyRequested, this, &SourcesDialog::copyRequested);
     const QFontMetrics metrics = fontMetrics();
-    resize(metrics.averageCharWidth() * 135, metrics.lineSpacing() * 36);
+    resize(metrics.averageCharWidth() * 165, metrics.lineSpacing() * 36);
 }
 
 void SourcesDialog::open(Page page) {

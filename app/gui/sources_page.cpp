@@ -9,6 +9,7 @@
 #include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QKeyEvent>
+#include <QLabel>
 #include <QPushButton>
 #include <QShortcut>
 #include <QVBoxLayout>
@@ -28,6 +29,7 @@ SourcesPage::SourcesPage(Receiving& receiving, QWidget* parent)
       m_table(new TableView(tr("Sources"), this)),
       m_form(new SourceForm(this)),
       m_settings(new SenderSettings(this)),
+      m_state(new QLabel(this)),
       m_edit(new QPushButton(tr("&Edit"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)),
       m_openFile(new QPushButton(tr("&Open file…"), this)),
@@ -38,7 +40,7 @@ SourcesPage::SourcesPage(Receiving& receiving, QWidget* parent)
                              "unless told otherwise."));
     const QString address = QStringLiteral("this computer · every address");
     m_table->setColumnSamples({tr("TCP, connecting"), address, QStringLiteral("65535"), QString(),
-                               QStringLiteral("100 000"), QStringLiteral("100 000 000"),
+                               QStringLiteral("10 000"), QStringLiteral("100 000 000"),
                                QStringLiteral("100 000")},
                               tr("listening, nobody has connected"));
     layOut();
@@ -61,10 +63,14 @@ SourcesPage::SourcesPage(Receiving& receiving, QWidget* parent)
 
 void SourcesPage::layOut() {
     m_table->setMinimumHeight(m_table->heightForRows(kTableRows));
+    m_state->setWordWrap(true);
+    m_state->setMinimumHeight(2 * fontMetrics().lineSpacing());
+    m_state->setTextInteractionFlags(Qt::TextSelectableByMouse);
     auto* buttons = new QHBoxLayout;
     buttons->addWidget(m_edit);
     buttons->addWidget(m_remove);
-    buttons->addStretch(1);
+    buttons->addSpacing(fontMetrics().height());
+    buttons->addWidget(m_state, 1);
     buttons->addWidget(m_openFile);
     auto* formRow = new QHBoxLayout;
     auto* submitColumn = new QVBoxLayout;
@@ -107,6 +113,11 @@ void SourcesPage::showChoice() {
     const auto input = selected();
     m_edit->setEnabled(input.has_value());
     m_remove->setEnabled(input.has_value());
+    const QModelIndex current = m_table->currentIndex();
+    const QString state = current.siblingAtColumn(SourceModel::kState).data().toString();
+    if (state != m_state->text()) { // else a selection in it would be lost
+        m_state->setText(state);
+    }
     m_settings->showFor(input.value_or(InputAddress{}), m_receiving.state().addresses);
 }
 

@@ -6,6 +6,7 @@
 
 #include <QWidget>
 
+class QLabel;
 class QPushButton;
 
 namespace posewire::gui {
@@ -52,6 +53,7 @@ private:
     TableView* m_table;
     SourceForm* m_form;
     SenderSettings* m_settings;
+    QLabel* m_state; ///< of the selected one, in full
     QPushButton* m_edit;
     QPushButton* m_remove;
     QPushButton* m_openFile;

@@ -125,9 +125,17 @@ TEST_F(SourcesDialogTest, SaysBesideTheFieldsWhatCannotBeOpenedAndKeepsNothingOf
     type(input);
     EXPECT_THAT(problem().toStdString(), HasSubstr("already"));
     type({"", input.port});
-    EXPECT_THAT(problem().toStdString(), HasSubstr("in use"));
+    EXPECT_THAT(problem().toStdString(), HasSubstr("already"));
     EXPECT_EQ(ports().size(), 1U);
     EXPECT_EQ(changed.size(), 1);
+}
+
+TEST_F(SourcesDialogTest, NamesWhoHoldsThePort) {
+    SessionDriver other{clock};
+    other.receiving().addPort({"127.0.0.1", 0});
+    type({"127.0.0.1", other.receiving().openPort()});
+    EXPECT_THAT(problem().toStdString(), HasSubstr("in use by"));
+    EXPECT_TRUE(ports().empty());
 }
 
 TEST_F(SourcesDialogTest, LeavesASourceAsItWasWhereItsChangeFails) {
