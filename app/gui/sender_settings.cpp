@@ -8,6 +8,7 @@
 #include <QToolButton>
 
 #include <algorithm>
+#include <iterator>
 
 namespace posewire::gui {
 
@@ -42,7 +43,10 @@ std::vector<net::LocalAddress> hostsFor(const InputAddress& input,
         return hosts;
     }
     if (input.address.isEmpty()) {
-        hosts = addresses;
+        const bool hasOther =
+            std::ranges::any_of(addresses, [](const net::LocalAddress& each) { return !each.isLinkLocal; });
+        std::ranges::copy_if(addresses, std::back_inserter(hosts),
+                             [&](const net::LocalAddress& each) { return !hasOther || !each.isLinkLocal; });
         hosts.resize(std::min(hosts.size(), kMostHosts));
         return hosts;
     }

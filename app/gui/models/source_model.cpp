@@ -73,7 +73,8 @@ PropertyValue sourceState(const PortState& state) {
     if (!status.peers.empty() && state.port.kind == Kind::TcpListen) {
         return peersState(status.peers);
     }
-    if (status.state == net::InputState::Connected || state.datagramsPerSecond > 0) {
+    const bool isReceiving = state.port.kind == Kind::Udp && state.datagramsPerSecond > 0;
+    if (status.state == net::InputState::Connected || isReceiving) {
         const QString text = status.state == net::InputState::Connected ? QString::fromStdString(status.text)
                                                                         : SourceModel::tr("receiving");
         return {text, Health::Good, {}};

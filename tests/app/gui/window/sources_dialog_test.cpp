@@ -45,7 +45,8 @@ TEST(SourceForm, SaysWhatMakesNone) {
 
 TEST(SenderSettings, NamesTheAddressesThatReachASource) {
     const std::vector<net::LocalAddress> addresses{{"192.168.1.20", "eth0", true, false, false},
-                                                   {"10.0.0.4", "wlan0", true, false, false}};
+                                                   {"10.0.0.4", "wlan0", true, false, false},
+                                                   {"fe80::1%eth0", "eth0", false, false, true}};
     SenderSettings settings;
     settings.showFor({}, addresses);
     EXPECT_EQ(settings.hosts(), QStringList({"192.168.1.20", "10.0.0.4"}));
