@@ -54,6 +54,7 @@ QToolButton* EventBar::addButton(const QString& name, const QString& text, const
     button->setToolTip(toolTip);
     button->setProperty("framed", true);
     button->setFocusPolicy(Qt::StrongFocus);
+    button->installEventFilter(this);
     layout()->addWidget(button);
     return button;
 }
@@ -173,16 +174,27 @@ void EventBar::paintSeverities() {
 }
 
 bool EventBar::eventFilter(QObject* watched, QEvent* event) {
-    if (event->type() == QEvent::KeyPress) {
-        const int key = static_cast<QKeyEvent*>(event)->key();
-        if (key == Qt::Key_Escape && !m_text->text().isEmpty()) {
-            m_text->clear();
+    const bool isPress = event->type() == QEvent::KeyPress;
+    if (!isPress && event->type() != QEvent::ShortcutOverride) {
+        return QWidget::eventFilter(watched, event);
+    }
+    const int key = static_cast<QKeyEvent*>(event)->key();
+    const bool isEnter = key == Qt::Key_Return || key == Qt::Key_Enter;
+    if (auto* button = qobject_cast<QToolButton*>(watched)) {
+        if (isPress && isEnter) {
+            button->click();
             return true;
         }
-        if (key == Qt::Key_Escape || key == Qt::Key_Return || key == Qt::Key_Enter || key == Qt::Key_Down) {
-            emit left();
+        if (!isPress && key == Qt::Key_Space) {
+            event->accept(); // else the window would pause
             return true;
         }
+    } else if (isPress && key == Qt::Key_Escape && !m_text->text().isEmpty()) {
+        m_text->clear();
+        return true;
+    } else if (isPress && (isEnter || key == Qt::Key_Escape || key == Qt::Key_Down)) {
+        emit left();
+        return true;
     }
     return QWidget::eventFilter(watched, event);
 }

@@ -43,6 +43,12 @@ void readFlags(const QJsonValue& value, std::span<bool> flags) {
     }
 }
 
+bool isEnd(const QEvent& event) {
+    const bool isKey = event.type() == QEvent::KeyPress || event.type() == QEvent::ShortcutOverride;
+    return isKey && static_cast<const QKeyEvent&>(event).key() == Qt::Key_End &&
+           static_cast<const QKeyEvent&>(event).modifiers() == Qt::NoModifier;
+}
+
 } // namespace
 
 EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
@@ -96,8 +102,9 @@ void EventsPanel::connectParts() {
             [this](const QString& text) { m_commands.copyText(text); });
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& index) {
-                if (!m_isRefreshing && index.isValid()) {
-                    m_currentEvent = m_events.event(index)->number;
+                const model::Event* event = m_isRefreshing ? nullptr : m_events.event(index);
+                if (event != nullptr) {
+                    m_currentEvent = event->number;
                     setFollowing(false);
                 }
             });
@@ -287,9 +294,12 @@ void EventsPanel::restoreState(const QJsonObject& state) {
 bool EventsPanel::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::Resize) {
         placeChip();
-    } else if (event->type() == QEvent::KeyPress && watched == m_table &&
-               static_cast<QKeyEvent*>(event)->key() == Qt::Key_End) {
-        newest();
+    } else if (watched == m_table && isEnd(*event)) {
+        // The window's own End goes back to live; here it goes to the newest event.
+        if (event->type() == QEvent::KeyPress) {
+            newest();
+        }
+        event->accept();
         return true;
     }
     return Panel::eventFilter(watched, event);

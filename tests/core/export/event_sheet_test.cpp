@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/event_sheet.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace posewire::exporting {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+class EventSheetTest : public testing::Test {
+protected:
+    EventSheetTest() {
+        gap.number = 7;
+        gap.kind = model::EventKind::Gap;
+        gap.source = log.sources().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
+        gap.character = 1;
+        gap.type = 2;
+        gap.firstStampNs = 1'700'000'000'000'000'001;
+        gap.lastStampNs = 1'700'000'003'500'000'000;
+        gap.firstPacket = 10;
+        gap.lastPacket = 12;
+        gap.count = 2;
+        gap.samples = 3;
+        gap.cause = model::LossCause::Network;
+        gap.detail = "Other streams \"brought\" it, \xff";
+        down.kind = model::EventKind::SourceDown;
+        down.isCurrent = false;
+    }
+
+    log::PacketLog log{{.memoryCap = std::size_t{1} << 22, .chunkSize = std::size_t{1} << 20}};
+    model::Session session{log};
+    model::Event gap;
+    model::Event down;
+};
+
+TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
+    const std::vector<const model::Event*> events{&gap, &down};
+    const std::string csv = eventsCsv(session, events);
+    EXPECT_THAT(csv, StartsWith("number,severity,group,event,source,character,type,from,to,"));
+    EXPECT_THAT(csv, HasSubstr("\r\n7,warning,loss,gap,,1,02,1700000000.000000001,1700000003.500000000,10,12,"
+                               "2,3,network,yes,\"3 samples lost in 2 gaps, cause: network. "
+                               "Other streams \"\"brought\"\" it, "));
+    EXPECT_THAT(csv, HasSubstr("\r\n0,error,source,source down,,,,0.000000000,"));
+    EXPECT_THAT(csv, EndsWith("Nothing has come for more than 1 s.\r\n"));
+}
+
+TEST_F(EventSheetTest, WritesObjectsThatCanBeRead) {
+    const std::vector<const model::Event*> events{&gap, &down};
+    const auto json = nlohmann::json::parse(eventsJson(session, events));
+    ASSERT_EQ(json.size(), 2U);
+    EXPECT_EQ(json[0]["event"], "gap");
+    EXPECT_EQ(json[0]["type"], "02");
+    EXPECT_EQ(json[0]["cause"], "network");
+    EXPECT_EQ(json[0]["fromNs"], 1'700'000'000'000'000'001);
+    EXPECT_EQ(json[0]["samples"], 3);
+    EXPECT_EQ(json[0]["current"], true);
+    EXPECT_FALSE(json[1].contains("character"));
+    EXPECT_FALSE(json[1].contains("cause"));
+    EXPECT_EQ(json[1]["current"], false);
+}
+
+TEST_F(EventSheetTest, WritesNothingButTitlesWithoutEvents) {
+    EXPECT_EQ(nlohmann::json::parse(eventsJson(session, {})).size(), 0U);
+    EXPECT_THAT(eventsCsv(session, {}), EndsWith("current,text\r\n"));
+}
+
+} // namespace
+} // namespace posewire::exporting
