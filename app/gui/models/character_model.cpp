@@ -227,7 +227,7 @@ QVariant CharacterModel::headerData(int section, Qt::Orientation orientation, in
         return numberAlignment();
     }
     if (role == Qt::ToolTipRole && section == kState) {
-        return tr("How often the sample counter moved by something else than its step; or what is wrong");
+        return tr("Samples that did not come; or what is wrong");
     }
     if (role != Qt::DisplayRole) {
         return {};
@@ -238,7 +238,7 @@ QVariant CharacterModel::headerData(int section, Qt::Orientation orientation, in
     case kRate:
         return tr("Hz");
     default:
-        return tr("Gaps");
+        return tr("Lost");
     }
 }
 

@@ -113,7 +113,7 @@ TEST_F(CharacterModelTest, SaysInShapeAndWordsHowAStreamDoes) {
     EXPECT_EQ(text(state), QStringLiteral("● 0"));
     m_stage.perform(performer, 203, 300);
     refresh();
-    EXPECT_EQ(text(state), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(state), QStringLiteral("▲ 3"));
     m_stage.now += 400 * Stage::kMillisecond;
     refresh();
     EXPECT_EQ(text(state), QStringLiteral("▲ silent 0.4 s"));
