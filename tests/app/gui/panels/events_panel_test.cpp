@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/events_panel.h"
+
+#include "app/gui/panels/table_view.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QFile>
+#include <QJsonArray>
+#include <QJsonDocument>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScrollBar>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Remembers which dock was asked for.
+class DockCommands : public ImmediateCommands {
+public:
+    using ImmediateCommands::ImmediateCommands;
+    void showDock(const QString& dock) override { shown = dock; }
+    QString shown;
+};
+
+class EventsPanelTest : public testing::Test {
+protected:
+    EventsPanelTest() {
+        m_panel.resize(900, 260);
+        m_panel.show();
+        perform(0, 240, 60, 63);
+    }
+    void perform(std::uint64_t from, std::uint64_t to, std::uint64_t lostFrom = 0, std::uint64_t lostTo = 0) {
+        m_stage.perform(m_performer, from, to,
+                        [=](std::uint64_t frame) { return frame < lostFrom || frame >= lostTo; });
+        m_stage.follow();
+        m_panel.refresh();
+    }
+    /// So many events of the smallest kind, each an episode of its own.
+    void sendForeign(int count) {
+        for (int i = 0; i < count; ++i) {
+            m_stage.sendBytes(std::vector<std::byte>(8, std::byte{'G'}), m_stage.now + Stage::kMillisecond,
+                              "10.0.0." + std::to_string(++m_sender) + ":1");
+        }
+        m_stage.follow();
+        m_panel.refresh();
+    }
+    [[nodiscard]] QModelIndex rowWith(const QString& text) const {
+        const QAbstractItemModel* model = m_table->model();
+        for (int row = 0; row < model->rowCount(); ++row) {
+            if (model->index(row, EventModel::kText).data().toString().contains(text)) {
+                return model->index(row, 0);
+            }
+        }
+        return {};
+    }
+    [[nodiscard]] QToolButton* button(const char* name) const {
+        return m_panel.findChild<QToolButton*>(QLatin1String(name));
+    }
+
+    Stage m_stage;
+    DockCommands m_commands{m_stage.session};
+    performer::Performer m_performer{sending(1, {2}, 60.0)};
+    EventsPanel m_panel{m_stage.session, m_commands, nullptr};
+    TableView* m_table = m_panel.findChild<TableView*>();
+    int m_sender = 0;
+};
+
+TEST_F(EventsPanelTest, EnterOnAGapShowsItsPackets) {
+    const QModelIndex gap = rowWith(QStringLiteral("samples lost"));
+    ASSERT_TRUE(gap.isValid());
+    m_table->setCurrentIndex(gap);
+    QTest::keyClick(m_table, Qt::Key_Return);
+    EXPECT_EQ(m_commands.shown, QStringLiteral("packets"));
+    EXPECT_NE(m_stage.session.displayFilter().find("gap > 0"), std::string::npos);
+    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
+    EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 3U);
+}
+
+TEST_F(EventsPanelTest, SummaryTellsWhatGoesOnAndWhatIsNew) {
+    const QString summary = m_panel.summary();
+    EXPECT_TRUE(summary.contains(QStringLiteral(" current · "))) << summary.toStdString();
+    EXPECT_FALSE(summary.contains(QStringLiteral("new")));
+    m_panel.markSeen();
+    sendForeign(1);
+    EXPECT_TRUE(m_panel.summary().endsWith(QStringLiteral("1 new"))) << m_panel.summary().toStdString();
+}
+
+TEST_F(EventsPanelTest, FollowsTheNewestUntilARowIsSelected) {
+    sendForeign(40);
+    QScrollBar* bar = m_table->verticalScrollBar();
+    EXPECT_GT(bar->maximum(), 0);
+    EXPECT_EQ(bar->value(), bar->maximum());
+    m_table->setCurrentIndex(m_table->model()->index(2, 0));
+    EXPECT_FALSE(m_panel.isFollowing());
+    sendForeign(5);
+    auto* chip = m_panel.findChild<QPushButton*>(QStringLiteral("newestEvent"));
+    EXPECT_TRUE(chip->isVisible());
+    EXPECT_TRUE(chip->text().contains(QStringLiteral("5 new"))) << chip->text().toStdString();
+    EXPECT_EQ(m_table->currentIndex().row(), 2);
+    chip->click();
+    EXPECT_TRUE(m_panel.isFollowing());
+    EXPECT_FALSE(chip->isVisible());
+    EXPECT_EQ(bar->value(), bar->maximum());
+}
+
+TEST_F(EventsPanelTest, ButtonsFilterAndAreRemembered) {
+    button("notes")->click();
+    EXPECT_FALSE(rowWith(QStringLiteral("A source began")).isValid());
+    EXPECT_TRUE(rowWith(QStringLiteral("samples lost")).isValid());
+    EventsPanel again(m_stage.session, m_commands, nullptr);
+    again.restoreState(m_panel.state());
+    EXPECT_EQ(again.state(), m_panel.state());
+    EXPECT_FALSE(again.state().isEmpty());
+    auto* text = m_panel.findChild<QLineEdit*>(QStringLiteral("eventText"));
+    QTest::keyClicks(text, QStringLiteral("nothing has such a text"));
+    EXPECT_EQ(m_table->model()->rowCount(), 0);
+    EXPECT_TRUE(m_table->emptyText().contains(QStringLiteral("No event is of the chosen kind")));
+    QTest::keyClick(text, Qt::Key_Escape);
+    EXPECT_GT(m_table->model()->rowCount(), 0);
+}
+
+TEST_F(EventsPanelTest, SavesByTheEndingAndSaysWhatWentWrong) {
+    const QTemporaryDir folder;
+    EXPECT_EQ(m_panel.save(folder.filePath("events.json")), QString());
+    QFile json(folder.filePath("events.json"));
+    ASSERT_TRUE(json.open(QIODevice::ReadOnly));
+    EXPECT_EQ(QJsonDocument::fromJson(json.readAll()).array().size(), m_table->model()->rowCount());
+    EXPECT_EQ(m_panel.save(folder.filePath("events.csv")), QString());
+    QFile csv(folder.filePath("events.csv"));
+    ASSERT_TRUE(csv.open(QIODevice::ReadOnly));
+    EXPECT_TRUE(csv.readAll().startsWith("number,severity"));
+    EXPECT_TRUE(m_panel.save(folder.filePath("none/events.csv")).contains("could not be written"));
+}
+
+TEST_F(EventsPanelTest, EveryControlIsReachedByTheKeyboardAndNamed) {
+    for (const QToolButton* each : m_panel.findChildren<QToolButton*>()) {
+        if (!each->objectName().isEmpty()) {
+            EXPECT_NE(each->focusPolicy() & Qt::TabFocus, 0) << each->objectName().toStdString();
+            EXPECT_FALSE(each->toolTip().isEmpty()) << each->objectName().toStdString();
+        }
+    }
+}
+
+} // namespace
+
+} // namespace posewire::gui
