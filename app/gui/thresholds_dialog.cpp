@@ -52,7 +52,7 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
     column->addWidget(dimLabel(tr("A stream that exceeds one of these is an event, once for an episode, and "
-                                  "turns the health of its character. They hold from now on."),
+                                  "shows in the health of its character. They hold from now on."),
                                this));
     column->addLayout(form);
     column->addWidget(m_explanation);

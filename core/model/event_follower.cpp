@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <tuple>
 #include <utility>
 
 namespace posewire::model {
@@ -207,9 +208,11 @@ std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key) con
         return event->source != key.source || event->character.value_or(key.character) != key.character ||
                event->severity() == EventSeverity::Info;
     });
-    std::ranges::sort(troubles, [](const Event* a, const Event* b) {
-        return std::pair(a->severity(), a->number) > std::pair(b->severity(), b->number);
-    });
+    // What happened tells more than the limit that it broke.
+    const auto rank = [](const Event* event) {
+        return std::tuple(event->severity(), event->group() != EventGroup::Limit, event->number);
+    };
+    std::ranges::sort(troubles, [&](const Event* a, const Event* b) { return rank(a) > rank(b); });
     return troubles;
 }
 

@@ -46,7 +46,8 @@ public:
     /// Time goes on without packets: only what is silent is told then.
     void advance(std::int64_t stampNs);
 
-    /// What goes on and concerns the character or its source, worst first, then newest first; without notes.
+    /// What goes on and concerns the character or its source, worst first, limits last of their like; no
+    /// notes.
     [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const;
     /// The worst of these.
     [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;

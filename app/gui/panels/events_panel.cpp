@@ -62,11 +62,11 @@ EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* 
       m_message(new QLabel(this)) {
     layOut();
     m_table->setModel(&m_events);
-    m_table->setColumnSamples({QStringLiteral("▲ warning"), QStringLiteral("10:42:17.508"),
-                               QStringLiteral("192.168.10.21:52011"), QString(), QStringLiteral("99 999"),
-                               QStringLiteral("character conflict"), QStringLiteral("Content"),
-                               QStringLiteral("goes on")},
-                              QStringLiteral("3 samples lost in 1 gap, cause: network"));
+    m_table->setColumnSamples(
+        {QStringLiteral("▲ warning"), QStringLiteral("10:42:17.508"), QStringLiteral("192.168.10.21:52011"),
+         QString(), QStringLiteral("99 999"), QStringLiteral("character conflict"), QStringLiteral("Content"),
+         QStringLiteral("goes on")},
+        QStringLiteral("14 samples lost in 13 gaps, cause: network. Type 23 brought sample"));
     m_table->setOptionalColumns(EventModel::kCount);
     connectParts();
     showEmptyState();

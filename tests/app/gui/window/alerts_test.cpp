@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/alerts.h"
+#include "app/gui/health_bar.h"
+#include "app/gui/health_popup.h"
+#include "app/gui/report_saving.h"
+#include "app/gui/thresholds_dialog.h"
+#include "app/gui/trouble_line.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QPushButton>
+#include <QTemporaryDir>
+#include <QTest>
+
+namespace posewire::gui {
+
+namespace {
+
+TEST(AlertChoicesTest, AreReadBackAsTheyWereWritten) {
+    AlertChoices choices;
+    choices.thresholds.lossPercent = 2.5;
+    choices.thresholds.hysteresis = 0.5;
+    choices.hasErrorSound = true;
+    EXPECT_EQ(alertChoicesOf(jsonOf(choices)), choices);
+    EXPECT_EQ(alertChoicesOf({}), AlertChoices());
+}
+
+TEST(AlertChoicesTest, WhatMakesNoSenseIsAsShipped) {
+    const QJsonObject object{{"lossPercent", -3}, {"windowS", 0}, {"hysteresis", 7}, {"jitterMs", "soon"}};
+    EXPECT_EQ(alertChoicesOf(object), AlertChoices());
+}
+
+TEST(AlertSoundsTest, SoundOnceForAnEpisodeAndNeverForThePast) {
+    model::Events events;
+    AlertChoices choices;
+    choices.hasErrorSound = true;
+    model::Event event;
+    event.kind = model::EventKind::Malformed;
+    events.report(event);
+    AlertSounds sounds;
+    EXPECT_FALSE(sounds.isDue(events, choices));
+    events.report(event); // the same episode
+    EXPECT_FALSE(sounds.isDue(events, choices));
+    event.character = 1;
+    events.report(event);
+    EXPECT_TRUE(sounds.isDue(events, choices));
+    EXPECT_FALSE(sounds.isDue(events, choices));
+    event.kind = model::EventKind::Gap; // a warning, which is silent
+    events.report(event);
+    EXPECT_FALSE(sounds.isDue(events, choices));
+    choices = {};
+    event.kind = model::EventKind::Malformed;
+    event.character = 2;
+    events.report(event);
+    EXPECT_FALSE(sounds.isDue(events, choices));
+}
+
+TEST(ThresholdsDialogTest, GivesBackWhatItShowsAndTheDefaults) {
+    AlertChoices choices;
+    choices.thresholds = {3, 20, 400, 2, 30, 10, 0.5};
+    choices.hasWarningSound = true;
+    ThresholdsDialog dialog(choices);
+    EXPECT_EQ(dialog.choices(), choices);
+    for (const QDoubleSpinBox* box : dialog.findChildren<QDoubleSpinBox*>()) {
+        EXPECT_FALSE(box->suffix().isEmpty());
+    }
+    dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::RestoreDefaults)->click();
+    EXPECT_EQ(dialog.choices(), AlertChoices());
+}
+
+class HealthBarTest : public testing::Test {
+protected:
+    void perform(std::uint64_t from, std::uint64_t to, std::uint64_t lostFrom = 0, std::uint64_t lostTo = 0) {
+        m_stage.perform(m_performer, from, to,
+                        [=](std::uint64_t frame) { return frame < lostFrom || frame >= lostTo; });
+        m_stage.follow();
+        m_bar.refresh({});
+    }
+    [[nodiscard]] HealthPopup* open() {
+        m_bar.resize(900, 30);
+        m_bar.show();
+        QTest::keyClick(m_bar.firstEntry(), Qt::Key_Return);
+        return m_bar.findChild<HealthPopup*>();
+    }
+
+    Stage m_stage;
+    performer::Performer m_performer{sending(1, {2}, 60.0)};
+    HealthBar m_bar{m_stage.session, m_stage.commands};
+};
+
+TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
+    perform(0, 240, 60, 63);
+    HealthPopup* popup = open();
+    ASSERT_NE(popup, nullptr);
+    EXPECT_EQ(m_stage.session.selection().character, m_stage.key());
+    const auto lines = popup->findChildren<TroubleLine*>();
+    ASSERT_FALSE(lines.empty());
+    EXPECT_TRUE(lines.first()->text().contains(QStringLiteral("lost"), Qt::CaseInsensitive))
+        << lines.first()->text().toStdString();
+    QTest::keyClick(lines.first(), Qt::Key_Return);
+    EXPECT_NE(m_stage.session.displayFilter().find("gap > 0"), std::string::npos);
+    EXPECT_FALSE(popup->isVisible());
+}
+
+TEST_F(HealthBarTest, SaysThatAllCameWhereItIsGood) {
+    perform(0, 240);
+    EXPECT_EQ(HealthPopup::lossText(m_stage.session, m_stage.key()),
+              QStringLiteral("All 240 samples of the last 10 s came."));
+    HealthPopup* popup = open();
+    ASSERT_NE(popup, nullptr);
+    EXPECT_TRUE(popup->findChildren<TroubleLine*>().empty());
+    popup->findChild<QPushButton*>(QStringLiteral("frameCharacter"))->click();
+    EXPECT_EQ(m_stage.commands.framed.size(), 1U);
+}
+
+TEST_F(HealthBarTest, CountsWhatWasLost) {
+    perform(0, 240, 60, 63);
+    EXPECT_EQ(HealthPopup::lossText(m_stage.session, m_stage.key()),
+              QStringLiteral("Lost 3 of 240 samples in the last 10 s."));
+}
+
+TEST(ReportSavingTest, WritesAPageOrSaysWhyNot) {
+    Stage stage;
+    performer::Performer performer(sending(1, {2}, 60.0));
+    stage.perform(performer, 0, 120);
+    stage.follow();
+    const QTemporaryDir folder;
+    EXPECT_EQ(writeStreamReport(stage.session, std::nullopt, folder.filePath("report.html")), QString());
+    QFile page(folder.filePath("report.html"));
+    ASSERT_TRUE(page.open(QIODevice::ReadOnly));
+    const QByteArray text = page.readAll();
+    EXPECT_TRUE(text.startsWith("<!DOCTYPE html>") || text.startsWith("<!doctype html>"));
+    EXPECT_TRUE(text.trimmed().endsWith("</html>"));
+    EXPECT_TRUE(writeStreamReport(stage.session, model::TimeRange{Stage::kStart, stage.now},
+                                  folder.filePath("none/report.html"))
+                    .contains("could not be written"));
+}
+
+} // namespace
+
+} // namespace posewire::gui
