@@ -54,13 +54,14 @@ QStringList notices(const log::Packet& packet) {
     return texts;
 }
 
-/// "gap: 3 samples missing · network", where it is known whose loss it was.
+/// "3 lost · network" where it is known whose loss it was.
 QString gapText(model::SessionView& view, std::uint64_t number, std::uint64_t samples) {
-    const QString text =
-        samples == 1 ? tr("gap: 1 sample missing") : tr("gap: %1 samples missing").arg(grouped(samples));
     const model::Gap* gap = view.attribution().endedBy(number);
-    const bool isKnown = gap != nullptr && gap->isJudged && gap->cause != model::LossCause::Unknown;
-    return isKnown ? text + dot() + QString::fromLatin1(model::nameOf(gap->cause).data()) : text;
+    if (gap != nullptr && gap->isJudged && gap->cause != model::LossCause::Unknown) {
+        return tr("%1 lost").arg(grouped(samples)) + dot() +
+               QString::fromLatin1(model::nameOf(gap->cause).data());
+    }
+    return samples == 1 ? tr("gap: 1 sample missing") : tr("gap: %1 samples missing").arg(grouped(samples));
 }
 
 QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {
