@@ -8,13 +8,15 @@
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 
 namespace posewire::log {
 namespace {
 
 std::string newFile() {
-    static int number = 0;
-    return testing::TempDir() + "recording_" + std::to_string(++number) + ".pcapng";
+    // Every test is a process of its own, and they run side by side.
+    static std::random_device random;
+    return testing::TempDir() + "recording_" + std::to_string(random()) + ".pcapng";
 }
 
 std::vector<Recorded> recordedInFile(const std::string& path) {
