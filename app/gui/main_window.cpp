@@ -207,10 +207,16 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     event->accept();
 }
 
+bool MainWindow::Dock::isInSight() const {
+    // A dock behind another as a tab is not hidden but beside its window. What it covers with its own
+    // children says nothing: visibleRegion() is empty also where those are opaque.
+    return panel->isVisible() &&
+           (dock->isWindow() || dock->parentWidget()->rect().intersects(dock->geometry()));
+}
+
 void MainWindow::refreshPanels() {
     for (const Dock& dock : m_docks) {
-        // A dock behind another as a tab is not hidden, but nothing of it can be seen.
-        if (dock.panel->isVisible() && !dock.panel->visibleRegion().isEmpty()) {
+        if (dock.isInSight()) {
             dock.panel->refresh();
             dock.title->setSummary(dock.panel->summary());
         }
@@ -323,6 +329,10 @@ void MainWindow::nextDock() {
         stops.push_back(m_health);
     }
     QWidget* next = stops[(current + 1) % stops.size()];
+    const auto reached = std::ranges::find(m_docks, next, &Dock::panel);
+    if (reached != m_docks.end()) {
+        reached->dock->raise();
+    }
     const QList<QWidget*> children = next->findChildren<QWidget*>();
     const auto focusable = std::ranges::find_if(children, [](const QWidget* child) {
         return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;

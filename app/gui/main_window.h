@@ -73,6 +73,8 @@ private:
         QDockWidget* dock;
         DockTitle* title;
         Panel* panel;
+
+        [[nodiscard]] bool isInSight() const;
     };
 
     [[nodiscard]] const Dock* find(const char* dock) const;

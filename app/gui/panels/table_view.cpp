@@ -163,6 +163,12 @@ int TableView::heightForRows(int rows) const {
     return row * (rows + (isHeaderHidden() ? 0 : 1)) + 2;
 }
 
+void TableView::dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
+                            const QList<int>& roles) {
+    QTreeView::dataChanged(topLeft, bottomRight, roles);
+    viewport()->update();
+}
+
 void TableView::paintEvent(QPaintEvent* event) {
     QTreeView::paintEvent(event);
     if (m_emptyText.isEmpty() || model() == nullptr || model()->rowCount() != 0) {

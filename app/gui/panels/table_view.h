@@ -51,6 +51,9 @@ signals:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
+    /// Models announce one change a tick, by the rows of the first level; those below have changed as well.
+    void dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
+                     const QList<int>& roles = {}) override;
     void contextMenuEvent(QContextMenuEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void changeEvent(QEvent* event) override;

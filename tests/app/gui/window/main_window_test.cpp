@@ -3,9 +3,11 @@
 
 #include "app/gui/actions.h"
 #include "app/gui/dock_layout.h"
+#include "app/gui/dock_title.h"
 #include "app/gui/transport_bar.h"
 
 #include <QDockWidget>
+#include <QLabel>
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -14,6 +16,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -191,6 +194,49 @@ TEST_F(MainWindowTest, F6GoesThroughTheDocksAndBackToTheViewport) {
     }
     EXPECT_EQ(visited.size(), panelTable().size() + 1);
     EXPECT_TRUE(visited.contains(&window->viewport()));
+}
+
+TEST_F(MainWindowTest, F6BringsADockBehindATabToTheFront) {
+    const auto window = makeWindow();
+    window->useLayout("Debug");
+    QTest::qWait(1);
+    window->viewport().setFocus();
+    for (std::size_t i = 0; i <= panelTable().size(); ++i) {
+        window->nextDock();
+        const QWidget* focused = window->focusWidget();
+        ASSERT_NE(focused, nullptr);
+        QTest::qWait(1);
+        EXPECT_TRUE(window->rect().contains(focused->mapTo(window.get(), QPoint(1, 1))))
+            << focused->accessibleName().toStdString();
+    }
+}
+
+TEST_F(MainWindowTest, RefreshesDocksInSightAlsoWhereTheirContentCoversThem) {
+    const auto window = makeWindow();
+    window->useLayout("Debug");
+    QTest::qWait(1);
+    const auto isRefreshed = [&](const char* name) {
+        auto* title = dock(*window, name)->findChild<DockTitle*>();
+        title->setSummary("of the last tick");
+        emit driver.tableTick();
+        const auto labels = title->findChildren<QLabel*>();
+        return std::ranges::none_of(labels,
+                                    [](const QLabel* label) { return label->text() == "of the last tick"; });
+    };
+    auto* panel = dock(*window, "characters")->findChild<Panel*>();
+    auto* cover = new QWidget(panel);
+    cover->setAutoFillBackground(true);
+    cover->setGeometry(panel->rect());
+    cover->show();
+    ASSERT_TRUE(panel->visibleRegion().isEmpty());
+    EXPECT_TRUE(isRefreshed("characters"));
+    dock(*window, "inspector")->raise();
+    QTest::qWait(1);
+    EXPECT_TRUE(isRefreshed("inspector"));
+    EXPECT_FALSE(isRefreshed("nullpose")) << "behind the inspector as a tab";
+    dock(*window, "nullpose")->setFloating(true);
+    QTest::qWait(1);
+    EXPECT_TRUE(isRefreshed("nullpose"));
 }
 
 TEST(OnScreen, RefusesPlacesThatCannotBeSeen) {
