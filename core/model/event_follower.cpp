@@ -29,6 +29,16 @@ Event EventFollower::eventOf(EventKind kind, const log::Packet& packet) {
     return event;
 }
 
+Event EventFollower::eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdict) {
+    Event event;
+    event.kind = kind;
+    event.source = stream.source;
+    event.character = stream.character;
+    event.firstStampNs = event.lastStampNs = verdict.stampNs;
+    event.firstPacket = event.lastPacket = verdict.packet;
+    return event;
+}
+
 void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
                                const std::deque<Stream>& streams) {
     if (packet.stampNs >= m_nextCheckNs) {
@@ -77,32 +87,9 @@ void EventFollower::noteSampled(const log::Packet& packet, const wire::Header& h
         event.character = header.character;
         m_events.end(event, packet.stampNs);
     }
-    noteTimeCode(packet, header, person);
     person.lastSampledNs = packet.stampNs;
     person.lastPacket = packet.number;
     noteClaim(packet, header);
-}
-
-/// A time code that moves otherwise than our clock, though the counter goes on.
-void EventFollower::noteTimeCode(const log::Packet& packet, const wire::Header& header, Person& person) {
-    const auto moved = static_cast<std::int32_t>(header.sampleCounter - person.sample);
-    if (person.stampNs != 0 && moved == 0) {
-        return;
-    }
-    const bool goesOn = person.stampNs != 0 && moved > 0 && moved < Probation::kMostForward;
-    const std::int64_t passedMs = (packet.stampNs - person.stampNs) / 1'000'000;
-    const std::int64_t jumpMs = static_cast<std::int32_t>(header.timeCode - person.timeCode) - passedMs;
-    if (goesOn && header.timeCode != person.timeCode && std::abs(jumpMs) > kJumpMs) {
-        Event event = eventOf(EventKind::TimeCodeJump, packet);
-        event.character = header.character;
-        event.value = static_cast<double>(jumpMs);
-        m_events.report(event);
-    }
-    if (moved > 0 || moved < -Probation::kMostBack || person.stampNs == 0) {
-        person.sample = header.sampleCounter;
-        person.timeCode = header.timeCode;
-        person.stampNs = packet.stampNs;
-    }
 }
 
 /// Two sources that take turns with one character in one type.
@@ -128,16 +115,35 @@ void EventFollower::noteClaim(const log::Packet& packet, const wire::Header& hea
 }
 
 void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& verdict) {
-    if (!verdict.isRestart) {
+    if (countsSamples(stream.type)) {
+        noteTimeCode(stream, verdict);
+    }
+    if (verdict.isRestart) {
+        m_events.report(eventOf(EventKind::Restart, stream, verdict));
+    }
+}
+
+/// A time code that moves otherwise than our clock, though the counter goes on. What came out of order says
+/// nothing of it.
+void EventFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
+    Person& person = m_persons[{stream.source, stream.character}];
+    const bool isFirst = person.stampNs == 0;
+    const auto moved = static_cast<std::int32_t>(verdict.sample - person.sample);
+    const bool isAnew = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
+    if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isAnew)) {
         return;
     }
-    Event event;
-    event.kind = EventKind::Restart;
-    event.source = stream.source;
-    event.character = stream.character;
-    event.firstStampNs = event.lastStampNs = verdict.stampNs;
-    event.firstPacket = event.lastPacket = verdict.packet;
-    m_events.report(event);
+    const std::int64_t passedMs = (verdict.stampNs - person.stampNs) / 1'000'000;
+    const std::int64_t jumpMs = static_cast<std::int32_t>(verdict.timeCode - person.timeCode) - passedMs;
+    if (!isAnew && moved < Probation::kMostForward && verdict.timeCode != person.timeCode &&
+        std::abs(jumpMs) > kJumpMs) {
+        Event event = eventOf(EventKind::TimeCodeJump, stream, verdict);
+        event.value = static_cast<double>(jumpMs);
+        m_events.report(event);
+    }
+    person.sample = verdict.sample;
+    person.timeCode = verdict.timeCode;
+    person.stampNs = verdict.stampNs;
 }
 
 void EventFollower::takeGap(const Gap& gap) {

@@ -76,9 +76,10 @@ private:
     };
     void check(std::int64_t stampNs);
     void noteSampled(const log::Packet& packet, const wire::Header& header);
-    void noteTimeCode(const log::Packet& packet, const wire::Header& header, Person& person);
+    void noteTimeCode(const log::StreamKey& stream, const Verdict& verdict);
     void noteClaim(const log::Packet& packet, const wire::Header& header);
     [[nodiscard]] static Event eventOf(EventKind kind, const log::Packet& packet);
+    [[nodiscard]] static Event eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdict);
 
     Events m_events;
     ThresholdWatch m_watch;

@@ -98,6 +98,19 @@ TEST_F(EventsTest, TellAJumpOfTheTimeCode) {
     EXPECT_EQ(of(EventKind::TimeCodeJump)[0].text(), "The time code jumped by 5000 ms.");
 }
 
+TEST_F(EventsTest, TakeNoDatagramThatComesLateForAJumpOfTheTimeCode) {
+    poses(1, 99);
+    const std::int64_t due = m_at;
+    m_at += 10 * kMillisecond;
+    poses(101, 400);
+    m_timeCodeOff = due - m_at; // sample 100 was sent when it was due
+    pose(100);
+    m_timeCodeOff = 0;
+    poses(401, 500);
+    EXPECT_TRUE(of(EventKind::TimeCodeJump).empty());
+    EXPECT_TRUE(of(EventKind::Restart).empty());
+}
+
 TEST_F(EventsTest, TellTwoSourcesWithOneCharacterButNotASuccessor) {
     poses(1, 50);
     for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10 * kMillisecond) {
