@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <thread>
+#include <vector>
 
 namespace posewire::net {
 namespace {
@@ -231,10 +233,19 @@ TEST_P(ReceiverTest, TellsTheReceiveBufferItGot) {
 TEST_P(ReceiverTest, LossesOfTheQueueAreInTheLog) {
     Receiving receiving(options());
     const log::SourceInfo source{"demo", log::Transport::Performer, 0};
-    std::uint64_t submitted = 0;
-    while (receiving.totals().queueDropped == 0 && submitted < 10'000'000) {
-        receiving.receiver->submit(numbered(60'000, submitted), source, {.stampNs = 7});
-        ++submitted;
+    const auto packet = numbered(60'000, 0);
+    std::atomic<std::uint64_t> submitted = 0;
+    std::vector<std::thread> threads; // several fill the queue faster than one thread empties it
+    for (int i = 0; i < 4; ++i) {
+        threads.emplace_back([&] {
+            while (receiving.totals().queueDropped == 0 && submitted < 1'000'000) {
+                receiving.receiver->submit(packet, source, {.stampNs = 7});
+                ++submitted;
+            }
+        });
+    }
+    for (std::thread& thread : threads) {
+        thread.join();
     }
     receiving.receiver->flush();
     EXPECT_GT(receiving.totals().queueDropped, 0U);
