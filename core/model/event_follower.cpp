@@ -118,7 +118,14 @@ void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& ver
     if (countsSamples(stream.type)) {
         noteTimeCode(stream, verdict);
     }
-    if (verdict.isRestart) {
+    if (!verdict.isRestart) {
+        return;
+    }
+    // All streams of a character begin anew together, each by a verdict of its own.
+    std::int64_t& restartNs = m_persons[{stream.source, stream.character}].restartNs;
+    const bool isTold = restartNs != 0 && std::abs(verdict.stampNs - restartNs) < kSecondNs;
+    if (!isTold) {
+        restartNs = verdict.stampNs;
         m_events.report(eventOf(EventKind::Restart, stream, verdict));
     }
 }

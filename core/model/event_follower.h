@@ -61,6 +61,7 @@ private:
         std::int64_t lastSampledNs = 0;
         std::uint64_t lastPacket = 0;
         bool isStale = false;
+        std::int64_t restartNs = 0; ///< when its counter last began anew
         // Of the newest sample, for jumps of the time code:
         std::uint32_t sample = 0;
         std::uint32_t timeCode = 0;

@@ -80,6 +80,22 @@ TEST_F(EventsTest, TellRestartsMalformedAndForeignDatagrams) {
     EXPECT_TRUE(of(EventKind::TimeCodeJump).empty());
 }
 
+TEST_F(EventsTest, CountOneRestartOfAllStreamsOnce) {
+    const auto both = [this](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10 * kMillisecond) {
+            pose(sample);
+            send(wire::CentreOfMass{}, sample, m_at);
+        }
+    };
+    both(50'000, 50'100);
+    both(1, 150);
+    ASSERT_EQ(of(EventKind::Restart).size(), 1U);
+    EXPECT_EQ(of(EventKind::Restart)[0].count, 1U);
+    both(50'000, 50'100);
+    EXPECT_EQ(of(EventKind::Restart).back().count + of(EventKind::Restart).size(), 3U)
+        << "another one is told, as an event of its own or in the same episode";
+}
+
 TEST_F(EventsTest, TellChangesOfMetadataButNotItsRepetition) {
     poses(1, 10);
     send(wire::MetaData{true, "name:Anna\n"}, 0, m_at);
