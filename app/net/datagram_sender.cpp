@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/datagram_sender.h"
 
+#include "app/net/host_lookup.h"
+
 #include <QHostAddress>
-#include <QHostInfo>
 #include <QTcpSocket>
 #include <QUdpSocket>
-
-#include <algorithm>
 
 namespace posewire::net {
 
@@ -15,22 +14,6 @@ namespace {
 constexpr int kPatienceMs = 5000;
 /// A TCP receiver that takes nothing makes the sender wait from here on.
 constexpr qint64 kMostUnsent = 1 << 20;
-
-NetResult<QHostAddress> lookUp(const Endpoint& endpoint) {
-    const QString host =
-        QString::fromStdString(endpoint.host.empty() ? std::string("127.0.0.1") : endpoint.host);
-    if (QHostAddress address(host); !address.isNull()) {
-        return address;
-    }
-    const QHostInfo info = QHostInfo::fromName(host);
-    if (info.addresses().isEmpty()) {
-        return netError(NetError::Kind::HostNotFound, "no computer named " + endpoint.host +
-                                                          " was found; check the name or use its address");
-    }
-    const auto addresses = info.addresses();
-    const auto ipv4 = std::ranges::find(addresses, QAbstractSocket::IPv4Protocol, &QHostAddress::protocol);
-    return ipv4 == addresses.end() ? addresses.front() : *ipv4;
-}
 
 std::string textOf(const QHostAddress& address, quint16 port) {
     return net::textOf(Endpoint{address.toString().toStdString(), port});
