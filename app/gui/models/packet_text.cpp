@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_text.h"
 
+#include "app/gui/models/csv_cell.h"
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/roles.h"
 #include "core/export/hexadecimal.h"
@@ -63,15 +64,6 @@ QString cell(const PacketModel& model, int row, int column) {
     const QString suffix = index.data(kSuffixRole).toString();
     const QString text = index.data(Qt::DisplayRole).toString();
     return suffix.isEmpty() ? text : text + QLatin1Char(' ') + suffix;
-}
-
-QString quoted(QString text) {
-    if (!text.contains(QLatin1Char('"')) && !text.contains(QLatin1Char(',')) &&
-        !text.contains(QLatin1Char('\n'))) {
-        return text;
-    }
-    text.replace(QLatin1String("\""), QLatin1String("\"\""));
-    return QLatin1Char('"') + text + QLatin1Char('"');
 }
 
 QString expression(const char* field, const QString& value) {
@@ -147,7 +139,7 @@ QString packetRowsText(const PacketModel& model, std::span<const int> rows) {
 QString packetRowsCsv(const PacketModel& model, std::span<const int> rows) {
     QStringList titles;
     for (int column = 0; column < model.columnCount(); ++column) {
-        titles += quoted(model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+        titles += csvCell(model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
     }
     QString text = titles.join(QLatin1Char(',')) + QStringLiteral("\r\n");
     for (const int row : rows) {
@@ -157,7 +149,7 @@ QString packetRowsCsv(const PacketModel& model, std::span<const int> rows) {
             if (model.index(row, column).data(Qt::TextAlignmentRole).isValid()) {
                 content.remove(QChar(0x202f)).replace(QChar(0x2212), QLatin1Char('-'));
             }
-            cells += quoted(content);
+            cells += csvCell(content);
         }
         text += cells.join(QLatin1Char(',')) + QStringLiteral("\r\n");
     }

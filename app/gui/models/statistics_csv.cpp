@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/csv_cell.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/statistics_model.h"
 #include "core/wire/type_table.h"
@@ -8,15 +9,6 @@
 namespace posewire::gui {
 
 namespace {
-
-QString quoted(QString text) {
-    if (!text.contains(QLatin1Char('"')) && !text.contains(QLatin1Char(',')) &&
-        !text.contains(QLatin1Char('\n'))) {
-        return text;
-    }
-    text.replace(QLatin1String("\""), QLatin1String("\"\""));
-    return QLatin1Char('"') + text + QLatin1Char('"');
-}
 
 /// As a program reads it: digits without spaces, an ASCII minus, nothing where nothing is known.
 QString number(QString text) {
@@ -35,8 +27,8 @@ QString lineOf(model::SessionView& view, const model::Stream& stream, const Stat
     const model::CharacterKey key{stream.key.source, stream.key.character};
     const model::Source* source = view.find(key.source);
     const auto digits = wire::typeDigits(stream.key.type);
-    QStringList cells{source == nullptr ? QString() : quoted(QString::fromStdString(source->info.address)),
-                      QString::number(key.character), quoted(characterName(view, key)),
+    QStringList cells{source == nullptr ? QString() : csvCell(QString::fromStdString(source->info.address)),
+                      QString::number(key.character), csvCell(characterName(view, key)),
                       QString::fromLatin1(digits.data(), 2)};
     for (int column = 0; column < kStatisticsColumns; ++column) {
         if (isFigure(column)) {
@@ -52,7 +44,7 @@ QString StatisticsModel::csv() const {
     QStringList titles{tr("Source"), tr("Character"), tr("Name"), tr("Type")};
     for (int column = 0; column < kStatisticsColumns; ++column) {
         if (isFigure(column)) {
-            titles += quoted(headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+            titles += csvCell(headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
         }
     }
     QString text = titles.join(QLatin1Char(',')) + QStringLiteral("\r\n");
