@@ -215,8 +215,9 @@ void EventFollower::check(std::int64_t stampNs) {
     }
 }
 
-std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key) const {
-    std::vector<const Event*> troubles = m_events.current();
+std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key,
+                                                    std::optional<std::int64_t> stampNs) const {
+    std::vector<const Event*> troubles = stampNs ? m_events.currentAt(*stampNs) : m_events.current();
     std::erase_if(troubles, [&key](const Event* event) {
         return event->source != key.source || event->character.value_or(key.character) != key.character ||
                event->severity() == EventSeverity::Info;
@@ -229,8 +230,8 @@ std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key) con
     return troubles;
 }
 
-Condition EventFollower::conditionOf(const CharacterKey& key) const {
-    const auto troubles = troublesOf(key);
+Condition EventFollower::conditionOf(const CharacterKey& key, std::optional<std::int64_t> stampNs) const {
+    const auto troubles = troublesOf(key, stampNs);
     if (troubles.empty()) {
         return {};
     }

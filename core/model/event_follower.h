@@ -46,11 +46,12 @@ public:
     /// Time goes on without packets: only what is silent is told then.
     void advance(std::int64_t stampNs);
 
-    /// What goes on and concerns the character or its source, worst first, limits last of their like; no
-    /// notes.
-    [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const;
+    /// What goes on, or went on at a time of the past, and concerns the character or its source, worst first,
+    /// limits last of their like; no notes.
+    [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key,
+                                                       std::optional<std::int64_t> stampNs) const;
     /// The worst of these.
-    [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key, std::optional<std::int64_t> stampNs) const;
 
 private:
     struct Sender {

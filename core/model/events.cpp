@@ -139,6 +139,23 @@ std::vector<const Event*> Events::current() const {
     return events;
 }
 
+std::vector<const Event*> Events::currentAt(std::int64_t stampNs) const {
+    const auto wentOn = [stampNs](const Event& event) {
+        if (event.firstStampNs > stampNs) {
+            return false;
+        }
+        return factsOf(event.kind).lasts ? event.isCurrent || event.lastStampNs > stampNs
+                                         : event.lastStampNs + kQuietNs > stampNs;
+    };
+    std::vector<const Event*> events;
+    for (const Event& event : m_events) {
+        if (wentOn(event)) {
+            events.push_back(&event);
+        }
+    }
+    return events;
+}
+
 const Event* Events::find(std::uint64_t number) const {
     const std::size_t index = indexOf(number);
     return index < m_events.size() && m_events[index].number == number ? &m_events[index] : nullptr;

@@ -82,6 +82,8 @@ public:
 
     /// Those that go on, in the order in which they began.
     [[nodiscard]] std::vector<const Event*> current() const;
+    /// Those that went on at a time of the past, in the same order, with all that is known of them now.
+    [[nodiscard]] std::vector<const Event*> currentAt(std::int64_t stampNs) const;
     /// Null where there is none of that number, or none any more.
     [[nodiscard]] const Event* find(std::uint64_t number) const;
 

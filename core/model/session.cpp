@@ -381,6 +381,10 @@ std::uint64_t Session::visibleEnd() const {
     return m_cursor.mode == Cursor::Mode::Following ? m_end : std::min(m_end, m_cursor.packet + 1);
 }
 
+std::optional<std::int64_t> Session::pausedStampNs() const {
+    return m_cursor.mode == Cursor::Mode::Paused ? std::optional(cursorStampNs()) : std::nullopt;
+}
+
 std::optional<TimeRange> Session::range() const {
     if (m_range.fixed || m_range.lastNs <= 0) {
         return m_range.fixed;

@@ -128,11 +128,11 @@ public:
     /// What happened, in the time of the log; with conditions that go on.
     [[nodiscard]] const Events& events() const { return m_follower.events(); }
     [[nodiscard]] const Thresholds& thresholds() const { return m_follower.thresholds(); }
-    /// What goes on at the end of the log and concerns a character or its source, worst first.
+    /// What goes on at the cursor and concerns a character or its source, worst first.
     [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const {
-        return m_follower.troublesOf(key);
+        return m_follower.troublesOf(key, pausedStampNs());
     }
-    /// How a character does: the one rule for all who show it. By the worst of what goes on; else by its
+    /// How a character does at the cursor: the one rule for all who show it. By the worst of what goes on; else by its
     /// silence, or a warning where what its sender says does not fit together.
     [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
 
@@ -231,6 +231,8 @@ private:
     Character* characterOf(const CharacterKey& key, std::uint64_t packetNumber);
     Stream* streamOf(const log::StreamKey& key, const Source& source);
     [[nodiscard]] std::uint64_t visibleEnd() const;
+    /// The cursor's time where it stands still; nothing where it follows the log.
+    [[nodiscard]] std::optional<std::int64_t> pausedStampNs() const;
     template <class Selected, class Counts>
     [[nodiscard]] StreamCounts sumOf(Selected isSelected, Counts counts) const;
     [[nodiscard]] std::optional<CharacterKey> lastOfSameHost(const CharacterKey& key) const;

@@ -191,7 +191,7 @@ Condition Session::conditionOf(const CharacterKey& key) const {
     if (isSuperseded(key)) {
         return {};
     }
-    const Condition condition = m_follower.conditionOf(key);
+    const Condition condition = m_follower.conditionOf(key, pausedStampNs());
     if (condition.level != Condition::Level::Good) {
         return condition;
     }

@@ -48,6 +48,23 @@ TEST_F(EventsTest, TellThatASourceComesAndGoes) {
     EXPECT_FALSE(down[0].isCurrent);
 }
 
+TEST_F(EventsTest, JudgeACharacterWhereTheCursorStands) {
+    poses(1, 300);
+    poses(311, 400); // ten lost
+    poses(401, 1'000);
+    follow();
+    m_session.follow(m_at + 3 * kSecond); // nothing more comes
+    const auto levelAt = [this](std::uint64_t packet) {
+        m_session.setCursor({Cursor::Mode::Paused, packet});
+        return m_session.conditionOf(key()).level;
+    };
+    EXPECT_EQ(levelAt(200), Condition::Level::Good);
+    EXPECT_NE(levelAt(350), Condition::Level::Good);
+    EXPECT_EQ(levelAt(989), Condition::Level::Good) << "the last packet, before the silence";
+    m_session.setCursor({});
+    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Error);
+}
+
 TEST_F(EventsTest, CountTheGapsOfAnEpisodeInOne) {
     for (std::uint32_t sample = 1; sample <= 500; ++sample, m_at += 10 * kMillisecond) {
         if (sample % 50 != 0) {
