@@ -38,6 +38,7 @@ QTreeView::item, QListView::item { height: @row; border: none; }
 QTableView::item { padding: 0 4px; border: none; }
 QTreeView::item:selected, QTableView::item:selected, QListView::item:selected { background: @selection; color: @text; }
 QTreeView::item:hover:!selected, QListView::item:hover:!selected { background: @raised; }
+QListView[popup="true"] { background: @raised; border: 1px solid @line; }
 QHeaderView { background: @panel; border: none; }
 QHeaderView::section { background: @panel; color: @dim; border: none; border-bottom: 1px solid @line; padding: 0 6px;
   height: @row; font-weight: normal; }
@@ -81,11 +82,6 @@ QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
 QSplitter::handle { background: @line; }
 QScrollArea { background: transparent; border: none; }
 )";
-
-QColor mixed(const QColor& a, const QColor& b, double share) {
-    const auto at = [share](int from, int to) { return static_cast<int>(from + (to - from) * share); };
-    return {at(a.red(), b.red()), at(a.green(), b.green()), at(a.blue(), b.blue())};
-}
 
 } // namespace
 

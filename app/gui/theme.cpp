@@ -8,6 +8,7 @@
 #include <QPalette>
 #include <QStyleFactory>
 
+#include <algorithm>
 #include <cmath>
 
 namespace posewire::gui {
@@ -45,8 +46,8 @@ Theme lightTheme() {
             .dim = "#626b75",
             .accent = "#1f6feb",
             .selection = "#dbe9fb",
-            .good = "#14804a",
-            .warning = "#9a6200",
+            .good = "#127846",
+            .warning = "#935d00",
             .error = "#c62828",
             .axisX = "#eb4034",
             .axisY = "#3cbe5a",
@@ -106,18 +107,45 @@ bool hasEqualDigits(const QFont& font) {
     return true;
 }
 
+double luminance(const QColor& colour) {
+    const auto linear = [](double channel) {
+        return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+    };
+    return 0.2126 * linear(colour.redF()) + 0.7152 * linear(colour.greenF()) +
+           0.0722 * linear(colour.blueF());
+}
+
 } // namespace
 
 const Theme& theme() {
     return current();
 }
 
+QColor mixed(const QColor& a, const QColor& b, double share) {
+    const auto at = [share](int from, int to) { return static_cast<int>(from + (to - from) * share); };
+    return {at(a.red(), b.red()), at(a.green(), b.green()), at(a.blue(), b.blue())};
+}
+
 QColor tinted(const QColor& colour) {
     constexpr double kShare = 0.12;
-    const QColor& panel = theme().panel;
-    const auto mix = [](int from, int to) { return static_cast<int>(from + (to - from) * kShare); };
-    return {mix(panel.red(), colour.red()), mix(panel.green(), colour.green()),
-            mix(panel.blue(), colour.blue())};
+    return mixed(theme().panel, colour, kShare);
+}
+
+double contrast(const QColor& a, const QColor& b) {
+    const double la = luminance(a);
+    const double lb = luminance(b);
+    return (std::max(la, lb) + 0.05) / (std::min(la, lb) + 0.05);
+}
+
+QColor onSelection(const QColor& colour) {
+    constexpr double kReadable = 4.5;
+    constexpr double kStep = 0.1;
+    QColor readable = colour;
+    for (double share = kStep; share <= 1 && contrast(readable, theme().selection) < kReadable;
+         share += kStep) {
+        readable = mixed(colour, theme().text, share);
+    }
+    return readable;
 }
 
 void applyTheme(QApplication& application, ThemeChoice choice) {

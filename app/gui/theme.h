@@ -24,8 +24,17 @@ enum class ThemeChoice { System, Dark, Light };
 /// The theme in use.
 [[nodiscard]] const Theme& theme();
 
+/// A colour between two, by channels: 0 is the first, 1 the second.
+[[nodiscard]] QColor mixed(const QColor& a, const QColor& b, double share);
+
 /// The panel's colour with a little of another, to fill what is marked by that colour.
 [[nodiscard]] QColor tinted(const QColor& colour);
+
+/// Contrast of two colours, 1 to 21 (WCAG 2.1, by relative luminance).
+[[nodiscard]] double contrast(const QColor& a, const QColor& b);
+
+/// A colour of text for a selected row: mixed with the text's own until it stands out as 4.5 : 1.
+[[nodiscard]] QColor onSelection(const QColor& colour);
 
 /// Sets palette, Fusion style and style sheet for the whole application.
 void applyTheme(QApplication& application, ThemeChoice choice);

@@ -161,9 +161,9 @@ void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionVi
     const QVariant swatch = index.data(kSwatchRole);
     const QString suffix = index.data(kSuffixRole).toString();
     const QFontMetrics metrics = painter.fontMetrics();
-    const QColor colour = index.data(Qt::ForegroundRole).isValid()
-                              ? index.data(Qt::ForegroundRole).value<QColor>()
-                              : theme().text;
+    const bool isSelected = option.state.testFlag(QStyle::State_Selected);
+    const QVariant given = index.data(Qt::ForegroundRole);
+    const QColor colour = given.isValid() ? given.value<QColor>() : theme().text;
     const QString shown = metrics.elidedText(option.text, Qt::ElideRight, rect.width());
     if (isNumber(index) && swatch.isValid()) {
         const int side = std::max(7, metrics.ascent() * 3 / 4);
@@ -174,7 +174,7 @@ void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionVi
         const QVariant& mark = dot.isValid() ? dot : swatch;
         rect.setLeft(rect.left() + paintMark(painter, rect, mark.value<QColor>(), dot.isValid()));
     }
-    painter.setPen(colour);
+    painter.setPen(isSelected ? onSelection(colour) : colour);
     if (isNumber(index)) {
         painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
         return;
@@ -188,7 +188,7 @@ void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionVi
     painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
     rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
     if (suffixWidth > 0 && rect.width() > 0) {
-        painter.setPen(theme().dim);
+        painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
         painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
                          metrics.elidedText(suffix, Qt::ElideRight, rect.width()));
     }

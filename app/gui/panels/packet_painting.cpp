@@ -68,7 +68,7 @@ void PacketView::paintRow(QPainter& painter, int row, const QRect& rect) const {
         const int width = m_header->sectionSize(column);
         const QRect cell(m_header->sectionViewportPosition(column), rect.top(), width, rect.height());
         if (cell.intersects(viewport()->rect())) {
-            paintCell(painter, model()->index(row, column), cell);
+            paintCell(painter, model()->index(row, column), cell, isSelected);
         }
     }
     const QModelIndex current = currentIndex();
@@ -82,7 +82,8 @@ void PacketView::paintRow(QPainter& painter, int row, const QRect& rect) const {
     }
 }
 
-void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect rect) const {
+void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect rect,
+                           bool isSelected) const {
     const QString text = index.data(Qt::DisplayRole).toString();
     if (text.isEmpty()) {
         return;
@@ -95,14 +96,15 @@ void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect re
         rect.setLeft(rect.left() + paintDot(painter, rect, dot.value<QColor>()));
     }
     const QVariant colour = index.data(Qt::ForegroundRole);
-    painter.setPen(colour.isValid() ? colour.value<QColor>() : theme().text);
+    const QColor pen = colour.isValid() ? colour.value<QColor>() : theme().text;
+    painter.setPen(isSelected ? onSelection(pen) : pen);
     const QString shown = fitting(metrics, text, rect.width());
     const bool isNumber = (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
     painter.drawText(rect, (isNumber ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter, shown);
     const QString suffix = index.data(kSuffixRole).toString();
     if (!suffix.isEmpty()) {
         rect.setLeft(rect.left() + metrics.horizontalAdvance(shown + QLatin1Char(' ')));
-        painter.setPen(theme().dim);
+        painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
         painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, fitting(metrics, suffix, rect.width()));
     }
 }

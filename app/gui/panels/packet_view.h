@@ -96,7 +96,7 @@ private:
     [[nodiscard]] int wholeRows() const;
     [[nodiscard]] int sampleWidth(int column) const;
     void paintRow(QPainter& painter, int row, const QRect& rect) const;
-    void paintCell(QPainter& painter, const QModelIndex& index, QRect rect) const;
+    void paintCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) const;
 
     QHeaderView* m_header;
     QPushButton* m_newest;
