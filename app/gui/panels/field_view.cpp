@@ -48,7 +48,10 @@ std::string FieldView::pathOf(const QModelIndex& index) const {
 }
 
 std::int32_t FieldView::currentNode() const {
-    return m_fields.node(currentIndex());
+    const QModelIndex current = currentIndex();
+    return current.isValid()         ? m_fields.node(current)
+           : m_currentPath.empty() ? -1
+                                   : m_fields.document().find(m_currentPath);
 }
 
 void FieldView::beginChange() {
@@ -97,13 +100,13 @@ void FieldView::openTo(std::int32_t node) {
 }
 
 void FieldView::setCurrentNode(std::int32_t node) {
-    const QModelIndex index = m_fields.indexOf(node);
-    if (!index.isValid()) {
+    if (node < 0) {
         return;
     }
+    m_currentPath = m_fields.document().tree().path(node);
+    const QModelIndex index = m_fields.indexOf(node);
     openTo(node);
     m_isChanging = true;
-    m_currentPath = pathOf(index);
     selectionModel()->setCurrentIndex(index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     m_isChanging = false;
     scrollTo(index, QAbstractItemView::EnsureVisible);

@@ -235,6 +235,7 @@ void InspectorPanel::showComparison() {
     }
     m_bytes->setOther(isSameType ? other : nullptr);
     m_compare->setText(m_comparison == Comparison::None ? tr("Compare ▾") : tr("Comparing ▾"));
+    m_fields->setEmptyText(tr("No field differs."));
 }
 
 void InspectorPanel::compare(Comparison comparison) {
@@ -398,10 +399,12 @@ void InspectorPanel::goTo(std::int32_t node) {
         return;
     }
     m_fields->setCurrentNode(node);
-    const QModelIndex index = m_model.indexOf(node);
-    m_fields->expand(index);
-    m_fields->scrollTo(index, m_document->itemOf(node) == node ? QAbstractItemView::PositionAtTop
-                                                               : QAbstractItemView::PositionAtCenter);
+    // Not shown where only differences are, and it has none: its bytes are there all the same.
+    if (const QModelIndex index = m_model.indexOf(node); index.isValid()) {
+        m_fields->expand(index);
+        m_fields->scrollTo(index, m_document->itemOf(node) == node ? QAbstractItemView::PositionAtTop
+                                                                   : QAbstractItemView::PositionAtCenter);
+    }
     describeCurrent();
     m_bytes->scrollTo(rangeOf(*m_document, node).begin);
 }

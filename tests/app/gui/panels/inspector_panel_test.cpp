@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/inspector_panel.h"
+
+#include "tests/app/gui/models/stage.h"
+
+#include <QTest>
+
+namespace posewire::gui {
+namespace {
+
+class InspectorPanelTest : public testing::Test {
+protected:
+    static constexpr std::uint32_t kFirstSegment = 24; // after the header
+    static constexpr std::uint32_t kSegmentSize = 32;  // of a type 02
+
+    InspectorPanelTest() {
+        m_panel.resize(420, 900);
+        m_panel.setVisible(true);
+        performer::Performer performer(sending(1, {2}));
+        m_stage.perform(performer, 0, 3);
+        refresh();
+        m_stage.commands.selectPacket(1);
+        refresh();
+    }
+    void refresh() {
+        m_stage.follow();
+        m_panel.refresh();
+    }
+    void selectSegment(int segment) {
+        model::Selection selection = m_stage.session.selection();
+        selection.segment = segment;
+        m_stage.commands.select(selection);
+        refresh();
+    }
+    static ByteRange bytesOf(int segment) {
+        const std::uint32_t begin = kFirstSegment + static_cast<std::uint32_t>(segment) * kSegmentSize;
+        return {begin, begin + kSegmentSize};
+    }
+    [[nodiscard]] FieldView& fields() { return *m_panel.findChild<FieldView*>(); }
+    [[nodiscard]] ByteView& bytes() { return *m_panel.findChild<ByteView*>(); }
+
+    Stage m_stage;
+    InspectorPanel m_panel{m_stage.session, m_stage.commands, nullptr};
+};
+
+TEST_F(InspectorPanelTest, MarksTheBytesOfASegmentThatWasPickedElsewhere) {
+    selectSegment(6);
+    EXPECT_EQ(bytes().selected(), bytesOf(6));
+    selectSegment(14);
+    EXPECT_EQ(bytes().selected(), bytesOf(14));
+}
+
+TEST_F(InspectorPanelTest, PickingAByteSelectsItsFieldAndSegment) {
+    const std::uint32_t offset = bytesOf(4).begin + 9; // the second coordinate of the position
+    bytes().scrollTo(offset);
+    QTest::mouseClick(bytes().viewport(), Qt::LeftButton, {}, bytes().centreOf(offset));
+    EXPECT_EQ(bytes().selected(), (ByteRange{offset - 1, offset + 3}));
+    EXPECT_EQ(m_stage.session.selection().segment, 4);
+    EXPECT_TRUE(fields().currentIndex().isValid());
+}
+
+TEST_F(InspectorPanelTest, ComparesTwoPacketsOfOneType) {
+    m_panel.setReference();
+    m_stage.commands.selectPacket(2);
+    refresh();
+    m_panel.compare(InspectorPanel::Comparison::Reference);
+    const auto& model = *qobject_cast<FieldModel*>(fields().model());
+    ASSERT_NE(model.other(), nullptr);
+    EXPECT_EQ(model.other()->number(), 1U);
+    EXPECT_GT(model.differences(), 0U);
+}
+
+TEST_F(InspectorPanelTest, ShowsBytesOfASegmentAlsoWhereNoFieldDiffers) {
+    m_panel.setReference();
+    m_panel.compare(InspectorPanel::Comparison::Reference);
+    auto& model = *qobject_cast<FieldModel*>(fields().model());
+    model.setOnlyDifferences(true);
+    ASSERT_EQ(model.rowCount(), 0);
+    EXPECT_EQ(fields().emptyText(), "No field differs.");
+    selectSegment(9);
+    EXPECT_EQ(bytes().selected(), bytesOf(9));
+    m_panel.compare(InspectorPanel::Comparison::None);
+    EXPECT_EQ(model.document().node(fields().currentNode()).offset, bytesOf(9).begin);
+}
+
+} // namespace
+} // namespace posewire::gui
