@@ -80,6 +80,7 @@ private:
     void offerHistory();
     void offer();
     void insertOffer(const QModelIndex& offer);
+    void takeOffer();
     void showSaved();
     void saveCurrent();
     void askAbout(std::size_t index, const QPoint& place);

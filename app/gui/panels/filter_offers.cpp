@@ -45,6 +45,8 @@ void FilterBar::makeCompleter() {
     m_completer->setPopup(list);
     list->setItemDelegate(new CellDelegate(list));
     list->setUniformItemSizes(true);
+    list->setProperty("popup", true);
+    list->installEventFilter(this); // after the completer, so before it
     connect(m_completer, qOverload<const QModelIndex&>(&QCompleter::activated), this,
             &FilterBar::insertOffer);
 }
@@ -80,8 +82,21 @@ void FilterBar::offer() {
         m_completer->popup()->hide();
         return;
     }
-    m_completer->popup()->setFont(monospaceFont());
-    m_completer->complete();
+    QAbstractItemView* list = m_completer->popup();
+    list->setFont(monospaceFont());
+    const int wanted = list->sizeHintForColumn(0) + 2 * m_line->fontMetrics().height();
+    const int room = window()->mapToGlobal(window()->rect().topRight()).x() -
+                     m_line->mapToGlobal(QPoint(0, 0)).x();
+    QRect place = m_line->rect();
+    place.setWidth(std::max(place.width(), std::min(wanted, room)));
+    m_completer->complete(place);
+}
+
+/// Tab takes what is chosen, or else the first.
+void FilterBar::takeOffer() {
+    const QModelIndex current = m_completer->popup()->currentIndex();
+    m_completer->popup()->hide();
+    insertOffer(current.isValid() ? current : m_offers->index(0, 0));
 }
 
 void FilterBar::insertOffer(const QModelIndex& offer) {
@@ -96,6 +111,11 @@ void FilterBar::insertOffer(const QModelIndex& offer) {
 }
 
 bool FilterBar::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == m_completer->popup() && event->type() == QEvent::KeyPress &&
+        static_cast<QKeyEvent*>(event)->key() == Qt::Key_Tab) {
+        takeOffer();
+        return true;
+    }
     if (watched == m_line && event->type() == QEvent::KeyPress && !m_completer->popup()->isVisible()) {
         const int key = static_cast<QKeyEvent*>(event)->key();
         if (key == Qt::Key_Down) {

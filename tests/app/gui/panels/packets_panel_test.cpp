@@ -119,6 +119,19 @@ TEST_F(PacketsPanelTest, FilterLineSaysWhatIsWrongAndWhere) {
     EXPECT_EQ(bar().history(), QStringList("type == 02 && gap > 0"));
 }
 
+TEST_F(PacketsPanelTest, TabTakesTheFirstCompletion) {
+    auto* line = m_panel.findChild<QLineEdit*>("displayFilter");
+    m_panel.activateWindow();
+    line->setFocus();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
+    QTest::keyClicks(line, "type == 02 && ga");
+    QWidget* offers = QApplication::activePopupWidget();
+    ASSERT_NE(offers, nullptr);
+    QTest::keyClick(offers, Qt::Key_Tab);
+    EXPECT_EQ(line->text(), "type == 02 && gap");
+    EXPECT_TRUE(line->hasFocus());
+}
+
 TEST_F(PacketsPanelTest, ShippedFiltersAreRight) {
     ASSERT_EQ(bar().saved().size(), 3U);
     for (const FilterBar::Saved& saved : bar().saved()) {
