@@ -50,38 +50,51 @@ public:
 
     /// Kept free of labels.
     void reserve(const QRectF& rect) { m_taken.push_back(rect); }
+    /// Kept free where a label has room elsewhere.
+    void spare(const QRectF& rect) { m_spared.push_back(rect); }
 
-    bool add(const QPointF& mark, const QString& text, const QColor& colour) {
+    /// Beside the mark, away from the body's middle (pixels) where there is room.
+    bool add(const QPointF& mark, const QString& text, const QColor& colour, double middle) {
         const QFontMetricsF metrics(m_painter.font());
         const QSizeF size(metrics.horizontalAdvance(text), metrics.height());
         const double away = kSegmentRadius + 3;
-        const std::array places{QPointF(away, -size.height() / 2),
-                                QPointF(-away - size.width(), -size.height() / 2),
-                                QPointF(-size.width() / 2, -away - size.height()),
+        double outward = away;
+        double inward = -away - size.width();
+        if (mark.x() < middle - 1) {
+            std::swap(outward, inward);
+        }
+        const double above = -size.height() - away;
+        const std::array places{QPointF(outward, -size.height() / 2),
+                                QPointF(-size.width() / 2, above),
                                 QPointF(-size.width() / 2, away),
-                                QPointF(away, -size.height() - away),
-                                QPointF(away, away),
-                                QPointF(-away - size.width(), -size.height() - away),
-                                QPointF(-away - size.width(), away)};
-        for (const QPointF& place : places) {
-            const QRectF rect(mark + place, size);
-            const bool isFree =
-                m_room.contains(rect) &&
-                std::ranges::none_of(m_taken, [&](const QRectF& other) { return other.intersects(rect); });
-            if (isFree) {
-                m_taken.push_back(rect.adjusted(-3, 0, 3, 0));
-                m_painter.setPen(colour);
-                m_painter.drawText(rect, Qt::AlignCenter | Qt::TextDontClip, text);
-                return true;
+                                QPointF(inward, -size.height() / 2),
+                                QPointF(outward, above),
+                                QPointF(outward, away),
+                                QPointF(inward, above),
+                                QPointF(inward, away)};
+        for (const bool isSparing : {true, false}) {
+            for (const QPointF& place : places) {
+                const QRectF rect(mark + place, size);
+                if (m_room.contains(rect) && !hits(m_taken, rect) && !(isSparing && hits(m_spared, rect))) {
+                    m_taken.push_back(rect.adjusted(-3, 0, 3, 0));
+                    m_painter.setPen(colour);
+                    m_painter.drawText(rect, Qt::AlignCenter | Qt::TextDontClip, text);
+                    return true;
+                }
             }
         }
         return false;
     }
 
 private:
+    static bool hits(const std::vector<QRectF>& others, const QRectF& rect) {
+        return std::ranges::any_of(others, [&](const QRectF& other) { return other.intersects(rect); });
+    }
+
     QPainter& m_painter;
     QRectF m_room;
     std::vector<QRectF> m_taken;
+    std::vector<QRectF> m_spared;
 };
 
 NullPoseFigure::NullPoseFigure(const NullPoseReading& reading, QWidget* parent)
@@ -217,7 +230,7 @@ void NullPoseFigure::reserveBones(const Projection& projection, Labels& labels) 
             for (int step = 0; to && from && step < kSteps; ++step) {
                 const double share = (step + 0.5) / kSteps;
                 const QPointF middle = projection.of(*from + share * (*to - *from), view);
-                labels.reserve(QRectF(middle - QPointF(1.5, 1.5), QSizeF(3, 3)));
+                labels.reserve(QRectF(middle - QPointF(2.5, 2.5), QSizeF(5, 5)));
             }
         }
     }
@@ -306,14 +319,22 @@ void NullPoseFigure::paintLabels(QPainter& painter, const Projection& projection
                 QRectF(projection.of(*place, view) - QPointF(side / 2, side / 2), QSizeF(side, side)));
         }
     }
+    for (int i = 0; i < static_cast<int>(pose.points.size()); ++i) {
+        if (const auto place = pointAt(i)) {
+            const double side = 2 * kPointRadius;
+            labels.spare(
+                QRectF(projection.of(*place, view) - QPointF(side / 2, side / 2), QSizeF(side, side)));
+        }
+    }
+    const double middle = (view == View::Front ? projection.front : projection.side).x();
     const QFont plain = painter.font();
     QFont bold = plain;
     bold.setBold(true);
     painter.setFont(bold);
     if (point) {
-        labels.add(projection.of(*point, view), nameOf({-1, m_point}), theme().accent);
+        labels.add(projection.of(*point, view), nameOf({-1, m_point}), theme().accent, middle);
     } else if (segment) {
-        labels.add(projection.of(*segment, view), nameOf({m_segment, -1}), theme().accent);
+        labels.add(projection.of(*segment, view), nameOf({m_segment, -1}), theme().accent, middle);
     }
     painter.setFont(plain);
     if (view == View::Side) {
@@ -324,13 +345,14 @@ void NullPoseFigure::paintLabels(QPainter& painter, const Projection& projection
         const auto place = pointAt(i);
         if (place && i != m_point && pose.points[static_cast<std::size_t>(i)].segment == selectedId) {
             labels.add(projection.of(*place, view),
-                       QString::fromStdString(pose.points[static_cast<std::size_t>(i)].name), theme().text);
+                       QString::fromStdString(pose.points[static_cast<std::size_t>(i)].name), theme().text,
+                       middle);
         }
     }
     for (int i = 0; i < static_cast<int>(pose.segments.size()); ++i) {
         const auto place = i == m_segment ? std::nullopt : segmentAt(i);
         if (place) {
-            labels.add(projection.of(*place, view), QString::number(i + 1), theme().dim);
+            labels.add(projection.of(*place, view), QString::number(i + 1), theme().dim, middle);
         }
     }
 }
