@@ -65,7 +65,7 @@ void Detector::addHeader(const wire::Header& header) {
         m_typeSinceJ = type;
     }
     if (isCounted) {
-        conclude(Revision::N, "header has counts and payload size");
+        conclude(Revision::N, "counts in its header");
     } else if (type == wire::NullPose::kType || type >= wire::JointAngles::kType) {
         conclude(Revision::JOrK, "type 13 or 20 to 25 with a reserved header");
     } else if (type == wire::ScaleInformation::kType || type == wire::PropInformation::kType ||

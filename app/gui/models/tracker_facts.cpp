@@ -18,11 +18,12 @@ QString tr(const char* text) {
 
 /// Components in columns of equal width, so that they do not dance.
 QString components(std::span<const float> values, int decimals) {
-    QString text;
+    constexpr qsizetype kWidest = 6; // "−0.276", "−180.0", "−39.24"
+    QStringList texts;
     for (const float value : values) {
-        text += fixed(value, decimals).rightJustified(text.isEmpty() ? 0 : decimals + 6, QChar(0x2007));
+        texts += fixed(value, decimals).rightJustified(texts.isEmpty() ? 0 : kWidest, QChar(0x2007));
     }
-    return text;
+    return texts.join(QLatin1Char(' '));
 }
 
 PropertyValue orientation(const TrackerModel&, const wire::Tracker& tracker) {
