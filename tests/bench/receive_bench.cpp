@@ -14,8 +14,6 @@
 #include <QCoreApplication>
 
 #include <poll.h>
-#include <pthread.h>
-#include <sched.h>
 
 #include <atomic>
 #include <cstring>
@@ -28,7 +26,6 @@ using namespace posewire::bench;
 
 constexpr double kLimit = 1.3;
 constexpr std::size_t kBacklog = 1200; ///< fits into the socket's buffer
-constexpr std::size_t kBatch = 32;
 
 struct Plan {
     int drainRuns = 15;
@@ -36,44 +33,6 @@ struct Plan {
     int liveRuns = 25;
     double liveSeconds = 0.5;
     std::size_t memoryCap = std::size_t{512} << 20;
-};
-
-/// recvmmsg into the same few buffers again and again; if asked to, with what no receiver can do without: who
-/// sent it and when.
-class BareLoop {
-public:
-    explicit BareLoop(bool hasSenderAndStamp) : m_hasSenderAndStamp(hasSenderAndStamp) {
-        for (std::size_t i = 0; i < kBatch; ++i) {
-            m_parts[i] = {m_bytes[i].data(), m_bytes[i].size()};
-            m_messages[i].msg_hdr.msg_iov = &m_parts[i];
-            m_messages[i].msg_hdr.msg_iovlen = 1;
-        }
-    }
-    std::size_t drain(int descriptor) {
-        std::size_t total = 0;
-        while (true) {
-            for (std::size_t i = 0; m_hasSenderAndStamp && i < kBatch; ++i) {
-                msghdr& header = m_messages[i].msg_hdr;
-                header.msg_name = &m_senders[i];
-                header.msg_namelen = sizeof m_senders[i];
-                header.msg_control = m_controls[i].data();
-                header.msg_controllen = m_controls[i].size();
-            }
-            const int count = ::recvmmsg(descriptor, m_messages.data(), kBatch, MSG_DONTWAIT, nullptr);
-            total += count > 0 ? static_cast<std::size_t>(count) : 0;
-            if (count < static_cast<int>(kBatch)) {
-                return total;
-            }
-        }
-    }
-
-private:
-    bool m_hasSenderAndStamp;
-    std::array<sockaddr_in6, kBatch> m_senders{};
-    std::array<std::array<std::byte, 64>, kBatch> m_controls{};
-    std::array<std::array<std::byte, 2304>, kBatch> m_bytes{};
-    std::array<iovec, kBatch> m_parts{};
-    std::array<mmsghdr, kBatch> m_messages{};
 };
 
 /// Everything a receive loop needs, with a log that lives from round to round.
@@ -136,28 +95,6 @@ double drainOurs(Bench& bench, int rounds) {
         cpu += threadCpuSeconds() - begin;
     }
     return cpu * 1e9 / static_cast<double>(bench.counters.datagrams - before);
-}
-
-/// Keeps the calling thread on the first or the last processor that this program may use. Left to the
-/// scheduler, a loop that waits for its socket runs beside the sender, in warm caches, and one that naps on a
-/// processor that sleeps: the figures would compare processors and not loops.
-void stayOn(bool isLast) {
-    // Asked for once, by the first thread: the others inherit what it is kept on.
-    static const cpu_set_t allowed = [] {
-        cpu_set_t set;
-        ::sched_getaffinity(0, sizeof set, &set);
-        return set;
-    }();
-    int chosen = -1;
-    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
-        if (CPU_ISSET(cpu, &allowed) && (chosen < 0 || isLast)) {
-            chosen = cpu;
-        }
-    }
-    cpu_set_t one;
-    CPU_ZERO(&one);
-    CPU_SET(chosen, &one);
-    ::pthread_setaffinity_np(::pthread_self(), sizeof one, &one);
 }
 
 /// CPU nanoseconds a datagram of a thread that receives 24,000 a second in bursts each millisecond.

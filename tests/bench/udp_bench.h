@@ -2,6 +2,8 @@
 #pragma once
 
 #include <netinet/in.h>
+#include <pthread.h>
+#include <sched.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -13,12 +15,14 @@
 #include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <span>
 #include <vector>
 
 /// What the receive benchmarks share: clocks, a plain socket, a sender that costs little.
 namespace posewire::bench {
 
 inline constexpr std::size_t kDatagramSize = 760; ///< a pose of 23 segments
+inline constexpr std::size_t kBatch = 32;         ///< datagrams to a system call
 inline constexpr int kReceiveBuffer = 4 << 20;
 
 inline double seconds(clockid_t clock) {
@@ -76,11 +80,80 @@ private:
     std::uint16_t m_port = 0;
 };
 
-/// Sends numbered datagrams of 760 bytes, 32 with a system call.
+/// recvmmsg into the same few buffers again and again; if asked to, with what no receiver can do without: who
+/// sent it and when.
+class BareLoop {
+public:
+    explicit BareLoop(bool hasSenderAndStamp) : m_hasSenderAndStamp(hasSenderAndStamp) {
+        for (std::size_t i = 0; i < kBatch; ++i) {
+            m_parts[i] = {m_bytes[i].data(), m_bytes[i].size()};
+            m_messages[i].msg_hdr.msg_iov = &m_parts[i];
+            m_messages[i].msg_hdr.msg_iovlen = 1;
+        }
+    }
+    std::size_t drain(int descriptor) {
+        std::size_t total = 0;
+        while (true) {
+            for (std::size_t i = 0; m_hasSenderAndStamp && i < kBatch; ++i) {
+                msghdr& header = m_messages[i].msg_hdr;
+                header.msg_name = &m_senders[i];
+                header.msg_namelen = sizeof m_senders[i];
+                header.msg_control = m_controls[i].data();
+                header.msg_controllen = m_controls[i].size();
+            }
+            const int count = ::recvmmsg(descriptor, m_messages.data(), kBatch, MSG_DONTWAIT, nullptr);
+            total += count > 0 ? static_cast<std::size_t>(count) : 0;
+            if (count < static_cast<int>(kBatch)) {
+                return total;
+            }
+        }
+    }
+
+private:
+    bool m_hasSenderAndStamp;
+    std::array<sockaddr_in6, kBatch> m_senders{};
+    std::array<std::array<std::byte, 64>, kBatch> m_controls{};
+    std::array<std::array<std::byte, 2304>, kBatch> m_bytes{};
+    std::array<iovec, kBatch> m_parts{};
+    std::array<mmsghdr, kBatch> m_messages{};
+};
+
+/// Keeps the calling thread on the first or the last processor that this program may use. Left to the
+/// scheduler, a loop that waits for its socket runs beside the sender, in warm caches, and one that naps on a
+/// processor that sleeps: the figures would compare processors and not loops.
+inline void stayOn(bool isLast) {
+    // Asked for once, by the first thread: the others inherit what it is kept on.
+    static const cpu_set_t allowed = [] {
+        cpu_set_t set;
+        ::sched_getaffinity(0, sizeof set, &set);
+        return set;
+    }();
+    int chosen = -1;
+    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+        if (CPU_ISSET(cpu, &allowed) && (chosen < 0 || isLast)) {
+            chosen = cpu;
+        }
+    }
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(chosen, &one);
+    ::pthread_setaffinity_np(::pthread_self(), sizeof one, &one);
+}
+
+/// Writes the number of a datagram into its bytes.
+using Numbering = void (*)(std::span<std::byte, kDatagramSize> bytes, std::uint64_t number);
+
+inline void numberAtBegin(std::span<std::byte, kDatagramSize> bytes, std::uint64_t number) {
+    std::memcpy(bytes.data(), &number, sizeof number);
+}
+
+/// Sends numbered datagrams of 760 bytes, many with a system call.
 class LoopbackSender {
 public:
-    explicit LoopbackSender(std::uint16_t port)
-        : m_descriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+    explicit LoopbackSender(std::uint16_t port, std::array<std::byte, kDatagramSize> bytes = {},
+                            Numbering numbering = numberAtBegin)
+        : m_descriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0)), m_numbering(numbering) {
+        m_bytes.fill(bytes);
         const sockaddr_in address = loopback(port);
         if (::connect(m_descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
             std::perror("connect");
@@ -100,7 +173,7 @@ public:
         while (count > 0) {
             const std::size_t batch = std::min(count, kBatch);
             for (std::size_t i = 0; i < batch; ++i, ++m_sent) {
-                std::memcpy(m_bytes[i].data(), &m_sent, sizeof m_sent);
+                m_numbering(m_bytes[i], m_sent);
             }
             for (std::size_t done = 0; done < batch;) {
                 const int sent =
@@ -128,9 +201,9 @@ public:
     [[nodiscard]] std::uint64_t sent() const { return m_sent; }
 
 private:
-    static constexpr std::size_t kBatch = 32;
     int m_descriptor;
-    std::uint64_t m_sent = 0; ///< each datagram begins with its number, from 0
+    Numbering m_numbering;
+    std::uint64_t m_sent = 0;
     std::array<std::array<std::byte, kDatagramSize>, kBatch> m_bytes{};
     std::array<iovec, kBatch> m_parts{};
     std::array<mmsghdr, kBatch> m_messages{};
