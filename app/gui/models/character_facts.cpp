@@ -85,14 +85,13 @@ PropertyValue nullPose(model::SessionView& view, const Key& key) {
     }
     const QString expected =
         pose->partsExpected == 0 ? QStringLiteral("?") : QString::number(pose->partsExpected);
-    const QString text = tr("%1/%2 parts · %3 points")
-                             .arg(pose->partsReceived)
-                             .arg(expected)
-                             .arg(pose->points.size());
-    return {text, pose->isComplete() ? Health::Good : Health::Warning,
-            tr("Datagrams of the scale message (type 13) received of those sent, with %1 segments; last at %2")
-                .arg(pose->segments.size())
-                .arg(timeOfDay(pose->stampNs))};
+    const QString text =
+        tr("%1/%2 parts · %3 points").arg(pose->partsReceived).arg(expected).arg(pose->points.size());
+    return {
+        text, pose->isComplete() ? Health::Good : Health::Warning,
+        tr("Datagrams of the scale message (type 13) received of those sent, with %1 segments; last at %2")
+            .arg(pose->segments.size())
+            .arg(timeOfDay(pose->stampNs))};
 }
 
 } // namespace
