@@ -22,7 +22,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, Q
     layout->addWidget(m_table);
     m_table->setModel(&m_model);
     m_table->setRootIsDecorated(true);
-    m_table->setColumnSamples({QString(), QStringLiteral("240/239.9"), QStringLiteral("■ 28 malformed")},
+    m_table->setColumnSamples({QString(), QStringLiteral("240/239.9"), QStringLiteral("▲ silent 0.9 s")},
                               QStringLiteral("    02 Pose, qu"));
     m_table->setEmptyText(
         tr("No character on the air.\nIn MVN: Options > Preferences > Network Streamer, add this "

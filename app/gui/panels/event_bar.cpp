@@ -101,7 +101,7 @@ void EventBar::addText() {
     m_text = new QLineEdit(this);
     m_text->setObjectName(QStringLiteral("eventText"));
     m_text->setAccessibleName(tr("Text that events must have"));
-    m_text->setPlaceholderText(tr("Filter by text"));
+    m_text->setPlaceholderText(tr("Filter"));
     m_text->setClearButtonEnabled(true);
     m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 12);
     m_text->installEventFilter(this);

@@ -79,6 +79,7 @@ void FilterBar::layOut() {
     row->setSpacing(6);
     row->addWidget(m_line, 1);
     row->addWidget(m_buttons);
+    m_line->setMinimumWidth(m_line->fontMetrics().averageCharWidth() * 26); // the buttons give way first
     m_buttons->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_buttons->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
     auto* cancel = new QPushButton(tr("Cancel"), m_progressRow);
