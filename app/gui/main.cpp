@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/icons.h"
-#include "app/gui/main_window.h"
+#include "app/gui/theme/icons.h"
+#include "app/gui/window/main_window.h"
 #include "app/gui/options.h"
-#include "app/gui/process_age.h"
+#include "app/gui/window/process_age.h"
 
 #include <QApplication>
 #include <QEvent>
@@ -83,6 +83,8 @@ void openSources(MainWindow& window, const Options& options) {
     if (!options.file.isEmpty()) {
         if (const QString problem = driver.openFile(options.file); !problem.isEmpty()) {
             window.say(problem);
+        } else if (options.seekSeconds) {
+            driver.seek(*options.seekSeconds);
         }
     }
 }

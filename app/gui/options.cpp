@@ -22,7 +22,7 @@ tl::unexpected<EarlyExit> wrong(const QString& text) {
 void describe(QCommandLineParser& parser) {
     parser.setApplicationDescription(tr("Network monitor for MVN motion-capture streams."));
     parser.setOptionsAfterPositionalArgumentsMode(QCommandLineParser::ParseAsOptions);
-    parser.addPositionalArgument(QStringLiteral("file"), tr("File of raw datagrams to look at."),
+    parser.addPositionalArgument(QStringLiteral("file"), tr("Recording to look at: pcap, pcapng, or datagrams back to back."),
                                  QStringLiteral("[FILE]"));
     parser.addOptions({
         {"udp", tr("Listen on a UDP port (repeatable; 9763 if nothing else is asked for)."),
@@ -32,6 +32,7 @@ void describe(QCommandLineParser& parser) {
         {"tcp", tr("Connect to a sender that listens (repeatable)."), "HOST:PORT"},
         {"demo", tr("Send walking characters to the listening port, by UDP on this computer; 2 unless told."),
          "CHARACTERS"},
+        {"seek", tr("Stop so many seconds after the beginning of FILE instead of at its end."), "SECONDS"},
         {"layout", tr("Begin with a layout: Check, Debug, Inspect, or a file."), "NAME|FILE"},
         {"reset-layout", tr("Forget where windows and docks were.")},
         {"settings", tr("Keep settings in this file."), "FILE"},
@@ -103,6 +104,36 @@ tl::expected<void, QString> readTheme(const QCommandLineParser& parser, Options&
     return {};
 }
 
+/// A time of up to a day; nothing where the option is not given.
+tl::expected<std::optional<double>, QString> readSeconds(const QCommandLineParser& parser,
+                                                         const QString& option) {
+    constexpr double kMostSeconds = 86'400;
+    if (!parser.isSet(option)) {
+        return std::nullopt;
+    }
+    bool isNumber = true;
+    const QString text = parser.value(option);
+    const double seconds = text.toDouble(&isNumber);
+    if (!isNumber || !(seconds >= 0 && seconds <= kMostSeconds)) {
+        return tl::unexpected(tr("--%1: '%2' is not a number of seconds.").arg(option, text));
+    }
+    return seconds;
+}
+
+tl::expected<void, QString> readTimes(const QCommandLineParser& parser, Options& options) {
+    const auto after = readSeconds(parser, QStringLiteral("after"));
+    const auto seek = readSeconds(parser, QStringLiteral("seek"));
+    if (!after || !seek) {
+        return tl::unexpected(after ? seek.error() : after.error());
+    }
+    if (*seek && parser.positionalArguments().isEmpty()) {
+        return tl::unexpected(tr("--seek needs a FILE."));
+    }
+    options.screenshotAfterSeconds = after->value_or(options.screenshotAfterSeconds);
+    options.seekSeconds = *seek;
+    return {};
+}
+
 tl::expected<void, QString> readNumbers(const QCommandLineParser& parser, Options& options) {
     bool isNumber = true;
     if (parser.isSet(QStringLiteral("demo"))) {
@@ -111,13 +142,6 @@ tl::expected<void, QString> readNumbers(const QCommandLineParser& parser, Option
         if (!isNumber || options.demoCharacters < 1 || options.demoCharacters > kMaxDemoCharacters) {
             return tl::unexpected(
                 tr("--demo: '%1' is not a number from 1 to %2.").arg(text).arg(kMaxDemoCharacters));
-        }
-    }
-    if (parser.isSet(QStringLiteral("after"))) {
-        const QString text = parser.value(QStringLiteral("after"));
-        options.screenshotAfterSeconds = text.toDouble(&isNumber);
-        if (!isNumber || !(options.screenshotAfterSeconds >= 0 && options.screenshotAfterSeconds <= 86'400)) {
-            return tl::unexpected(tr("--after: '%1' is not a number of seconds.").arg(text));
         }
     }
     if (parser.isSet(QStringLiteral("size"))) {
@@ -198,7 +222,7 @@ tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {
             EarlyExit{0, QStringLiteral("posewire %1\n").arg(QCoreApplication::applicationVersion())});
     }
     Options options;
-    for (const auto read : {readPorts, readTheme, readNumbers, readFiles}) {
+    for (const auto read : {readPorts, readTheme, readTimes, readNumbers, readFiles}) {
         if (const auto result = read(parser, options); !result) {
             return wrong(result.error());
         }

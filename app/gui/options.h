@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QSize>
 #include <QString>
@@ -48,6 +48,7 @@ struct Options {
     QString settingsFile; ///< empty for the user's own
     QString screenshotFile;
     double screenshotAfterSeconds = 3.0;
+    std::optional<double> seekSeconds; ///< from the beginning of the file
     QSize size;
     std::optional<ThemeChoice> theme;
     bool printsStartupTime = false;

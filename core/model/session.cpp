@@ -381,6 +381,21 @@ std::uint64_t Session::visibleEnd() const {
     return m_cursor.mode == Cursor::Mode::Following ? m_end : std::min(m_end, m_cursor.packet + 1);
 }
 
+std::uint64_t Session::packetAt(std::int64_t stampNs) const {
+    std::uint64_t first = m_begin;
+    std::uint64_t last = m_end;
+    while (first < last) {
+        const std::uint64_t middle = first + (last - first) / 2;
+        const auto packet = m_reader.packet(middle);
+        if (packet && packet->stampNs > stampNs) {
+            last = middle;
+        } else {
+            first = middle + 1;
+        }
+    }
+    return std::max(m_begin, first == 0 ? 0 : first - 1);
+}
+
 std::optional<std::int64_t> Session::pausedStampNs() const {
     return m_cursor.mode == Cursor::Mode::Paused ? std::optional(cursorStampNs()) : std::nullopt;
 }

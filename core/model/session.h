@@ -217,6 +217,9 @@ public:
     /// cursor.
     [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
 
+    /// The newest packet that had been received by then; the oldest there is where all came later.
+    [[nodiscard]] std::uint64_t packetAt(std::int64_t stampNs) const;
+
     /// Stamp that "now" means at the cursor: nowNs() when following, the packet's stamp when paused.
     [[nodiscard]] std::int64_t cursorStampNs() const;
 

@@ -6,7 +6,7 @@
 #include "app/gui/models/packet_filter_run.h"
 #include "app/gui/models/packet_model.h"
 #include "app/gui/panels/packet_view.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 #include "core/log/packet_log.h"
 #include "core/wire/codec.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 #include "core/model/session.h"
 
 #include <QString>

@@ -2,7 +2,7 @@
 #include "app/gui/models/null_pose_table.h"
 
 #include "app/gui/models/text.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <array>
 

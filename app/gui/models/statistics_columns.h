@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/models/columns.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 #include "core/model/range_figures.h"
 
 #include <QString>

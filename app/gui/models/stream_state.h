@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 #include "core/model/session.h"
 
 #include <QString>

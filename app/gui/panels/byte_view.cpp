@@ -2,7 +2,7 @@
 #include "app/gui/panels/byte_view.h"
 
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
 #include <QKeyEvent>

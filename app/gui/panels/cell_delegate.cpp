@@ -2,7 +2,7 @@
 #include "app/gui/panels/cell_delegate.h"
 
 #include "app/gui/models/roles.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QApplication>
 #include <QHeaderView>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/clock_widget.h"
 
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QKeyEvent>
 #include <QPainter>

@@ -3,7 +3,7 @@
 
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/line.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QActionGroup>
 #include <QHBoxLayout>

@@ -3,7 +3,7 @@
 
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QButtonGroup>
 #include <QEvent>

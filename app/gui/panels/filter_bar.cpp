@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
-#include "app/gui/icons.h"
+#include "app/gui/theme/icons.h"
 #include "app/gui/panels/text_prompt.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QAction>
 #include <QHBoxLayout>

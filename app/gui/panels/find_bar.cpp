@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/find_bar.h"
 
-#include "app/gui/icons.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/icons.h"
+#include "app/gui/theme/theme.h"
 
 #include <QComboBox>
 #include <QHBoxLayout>

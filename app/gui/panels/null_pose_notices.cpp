@@ -2,7 +2,7 @@
 #include "app/gui/panels/null_pose_notices.h"
 
 #include "app/gui/models/null_pose_facts.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QEvent>
 

@@ -3,7 +3,7 @@
 #include "app/gui/models/roles.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/packet_view.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QHeaderView>
 #include <QPaintEvent>

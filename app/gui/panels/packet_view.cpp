@@ -5,7 +5,7 @@
 #include "app/gui/models/roles.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
 #include <QHeaderView>

@@ -2,7 +2,7 @@
 #include "app/gui/panels/range_strip.h"
 
 #include "app/gui/models/text.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QHelpEvent>
 #include <QKeyEvent>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/tracker_plots.h"
 
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 
 #include <QVBoxLayout>
 #include <qcustomplot.h>

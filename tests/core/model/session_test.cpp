@@ -137,6 +137,18 @@ TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
     EXPECT_EQ(m_session.visit({source(), 0, 2}, 0, 2, [](const auto&) {}), 2U);
 }
 
+TEST_F(SessionTest, FindsThePacketOfATime) {
+    EXPECT_EQ(m_session.packetAt(kSecond), 0U) << "there is none";
+    for (std::uint32_t sample = 0; sample < 100; ++sample) {
+        send(standingAt(0), sample, kSecond + sample * 10 * kMillisecond);
+    }
+    follow();
+    EXPECT_EQ(m_session.packetAt(0), 0U);
+    EXPECT_EQ(m_session.packetAt(kSecond + 95 * kMillisecond), 9U);
+    EXPECT_EQ(m_session.packetAt(kSecond + 100 * kMillisecond), 10U);
+    EXPECT_EQ(m_session.packetAt(100 * kSecond), 99U);
+}
+
 TEST_F(SessionTest, TellsTheAgeOfACharacterAgainstTheGivenTime) {
     send(standingAt(0), 1, 1 * kSecond);
     m_session.follow(3 * kSecond + kSecond / 5);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/scene_builder.h"
-#include "app/gui/scene_upload.h"
+#include "app/gui/viewport/scene_builder.h"
+#include "app/gui/viewport/scene_upload.h"
 #include "core/log/packet_log.h"
 #include "core/performer/performer.h"
 #include "render/offscreen.h"

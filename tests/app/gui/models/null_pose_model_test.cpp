@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/null_pose_facts.h"
 #include "app/gui/models/null_pose_table.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>

@@ -2,7 +2,7 @@
 // Photographs every dock, empty and busy, in both themes and at two scales, into the folder `pictures` of the
 // build, for people to look at; checks what a machine can.
 #include "app/gui/panel.h"
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QApplication>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/alerts.h"
-#include "app/gui/health_bar.h"
-#include "app/gui/health_popup.h"
-#include "app/gui/report_saving.h"
-#include "app/gui/thresholds_dialog.h"
-#include "app/gui/trouble_line.h"
+#include "app/gui/window/alerts.h"
+#include "app/gui/window/health_bar.h"
+#include "app/gui/window/health_popup.h"
+#include "app/gui/window/report_saving.h"
+#include "app/gui/window/thresholds_dialog.h"
+#include "app/gui/window/trouble_line.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QDialogButtonBox>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/dock_layout.h"
+#include "app/gui/window/dock_layout.h"
 
 #include "app/gui/panel.h"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/main_window.h"
+#include "app/gui/window/main_window.h"
 
-#include "app/gui/actions.h"
-#include "app/gui/dock_layout.h"
-#include "app/gui/dock_title.h"
-#include "app/gui/transport_bar.h"
+#include "app/gui/window/actions.h"
+#include "app/gui/window/dock_layout.h"
+#include "app/gui/window/dock_title.h"
+#include "app/gui/window/transport_bar.h"
 
 #include <QDockWidget>
 #include <QLabel>

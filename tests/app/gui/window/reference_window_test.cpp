@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/reference_window.h"
+#include "app/gui/window/reference_window.h"
 
-#include "app/gui/theme.h"
+#include "app/gui/theme/theme.h"
 #include "core/wire/reference.h"
 #include "core/wire/reference_overview.h"
 #include "core/wire/type_table.h"

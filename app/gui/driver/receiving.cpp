@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/receiving.h"
+
+#include "app/gui/driver/raw_file_import.h"
+
+#include <QCoreApplication>
+#include <QFileInfo>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+using Kind = InputAddress::Kind;
+
+constexpr std::int64_t kRateWindowNs = 1'000'000'000;
+
+net::Endpoint endpointOf(const InputAddress& port) {
+    return {port.address.toStdString(), port.port};
+}
+
+net::UdpInput udpOf(const InputAddress& port) {
+    net::UdpInput input{endpointOf(port), {}};
+    for (const QString& group : port.groups) {
+        input.groups.push_back(group.toStdString());
+    }
+    return input;
+}
+
+/// Whether one keeps the other from being opened.
+bool useTheSame(const InputAddress& a, const InputAddress& b) {
+    const bool isWide = a.address.isEmpty() || b.address.isEmpty();
+    return a.kind == b.kind && a.port == b.port &&
+           (a.address == b.address || (isWide && a.kind != Kind::TcpConnect));
+}
+
+} // namespace
+
+void Receiving::addPort(const InputAddress& port) {
+    const auto known = std::ranges::find(m_state.ports, port, &PortState::port);
+    if (known != m_state.ports.end()) {
+        if (!known->id) {
+            open(*known);
+        }
+        return;
+    }
+    m_state.ports.push_back({port, {}});
+    open(m_state.ports.back());
+}
+
+bool Receiving::removePort(const InputAddress& port) {
+    const auto known = std::ranges::find(m_state.ports, port, &PortState::port);
+    if (known == m_state.ports.end()) {
+        return false;
+    }
+    if (known->id) {
+        m_receiver.remove(*known->id);
+        m_portTotals.erase(*known->id);
+    }
+    m_state.ports.erase(known);
+    return true;
+}
+
+void Receiving::open(PortState& state) {
+    net::NetResult<net::InputId> id;
+    switch (state.port.kind) {
+    case Kind::Udp:
+        id = m_receiver.addUdp(udpOf(state.port));
+        break;
+    case Kind::TcpListen:
+        id = m_receiver.addTcpListener(endpointOf(state.port));
+        break;
+    case Kind::TcpConnect:
+        id = m_receiver.addTcpConnection(endpointOf(state.port));
+        break;
+    }
+    state.problem = id ? QString() : QString::fromStdString(id.error().text);
+    if (id) {
+        state.id = *id;
+        readStatus();
+        state.port.port = state.status.endpoint.port; // where the system was to choose one
+    }
+}
+
+void Receiving::readStatus() {
+    for (net::InputStatus& status : m_receiver.inputs()) {
+        const auto state = std::ranges::find(m_state.ports, std::optional(status.id), &PortState::id);
+        if (state != m_state.ports.end()) {
+            const bool isRetrying = status.state == net::InputState::Retrying;
+            state->problem = isRetrying ? QString::fromStdString(status.text) : QString();
+            state->status = std::move(status);
+        }
+    }
+}
+
+QString Receiving::tryPort(const InputAddress& port) {
+    const auto same = std::ranges::find_if(
+        m_state.ports, [&](const PortState& state) { return useTheSame(state.port, port); });
+    if (same != m_state.ports.end()) {
+        return QCoreApplication::translate("Receiving", "%1 is there already.").arg(displayText(same->port));
+    }
+    m_state.ports.push_back({port, {}});
+    open(m_state.ports.back());
+    if (m_state.ports.back().id) {
+        return {};
+    }
+    const QString problem = m_state.ports.back().problem;
+    m_state.ports.pop_back();
+    return problem;
+}
+
+QString Receiving::changePort(const InputAddress& from, const InputAddress& to) {
+    const auto place = std::ranges::find(m_state.ports, from, &PortState::port);
+    if (place == m_state.ports.end()) {
+        return tryPort(to);
+    }
+    if (from == to) {
+        return {};
+    }
+    const auto row = place - m_state.ports.begin();
+    removePort(from); // first: the same port may be asked for with other groups
+    const QString problem = tryPort(to);
+    if (!problem.isEmpty()) {
+        addPort(from);
+    }
+    std::rotate(m_state.ports.begin() + row, m_state.ports.end() - 1, m_state.ports.end());
+    return problem;
+}
+
+void Receiving::retry() {
+    for (PortState& state : m_state.ports) {
+        if (!state.id) {
+            open(state);
+        }
+    }
+}
+
+QString Receiving::openFile(const QString& path) {
+    const QString problem = importRawFile(
+        path,
+        [this](std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival) {
+            m_receiver.submitWaiting(bytes, source, arrival);
+        },
+        m_clock.wallNs());
+    m_receiver.flush();
+    if (problem.isEmpty()) {
+        m_state.file = QFileInfo(path).fileName();
+    }
+    return problem;
+}
+
+void Receiving::measure(std::int64_t nowNs) {
+    readStatus();
+    const net::ReceiveTotals figures = m_receiver.totals();
+    m_state.kernelDropped = figures.kernelDropped + figures.queueDropped;
+    m_state.receiveBufferBytes = figures.receiveBufferBytes;
+    m_state.longestDelayNs = figures.longestDelayNs;
+    const Totals totals{nowNs, figures.datagrams, figures.bytes};
+    const Totals& before = oldest(m_totals, totals);
+    const double seconds = static_cast<double>(nowNs - before.stampNs) * 1e-9;
+    if (seconds > 0) {
+        m_state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
+        m_state.bytesPerSecond = static_cast<double>(totals.bytes - before.bytes) / seconds;
+    }
+    measurePorts(nowNs);
+    m_relaying.measure(openInputs());
+    m_state.relays = m_relaying.states();
+}
+
+const Receiving::Totals& Receiving::oldest(Window& window, const Totals& totals) {
+    window.push_back(totals);
+    while (window.size() > 2 && window[1].stampNs <= totals.stampNs - kRateWindowNs) {
+        window.pop_front();
+    }
+    return window.front();
+}
+
+void Receiving::measurePorts(std::int64_t nowNs) {
+    for (PortState& state : m_state.ports) {
+        if (!state.id) {
+            state.datagramsPerSecond = 0;
+            continue;
+        }
+        const Totals totals{nowNs, state.status.datagrams, state.status.bytes};
+        const Totals& before = oldest(m_portTotals[*state.id], totals);
+        const double seconds = static_cast<double>(nowNs - before.stampNs) * 1e-9;
+        if (seconds > 0) {
+            state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
+        }
+    }
+}
+
+std::vector<net::InputStatus> Receiving::openInputs() const {
+    std::vector<net::InputStatus> inputs;
+    for (const PortState& state : m_state.ports) {
+        if (state.id) {
+            inputs.push_back(state.status);
+        }
+    }
+    return inputs;
+}
+
+SourceChoices Receiving::choices() const {
+    SourceChoices choices{std::vector<InputAddress>{}, {}};
+    for (const PortState& state : m_state.ports) {
+        choices.inputs->push_back(state.port);
+    }
+    for (const RelayState& relay : m_relaying.states()) {
+        choices.relays.push_back(relay.target);
+    }
+    return choices;
+}
+
+std::uint16_t Receiving::openPort() const {
+    const auto open = std::ranges::find_if(
+        m_state.ports, [](const PortState& state) { return state.id && state.port.kind == Kind::Udp; });
+    return open == m_state.ports.end() ? std::uint16_t{0} : open->port.port;
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/relaying.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace posewire::gui {
+
+namespace {
+
+template <typename T>
+bool isReady(const std::future<T>& answer) {
+    return answer.valid() && answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+bool hearTheSame(const std::vector<net::InputStatus>& a, const std::vector<net::InputStatus>& b) {
+    return std::ranges::equal(a, b, {}, &net::InputStatus::id, &net::InputStatus::id);
+}
+
+} // namespace
+
+Relaying::~Relaying() {
+    for (Work& work : m_work) {
+        m_abandoned.push_back(std::move(work.answer));
+    }
+    for (const Answer& answer : m_abandoned) {
+        if (answer.valid()) {
+            answer.wait();
+        }
+    }
+}
+
+bool Relaying::add(const RelayChoice& choice) {
+    const auto isSame = [&](const RelayState& state) {
+        return state.target.host == choice.host && state.target.port == choice.port;
+    };
+    if (std::ranges::any_of(m_states, isSame)) {
+        return false;
+    }
+    m_states.push_back({choice});
+    m_work.emplace_back();
+    if (choice.isOn) {
+        begin(m_states.size() - 1);
+    }
+    return true;
+}
+
+void Relaying::remove(std::size_t row) {
+    stop(row);
+    m_states.erase(m_states.begin() + static_cast<std::ptrdiff_t>(row));
+    m_work.erase(m_work.begin() + static_cast<std::ptrdiff_t>(row));
+}
+
+void Relaying::setOn(std::size_t row, bool isOn) {
+    if (m_states[row].target.isOn == isOn) {
+        return;
+    }
+    m_states[row].target.isOn = isOn;
+    if (isOn) {
+        begin(row);
+    } else {
+        stop(row);
+    }
+}
+
+void Relaying::begin(std::size_t row) {
+    if (!m_relay) {
+        m_relay = std::make_unique<net::Relay>(m_log, m_clock);
+    }
+    RelayState& state = m_states[row];
+    state.stage = RelayState::Stage::LookingUp;
+    state.problem.clear();
+    m_work[row].answer = std::async(
+        std::launch::async, [&relay = *m_relay, inputs = m_inputs,
+                             target = net::Endpoint{state.target.host.toStdString(), state.target.port}] {
+            return relay.add(target, inputs);
+        });
+}
+
+void Relaying::stop(std::size_t row) {
+    readCounters();
+    Work& work = m_work[row];
+    if (work.id) {
+        m_relay->remove(*work.id);
+        work.id.reset();
+        work.before = m_states[row];
+    } else if (work.answer.valid()) {
+        m_abandoned.push_back(std::move(work.answer));
+        work.answer = {};
+    }
+    m_states[row].stage = RelayState::Stage::Off;
+    m_states[row].problem.clear();
+}
+
+void Relaying::measure(const std::vector<net::InputStatus>& inputs) {
+    dropAbandoned();
+    takeAnswers();
+    readCounters();
+    heedInputs(inputs);
+}
+
+void Relaying::dropAbandoned() {
+    std::erase_if(m_abandoned, [this](Answer& answer) {
+        if (!isReady(answer)) {
+            return false;
+        }
+        if (const auto id = answer.get()) {
+            m_relay->remove(*id);
+        }
+        return true;
+    });
+}
+
+void Relaying::takeAnswers() {
+    for (std::size_t row = 0; row < m_states.size(); ++row) {
+        if (!isReady(m_work[row].answer)) {
+            continue;
+        }
+        const auto id = m_work[row].answer.get();
+        RelayState& state = m_states[row];
+        state.stage = id ? RelayState::Stage::Forwarding : RelayState::Stage::Refused;
+        if (id) {
+            m_work[row].id = *id;
+        } else {
+            state.problem = QString::fromStdString(id.error().text);
+        }
+    }
+}
+
+void Relaying::readCounters() {
+    if (!m_relay) {
+        return;
+    }
+    const std::vector<net::RelayTarget> targets = m_relay->targets();
+    for (std::size_t row = 0; row < m_states.size(); ++row) {
+        const Work& work = m_work[row];
+        const auto target = std::ranges::find(
+            targets, work.id, [](const net::RelayTarget& each) { return std::optional(each.id); });
+        if (target == targets.end()) {
+            continue;
+        }
+        RelayState& state = m_states[row];
+        state.sent = work.before.sent + target->sent;
+        state.refused = work.before.refused + target->refused;
+        state.skipped = work.before.skipped + target->skipped;
+        state.problem = QString::fromStdString(target->problem);
+    }
+}
+
+void Relaying::heedInputs(const std::vector<net::InputStatus>& inputs) {
+    if (hearTheSame(inputs, m_inputs)) {
+        return;
+    }
+    m_inputs = inputs;
+    for (std::size_t row = 0; row < m_states.size(); ++row) {
+        Work& work = m_work[row];
+        if (work.id) {
+            if (const auto problem = m_relay->problemWith(*work.id, inputs)) {
+                stop(row);
+                m_states[row].stage = RelayState::Stage::Refused;
+                m_states[row].problem = QString::fromStdString(problem->text);
+            }
+        } else if (work.answer.valid()) {
+            m_abandoned.push_back(std::move(work.answer)); // it was asked about other inputs
+            begin(row);
+        } else if (m_states[row].stage == RelayState::Stage::Refused) {
+            begin(row);
+        }
+    }
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/relay_model.h"
+#include "app/gui/driver/relaying.h"
+
+#include <QWidget>
+
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace posewire::gui {
+
+class TableView;
+
+/// The hosts that every datagram is forwarded to, with what they got; adds, switches and removes them.
+class RelayPage final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit RelayPage(Relaying& relaying, QWidget* parent = nullptr);
+
+    void refresh();
+
+    // What the buttons do.
+    void submit();
+    void removeSelected();
+
+    [[nodiscard]] QLineEdit& targetEdit() const { return *m_target; }
+    [[nodiscard]] const QString& problem() const { return m_problem; }
+    [[nodiscard]] RelayModel& model() const { return *m_model; }
+
+signals:
+    void choicesChanged();
+    void copyRequested(const QString& text);
+
+protected:
+    void keyPressEvent(QKeyEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void layOut();
+    void switchTarget(int row, bool isOn);
+    void setProblem(const QString& problem);
+    void showNote();
+
+    Relaying& m_relaying;
+    RelayModel* m_model;
+    TableView* m_table;
+    QLineEdit* m_target;
+    QLabel* m_note;
+    QPushButton* m_add;
+    QPushButton* m_remove;
+    QString m_problem;
+};
+
+/// "HOST:PORT", "HOST" for the port that MVN uses, "[IPv6]:PORT"; the error is a sentence.
+[[nodiscard]] tl::expected<RelayChoice, QString> readRelay(const QString& text);
+
+} // namespace posewire::gui

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/camera_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr double kRadiansPerPixel = 0.007;
+constexpr double kZoomPerStep = 0.88;
+/// Time in which the camera makes good two thirds of what it lags behind.
+constexpr double kFollowSeconds = 0.7;
+/// It comes closer only when the characters have gathered in less than this share of the picture.
+constexpr float kTooFar = 1.12F;
+
+/// Share of the picture's half width and height that is filled.
+constexpr float kFilled = 0.86F;
+constexpr int kFitRounds = 8;
+
+struct ScreenBox {
+    glm::vec2 least{std::numeric_limits<float>::max()};
+    glm::vec2 most{std::numeric_limits<float>::lowest()};
+    bool isAllInFront = true;
+};
+
+ScreenBox screenBox(const render::Camera& camera, std::span<const render::Bounds> boxes, float aspect) {
+    ScreenBox box;
+    for (const render::Bounds& bounds : boxes) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 point((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
+                                  (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                                  (corner & 4) != 0 ? bounds.max.z : bounds.min.z);
+            const auto place = camera.project(point, aspect);
+            box.isAllInFront = box.isAllInFront && place.has_value();
+            if (place) {
+                box.least = glm::min(box.least, *place);
+                box.most = glm::max(box.most, *place);
+            }
+        }
+    }
+    return box;
+}
+
+} // namespace
+
+render::Camera fitted(render::Camera camera, std::span<const render::Bounds> boxes, float aspect) {
+    render::Bounds all;
+    for (const render::Bounds& box : boxes) {
+        if (!box.isEmpty()) {
+            all.add(box);
+        }
+    }
+    if (all.isEmpty()) {
+        return camera;
+    }
+    // From a place that surely sees everything, a few steps of moving to the middle and closer.
+    camera.frame(all, aspect);
+    for (int round = 0; round < kFitRounds; ++round) {
+        const ScreenBox box = screenBox(camera, boxes, aspect);
+        if (!box.isAllInFront) {
+            break;
+        }
+        const float halfHeight = camera.distance * std::tan(camera.verticalFov / 2);
+        const glm::vec2 middle = 0.5F * (box.least + box.most);
+        camera.target += halfHeight * (middle.x * aspect * camera.right() + middle.y * camera.up());
+        const glm::vec2 half = 0.5F * (box.most - box.least);
+        camera.zoom(std::max(half.x, half.y) / kFilled);
+    }
+    return camera;
+}
+
+glm::vec2 screenPoint(const QPointF& pointer, const QSizeF& view) {
+    return {static_cast<float>(2 * pointer.x() / view.width() - 1),
+            static_cast<float>(1 - 2 * pointer.y() / view.height())};
+}
+
+QPointF pointerAt(const glm::vec2& screen, const QSizeF& view) {
+    return {(static_cast<double>(screen.x) + 1) / 2 * view.width(),
+            (1 - static_cast<double>(screen.y)) / 2 * view.height()};
+}
+
+void CameraMotion::orbit(const QPointF& movement) {
+    m_camera.orbit(static_cast<float>(-movement.x() * kRadiansPerPixel),
+                   static_cast<float>(movement.y() * kRadiansPerPixel));
+}
+
+void CameraMotion::pan(const QPointF& movement, const QSizeF& view) {
+    m_camera.pan({static_cast<float>(movement.x() / view.height()),
+                  static_cast<float>(-movement.y() / view.height())});
+    m_isFollowing = false;
+}
+
+void CameraMotion::zoom(double steps, const QPointF& pointer, const QSizeF& view) {
+    const float before = m_camera.distance;
+    m_camera.zoom(static_cast<float>(std::pow(kZoomPerStep, steps)));
+    // The point at the target's depth under the pointer stays under it.
+    const float halfHeight = (before - m_camera.distance) * std::tan(m_camera.verticalFov / 2);
+    const glm::vec2 place = screenPoint(pointer, view);
+    const float aspect = static_cast<float>(view.width() / view.height());
+    m_camera.target += halfHeight * (place.x * aspect * m_camera.right() + place.y * m_camera.up());
+    m_isFollowing = false;
+}
+
+void CameraMotion::frame(std::span<const render::Bounds> boxes, float aspect) {
+    m_camera = fitted(m_camera, boxes, aspect);
+    m_isFollowing = true;
+    m_hasFramed = m_hasFramed || !boxes.empty();
+}
+
+void CameraMotion::show(const render::Bounds& box, float aspect) {
+    frame(std::span(&box, 1), aspect);
+    m_isFollowing = false;
+}
+
+void CameraMotion::follow(std::span<const render::Bounds> boxes, float aspect, double seconds) {
+    if (!m_isFollowing || boxes.empty()) {
+        return;
+    }
+    if (!m_hasFramed) {
+        frame(boxes, aspect);
+        return;
+    }
+    const render::Camera wanted = fitted(m_camera, boxes, aspect);
+    const auto share = static_cast<float>(1 - std::exp(-std::clamp(seconds, 0.0, 1.0) / kFollowSeconds));
+    m_camera.target += share * (wanted.target - m_camera.target);
+    if (wanted.distance > m_camera.distance || wanted.distance * kTooFar < m_camera.distance) {
+        m_camera.distance += share * (wanted.distance - m_camera.distance);
+    }
+}
+
+} // namespace posewire::gui

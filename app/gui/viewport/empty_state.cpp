@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/empty_state.h"
+
+#include "app/gui/models/text.h"
+#include "app/net/foreign_protocol.h"
+
+#include <QCoreApplication>
+
+#include <algorithm>
+#include <span>
+
+namespace posewire::gui {
+
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("EmptyState", text);
+}
+
+QByteArray bytesOf(const std::string& hexadecimal) {
+    return QByteArray::fromHex(QByteArray::fromStdString(hexadecimal));
+}
+
+/// "47 45 54 20   GET ", of the first half: a line that fits.
+QString bytesText(const std::string& hexadecimal) {
+    constexpr qsizetype kShown = 8;
+    const QByteArray data = bytesOf(hexadecimal).left(kShown);
+    QString readable;
+    for (const char byte : data) {
+        readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
+    }
+    return QString::fromLatin1(data.toHex(' ')) + QStringLiteral("   \"") + readable + QLatin1Char('"');
+}
+
+QString sentence(const std::string& text) {
+    QString sentence = QString::fromStdString(text);
+    sentence[0] = sentence[0].toUpper();
+    return sentence;
+}
+
+/// "192.168.1.20 or 10.0.0.4": as many as a line takes.
+QString hostsText(const ReceivingState& receiving, const InputAddress& input) {
+    constexpr qsizetype kMost = 3;
+    if (!input.groups.isEmpty() || !input.address.isEmpty()) {
+        return input.groups.isEmpty() ? input.address : input.groups.first();
+    }
+    QStringList hosts;
+    for (const net::LocalAddress& address : receiving.addresses) {
+        if (hosts.size() < kMost && (address.isIpv4 || hosts.isEmpty())) {
+            hosts += QString::fromStdString(address.address);
+        }
+    }
+    return hosts.isEmpty() ? tr("the address of this computer") : hosts.join(tr(" or "));
+}
+
+QString openPorts(const ReceivingState& receiving) {
+    QStringList open;
+    for (const PortState& state : receiving.ports) {
+        if (state.problem.isEmpty()) {
+            open += displayText(state.port);
+        }
+    }
+    return open.join(tr(" and "));
+}
+
+EmptyState withoutPort(const ReceivingState& receiving) {
+    EmptyState state;
+    state.level = Health::Error;
+    for (const PortState& port : receiving.ports) {
+        state.title = tr("Cannot listen on %1").arg(displayText(port.port));
+        state.lines += port.problem;
+    }
+    if (receiving.ports.empty()) {
+        state.level = Health::Unknown;
+        state.title = receiving.file.isEmpty() ? tr("Nothing to listen to")
+                                               : tr("No character in %1").arg(receiving.file);
+        state.lines += tr("Choose Source > Sources, or File > Open.");
+    }
+    return state;
+}
+
+EmptyState foreign(const model::Source& source) {
+    const QByteArray bytes = bytesOf(source.firstForeignBytes);
+    const std::string guess = net::protocolThatBegins(std::as_bytes(std::span(bytes)));
+    const QString what = guess.empty() ? tr("Something else uses this port.")
+                                       : tr("It looks like %1.").arg(QString::fromStdString(guess));
+    return {Health::Warning,
+            tr("These datagrams are not MXTP"),
+            {tr("%1 from %2, the newest begins with")
+                 .arg(grouped(source.foreign), QString::fromStdString(source.info.address)),
+             bytesText(source.firstForeignBytes),
+             tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what}};
+}
+
+/// What is found beside the silence itself, and worth a line: the rest is in Help > Connection help.
+void addFindings(const ReceivingState& receiving, EmptyState& state) {
+    using Kind = net::Finding::Kind;
+    bool hasMore = false;
+    for (const net::Finding& finding : receiving.findings) {
+        const bool isPeer = finding.kind == Kind::NotReachable || finding.kind == Kind::SilentPeer ||
+                            finding.kind == Kind::GarbledPeer;
+        if (isPeer) {
+            state.level = Health::Warning;
+            state.lines +=
+                sentence(finding.text) + QStringLiteral(": ") + QString::fromStdString(finding.remedy);
+        }
+        hasMore = hasMore || finding.kind != Kind::CannotOpen;
+    }
+    if (hasMore) {
+        state.lines += tr("More in Help > Connection help (Shift+F1)");
+    }
+}
+
+EmptyState waiting(const ReceivingState& receiving) {
+    const auto listening = std::ranges::find_if(receiving.ports, [](const PortState& state) {
+        return state.problem.isEmpty() && state.port.kind != InputAddress::Kind::TcpConnect;
+    });
+    EmptyState state{Health::Unknown, tr("Waiting for MXTP on %1").arg(openPorts(receiving)), {}};
+    if (listening != receiving.ports.end()) {
+        const bool isUdp = listening->port.kind == InputAddress::Kind::Udp;
+        state.lines = {tr("In MVN: Options > Preferences > Network Streamer"),
+                       tr("host %1, port %2, protocol %3")
+                           .arg(hostsText(receiving, listening->port))
+                           .arg(listening->port.port)
+                           .arg(isUdp ? tr("UDP") : tr("TCP"))};
+    }
+    for (const PortState& port : receiving.ports) {
+        if (!port.id && !port.problem.isEmpty()) {
+            state.lines += port.problem;
+        }
+    }
+    addFindings(receiving, state);
+    return state;
+}
+
+EmptyState withoutPose(const model::Session& session) {
+    QStringList types;
+    for (const model::Stream& stream : session.streams()) {
+        const QString type = QStringLiteral("%1").arg(stream.key.type, 2, 10, QLatin1Char('0'));
+        if (!types.contains(type)) {
+            types += type;
+        }
+    }
+    return {Health::Warning,
+            tr("Datagrams arrive, but no pose"),
+            {tr("Types on the air: %1.").arg(types.join(QStringLiteral(", "))),
+             tr("In MVN's Network Streamer, switch on Position + Orientation (Quaternion).")}};
+}
+
+} // namespace
+
+EmptyState emptyState(const model::Session& session, const ReceivingState& receiving) {
+    const bool hasPose = std::ranges::any_of(session.characters(), [&](const model::Character& character) {
+        return session.pose(character.key) != nullptr;
+    });
+    if (hasPose) {
+        return {};
+    }
+    if (!session.characters().empty()) {
+        return withoutPose(session);
+    }
+    const auto stranger = std::ranges::find_if(session.sources(), [](const model::Source& source) {
+        return source.foreign > 0 && !source.firstForeignBytes.empty();
+    });
+    if (stranger != session.sources().end()) {
+        return foreign(*stranger);
+    }
+    return openPorts(receiving).isEmpty() ? withoutPort(receiving) : waiting(receiving);
+}
+
+} // namespace posewire::gui

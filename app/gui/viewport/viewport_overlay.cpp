@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/viewport_overlay.h"
+
+#include <QPainter>
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr qreal kRadius = 5;
+constexpr float kBackgroundOpacity = 0.9F;
+
+QFont semibold(QFont font) {
+    font.setWeight(QFont::DemiBold);
+    return font;
+}
+
+void paintPlate(QPainter& painter, const QRectF& plate, const QColor& border, qreal radius) {
+    QColor background = theme().raised;
+    background.setAlphaF(kBackgroundOpacity);
+    painter.setPen(QPen(border, 1));
+    painter.setBrush(background);
+    painter.drawRoundedRect(plate.adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
+}
+
+/// Text in one colour at the left; returns where it ends.
+qreal paintText(QPainter& painter, qreal left, const QRectF& row, const QString& text, const QColor& colour) {
+    painter.setPen(colour);
+    const qreal width = painter.fontMetrics().horizontalAdvance(text);
+    painter.drawText(QRectF(left, row.top(), width + 2, row.height()), Qt::AlignVCenter | Qt::AlignLeft,
+                     text);
+    return left + width;
+}
+
+bool touchesAny(const QRectF& plate, const std::vector<QRectF>& taken) {
+    return std::ranges::any_of(taken, [&](const QRectF& other) { return other.intersects(plate); });
+}
+
+} // namespace
+
+ViewportOverlay::ViewportOverlay(QWidget* parent) : QWidget(parent) {
+    setAttribute(Qt::WA_TransparentForMouseEvents);
+    setAttribute(Qt::WA_NoSystemBackground);
+}
+
+void ViewportOverlay::setLabels(std::vector<ViewportLabel> labels) {
+    m_labels = std::move(labels);
+    update();
+}
+
+void ViewportOverlay::setCard(const EmptyState& card) {
+    if (card.title != m_card.title || card.lines != m_card.lines) {
+        m_card = card;
+        setAccessibleName(card.title);
+        setAccessibleDescription(card.lines.join(QLatin1Char(' ')));
+        update();
+    }
+}
+
+void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    std::vector<QRectF> taken;
+    for (const ViewportLabel& label : m_labels) {
+        paintLabel(painter, label, taken);
+    }
+    if (!m_card.title.isEmpty()) {
+        paintCard(painter);
+    }
+}
+
+void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
+                                 std::vector<QRectF>& taken) const {
+    painter.setFont(tabularFont());
+    const QFontMetricsF metrics(painter.font());
+    const qreal unit = metrics.height();
+    const qreal dot = 0.6 * unit;
+    const QString status = healthSymbol(label.level) + QLatin1Char(' ') + label.words;
+    const qreal width =
+        2.4 * unit + dot + metrics.horizontalAdvance(label.name) + metrics.horizontalAdvance(status);
+    const qreal height = unit + 8;
+    QRectF plate(std::round(label.anchor.x() - width / 2), std::round(label.anchor.y() - height),
+                 std::ceil(width), height);
+    while (touchesAny(plate, taken)) {
+        plate.translate(0, -(height + 3));
+    }
+    taken.push_back(plate);
+    paintPlate(painter, plate, label.isSelected ? theme().accent : theme().line, kRadius);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(label.colour);
+    painter.drawEllipse(QRectF(plate.left() + 0.6 * unit, plate.center().y() - dot / 2, dot, dot));
+    qreal x = plate.left() + 0.6 * unit + dot + 0.4 * unit;
+    x = paintText(painter, x, plate, label.name, theme().text) + 0.6 * unit;
+    paintText(painter, x, plate, status, healthColour(label.level));
+}
+
+void ViewportOverlay::paintCard(QPainter& painter) const {
+    const QFont titleFont = semibold(font());
+    const qreal unit = QFontMetricsF(font()).height();
+    const qreal most = std::min(0.86 * width(), 34 * unit);
+    const QString text = m_card.lines.join(QLatin1Char('\n'));
+    const QRectF room(0, 0, most - 3 * unit, height());
+    const QRectF titleRoom =
+        QFontMetricsF(titleFont).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, m_card.title);
+    const QRectF textRoom =
+        QFontMetricsF(font()).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, text);
+    const qreal cardWidth = std::min(most, std::max(titleRoom.width(), textRoom.width()) + 3.2 * unit);
+    const qreal cardHeight = titleRoom.height() + textRoom.height() + 2.4 * unit;
+    const QRectF card(std::round((width() - cardWidth) / 2), std::round((height() - cardHeight) / 2),
+                      cardWidth, cardHeight);
+    const bool isPlain = m_card.level == Health::Unknown || m_card.level == Health::Good;
+    paintPlate(painter, card, isPlain ? theme().line : healthColour(m_card.level), 1.4 * kRadius);
+    const QRectF inside = card.adjusted(1.2 * unit, 0.9 * unit, -1.2 * unit, -0.9 * unit);
+    painter.setFont(titleFont);
+    painter.setPen(isPlain ? theme().text : healthColour(m_card.level));
+    const QString symbol = isPlain ? QString() : healthSymbol(m_card.level) + QLatin1Char(' ');
+    painter.drawText(inside, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, symbol + m_card.title);
+    painter.setFont(font());
+    painter.setPen(theme().dim);
+    painter.drawText(inside.adjusted(0, titleRoom.height() + 0.6 * unit, 0, 0),
+                     Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, text);
+}
+
+} // namespace posewire::gui

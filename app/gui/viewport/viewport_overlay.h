@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/viewport/empty_state.h"
+#include "app/gui/viewport/scene_frame.h"
+#include "app/gui/theme/theme.h"
+
+#include <QWidget>
+
+#include <vector>
+
+namespace posewire::gui {
+
+/// What stands over one character.
+struct ViewportLabel {
+    QPointF anchor; ///< the label's lower middle
+    QColor colour;
+    QString name;
+    Health level = Health::Unknown;
+    QString words;
+    bool isSelected = false;
+};
+
+/// Drawn over the picture: labels, and a card of text where there is no picture to see.
+class ViewportOverlay final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit ViewportOverlay(QWidget* parent);
+
+    void setLabels(std::vector<ViewportLabel> labels);
+    void setCard(const EmptyState& card);
+    [[nodiscard]] const EmptyState& card() const { return m_card; }
+    [[nodiscard]] const std::vector<ViewportLabel>& labels() const { return m_labels; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void paintLabel(QPainter& painter, const ViewportLabel& label, std::vector<QRectF>& taken) const;
+    void paintCard(QPainter& painter) const;
+
+    std::vector<ViewportLabel> m_labels;
+    EmptyState m_card;
+};
+
+} // namespace posewire::gui

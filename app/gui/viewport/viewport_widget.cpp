@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/viewport_widget.h"
+
+#include "app/gui/viewport/character_health.h"
+#include "app/gui/viewport/opengl_presenter.h"
+#include "app/gui/viewport/opengl_probe.h"
+#include "app/gui/viewport/software_presenter.h"
+#include "app/gui/viewport/viewport_overlay.h"
+
+#include <QApplication>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QWheelEvent>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Room about the segment origins for flesh, feet and the label above.
+constexpr float kMargin = 0.22F;
+constexpr double kWheelStep = 120.0;
+
+render::Bounds paddedBounds(const Figure& figure) {
+    render::Bounds bounds = figure.bounds;
+    bounds.min -= glm::vec3(kMargin, kMargin, 0.5F * kMargin);
+    bounds.max += glm::vec3(kMargin, kMargin, 1.6F * kMargin);
+    return bounds;
+}
+
+std::vector<render::Bounds> boxesOf(const SceneFrame& frame) {
+    std::vector<render::Bounds> boxes;
+    for (const Figure& figure : frame.figures) {
+        if (!figure.bounds.isEmpty()) {
+            boxes.push_back(paddedBounds(figure));
+        }
+    }
+    return boxes;
+}
+
+} // namespace
+
+ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, QWidget* parent)
+    : QWidget(parent), m_session(session), m_commands(commands), m_overlay(new ViewportOverlay(this)) {
+    setObjectName(QStringLiteral("viewport"));
+    setAccessibleName(tr("Characters in space"));
+    setFocusPolicy(Qt::StrongFocus);
+    setMinimumSize(240, 160);
+}
+
+ViewportWidget::~ViewportWidget() = default;
+
+void ViewportWidget::start() {
+    if (m_presenter != nullptr) {
+        return;
+    }
+    const bool isHardware = hasHardwareOpenGl();
+    if (isHardware) {
+        m_presenter = new OpenGlPresenter(this);
+    } else {
+        m_presenter = new SoftwarePresenter(this);
+    }
+    m_builder =
+        std::make_unique<SceneBuilder>(m_session, isHardware ? render::Detail::High : render::Detail::Medium);
+    m_presenter->setAttribute(Qt::WA_TransparentForMouseEvents);
+    m_presenter->setGeometry(rect());
+    m_presenter->lower();
+    m_presenter->setVisible(true);
+    connect(m_presenter, &Presenter::presented, this, &ViewportWidget::onPresented);
+    outdate();
+}
+
+void ViewportWidget::refresh() {
+    outdate();
+}
+
+void ViewportWidget::setReceiving(const ReceivingState& receiving) {
+    m_receiving = receiving;
+    updateOverlay();
+}
+
+void ViewportWidget::outdate() {
+    m_isOutdated = true;
+    drawNext();
+}
+
+void ViewportWidget::drawNext() {
+    if (!m_isOutdated || m_presenter == nullptr || !m_presenter->isReady() || !isVisible()) {
+        return;
+    }
+    auto frame = std::make_shared<SceneFrame>();
+    frame->pixelRatio = static_cast<float>(devicePixelRatioF());
+    frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
+    frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
+    m_builder->build(m_options, *frame);
+    followCharacters(*frame);
+    frame->camera = m_motion.camera();
+    frame->builtNs = m_session.nowNs();
+    m_isOutdated = false;
+    m_drawing = frame;
+    m_presenter->present(std::move(frame));
+}
+
+void ViewportWidget::followCharacters(SceneFrame& frame) {
+    const double seconds = static_cast<double>(m_session.nowNs() - m_followedNs) * 1e-9;
+    m_followedNs = m_session.nowNs();
+    m_motion.follow(boxesOf(frame), aspect(), seconds);
+}
+
+void ViewportWidget::onPresented() {
+    ++m_picturesShown;
+    if (m_drawing != nullptr) {
+        m_shown = std::move(m_drawing);
+        m_drawing = nullptr;
+    }
+    updateOverlay();
+    drawNext();
+}
+
+void ViewportWidget::updateOverlay() {
+    std::vector<ViewportLabel> labels;
+    if (m_shown != nullptr) {
+        for (const Figure& figure : m_shown->figures) {
+            const auto place = m_shown->camera.project(figure.labelPosition, aspect());
+            if (!place) {
+                continue;
+            }
+            const CharacterHealth health = characterHealth(m_session, figure.key);
+            labels.push_back({pointerAt(*place, size()),
+                              QColor::fromRgbF(figure.colour.r, figure.colour.g, figure.colour.b),
+                              QString::fromStdString(m_session.displayName(figure.key)), health.level,
+                              health.words, m_session.selection().character == figure.key});
+        }
+    }
+    m_overlay->setLabels(std::move(labels));
+    if (const QString problem = failure(); !problem.isEmpty()) {
+        m_overlay->setCard(
+            {Health::Error,
+             tr("No picture: OpenGL 3.3 could not be used"),
+             {problem, tr("Everything else in this window works. Installing Mesa's drivers (package "
+                          "libgl1-mesa-dri) usually helps.")}});
+    } else {
+        m_overlay->setCard(emptyState(m_session, m_receiving));
+    }
+}
+
+bool ViewportWidget::isSettled() const {
+    constexpr std::int64_t kFreshNs = 250'000'000;
+    const bool isIdle = !m_isOutdated && m_drawing == nullptr;
+    return m_shown != nullptr && (isIdle || m_session.nowNs() - m_shown->builtNs < kFreshNs);
+}
+
+QString ViewportWidget::rendererName() const {
+    return m_presenter == nullptr ? QString() : m_presenter->rendererName();
+}
+
+QString ViewportWidget::failure() const {
+    return m_presenter == nullptr ? QString() : m_presenter->failure();
+}
+
+float ViewportWidget::aspect() const {
+    return static_cast<float>(std::max(1, width())) / static_cast<float>(std::max(1, height()));
+}
+
+void ViewportWidget::setAxes(AxesMode mode) {
+    m_options.axes = mode;
+    outdate();
+    emit optionsChanged();
+}
+
+void ViewportWidget::setProjection(render::Projection projection) {
+    m_motion.setProjection(projection);
+    outdate();
+    emit optionsChanged();
+}
+
+void ViewportWidget::face(render::StandardView view) {
+    m_motion.face(view);
+    outdate();
+}
+
+void ViewportWidget::frameAll() {
+    if (m_shown != nullptr) {
+        m_motion.frame(boxesOf(*m_shown), aspect());
+        outdate();
+    }
+}
+
+void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
+    if (m_shown == nullptr) {
+        return;
+    }
+    for (const Figure& figure : m_shown->figures) {
+        if (figure.key == key && !figure.bounds.isEmpty()) {
+            m_motion.show(paddedBounds(figure), aspect());
+            outdate();
+        }
+    }
+}
+
+void ViewportWidget::setGhostVisible(bool isVisible) {
+    m_options.hasGhost = isVisible;
+    outdate();
+}
+
+void ViewportWidget::setCharacterVisible(const model::CharacterKey& key, bool isVisible) {
+    if (isVisible) {
+        m_options.hidden.erase(key);
+    } else {
+        m_options.hidden.insert(key);
+    }
+    outdate();
+}
+
+bool ViewportWidget::isCharacterVisible(const model::CharacterKey& key) const {
+    return !m_options.hidden.contains(key);
+}
+
+void ViewportWidget::paintEvent(QPaintEvent* /*event*/) {
+    if (m_presenter == nullptr) {
+        QPainter(this).fillRect(rect(), theme().window);
+    }
+}
+
+void ViewportWidget::resizeEvent(QResizeEvent* /*event*/) {
+    m_overlay->setGeometry(rect());
+    if (m_presenter != nullptr) {
+        m_presenter->setGeometry(rect());
+    }
+    outdate();
+}
+
+void ViewportWidget::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) {
+        outdate();
+    }
+    QWidget::changeEvent(event);
+}
+
+void ViewportWidget::mousePressEvent(QMouseEvent* event) {
+    m_pressed = m_pointer = event->position();
+    m_isDragging = false;
+}
+
+void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
+    if (!m_isDragging &&
+        (event->position() - m_pressed).manhattanLength() < QApplication::startDragDistance()) {
+        return;
+    }
+    m_isDragging = true;
+    const QPointF movement = event->position() - m_pointer;
+    m_pointer = event->position();
+    const bool isPan =
+        event->buttons().testFlag(Qt::MiddleButton) ||
+        (event->buttons().testFlag(Qt::LeftButton) && event->modifiers().testFlag(Qt::ShiftModifier));
+    if (isPan) {
+        m_motion.pan(movement, size());
+    } else if (event->buttons().testFlag(Qt::LeftButton)) {
+        m_motion.orbit(movement);
+    }
+    outdate();
+}
+
+void ViewportWidget::mouseReleaseEvent(QMouseEvent* event) {
+    if (m_isDragging || event->button() != Qt::LeftButton) {
+        return;
+    }
+    model::Selection selection;
+    if (const auto pick = pickAt(event->position())) {
+        const model::CharacterKey key = m_shown->figures[pick->id].key;
+        selection = {key.source, key, pick->segment};
+    }
+    m_commands.select(selection);
+}
+
+void ViewportWidget::mouseDoubleClickEvent(QMouseEvent* event) {
+    if (const auto pick = pickAt(event->position())) {
+        frameCharacter(m_shown->figures[pick->id].key);
+    }
+}
+
+void ViewportWidget::wheelEvent(QWheelEvent* event) {
+    m_motion.zoom(event->angleDelta().y() / kWheelStep, event->position(), size());
+    event->accept();
+    outdate();
+}
+
+std::optional<render::Pick> ViewportWidget::pickAt(const QPointF& pointer) const {
+    if (m_shown == nullptr) {
+        return std::nullopt;
+    }
+    std::vector<render::PickTarget> targets;
+    for (std::size_t i = 0; i < m_shown->figures.size(); ++i) {
+        const Figure& figure = m_shown->figures[i];
+        targets.push_back({static_cast<std::uint32_t>(i), &figure.mesh->capsules, figure.palette});
+    }
+    return render::pickSegment(m_shown->camera.rayThrough(screenPoint(pointer, size()), aspect()), targets);
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/viewport/camera_motion.h"
+#include "app/gui/commands.h"
+#include "app/gui/viewport/presenter.h"
+#include "app/gui/receiving_state.h"
+#include "app/gui/viewport/scene_builder.h"
+
+#include <memory>
+#include <optional>
+
+namespace posewire::gui {
+
+class ViewportOverlay;
+
+/// The characters in space: builds a picture whenever the session has moved and the presenter is ready for
+/// the next.
+class ViewportWidget final : public QWidget {
+    Q_OBJECT
+
+public:
+    ViewportWidget(model::SessionView& session, Commands& commands, QWidget* parent = nullptr);
+    ~ViewportWidget() override;
+
+    /// Makes the presenter; before that the view is empty. For after the window's first painting, since it
+    /// takes time.
+    void start();
+
+    /// The session or the selection has moved.
+    void refresh();
+    void setReceiving(const ReceivingState& receiving);
+
+    void setAxes(AxesMode mode);
+    [[nodiscard]] AxesMode axes() const { return m_options.axes; }
+    void setProjection(render::Projection projection);
+    [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
+    void face(render::StandardView view);
+    void frameAll();
+    void frameCharacter(const model::CharacterKey& key);
+
+    void setGhostVisible(bool isVisible);
+    void setCharacterVisible(const model::CharacterKey& key, bool isVisible);
+    [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const;
+
+    /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
+    [[nodiscard]] bool isSettled() const;
+    [[nodiscard]] const ViewportOverlay& overlay() const { return *m_overlay; }
+    [[nodiscard]] QString rendererName() const;
+    /// So many since the start.
+    [[nodiscard]] std::uint64_t picturesShown() const { return m_picturesShown; }
+    /// Why there is no picture; empty where there is one.
+    [[nodiscard]] QString failure() const;
+
+signals:
+    /// Axes or projection are not what they were.
+    void optionsChanged();
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    void drawNext();
+    void onPresented();
+    void followCharacters(SceneFrame& frame);
+    void updateOverlay();
+    void outdate();
+    [[nodiscard]] std::optional<render::Pick> pickAt(const QPointF& pointer) const;
+    [[nodiscard]] float aspect() const;
+
+    model::SessionView& m_session;
+    Commands& m_commands;
+    ViewOptions m_options;
+    CameraMotion m_motion;
+    std::unique_ptr<SceneBuilder> m_builder;
+    Presenter* m_presenter = nullptr;
+    ViewportOverlay* m_overlay;
+    ReceivingState m_receiving;
+    std::shared_ptr<const SceneFrame> m_drawing; ///< with the presenter
+    std::shared_ptr<const SceneFrame> m_shown;
+    bool m_isOutdated = true;
+    std::int64_t m_followedNs = 0;
+    std::uint64_t m_picturesShown = 0;
+    QPointF m_pressed;
+    QPointF m_pointer;
+    bool m_isDragging = false;
+};
+
+} // namespace posewire::gui

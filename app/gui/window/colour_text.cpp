@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/colour_text.h"
+
+#include <QKeyEvent>
+#include <QPainter>
+
+namespace posewire::gui {
+
+ColourText::ColourText(Look look, QWidget* parent) : QAbstractButton(parent), m_look(look) {
+    setFont(tabularFont());
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    setClickable(false);
+}
+
+void ColourText::setContent(Health level, const QString& text) {
+    const QString line = level == Health::Unknown ? text : healthSymbol(level) + QLatin1Char(' ') + text;
+    if (line != this->text()) {
+        setText(line);
+        setAccessibleName(text);
+        updateGeometry();
+    }
+    if (level != m_level) {
+        m_level = level;
+        update();
+    }
+}
+
+void ColourText::setClickable(bool isClickable) {
+    setFocusPolicy(isClickable ? Qt::TabFocus : Qt::NoFocus);
+    setCursor(isClickable ? Qt::PointingHandCursor : Qt::ArrowCursor);
+    setAttribute(Qt::WA_Hover, isClickable);
+}
+
+QSize ColourText::sizeHint() const {
+    const QFontMetrics metrics = fontMetrics();
+    const int margin = m_look == Look::Pill ? metrics.height() : metrics.height() / 2;
+    return {metrics.horizontalAdvance(text()) + margin + 2, metrics.height() + 6};
+}
+
+void ColourText::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const bool isActive = focusPolicy() != Qt::NoFocus && (underMouse() || hasFocus());
+    const QRectF frame = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
+    if (m_look == Look::Pill || isActive) {
+        const bool isProblem = m_level == Health::Error;
+        painter.setPen(QPen(isProblem ? theme().error : hasFocus() ? theme().accent : theme().line, 1));
+        painter.setBrush(isActive ? theme().raised : Qt::transparent);
+        const qreal radius = m_look == Look::Pill ? frame.height() / 2 : 4;
+        painter.drawRoundedRect(frame, radius, radius);
+    }
+    painter.setPen(healthColour(m_level));
+    painter.drawText(rect(), Qt::AlignCenter, text());
+}
+
+void ColourText::enterEvent(QEnterEvent* /*event*/) {
+    update();
+}
+
+void ColourText::leaveEvent(QEvent* /*event*/) {
+    update();
+}
+
+/// Enter as well as the space bar.
+void ColourText::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+        click();
+        return;
+    }
+    QAbstractButton::keyPressEvent(event);
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/theme/theme.h"
+
+#include <QAbstractButton>
+
+namespace posewire::gui {
+
+/// One short line in the colour of its health, as in the bar at the bottom; a button where it can be clicked.
+class ColourText final : public QAbstractButton {
+    Q_OBJECT
+
+public:
+    /// Plain is dim text, Pill has an outline about it.
+    enum class Look { Plain, Pill };
+
+    explicit ColourText(Look look, QWidget* parent = nullptr);
+
+    /// Unknown is dim text without a symbol.
+    void setContent(Health level, const QString& text);
+    void setClickable(bool isClickable);
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return sizeHint(); }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void enterEvent(QEnterEvent* event) override;
+    void leaveEvent(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    Look m_look;
+    Health m_level = Health::Unknown;
+};
+
+} // namespace posewire::gui

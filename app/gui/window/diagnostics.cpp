@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/diagnostics.h"
+
+#include "app/gui/models/relay_model.h"
+#include "app/gui/models/source_model.h"
+
+#include <QGuiApplication>
+#include <QSysInfo>
+#include <QTextStream>
+
+namespace posewire::gui {
+
+namespace {
+
+void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
+    for (const PortState& port : receiving.ports) {
+        out << displayText(port.port) << ": " << sourceState(port).text << ", " << port.status.datagrams
+            << " datagrams, " << port.status.kernelDropped << " dropped here\n";
+    }
+    for (const RelayState& relay : receiving.relays) {
+        out << "relay to " << displayText(relay.target) << ": " << relayStage(relay).text << ", "
+            << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped\n";
+    }
+    for (const net::Finding& finding : receiving.findings) {
+        out << "found: " << QString::fromStdString(finding.text) << '\n';
+    }
+    out << "receive buffer " << receiving.receiveBufferBytes << " bytes, dropped here "
+        << receiving.kernelDropped << ", " << receiving.datagramsPerSecond << " datagrams/s, "
+        << receiving.bytesPerSecond << " bytes/s\n";
+}
+
+void writeSources(QTextStream& out, const model::Session& session) {
+    for (const model::Source& source : session.sources()) {
+        out << "source " << QString::fromStdString(source.info.address) << ": " << source.datagrams
+            << " datagrams, " << source.malformed << " malformed, " << source.foreign << " foreign, "
+            << source.skippedBytes << " bytes skipped\n";
+    }
+    for (const model::Stream& stream : session.streams()) {
+        const model::CharacterKey key{stream.key.source, stream.key.character};
+        out << "stream " << QString::fromStdString(session.displayName(key)) << " type " << stream.key.type
+            << ": " << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz()
+            << " Hz, " << stream.accounting.counts().lost << " lost, " << stream.malformed << " malformed\n";
+    }
+}
+
+} // namespace
+
+QString diagnosticsText(const model::Session& session, const ReceivingState& receiving,
+                        const QString& rendererName) {
+    QString text;
+    QTextStream out(&text);
+    out << "Posewire " << QCoreApplication::applicationVersion() << ", Qt " << qVersion() << ", "
+        << QSysInfo::prettyProductName() << ", " << QSysInfo::currentCpuArchitecture() << ", platform "
+        << QGuiApplication::platformName() << '\n';
+    out << "OpenGL: " << (rendererName.isEmpty() ? QStringLiteral("none") : rendererName) << '\n';
+    writeReceiving(out, receiving);
+    const log::LogFigures figures = session.figures();
+    out << "history: packets " << figures.begin << " to " << figures.end << ", " << figures.memoryInUse
+        << " of " << figures.memoryCap << " bytes\n";
+    writeSources(out, session);
+    return text;
+}
+
+} // namespace posewire::gui

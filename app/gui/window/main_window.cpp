@@ -1,0 +1,399 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/main_window.h"
+
+#include "app/gui/window/diagnostics.h"
+#include "app/gui/window/dialogs.h"
+#include "app/gui/window/dock_layout.h"
+#include "app/gui/window/dock_scroll.h"
+#include "app/gui/window/dock_title.h"
+#include "app/gui/window/health_bar.h"
+#include "app/gui/theme/icons.h"
+#include "app/gui/window/reference_window.h"
+#include "app/gui/window/report_saving.h"
+#include "app/gui/window/thresholds_dialog.h"
+#include "app/gui/window/transport_bar.h"
+#include "app/gui/viewport/viewport_buttons.h"
+#include "core/wire/reference.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QFileDialog>
+#include <QLabel>
+#include <QScreen>
+#include <QStatusBar>
+#include <QToolBar>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Raised when docks or tool bars change so that an old state would not fit.
+constexpr int kStateVersion = 1;
+constexpr QSize kDefaultSize(1600, 1000);
+
+} // namespace
+
+MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings)
+    : m_driver(driver),
+      m_file(file),
+      m_settings(settings),
+      m_viewport(new ViewportWidget(driver.session(), driver, this)) {
+    setWindowTitle(QStringLiteral("Posewire"));
+    setDockOptions(AllowNestedDocks | AllowTabbedDocks | AnimatedDocks);
+    setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+    setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
+    setCentralWidget(m_viewport);
+    new ViewportButtons(m_viewport);
+    m_actions = makeMenus(*this, *menuBar());
+    makeBars();
+    makeDocks();
+    listDocks();
+    connectDriver();
+    m_driver.setThresholds(m_settings.alerts.thresholds);
+    restore();
+}
+
+void MainWindow::makeBars() {
+    auto* name = new QLabel(QStringLiteral("Posewire"), this);
+    QFont font = name->font();
+    font.setWeight(QFont::Bold);
+    name->setFont(font);
+    name->setContentsMargins(12, 0, 6, 0);
+    menuBar()->setCornerWidget(name, Qt::TopLeftCorner);
+    m_layoutButton = new QToolButton(this);
+    m_layoutButton->setProperty("flat", true);
+    m_layoutButton->setMenu(menuAt(*menuBar(), QStringLiteral("&View/&Layout")));
+    m_layoutButton->setPopupMode(QToolButton::InstantPopup);
+    m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
+    menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
+
+    m_transport = new TransportBar(
+        m_driver.session(), {m_actions["pause"], m_actions["live"], m_actions["sources"], m_actions["relay"]},
+        this);
+    auto* bar = new QToolBar(tr("Transport"), this);
+    bar->setObjectName(QStringLiteral("transportBar"));
+    bar->setMovable(false);
+    bar->toggleViewAction()->setVisible(false);
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    m_transport->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    bar->addWidget(m_transport);
+    addToolBar(Qt::TopToolBarArea, bar);
+
+    m_health = new HealthBar(m_driver.session(), m_driver, this);
+    statusBar()->setSizeGripEnabled(false);
+    statusBar()->addWidget(m_health, 1);
+}
+
+void MainWindow::makeDocks() {
+    for (const PanelInfo& info : panelTable()) {
+        auto* dock = new QDockWidget(QCoreApplication::translate("Panel", info.title), this);
+        dock->setObjectName(QLatin1String(info.id));
+        Panel* panel = info.make(m_driver.session(), m_driver, dock);
+        dock->setWidget(new DockScroll(panel, dock));
+        panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
+        auto* title = new DockTitle(dock);
+        dock->setTitleBarWidget(title);
+        addDockWidget(info.area, dock);
+        m_docks.push_back({dock, title, panel});
+        connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool isVisible) {
+            if (isVisible) {
+                panel->refresh();
+            }
+        });
+    }
+}
+
+void MainWindow::listDocks() {
+    QMenu* menu = menuAt(*menuBar(), QStringLiteral("&View"));
+    QAction* before = menu->actions().value(0);
+    for (const Dock& dock : m_docks) {
+        menu->insertAction(before, dock.dock->toggleViewAction());
+    }
+    menu->insertSeparator(before);
+}
+
+void MainWindow::connectDriver() {
+    connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
+    connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::refreshPanels);
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
+    connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
+    connect(&m_driver, &SessionDriver::visibilityChanged, m_viewport, &ViewportWidget::setCharacterVisible);
+    connect(&m_driver, &SessionDriver::ghostChanged, m_viewport, &ViewportWidget::setGhostVisible);
+    connect(&m_driver, &SessionDriver::ghostChanged, m_actions["ghost"], &QAction::setChecked);
+    connect(&m_driver, &SessionDriver::dockRequested, this, &MainWindow::showDock);
+    connect(&m_driver, &SessionDriver::pausedChanged, m_actions["pause"], &QAction::setChecked);
+    connect(&m_driver, &SessionDriver::demoChanged, m_actions["demo"], &QAction::setChecked);
+    connect(m_viewport, &ViewportWidget::optionsChanged, this, [this] {
+        m_actions["orthographic"]->setChecked(m_viewport->projection() == render::Projection::Orthographic);
+    });
+    showReceiving();
+}
+
+void MainWindow::restore() {
+    const QRect place = onScreen(m_settings.window);
+    if (place.isEmpty()) {
+        const QRect room = screen()->availableGeometry();
+        resize(kDefaultSize.boundedTo(room.size()));
+    } else {
+        setGeometry(place);
+    }
+    if (m_settings.isMaximized) {
+        setWindowState(windowState() | Qt::WindowMaximized);
+    }
+    m_layoutButton->setText(tr("Layout: %1 ▾").arg(m_settings.layout));
+    m_actions[QStringLiteral("theme") +
+              themeName(m_settings.theme).replace(0, 1, themeName(m_settings.theme).at(0).toUpper())]
+        ->setChecked(true);
+}
+
+/// Sizes of docks only hold once the window has its own.
+void MainWindow::showEvent(QShowEvent* event) {
+    QMainWindow::showEvent(event);
+    if (m_isRestored) {
+        return;
+    }
+    m_isRestored = true;
+    if (m_settings.docks.isEmpty() || !restoreState(m_settings.docks, kStateVersion)) {
+        useLayout(m_settings.layout);
+    }
+    for (const Dock& dock : m_docks) {
+        if (dock.dock->isFloating() && onScreen(dock.dock->geometry()).isEmpty()) {
+            dock.dock->setFloating(false);
+        }
+    }
+}
+
+QRect onScreen(const QRect& window) {
+    constexpr int kGrabbable = 80;
+    if (window.width() < kGrabbable || window.height() < kGrabbable) {
+        return {};
+    }
+    for (const QScreen* screen : QGuiApplication::screens()) {
+        const QRect room = screen->availableGeometry();
+        const QRect seen = room.intersected(window);
+        if (seen.width() >= kGrabbable && seen.height() >= kGrabbable && window.top() >= room.top()) {
+            return {window.topLeft(), window.size().boundedTo(room.size())};
+        }
+    }
+    return {};
+}
+
+Settings MainWindow::settings() const {
+    Settings settings = m_settings;
+    settings.window = normalGeometry().isEmpty() ? geometry() : normalGeometry();
+    settings.isMaximized = isMaximized();
+    settings.docks = saveState(kStateVersion);
+    for (const Dock& dock : m_docks) {
+        if (const QJsonObject state = dock.panel->state(); !state.isEmpty()) {
+            settings.panels[dock.dock->objectName()] = state;
+        } else {
+            settings.panels.remove(dock.dock->objectName());
+        }
+    }
+    return settings;
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
+        qWarning("Settings were not saved: %s", qUtf8Printable(problem));
+    }
+    event->accept();
+}
+
+bool MainWindow::Dock::isInSight() const {
+    // A dock behind another as a tab is not hidden but beside its window. What it covers with its own
+    // children says nothing: visibleRegion() is empty also where those are opaque.
+    return panel->isVisible() &&
+           (dock->isWindow() || dock->parentWidget()->rect().intersects(dock->geometry()));
+}
+
+void MainWindow::refreshPanels() {
+    for (const Dock& dock : m_docks) {
+        if (dock.isInSight()) {
+            dock.panel->refresh();
+            dock.title->setSummary(dock.panel->summary());
+        }
+    }
+}
+
+void MainWindow::showReceiving() {
+    const ReceivingState& state = m_driver.receiving().state();
+    m_transport->setReceiving(state);
+    m_health->refresh(state);
+    m_viewport->setReceiving(state);
+    if (m_sources != nullptr) {
+        m_sources->refresh();
+    }
+    m_driver.setPicturesShown(m_viewport->picturesShown());
+}
+
+void MainWindow::openFile() {
+    const QString path = QFileDialog::getOpenFileName(this, tr("Open a file of MXTP datagrams"));
+    if (path.isEmpty()) {
+        return;
+    }
+    if (const QString problem = m_driver.openFile(path); !problem.isEmpty()) {
+        say(problem);
+    }
+}
+
+void MainWindow::saveScreenshot() {
+    const QPixmap picture = grab();
+    const QString path = QFileDialog::getSaveFileName(this, tr("Save screenshot"),
+                                                      QStringLiteral("posewire.png"), tr("Pictures (*.png)"));
+    if (!path.isEmpty()) {
+        say(picture.save(path) ? tr("Saved %1").arg(path) : tr("%1 could not be written").arg(path));
+    }
+}
+
+void MainWindow::openSources(SourcesDialog::Page page) {
+    if (m_sources == nullptr) {
+        m_sources = new SourcesDialog(m_driver.receiving(), this);
+        connect(m_sources, &SourcesDialog::openFileRequested, this, &MainWindow::openFile);
+        connect(m_sources, &SourcesDialog::copyRequested, &m_driver, &SessionDriver::copyText);
+        connect(m_sources, &SourcesDialog::choicesChanged, this, [this] {
+            m_settings.sources = m_driver.receiving().choices();
+            showReceiving();
+        });
+    }
+    m_sources->open(page);
+}
+
+void MainWindow::saveReport() {
+    if (const QString line = saveStreamReport(m_driver.session(), this); !line.isEmpty()) {
+        say(line);
+    }
+}
+
+void MainWindow::editThresholds() {
+    ThresholdsDialog dialog(m_settings.alerts, this);
+    if (dialog.exec() == QDialog::Accepted) {
+        m_settings.alerts = dialog.choices();
+        m_driver.setThresholds(m_settings.alerts.thresholds);
+    }
+}
+
+void MainWindow::alert() {
+    if (m_sounds.isDue(m_driver.session().events(), m_settings.alerts)) {
+        QApplication::beep();
+    }
+}
+
+void MainWindow::useTheme(ThemeChoice choice) {
+    m_settings.theme = choice;
+    applyTheme(*qApp, choice);
+}
+
+void MainWindow::useLayout(const QString& nameOrFile) {
+    const auto layout = findLayout(nameOrFile);
+    if (!layout) {
+        say(layout.error());
+        return;
+    }
+    applyLayout(*layout, *this);
+    m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
+    m_layoutButton->setText(tr("Layout: %1 ▾").arg(layout->name));
+    refreshPanels();
+}
+
+void MainWindow::dockAll() {
+    for (const Dock& dock : m_docks) {
+        dock.dock->setFloating(false);
+    }
+    if (onScreen(geometry()).isEmpty()) {
+        move(screen()->availableGeometry().topLeft());
+    }
+}
+
+void MainWindow::nextDock() {
+    std::vector<QWidget*> stops{m_viewport};
+    std::size_t current = 0;
+    for (const Dock& dock : m_docks) {
+        if (!dock.panel->isVisible()) {
+            continue;
+        }
+        if (dock.dock->isAncestorOf(QApplication::focusWidget())) {
+            current = stops.size();
+        }
+        stops.push_back(dock.panel);
+    }
+    if (m_health->firstEntry() != nullptr) {
+        current = m_health->isAncestorOf(QApplication::focusWidget()) ? stops.size() : current;
+        stops.push_back(m_health);
+    }
+    QWidget* next = stops[(current + 1) % stops.size()];
+    const auto reached = std::ranges::find(m_docks, next, &Dock::panel);
+    if (reached != m_docks.end()) {
+        reached->dock->raise();
+    }
+    const QList<QWidget*> children = next->findChildren<QWidget*>();
+    const auto focusable = std::ranges::find_if(children, [](const QWidget* child) {
+        return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;
+    });
+    (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
+}
+
+const MainWindow::Dock* MainWindow::find(const char* dock) const {
+    const auto found = std::ranges::find_if(
+        m_docks, [dock](const Dock& each) { return each.dock->objectName() == QLatin1String(dock); });
+    return found == m_docks.end() ? nullptr : &*found;
+}
+
+void MainWindow::showDock(const QString& dock) {
+    if (const Dock* found = find(dock.toLatin1().constData())) {
+        found->dock->show();
+        found->dock->raise();
+    }
+}
+
+bool MainWindow::inDock(const char* dock, const char* slot) {
+    const Dock* found = find(dock);
+    if (found == nullptr) {
+        return false;
+    }
+    found->dock->show();
+    found->dock->raise();
+    return QMetaObject::invokeMethod(found->panel, slot, Qt::DirectConnection);
+}
+
+QVariant MainWindow::ofDock(const char* dock, const char* property) const {
+    const Dock* found = find(dock);
+    return found == nullptr ? QVariant() : found->panel->property(property);
+}
+
+void MainWindow::toggleFullScreen() {
+    setWindowState(windowState() ^ Qt::WindowFullScreen);
+    m_actions["fullScreen"]->setChecked(isFullScreen());
+}
+
+void MainWindow::copyDiagnostics() {
+    m_driver.copyText(
+        diagnosticsText(m_driver.session(), m_driver.receiving().state(), m_viewport->rendererName()));
+    say(tr("Diagnostics copied"));
+}
+
+void MainWindow::showShortcuts() {
+    showText(tr("Keyboard shortcuts"), shortcutsText(), this);
+}
+
+void MainWindow::showReference() {
+    const QString text = QString::fromStdString(wire::protocolReference());
+    (new ReferenceWindow(tr("Protocol reference"), text, this))->show();
+}
+
+void MainWindow::showAbout() {
+    showText(tr("About Posewire"), aboutText(), this);
+}
+
+void MainWindow::say(const QString& text) {
+    m_health->say(text);
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/report_saving.h"
+
+#include "app/gui/models/event_words.h"
+#include "app/gui/models/text.h"
+#include "core/export/stream_report.h"
+
+#include <QApplication>
+#include <QDateTime>
+#include <QDesktopServices>
+#include <QFileDialog>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSaveFile>
+#include <QUrl>
+
+namespace posewire::gui {
+
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("ReportSaving", text);
+}
+
+exporting::StreamReportOptions optionsFor(model::SessionView& session,
+                                          const std::optional<model::TimeRange>& range) {
+    exporting::StreamReportOptions options;
+    options.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
+    if (range) {
+        options.range = {range->fromNs, range->toNs};
+    }
+    for (const model::Event& event : session.events().all()) {
+        const bool isInside =
+            !range || (event.firstStampNs < range->toNs && event.lastStampNs >= range->fromNs);
+        if (isInside && event.group() == model::EventGroup::Limit) {
+            options.exceeded.push_back(whoseWords(session, event).toStdString() + ": " + event.text());
+        }
+    }
+    return options;
+}
+
+/// Nothing where it was cancelled.
+std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& session, QWidget* parent) {
+    const auto range = session.range();
+    if (!range) {
+        return std::optional<model::TimeRange>();
+    }
+    QMessageBox question(QMessageBox::NoIcon, tr("Save stream report"),
+                         tr("A range of time is selected: from %1 to %2.")
+                             .arg(timeOfDay(range->fromNs), timeOfDay(range->toNs)),
+                         QMessageBox::Cancel, parent);
+    const auto* selected = question.addButton(tr("&Selected range"), QMessageBox::AcceptRole);
+    const auto* all = question.addButton(tr("&All of it"), QMessageBox::AcceptRole);
+    question.exec();
+    if (question.clickedButton() == selected) {
+        return range;
+    }
+    return question.clickedButton() == all ? std::optional(std::optional<model::TimeRange>()) : std::nullopt;
+}
+
+bool wantsToOpen(const QString& path, QWidget* parent) {
+    QMessageBox question(QMessageBox::NoIcon, tr("Save stream report"), tr("The report is in %1.").arg(path),
+                         QMessageBox::Close, parent);
+    question.setTextFormat(Qt::PlainText);
+    const auto* open = question.addButton(tr("&Open it"), QMessageBox::AcceptRole);
+    question.exec();
+    return question.clickedButton() == open;
+}
+
+} // namespace
+
+QString writeStreamReport(model::SessionView& session, const std::optional<model::TimeRange>& range,
+                          const QString& path) {
+    const std::string text = exporting::streamReport(session, optionsFor(session, range));
+    QSaveFile file(path);
+    const auto size = static_cast<qint64>(text.size());
+    const bool isWritten =
+        file.open(QIODevice::WriteOnly) && file.write(text.data(), size) == size && file.commit();
+    return isWritten ? QString() : tr("%1 could not be written: %2").arg(path, file.errorString());
+}
+
+QString saveStreamReport(model::SessionView& session, QWidget* parent) {
+    if (session.streams().empty()) {
+        return tr("There is nothing to report on: no stream has come yet.");
+    }
+    const auto range = askForRange(session, parent);
+    if (!range) {
+        return {};
+    }
+    const QString name =
+        QDateTime::currentDateTime().toString(QStringLiteral("'stream-report-'yyyyMMdd-HHmm"));
+    const QString path = QFileDialog::getSaveFileName(
+        parent, tr("Save stream report"), name + QStringLiteral(".html"), tr("Web pages (*.html)"));
+    if (path.isEmpty()) {
+        return {};
+    }
+    QApplication::setOverrideCursor(Qt::WaitCursor);
+    const QString problem = writeStreamReport(session, *range, path);
+    QApplication::restoreOverrideCursor();
+    if (!problem.isEmpty()) {
+        return problem;
+    }
+    if (wantsToOpen(path, parent) && !QDesktopServices::openUrl(QUrl::fromLocalFile(path))) {
+        return tr("No program of this computer opens %1").arg(path);
+    }
+    return tr("Saved %1").arg(path);
+}
+
+} // namespace posewire::gui

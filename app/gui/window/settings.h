@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/window/alerts.h"
+#include "app/gui/source_choices.h"
+#include "app/gui/theme/theme.h"
+
+#include <QByteArray>
+#include <QJsonObject>
+#include <QRect>
+#include <QString>
+
+namespace posewire::gui {
+
+/// What is kept from one run to the next.
+struct Settings {
+    ThemeChoice theme = ThemeChoice::System;
+    QString layout = QStringLiteral("Debug"); ///< the layout last chosen; docks may have been moved since
+    QRect window;                             ///< logical pixels; empty for the default
+    bool isMaximized = false;
+    QByteArray docks;   ///< QMainWindow::saveState; empty for the layout as shipped
+    QJsonObject panels; ///< Panel::state() by the name of the dock
+    AlertChoices alerts;
+    SourceChoices sources;
+};
+
+/// Reads and writes settings as JSON with the number of their schema.
+class SettingsFile {
+public:
+    /// An empty path means the user's own file.
+    explicit SettingsFile(QString path = {});
+
+    [[nodiscard]] const QString& path() const { return m_path; }
+
+    /// Defaults where there is no file. A file that cannot be understood is renamed, so that nothing in it is
+    /// lost, and `problem` says so in words for the operator.
+    [[nodiscard]] Settings read(QString* problem);
+
+    /// Replaces the file as a whole or leaves it; the answer is what went wrong, empty for nothing.
+    [[nodiscard]] QString write(const Settings& settings) const;
+
+private:
+    QString setAside(const QString& reason) const;
+
+    QString m_path;
+};
+
+[[nodiscard]] QString themeName(ThemeChoice choice);
+
+} // namespace posewire::gui

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/raw_file_import.h"
+
+#include "core/log/pcapng_writer.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QFile>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+namespace posewire::gui {
+namespace {
+
+class RawFileImport : public testing::Test {
+protected:
+    void writeFile(const std::vector<std::uint32_t>& timeCodes) const {
+        QFile file(path);
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        for (const std::uint32_t timeCode : timeCodes) {
+            wire::Datagram datagram;
+            datagram.body = smallPose();
+            datagram.header.timeCode = timeCode;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            const auto bytes = wire::encode(datagram);
+            ASSERT_TRUE(bytes);
+            file.write(reinterpret_cast<const char*>(bytes->data()), static_cast<qint64>(bytes->size()));
+        }
+    }
+    QString import(const QString& file) {
+        return importRawFile(
+            file,
+            [this](std::span<const std::byte> bytes, const log::SourceInfo& source, log::Arrival arrival) {
+                arrival.source = log.sources().intern(source);
+                log.writer().append(bytes, arrival);
+                log.writer().publish();
+            },
+            Stage::kStart);
+    }
+    std::vector<std::int64_t> stamps() {
+        std::vector<std::int64_t> result;
+        log::LogReader reader(log);
+        reader.refresh();
+        for (std::uint64_t number = reader.begin(); number != reader.end(); ++number) {
+            result.push_back(reader.packet(number)->stampNs);
+        }
+        return result;
+    }
+
+    QTemporaryDir folder;
+    QString path = folder.filePath("take.bin");
+    log::PacketLog log{{.memoryCap = std::size_t{4} << 20, .chunkSize = std::size_t{1} << 20}};
+};
+
+TEST_F(RawFileImport, SpacesDatagramsByTheirTimeCodesWithTheNewestAtTheEnd) {
+    writeFile({1000, 1000, 1010, 1030});
+    ASSERT_EQ(import(path), "");
+    const std::int64_t ms = Stage::kMillisecond;
+    EXPECT_EQ(stamps(), (std::vector<std::int64_t>{Stage::kStart - 30 * ms, Stage::kStart - 30 * ms,
+                                                   Stage::kStart - 20 * ms, Stage::kStart}));
+}
+
+TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {
+    writeFile({1000, 1020, 5, 15});
+    ASSERT_EQ(import(path), "");
+    const auto found = stamps();
+    EXPECT_TRUE(std::ranges::is_sorted(found));
+    EXPECT_EQ(found.back(), Stage::kStart);
+}
+
+TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
+    const std::vector<log::SourceInfo> sources{{"10.0.0.5:50000", log::Transport::Udp, 9763},
+                                               {"10.0.0.6:50001", log::Transport::Udp, 9763},
+                                               {"10.0.0.7:50002", log::Transport::Tcp, 9764}};
+    const std::vector<std::byte> bytes(40, std::byte{7});
+    {
+        const auto sink = log::createFile(path.toStdString());
+        ASSERT_TRUE(sink);
+        log::PcapngWriter writer(**sink);
+        ASSERT_TRUE(writer.begin({}));
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            log::Packet packet;
+            packet.stampNs = Stage::kStart + static_cast<std::int64_t>(i) * 1'000'003;
+            packet.kernelDropsBefore = i == 1 ? 17 : 0;
+            packet.bytes = bytes;
+            ASSERT_TRUE(writer.add(packet, sources[i]));
+        }
+        ASSERT_TRUE(writer.finish());
+    }
+    ASSERT_EQ(import(path), "");
+    EXPECT_EQ(stamps(), (std::vector<std::int64_t>{Stage::kStart, Stage::kStart + 1'000'003,
+                                                   Stage::kStart + 2'000'006}));
+    log::LogReader reader(log);
+    ASSERT_EQ(reader.end(), 3U);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        const auto packet = reader.packet(i);
+        EXPECT_EQ(*log.sources().find(packet->source), sources[i]);
+        EXPECT_EQ(packet->kernelDropsBefore, i == 1 ? 17U : 0U);
+        EXPECT_EQ(packet->bytes.size(), 40U);
+    }
+}
+
+TEST_F(RawFileImport, SaysWhyAFileCannotBeRead) {
+    EXPECT_NE(import(folder.filePath("none.bin")), "");
+    writeFile({});
+    EXPECT_NE(import(path), "");
+    EXPECT_TRUE(stamps().empty());
+}
+
+} // namespace
+} // namespace posewire::gui

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/camera_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+namespace posewire::gui {
+namespace {
+
+constexpr float kAspect = 1.5F;
+const QSizeF kView(900, 600);
+
+render::Bounds personAt(float x, float y) {
+    render::Bounds box;
+    box.add(glm::vec3(x - 0.3F, y - 0.3F, 0.0F));
+    box.add(glm::vec3(x + 0.3F, y + 0.3F, 1.9F));
+    return box;
+}
+
+TEST(CameraMotion, FittedCameraShowsAllBoxesAndFillsThePicture) {
+    const std::array boxes{personAt(0, 0), personAt(-2, 3), personAt(1, -1)};
+    const render::Camera camera = fitted({}, boxes, kAspect);
+    float widest = 0;
+    for (const render::Bounds& box : boxes) {
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 point((corner & 1) != 0 ? box.max.x : box.min.x,
+                                  (corner & 2) != 0 ? box.max.y : box.min.y,
+                                  (corner & 4) != 0 ? box.max.z : box.min.z);
+            const auto place = camera.project(point, kAspect);
+            ASSERT_TRUE(place);
+            widest = std::max({widest, std::abs(place->x), std::abs(place->y)});
+        }
+    }
+    EXPECT_LT(widest, 1.0F);
+    EXPECT_GT(widest, 0.75F);
+}
+
+TEST(CameraMotion, FittingNothingChangesNothing) {
+    const render::Camera camera = fitted({}, {}, kAspect);
+    EXPECT_EQ(camera.distance, render::Camera{}.distance);
+}
+
+TEST(CameraMotion, ZoomKeepsWhatIsUnderThePointer) {
+    CameraMotion motion;
+    const QPointF pointer(700, 150);
+    const render::Ray ray = motion.camera().rayThrough(screenPoint(pointer, kView), kAspect);
+    const float depth = motion.camera().distance / glm::dot(ray.direction, motion.camera().forward());
+    const glm::vec3 point = ray.origin + depth * ray.direction;
+    motion.zoom(4, pointer, kView);
+    const auto place = motion.camera().project(point, kAspect);
+    ASSERT_TRUE(place);
+    EXPECT_NEAR(pointerAt(*place, kView).x(), pointer.x(), 0.5);
+    EXPECT_NEAR(pointerAt(*place, kView).y(), pointer.y(), 0.5);
+}
+
+TEST(CameraMotion, FollowsUntilTheOperatorPansOrZooms) {
+    CameraMotion motion;
+    const std::array here{personAt(0, 0)};
+    const std::array there{personAt(5, 5)};
+    motion.follow(here, kAspect, 0);
+    for (int i = 0; i < 100; ++i) {
+        motion.follow(there, kAspect, 0.1);
+    }
+    EXPECT_NEAR(motion.camera().target.x, 5, 0.5);
+    motion.pan({10, 0}, kView);
+    const glm::vec3 target = motion.camera().target;
+    motion.follow(here, kAspect, 1);
+    EXPECT_EQ(motion.camera().target, target);
+    motion.frame(here, kAspect);
+    EXPECT_TRUE(motion.isFollowing());
+}
+
+TEST(CameraMotion, OrbitKeepsFollowing) {
+    CameraMotion motion;
+    motion.orbit({30, 10});
+    EXPECT_TRUE(motion.isFollowing());
+}
+
+} // namespace
+} // namespace posewire::gui

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/scene_builder.h"
+
+#include "app/gui/models/stream_state.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <gtest/gtest.h>
+
+namespace posewire::gui {
+namespace {
+
+class SceneBuilderTest : public testing::Test {
+protected:
+    void perform(int characters) {
+        performer::Performer performer(sending(characters, {2, 12, 13}));
+        stage.perform(performer, 0, 3);
+        stage.follow();
+    }
+    SceneFrame build() {
+        SceneFrame frame;
+        builder.build(options, frame);
+        return frame;
+    }
+
+    Stage stage;
+    ViewOptions options;
+    SceneBuilder builder{stage.session, render::Detail::Low};
+};
+
+TEST_F(SceneBuilderTest, WithoutCharactersTheSceneIsEmpty) {
+    const SceneFrame frame = build();
+    EXPECT_TRUE(frame.figures.empty());
+    EXPECT_TRUE(frame.axes.empty());
+}
+
+TEST_F(SceneBuilderTest, EachCharacterHasAFigureInItsMetadataColour) {
+    perform(3);
+    const SceneFrame frame = build();
+    ASSERT_EQ(frame.figures.size(), 3U);
+    for (const Figure& figure : frame.figures) {
+        const model::Colour colour = stage.session.colour(figure.key);
+        EXPECT_EQ(figure.colour, glm::vec3(colour.red, colour.green, colour.blue));
+        EXPECT_EQ(figure.dim, 0.0F);
+        EXPECT_FALSE(figure.isHatched);
+    }
+    EXPECT_NE(frame.figures[0].colour, frame.figures[1].colour);
+}
+
+TEST_F(SceneBuilderTest, ThePaletteTakesEachSegmentWhereThePoseHasIt) {
+    perform(1);
+    const SceneFrame frame = build();
+    const model::CharacterPose* pose = stage.session.pose(stage.key());
+    ASSERT_NE(pose, nullptr);
+    for (std::size_t i = 0; i < render::kSegmentCount; ++i) {
+        const glm::vec3 place =
+            render::transformPoint(frame.figures[0].palette[i], frame.figures[0].mesh->origins[i]);
+        EXPECT_NEAR(place.x, pose->segments[i].position.x(), 1e-4);
+        EXPECT_NEAR(place.y, pose->segments[i].position.y(), 1e-4);
+        EXPECT_NEAR(place.z, pose->segments[i].position.z(), 1e-4);
+    }
+}
+
+TEST_F(SceneBuilderTest, AxesAreDrawnForAllForTheSelectedOrForNone) {
+    perform(2);
+    EXPECT_EQ(build().axes.size(), 2U * 23);
+    options.axes = AxesMode::Selected;
+    EXPECT_TRUE(build().axes.empty());
+    stage.session.setSelection({stage.source(), stage.key(1), -1});
+    EXPECT_EQ(build().axes.size(), 23U);
+    options.axes = AxesMode::None;
+    EXPECT_TRUE(build().axes.empty());
+}
+
+TEST_F(SceneBuilderTest, TheGhostStandsOnTheFloorUnderTheLivePelvisAndLooksItsWay) {
+    perform(2);
+    EXPECT_TRUE(build().ghosts.empty());
+    options.hasGhost = true;
+    stage.session.setSelection({stage.source(), stage.key(1), 6});
+    const SceneFrame frame = build();
+    ASSERT_EQ(frame.ghosts.size(), 1U);
+    const Figure& ghost = frame.ghosts[0];
+    EXPECT_EQ(ghost.key, stage.key(1));
+    EXPECT_LT(ghost.opacity, 1.0F);
+    EXPECT_EQ(ghost.selectedSegment, 6);
+    const auto at = [&](render::Segment segment) {
+        return render::transformPoint(ghost.palette[segment], ghost.mesh->origins[segment]);
+    };
+    const model::SegmentPose& pelvis = stage.session.pose(stage.key(1))->segments[0];
+    EXPECT_NEAR(at(render::Pelvis).x, pelvis.position.x(), 1e-4);
+    EXPECT_NEAR(at(render::Pelvis).y, pelvis.position.y(), 1e-4);
+    EXPECT_NEAR(at(render::RightToe).z, 0.015, 0.004); // the ball of the foot, over the sole
+    const glm::vec3 leftwards = glm::normalize(at(render::LeftHand) - at(render::RightHand));
+    const Eigen::Vector3d ahead = pelvis.orientation * Eigen::Vector3d::UnitX();
+    EXPECT_NEAR(leftwards.x * ahead.x() + leftwards.y * ahead.y(), 0.0, 1e-3);
+    EXPECT_GT(ahead.x() * leftwards.y - ahead.y() * leftwards.x, 0.0);
+}
+
+TEST_F(SceneBuilderTest, WithoutANullPoseThereIsNoGhost) {
+    performer::Performer performer(sending(1, {2}));
+    stage.perform(performer, 0, 3);
+    stage.follow();
+    options.hasGhost = true;
+    EXPECT_TRUE(build().ghosts.empty());
+}
+
+TEST_F(SceneBuilderTest, TheSelectedSegmentIsMarkedOnItsCharacterOnly) {
+    perform(2);
+    stage.session.setSelection({stage.source(), stage.key(1), 6});
+    const SceneFrame frame = build();
+    EXPECT_EQ(frame.figures[0].selectedSegment, -1);
+    EXPECT_EQ(frame.figures[1].selectedSegment, 6);
+}
+
+TEST_F(SceneBuilderTest, HiddenCharactersAreLeftOut) {
+    perform(2);
+    options.hidden.insert(stage.key(0));
+    const SceneFrame frame = build();
+    ASSERT_EQ(frame.figures.size(), 1U);
+    EXPECT_EQ(frame.figures[0].key, stage.key(1));
+    EXPECT_EQ(frame.axes.size(), 23U);
+}
+
+TEST_F(SceneBuilderTest, DataThatStopFadeAndAreStripedAfterASecond) {
+    perform(1);
+    const std::int64_t newest = stage.now;
+    stage.session.follow(newest + 300 * Stage::kMillisecond);
+    const SceneFrame fading = build();
+    EXPECT_GT(fading.figures[0].dim, 0.1F);
+    EXPECT_FALSE(fading.figures[0].isHatched);
+    stage.session.follow(newest + 1100 * Stage::kMillisecond);
+    const SceneFrame stale = build();
+    EXPECT_GT(stale.figures[0].dim, fading.figures[0].dim);
+    EXPECT_TRUE(stale.figures[0].isHatched);
+}
+
+TEST_F(SceneBuilderTest, TheMeshIsMadeOnceForANullPose) {
+    perform(1);
+    EXPECT_EQ(build().figures[0].mesh, build().figures[0].mesh);
+}
+
+TEST(DimFor, IsNothingForLiveDataAndNeverFalls) {
+    EXPECT_EQ(dimFor(0), 0.0F);
+    EXPECT_EQ(dimFor(kSilentAge - 0.01), 0.0F);
+    float before = 0;
+    for (double age = kSilentAge; age < 3; age += 0.05) {
+        EXPECT_GE(dimFor(age), before);
+        before = dimFor(age);
+    }
+    EXPECT_LT(before, 1.0F);
+}
+
+} // namespace
+} // namespace posewire::gui

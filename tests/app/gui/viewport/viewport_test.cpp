@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/viewport_widget.h"
+
+#include "app/gui/viewport/viewport_overlay.h"
+#include "render/offscreen.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace posewire::gui {
+namespace {
+
+class Viewport : public testing::Test {
+protected:
+    void SetUp() override {
+        if (!render::OffscreenRenderer::create()) {
+            GTEST_SKIP() << "SKIPPED: no OpenGL by EGL on this computer";
+        }
+        performer::Performer performer(sending(1, {2, 12, 13}));
+        stage.perform(performer, 0, 3);
+        stage.follow();
+        viewport.resize(480, 360);
+        viewport.show();
+        viewport.start();
+        ASSERT_TRUE(settle());
+    }
+    bool settle() {
+        return QTest::qWaitFor([this] { return viewport.isSettled() || !viewport.failure().isEmpty(); },
+                               20'000) &&
+               viewport.failure().isEmpty();
+    }
+
+    /// Pixels near a colour's hue, bright or in shadow.
+    static int countHue(const QImage& image, const QColor& colour) {
+        int count = 0;
+        for (int y = 0; y < image.height(); ++y) {
+            for (int x = 0; x < image.width(); ++x) {
+                const QColor pixel = image.pixelColor(x, y);
+                const int distance = std::abs(pixel.hue() - colour.hue());
+                count +=
+                    pixel.saturation() > 110 && pixel.value() > 60 && std::min(distance, 360 - distance) < 12
+                        ? 1
+                        : 0;
+            }
+        }
+        return count;
+    }
+    /// The middle of the first figure on the widget, where a click meets it.
+    QPoint middleOfFigure() {
+        const QPointF label = viewport.overlay().labels().at(0).anchor;
+        return {static_cast<int>(label.x()), viewport.height() / 2};
+    }
+
+    Stage stage;
+    ViewportWidget viewport{stage.session, stage.commands};
+};
+
+TEST_F(Viewport, PaintsACharacterInItsColourWithoutADisplay) {
+    const model::Colour colour = stage.session.colour(stage.key());
+    const QImage image = viewport.grab().toImage();
+    EXPECT_GT(countHue(image, QColor::fromRgbF(colour.red, colour.green, colour.blue)), 1500);
+}
+
+TEST_F(Viewport, NamesEveryCharacterInThePicture) {
+    ASSERT_EQ(viewport.overlay().labels().size(), 1U);
+    EXPECT_EQ(viewport.overlay().labels()[0].name.toStdString(), stage.session.displayName(stage.key()));
+    EXPECT_EQ(viewport.overlay().labels()[0].level, Health::Good);
+    EXPECT_TRUE(viewport.overlay().card().title.isEmpty());
+}
+
+TEST_F(Viewport, LabelsStaleDataAsStale) {
+    stage.session.follow(stage.now + 3 * Stage::kSecond);
+    viewport.refresh();
+    EXPECT_TRUE(QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).level == Health::Error; }));
+    EXPECT_TRUE(viewport.overlay().labels()[0].words.contains("stale"));
+}
+
+TEST_F(Viewport, HidesACharacterOnRequest) {
+    viewport.setCharacterVisible(stage.key(), false);
+    EXPECT_TRUE(QTest::qWaitFor([this] { return viewport.overlay().labels().empty(); }));
+}
+
+TEST_F(Viewport, AClickOnTheBodySelectsASegmentAndBesideItNothing) {
+    QTest::mouseClick(&viewport, Qt::LeftButton, {}, middleOfFigure());
+    ASSERT_TRUE(stage.session.selection().character.has_value());
+    EXPECT_EQ(*stage.session.selection().character, stage.key());
+    EXPECT_GE(stage.session.selection().segment, 0);
+    QTest::mouseClick(&viewport, Qt::LeftButton, {}, QPoint(5, viewport.height() - 5));
+    EXPECT_FALSE(stage.session.selection().character.has_value());
+}
+
+TEST_F(Viewport, ADragTurnsTheCameraAndSelectsNothing) {
+    const QImage before = viewport.grab().toImage();
+    const QPoint middle = middleOfFigure();
+    QTest::mousePress(&viewport, Qt::LeftButton, {}, middle);
+    QTest::mouseMove(&viewport, middle + QPoint(80, 10));
+    QTest::mouseRelease(&viewport, Qt::LeftButton, {}, middle + QPoint(80, 10));
+    EXPECT_EQ(stage.commands.selections, 0);
+    EXPECT_TRUE(QTest::qWaitFor([&] { return viewport.grab().toImage() != before; }));
+}
+
+} // namespace
+} // namespace posewire::gui
