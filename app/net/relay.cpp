@@ -9,6 +9,7 @@
 #include <QUdpSocket>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <future>
 
@@ -92,8 +93,8 @@ Relay::Relay(const log::PacketLog& log, const log::Clock& clock)
     : m_log(log), m_clock(clock), m_reader(log), m_thread([this] { run(); }) {}
 
 Relay::~Relay() {
-    m_isStopping.store(true, std::memory_order_release);
-    call([] {});
+    // By a command: a thread that saw it earlier would be gone before a command came, and never answer it.
+    call([this] { m_isStopping = true; });
     m_thread.join();
 }
 
@@ -164,7 +165,7 @@ void Relay::call(const CommandQueue::Command& command) {
 
 void Relay::run() {
     m_sockets = std::make_unique<Sockets>();
-    while (!m_isStopping.load(std::memory_order_acquire)) {
+    while (!m_isStopping) {
         m_commands.run();
         if (!m_targets.empty() && forwardSome()) {
             continue;
@@ -178,7 +179,6 @@ void Relay::run() {
         }
         m_isWoken = false;
     }
-    m_commands.run();
     m_sockets.reset();
 }
 

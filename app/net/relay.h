@@ -7,7 +7,6 @@
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -77,7 +76,7 @@ private:
     std::mutex m_wakeMutex;
     std::condition_variable m_wake;
     bool m_isWoken = false; ///< guarded by m_wakeMutex
-    std::atomic<bool> m_isStopping = false;
+    bool m_isStopping = false; ///< known to the thread alone
 
     mutable std::mutex m_mutex; ///< guards m_targets against other threads' looking
     std::vector<std::shared_ptr<Target>> m_targets;

@@ -84,6 +84,15 @@ TEST_F(RelayTest, WhatIsNoLiveDatagramStaysHere) {
     EXPECT_TRUE(equal(reader.packet(0)->bytes, numbered(100, 3)));
 }
 
+TEST_F(RelayTest, EndsWhateverItsThreadIsAbout) {
+    for (int i = 0; i < 200; ++i) {
+        Relay relay(log, clock);
+        if (i % 2 == 0) {
+            ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+        }
+    }
+}
+
 TEST_F(RelayTest, RefusesThePortsItsMonitorListensOn) {
     Relay relay(log, clock);
     const auto inputs = consumer.receiver->inputs();
