@@ -42,21 +42,23 @@ StreamFigures figuresOf(const model::Session& session, const model::Stream& stre
     const model::StreamAccounting& accounting = stream.accounting;
     StreamFigures figures;
     figures.key = stream.key;
-    figures.pattern = accounting.lossPattern();
-    figures.clock = accounting.clock();
-    figures.malformed = stream.malformed;
     std::int64_t from = accounting.firstStampNs();
     std::int64_t to = accounting.lastStampNs();
     if (range.isWhole()) {
         figures.counts = accounting.counts();
         figures.arrivals = accounting.interArrival();
+        figures.pattern = accounting.lossPattern();
+        figures.clock = accounting.clock();
+        figures.malformed = accounting.malformed();
     } else {
         const std::int64_t rangeFrom = range.fromNs.value_or(kBeginning);
         const std::int64_t rangeTo = range.toNs.value_or(kEnd);
         figures.counts = accounting.countsBetween(rangeFrom, rangeTo);
         figures.counts.step = accounting.step();
         figures.arrivals = accounting.interArrivalBetween(rangeFrom, rangeTo);
-        figures.clock.jitterMs = accounting.jitterMsAt(rangeTo);
+        figures.pattern = accounting.lossPatternBetween(rangeFrom, rangeTo);
+        figures.clock = accounting.clockBetween(rangeFrom, rangeTo);
+        figures.malformed = accounting.malformedBetween(rangeFrom, rangeTo);
         from = std::max(from, rangeFrom);
         to = std::min(to, rangeTo);
     }

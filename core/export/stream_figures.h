@@ -30,8 +30,6 @@ struct StreamFigures {
     std::array<std::uint64_t, model::kLossCauses> lostByCause{};
 };
 
-/// What is only known of a whole stream (pattern, clock's skew) is that of the whole stream also where a
-/// range is asked for.
 [[nodiscard]] StreamFigures figuresOf(const model::Session& session, const model::Stream& stream,
                                       const TimeRange& range = {});
 

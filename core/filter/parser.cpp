@@ -62,7 +62,7 @@ private:
     /// What stands here, and what should.
     [[nodiscard]] FilterError unexpected(std::string_view wanted) const {
         const Token& token = here();
-        std::string text = "Here belongs " + std::string(wanted) + ".";
+        std::string text = "Expected " + std::string(wanted) + " here.";
         if (token.kind == TokenKind::End) {
             text = "The filter ends early: " + std::string(wanted) + " is missing.";
         } else if (token.kind == TokenKind::Unfinished) {

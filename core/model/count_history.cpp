@@ -26,6 +26,10 @@ void CountHistory::apply(Bucket& bucket, const Change& change) {
     bucket.late += static_cast<std::uint32_t>(change.late);
     bucket.incomplete += static_cast<std::uint32_t>(change.incomplete);
     bucket.restarts += static_cast<std::uint32_t>(change.restarts);
+    bucket.malformed += static_cast<std::uint32_t>(change.malformed);
+    bucket.bursts += static_cast<std::uint32_t>(change.bursts);
+    bucket.burstLost += static_cast<std::uint32_t>(change.burstLost);
+    bucket.burstSamples += static_cast<std::uint32_t>(change.burstSamples);
 }
 
 /// The newest bucket, made where the stamp is beyond it; an earlier stamp makes none.
@@ -42,11 +46,29 @@ CountHistory::Bucket& CountHistory::bucketAt(std::int64_t stampNs) {
             next.startNs = aligned(stampNs, m_widthNs);
             next.longestGap = 0;
             next.leastMs = next.mostMs = 0;
-            next.hasArrivals = false;
+            next.hasArrivals = next.hasDifference = false;
             m_buckets.push_back(next);
         }
     }
     return m_buckets.back();
+}
+
+/// Into a bucket, the one before it.
+void CountHistory::merge(Bucket& bucket, const Bucket& before) {
+    bucket.longestGap = std::max(bucket.longestGap, before.longestGap);
+    if (before.hasArrivals) {
+        bucket.leastMs = bucket.hasArrivals ? std::min(bucket.leastMs, before.leastMs) : before.leastMs;
+        bucket.mostMs = std::max(bucket.mostMs, before.mostMs);
+        bucket.hasArrivals = true;
+    }
+    const bool isLess = !bucket.hasDifference ||
+                        (bucket.generation == before.generation && before.differenceMs < bucket.differenceMs);
+    if (before.hasDifference && isLess) {
+        bucket.hasDifference = true;
+        bucket.generation = before.generation;
+        bucket.leastDelayedNs = before.leastDelayedNs;
+        bucket.differenceMs = before.differenceMs;
+    }
 }
 
 void CountHistory::halve() {
@@ -57,14 +79,7 @@ void CountHistory::halve() {
             Bucket bucket = m_buckets[i];
             bucket.startNs = aligned(bucket.startNs, m_widthNs);
             if (kept != 0 && m_buckets[kept - 1].startNs == bucket.startNs) {
-                const Bucket& before = m_buckets[kept - 1];
-                bucket.longestGap = std::max(bucket.longestGap, before.longestGap);
-                if (before.hasArrivals) {
-                    bucket.leastMs =
-                        bucket.hasArrivals ? std::min(bucket.leastMs, before.leastMs) : before.leastMs;
-                    bucket.mostMs = std::max(bucket.mostMs, before.mostMs);
-                    bucket.hasArrivals = true;
-                }
+                merge(bucket, m_buckets[kept - 1]);
                 --kept;
             }
             m_buckets[kept++] = bucket;
@@ -103,6 +118,16 @@ void CountHistory::addArrival(std::int64_t stampNs, std::int64_t sinceNs, double
     bucket.hasArrivals = true;
 }
 
+void CountHistory::addDifference(std::int64_t stampNs, double differenceMs, std::uint32_t generation) {
+    Bucket& bucket = bucketAt(stampNs);
+    if (!bucket.hasDifference || bucket.generation != generation || differenceMs < bucket.differenceMs) {
+        bucket.hasDifference = true;
+        bucket.generation = generation;
+        bucket.leastDelayedNs = stampNs;
+        bucket.differenceMs = differenceMs;
+    }
+}
+
 std::size_t CountHistory::firstFrom(std::int64_t stampNs) const {
     const auto found =
         std::lower_bound(m_buckets.begin(), m_buckets.end(), stampNs,
@@ -110,15 +135,22 @@ std::size_t CountHistory::firstFrom(std::int64_t stampNs) const {
     return static_cast<std::size_t>(found - m_buckets.begin());
 }
 
-StreamCounts CountHistory::countsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+std::optional<CountHistory::Ends> CountHistory::endsOf(std::int64_t fromNs, std::int64_t toNs) const {
     const std::size_t first = firstFrom(fromNs);
     const std::size_t end = firstFrom(toNs);
-    StreamCounts counts;
     if (end <= first) {
+        return std::nullopt;
+    }
+    return Ends{first == 0 ? Bucket{} : m_buckets[first - 1], m_buckets[end - 1], first, end};
+}
+
+StreamCounts CountHistory::countsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    StreamCounts counts;
+    const auto ends = endsOf(fromNs, toNs);
+    if (!ends) {
         return counts;
     }
-    const Bucket before = first == 0 ? Bucket{} : m_buckets[first - 1];
-    const Bucket& last = m_buckets[end - 1];
+    const auto& [before, last, first, end] = *ends;
     counts.datagrams = last.datagrams - before.datagrams;
     counts.bytes = last.bytes - before.bytes;
     counts.samples = last.samples - before.samples;
@@ -134,15 +166,56 @@ StreamCounts CountHistory::countsBetween(std::int64_t fromNs, std::int64_t toNs)
     return counts;
 }
 
+BurstCounts CountHistory::burstsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    const auto ends = endsOf(fromNs, toNs);
+    return ends ? BurstCounts{ends->last.bursts - ends->before.bursts,
+                              ends->last.burstLost - ends->before.burstLost,
+                              ends->last.burstSamples - ends->before.burstSamples}
+                : BurstCounts{};
+}
+
+std::uint64_t CountHistory::malformedBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    const auto ends = endsOf(fromNs, toNs);
+    return ends ? ends->last.malformed - ends->before.malformed : 0;
+}
+
+ClockSkew CountHistory::skewBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    const auto ends = endsOf(fromNs, toNs);
+    if (!ends) {
+        return {};
+    }
+    // The newest generation: from where on it is alone, and what it spans.
+    std::size_t first = ends->end;
+    const Bucket* newest = nullptr;
+    for (std::size_t i = ends->end; i > ends->first; --i) {
+        const Bucket& bucket = m_buckets[i - 1];
+        if (bucket.hasDifference && newest != nullptr && bucket.generation != newest->generation) {
+            break;
+        }
+        if (bucket.hasDifference) {
+            newest = newest == nullptr ? &bucket : newest;
+            first = i - 1;
+        }
+    }
+    if (newest == nullptr) {
+        return {};
+    }
+    ClockFit fit(newest->leastDelayedNs - m_buckets[first].leastDelayedNs);
+    for (std::size_t i = first; i < ends->end; ++i) {
+        if (m_buckets[i].hasDifference) {
+            fit.add(m_buckets[i].leastDelayedNs, m_buckets[i].differenceMs);
+        }
+    }
+    return fit.skew();
+}
+
 InterArrival CountHistory::arrivalsBetween(std::int64_t fromNs, std::int64_t toNs) const {
-    const std::size_t first = firstFrom(fromNs);
-    const std::size_t end = firstFrom(toNs);
     InterArrival result;
-    if (end <= first) {
+    const auto ends = endsOf(fromNs, toNs);
+    if (!ends) {
         return result;
     }
-    const Bucket before = first == 0 ? Bucket{} : m_buckets[first - 1];
-    const Bucket& last = m_buckets[end - 1];
+    const auto& [before, last, first, end] = *ends;
     result.count = last.arrivals - before.arrivals;
     if (result.count == 0) {
         return result;

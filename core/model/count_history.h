@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/clock_skew.h"
 #include "core/model/stream_counts.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace posewire::model {
@@ -26,15 +28,26 @@ public:
         std::int32_t late = 0;
         std::int32_t incomplete = 0;
         std::int32_t restarts = 0;
+        std::int32_t malformed = 0;
+        std::int32_t bursts = 0; ///< see BurstCounts
+        std::int32_t burstLost = 0;
+        std::int32_t burstSamples = 0;
     };
     void add(std::int64_t stampNs, const Change& change);
     void addGap(std::int64_t stampNs, std::uint32_t samples);
     /// Time since the sample before, and the jitter as it is now.
     void addArrival(std::int64_t stampNs, std::int64_t sinceNs, double jitterMs);
 
+    /// How far our clock is ahead of the sender's. Only differences of one generation can be compared.
+    void addDifference(std::int64_t stampNs, double differenceMs, std::uint32_t generation);
+
     /// Figures of the buckets that begin in [fromNs, toNs). Without step, first and last sample.
     [[nodiscard]] StreamCounts countsBetween(std::int64_t fromNs, std::int64_t toNs) const;
     [[nodiscard]] InterArrival arrivalsBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] BurstCounts burstsBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] std::uint64_t malformedBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    /// Of the newest generation in the range.
+    [[nodiscard]] ClockSkew skewBetween(std::int64_t fromNs, std::int64_t toNs) const;
     /// At the end of the range.
     [[nodiscard]] double jitterMsAt(std::int64_t toNs) const;
     [[nodiscard]] std::int64_t widthNs() const { return m_widthNs; }
@@ -55,13 +68,30 @@ private:
         std::uint32_t incomplete = 0;
         std::uint32_t restarts = 0;
         std::uint32_t arrivals = 0;
+        std::uint32_t malformed = 0;
+        std::uint32_t bursts = 0;
+        std::uint32_t burstLost = 0;
+        std::uint32_t burstSamples = 0;
         // Of this bucket alone:
         std::uint32_t longestGap = 0;
         float leastMs = 0;
         float mostMs = 0;
         float jitterMs = 0;
         bool hasArrivals = false;
+        bool hasDifference = false;
+        std::uint32_t generation = 0;
+        std::int64_t leastDelayedNs = 0; ///< stamp of the least difference
+        double differenceMs = 0;
     };
+    /// The buckets before a range and at its end; nothing where none is in it.
+    struct Ends {
+        Bucket before;
+        Bucket last;
+        std::size_t first = 0;
+        std::size_t end = 0;
+    };
+    [[nodiscard]] std::optional<Ends> endsOf(std::int64_t fromNs, std::int64_t toNs) const;
+    static void merge(Bucket& bucket, const Bucket& before);
     static void apply(Bucket& bucket, const Change& change);
     Bucket& bucketAt(std::int64_t stampNs);
     void halve();

@@ -4,6 +4,7 @@
 #include "core/model/stream_counts.h"
 
 #include <cstdint>
+#include <optional>
 
 namespace posewire::model {
 
@@ -13,26 +14,23 @@ class LossBursts {
 public:
     static constexpr std::uint64_t kGmin = 16;
 
-    /// A sample that arrived, with how many were lost just before it.
-    void add(std::uint64_t lostBefore);
-    /// Nothing is counted as lost from here to the next sample, which begins a run.
-    void endRun() { closeCluster(); }
+    /// From its first loss to its last.
+    struct Burst {
+        std::uint64_t lost = 0;
+        std::uint64_t samples = 0;
+        std::int64_t endNs = 0; ///< when the first sample after it arrived
+    };
 
-    [[nodiscard]] LossPattern pattern() const;
+    /// A sample that arrived, with how many were lost just before it. Returns the burst that is over with it.
+    std::optional<Burst> add(std::uint64_t lostBefore, std::int64_t stampNs);
+    /// Nothing is counted as lost from here to the next sample, which begins a run.
+    std::optional<Burst> endRun();
+
     [[nodiscard]] std::uint64_t longestGap() const { return m_longestGap; }
 
 private:
-    void closeCluster();
-
-    // Losses with fewer than kGmin samples received in a row between them.
-    std::uint64_t m_clusterLost = 0;
-    std::uint64_t m_clusterSamples = 0;
+    Burst m_cluster; ///< losses with fewer than kGmin samples received in a row between them
     std::uint64_t m_receivedSince = 0; ///< since the newest loss
-    std::uint64_t m_bursts = 0;
-    std::uint64_t m_burstLost = 0;
-    std::uint64_t m_burstSamples = 0;
-    std::uint64_t m_lost = 0;
-    std::uint64_t m_received = 0;
     std::uint64_t m_longestGap = 0;
 };
 

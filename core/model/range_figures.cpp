@@ -89,15 +89,18 @@ void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigure
 
 RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
     RangeFigures figures;
-    figures.clock = stream.clock();
     if (range) {
         figures.counts = stream.countsBetween(range->fromNs, range->toNs);
         figures.arrivals = stream.interArrivalBetween(range->fromNs, range->toNs);
-        figures.clock.jitterMs = stream.jitterMsAt(range->toNs);
+        figures.clock = stream.clockBetween(range->fromNs, range->toNs);
+        figures.pattern = stream.lossPatternBetween(range->fromNs, range->toNs);
+        figures.malformed = stream.malformedBetween(range->fromNs, range->toNs);
     } else {
         figures.counts = stream.counts();
         figures.arrivals = stream.interArrival();
+        figures.clock = stream.clock();
         figures.pattern = stream.lossPattern();
+        figures.malformed = stream.malformed();
     }
     const TimeRange air = onAir(stream, range);
     readMean(stream, air, figures.counts, figures.rate);

@@ -26,9 +26,10 @@ struct RateFigures {
 struct RangeFigures {
     StreamCounts counts;
     InterArrival arrivals;
-    ClockFigures clock; ///< the jitter at the end of the range
+    ClockFigures clock; ///< the jitter at the end of the range; skew and drift over it
     RateFigures rate;
-    std::optional<LossPattern> pattern; ///< known for all there is, and since the newest restart
+    LossPattern pattern;
+    std::uint64_t malformed = 0; ///< datagrams with a header of the stream that could not be decoded
 };
 
 /// All there is where no range is given. The cost does not depend on the range.

@@ -60,8 +60,8 @@ void SampleLedger::restart(std::int64_t stampNs, CountHistory* history) {
         m_settled.samples += totals.samples;
         m_settled.incomplete += totals.incomplete;
         m_settled.lost += totals.lost;
-        m_longestGap = std::max(m_longestGap, m_before.bursts().longestGap());
-        m_before.clear();
+        m_longestGap = std::max(m_longestGap, m_before.longestGap());
+        m_before.clear(history);
     }
     if (m_settled.restarts == 0) {
         m_firstSample = m_present.first();
@@ -85,7 +85,7 @@ StreamCounts SampleLedger::counts() const {
         counts.incomplete += totals.incomplete;
         counts.lost += totals.lost;
         if (!sequence->empty()) {
-            counts.longestGapSamples = std::max(counts.longestGapSamples, sequence->bursts().longestGap());
+            counts.longestGapSamples = std::max(counts.longestGapSamples, sequence->longestGap());
         }
     }
     if (!m_present.empty()) {

@@ -37,7 +37,11 @@ public:
 
     /// All but datagrams and bytes.
     [[nodiscard]] StreamCounts counts() const;
-    [[nodiscard]] LossPattern lossPattern() const { return m_present.bursts().pattern(); }
+    /// Adds the bursts that the history does not know yet, those that ended in a range of time.
+    void addNewestBursts(const TimeRange& range, BurstCounts& into) const {
+        m_before.addNewestBursts(range, into);
+        m_present.addNewestBursts(range, into);
+    }
 
 private:
     Placement count(const Placement& placement, std::int64_t stampNs, CountHistory* history);

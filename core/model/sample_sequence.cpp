@@ -47,6 +47,16 @@ std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint3
     return std::min(place + 1, differences.size() - 1);
 }
 
+void tellHistory(const std::optional<LossBursts::Burst>& burst, CountHistory* history) {
+    if (burst && history != nullptr) {
+        CountHistory::Change change;
+        change.bursts = 1;
+        change.burstLost = static_cast<std::int32_t>(burst->lost);
+        change.burstSamples = static_cast<std::int32_t>(burst->samples);
+        history->add(burst->endNs, change);
+    }
+}
+
 } // namespace
 
 std::int64_t SampleSequence::Run::lost() const {
@@ -195,7 +205,7 @@ Placement SampleSequence::advance(const Datagram& datagram, CountHistory* histor
     if (difference != step) {
         reconsiderStep(history);
     }
-    settle();
+    settle(kSettling, history);
     return placement;
 }
 
@@ -331,21 +341,38 @@ std::uint64_t SampleSequence::lostBefore(std::size_t index, const Run*& run) con
     return run == nullptr || from < run->first ? 0 : lostWithin(to - from, run->step);
 }
 
-void SampleSequence::settle() {
+/// Tells the history of bursts among all but the newest samples.
+void SampleSequence::settle(std::size_t most, CountHistory* history) {
     const Run* run = nullptr;
-    while (m_settled + kSettling < m_window.size()) {
-        m_bursts.add(m_settled == 0 ? 0 : lostBefore(m_settled, run));
-        ++m_settled;
+    for (; m_settled + most < m_window.size(); ++m_settled) {
+        const std::uint64_t lost = m_settled == 0 ? 0 : lostBefore(m_settled, run);
+        tellHistory(m_bursts.add(lost, dueStamp(m_settled)), history);
     }
 }
 
-LossBursts SampleSequence::bursts() const {
-    LossBursts result = m_bursts;
+std::uint64_t SampleSequence::longestGap() const {
+    LossBursts bursts = m_bursts;
     const Run* run = nullptr;
     for (std::size_t i = m_settled; i < m_window.size(); ++i) {
-        result.add(i == 0 ? 0 : lostBefore(i, run));
+        bursts.add(i == 0 ? 0 : lostBefore(i, run), 0);
     }
-    return result;
+    return bursts.longestGap();
+}
+
+void SampleSequence::addNewestBursts(const TimeRange& range, BurstCounts& into) const {
+    const auto take = [&](const std::optional<LossBursts::Burst>& burst) {
+        if (burst && burst->endNs >= range.fromNs && burst->endNs < range.toNs) {
+            into.bursts += 1;
+            into.lost += burst->lost;
+            into.samples += burst->samples;
+        }
+    };
+    LossBursts bursts = m_bursts;
+    const Run* run = nullptr;
+    for (std::size_t i = m_settled; i < m_window.size(); ++i) {
+        take(bursts.add(i == 0 ? 0 : lostBefore(i, run), dueStamp(i)));
+    }
+    take(bursts.endRun());
 }
 
 std::uint32_t SampleSequence::missingBetween(std::uint32_t from, std::uint32_t to) const {
@@ -363,7 +390,9 @@ std::uint32_t SampleSequence::missingBetween(std::uint32_t from, std::uint32_t t
     return missing;
 }
 
-void SampleSequence::clear() {
+void SampleSequence::clear(CountHistory* history) {
+    settle(0, history);
+    tellHistory(m_bursts.endRun(), history);
     m_window.clear();
     m_runCount = 0;
     m_past = {};

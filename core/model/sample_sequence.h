@@ -4,6 +4,7 @@
 #include "core/model/count_history.h"
 #include "core/model/loss_bursts.h"
 #include "core/model/sample_window.h"
+#include "core/model/time_range.h"
 
 #include <array>
 #include <cstdint>
@@ -57,10 +58,12 @@ public:
     /// Samples between two counters, both exclusive, of which nothing has come.
     [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
 
-    /// Bursts and the longest gap so far.
-    [[nodiscard]] LossBursts bursts() const;
+    [[nodiscard]] std::uint64_t longestGap() const;
+    /// Adds the bursts that the history does not know yet, those that ended in a range of time.
+    void addNewestBursts(const TimeRange& range, BurstCounts& into) const;
 
-    void clear();
+    /// Nothing of it will come any more: tells the history of the newest bursts and begins anew.
+    void clear(CountHistory* history);
 
 private:
     struct Run {
@@ -72,7 +75,7 @@ private:
         [[nodiscard]] std::int64_t lost() const;
     };
     static constexpr std::size_t kRuns = 8;
-    /// So far behind the highest, losses are taken for settled by bursts().
+    /// So far behind the highest, losses are taken for settled.
     static constexpr std::size_t kSettling = 512;
 
     [[nodiscard]] Run& newestRun() { return m_runs[m_runCount - 1]; }
@@ -94,7 +97,7 @@ private:
     [[nodiscard]] std::size_t firstOfRun(const Run& run, std::size_t most) const;
     [[nodiscard]] std::uint64_t lostBefore(std::size_t index, const Run*& run) const;
     [[nodiscard]] std::int64_t lostNow() const;
-    void settle();
+    void settle(std::size_t most, CountHistory* history);
 
     SampleWindow m_window;
     std::int64_t m_highest = 0; ///< position

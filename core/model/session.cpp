@@ -127,13 +127,13 @@ void Session::takeFrom(const log::Packet& packet, Source& source, PacketDigest& 
 }
 
 void Session::takeMalformed(const log::Packet& packet, Source& source, const PacketDigest& digest) {
-    ++source.malformed;
+    source.takeMalformed(packet.stampNs);
     if (const auto header = wire::decodeHeader(packet.bytes)) {
         m_attribution.takeMalformed(packet, *header);
     }
     const auto stream = m_streamIndex.find({packet.source, digest.character, digest.type});
     if (stream != m_streamIndex.end()) {
-        ++m_streams[stream->second].malformed;
+        m_streams[stream->second].accounting.addMalformed(packet.stampNs);
     }
 }
 

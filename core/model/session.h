@@ -6,12 +6,12 @@
 #include "core/model/annotations.h"
 #include "core/model/attribution.h"
 #include "core/model/character_pose.h"
-#include "core/model/detection.h"
 #include "core/model/event_follower.h"
 #include "core/model/keys.h"
 #include "core/model/metadata.h"
 #include "core/model/null_pose.h"
 #include "core/model/packet_digest.h"
+#include "core/model/source.h"
 #include "core/model/stream.h"
 #include "core/model/time_range.h"
 
@@ -24,34 +24,6 @@
 #include <vector>
 
 namespace posewire::model {
-
-/// One sender.
-struct Source {
-    log::SourceId id{};
-    log::SourceInfo info;
-    std::uint64_t datagrams = 0;
-    std::uint64_t bytes = 0;
-    std::uint64_t malformed = 0; ///< begins with MXTP and cannot be decoded
-    std::uint64_t foreign = 0;   ///< does not begin with MXTP
-    std::uint64_t foreignBytes = 0;
-    std::uint64_t skippedBytes = 0;
-    std::uint64_t kernelDrops = 0;
-    std::int64_t lastStampNs = 0;
-    std::string firstForeignBytes; ///< hexadecimal, of the newest foreign datagram, at most 16 bytes
-    Detector detector;
-    SourceOverride overrides{};
-
-    /// As declared, else as detected.
-    [[nodiscard]] Revision revision() const {
-        return overrides.revision.value_or(detector.result().revision);
-    }
-    [[nodiscard]] LengthUnit positionUnit() const {
-        return overrides.positionUnit.value_or(detector.result().positionUnit);
-    }
-    [[nodiscard]] std::vector<Contradiction> contradictions() const {
-        return detector.contradictions(overrides);
-    }
-};
 
 /// One character of a source.
 struct Character {
@@ -132,8 +104,8 @@ public:
     [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const {
         return m_follower.troublesOf(key, pausedStampNs());
     }
-    /// How a character does at the cursor: the one rule for all who show it. By the worst of what goes on; else by its
-    /// silence, or a warning where what its sender says does not fit together.
+    /// How a character does at the cursor: the one rule for all who show it. By the worst of what goes on;
+    /// else by its silence, or a warning where what its sender says does not fit together.
     [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
 
     /// Every gap in a stream with whose loss it was; the newest ones.

@@ -18,7 +18,6 @@ struct Stream {
     log::StreamKey key;
     StreamStatistics statistics; ///< how fast it is now
     StreamAccounting accounting; ///< what came and what did not
-    std::uint64_t malformed = 0; ///< datagrams with a header of this stream that could not be decoded
     /// Of the samples lost, those whose loss was attributed, by LossCause; all others are Unknown.
     std::array<std::uint64_t, kLossCauses> attributed{};
 

@@ -2,7 +2,6 @@
 #include "core/model/stream_accounting.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace posewire::model {
 
@@ -121,6 +120,7 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
         m_history.addArrival(verdict.stampNs, std::max<std::int64_t>(0, verdict.stampNs - m_lastSampleNs),
                              m_clock.jitterMs());
     }
+    m_history.addDifference(verdict.stampNs, m_clock.differenceMs(), m_clock.generation());
     m_hasSample = true;
     m_lastSampleNs = verdict.stampNs;
 }
@@ -153,9 +153,43 @@ StreamCounts StreamAccounting::countsBetween(std::int64_t fromNs, std::int64_t t
     return counts;
 }
 
-InterArrival StreamAccounting::interArrival() const {
-    return m_history.arrivalsBetween(std::numeric_limits<std::int64_t>::min(),
-                                     std::numeric_limits<std::int64_t>::max());
+LossPattern StreamAccounting::patternIn(const TimeRange& range, const StreamCounts& counts) const {
+    BurstCounts bursts = m_history.burstsBetween(range.fromNs, range.toNs);
+    m_ledger.addNewestBursts(range, bursts);
+    return patternOf(bursts, counts);
+}
+
+LossPattern StreamAccounting::lossPattern() const {
+    return patternIn({kBeginning, kEnd}, counts());
+}
+
+LossPattern StreamAccounting::lossPatternBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    return patternIn({fromNs, toNs}, countsBetween(fromNs, toNs));
+}
+
+ClockFigures StreamAccounting::clockBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    ClockFigures figures;
+    figures.jitterMs = m_history.jitterMsAt(toNs);
+    figures.isFromTimeCode = m_clock.isFromTimeCode();
+    if (figures.isFromTimeCode) {
+        const ClockSkew skew = m_history.skewBetween(fromNs, toNs);
+        figures.skewPpm = skew.skewPpm;
+        figures.driftMs = skew.driftMs;
+    }
+    return figures;
+}
+
+ClockFigures StreamAccounting::clock() const {
+    ClockFigures figures = clockBetween(kBeginning, kEnd);
+    figures.jitterMs = m_clock.jitterMs();
+    return figures;
+}
+
+void StreamAccounting::addMalformed(std::int64_t stampNs) {
+    CountHistory::Change change;
+    change.malformed = 1;
+    ++m_malformed;
+    m_history.add(stampNs, change);
 }
 
 std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,

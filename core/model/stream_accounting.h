@@ -12,6 +12,7 @@
 #include "core/wire/header.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -54,14 +55,16 @@ public:
     std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
     std::span<const Verdict> add(std::int64_t stampNs, std::size_t bytes, const wire::Header& header);
 
+    /// A datagram of the stream that could not be decoded.
+    void addMalformed(std::int64_t stampNs);
+
     /// Reordered by more than this is late; counts from the next datagram on. 50 ms unless set.
     void setLateAfter(std::int64_t lateAfterNs) { m_ledger.setLateAfter(lateAfterNs); }
 
     [[nodiscard]] StreamCounts counts() const;
-    [[nodiscard]] ClockFigures clock() const { return m_clock.figures(); }
-    [[nodiscard]] InterArrival interArrival() const;
-    /// Since the newest restart.
-    [[nodiscard]] LossPattern lossPattern() const { return m_ledger.lossPattern(); }
+    [[nodiscard]] ClockFigures clock() const;
+    [[nodiscard]] InterArrival interArrival() const { return interArrivalBetween(kBeginning, kEnd); }
+    [[nodiscard]] LossPattern lossPattern() const;
 
     /// Figures of a range of time, at a cost that does not depend on it. The ends are rounded to the
     /// resolution, at first 0.1 s. What belongs to samples counts when they were due.
@@ -70,6 +73,14 @@ public:
         return m_history.arrivalsBetween(fromNs, toNs);
     }
     [[nodiscard]] double jitterMsAt(std::int64_t toNs) const { return m_history.jitterMsAt(toNs); }
+    /// A burst counts where it ended.
+    [[nodiscard]] LossPattern lossPatternBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    /// The jitter at the end of the range; skew and drift from its beginning or the newest restart in it on.
+    [[nodiscard]] ClockFigures clockBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] std::uint64_t malformed() const { return m_malformed; }
+    [[nodiscard]] std::uint64_t malformedBetween(std::int64_t fromNs, std::int64_t toNs) const {
+        return m_history.malformedBetween(fromNs, toNs);
+    }
     [[nodiscard]] std::int64_t resolutionNs() const { return m_history.widthNs(); }
 
     /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
@@ -90,6 +101,10 @@ public:
     [[nodiscard]] std::int64_t lastStampNs() const { return m_lastStampNs; }
 
 private:
+    static constexpr std::int64_t kBeginning = std::numeric_limits<std::int64_t>::min();
+    static constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+
+    [[nodiscard]] LossPattern patternIn(const TimeRange& range, const StreamCounts& counts) const;
     void takeSample(const Probation::Waiting& datagram);
     void settle(const Probation::Waiting& datagram, Probation::Place place, bool isMoved);
     static Placement carryOut(const Probation::Waiting& datagram, Probation::Place place, bool isMoved,
@@ -99,6 +114,7 @@ private:
     bool m_countsSamples;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;
+    std::uint64_t m_malformed = 0;
     std::int64_t m_firstStampNs = 0;
     std::int64_t m_lastStampNs = 0;
     std::int64_t m_lastSampleNs = 0; ///< stamp of the newest first arrival of a sample

@@ -48,6 +48,15 @@ struct LossPattern {
     double meanBurstSamples = 0; ///< length of a burst
 };
 
+/// Sums over bursts.
+struct BurstCounts {
+    std::uint64_t bursts = 0;
+    std::uint64_t lost = 0;
+    std::uint64_t samples = 0; ///< from the first to the last loss of each
+};
+/// Of the bursts, among all that was lost and all that arrived.
+[[nodiscard]] LossPattern patternOf(const BurstCounts& bursts, const StreamCounts& counts);
+
 /// Time between the first arrivals of successive samples.
 struct InterArrival {
     std::uint64_t count = 0;

@@ -89,26 +89,26 @@ constexpr std::array<ColumnText, kCount> kTexts{{
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Bursts"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
                        "Times in which losses were less than 16 samples apart (RFC 3611 section "
-                       "4.7.2); since the newest restart, not known for a range")},
+                       "4.7.2), by when they ended")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Burst length"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
                        "Mean samples from the first to the last loss of a burst (RFC 3611 "
-                       "section 4.7.2); not known for a range")},
+                       "section 4.7.2)")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Burst dens. %"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
                        "Share of the samples in bursts that were lost (RFC 3611 section "
-                       "4.7.2); not known for a range")},
+                       "4.7.2)")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Gap dens. %"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
                        "Share of the samples between bursts that were lost (RFC 3611 section "
-                       "4.7.2); not known for a range")},
+                       "4.7.2)")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Skew ppm"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "How much faster the sender's clock goes than this computer's, since its "
-                       "first sample; only where the header's time code advances")},
+                       "How much faster the sender's clock goes than this computer's; only where "
+                       "the header's time code advances")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Drift ms"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel",
-                       "What the skew made of the sender's clock since its first sample")},
+                       "What the skew made of the sender's clock in the range")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Samples"),
      QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Sample counters of which all datagrams came")},
     {QT_TRANSLATE_NOOP("posewire::gui::StatisticsModel", "Datagrams"),
@@ -131,10 +131,7 @@ QString spacingText(const model::InterArrival& arrivals, double value, int decim
 }
 
 QString patternText(const StatisticsFigures& figures, Column column) {
-    if (!figures.range.pattern) {
-        return QStringLiteral("–");
-    }
-    const model::LossPattern& pattern = *figures.range.pattern;
+    const model::LossPattern& pattern = figures.range.pattern;
     switch (column) {
     case Column::Bursts:
         return counted(pattern.bursts);
@@ -184,7 +181,7 @@ QString flowText(const StatisticsFigures& figures, Column column) {
     case Column::Bandwidth:
         return fixed(range.rate.bytesPerSecond / 1000, 1);
     case Column::Malformed:
-        return figures.malformed ? counted(*figures.malformed) : QStringLiteral("–");
+        return counted(range.malformed);
     default:
         return {};
     }
@@ -248,9 +245,9 @@ std::uint64_t troubleOf(const StatisticsFigures& figures, Column column) {
     case Column::Restarts:
         return counts.restarts;
     case Column::Malformed:
-        return figures.malformed.value_or(0);
+        return figures.range.malformed;
     case Column::Bursts:
-        return figures.range.pattern ? figures.range.pattern->bursts : 0;
+        return figures.range.pattern.bursts;
     default:
         return 0;
     }
@@ -266,13 +263,8 @@ void StatisticsFigures::add(const StatisticsFigures& other) {
     range.arrivals.mostMs = std::max(range.arrivals.mostMs, other.range.arrivals.mostMs);
     range.arrivals.count += other.range.arrivals.count;
     isSampled = isSampled || other.isSampled;
-    if (malformed && other.malformed) {
-        *malformed += *other.malformed;
-    }
-    if (other.range.pattern) {
-        model::LossPattern& pattern = range.pattern ? *range.pattern : range.pattern.emplace();
-        pattern.bursts += other.range.pattern->bursts;
-    }
+    range.malformed += other.range.malformed;
+    range.pattern.bursts += other.range.pattern.bursts;
 }
 
 std::span<const ColumnText> statisticsColumns() {

@@ -58,8 +58,6 @@ struct StatisticsFigures {
     bool isSampled = true; ///< false: only datagrams and what is incomplete can be counted
     model::RangeFigures range;
     double rateHz = 0; ///< as it is now, or, in a range, its mean
-    /// Datagrams that cannot be decoded; not known for a range.
-    std::optional<std::uint64_t> malformed{};
 
     /// Adds counts and rates; of the others the worst is kept.
     void add(const StatisticsFigures& other);

@@ -64,9 +64,6 @@ StatisticsFigures StatisticsModel::streamFigures(const model::Stream& stream) co
     figures.isSampled = model::countsSamples(stream.key.type);
     figures.range = model::figuresOf(stream.accounting, m_range);
     figures.rateHz = m_range ? figures.range.rate.meanHz : stream.statistics.rateHz();
-    if (!m_range) {
-        figures.malformed = stream.malformed;
-    }
     return figures;
 }
 
@@ -74,15 +71,14 @@ StatisticsFigures StatisticsModel::sumOf(const QModelIndex& index) const {
     StatisticsFigures sum;
     sum.isSum = true;
     sum.isSampled = false;
-    const bool isKnown = !m_range.has_value();
-    sum.malformed = isKnown ? std::optional<std::uint64_t>(0) : std::nullopt;
     const QModelIndex parent = index.siblingAtColumn(0); // only that has rows under it
     for (int row = 0; row < rowCount(parent); ++row) {
         sum.add(figures(this->index(row, 0, parent)));
     }
-    const bool isSource = nodeOf(index).kind == Kind::Source;
-    if (isSource && isKnown) {
-        sum.malformed = view().sources()[nodeOf(index).entry].malformed; // also those without a header
+    if (nodeOf(index).kind == Kind::Source) {
+        const model::Source& source = view().sources()[nodeOf(index).entry]; // also those without a header
+        sum.range.malformed =
+            m_range ? source.history.malformedBetween(m_range->fromNs, m_range->toNs) : source.malformed;
     }
     return sum;
 }

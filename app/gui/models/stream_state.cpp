@@ -104,7 +104,7 @@ State streamState(model::SessionView& view, const model::Stream& stream) {
             return age;
         }
     }
-    return countState(stream.malformed, stream.accounting.counts().lost);
+    return countState(stream.accounting.malformed(), stream.accounting.counts().lost);
 }
 
 State characterState(model::SessionView& view, const model::Character& character) {
