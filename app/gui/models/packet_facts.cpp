@@ -105,6 +105,40 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
 
 } // namespace
 
+QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
+    const model::PacketDigest* digest = view.digests().find(number);
+    if (digest == nullptr) {
+        return {};
+    }
+    QStringList texts;
+    if (digest->followsDrops) {
+        const auto packet = view.packet(number);
+        texts += tr("Just before it this computer dropped %1 datagrams of the port.")
+                     .arg(packet ? grouped(packet->kernelDropsBefore) : QStringLiteral("?"));
+    }
+    if (digest->gap != 0) {
+        const QString missing = digest->gap == 1
+                                    ? tr("1 sample is missing just before it.")
+                                    : tr("%1 samples are missing just before it.").arg(grouped(digest->gap));
+        const model::Gap* gap = view.attribution().endedBy(number);
+        texts += gap == nullptr ? missing
+                                : missing + QLatin1Char(' ') +
+                                      tr("Cause: %1. %2")
+                                          .arg(QString::fromLatin1(model::nameOf(gap->cause).data()),
+                                               QString::fromStdString(gap->evidenceText()));
+    }
+    if (digest->isDuplicate) {
+        texts += tr("Duplicate: this datagram of this sample had come before.");
+    }
+    if (digest->isReordered) {
+        texts += tr("Reordered: a later sample of the stream came before it.");
+    }
+    if (digest->isRestart) {
+        texts += tr("The sample counter of the stream began anew here.");
+    }
+    return texts;
+}
+
 std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t number) {
     const model::PacketDigest* digest = view.digests().find(number);
     const auto packet = digest != nullptr ? view.packet(number) : std::nullopt;

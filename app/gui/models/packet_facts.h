@@ -6,6 +6,7 @@
 #include "core/wire/header.h"
 
 #include <QString>
+#include <QStringList>
 
 #include <optional>
 #include <string>
@@ -35,6 +36,10 @@ struct PacketFacts {
 
 /// Place among the datagrams of its sample, "2/3"; "2/?" where the last of them is not near it in the log.
 [[nodiscard]] QString packetPart(model::SessionView& view, const PacketFacts& facts);
+
+/// What is odd about its place in the stream, a sentence each: what is missing before it and whose loss that
+/// was, with the evidence; whether it came twice or out of order.
+[[nodiscard]] QStringList sequenceFindings(model::SessionView& view, std::uint64_t number);
 
 /// Findings with their symbol, then the operator's comment: the column that says it in words.
 [[nodiscard]] QString packetNote(model::SessionView& view, const PacketFacts& facts);

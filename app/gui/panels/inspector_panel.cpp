@@ -3,6 +3,7 @@
 
 #include "app/gui/models/field_text.h"
 #include "app/gui/models/inspected_packet.h"
+#include "app/gui/models/packet_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
@@ -174,6 +175,11 @@ void InspectorPanel::refresh() {
     if (isNew) {
         show(*packet);
     }
+    // Some of it is known only once later packets are there.
+    if (QStringList sequence = sequenceFindings(m_view, packet->number); sequence != m_sequence) {
+        m_sequence = std::move(sequence);
+        describeProblems();
+    }
     m_hold->setChecked(m_view.selection().packet.has_value());
     followSelection(isNew);
 }
@@ -191,6 +197,7 @@ void InspectorPanel::showEmpty() {
 
 void InspectorPanel::show(const log::Packet& packet) {
     m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet.source));
+    m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;
     m_fields->beginChange();
     m_model.setDocument(m_document);
@@ -288,6 +295,10 @@ void InspectorPanel::describeProblems() {
         lines += QStringLiteral("<a href=\"%1\" style=\"color:%2; text-decoration:none\">%3</a>")
                      .arg(i)
                      .arg(healthColour(problem.level).name(), text);
+    }
+    for (const QString& text : m_sequence) {
+        lines += coloured(theme().warning,
+                          healthSymbol(Health::Warning) + QLatin1Char(' ') + text.toHtmlEscaped());
     }
     if (const QString comparison = comparisonText(); !comparison.isEmpty()) {
         lines += coloured(theme().dim, comparison.toHtmlEscaped());

@@ -27,6 +27,9 @@ public:
     void refresh() override;
     [[nodiscard]] QString summary() const override;
 
+    /// What is said to be wrong with the packet, as rich text; empty where nothing is.
+    [[nodiscard]] QString problems() const { return m_problems->text(); }
+
     enum class Comparison { None, Previous, Reference };
     void compare(Comparison comparison);
     void setReference();
@@ -68,6 +71,7 @@ private:
     std::uint8_t m_type = 0;         ///< of the newest packet shown: its stream is kept to
     std::optional<int> m_openedType; ///< whose lists have been opened
     model::Selection m_followed;
+    QStringList m_sequence; ///< what is odd about the packet's place in its stream
     bool m_isShown = false;
 
     QLabel* m_title;

@@ -59,6 +59,29 @@ TEST_F(InspectorPanelTest, PickingAByteSelectsItsFieldAndSegment) {
     EXPECT_TRUE(fields().currentIndex().isValid());
 }
 
+TEST_F(InspectorPanelTest, TellsWhatIsMissingBeforeThePacketAndWhy) {
+    performer::Performer performer(sending(1, {2, 20}));
+    Stage stage;
+    stage.perform(performer, 0, 100);
+    const std::uint64_t next = stage.log.figures().end;
+    const auto frame = performer.frame(100);
+    stage.send(frame.back(), Stage::kStart + 417 * Stage::kMillisecond); // its type 02 is lost
+    stage.perform(performer, 101, 200);
+    stage.follow();
+    InspectorPanel panel(stage.session, stage.commands, nullptr);
+    std::uint64_t number = next;
+    while (stage.session.digests().find(number) != nullptr &&
+           stage.session.digests().find(number)->gap == 0) {
+        ++number;
+    }
+    stage.commands.selectPacket(number);
+    panel.refresh();
+    const QString text = panel.problems();
+    EXPECT_TRUE(text.contains("1 sample is missing just before it. Cause: network. Type 20 of the same "
+                              "source brought sample"))
+        << text.toStdString();
+}
+
 TEST_F(InspectorPanelTest, ComparesTwoPacketsOfOneType) {
     m_panel.setReference();
     m_stage.commands.selectPacket(2);
