@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
-#include "app/gui/theme/icons.h"
 #include "app/gui/panels/text_prompt.h"
+#include "app/gui/theme/icons.h"
 #include "app/gui/theme/theme.h"
 
 #include <QAction>
@@ -65,8 +65,10 @@ FilterBar::FilterBar(QWidget* parent)
     connect(m_line, &QLineEdit::textEdited, this, [this](const QString& text) {
         if (text.isEmpty()) {
             apply();
+            hideOffers();
+        } else {
+            offerCompletions();
         }
-        offerCompletions();
     });
     connect(m_line, &QLineEdit::returnPressed, this, &FilterBar::apply);
     restyle();
@@ -152,6 +154,9 @@ QString FilterBar::errorText() const {
 void FilterBar::showError() {
     m_problem->setVisible(m_error.has_value());
     if (m_error) {
+        QPalette palette = m_problem->palette();
+        palette.setColor(QPalette::WindowText, theme().error);
+        m_problem->setPalette(palette);
         m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') +
                            QString::fromStdString(m_error->text) +
                            tr(" (at character %1)").arg(placeOf(text(), m_error->offset) + 1));
@@ -328,10 +333,10 @@ void FilterBar::restoreState(const QJsonObject& state) {
 void FilterBar::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() == QEvent::PaletteChange) {
-        QPalette palette = m_problem->palette();
-        palette.setColor(QPalette::WindowText, theme().error);
-        m_problem->setPalette(palette);
         restyle();
+        if (m_problem->isVisible()) {
+            showError();
+        }
     }
 }
 

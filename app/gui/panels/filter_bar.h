@@ -81,6 +81,8 @@ private:
     void offer();
     void insertOffer(const QModelIndex& offer);
     void takeOffer();
+    void hideOffers();
+    bool offersTake(int key);
     void showSaved();
     void saveCurrent();
     void askAbout(std::size_t index, const QPoint& place);
@@ -92,6 +94,7 @@ private:
     QProgressBar* m_progress;
     QLabel* m_problem;
     QCompleter* m_completer = nullptr;
+    bool m_hasChosen = false; ///< one of the offers, by the arrows
     QStandardItemModel* m_offers = nullptr;
     std::vector<Saved> m_saved;
     QStringList m_history; ///< newest first

@@ -23,6 +23,7 @@ namespace {
 constexpr int kOffsetRole = Qt::UserRole + 20; ///< bytes of the UTF-8 text
 constexpr int kLengthRole = Qt::UserRole + 21;
 constexpr int kVisibleOffers = 10;
+constexpr int kLongestLine = 90; ///< characters
 constexpr std::size_t kMostOffers = 200;
 
 QStandardItem* offerItem(const QString& text, const QString& about, qulonglong offset, qulonglong length) {
@@ -79,23 +80,29 @@ void FilterBar::offerHistory() {
 
 void FilterBar::offer() {
     if (m_offers->rowCount() == 0 || !m_line->hasFocus()) {
-        m_completer->popup()->hide();
+        hideOffers();
         return;
     }
     QAbstractItemView* list = m_completer->popup();
     list->setFont(monospaceFont());
     const int wanted = list->sizeHintForColumn(0) + 2 * m_line->fontMetrics().height();
-    const int room = window()->mapToGlobal(window()->rect().topRight()).x() -
-                     m_line->mapToGlobal(QPoint(0, 0)).x();
+    const int room =
+        window()->mapToGlobal(window()->rect().topRight()).x() - m_line->mapToGlobal(QPoint(0, 0)).x();
     QRect place = m_line->rect();
-    place.setWidth(std::max(place.width(), std::min(wanted, room)));
+    const int readable = QFontMetrics(list->font()).averageCharWidth() * kLongestLine;
+    place.setWidth(std::max(place.width(), std::min({wanted, room, readable})));
+    m_hasChosen = false;
     m_completer->complete(place);
+}
+
+void FilterBar::hideOffers() {
+    m_completer->popup()->hide();
 }
 
 /// Tab takes what is chosen, or else the first.
 void FilterBar::takeOffer() {
     const QModelIndex current = m_completer->popup()->currentIndex();
-    m_completer->popup()->hide();
+    hideOffers();
     insertOffer(current.isValid() ? current : m_offers->index(0, 0));
 }
 
@@ -110,11 +117,24 @@ void FilterBar::insertOffer(const QModelIndex& offer) {
         static_cast<int>(QString::fromUtf8(text.first(offset + inserted.size())).size()));
 }
 
-bool FilterBar::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == m_completer->popup() && event->type() == QEvent::KeyPress &&
-        static_cast<QKeyEvent*>(event)->key() == Qt::Key_Tab) {
+/// Keys while offers are in sight. Enter applies what was written, unless an offer was chosen by the arrows.
+bool FilterBar::offersTake(int key) {
+    if (key == Qt::Key_Tab) {
         takeOffer();
         return true;
+    }
+    if ((key == Qt::Key_Return || key == Qt::Key_Enter) && !m_hasChosen) {
+        hideOffers();
+        apply();
+        return true;
+    }
+    m_hasChosen |= key == Qt::Key_Up || key == Qt::Key_Down;
+    return false;
+}
+
+bool FilterBar::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == m_completer->popup() && event->type() == QEvent::KeyPress) {
+        return offersTake(static_cast<QKeyEvent*>(event)->key());
     }
     if (watched == m_line && event->type() == QEvent::KeyPress && !m_completer->popup()->isVisible()) {
         const int key = static_cast<QKeyEvent*>(event)->key();

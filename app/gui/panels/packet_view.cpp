@@ -117,7 +117,7 @@ void PacketView::fitScrollBars() {
 }
 
 void PacketView::onRowsInserted(int count) {
-    m_missed += m_isFollowing ? 0 : static_cast<std::uint64_t>(count);
+    m_missed += m_isFollowing || m_isCatchingUp ? 0 : static_cast<std::uint64_t>(count);
     fitScrollBars();
     placeButton();
     viewport()->update();

@@ -40,6 +40,8 @@ public:
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
     /// To the last row, and on with it from now on; or no longer, where it stands.
     void setFollowing(bool isFollowing);
+    /// While rows come that a filter found among what was there before: they are not new.
+    void setCatchingUp(bool isCatchingUp) { m_isCatchingUp = isCatchingUp; }
     /// Makes a row the current and only selected one and shows it.
     void showRow(int row);
     /// Whether the whole row is in sight.
@@ -108,6 +110,7 @@ private:
     bool m_isFitting = false; ///< columns
     bool m_isFollowing = true;
     bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls
+    bool m_isCatchingUp = false;
     std::uint64_t m_missed = 0; ///< rows that came while not following
 };
 

@@ -95,10 +95,12 @@ void PacketsPanel::fitColumns() {
 void PacketsPanel::refresh() {
     const QScopedValueRollback guard(m_isFollowing, true);
     followFilter();
+    m_list->setCatchingUp(m_run && m_filteredTo < m_filterFrom);
     if (m_run) {
         const PacketFilterRun::Found found = m_run->take(m_view.digests());
         m_packets.addMatches(found.packets, found.problems);
         const auto [done, total] = m_run->progress();
+        m_filteredTo = done;
         if (m_run->isCancelled() || done >= total) {
             m_filter->endProgress();
         } else {
@@ -130,6 +132,8 @@ void PacketsPanel::followFilter() {
         m_packets.endMatches();
     } else {
         m_packets.beginMatches();
+        m_filteredTo = 0;
+        m_filterFrom = m_view.end();
         m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled),
                                                   m_view.firstStampNs());
     }

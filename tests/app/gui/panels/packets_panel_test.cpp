@@ -103,6 +103,19 @@ TEST_F(PacketsPanelTest, ListsWhatTheDisplayFilterOfTheSessionLetsThrough) {
     EXPECT_EQ(m_panel.packets().rowCount(), 201);
 }
 
+TEST_F(PacketsPanelTest, CallsNewOnlyWhatCameAfterTheFilter) {
+    poses(0, 200);
+    list().setFollowing(false);
+    filterBy("sample >= 100");
+    ASSERT_EQ(m_panel.packets().rowCount(), 100);
+    auto* newest = list().findChild<QPushButton*>("newestPacket");
+    EXPECT_EQ(newest->text(), QStringLiteral("↓ Follow"));
+    poses(200, 210);
+    const_cast<PacketFilterRun*>(m_panel.filterRun())->wait();
+    refresh();
+    EXPECT_EQ(newest->text(), QStringLiteral("↓ 10 new"));
+}
+
 TEST_F(PacketsPanelTest, FilterLineSaysWhatIsWrongAndWhere) {
     poses(0, 10);
     auto* line = m_panel.findChild<QLineEdit*>("displayFilter");
@@ -130,6 +143,23 @@ TEST_F(PacketsPanelTest, TabTakesTheFirstCompletion) {
     QTest::keyClick(offers, Qt::Key_Tab);
     EXPECT_EQ(line->text(), "type == 02 && gap");
     EXPECT_TRUE(line->hasFocus());
+}
+
+TEST_F(PacketsPanelTest, EnterAppliesWhatWasWrittenAndNoOffer) {
+    auto* line = m_panel.findChild<QLineEdit*>("displayFilter");
+    m_panel.activateWindow();
+    line->setFocus();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
+    QTest::keyClicks(line, "malformed");
+    QWidget* offers = QApplication::activePopupWidget();
+    ASSERT_NE(offers, nullptr);
+    QTest::keyClick(offers, Qt::Key_Return);
+    EXPECT_EQ(m_stage.session.displayFilter(), "malformed");
+    EXPECT_EQ(line->text(), "malformed");
+    line->selectAll();
+    QTest::keyClick(line, Qt::Key_Delete);
+    EXPECT_EQ(QApplication::activePopupWidget(), nullptr) << "nothing is written: nothing to complete";
+    EXPECT_EQ(m_stage.session.displayFilter(), "");
 }
 
 TEST_F(PacketsPanelTest, ShippedFiltersAreRight) {
