@@ -24,9 +24,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, Q
     m_table->setRootIsDecorated(true);
     m_table->setColumnSamples({QString(), QStringLiteral("240/239.9"), QStringLiteral("▲ silent 0.9 s")},
                               QStringLiteral("    02 Pose, qu"));
-    m_table->setEmptyText(
-        tr("No character on the air.\nIn MVN: Options > Preferences > Network Streamer, add this "
-           "computer with port 9763 and tick the stream."));
+    showEmptyState();
     connect(&m_model, &QAbstractItemModel::rowsInserted, this, &CharactersPanel::expandNew);
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &CharactersPanel::select);
@@ -35,7 +33,21 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, Q
             [this](const QString& text) { m_commands.copyText(text); });
 }
 
+void CharactersPanel::showEmptyState() {
+    const std::vector<PortState> ports = m_commands.receivingState().ports;
+    const auto open =
+        std::ranges::find_if(ports, [](const PortState& state) { return state.id.has_value(); });
+    const auto port = open == ports.end() ? kDefaultPort : open->status.endpoint.port;
+    m_table->setEmptyText(
+        tr("No character on the air.\nIn MVN: Options > Preferences > Network Streamer, add "
+           "this computer with port %1 and tick the stream.")
+            .arg(port));
+}
+
 void CharactersPanel::refresh() {
+    if (m_view.characters().empty()) {
+        showEmptyState();
+    }
     m_isFollowing = true;
     m_model.refresh();
     followSelection();

@@ -18,6 +18,7 @@ public:
     [[nodiscard]] QString summary() const override;
 
 private:
+    void showEmptyState();
     void expandNew(const QModelIndex& parent, int first, int last);
     void followSelection();
     void select(const QModelIndex& index);

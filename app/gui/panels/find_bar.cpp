@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/find_bar.h"
 
+#include "app/gui/theme/combo_box.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/theme.h"
 
-#include <QComboBox>
 #include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLabel>
@@ -27,7 +27,7 @@ QToolButton* flatButton(const QString& text, const QString& toolTip, QWidget* pa
 } // namespace
 
 FindBar::FindBar(QWidget* parent)
-    : QWidget(parent), m_kind(new QComboBox(this)), m_edit(new QLineEdit(this)), m_answer(new QLabel(this)) {
+    : QWidget(parent), m_kind(new ComboBox(this)), m_edit(new QLineEdit(this)), m_answer(new QLabel(this)) {
     m_kind->addItems({tr("Text"), tr("Bytes")});
     m_kind->setAccessibleName(tr("What to find"));
     m_edit->setAccessibleName(tr("Find in packets"));

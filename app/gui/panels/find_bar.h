@@ -3,11 +3,12 @@
 
 #include <QWidget>
 
-class QComboBox;
 class QLabel;
 class QLineEdit;
 
 namespace posewire::gui {
+
+class ComboBox;
 
 /// A line to look for bytes or text in packets; hidden until it is asked for, Escape hides it again.
 class FindBar final : public QWidget {
@@ -36,7 +37,7 @@ protected:
 private:
     void close();
 
-    QComboBox* m_kind;
+    ComboBox* m_kind;
     QLineEdit* m_edit;
     QLabel* m_answer;
 };

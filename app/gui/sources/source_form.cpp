@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/sources/source_form.h"
 
+#include "app/gui/theme/combo_box.h"
 #include "app/gui/theme/theme.h"
 
-#include <QComboBox>
 #include <QEvent>
 #include <QGridLayout>
 #include <QHostAddress>
@@ -84,7 +84,7 @@ Read readSource(const TypedSource& typed) {
 
 SourceForm::SourceForm(QWidget* parent)
     : QWidget(parent),
-      m_protocol(new QComboBox(this)),
+      m_protocol(new ComboBox(this)),
       m_host(new QLineEdit(this)),
       m_port(new QSpinBox(this)),
       m_groups(new QLineEdit(this)),

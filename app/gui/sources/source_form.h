@@ -7,12 +7,13 @@
 
 #include <tl/expected.hpp>
 
-class QComboBox;
 class QLabel;
 class QLineEdit;
 class QSpinBox;
 
 namespace posewire::gui {
+
+class ComboBox;
 
 /// What the operator typed, before it is known to make sense.
 struct TypedSource {
@@ -54,7 +55,7 @@ private:
     void changeKind();
     void showNote();
 
-    QComboBox* m_protocol;
+    ComboBox* m_protocol;
     QLineEdit* m_host;
     QSpinBox* m_port;
     QLineEdit* m_groups;

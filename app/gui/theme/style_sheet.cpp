@@ -50,6 +50,9 @@ QPushButton:hover, QToolButton[framed="true"]:hover, QComboBox:hover { border-co
 QPushButton:pressed, QToolButton[framed="true"]:pressed { background: @selection; }
 QPushButton:disabled, QToolButton[framed="true"]:disabled { color: @dim; }
 QPushButton:focus, QToolButton[framed="true"]:focus, QComboBox:focus, QLineEdit:focus { border-color: @accent; }
+QComboBox { padding-right: 22px; }
+QComboBox::drop-down { border: none; width: 0; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
 QToolButton[framed="true"]:checked { background: @selection; border-color: @accent; }
 QToolButton[framed="true"]::menu-indicator { image: none; width: 0; }
 QToolButton[live="true"] { background: @goodfill; color: @good; border: 1px solid @good; border-radius: 5px;
