@@ -32,7 +32,7 @@ struct Column {
 constexpr std::array<Column, 8> kColumns{{{"Hz", 9},
                                           {"lost", 9},
                                           {"loss %", 8},
-                                          {"doubled", 9},
+                                          {"duplicates", 12},
                                           {"reordered", 11},
                                           {"late", 7},
                                           {"jitter ms", 10},

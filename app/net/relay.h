@@ -75,7 +75,7 @@ private:
     CommandQueue m_commands;
     std::mutex m_wakeMutex;
     std::condition_variable m_wake;
-    bool m_isWoken = false; ///< guarded by m_wakeMutex
+    bool m_isWoken = false;    ///< guarded by m_wakeMutex
     bool m_isStopping = false; ///< known to the thread alone
 
     mutable std::mutex m_mutex; ///< guards m_targets against other threads' looking

@@ -42,7 +42,7 @@ std::vector<HtmlTable::Column> deliveryColumns() {
             {"Incomplete", true, "some but not all datagrams of the sample arrived"},
             {"Loss %", true, "lost and incomplete, of all expected"},
             {"Over time", false, "percent lost"},
-            {"Doubled", true, "the same sample and datagram counter came before"},
+            {"Duplicates", true, "the same sample and datagram counter came before"},
             {"Reordered", true, "came after a later sample (RFC 4737)"},
             {"Late", true, "reordered by more than 50 ms"},
             {"Restarts", true, "times the sample counter began anew"}};

@@ -67,7 +67,7 @@ EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* 
          QString(), QStringLiteral("99 999"), QStringLiteral("character conflict"), QStringLiteral("Content"),
          QStringLiteral("goes on")},
         QStringLiteral("14 samples lost in 13 gaps, cause: network. Type 23 brought sample"));
-    m_table->setOptionalColumns(EventModel::kKind);
+    m_table->setOptionalColumns(EventModel::kCount);
     connectParts();
     showEmptyState();
 }

@@ -111,7 +111,25 @@ void PacketsPanel::refresh() {
     // Where everything comes from one sender its address says nothing, and the note has the room.
     m_list->setColumnUseful(PacketModel::kSource, m_view.sources().size() > 1);
     followSelection();
+    followCursor();
     showEmptyState();
+}
+
+/// Where the operator stops in the past, the list shows what was received by then.
+void PacketsPanel::followCursor() {
+    const model::Cursor& cursor = m_view.cursor();
+    const bool isPaused = cursor.mode == model::Cursor::Mode::Paused;
+    const std::optional<std::uint64_t> stop = isPaused ? std::optional(cursor.packet) : std::nullopt;
+    if (stop == m_stoppedAt) {
+        return;
+    }
+    m_stoppedAt = stop;
+    const int row = stop ? m_packets.rowFrom(*stop + 1) - 1 : -1;
+    const QModelIndex index = m_packets.index(row, 0);
+    if (index.isValid() && !m_list->isShown(index)) {
+        m_list->setFollowing(false);
+        m_list->scrollTo(index, QAbstractItemView::PositionAtCenter);
+    }
 }
 
 /// The session's filter may have been set by another dock.

@@ -89,6 +89,7 @@ private:
     void connectParts();
     void fitColumns();
     void followFilter();
+    void followCursor();
     void followSelection();
     void showEmptyState();
     void cancelFilter();
@@ -118,8 +119,9 @@ private:
     Commands& m_commands;
     PacketModel m_packets;
     std::unique_ptr<PacketFilterRun> m_run;
-    std::uint64_t m_filteredTo = 0; ///< by the run, when it was last asked
-    std::uint64_t m_filterFrom = 0; ///< what comes from here on is newer than the filter
+    std::optional<std::uint64_t> m_stoppedAt; ///< the packet where the cursor stands still
+    std::uint64_t m_filteredTo = 0;           ///< by the run, when it was last asked
+    std::uint64_t m_filterFrom = 0;           ///< what comes from here on is newer than the filter
     std::unique_ptr<PacketSearch> m_search;
     QString m_filterText; ///< as it was last taken from the session
     FilterBar* m_filter;

@@ -39,7 +39,8 @@ void writeSources(QTextStream& out, const model::Session& session) {
         const model::CharacterKey key{stream.key.source, stream.key.character};
         out << "stream " << QString::fromStdString(session.displayName(key)) << " type " << stream.key.type
             << ": " << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz()
-            << " Hz, " << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed() << " malformed\n";
+            << " Hz, " << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed()
+            << " malformed\n";
     }
 }
 

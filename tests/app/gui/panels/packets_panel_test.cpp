@@ -116,6 +116,17 @@ TEST_F(PacketsPanelTest, CallsNewOnlyWhatCameAfterTheFilter) {
     EXPECT_EQ(newest->text(), QStringLiteral("↓ 10 new"));
 }
 
+TEST_F(PacketsPanelTest, ShowsWhereTheDisplayWasStoppedInThePast) {
+    poses(0, 500);
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 499});
+    refresh();
+    EXPECT_TRUE(list().isFollowing()) << "the end is in sight as it is";
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 100});
+    refresh();
+    EXPECT_TRUE(list().isShown(m_panel.packets().index(100, 0)));
+    EXPECT_FALSE(list().isFollowing());
+}
+
 TEST_F(PacketsPanelTest, FilterLineSaysWhatIsWrongAndWhere) {
     poses(0, 10);
     auto* line = m_panel.findChild<QLineEdit*>("displayFilter");
