@@ -18,17 +18,21 @@ double secondsSince(std::int64_t stampNs, std::int64_t nowNs) {
     return static_cast<double>(nowNs - stampNs) * 1e-9;
 }
 
+/// "Parts 2 and 3 of 6", "The last part".
 std::string partsText(const NullPoseMessage& message) {
-    const std::string whole =
-        message.partsExpected == 0 ? "an unknown number" : std::to_string(message.partsExpected);
+    const bool isOpen = message.partsExpected == 0;
+    if (isOpen && message.missingParts.empty()) {
+        return "The last part";
+    }
     std::vector<std::string> names;
     for (const unsigned part : message.missingParts) {
         names.push_back(std::to_string(part + 1));
     }
-    if (message.partsExpected == 0) {
+    if (isOpen) {
         names.emplace_back("the last");
     }
-    return (names.size() == 1 ? "Part " : "Parts ") + listed(names) + " of " + whole;
+    const std::string text = (names.size() == 1 ? "Part " : "Parts ") + listed(names);
+    return isOpen ? text : text + " of " + std::to_string(message.partsExpected);
 }
 
 /// "rightupperarm" for "Right Upper Arm".

@@ -51,7 +51,7 @@ PropertyValue units(model::SessionView& view, const Key& key) {
     }
     const model::Detection& found = source->detector.result();
     const QString detected = found.unitEvidence.empty()
-                                 ? tr("not known before a pose arrives")
+                                 ? tr("not known before type 02")
                                  : withEvidence(unitText(found.positionUnit), found.unitEvidence);
     const QString toolTip =
         tr("Unit of positions in types 02, 21 and 24, judged by what a person can be · the evidence");

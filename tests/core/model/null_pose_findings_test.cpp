@@ -100,8 +100,11 @@ TEST_F(NullPoseFindings, AMissingPartOnceItIsOverdue) {
     pose.partsExpected = 6;
     EXPECT_EQ(only(NullPoseFault::MissingPart)->severity, Severity::Error);
     message = {1, 0, 0, 1, 0, {}};
-    EXPECT_NE(only(NullPoseFault::MissingPart)->what.find("the last of an unknown number"),
-              std::string::npos);
+    EXPECT_EQ(only(NullPoseFault::MissingPart)->what,
+              "The last part of the newest scale message never came; 1 part did.");
+    message = {1, 0, 0, 2, 0, {1}};
+    EXPECT_EQ(only(NullPoseFault::MissingPart)->what,
+              "Parts 2 and the last of the newest scale message never came; 2 parts did.");
 }
 
 TEST_F(NullPoseFindings, EarlierLossesMatterWhereTheBodyIsNotWhole) {
