@@ -165,8 +165,11 @@ void Relay::call(const CommandQueue::Command& command) {
 
 void Relay::run() {
     m_sockets = std::make_unique<Sockets>();
-    while (!m_isStopping) {
+    while (true) {
         m_commands.run();
+        if (m_isStopping) {
+            break; // before it waits: nobody would wake it any more
+        }
         if (!m_targets.empty() && forwardSome()) {
             continue;
         }

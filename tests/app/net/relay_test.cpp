@@ -88,7 +88,11 @@ TEST_F(RelayTest, EndsWhateverItsThreadIsAbout) {
     for (int i = 0; i < 200; ++i) {
         Relay relay(log, clock);
         if (i % 2 == 0) {
-            ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+            const auto target = relay.add(consumer.endpoint(), {});
+            ASSERT_TRUE(target);
+            if (i % 4 == 0) {
+                relay.remove(*target); // it then waits for whatever may come
+            }
         }
     }
 }
