@@ -12,6 +12,7 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QSignalBlocker>
+#include <QToolBar>
 #include <QToolButton>
 
 #include <algorithm>
@@ -37,14 +38,31 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
     addSeverities();
     addGroups();
     addText();
-    QToolButton* seen =
-        addButton(QStringLiteral("markSeen"), tr("Mark seen"),
-                  tr("All events up to now have been seen: they are dim, and no longer counted as new"));
-    connect(seen, &QToolButton::clicked, this, &EventBar::seenRequested);
-    QToolButton* save =
-        addButton(QStringLiteral("exportEvents"), tr("Export…"), tr("Save the listed events as CSV or JSON"));
-    connect(save, &QToolButton::clicked, this, &EventBar::exportRequested);
+    addCommands();
     showFilter();
+}
+
+/// In a narrow dock they give way first, into a menu.
+void EventBar::addCommands() {
+    auto* commands = new QToolBar(this);
+    commands->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    commands->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
+    const auto add = [&](const QString& name, const QString& text, const QString& toolTip) {
+        QAction* action = commands->addAction(text);
+        action->setToolTip(toolTip);
+        QWidget* button = commands->widgetForAction(action);
+        button->setObjectName(name);
+        button->setProperty("framed", true);
+        button->setFocusPolicy(Qt::StrongFocus);
+        button->installEventFilter(this);
+        return action;
+    };
+    connect(add(QStringLiteral("markSeen"), tr("Mark seen"),
+                tr("All events up to now have been seen: they are dim, and no longer counted as new")),
+            &QAction::triggered, this, &EventBar::seenRequested);
+    connect(add(QStringLiteral("exportEvents"), tr("Export…"), tr("Save the listed events as CSV or JSON")),
+            &QAction::triggered, this, &EventBar::exportRequested);
+    layout()->addWidget(commands);
 }
 
 QToolButton* EventBar::addButton(const QString& name, const QString& text, const QString& toolTip) {
@@ -103,7 +121,7 @@ void EventBar::addText() {
     m_text->setAccessibleName(tr("Text that events must have"));
     m_text->setPlaceholderText(tr("Filter"));
     m_text->setClearButtonEnabled(true);
-    m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 12);
+    m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 8);
     m_text->installEventFilter(this);
     connect(m_text, &QLineEdit::textChanged, this, &EventBar::change);
     static_cast<QHBoxLayout*>(layout())->addWidget(m_text, 1);
@@ -143,8 +161,8 @@ void EventBar::change() {
     m_filter.text = m_text->text().trimmed();
     const auto shown = std::ranges::count(m_filter.groups, true);
     m_groupButton->setText(shown == static_cast<std::ptrdiff_t>(m_filter.groups.size())
-                               ? tr("All groups ▾")
-                               : tr("%1 of %2 groups ▾").arg(shown).arg(m_filter.groups.size()));
+                               ? tr("Groups ▾")
+                               : tr("Groups %1/%2 ▾").arg(shown).arg(m_filter.groups.size()));
     emit filterChanged(m_filter);
 }
 

@@ -41,6 +41,7 @@ private:
     void addSeverities();
     void addGroups();
     void addText();
+    void addCommands();
     void showFilter();
     void change();
     void paintSeverities();

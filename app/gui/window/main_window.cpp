@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/main_window.h"
 
+#include "app/gui/theme/icons.h"
+#include "app/gui/viewport/viewport_buttons.h"
 #include "app/gui/window/diagnostics.h"
 #include "app/gui/window/dialogs.h"
 #include "app/gui/window/dock_layout.h"
 #include "app/gui/window/dock_scroll.h"
 #include "app/gui/window/dock_title.h"
 #include "app/gui/window/health_bar.h"
-#include "app/gui/theme/icons.h"
 #include "app/gui/window/reference_window.h"
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/thresholds_dialog.h"
 #include "app/gui/window/transport_bar.h"
-#include "app/gui/viewport/viewport_buttons.h"
 #include "core/wire/reference.h"
 
 #include <QApplication>
@@ -99,6 +99,8 @@ void MainWindow::makeDocks() {
         auto* title = new DockTitle(dock);
         dock->setTitleBarWidget(title);
         addDockWidget(info.area, dock);
+        dock->hide(); // the layout says which ones show; all of them would make the window wider than asked
+                      // for
         m_docks.push_back({dock, title, panel});
         connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool isVisible) {
             if (isVisible) {

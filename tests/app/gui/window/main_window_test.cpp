@@ -81,6 +81,10 @@ TEST_F(MainWindowTest, WritesItsSettingsWhenItCloses) {
     EXPECT_TRUE(problem.isEmpty());
 }
 
+TEST_F(MainWindowTest, ShowsInTheSizeThatItWasGiven) {
+    EXPECT_EQ(makeWindow()->size(), QSize(1280, 800));
+}
+
 TEST_F(MainWindowTest, FitsASmallScreenInEveryLayout) {
     const auto window = makeWindow();
     for (const QString& layout : layoutNames()) {
