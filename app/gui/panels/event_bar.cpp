@@ -3,6 +3,7 @@
 
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
+#include "app/gui/panels/command_bar.h"
 #include "app/gui/theme/theme.h"
 
 #include <QButtonGroup>
@@ -12,7 +13,6 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QSignalBlocker>
-#include <QToolBar>
 #include <QToolButton>
 
 #include <algorithm>
@@ -44,24 +44,17 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
 
 /// In a narrow dock they give way first, into a menu.
 void EventBar::addCommands() {
-    auto* commands = new QToolBar(this);
-    commands->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    commands->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
-    const auto add = [&](const QString& name, const QString& text, const QString& toolTip) {
-        QAction* action = commands->addAction(text);
-        action->setToolTip(toolTip);
-        QWidget* button = commands->widgetForAction(action);
-        button->setObjectName(name);
-        button->setProperty("framed", true);
-        button->setFocusPolicy(Qt::StrongFocus);
-        button->installEventFilter(this);
-        return action;
-    };
-    connect(add(QStringLiteral("markSeen"), tr("Mark seen"),
+    auto* commands = new CommandBar(this);
+    connect(commands->addCommand(
+                QStringLiteral("markSeen"), tr("Mark seen"),
                 tr("All events up to now have been seen: they are dim, and no longer counted as new")),
             &QAction::triggered, this, &EventBar::seenRequested);
-    connect(add(QStringLiteral("exportEvents"), tr("Export…"), tr("Save the listed events as CSV or JSON")),
+    connect(commands->addCommand(QStringLiteral("exportEvents"), tr("Export…"),
+                                 tr("Save the listed events as CSV or JSON")),
             &QAction::triggered, this, &EventBar::exportRequested);
+    for (QToolButton* button : commands->findChildren<QToolButton*>()) {
+        button->installEventFilter(this);
+    }
     layout()->addWidget(commands);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
+#include "app/gui/panels/command_bar.h"
 #include "app/gui/panels/text_prompt.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/theme.h"
@@ -15,8 +16,6 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTextCharFormat>
-#include <QToolBar>
-#include <QToolButton>
 #include <QVBoxLayout>
 
 namespace posewire::gui {
@@ -48,7 +47,7 @@ std::vector<FilterBar::Saved> defaultFilters() {
 FilterBar::FilterBar(QWidget* parent)
     : QWidget(parent),
       m_line(new QLineEdit(this)),
-      m_buttons(new QToolBar(this)),
+      m_buttons(new CommandBar(this)),
       m_progressRow(new QWidget(this)),
       m_progress(new QProgressBar(this)),
       m_problem(new QLabel(this)),
@@ -82,8 +81,6 @@ void FilterBar::layOut() {
     row->addWidget(m_line, 1);
     row->addWidget(m_buttons);
     m_line->setMinimumWidth(m_line->fontMetrics().averageCharWidth() * 26); // the buttons give way first
-    m_buttons->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    m_buttons->setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
     auto* cancel = new QPushButton(tr("Cancel"), m_progressRow);
     cancel->setObjectName(QStringLiteral("cancelFilter"));
     connect(cancel, &QPushButton::clicked, this, &FilterBar::cancelRequested);
@@ -232,22 +229,18 @@ void FilterBar::setSaved(std::vector<Saved> saved) {
 void FilterBar::showSaved() {
     m_buttons->clear();
     for (std::size_t i = 0; i < m_saved.size(); ++i) {
-        QAction* action = m_buttons->addAction(m_saved[i].name);
-        action->setToolTip(m_saved[i].text);
+        QAction* action = m_buttons->addCommand({}, m_saved[i].name, m_saved[i].text);
         connect(action, &QAction::triggered, this, [this, i] {
             m_line->setText(m_saved[i].text);
             apply();
         });
         QWidget* button = m_buttons->widgetForAction(action);
-        button->setProperty("framed", true);
         button->setContextMenuPolicy(Qt::CustomContextMenu);
         connect(button, &QWidget::customContextMenuRequested, this,
                 [this, i, button](const QPoint& place) { askAbout(i, button->mapToGlobal(place)); });
     }
-    QAction* save = m_buttons->addAction(QStringLiteral("+"), this, &FilterBar::saveCurrent);
-    save->setToolTip(tr("Save this filter as a button"));
-    m_buttons->widgetForAction(save)->setProperty("framed", true);
-    m_buttons->widgetForAction(save)->setAccessibleName(save->toolTip());
+    connect(m_buttons->addCommand({}, QStringLiteral("+"), tr("Save this filter as a button")),
+            &QAction::triggered, this, &FilterBar::saveCurrent);
 }
 
 void FilterBar::saveCurrent() {

@@ -15,10 +15,11 @@ class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QStandardItemModel;
-class QToolBar;
 class QToolButton;
 
 namespace posewire::gui {
+
+class CommandBar;
 
 /// The line of the display filter: says while it is written whether it is right, and where it is not; offers
 /// what may follow, what was used before (arrow down) and what was saved (the buttons).
@@ -89,7 +90,7 @@ private:
     void rename(std::size_t index);
 
     QLineEdit* m_line;
-    QToolBar* m_buttons;
+    CommandBar* m_buttons;
     QWidget* m_progressRow;
     QProgressBar* m_progress;
     QLabel* m_problem;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_overlay.h"
 
+#include "app/gui/viewport/viewport_buttons.h"
+
 #include <QPainter>
 
 #include <algorithm>
@@ -64,6 +66,10 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     std::vector<QRectF> taken;
+    for (const auto* buttons :
+         parentWidget()->findChildren<ViewportButtons*>(QString(), Qt::FindDirectChildrenOnly)) {
+        taken.push_back(buttons->geometry());
+    }
     for (const ViewportLabel& label : m_labels) {
         paintLabel(painter, label, taken);
     }
@@ -84,8 +90,19 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const qreal height = unit + 8;
     QRectF plate(std::round(label.anchor.x() - width / 2), std::round(label.anchor.y() - height),
                  std::ceil(width), height);
+    // Up, or down from where there is no room above; with a head that is out of sight it goes out of sight.
+    if (label.anchor.y() < 0) {
+        return;
+    }
+    const qreal wanted = std::max(2.0, plate.top());
+    plate.moveTop(wanted);
+    qreal step = -(height + 3);
     while (touchesAny(plate, taken)) {
-        plate.translate(0, -(height + 3));
+        plate.translate(0, step);
+        if (plate.top() < 0) {
+            step = height + 3;
+            plate.moveTop(wanted + step);
+        }
     }
     taken.push_back(plate);
     paintPlate(painter, plate, label.isSelected ? theme().accent : theme().line, kRadius);

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/command_bar.h"
+
+#include <QToolButton>
+
+namespace posewire::gui {
+
+CommandBar::CommandBar(QWidget* parent) : QToolBar(parent) {
+    setToolButtonStyle(Qt::ToolButtonTextOnly);
+    setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
+    if (auto* more = findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"))) {
+        more->setToolTip(tr("More"));
+        more->setAccessibleName(more->toolTip());
+        more->setFocusPolicy(Qt::StrongFocus);
+    }
+}
+
+QAction* CommandBar::addCommand(const QString& name, const QString& text, const QString& toolTip) {
+    QAction* action = addAction(text);
+    action->setToolTip(toolTip);
+    QWidget* button = widgetForAction(action);
+    button->setObjectName(name);
+    button->setAccessibleName(toolTip);
+    button->setProperty("framed", true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return action;
+}
+
+} // namespace posewire::gui
