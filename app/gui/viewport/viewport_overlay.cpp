@@ -37,8 +37,11 @@ qreal paintText(QPainter& painter, qreal left, const QRectF& row, const QString&
     return left + width;
 }
 
-bool touchesAny(const QRectF& plate, const std::vector<QRectF>& taken) {
-    return std::ranges::any_of(taken, [&](const QRectF& other) { return other.intersects(plate); });
+/// The first of these that a plate lies on; null for none.
+const QRectF* touched(const QRectF& plate, const std::vector<QRectF>& taken) {
+    const auto found =
+        std::ranges::find_if(taken, [&plate](const QRectF& other) { return other.intersects(plate); });
+    return found == taken.end() ? nullptr : &*found;
 }
 
 } // namespace
@@ -94,15 +97,12 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     if (label.anchor.y() < 0) {
         return;
     }
-    const qreal wanted = std::max(2.0, plate.top());
-    plate.moveTop(wanted);
-    qreal step = -(height + 3);
-    while (touchesAny(plate, taken)) {
-        plate.translate(0, step);
-        if (plate.top() < 0) {
-            step = height + 3;
-            plate.moveTop(wanted + step);
-        }
+    constexpr qreal kApart = 3;
+    plate.moveTop(std::max(2.0, plate.top()));
+    bool isUp = true;
+    while (const QRectF* other = touched(plate, taken)) {
+        isUp = isUp && other->top() - kApart - height >= 0;
+        plate.moveTop(isUp ? other->top() - kApart - height : other->bottom() + kApart);
     }
     taken.push_back(plate);
     paintPlate(painter, plate, label.isSelected ? theme().accent : theme().line, kRadius);
