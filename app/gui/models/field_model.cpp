@@ -202,10 +202,10 @@ QVariant FieldModel::data(const QModelIndex& index, int role) const {
     case Qt::TextAlignmentRole:
         return kColumns[static_cast<std::size_t>(index.column())].isNumber ? numberAlignment() : QVariant();
     case Qt::ToolTipRole:
-        return tr("%1\n%2\n%3 %4")
+        return tr("%1\n%2\n%3")
             .arg(QString::fromStdString(m_document->tree().path(node)), fieldPlace(*m_document, node),
-                 fieldMeaning(*m_document, node), fieldSection(*m_document, node))
-            .trimmed();
+                 (fieldMeaning(*m_document, node) + QLatin1Char(' ') + fieldSection(*m_document, node))
+                     .trimmed());
     default:
         return {};
     }
