@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/stream_figures.h"
 
+#include "core/model/range_figures.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -40,28 +42,18 @@ std::array<std::uint64_t, model::kLossCauses> causesIn(const model::Session& ses
 
 StreamFigures figuresOf(const model::Session& session, const model::Stream& stream, const TimeRange& range) {
     const model::StreamAccounting& accounting = stream.accounting;
+    const model::TimeRange part{range.fromNs.value_or(kBeginning), range.toNs.value_or(kEnd)};
+    const model::RangeFigures read =
+        model::countedFigures(accounting, range.isWhole() ? std::nullopt : std::optional(part));
     StreamFigures figures;
     figures.key = stream.key;
-    std::int64_t from = accounting.firstStampNs();
-    std::int64_t to = accounting.lastStampNs();
-    if (range.isWhole()) {
-        figures.counts = accounting.counts();
-        figures.arrivals = accounting.interArrival();
-        figures.pattern = accounting.lossPattern();
-        figures.clock = accounting.clock();
-        figures.malformed = accounting.malformed();
-    } else {
-        const std::int64_t rangeFrom = range.fromNs.value_or(kBeginning);
-        const std::int64_t rangeTo = range.toNs.value_or(kEnd);
-        figures.counts = accounting.countsBetween(rangeFrom, rangeTo);
-        figures.counts.step = accounting.step();
-        figures.arrivals = accounting.interArrivalBetween(rangeFrom, rangeTo);
-        figures.pattern = accounting.lossPatternBetween(rangeFrom, rangeTo);
-        figures.clock = accounting.clockBetween(rangeFrom, rangeTo);
-        figures.malformed = accounting.malformedBetween(rangeFrom, rangeTo);
-        from = std::max(from, rangeFrom);
-        to = std::min(to, rangeTo);
-    }
+    figures.counts = read.counts;
+    figures.pattern = read.pattern;
+    figures.arrivals = read.arrivals;
+    figures.clock = read.clock;
+    figures.malformed = read.malformed;
+    const std::int64_t from = std::max(accounting.firstStampNs(), part.fromNs);
+    const std::int64_t to = std::min(accounting.lastStampNs(), part.toNs);
     figures.rateHz = rateOf(figures, static_cast<double>(to - from) * 1e-9);
     figures.lostByCause = range.isWhole() ? stream.lostByCause() : causesIn(session, figures, range);
     return figures;

@@ -87,7 +87,7 @@ void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigure
 
 } // namespace
 
-RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
+RangeFigures countedFigures(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
     RangeFigures figures;
     if (range) {
         figures.counts = stream.countsBetween(range->fromNs, range->toNs);
@@ -102,6 +102,11 @@ RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeR
         figures.pattern = stream.lossPattern();
         figures.malformed = stream.malformed();
     }
+    return figures;
+}
+
+RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
+    RangeFigures figures = countedFigures(stream, range);
     const TimeRange air = onAir(stream, range);
     readMean(stream, air, figures.counts, figures.rate);
     readSpread(stream, air, figures.rate);

@@ -32,7 +32,10 @@ struct RangeFigures {
     std::uint64_t malformed = 0; ///< datagrams with a header of the stream that could not be decoded
 };
 
-/// All there is where no range is given. The cost does not depend on the range.
+/// All there is where no range is given; everything but the rate. The cost does not depend on the range.
+[[nodiscard]] RangeFigures countedFigures(const StreamAccounting& stream,
+                                          const std::optional<TimeRange>& range);
+/// With the rate, for which the range must have ends.
 [[nodiscard]] RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range);
 
 /// What came and what did not in a part of a range.
