@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/options.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/options.h"
 #include "app/gui/window/process_age.h"
 
 #include <QApplication>

@@ -22,7 +22,8 @@ tl::unexpected<EarlyExit> wrong(const QString& text) {
 void describe(QCommandLineParser& parser) {
     parser.setApplicationDescription(tr("Network monitor for MVN motion-capture streams."));
     parser.setOptionsAfterPositionalArgumentsMode(QCommandLineParser::ParseAsOptions);
-    parser.addPositionalArgument(QStringLiteral("file"), tr("Recording to look at: pcap, pcapng, or datagrams back to back."),
+    parser.addPositionalArgument(QStringLiteral("file"),
+                                 tr("Recording to look at: pcap, pcapng, or datagrams back to back."),
                                  QStringLiteral("[FILE]"));
     parser.addOptions({
         {"udp", tr("Listen on a UDP port (repeatable; 9763 if nothing else is asked for)."),

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/gui/driver/connection_watch.h"
-#include "app/gui/receiving_state.h"
 #include "app/gui/driver/relaying.h"
+#include "app/gui/receiving_state.h"
 #include "app/net/receiver.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"

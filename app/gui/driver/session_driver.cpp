@@ -91,7 +91,8 @@ QString SessionDriver::openFile(const QString& path) {
 void SessionDriver::seek(double seconds) {
     const auto afterNs = static_cast<std::int64_t>(seconds * 1e9);
     setPaused(true);
-    m_session.setCursor({model::Cursor::Mode::Paused, m_session.packetAt(m_session.firstStampNs() + afterNs)});
+    m_session.setCursor(
+        {model::Cursor::Mode::Paused, m_session.packetAt(m_session.firstStampNs() + afterNs)});
     announceChange();
 }
 

@@ -49,7 +49,7 @@ std::string FieldView::pathOf(const QModelIndex& index) const {
 
 std::int32_t FieldView::currentNode() const {
     const QModelIndex current = currentIndex();
-    return current.isValid()         ? m_fields.node(current)
+    return current.isValid()       ? m_fields.node(current)
            : m_currentPath.empty() ? -1
                                    : m_fields.document().find(m_currentPath);
 }

@@ -82,8 +82,7 @@ void PacketView::paintRow(QPainter& painter, int row, const QRect& rect) const {
     }
 }
 
-void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect rect,
-                           bool isSelected) const {
+void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) const {
     const QString text = index.data(Qt::DisplayRole).toString();
     if (text.isEmpty()) {
         return;

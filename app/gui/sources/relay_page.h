@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/relay_model.h"
 #include "app/gui/driver/relaying.h"
+#include "app/gui/models/relay_model.h"
 
 #include <QWidget>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/scene_builder.h"
 
-#include "app/gui/viewport/character_health.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/viewport/character_health.h"
 #include "core/model/null_pose_measures.h"
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/theme.h"
 #include "app/gui/viewport/empty_state.h"
 #include "app/gui/viewport/scene_frame.h"
-#include "app/gui/theme/theme.h"
 
 #include <QWidget>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/camera_motion.h"
 #include "app/gui/commands.h"
-#include "app/gui/viewport/presenter.h"
 #include "app/gui/receiving_state.h"
+#include "app/gui/viewport/camera_motion.h"
+#include "app/gui/viewport/presenter.h"
 #include "app/gui/viewport/scene_builder.h"
 
 #include <memory>

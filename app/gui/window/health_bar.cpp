@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_bar.h"
 
+#include "app/gui/models/text.h"
 #include "app/gui/viewport/character_health.h"
 #include "app/gui/window/colour_text.h"
 #include "app/gui/window/health_popup.h"
-#include "app/gui/models/text.h"
 
 #include <QHBoxLayout>
 #include <QLabel>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_popup.h"
 
-#include "app/gui/viewport/character_health.h"
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
+#include "app/gui/viewport/character_health.h"
 #include "app/gui/window/trouble_line.h"
 
 #include <QHBoxLayout>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/window/menus.h"
-#include "app/gui/panel.h"
 #include "app/gui/driver/session_driver.h"
-#include "app/gui/window/settings.h"
+#include "app/gui/panel.h"
 #include "app/gui/sources/sources_dialog.h"
 #include "app/gui/viewport/viewport_widget.h"
+#include "app/gui/window/menus.h"
+#include "app/gui/window/settings.h"
 
 #include <QMainWindow>
 #include <QVariant>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/reference_window.h"
 
-#include "app/gui/window/dialogs.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/window/dialogs.h"
 #include "core/wire/reference_overview.h"
 
 #include <QAbstractTextDocumentLayout>

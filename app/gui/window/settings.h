@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/window/alerts.h"
 #include "app/gui/source_choices.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/window/alerts.h"
 
 #include <QByteArray>
 #include <QJsonObject>

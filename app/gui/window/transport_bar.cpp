@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/transport_bar.h"
 
-#include "app/gui/window/colour_text.h"
-#include "app/gui/theme/icons.h"
 #include "app/gui/models/relay_model.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/source_model.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/icons.h"
+#include "app/gui/window/colour_text.h"
 
 #include <QAction>
 #include <QEvent>

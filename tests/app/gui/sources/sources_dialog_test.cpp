@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/sources/sources_dialog.h"
 
-#include "app/gui/sources/connection_page.h"
+#include "app/gui/driver/session_driver.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/sources/connection_page.h"
 #include "app/gui/sources/relay_page.h"
 #include "app/gui/sources/sender_settings.h"
-#include "app/gui/driver/session_driver.h"
 #include "app/gui/sources/source_form.h"
 #include "app/gui/sources/sources_page.h"
 #include "app/net/datagram_sender.h"
