@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <linux/sock_diag.h>
+#include <netinet/in.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
@@ -104,10 +105,22 @@ private:
     std::int64_t m_lookedNs = 0; ///< when the sockets were last looked at, monotonic
 };
 
+/// Where it is refused, stamps come from the clock.
 void enable(int descriptor, int option) {
     const int on = 1;
-    ::setsockopt(descriptor, SOL_SOCKET, option, &on,
-                 sizeof on); // where it is refused, stamps come from the clock
+    ::setsockopt(descriptor, SOL_SOCKET, option, &on, sizeof on);
+}
+
+/// Qt has the kernel tell with each datagram on which interface it came and after how many hops. Nobody here
+/// reads it, and it costs a fifteenth of all that receiving costs.
+void disableWhatQtAsksFor(int descriptor) {
+    const int off = 0;
+    for (const int option : {IP_PKTINFO, IP_RECVTTL}) {
+        ::setsockopt(descriptor, IPPROTO_IP, option, &off, sizeof off);
+    }
+    for (const int option : {IPV6_RECVPKTINFO, IPV6_RECVHOPLIMIT}) {
+        ::setsockopt(descriptor, IPPROTO_IPV6, option, &off, sizeof off);
+    }
 }
 
 NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
@@ -122,6 +135,7 @@ NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const Udp
     for (const auto& socket : *bound) {
         // A descriptor of our own, on which Qt's notifiers have no hold; Qt's goes at the end of this turn.
         Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
+        disableWhatQtAsksFor(descriptor.get());
         enable(descriptor.get(), SO_TIMESTAMPNS);
         enable(descriptor.get(), SO_RXQ_OVFL);
         m_sockets.push_back(std::unique_ptr<Socket>(
