@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <ranges>
 
 namespace posewire::performer {
 namespace {
@@ -93,7 +92,8 @@ StreamTruth::Run* StreamTruth::runOf(const wire::Header& header, const Origin& o
         return nullptr;
     }
     bool isKnown = false;
-    for (Run& run : std::views::reverse(m_runs)) {
+    for (auto newest = m_runs.rbegin(); newest != m_runs.rend(); ++newest) {
+        Run& run = *newest;
         if (run.epoch != origin.epoch || run.regime != origin.regime) {
             continue;
         }
