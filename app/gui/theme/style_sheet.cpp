@@ -18,7 +18,7 @@ QMainWindow::separator:hover { background: @accent; }
 QToolTip { background: @raised; color: @text; border: 1px solid @line; padding: 4px 6px; }
 
 QMenuBar { background: @window; border: none; border-bottom: 1px solid @line; padding: 2px 4px; }
-QToolBar { background: @window; border: none; padding: 0; margin: 0; spacing: 0; }
+QToolBar { background: @window; border: none; padding: 0; margin: 0; spacing: 6px; }
 QStatusBar { background: @window; border-top: 1px solid @line; }
 QStatusBar::item { border: none; }
 QDockWidget { border: none; }
