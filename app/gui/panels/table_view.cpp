@@ -3,6 +3,7 @@
 
 #include "app/gui/models/roles.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/balanced_text.h"
 #include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
@@ -177,8 +178,7 @@ void TableView::paintEvent(QPaintEvent* event) {
     QPainter painter(viewport());
     painter.setPen(theme().dim);
     const int space = 2 * CellDelegate::margin(fontMetrics());
-    painter.drawText(viewport()->rect().adjusted(space, space, -space, -space),
-                     Qt::AlignCenter | Qt::TextWordWrap, m_emptyText);
+    drawBalanced(painter, viewport()->rect().adjusted(space, space, -space, -space), m_emptyText);
 }
 
 QString TableView::cellText(const QModelIndex& index) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_overlay.h"
 
+#include "app/gui/theme/balanced_text.h"
 #include "app/gui/viewport/viewport_buttons.h"
 
 #include <QPainter>
@@ -122,8 +123,9 @@ void ViewportOverlay::paintCard(QPainter& painter) const {
     const QRectF room(0, 0, most - 3 * unit, height());
     const QRectF titleRoom =
         QFontMetricsF(titleFont).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, m_card.title);
-    const QRectF textRoom =
-        QFontMetricsF(font()).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, text);
+    const QFontMetricsF metrics(font());
+    const QRectF narrow(0, 0, balancedWidth(metrics, text, room.width()), height());
+    const QRectF textRoom = metrics.boundingRect(narrow, Qt::AlignHCenter | Qt::TextWordWrap, text);
     const qreal cardWidth = std::min(most, std::max(titleRoom.width(), textRoom.width()) + 3.2 * unit);
     const qreal cardHeight = titleRoom.height() + textRoom.height() + 2.4 * unit;
     const QRectF card(std::round((width() - cardWidth) / 2), std::round((height() - cardHeight) / 2),

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/spaces.h"
 
-#include "core/wire/codec.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -114,38 +110,6 @@ TEST(Spaces, ComposesAndTakesApartPoses) {
     const SegmentPose back = relativeTo(parent, composed(parent, local));
     EXPECT_TRUE(back.position.isApprox(local.position));
     EXPECT_TRUE(back.orientation.isApprox(local.orientation));
-}
-
-wire::Datagram readCapture(const char* name) {
-    const std::filesystem::path path =
-        std::filesystem::path(POSEWIRE_SOURCE_DIR) / "../shared/captures" / name;
-    std::ifstream file(path, std::ios::binary);
-    const std::vector<char> chars((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-    const auto result = wire::decode(std::as_bytes(std::span(chars)));
-    return result ? *result : wire::Datagram{};
-}
-
-TEST(Spaces, AgreesWithARecordingThatHoldsBothTypesOfOneSample) {
-    if (!std::filesystem::exists(std::filesystem::path(POSEWIRE_SOURCE_DIR) / "../shared/captures")) {
-        GTEST_SKIP() << "the recorded datagrams are not here; nothing was compared";
-    }
-    const wire::Datagram euler = readCapture("mxtp01.bin");
-    const wire::Datagram quaternion = readCapture("mxtp02.bin");
-    const auto* first = std::get_if<wire::PoseEuler>(&euler.body);
-    const auto* second = std::get_if<wire::PoseQuaternion>(&quaternion.body);
-    ASSERT_TRUE(first != nullptr && second != nullptr);
-    ASSERT_EQ(first->segments.size(), 23U);
-    ASSERT_EQ(second->segments.size(), 23U);
-    for (std::size_t index = 0; index < 23; ++index) {
-        const SegmentPose a =
-            poseFromEuler({first->segments[index].position, first->segments[index].rotation});
-        const SegmentPose b =
-            poseFromQuaternion({second->segments[index].position, second->segments[index].orientation});
-        EXPECT_LT((a.position - b.position).cwiseAbs().maxCoeff(), 1e-6);
-        const Eigen::Matrix3d difference =
-            a.orientation.toRotationMatrix() - b.orientation.toRotationMatrix();
-        EXPECT_LT(difference.cwiseAbs().maxCoeff(), 1e-5);
-    }
 }
 
 } // namespace
