@@ -18,17 +18,19 @@ namespace {
 using model::LengthUnit;
 using model::Revision;
 
-/// Checks what is declared and returns its text.
+/// Checks what is declared and returns its text, a short one where nothing is.
 template <class Value>
 QString check(const QActionGroup& group, const std::optional<Value>& declared) {
-    QString text;
+    QString text = DetectionBar::tr("auto");
     const auto actions = group.actions();
     for (QAction* action : actions) {
         const auto value = action->data().isValid()
                                ? std::optional(static_cast<Value>(action->data().toInt()))
                                : std::nullopt;
         action->setChecked(value == declared);
-        text = value == declared ? action->text() : text;
+        if (declared && value == declared) {
+            text = action->text();
+        }
     }
     return text;
 }

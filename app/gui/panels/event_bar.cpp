@@ -36,7 +36,6 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
     row->setSpacing(6);
     addViews();
     addSeverities();
-    addGroups();
     addText();
     addCommands();
     showFilter();
@@ -45,6 +44,7 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
 /// In a narrow dock they give way first, into a menu.
 void EventBar::addCommands() {
     auto* commands = new CommandBar(this);
+    addGroups(*commands);
     connect(commands->addCommand(
                 QStringLiteral("markSeen"), tr("Mark seen"),
                 tr("All events up to now have been seen: they are dim, and no longer counted as new")),
@@ -96,16 +96,18 @@ void EventBar::addSeverities() {
     paintSeverities();
 }
 
-void EventBar::addGroups() {
-    m_groupButton = addButton(QStringLiteral("eventGroups"), {}, tr("Which groups of events are listed"));
-    m_groups = new QMenu(m_groupButton);
+void EventBar::addGroups(CommandBar& commands) {
+    m_groupCommand =
+        commands.addCommand(QStringLiteral("eventGroups"), {}, tr("Which groups of events are listed"));
+    m_groups = new QMenu(this);
     for (std::size_t i = 0; i < m_filter.groups.size(); ++i) {
         QAction* action = m_groups->addAction(groupWord(static_cast<model::EventGroup>(i)));
         action->setCheckable(true);
         connect(action, &QAction::toggled, this, &EventBar::change);
     }
-    m_groupButton->setMenu(m_groups);
-    m_groupButton->setPopupMode(QToolButton::InstantPopup);
+    m_groupCommand->setMenu(m_groups);
+    qobject_cast<QToolButton*>(commands.widgetForAction(m_groupCommand))
+        ->setPopupMode(QToolButton::InstantPopup);
 }
 
 void EventBar::addText() {
@@ -141,7 +143,7 @@ void EventBar::showFilter() {
 }
 
 void EventBar::change() {
-    if (m_text == nullptr) {
+    if (m_groups == nullptr) {
         return; // still being made
     }
     m_filter.onlyCurrent = m_current->isChecked();
@@ -153,9 +155,9 @@ void EventBar::change() {
     }
     m_filter.text = m_text->text().trimmed();
     const auto shown = std::ranges::count(m_filter.groups, true);
-    m_groupButton->setText(shown == static_cast<std::ptrdiff_t>(m_filter.groups.size())
-                               ? tr("Groups ▾")
-                               : tr("Groups %1/%2 ▾").arg(shown).arg(m_filter.groups.size()));
+    m_groupCommand->setText(shown == static_cast<std::ptrdiff_t>(m_filter.groups.size())
+                                ? tr("Groups ▾")
+                                : tr("Groups %1/%2 ▾").arg(shown).arg(m_filter.groups.size()));
     emit filterChanged(m_filter);
 }
 

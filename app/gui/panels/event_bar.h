@@ -7,11 +7,14 @@
 
 #include <array>
 
+class QAction;
 class QLineEdit;
 class QMenu;
 class QToolButton;
 
 namespace posewire::gui {
+
+class CommandBar;
 
 /// What the events dock lists: now or all that happened, which severities and groups, and a text.
 class EventBar final : public QWidget {
@@ -39,9 +42,9 @@ private:
     QToolButton* addButton(const QString& name, const QString& text, const QString& toolTip);
     void addViews();
     void addSeverities();
-    void addGroups();
     void addText();
     void addCommands();
+    void addGroups(CommandBar& commands);
     void showFilter();
     void change();
     void paintSeverities();
@@ -50,9 +53,9 @@ private:
     QToolButton* m_current = nullptr;
     QToolButton* m_history = nullptr;
     std::array<QToolButton*, 3> m_severities{}; ///< by EventSeverity
-    QToolButton* m_groupButton = nullptr;
-    QMenu* m_groups = nullptr;
     QLineEdit* m_text = nullptr;
+    QAction* m_groupCommand = nullptr;
+    QMenu* m_groups = nullptr;
 };
 
 } // namespace posewire::gui

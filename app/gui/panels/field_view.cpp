@@ -161,7 +161,9 @@ void FieldView::fitToWidth() {
     const int character = std::max(1, fontMetrics().averageCharWidth());
     const int width = viewport()->width() / character;
     const bool isComparing = m_fields.other() != nullptr;
-    const int form = (width >= 96 ? 1 : 0) + (width >= 120 ? 2 : 0) + (isComparing ? 4 : 0);
+    const bool isNarrow = width < 52;
+    const int form =
+        (width >= 96 ? 1 : 0) + (width >= 120 ? 2 : 0) + (isComparing ? 4 : 0) + (isNarrow ? 8 : 0);
     if (form == m_form) {
         return;
     }
@@ -172,7 +174,9 @@ void FieldView::fitToWidth() {
     setColumnHidden(FieldModel::kDifference, !isComparing);
     setColumnHidden(FieldModel::kMeaning, !hasMeaning);
     setColumnHidden(FieldModel::kSection, !hasMeaning);
-    const QString vector = QStringLiteral("−0.000  −0.000  −0.000 m");
+    // Where there is no room for a vector, its components below it can still be read.
+    const QString vector =
+        isNarrow ? QStringLiteral("23 × 736 bytes") : QStringLiteral("−0.000  −0.000  −0.000 m");
     std::vector<QString> samples(FieldModel::kColumnCount);
     const QString field = QStringLiteral("Segment 10 · RightUpperArmxx");
     samples[FieldModel::kField] = hasMeaning ? field : QString();

@@ -42,7 +42,7 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
     : Panel(parent),
       m_view(view),
       m_commands(commands),
-      m_title(new QLabel(this)),
+      m_title(new ElidedLabel(Qt::AlignLeft, this)),
       m_previous(addButton(QStringLiteral("‹"), tr("Previous packet of this stream"))),
       m_next(addButton(QStringLiteral("›"), tr("Next packet of this stream"))),
       m_hold(addButton(tr("Hold"), tr("Keep this packet while the stream runs on"))),
@@ -80,8 +80,6 @@ void InspectorPanel::layOut() {
     for (QToolButton* button : {m_previous, m_next, m_hold, m_compare}) {
         bar->addWidget(button);
     }
-    m_title->setMinimumWidth(1);
-    m_title->setTextFormat(Qt::RichText);
     layout->addLayout(bar);
     layout->addWidget(new Line(this));
     m_problems->setWordWrap(true);
@@ -186,7 +184,7 @@ void InspectorPanel::refresh() {
 
 void InspectorPanel::showEmpty() {
     if (!m_isShown) {
-        m_title->setText(coloured(theme().dim, tr("No packet")));
+        m_title->setText({}, tr("No packet"));
         m_fields->setEmptyText(tr("No packet yet.\nEvery field and byte of the selected packet, or of the "
                                   "newest one, shows here."));
         m_problems->hide();
@@ -212,14 +210,14 @@ void InspectorPanel::show(const log::Packet& packet) {
     if (m_document->hasHeader() && m_document->kind() == model::PacketKind::Datagram) {
         m_type = m_document->type();
     }
-    QString title = documentTitle(*m_document).toHtmlEscaped();
+    QString owner;
     if (m_document->hasHeader()) {
         const model::CharacterKey key{packet.source, m_document->header().character};
         const QString name =
             m_view.find(key) != nullptr ? characterName(m_view, key) : tr("Character %1").arg(key.character);
-        title += coloured(theme().dim, QStringLiteral(" · ") + name.toHtmlEscaped());
+        owner = QStringLiteral(" · ") + name;
     }
-    m_title->setText(title);
+    m_title->setText(documentTitle(*m_document), owner);
     m_title->setToolTip(
         tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(packet.stampNs)));
     describeProblems();

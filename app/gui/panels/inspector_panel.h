@@ -6,6 +6,7 @@
 #include "app/gui/panels/byte_view.h"
 #include "app/gui/panels/field_view.h"
 #include "app/gui/panels/line.h"
+#include "app/gui/theme/elided_label.h"
 
 #include <QLabel>
 #include <QSplitter>
@@ -74,7 +75,7 @@ private:
     QStringList m_sequence; ///< what is odd about the packet's place in its stream
     bool m_isShown = false;
 
-    QLabel* m_title;
+    ElidedLabel* m_title;
     QToolButton* m_previous;
     QToolButton* m_next;
     QToolButton* m_hold;

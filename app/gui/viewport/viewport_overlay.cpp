@@ -45,6 +45,24 @@ const QRectF* touched(const QRectF& plate, const std::vector<QRectF>& taken) {
     return found == taken.end() ? nullptr : &*found;
 }
 
+/// Up where there is room above, else a little aside, else down.
+void giveWay(QRectF& plate, const std::vector<QRectF>& taken, qreal width) {
+    constexpr qreal kApart = 3;
+    bool isUp = true;
+    while (const QRectF* other = touched(plate, taken)) {
+        const qreal above = other->top() - kApart - plate.height();
+        const qreal aside = other->right() + kApart;
+        if (isUp && above >= 0) {
+            plate.moveTop(above);
+        } else if (aside - plate.left() < plate.width() / 2 && aside + plate.width() <= width) {
+            plate.moveLeft(aside);
+        } else {
+            isUp = false;
+            plate.moveTop(other->bottom() + kApart);
+        }
+    }
+}
+
 } // namespace
 
 ViewportOverlay::ViewportOverlay(QWidget* parent) : QWidget(parent) {
@@ -94,17 +112,14 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const qreal height = unit + 8;
     QRectF plate(std::round(label.anchor.x() - width / 2), std::round(label.anchor.y() - height),
                  std::ceil(width), height);
-    // Up, or down from where there is no room above; with a head that is out of sight it goes out of sight.
-    if (label.anchor.y() < 0) {
+    // With a head that is out of sight it goes out of sight.
+    if (!QRectF(rect()).contains(label.anchor)) {
         return;
     }
-    constexpr qreal kApart = 3;
-    plate.moveTop(std::max(2.0, plate.top()));
-    bool isUp = true;
-    while (const QRectF* other = touched(plate, taken)) {
-        isUp = isUp && other->top() - kApart - height >= 0;
-        plate.moveTop(isUp ? other->top() - kApart - height : other->bottom() + kApart);
-    }
+    constexpr qreal kEdge = 2;
+    plate.moveTop(std::max(kEdge, plate.top()));
+    plate.moveLeft(std::max(kEdge, std::min(plate.left(), this->width() - kEdge - plate.width())));
+    giveWay(plate, taken, this->width());
     taken.push_back(plate);
     paintPlate(painter, plate, label.isSelected ? theme().accent : theme().line, kRadius);
     painter.setPen(Qt::NoPen);

@@ -17,7 +17,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kLeastCharacters = 48;
+constexpr int kLeastCharacters = 54;
 constexpr double kDefaultExtent = 0.22;
 
 const std::array<std::pair<const char*, Qt::DockWidgetArea>, 3> kAreas{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/dock_title.h"
 
+#include "app/gui/theme/elided_label.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/theme.h"
 
@@ -31,7 +32,7 @@ QToolButton* flatButton(const QString& name, QWidget* parent) {
 DockTitle::DockTitle(QDockWidget* dock)
     : QWidget(dock),
       m_title(new QLabel(dock->windowTitle(), this)),
-      m_summary(new QLabel(this)),
+      m_summary(new ElidedLabel(Qt::AlignRight, this)),
       m_float(flatButton(tr("Float or dock"), this)),
       m_close(flatButton(tr("Close"), this)) {
     auto* row = new QHBoxLayout(this);
@@ -43,10 +44,6 @@ DockTitle::DockTitle(QDockWidget* dock)
     row->addSpacing(2);
     row->addWidget(m_float);
     row->addWidget(m_close);
-    m_summary->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    m_summary->setForegroundRole(QPalette::PlaceholderText);
-    // A long summary is cut, it must not widen the dock.
-    m_summary->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     connect(m_float, &QToolButton::clicked, dock, [dock] { dock->setFloating(!dock->isFloating()); });
     connect(m_close, &QToolButton::clicked, dock, &QDockWidget::close);
     restyle();
@@ -75,9 +72,7 @@ QSize DockTitle::minimumSizeHint() const {
 }
 
 void DockTitle::setSummary(const QString& summary) {
-    if (summary != m_summary->text()) {
-        m_summary->setText(summary);
-    }
+    m_summary->setText({}, summary);
 }
 
 void DockTitle::showButtons(bool isShown) {

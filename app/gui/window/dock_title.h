@@ -9,6 +9,8 @@ class QToolButton;
 
 namespace posewire::gui {
 
+class ElidedLabel;
+
 /// The title of a dock: its name, a short summary at the right, and under the pointer what floats and closes
 /// it.
 class DockTitle final : public QWidget {
@@ -34,7 +36,7 @@ private:
     void showButtons(bool isShown);
 
     QLabel* m_title;
-    QLabel* m_summary;
+    ElidedLabel* m_summary;
     QToolButton* m_float;
     QToolButton* m_close;
 };
