@@ -51,11 +51,41 @@ void findFailed(const ConnectionFacts& facts, Findings& findings) {
     }
 }
 
-void findForeign(const ConnectionFacts& facts, Findings& findings) {
-    for (const ForeignSender& sender : facts.foreign) {
+/// What one program sends, though it takes a new port for each datagram.
+struct ForeignHost {
+    std::string host;
+    std::string guess;
+    ForeignSender sender; ///< the newest, with the count of all
+    std::size_t ports = 1;
+};
+
+std::vector<ForeignHost> foreignHosts(const std::vector<ForeignSender>& senders) {
+    std::vector<ForeignHost> hosts;
+    for (const ForeignSender& sender : senders) {
+        const std::string host = sender.address.substr(0, sender.address.rfind(':'));
         const std::string guess = protocolThatBegins(sender.firstBytes);
-        std::string text = std::to_string(sender.count) + " datagrams from " + sender.address +
-                           " are not MXTP; the newest begins with " + shownBytes(sender.firstBytes);
+        const auto known = std::ranges::find_if(
+            hosts, [&](const ForeignHost& other) { return other.host == host && other.guess == guess; });
+        if (known == hosts.end()) {
+            hosts.push_back({host, guess, sender});
+        } else {
+            const std::uint64_t before = known->sender.count;
+            known->sender = sender;
+            known->sender.count += before;
+            ++known->ports;
+        }
+    }
+    return hosts;
+}
+
+void findForeign(const ConnectionFacts& facts, Findings& findings) {
+    for (const auto& [host, guess, sender, ports] : foreignHosts(facts.foreign)) {
+        const bool isOne = sender.count == 1;
+        const std::string from =
+            ports == 1 ? sender.address : host + " (" + std::to_string(ports) + " ports)";
+        std::string text = std::to_string(sender.count) + (isOne ? " datagram" : " datagrams") + " from " +
+                           from + (isOne ? " is not MXTP; it" : " are not MXTP; the newest") +
+                           " begins with " + shownBytes(sender.firstBytes);
         text += guess.empty() ? "" : ", which looks like " + guess;
         findings.push_back({Kind::NotMxtp, text,
                             "another program sends to this port: stop it, or have MVN send to another port "

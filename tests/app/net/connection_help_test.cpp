@@ -98,8 +98,25 @@ TEST_F(ConnectionHelpTest, ForeignDatagramsAreShownAndGuessedAt) {
     EXPECT_THAT(finding.text, HasSubstr("17 datagrams from 10.0.0.9:4000"));
     EXPECT_THAT(finding.text, HasSubstr("2f 62 6f 64"));
     EXPECT_THAT(finding.text, HasSubstr("looks like OSC"));
+    facts.foreign[0].count = 1;
+    EXPECT_THAT(connectionHelp(facts)[0].text, HasSubstr("1 datagram from 10.0.0.9:4000 is not MXTP; it"));
     facts.foreign[0].firstBytes = bytesOf("\x91\x92\x93\x94");
     EXPECT_EQ(connectionHelp(facts)[0].text.find("looks like"), std::string::npos);
+}
+
+TEST_F(ConnectionHelpTest, ForeignSendersOfOneHostAreOneFinding) {
+    facts.silenceNs = 0;
+    const auto osc = bytesOf(std::string_view("/body/hip\0\0\0,fff", 16));
+    facts.foreign = {{"10.0.0.9:4000", 17, osc},
+                     {"10.0.0.9:4001", 3, osc},
+                     {"10.0.0.9:4002", 1, osc},
+                     {"10.0.0.10:4000", 2, osc},
+                     {"10.0.0.9:5000", 4, bytesOf("\x91\x92\x93\x94")}};
+    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotMxtp, Kind::NotMxtp, Kind::NotMxtp));
+    const auto findings = connectionHelp(facts);
+    EXPECT_THAT(findings[0].text, HasSubstr("21 datagrams from 10.0.0.9 (3 ports) are not MXTP"));
+    EXPECT_THAT(findings[1].text, HasSubstr("2 datagrams from 10.0.0.10:4000"));
+    EXPECT_THAT(findings[2].text, HasSubstr("4 datagrams from 10.0.0.9:5000"));
 }
 
 TEST_F(ConnectionHelpTest, APortInUseKeepsItsWordsAndItsAdvice) {
