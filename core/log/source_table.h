@@ -43,7 +43,7 @@ private:
 
     struct Hash {
         std::size_t operator()(const SourceInfo& info) const {
-            return std::hash<std::string>{}(info.address) + 31U * info.localPort +
+            return std::hash<std::string>{}(info.address) + std::size_t{31} * info.localPort +
                    static_cast<std::size_t>(info.transport);
         }
     };

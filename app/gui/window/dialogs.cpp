@@ -8,12 +8,38 @@
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QKeySequence>
+#include <QScrollBar>
 #include <QTextBrowser>
 #include <QTextDocument>
 #include <QTextTable>
 #include <QVBoxLayout>
+#include <QtMath>
+
+#include <algorithm>
+#include <memory>
 
 namespace posewire::gui {
+
+namespace {
+
+/// Room for the whole text in lines that can be read, and for a part of it where that is long.
+QSize sizeOf(const QTextBrowser& browser) {
+    const QFontMetrics metrics = browser.fontMetrics();
+    const qreal most = metrics.averageCharWidth() * 100;
+    const std::unique_ptr<QTextDocument> copy(browser.document()->clone());
+    copy->setTextWidth(most);
+    const qreal width = std::min(most, copy->idealWidth());
+    copy->setTextWidth(width);
+    const qreal height = std::min<qreal>(copy->size().height(), metrics.lineSpacing() * 40);
+    const int scrollBar = browser.verticalScrollBar()->sizeHint().width();
+    return {qCeil(width) + scrollBar, qCeil(height) + metrics.lineSpacing() / 2};
+}
+
+QString plainText(const char* words) {
+    return QCoreApplication::translate("Action", words).remove(QLatin1Char('&'));
+}
+
+} // namespace
 
 void styleTables(QTextDocument& document) {
     constexpr qreal kPadding = 4;
@@ -56,19 +82,19 @@ void showText(const QString& title, const QString& markdown, QWidget* parent) {
     auto* column = new QVBoxLayout(dialog);
     column->addWidget(browser);
     column->addWidget(buttons);
-    const QFontMetrics metrics = dialog->fontMetrics();
-    dialog->resize(metrics.averageCharWidth() * 130, metrics.lineSpacing() * 44);
+    dialog->resize(dialog->sizeHint() - browser->sizeHint() + sizeOf(*browser));
     dialog->show();
 }
 
 QString shortcutsText() {
-    QString text = QCoreApplication::translate("Dialogs", "| Key | What it does |\n|---|---|\n");
+    QString text = QCoreApplication::translate("Dialogs", "| Key | Menu | What it does |\n|---|---|---|\n");
     for (const ActionInfo& info : actionTable()) {
         const QKeySequence keys(QLatin1String(info.shortcut), QKeySequence::PortableText);
         if (!keys.isEmpty()) {
-            QString name = QCoreApplication::translate("Action", info.text);
-            name.remove(QLatin1Char('&'));
-            text += QStringLiteral("| %1 | %2 |\n").arg(keys.toString(QKeySequence::NativeText), name);
+            text += QStringLiteral("| %1 | %2 | %3 |\n")
+                        .arg(keys.toString(QKeySequence::NativeText),
+                             plainText(info.menu).replace(QLatin1Char('/'), QStringLiteral(" > ")),
+                             plainText(info.text));
         }
     }
     return text +
