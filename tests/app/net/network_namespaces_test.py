@@ -11,6 +11,7 @@ limit with a short queue loses datagrams instead, and nothing is doubled or reor
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -47,7 +48,7 @@ class Namespaces:
             self.__exit__()
             skip("there are no veth pairs here: " + link.stderr.strip())
         for name, device, address in zip(self.names, ("sender", "receiver"), (SENDER, RECEIVER)):
-            run("ip", "netns", "exec", name, "sysctl", "-q", "-w", "net.ipv6.conf.all.disable_ipv6=1")
+            run("ip", "netns", "exec", name, "sh", "-c", "echo 1 > /proc/sys/net/ipv6/conf/all/disable_ipv6")
             self.run(name, "ip", "address", "add", address + "/24", "dev", device)
             self.run(name, "ip", "link", "set", device, "up")
         # Neighbours are known beforehand: nothing but the datagrams goes through the queue that counts.
@@ -151,8 +152,8 @@ def main():
     seeds = [int(text) for text in sys.argv[2:]] or [1]
     if os.geteuid() != 0:
         skip("this takes the rights of an administrator")
-    if run("ip", "-V").returncode != 0:
-        skip("there is no ip command")
+    if shutil.which("ip") is None or shutil.which("tc") is None:
+        skip("there is no ip or no tc command (package iproute2)")
     sys.exit(0 if all([check(seed, cli) for seed in seeds]) else 1)
 
 
