@@ -32,7 +32,7 @@ QSize sizeOf(const QTextBrowser& browser) {
     copy->setTextWidth(width);
     const qreal height = std::min<qreal>(copy->size().height(), metrics.lineSpacing() * 40);
     const int scrollBar = browser.verticalScrollBar()->sizeHint().width();
-    return {qCeil(width) + scrollBar, qCeil(height) + metrics.lineSpacing() / 2};
+    return {qCeil(width) + 2 * scrollBar, qCeil(height) + 3 * metrics.lineSpacing() / 2};
 }
 
 QString plainText(const char* words) {
