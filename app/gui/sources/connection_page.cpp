@@ -11,6 +11,8 @@
 #include <QScrollArea>
 #include <QVBoxLayout>
 
+#include <cmath>
+
 namespace posewire::gui {
 
 namespace {
@@ -41,7 +43,8 @@ Entry allIsWell(const ReceivingState& receiving) {
                 ConnectionPage::tr("If nothing arrives within two seconds, it will be said here why.")};
     }
     return {Health::Good,
-            ConnectionPage::tr("Datagrams arrive: %1 a second.").arg(fixed(receiving.datagramsPerSecond, 0)),
+            ConnectionPage::tr("Datagrams arrive: %1 a second.")
+                .arg(grouped(static_cast<std::uint64_t>(std::lround(receiving.datagramsPerSecond)))),
             ConnectionPage::tr("Nothing is found to be wrong with the connection.")};
 }
 

@@ -62,6 +62,7 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
                                QStringLiteral("100 000")},
                               tr("looking up studio"));
     layOut();
+    setFocusProxy(m_target);
     connect(m_model, &RelayModel::switched, this, &RelayPage::switchTarget, Qt::QueuedConnection);
     connect(m_table, &TableView::copyRequested, this, &RelayPage::copyRequested);
     connect(m_add, &QPushButton::clicked, this, &RelayPage::submit);

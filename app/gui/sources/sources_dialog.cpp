@@ -44,6 +44,7 @@ void SourcesDialog::open(Page page) {
     show();
     raise();
     activateWindow();
+    m_tabs->currentWidget()->setFocus();
     refresh();
 }
 

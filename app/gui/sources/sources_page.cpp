@@ -44,6 +44,7 @@ SourcesPage::SourcesPage(Receiving& receiving, QWidget* parent)
                                QStringLiteral("100 000")},
                               tr("listening, nobody has connected"));
     layOut();
+    setFocusProxy(m_table);
     connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this, &SourcesPage::showChoice);
     connect(m_table, &QAbstractItemView::activated, this, &SourcesPage::editSelected);
     connect(m_table, &TableView::copyRequested, this, &SourcesPage::copyRequested);

@@ -153,6 +153,12 @@ TEST_F(SourcesDialogTest, LeavesASourceAsItWasWhereItsChangeFails) {
     EXPECT_TRUE(ports()[0].id);
 }
 
+TEST_F(SourcesDialogTest, OpensWhereOneGoesOn) {
+    EXPECT_TRUE(dynamic_cast<TableView*>(dialog.focusWidget())) << "the list of sources";
+    dialog.open(SourcesDialog::Page::Relay);
+    EXPECT_TRUE(dynamic_cast<QLineEdit*>(dialog.focusWidget())) << "the target to add";
+}
+
 TEST_F(SourcesDialogTest, EnterInTheFormAddsWhatIsTyped) {
     dialog.sources().form().setInput({"127.0.0.1", freePort()});
     dialog.sources().form().focusHost();
