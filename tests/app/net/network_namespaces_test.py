@@ -31,6 +31,12 @@ def run(*command):
     return subprocess.run(command, capture_output=True, text=True)
 
 
+def inside(name):
+    """What goes before a command that is to run in a namespace. `ip netns exec` would mount a sysfs as well, which is
+    refused where the root folder is no mount, as after chroot."""
+    return ["nsenter", f"--net=/run/netns/{name}"]
+
+
 class Namespaces:
     """Two namespaces of this process's own; they end with it."""
 
@@ -39,7 +45,7 @@ class Namespaces:
 
     def __enter__(self):
         for name in self.names:
-            if run("ip", "netns", "add", name).returncode != 0:
+            if run("ip", "netns", "add", name).returncode != 0 or run(*inside(name), "true").returncode != 0:
                 self.__exit__()
                 skip("network namespaces are forbidden here")
         link = run("ip", "link", "add", "sender", "netns", self.names[0], "type", "veth", "peer", "name", "receiver",
@@ -48,7 +54,7 @@ class Namespaces:
             self.__exit__()
             skip("there are no veth pairs here: " + link.stderr.strip())
         for name, device, address in zip(self.names, ("sender", "receiver"), (SENDER, RECEIVER)):
-            run("ip", "netns", "exec", name, "sh", "-c", "echo 1 > /proc/sys/net/ipv6/conf/all/disable_ipv6")
+            run(*inside(name), "sh", "-c", "echo 1 > /proc/sys/net/ipv6/conf/all/disable_ipv6")
             self.run(name, "ip", "address", "add", address + "/24", "dev", device)
             self.run(name, "ip", "link", "set", device, "up")
         # Neighbours are known beforehand: nothing but the datagrams goes through the queue that counts.
@@ -61,13 +67,13 @@ class Namespaces:
             run("ip", "netns", "delete", name)
 
     def run(self, name, *command):
-        result = run("ip", "netns", "exec", name, *command)
+        result = run(*inside(name), *command)
         if result.returncode != 0:
             raise RuntimeError(f"{' '.join(command)}: {result.stderr.strip()}")
         return result.stdout
 
     def start(self, name, *command):
-        return subprocess.Popen(["ip", "netns", "exec", name, *command], stdout=subprocess.PIPE, text=True)
+        return subprocess.Popen([*inside(name), *command], stdout=subprocess.PIPE, text=True)
 
     def udp(self, name, field):
         lines = [line.split() for line in self.run(name, "cat", "/proc/net/snmp").splitlines() if line.startswith("Udp:")]
@@ -85,11 +91,11 @@ def impair(spaces, seed):
     a stream sent at a fraction of its rate; with one stream, evenly spaced, it does not."""
     netem = ["tc", "qdisc", "add", "dev", "sender", "root", "netem", "delay", "2ms", "1ms", "loss", f"{2 + seed % 5}%",
              "duplicate", "2%", "reorder", "3%", "50%"]
-    if run("ip", "netns", "exec", spaces.names[0], *netem).returncode == 0:
+    if run(*inside(spaces.names[0]), *netem).returncode == 0:
         return "loses, doubles and reorders", ["--characters", "2", "--types", "02,21"]
     limit = ["tc", "qdisc", "add", "dev", "sender", "root", "tbf", "rate", f"{1400 + 25 * (seed % 5)}kbit", "burst", "4k",
              "limit", "8k"]
-    if run("ip", "netns", "exec", spaces.names[0], *limit).returncode == 0:
+    if run(*inside(spaces.names[0]), *limit).returncode == 0:
         return ("loses (a rate limit: this kernel has no netem, so nothing is doubled or reordered)",
                 ["--characters", "1", "--types", "02"])
     return skip("this kernel has neither netem nor tbf")
