@@ -69,7 +69,7 @@ PropertyValue memory(model::SessionView& view, const MonitorHealth& health) {
 
 } // namespace
 
-std::vector<Property> healthFacts(model::SessionView& view, std::function<MonitorHealth()> health) {
+std::vector<Property> healthFacts(model::SessionView& view, const std::function<MonitorHealth()>& health) {
     return {{tr("This computer"), [&view, health] { return computer(view, health()); }},
             {tr("Processor"), [health] { return processor(health()); }},
             {tr("Accounting"), [health] { return accounting(health()); }},

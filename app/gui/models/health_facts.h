@@ -13,6 +13,6 @@ namespace posewire::gui {
 /// What the program asks of this computer: how full the receive buffer gets, processor, memory, pictures.
 /// `health` is asked whenever they are shown.
 [[nodiscard]] std::vector<Property> healthFacts(model::SessionView& view,
-                                                std::function<MonitorHealth()> health);
+                                                const std::function<MonitorHealth()>& health);
 
 } // namespace posewire::gui

@@ -52,8 +52,8 @@ StatisticsModel::Cached& StatisticsModel::cached(const QModelIndex& index) const
 const StatisticsFigures& StatisticsModel::figures(const QModelIndex& index) const {
     if (cached(index).turn != m_turn) {
         const model::Stream* shown = stream(index);
-        StatisticsFigures made = shown != nullptr ? streamFigures(*shown) : sumOf(index);
-        cached(index).figures = std::move(made); // sums fill the cache of others: look again
+        const StatisticsFigures made = shown != nullptr ? streamFigures(*shown) : sumOf(index);
+        cached(index).figures = made; // sums fill the cache of others: look again
         cached(index).turn = m_turn;
     }
     return cached(index).figures;

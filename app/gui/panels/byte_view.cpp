@@ -129,7 +129,8 @@ void ByteView::fit() {
 }
 
 double ByteView::columnLeft(int column) const {
-    return m_margin + m_advance * (kOffsetDigits + 2 + 3 * column + column / kGroup);
+    const int gaps = column / kGroup;
+    return m_margin + m_advance * (kOffsetDigits + 2 + 3 * column + gaps);
 }
 
 QRectF ByteView::hexCell(std::uint32_t offset) const {

@@ -305,7 +305,8 @@ QJsonObject FilterBar::state() const {
 }
 
 void FilterBar::restoreState(const QJsonObject& state) {
-    for (const QJsonValue& text : state["history"].toArray()) {
+    const QJsonArray history = state["history"].toArray();
+    for (const auto& text : history) {
         if (text.isString() && m_history.size() < kHistory) {
             m_history.append(text.toString());
         }
@@ -314,7 +315,8 @@ void FilterBar::restoreState(const QJsonObject& state) {
         return;
     }
     std::vector<Saved> saved;
-    for (const QJsonValue& value : state["saved"].toArray()) {
+    const QJsonArray values = state["saved"].toArray();
+    for (const auto& value : values) {
         const QJsonObject filter = value.toObject();
         if (!filter["name"].toString().isEmpty() && saved.size() < static_cast<std::size_t>(kSavedFilters)) {
             saved.push_back({filter["name"].toString(), filter["filter"].toString()});
