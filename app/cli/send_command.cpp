@@ -57,7 +57,7 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
             return unusable(console, written.error());
         }
     }
-    console.out.write("sent " + std::to_string(sent) + " datagrams\n");
+    console.out.write("sent " + std::to_string(sent) + (sent == 1 ? " datagram\n" : " datagrams\n"));
     return ExitStatus::Fine;
 }
 

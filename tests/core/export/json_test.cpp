@@ -43,8 +43,8 @@ TEST(DatagramJson, SaysWhereTheDatagramWasFound) {
 
 TEST(DatagramJson, WritesFloatsThatReadBackToTheSame32Bits) {
     const std::vector<std::pair<std::uint32_t, std::string>> values{
-        {0x3dcccccd, "0.1"},           {0x80000000, "-0.0"},      {0x00000001, "1e-45"},
-        {0x7f7fffff, "3.4028235e+38"}, {0x7fc00000, "\"NaN\""},   {0x7f800000, "\"Infinity\""},
+        {0x3dcccccd, "0.1"},           {0x80000000, "-0.0"},         {0x00000001, "1e-45"},
+        {0x7f7fffff, "3.4028235e+38"}, {0x7fc00000, "\"NaN\""},      {0x7f800000, "\"Infinity\""},
         {0xff800000, "\"-Infinity\""}, {0x4b800000, "1.6777216e+07"}};
     for (const auto& [bits, text] : values) {
         const auto bytes = withWord("24_centre_12_counted", 24, bits);
