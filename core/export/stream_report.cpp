@@ -18,9 +18,9 @@ constexpr std::int64_t kFirstRealStampNs = 86'400'000'000'000;
 std::vector<StreamFigures> allFigures(const model::Session& session, const TimeRange& range) {
     std::vector<StreamFigures> all;
     for (const model::Stream& stream : session.streams()) {
-        StreamFigures figures = figuresOf(session, stream, range);
+        const StreamFigures figures = figuresOf(session, stream, range);
         if (figures.counts.datagrams != 0 || range.isWhole()) {
-            all.push_back(std::move(figures));
+            all.push_back(figures);
         }
     }
     return all;

@@ -79,18 +79,27 @@ Scale scaleFor(double greatest) {
     return {std::ceil(greatest / step - 1e-9) * step, step};
 }
 
+/// Whole steps in a length, one more where only rounding hides it.
+int stepsIn(double length, double step) {
+    constexpr double kMost = 50;
+    return static_cast<int>(std::clamp(length * 1.0001 / step, 0.0, kMost));
+}
+
 std::string axes(const Scale& scale, double durationS) {
     std::string svg = "<g class=\"grid\">";
     std::string labels;
-    for (double value = 0; value <= scale.top * 1.0001; value += scale.step) {
+    for (int i = 0; i <= stepsIn(scale.top, scale.step); ++i) {
+        const double value = i * scale.step;
         svg += line(kLeft, scale.y(value), kRight, scale.y(value));
         labels += text(kLeft - 6, scale.y(value) + 4, "end", label(value, scale.step));
     }
     const double step = durationS > 0 ? roundStep(durationS / 8) : 1;
-    for (double time = 0; time <= durationS * 1.0001; time += step) {
+    const int steps = stepsIn(durationS, step);
+    for (int i = 0; i <= steps; ++i) {
+        const double time = i * step;
         const double x = durationS > 0 ? kLeft + (kRight - kLeft) * time / durationS : kLeft;
         svg += line(x, kBottom, x, kBottom + 4);
-        const bool isLast = time + step > durationS * 1.0001;
+        const bool isLast = i == steps;
         labels += text(x, kBottom + 18, isLast && x > kRight - 24 ? "end" : "middle",
                        label(time, step) + (isLast ? " s" : ""));
     }
