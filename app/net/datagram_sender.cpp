@@ -33,7 +33,7 @@ public:
 
 class DatagramSender::UdpChannel final : public Channel {
 public:
-    UdpChannel(QHostAddress address, quint16 port) : m_address(std::move(address)), m_port(port) {
+    UdpChannel(const QHostAddress& address, quint16 port) : m_address(address), m_port(port) {
         const bool isIpv4 = m_address.protocol() == QAbstractSocket::IPv4Protocol;
         m_socket.bind(isIpv4 ? QHostAddress::AnyIPv4 : QHostAddress::AnyIPv6, 0);
     }

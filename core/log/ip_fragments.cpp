@@ -31,7 +31,7 @@ void IpFragments::add(const IpPacket& fragment, std::uint64_t fileOffset, std::o
         pending.size = fragment.fragmentOffset + static_cast<std::uint32_t>(fragment.bytes.size());
     }
     // Fragments that overlap without end are nobody's honest packet.
-    if (pending.kept + fragment.bytes.size() <= 2 * kLargest) {
+    if (pending.kept + fragment.bytes.size() <= std::size_t{2} * kLargest) {
         const auto [place, isNew] = pending.pieces.try_emplace(
             fragment.fragmentOffset, Piece{{fragment.bytes.begin(), fragment.bytes.end()}, fileOffset});
         pending.kept += isNew ? fragment.bytes.size() : 0;

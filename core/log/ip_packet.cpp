@@ -118,7 +118,7 @@ std::optional<IpPacket> throughIpv4(Frame frame, std::size_t start) {
     if (packet.size() < 20) {
         return std::nullopt;
     }
-    const std::size_t headerSize = (byteAt(packet, 0) & 15U) * 4U;
+    const std::size_t headerSize = (byteAt(packet, 0) & std::size_t{15}) * 4;
     const std::size_t totalSize = wordAt(packet, 2);
     if (headerSize < 20 || packet.size() < headerSize) {
         return std::nullopt;

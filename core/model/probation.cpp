@@ -161,7 +161,7 @@ bool Probation::isSettled(const Group& group, const SampleLedger& ledger, std::i
         return true;
     }
     const std::uint32_t step = std::max(ledger.present().step(), ledger.present().step() == 0 ? 4U : 1U);
-    const bool isClose = group.high - group.low <= 2 * step * group.count;
+    const bool isClose = group.high - group.low <= std::uint64_t{2} * step * group.count;
     return isClose && (group.count >= kAgreeingClosely || (isEnd && 2 * group.filling <= group.count));
 }
 

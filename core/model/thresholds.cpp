@@ -59,9 +59,7 @@ void ThresholdWatch::hold(const Stream& stream, const Measure& measure, std::int
     if (measure.limit > 0 && measure.value > measure.limit) {
         event.count = isKnown ? 0 : 1;
         events.report(event);
-    } else if (isKnown && measure.value <= measure.limit * m_thresholds.hysteresis) {
-        events.end(event, stampNs);
-    } else if (isKnown && measure.limit <= 0) {
+    } else if (isKnown && (measure.limit <= 0 || measure.value <= measure.limit * m_thresholds.hysteresis)) {
         events.end(event, stampNs);
     }
 }

@@ -21,7 +21,7 @@ constexpr std::uint64_t kAdvancesBetween = 4;
 constexpr std::uint64_t kSettled = 16;
 constexpr std::size_t kRecent = 4096;
 
-constexpr auto isLater = [](const auto& a, const auto& b) {
+constexpr auto kIsLater = [](const auto& a, const auto& b) {
     return std::pair(a.sending.dueNs, a.order) > std::pair(b.sending.dueNs, b.order);
 };
 
@@ -42,7 +42,7 @@ Delivery::Delivery(double periodNs, QuietTimes quiet)
 
 void Delivery::push(Sending sending) {
     m_heap.push_back({std::move(sending), m_pushed++});
-    std::ranges::push_heap(m_heap, isLater);
+    std::ranges::push_heap(m_heap, kIsLater);
 }
 
 void Delivery::pushAfter(Sending sending, std::uint64_t count) {
@@ -63,7 +63,7 @@ void Delivery::notePassed(std::int64_t timeNs) {
 }
 
 Delivery::Entry Delivery::pop() {
-    std::ranges::pop_heap(m_heap, isLater);
+    std::ranges::pop_heap(m_heap, kIsLater);
     Entry entry = std::move(m_heap.back());
     m_heap.pop_back();
     return entry;

@@ -63,7 +63,7 @@ private:
             }
             m_isEmitted[triangle] = true;
             for (std::size_t corner = 0; corner < 3; ++corner) {
-                emitVertex(m_indices[3 * triangle + corner]);
+                emitVertex(m_indices[std::size_t{3} * triangle + corner]);
             }
         }
     }
