@@ -9,6 +9,9 @@ CommandBar::CommandBar(QWidget* parent) : QToolBar(parent) {
     setToolButtonStyle(Qt::ToolButtonTextOnly);
     setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
     if (auto* more = findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"))) {
+        // Text, since the style's icon is black in the dark theme as well.
+        more->setToolButtonStyle(Qt::ToolButtonTextOnly);
+        more->setText(QStringLiteral("»"));
         more->setToolTip(tr("More"));
         more->setAccessibleName(more->toolTip());
         more->setFocusPolicy(Qt::StrongFocus);
