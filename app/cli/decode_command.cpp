@@ -94,14 +94,14 @@ private:
     exporting::DatagramPlace placeOf(const log::FileRecord& record) {
         ++m_datagrams;
         return {m_index++, record.offset, record.stampNs,
-                record.source ? std::optional(record.source->address) : std::nullopt};
+                record.sender ? std::optional(record.sender->address) : std::nullopt};
     }
     static std::string listed(const exporting::DatagramPlace& place, const log::FileRecord& record) {
         const auto header = wire::decodeHeader(record.bytes);
         return "#" + std::to_string(place.index) + "  offset " + std::to_string(place.offset) + "  " +
                std::to_string(record.bytes.size()) + " bytes" +
                (header ? "  " + wire::typeTitle(header->type()) : "") +
-               (place.source ? "  from " + *place.source : "") + '\n' + fieldListing(record.bytes) + '\n';
+               (place.sender ? "  from " + *place.sender : "") + '\n' + fieldListing(record.bytes) + '\n';
     }
 
     Output& m_out;
@@ -120,19 +120,19 @@ private:
 
 ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, const filter::Filter& filter,
                       Console& console) {
-    const auto source = openInput(path);
-    if (!source) {
-        console.complain(source.error().text);
+    const auto file = openInput(path);
+    if (!file) {
+        console.complain(file.error().text);
         return ExitStatus::Unusable;
     }
     RecordWriter writer(console.out, options.asJson, filter);
-    const auto result = log::readFile(**source, std::ref(writer));
+    const auto result = log::readFile(**file, std::ref(writer));
     writer.endSkipped();
     if (!result) {
         console.complain(result.error().text);
         return ExitStatus::Unusable;
     }
-    const std::string complaint = writer.complaint((*source)->name());
+    const std::string complaint = writer.complaint((*file)->name());
     if (complaint.empty()) {
         return ExitStatus::Fine;
     }

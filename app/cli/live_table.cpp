@@ -100,11 +100,11 @@ std::string summaryLine(const model::Session& session, double elapsedS) {
     std::uint64_t malformed = 0;
     std::uint64_t foreign = 0;
     std::uint64_t dropped = 0;
-    for (const model::Source& source : session.sources()) {
-        datagrams += source.datagrams;
-        malformed += source.malformed;
-        foreign += source.foreign;
-        dropped += source.kernelDrops;
+    for (const model::Sender& sender : session.senders()) {
+        datagrams += sender.datagrams;
+        malformed += sender.malformed;
+        foreign += sender.foreign;
+        dropped += sender.kernelDrops;
     }
     return fixed(elapsedS, 1) + " s   " + grouped(datagrams) + " datagrams   malformed " +
            grouped(malformed) + "   not MXTP " + grouped(foreign) + "   dropped by this computer " +
@@ -114,7 +114,7 @@ std::string summaryLine(const model::Session& session, double elapsedS) {
 std::vector<const model::Stream*> streamsOf(const model::Session& session, const model::CharacterKey& key) {
     std::vector<const model::Stream*> streams;
     for (const model::Stream& stream : session.streams()) {
-        if (stream.key.source == key.source && stream.key.character == key.character) {
+        if (stream.key.sender == key.sender && stream.key.character == key.character) {
             streams.push_back(&stream);
         }
     }
@@ -151,14 +151,14 @@ std::vector<std::string> liveTable(const model::Session& session, double elapsed
         return lines;
     }
     lines.push_back(heading());
-    for (const model::Source& source : session.sources()) {
-        if (source.foreign == source.datagrams && source.skippedBytes == 0) {
+    for (const model::Sender& sender : session.senders()) {
+        if (sender.foreign == sender.datagrams && sender.skippedBytes == 0) {
             continue;
         }
-        lines.push_back(printable(source.info.address) + " (" +
-                        std::string(exporting::transportName(source.info.transport)) + ")");
+        lines.push_back(printable(sender.info.address) + " (" +
+                        std::string(exporting::transportName(sender.info.transport)) + ")");
         for (const model::Character& character : session.characters()) {
-            if (character.key.source != source.id) {
+            if (character.key.sender != sender.id) {
                 continue;
             }
             lines.push_back("  " + printable(session.displayName(character.key)) + " (" +

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <string>
 #include <vector>
 
 namespace posewire::cli {
 
-/// What `monitor` shows while it runs: a line for the whole, then each source with its characters and a line
+/// What `monitor` shows while it runs: a line for the whole, then each sender with its characters and a line
 /// for each of their streams. Texts from the wire are made harmless for a terminal.
 [[nodiscard]] std::vector<std::string> liveTable(const model::Session& session, double elapsedS);
 

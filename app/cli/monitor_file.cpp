@@ -36,9 +36,9 @@ public:
         }
         m_lastNs = std::max(m_lastNs, stampNs);
         auto& log = m_run.log();
-        const log::SourceId source =
-            log.sources().intern(record.source.value_or(log::SourceInfo{m_name, log::Transport::File, 0}));
-        log.writer().append(record.bytes, log::arrivalOf(record, source, stampNs));
+        const log::SenderId sender =
+            log.senders().intern(record.sender.value_or(log::SenderInfo{m_name, log::Transport::File, 0}));
+        log.writer().append(record.bytes, log::arrivalOf(record, sender, stampNs));
         constexpr std::size_t batch = 4096;
         if (++m_waiting == batch) {
             flush();
@@ -98,23 +98,23 @@ tl::expected<RecordFile, log::FileError> recordFile(const std::string& path, Mon
 } // namespace
 
 ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
-    const auto source = openInput(options.file);
-    if (!source) {
-        console.complain(source.error().text);
-        return ExitStatus::Unusable;
-    }
-    MonitorRun run(options, console);
-    auto file = recordFile(options.record, run);
+    const auto file = openInput(options.file);
     if (!file) {
         console.complain(file.error().text);
         return ExitStatus::Unusable;
     }
-    Replay replay(options, run, file->recorder.get());
-    const auto read = log::readFile(**source, std::ref(replay));
+    MonitorRun run(options, console);
+    auto recording = recordFile(options.record, run);
+    if (!recording) {
+        console.complain(recording.error().text);
+        return ExitStatus::Unusable;
+    }
+    Replay replay(options, run, recording->recorder.get());
+    const auto read = log::readFile(**file, std::ref(replay));
     replay.flush();
     log::Recorder::Result recorded = replay.recorded();
-    if (file->recorder && recorded) {
-        recorded = file->recorder->finish();
+    if (recording->recorder && recorded) {
+        recorded = recording->recorder->finish();
     }
     ExitStatus status = ExitStatus::Fine;
     for (const auto& result : {read, recorded}) {

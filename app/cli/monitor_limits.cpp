@@ -17,9 +17,9 @@ struct Judged {
 };
 
 std::string placeOf(const model::Session& session, const log::StreamKey& key) {
-    const model::Source* source = session.find(key.source);
-    return (source != nullptr ? source->info.address : std::string("unknown source")) + ", " +
-           session.displayName({key.source, key.character}) + ", type " + wire::typeTitle(key.type);
+    const model::Sender* sender = session.find(key.sender);
+    return (sender != nullptr ? sender->info.address : std::string("unknown source")) + ", " +
+           session.displayName({key.sender, key.character}) + ", type " + wire::typeTitle(key.type);
 }
 
 } // namespace

@@ -7,7 +7,7 @@
 #include "core/export/monitor_report.h"
 #include "core/log/packet_log.h"
 #include "core/log/pcapng_writer.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <chrono>
 

@@ -22,14 +22,14 @@ bool RecordFilter::matches(const log::FileRecord& record, std::uint64_t index) {
     packet.stampNs = record.stampNs.value_or(0);
     packet.flags = log::arrivalOf(record, {}, 0).flags;
     packet.kernelDropsBefore = record.kernelDropsBefore;
-    packet.source = m_sources.intern(record.source.value_or(log::SourceInfo{"", log::Transport::File, 0}));
+    packet.sender = m_senders.intern(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
     m_firstStampNs = m_firstStampNs.value_or(packet.stampNs);
     const auto decoded =
         record.isSkipped ? tl::unexpected(wire::WireError{}) : wire::decodeInto(record.bytes, m_datagram);
     const wire::Datagram* datagram = decoded ? &m_datagram : nullptr;
     const model::PacketDigest digest = m_digester.add(packet, datagram);
     return m_filter.matches({packet, digest, datagram,
-                             record.source ? m_sources.find(packet.source) : nullptr, *m_firstStampNs,
+                             record.sender ? m_senders.find(packet.sender) : nullptr, *m_firstStampNs,
                              decoded ? nullptr : &decoded.error()});
 }
 

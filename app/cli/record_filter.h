@@ -3,7 +3,7 @@
 
 #include "core/filter/filter.h"
 #include "core/log/raw_file.h"
-#include "core/log/source_table.h"
+#include "core/log/sender_table.h"
 
 #include <optional>
 #include <string>
@@ -21,7 +21,7 @@ public:
 private:
     filter::Filter m_filter;
     model::PacketDigester m_digester;
-    log::SourceTable m_sources;
+    log::SenderTable m_senders;
     wire::Datagram m_datagram;
     std::optional<std::int64_t> m_firstStampNs;
 };

@@ -42,9 +42,9 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
         if (const auto finished = line.finish(); !finished) {
             return unusable(console, finished.error().text);
         }
-        for (const SendLine::Source& source : line.sources()) {
-            sent += source.sender.sent();
-            refused += source.sender.refused();
+        for (const SendLine::Sender& sender : line.senders()) {
+            sent += sender.sender.sent();
+            refused += sender.sender.refused();
         }
     }
     if (refused != 0) {

@@ -76,11 +76,11 @@ private:
 };
 
 tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSender& sender) {
-    const auto source = openInput(path);
-    if (!source) {
-        return tl::unexpected(source.error());
+    const auto file = openInput(path);
+    if (!file) {
+        return tl::unexpected(file.error());
     }
-    return log::readFile(**source, std::ref(sender));
+    return log::readFile(**file, std::ref(sender));
 }
 
 ExitStatus conclude(const std::string& path, const RecordSender& sender, Console& console) {

@@ -15,33 +15,33 @@ net::NetResult<SendLine> SendLine::open(const std::vector<net::SendTarget>& targ
         }
         std::string address = sender->localAddresses().front();
         const bool isTcp = target.transport == net::SendTarget::Transport::Tcp;
-        line.m_sources.push_back({std::move(address), isTcp, std::move(*sender), {}, {}});
+        line.m_senders.push_back({std::move(address), isTcp, std::move(*sender), {}, {}});
     }
     return line;
 }
 
 net::NetResult<void> SendLine::send(const performer::Sending& sending) {
-    for (Source& source : m_sources) {
-        const std::uint64_t before = source.sender.sent();
-        if (auto sent = source.sender.send(sending.bytes); !sent) {
+    for (Sender& sender : m_senders) {
+        const std::uint64_t before = sender.sender.sent();
+        if (auto sent = sender.sender.send(sending.bytes); !sent) {
             return sent;
         }
-        if (!m_keepsTruth || source.sender.sent() == before) {
+        if (!m_keepsTruth || sender.sender.sent() == before) {
             continue; // what the system did not take was not sent
         }
-        if (source.isTcp) {
-            source.streamed.add(sending);
+        if (sender.isTcp) {
+            sender.streamed.add(sending);
         } else {
-            source.datagrams.add(sending);
+            sender.datagrams.add(sending);
         }
     }
     return {};
 }
 
 net::NetResult<void> SendLine::finish() {
-    for (Source& source : m_sources) {
-        source.streamed.finish();
-        if (auto flushed = source.sender.flush(); !flushed) {
+    for (Sender& sender : m_senders) {
+        sender.streamed.finish();
+        if (auto flushed = sender.sender.flush(); !flushed) {
             return flushed;
         }
     }

@@ -15,7 +15,7 @@ namespace posewire::cli {
 /// One sender with the faults of its way, a socket for each target, and book of what went through each.
 class SendLine {
 public:
-    struct Source {
+    struct Sender {
         std::string address;
         bool isTcp = false;
         net::DatagramSender sender;
@@ -33,14 +33,14 @@ public:
     /// Waits until everything is handed over.
     net::NetResult<void> finish();
 
-    [[nodiscard]] const std::vector<Source>& sources() const { return m_sources; }
+    [[nodiscard]] const std::vector<Sender>& senders() const { return m_senders; }
 
 private:
     SendLine(const performer::FaultSettings& faults, bool keepsTruth)
         : m_faults(faults), m_keepsTruth(keepsTruth) {}
 
     performer::Faults m_faults;
-    std::vector<Source> m_sources;
+    std::vector<Sender> m_senders;
     bool m_keepsTruth;
 };
 

@@ -48,15 +48,15 @@ Json charactersOf(const performer::Truth& truth) {
     return characters;
 }
 
-Json jsonOf(const SendLine::Source& source, const performer::FaultTally& tally) {
-    const performer::Truth& truth = source.isTcp ? source.streamed.truth() : source.datagrams;
-    const performer::SourceFigures& figures = truth.source();
-    return {{"address", source.address},
-            {"transport", source.isTcp ? "tcp" : "udp"},
+Json jsonOf(const SendLine::Sender& sender, const performer::FaultTally& tally) {
+    const performer::Truth& truth = sender.isTcp ? sender.streamed.truth() : sender.datagrams;
+    const performer::SenderFigures& figures = truth.sender();
+    return {{"address", sender.address},
+            {"transport", sender.isTcp ? "tcp" : "udp"},
             {"datagrams", figures.datagrams},
             {"bytes", figures.bytes},
             {"malformed", figures.malformed},
-            {"skippedBytes", source.isTcp ? source.streamed.skippedBytes() : 0},
+            {"skippedBytes", sender.isTcp ? sender.streamed.skippedBytes() : 0},
             {"foreignDatagrams", figures.foreign},
             {"characters", charactersOf(truth)},
             {"faults", jsonOf(tally)}};
@@ -66,15 +66,15 @@ Json jsonOf(const SendLine::Source& source, const performer::FaultTally& tally) 
 
 tl::expected<void, std::string> writeTruth(const std::string& path, const std::vector<SendLine>& lines,
                                            double durationSeconds) {
-    Json sources = Json::array();
+    Json senders = Json::array();
     std::uint64_t foreign = 0;
     for (const SendLine& line : lines) {
-        for (const SendLine::Source& source : line.sources()) {
-            sources.push_back(jsonOf(source, line.faults().tally()));
-            foreign += sources.back()["foreignDatagrams"].get<std::uint64_t>();
+        for (const SendLine::Sender& sender : line.senders()) {
+            senders.push_back(jsonOf(sender, line.faults().tally()));
+            foreign += senders.back()["foreignDatagrams"].get<std::uint64_t>();
         }
     }
-    const Json report{{"durationS", durationSeconds}, {"foreignDatagrams", foreign}, {"sources", sources}};
+    const Json report{{"durationS", durationSeconds}, {"foreignDatagrams", foreign}, {"sources", senders}};
     auto file = Output::open(path);
     if (!file) {
         return tl::unexpected(file.error());

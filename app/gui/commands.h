@@ -3,7 +3,7 @@
 
 #include "app/gui/monitor_health.h"
 #include "app/gui/receiving_state.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <QString>
 
@@ -18,12 +18,12 @@ public:
     virtual void select(const model::Selection& selection) = 0;
     /// What time statistics are of.
     virtual void selectRange(const model::RangeChoice& range) = 0;
-    /// Selects a packet with its source and character. Nothing happens where there is no such packet.
+    /// Selects a packet with its sender and character. Nothing happens where there is no such packet.
     virtual void selectPacket(std::uint64_t number) = 0;
     virtual void setMarked(std::uint64_t packet, bool isMarked) = 0;
     virtual void setComment(std::uint64_t packet, const QString& comment) = 0;
-    /// What is declared about a source counts instead of what was detected.
-    virtual void setOverride(log::SourceId source, const model::SourceOverride& overrides) = 0;
+    /// What is declared about a sender counts instead of what was detected.
+    virtual void setOverride(log::SenderId sender, const model::SenderOverride& overrides) = 0;
     /// What the list of packets shows; empty for all.
     virtual void setDisplayFilter(const QString& filter) = 0;
     /// Points the camera at a character.

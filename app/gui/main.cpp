@@ -68,9 +68,9 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
 }
 
 /// What takes its time waits until the window can be seen.
-void openSources(MainWindow& window, const Options& options) {
+void openInputs(MainWindow& window, const Options& options) {
     SessionDriver& driver = window.driver();
-    const SourceChoices choices = window.settings().sources;
+    const InputChoices choices = window.settings().inputs;
     for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);
     }
@@ -109,7 +109,7 @@ void begin(MainWindow& window, const Options& options) {
         std::printf("window on screen after %.0f ms\n", processAgeMs());
         std::fflush(stdout);
     }
-    openSources(window, options);
+    openInputs(window, options);
     window.viewport().start();
     window.driver().start();
     if (!options.screenshotFile.isEmpty()) {

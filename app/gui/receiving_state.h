@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/input_choices.h"
 #include "app/gui/options.h"
-#include "app/gui/source_choices.h"
 #include "app/net/connection_help.h"
 #include "app/net/input.h"
 #include "app/net/local_addresses.h"

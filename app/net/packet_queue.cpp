@@ -7,21 +7,21 @@ namespace posewire::net {
 
 namespace {
 
-/// Losses of more sources than this at a time are told as those of the last of them.
+/// Losses of more senders than this at a time are told as those of the last of them.
 constexpr std::size_t kMostLosses = 64;
 
 } // namespace
 
-bool PacketQueue::push(std::span<const std::byte> bytes, const log::SourceInfo& source,
+bool PacketQueue::push(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                        const log::Arrival& arrival) {
     bool isFirst = false;
     {
         const std::lock_guard lock(m_mutex);
         if (!hasRoomFor(bytes.size())) {
-            remember(source, arrival.stampNs);
+            remember(sender, arrival.stampNs);
             return false;
         }
-        isFirst = place(bytes, source, arrival);
+        isFirst = place(bytes, sender, arrival);
     }
     if (isFirst && m_onFilled) {
         m_onFilled();
@@ -29,7 +29,7 @@ bool PacketQueue::push(std::span<const std::byte> bytes, const log::SourceInfo& 
     return true;
 }
 
-bool PacketQueue::pushWaiting(std::span<const std::byte> bytes, const log::SourceInfo& source,
+bool PacketQueue::pushWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                               const log::Arrival& arrival) {
     bool isFirst = false;
     {
@@ -38,7 +38,7 @@ bool PacketQueue::pushWaiting(std::span<const std::byte> bytes, const log::Sourc
         if (m_isClosed) {
             return false;
         }
-        isFirst = place(bytes, source, arrival);
+        isFirst = place(bytes, sender, arrival);
     }
     if (isFirst && m_onFilled) {
         m_onFilled();
@@ -60,27 +60,27 @@ bool PacketQueue::hasRoomFor(std::size_t bytes) const {
 }
 
 /// True where the queue was empty.
-bool PacketQueue::place(std::span<const std::byte> bytes, const log::SourceInfo& source,
+bool PacketQueue::place(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                         const log::Arrival& arrival) {
-    if (!m_lastSource || *m_lastSource != source) {
-        m_lastSource = std::make_shared<const log::SourceInfo>(source);
+    if (!m_lastSender || *m_lastSender != sender) {
+        m_lastSender = std::make_shared<const log::SenderInfo>(sender);
     }
     m_bytes.insert(m_bytes.end(), bytes.begin(), bytes.end());
-    m_entries.push_back({bytes.size(), m_lastSource, arrival});
+    m_entries.push_back({bytes.size(), m_lastSender, arrival});
     m_isEmpty.store(false, std::memory_order_release);
     return m_entries.size() == 1;
 }
 
-void PacketQueue::remember(const log::SourceInfo& source, std::int64_t stampNs) {
+void PacketQueue::remember(const log::SenderInfo& sender, std::int64_t stampNs) {
     m_refused.fetch_add(1, std::memory_order_relaxed);
-    const auto known = std::ranges::find(m_losses, source, &Loss::source);
+    const auto known = std::ranges::find(m_losses, sender, &Loss::sender);
     if (known != m_losses.end() || m_losses.size() == kMostLosses) {
         Loss& loss = known != m_losses.end() ? *known : m_losses.back();
         ++loss.count;
         loss.stampNs = stampNs;
         return;
     }
-    m_losses.push_back({source, stampNs, 1});
+    m_losses.push_back({sender, stampNs, 1});
 }
 
 std::size_t PacketQueue::moveTo(log::PacketLog& log) {
@@ -93,14 +93,14 @@ std::size_t PacketQueue::moveTo(log::PacketLog& log) {
     }
     m_hasRoom.notify_all();
     std::span<const std::byte> bytes(m_takenBytes);
-    const log::SourceInfo* last = nullptr;
-    log::SourceId id{};
+    const log::SenderInfo* last = nullptr;
+    log::SenderId id{};
     for (Entry& entry : m_takenEntries) {
-        if (entry.source.get() != last) {
-            last = entry.source.get();
-            id = log.sources().intern(*last);
+        if (entry.sender.get() != last) {
+            last = entry.sender.get();
+            id = log.senders().intern(*last);
         }
-        entry.arrival.source = id;
+        entry.arrival.sender = id;
         log.writer().append(bytes.first(entry.size), entry.arrival);
         bytes = bytes.subspan(entry.size);
     }
@@ -117,7 +117,7 @@ void PacketQueue::appendLosses(log::PacketLog& log) {
     for (const Loss& loss : m_takenLosses) {
         log::Arrival arrival;
         arrival.stampNs = loss.stampNs;
-        arrival.source = log.sources().intern(loss.source);
+        arrival.sender = log.senders().intern(loss.sender);
         arrival.kernelDropsBefore = loss.count;
         arrival.flags.skipped = true;
         arrival.flags.isDropRecord = true;

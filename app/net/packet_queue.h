@@ -26,11 +26,11 @@ public:
         : m_onFilled(std::move(onFilled)), m_byteLimit(byteLimit) {}
 
     /// False where there is no room: the packet is lost, counted, and the log gets a record of the loss after
-    /// the packets that are queued. `arrival.source` is set when the packet reaches the log. From any thread.
-    bool push(std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival);
+    /// the packets that are queued. `arrival.sender` is set when the packet reaches the log. From any thread.
+    bool push(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
 
     /// Waits for room. False once the queue is closed.
-    bool pushWaiting(std::span<const std::byte> bytes, const log::SourceInfo& source,
+    bool pushWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                      const log::Arrival& arrival);
 
     /// Nobody empties the queue any more: ends the waiting of others.
@@ -43,21 +43,21 @@ public:
     [[nodiscard]] std::uint64_t refused() const { return m_refused.load(std::memory_order_relaxed); }
 
 private:
-    using Source = std::shared_ptr<const log::SourceInfo>;
+    using Sender = std::shared_ptr<const log::SenderInfo>;
     struct Entry {
         std::size_t size;
-        Source source; ///< one for many: packets come in runs from one source
+        Sender sender; ///< one for many: packets come in runs from one sender
         log::Arrival arrival;
     };
     struct Loss {
-        log::SourceInfo source;
+        log::SenderInfo sender;
         std::int64_t stampNs;
         std::uint32_t count;
     };
 
     [[nodiscard]] bool hasRoomFor(std::size_t bytes) const;
-    bool place(std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival);
-    void remember(const log::SourceInfo& source, std::int64_t stampNs);
+    bool place(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
+    void remember(const log::SenderInfo& sender, std::int64_t stampNs);
     void appendLosses(log::PacketLog& log);
 
     const std::function<void()> m_onFilled;
@@ -67,7 +67,7 @@ private:
     std::vector<Entry> m_entries;
     std::vector<std::byte> m_bytes;
     std::vector<Loss> m_losses;
-    Source m_lastSource;
+    Sender m_lastSender;
     bool m_isClosed = false;
     std::vector<Entry> m_takenEntries; ///< swapped with the above, so that both keep their memory
     std::vector<std::byte> m_takenBytes;

@@ -27,7 +27,7 @@ private:
     struct Last {
         QHostAddress address;
         quint16 port = 0;
-        log::SourceId id{};
+        log::SenderId id{};
     };
     struct Socket {
         std::shared_ptr<Input> input;
@@ -37,7 +37,7 @@ private:
 
     void drain(Socket& socket);
     bool takeOne(Socket& socket);
-    log::SourceId sourceOf(Socket& socket, const QHostAddress& address, quint16 port);
+    log::SenderId senderOf(Socket& socket, const QHostAddress& address, quint16 port);
     void ensureEventLoop();
     void close();
 
@@ -132,7 +132,7 @@ bool QtReceiveLoop::takeOne(Socket& socket) {
     }
     log::Arrival arrival;
     arrival.stampNs = m_context.clock.wallNs();
-    arrival.source = sourceOf(socket, address, port);
+    arrival.sender = senderOf(socket, address, port);
     if (isSmall) {
         writer.commit(0, static_cast<std::size_t>(size), arrival);
     } else {
@@ -146,11 +146,11 @@ bool QtReceiveLoop::takeOne(Socket& socket) {
     return true;
 }
 
-log::SourceId QtReceiveLoop::sourceOf(Socket& socket, const QHostAddress& address, quint16 port) {
+log::SenderId QtReceiveLoop::senderOf(Socket& socket, const QHostAddress& address, quint16 port) {
     if (!socket.last || socket.last->port != port || socket.last->address != address) {
-        const log::SourceInfo info{textOf(Endpoint{addressText(address), port}), log::Transport::Udp,
+        const log::SenderInfo info{textOf(Endpoint{addressText(address), port}), log::Transport::Udp,
                                    socket.socket->localPort()};
-        socket.last = Last{address, port, m_context.log.sources().intern(info)};
+        socket.last = Last{address, port, m_context.log.senders().intern(info)};
     }
     return socket.last->id;
 }

@@ -150,14 +150,14 @@ std::optional<double> Receiver::takeBufferFill() {
     return fill / kThousand;
 }
 
-bool Receiver::submit(std::span<const std::byte> bytes, const log::SourceInfo& source,
+bool Receiver::submit(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                       const log::Arrival& arrival) {
-    return m_queue.push(bytes, source, arrival);
+    return m_queue.push(bytes, sender, arrival);
 }
 
-bool Receiver::submitWaiting(std::span<const std::byte> bytes, const log::SourceInfo& source,
+bool Receiver::submitWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                              const log::Arrival& arrival) {
-    return m_queue.pushWaiting(bytes, source, arrival);
+    return m_queue.pushWaiting(bytes, sender, arrival);
 }
 
 } // namespace posewire::net

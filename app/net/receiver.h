@@ -103,12 +103,12 @@ public:
     /// times a second and after each delay; nothing where the system does not tell or no UDP input is open.
     [[nodiscard]] std::optional<double> takeBufferFill();
 
-    /// Brings a packet into the log; `arrival.source` need not be set. False where the queue is full: the
+    /// Brings a packet into the log; `arrival.sender` need not be set. False where the queue is full: the
     /// packet is lost, and the log will tell so.
-    bool submit(std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival);
+    bool submit(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
 
     /// The same, but waits for room. False only where the receiver ends.
-    bool submitWaiting(std::span<const std::byte> bytes, const log::SourceInfo& source,
+    bool submitWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                        const log::Arrival& arrival);
 
     /// Returns when everything submitted before is in the log.

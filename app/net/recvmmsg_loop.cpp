@@ -2,7 +2,7 @@
 #include "app/net/recvmmsg_loop.h"
 
 #include "app/net/message_batch.h"
-#include "app/net/source_cache.h"
+#include "app/net/sender_cache.h"
 #include "app/net/udp_binding.h"
 
 #include <QEventLoop>
@@ -55,11 +55,11 @@ private:
 struct Socket {
     std::shared_ptr<Input> input;
     Descriptor descriptor;
-    SourceCache sources;
+    SenderCache senders;
     std::uint32_t dropsInLog = 0;   ///< so many of those that the kernel counts for the socket
     std::uint32_t dropsCounted = 0; ///< so many of them are in the counters
-    log::SourceId lastSource{};
-    bool hasSource = false;
+    log::SenderId lastSender{};
+    bool hasSender = false;
     bool isEmpty = true; ///< when it was last looked at
     MessageBatch batch{};
 };
@@ -139,7 +139,7 @@ NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const Udp
         enable(descriptor.get(), SO_TIMESTAMPNS);
         enable(descriptor.get(), SO_RXQ_OVFL);
         m_sockets.push_back(std::unique_ptr<Socket>(
-            new Socket{input, std::move(descriptor), SourceCache(m_context.log.sources(), port)}));
+            new Socket{input, std::move(descriptor), SenderCache(m_context.log.senders(), port)}));
     }
     measureBuffers();
     return {};
@@ -237,9 +237,9 @@ std::size_t RecvmmsgLoop::drain(Socket& socket) {
 std::size_t RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
     const Received received = socket.batch.received(index);
     log::Arrival arrival;
-    arrival.source = socket.sources.idOf(socket.batch.sender(index));
-    socket.lastSource = arrival.source;
-    socket.hasSource = true;
+    arrival.sender = socket.senders.idOf(socket.batch.sender(index));
+    socket.lastSender = arrival.sender;
+    socket.hasSender = true;
     arrival.flags.truncated = received.isTruncated;
     arrival.flags.stampedByKernel = received.stampNs != 0;
     arrival.stampNs = received.stampNs != 0 ? received.stampNs : m_context.clock.wallNs();
@@ -267,12 +267,12 @@ void RecvmmsgLoop::countDrops(Socket& socket, std::uint32_t drops) {
 /// What no packet came to tell becomes a record of its own.
 void RecvmmsgLoop::recordDrops(Socket& socket, std::uint32_t drops) {
     const auto more = static_cast<std::int32_t>(drops - socket.dropsInLog);
-    if (more <= 0 || !socket.hasSource) { // a full buffer has packets, so that a source is known by then
+    if (more <= 0 || !socket.hasSender) { // a full buffer has packets, so that a sender is known by then
         return;
     }
     log::Arrival arrival;
     arrival.stampNs = m_context.clock.wallNs();
-    arrival.source = socket.lastSource;
+    arrival.sender = socket.lastSender;
     arrival.kernelDropsBefore = static_cast<std::uint32_t>(more);
     arrival.flags.skipped = true;
     arrival.flags.isDropRecord = true;

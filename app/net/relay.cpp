@@ -216,20 +216,20 @@ void Relay::skipWhatIsOld() {
 }
 
 bool Relay::isForwarded(const log::Packet& packet) {
-    const auto index = static_cast<std::size_t>(packet.source);
+    const auto index = static_cast<std::size_t>(packet.sender);
     if (index >= m_verdicts.size()) {
         m_verdicts.resize(index + 1, Verdict::Unknown);
     }
     if (m_verdicts[index] == Verdict::Unknown) {
-        m_verdicts[index] = judge(packet.source);
+        m_verdicts[index] = judge(packet.sender);
     }
     return m_verdicts[index] == Verdict::Forward && !packet.flags.skipped &&
            packet.stampNs >= m_caughtUpNs - kOldNs;
 }
 
 /// Not what this relay has sent itself, should it come back on some way that add() did not see.
-Relay::Verdict Relay::judge(log::SourceId source) const {
-    const log::SourceInfo* info = m_log.sources().find(source);
+Relay::Verdict Relay::judge(log::SenderId sender) const {
+    const log::SenderInfo* info = m_log.senders().find(sender);
     if (info == nullptr ||
         (info->transport != log::Transport::Udp && info->transport != log::Transport::Tcp)) {
         return Verdict::Ignore;

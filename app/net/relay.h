@@ -67,7 +67,7 @@ private:
     void forward(const log::Packet& packet);
     void sendTo(Target& target, const log::Packet& packet);
     [[nodiscard]] bool isForwarded(const log::Packet& packet);
-    [[nodiscard]] Verdict judge(log::SourceId source) const;
+    [[nodiscard]] Verdict judge(log::SenderId sender) const;
     void call(const CommandQueue::Command& command);
 
     const log::PacketLog& m_log;
@@ -86,7 +86,7 @@ private:
     log::LogReader m_reader;
     std::uint64_t m_next = 0;        ///< the packet to forward
     std::int64_t m_caughtUpNs = 0;   ///< when it was last at the end, wall clock
-    std::vector<Verdict> m_verdicts; ///< of sources, by id
+    std::vector<Verdict> m_verdicts; ///< of senders, by id
     std::unique_ptr<Sockets> m_sockets;
     std::thread m_thread;
 };

@@ -168,7 +168,7 @@ void TcpDialer::begin(std::int64_t nowNs) {
 void TcpDialer::await(std::int64_t nowNs) {
     const auto state = m_socket->state();
     if (state == QAbstractSocket::ConnectedState || m_socket->bytesAvailable() > 0) {
-        // 0: the port on this side changes with each connection and would make a new source of it.
+        // 0: the port on this side changes with each connection and would make a new sender of it.
         m_peer = std::make_unique<TcpPeer>(m_context, m_input, std::move(m_socket), std::uint16_t{0});
         publish();
     } else if (state == QAbstractSocket::UnconnectedState) {

@@ -21,9 +21,9 @@ TcpPeer::TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::u
     : m_context(context),
       m_input(std::move(input)),
       m_socket(std::move(socket)),
-      m_source{textOf(Endpoint{addressText(m_socket->peerAddress()), m_socket->peerPort()}),
+      m_sender{textOf(Endpoint{addressText(m_socket->peerAddress()), m_socket->peerPort()}),
                log::Transport::Tcp, localPort},
-      m_status{m_source.address, context.clock.wallNs()} {
+      m_status{m_sender.address, context.clock.wallNs()} {
     m_socket->setReadBufferSize(kReadBuffer);
     m_socket->setSocketOption(QAbstractSocket::KeepAliveOption, 1);
 }
@@ -71,7 +71,7 @@ void TcpPeer::take(const log::TcpFramer::Piece& piece) {
         increase<std::uint64_t>(m_input->counters().datagrams, 1);
         increase<std::uint64_t>(m_context.totals.datagrams, 1);
     }
-    m_context.queue.pushWaiting(piece.bytes, m_source, arrival);
+    m_context.queue.pushWaiting(piece.bytes, m_sender, arrival);
 }
 
 } // namespace posewire::net

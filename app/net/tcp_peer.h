@@ -25,7 +25,7 @@ class TcpPeer {
 public:
     static constexpr qint64 kReadBuffer = qint64{128} << 10;
 
-    /// `socket` is connected. `localPort` is what the source is told to have arrived at.
+    /// `socket` is connected. `localPort` is what the sender is told to have arrived at.
     TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::unique_ptr<QTcpSocket> socket,
             std::uint16_t localPort);
 
@@ -52,7 +52,7 @@ private:
     const TcpContext& m_context;
     std::shared_ptr<Input> m_input;
     std::unique_ptr<QTcpSocket> m_socket;
-    log::SourceInfo m_source;
+    log::SenderInfo m_sender;
     log::TcpFramer m_framer;
     std::int64_t m_stampNs = 0; ///< of what is being read
     Peer m_status;

@@ -18,8 +18,8 @@ constexpr std::string_view kHeader =
     "current,text\r\n";
 
 std::string addressOf(const model::Session& session, const Event& event) {
-    const model::Source* source = session.find(event.source);
-    return source == nullptr ? std::string() : source->info.address;
+    const model::Sender* sender = session.find(event.sender);
+    return sender == nullptr ? std::string() : sender->info.address;
 }
 
 std::string digitsOf(std::uint8_t type) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <span>
 #include <string>
@@ -11,7 +11,7 @@ namespace posewire::exporting {
 
 /// One table (RFC 4180, UTF-8, lines end with CR LF) with the columns
 ///
-///     number,severity,group,event,source,character,type,from,to,firstPacket,lastPacket,count,samples,cause,
+///     number,severity,group,event,sender,character,type,from,to,firstPacket,lastPacket,count,samples,cause,
 ///     current,text
 ///
 /// from and to are seconds since 1970 UTC with nine decimals. Cells of what an event is not about are empty.

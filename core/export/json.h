@@ -20,7 +20,7 @@ struct DatagramPlace {
     std::uint64_t index = 0;  ///< of the object in the output, from 0
     std::uint64_t offset = 0; ///< of its first byte in the file
     std::optional<std::int64_t> stampNs;
-    std::optional<std::string> source;
+    std::optional<std::string> sender;
 };
 
 /// One object without a newline. A datagram with a fault has the header fields that could be read and

@@ -67,7 +67,7 @@ Json streamJson(const StreamFigures& figures) {
 Json streamsJson(const model::Session& session, const model::CharacterKey& key) {
     std::vector<const model::Stream*> streams;
     for (const model::Stream& stream : session.streams()) {
-        if (stream.key.source == key.source && stream.key.character == key.character) {
+        if (stream.key.sender == key.sender && stream.key.character == key.character) {
             streams.push_back(&stream);
         }
     }
@@ -79,10 +79,10 @@ Json streamsJson(const model::Session& session, const model::CharacterKey& key) 
     return list;
 }
 
-Json charactersJson(const model::Session& session, const model::Source& source) {
+Json charactersJson(const model::Session& session, const model::Sender& sender) {
     std::vector<model::CharacterKey> keys;
     for (const model::Character& character : session.characters()) {
-        if (character.key.source == source.id) {
+        if (character.key.sender == sender.id) {
             keys.push_back(character.key);
         }
     }
@@ -96,20 +96,20 @@ Json charactersJson(const model::Session& session, const model::Source& source) 
     return characters;
 }
 
-bool isMxtp(const model::Source& source) {
-    return source.datagrams > source.foreign || source.skippedBytes != 0;
+bool isMxtp(const model::Sender& sender) {
+    return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
 }
 
-Json sourceJson(const model::Session& session, const model::Source& source) {
-    return {{"address", source.info.address},
-            {"transport", transportName(source.info.transport)},
-            {"datagrams", source.datagrams - source.malformed - source.foreign},
-            {"bytes", source.bytes - source.skippedBytes - source.foreignBytes},
-            {"malformed", source.malformed},
-            {"skippedBytes", source.skippedBytes},
-            {"characters", charactersJson(session, source)},
-            {"localPort", source.info.localPort},
-            {"kernelDropped", source.kernelDrops}};
+Json senderJson(const model::Session& session, const model::Sender& sender) {
+    return {{"address", sender.info.address},
+            {"transport", transportName(sender.info.transport)},
+            {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
+            {"bytes", sender.bytes - sender.skippedBytes - sender.foreignBytes},
+            {"malformed", sender.malformed},
+            {"skippedBytes", sender.skippedBytes},
+            {"characters", charactersJson(session, sender)},
+            {"localPort", sender.info.localPort},
+            {"kernelDropped", sender.kernelDrops}};
 }
 
 } // namespace
@@ -117,26 +117,26 @@ Json sourceJson(const model::Session& session, const model::Source& source) {
 std::string monitorReport(const model::Session& session, const MonitorFacts& facts) {
     std::uint64_t kernelDropped = 0;
     std::uint64_t foreign = 0;
-    Json sources = Json::array();
-    Json foreignSources = Json::array();
-    for (const model::Source& source : session.sources()) {
-        kernelDropped += source.kernelDrops;
-        foreign += source.foreign;
-        if (isMxtp(source)) {
-            sources.push_back(sourceJson(session, source));
+    Json senders = Json::array();
+    Json foreignSenders = Json::array();
+    for (const model::Sender& sender : session.senders()) {
+        kernelDropped += sender.kernelDrops;
+        foreign += sender.foreign;
+        if (isMxtp(sender)) {
+            senders.push_back(senderJson(session, sender));
         }
-        if (source.foreign != 0) {
-            foreignSources.push_back({{"address", source.info.address},
-                                      {"datagrams", source.foreign},
-                                      {"firstBytes", source.firstForeignBytes}});
+        if (sender.foreign != 0) {
+            foreignSenders.push_back({{"address", sender.info.address},
+                                      {"datagrams", sender.foreign},
+                                      {"firstBytes", sender.firstForeignBytes}});
         }
     }
     const Json report{
         {"durationS", rounded(facts.durationS, 1e3)},
         {"local", {{"kernelDropped", kernelDropped}, {"receiveBufferBytes", facts.receiveBufferBytes}}},
         {"foreignDatagrams", foreign},
-        {"sources", std::move(sources)},
-        {"foreignSources", std::move(foreignSources)},
+        {"sources", std::move(senders)},
+        {"foreignSources", std::move(foreignSenders)},
         {"exceeded", facts.exceeded}};
     // Names come from the wire and may hold anything.
     return report.dump(-1, ' ', false, Json::error_handler_t::replace);

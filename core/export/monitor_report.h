@@ -14,7 +14,7 @@ struct MonitorFacts {
     std::vector<std::string> exceeded{}; ///< one line for each limit that was not kept
 };
 
-/// One JSON object without a newline: every source with its characters, their streams and all their figures.
+/// One JSON object without a newline: every sender with its characters, their streams and all their figures.
 [[nodiscard]] std::string monitorReport(const model::Session& session, const MonitorFacts& facts);
 
 } // namespace posewire::exporting

@@ -2,7 +2,7 @@
 #include "core/export/null_pose_sheet.h"
 
 #include "core/export/json_fields.h"
-#include "core/model/spaces.h"
+#include "core/model/body/spaces.h"
 
 namespace posewire::exporting {
 namespace {

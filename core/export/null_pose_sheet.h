@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/null_pose.h"
+#include "core/model/body/null_pose.h"
 #include "core/wire/messages.h"
 
 #include <string>

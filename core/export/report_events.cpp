@@ -26,12 +26,12 @@ ReportSeverity severityOf(const Event& event) {
     return ReportSeverity::Error;
 }
 
-/// Source, character and type, as far as the event is about them.
+/// Sender, character and type, as far as the event is about them.
 std::string whose(const model::Session& session, const Event& event) {
-    const model::Source* source = session.find(event.source);
-    std::string text = source != nullptr ? source->info.address : "";
+    const model::Sender* sender = session.find(event.sender);
+    std::string text = sender != nullptr ? sender->info.address : "";
     if (event.character) {
-        text += ", " + session.displayName({event.source, *event.character});
+        text += ", " + session.displayName({event.sender, *event.character});
     }
     if (event.type) {
         text += ", " + wire::typeTitle(*event.type);

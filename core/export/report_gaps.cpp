@@ -35,7 +35,7 @@ double milliseconds(std::int64_t ns) {
 }
 
 std::vector<std::string> cellsOf(const model::Session& session, const Gap& gap, const ReportSteps& steps) {
-    const model::CharacterKey key{gap.stream.source, gap.stream.character};
+    const model::CharacterKey key{gap.stream.sender, gap.stream.character};
     return {fixed(milliseconds(gap.fromStampNs - steps.fromNs) * 1e-3, 3),
             escaped(session.displayName(key)) + ", " + escaped(wire::typeTitle(gap.stream.type)),
             grouped(gap.lost),

@@ -16,7 +16,7 @@ std::vector<const model::Stream*> sampledStreams(const model::Session& session,
                                                  const model::CharacterKey& key) {
     std::vector<const model::Stream*> streams;
     for (const model::Stream& stream : session.streams()) {
-        if (stream.key.source == key.source && stream.key.character == key.character &&
+        if (stream.key.sender == key.sender && stream.key.character == key.character &&
             model::countsSamples(stream.key.type)) {
             streams.push_back(&stream);
         }

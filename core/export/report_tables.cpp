@@ -118,7 +118,7 @@ std::string streamTable(const model::Session& session, const model::CharacterKey
                         const std::vector<StreamFigures>& figures, const ReportSteps& steps) {
     std::vector<const StreamFigures*> own;
     for (const StreamFigures& one : figures) {
-        if (one.key.source == key.source && one.key.character == key.character) {
+        if (one.key.sender == key.sender && one.key.character == key.character) {
             own.push_back(&one);
         }
     }

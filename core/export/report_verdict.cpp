@@ -83,30 +83,30 @@ void addOrder(std::vector<Finding>& findings, const model::StreamCounts& counts)
     add(counts.restarts, "time a sample counter began anew.", "times a sample counter began anew.");
 }
 
-void addSources(std::vector<Finding>& findings, const model::Session& session) {
-    for (const model::Source& source : session.sources()) {
-        if (source.kernelDrops != 0) {
+void addSenders(std::vector<Finding>& findings, const model::Session& session) {
+    for (const model::Sender& sender : session.senders()) {
+        if (sender.kernelDrops != 0) {
             findings.push_back(
                 {ReportSeverity::Error, "This computer dropped " +
-                                            counted(source.kernelDrops, "datagram", "datagrams") +
-                                            " at the socket that hears " + source.info.address +
+                                            counted(sender.kernelDrops, "datagram", "datagrams") +
+                                            " at the socket that hears " + sender.info.address +
                                             ": it was too busy, or its receive buffer is too small."});
         }
-        if (source.malformed != 0) {
-            findings.push_back({ReportSeverity::Warning, counted(source.malformed, "datagram", "datagrams") +
-                                                             " from " + source.info.address +
+        if (sender.malformed != 0) {
+            findings.push_back({ReportSeverity::Warning, counted(sender.malformed, "datagram", "datagrams") +
+                                                             " from " + sender.info.address +
                                                              " could not be decoded."});
         }
-        if (source.skippedBytes != 0) {
-            findings.push_back({ReportSeverity::Warning, counted(source.skippedBytes, "byte", "bytes") +
-                                                             " from " + source.info.address +
+        if (sender.skippedBytes != 0) {
+            findings.push_back({ReportSeverity::Warning, counted(sender.skippedBytes, "byte", "bytes") +
+                                                             " from " + sender.info.address +
                                                              " belonged to no datagram."});
         }
-        if (source.foreign != 0) {
-            findings.push_back({ReportSeverity::Warning, counted(source.foreign, "datagram", "datagrams") +
-                                                             " from " + source.info.address +
+        if (sender.foreign != 0) {
+            findings.push_back({ReportSeverity::Warning, counted(sender.foreign, "datagram", "datagrams") +
+                                                             " from " + sender.info.address +
                                                              " were not MXTP; the newest begins with " +
-                                                             source.firstForeignBytes + '.'});
+                                                             sender.firstForeignBytes + '.'});
         }
     }
 }
@@ -134,7 +134,7 @@ std::vector<Finding> verdictOn(const model::Session& session, const std::vector<
         addCauses(findings, sums.lostByCause);
         addOrder(findings, sums.counts);
     }
-    addSources(findings, session);
+    addSenders(findings, session);
     for (const std::string& line : options.exceeded) {
         findings.push_back({ReportSeverity::Error, line + '.'});
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/stream_figures.h"
 
-#include "core/model/range_figures.h"
+#include "core/model/accounting/range_figures.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/session.h"
-#include "core/model/stream_counts.h"
+#include "core/model/accounting/stream_counts.h"
+#include "core/model/session/session.h"
 
 #include <array>
 #include <optional>

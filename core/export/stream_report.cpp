@@ -65,20 +65,20 @@ std::string plotSection(const model::Session& session, const ReportSteps& steps)
     return html + svgPlot(causePlot(session, steps)) + "</div>\n";
 }
 
-std::string sourceSection(const model::Session& session, const std::vector<StreamFigures>& figures,
+std::string senderSection(const model::Session& session, const std::vector<StreamFigures>& figures,
                           const ReportSteps& steps) {
     std::string html;
-    for (const model::Source& source : session.sources()) {
-        html += "<h2>" + escaped(source.info.address) + " <span class=\"dim\">" +
-                escaped(transportName(source.info.transport)) +
-                (source.info.localPort != 0 ? " to port " + std::to_string(source.info.localPort) : "") +
+    for (const model::Sender& sender : session.senders()) {
+        html += "<h2>" + escaped(sender.info.address) + " <span class=\"dim\">" +
+                escaped(transportName(sender.info.transport)) +
+                (sender.info.localPort != 0 ? " to port " + std::to_string(sender.info.localPort) : "") +
                 "</span></h2>\n<dl class=\"facts\">\n" +
-                fact("Datagrams", grouped(source.datagrams) + ", " + grouped(source.bytes) + " bytes") +
-                fact("Malformed", grouped(source.malformed)) + fact("Not MXTP", grouped(source.foreign)) +
-                (source.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(source.skippedBytes)) : "") +
-                fact("Dropped by this computer", grouped(source.kernelDrops)) + "</dl>\n";
+                fact("Datagrams", grouped(sender.datagrams) + ", " + grouped(sender.bytes) + " bytes") +
+                fact("Malformed", grouped(sender.malformed)) + fact("Not MXTP", grouped(sender.foreign)) +
+                (sender.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(sender.skippedBytes)) : "") +
+                fact("Dropped by this computer", grouped(sender.kernelDrops)) + "</dl>\n";
         for (const model::Character& character : session.characters()) {
-            if (character.key.source == source.id) {
+            if (character.key.sender == sender.id) {
                 html += "<h3>" + escaped(session.displayName(character.key)) +
                         " <span class=\"dim\">character " + std::to_string(character.key.character) +
                         "</span></h3>\n" + metadataList(session, character.key) +
@@ -109,7 +109,7 @@ std::string streamReport(const model::Session& session, const StreamReportOption
            verdictList(verdictOn(session, figures, options)) +
            "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
-           sourceSection(session, figures, steps) + gapSection(session, steps) +
+           senderSection(session, figures, steps) + gapSection(session, steps) +
            eventSection(session, steps) + settingsSection(options) + "</body>\n</html>\n";
 }
 

@@ -40,21 +40,21 @@ bool readType(Subject& subject, std::size_t index, Value& value) {
     return index == 0 && isKnown;
 }
 
-bool readSource(Subject& subject, std::size_t index, Value& value) {
-    const log::SourceInfo* source = subject.candidate.source;
-    value.text = source != nullptr ? std::string_view(source->address) : std::string_view();
-    return index == 0 && source != nullptr;
+bool readSender(Subject& subject, std::size_t index, Value& value) {
+    const log::SenderInfo* sender = subject.candidate.sender;
+    value.text = sender != nullptr ? std::string_view(sender->address) : std::string_view();
+    return index == 0 && sender != nullptr;
 }
 
 bool readTransport(Subject& subject, std::size_t index, Value& value) {
-    const log::SourceInfo* source = subject.candidate.source;
-    value.text = source != nullptr ? kTransportNames[static_cast<std::size_t>(source->transport)] : "";
-    return index == 0 && source != nullptr;
+    const log::SenderInfo* sender = subject.candidate.sender;
+    value.text = sender != nullptr ? kTransportNames[static_cast<std::size_t>(sender->transport)] : "";
+    return index == 0 && sender != nullptr;
 }
 
 bool readPort(Subject& subject, std::size_t index, Value& value) {
-    const log::SourceInfo* source = subject.candidate.source;
-    value.number = source != nullptr ? source->localPort : 0;
+    const log::SenderInfo* sender = subject.candidate.sender;
+    value.number = sender != nullptr ? sender->localPort : 0;
     return index == 0 && value.number != 0;
 }
 
@@ -126,7 +126,7 @@ constexpr auto kLast = [](const wire::Header& header) { return header.isLast(); 
 
 constexpr std::array kRows{
     Row{"type", Kind::Type, "", "message type: 02 and 2 are the same", readType},
-    Row{"source", Kind::Text, "", "where the packet came from: address and port, or file", readSource},
+    Row{"source", Kind::Text, "", "where the packet came from: address and port, or file", readSender},
     Row{"time", Kind::Number, "s", "since the first packet", readTime},
     Row{"utc", Kind::Time, "s", "when it came: a time such as \"2026-01-31T12:00:00\"", readUtc},
     Row{"number", Kind::Number, "", "of the packet, in the order of arrival", always<kNumber>},

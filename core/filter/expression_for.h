@@ -9,7 +9,7 @@
 namespace posewire::filter {
 
 /// A filter for packets that have this value: ("character", "1") gives `character == 1`, ("source",
-/// "192.168.1.20:4001") gives `source == "192.168.1.20:4001"`. Segment ids become names. Empty where no
+/// "192.168.1.20:4001") gives `sender == "192.168.1.20:4001"`. Segment ids become names. Empty where no
 /// filter field has that name.
 [[nodiscard]] std::string expressionFor(std::string_view field, std::string_view value);
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
-#include "core/model/packet_digest.h"
+#include "core/model/accounting/packet_digest.h"
 #include "core/wire/codec.h"
 
 #include <cstddef>
@@ -28,7 +28,7 @@ struct Candidate {
     const log::Packet& packet;
     const model::PacketDigest& digest;
     const wire::Datagram* datagram = nullptr; ///< null where it was not decoded; see needsDatagram
-    const log::SourceInfo* source = nullptr;  ///< null where it is not known
+    const log::SenderInfo* sender = nullptr;  ///< null where it is not known
     std::int64_t firstStampNs = 0;            ///< of the first packet: where `time` begins
     const wire::WireError* fault = nullptr;   ///< why it could not be decoded; found out anew where null
 };

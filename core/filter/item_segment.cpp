@@ -2,9 +2,9 @@
 #include "core/filter/item_segment.h"
 
 #include "core/filter/field.h"
-#include "core/model/character_pose.h"
-#include "core/model/points.h"
-#include "core/model/segments.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/body/points.h"
+#include "core/model/body/segments.h"
 
 #include <algorithm>
 

@@ -131,9 +131,9 @@ public:
         record.isSkipped = m_origin->flags.skipped;
         record.isDropRecord = m_origin->flags.isDropRecord;
         record.isStampedByKernel = m_origin->flags.stampedByKernel;
-        record.source->transport = m_origin->transport;
+        record.sender->transport = m_origin->transport;
         if (m_origin->address) {
-            record.source->address = *m_origin->address;
+            record.sender->address = *m_origin->address;
         }
     }
 

@@ -17,7 +17,7 @@ struct Record {
     const std::byte* data;
     std::int64_t stampNs;
     std::uint32_t size;
-    SourceId source;
+    SenderId sender;
     std::uint32_t kernelDropsBefore;
     PacketFlags flags;
 };

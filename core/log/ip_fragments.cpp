@@ -11,7 +11,7 @@ constexpr std::uint32_t kLargest = 65535;
 
 bool belongTogether(const IpPacket& first, const IpPacket& second) {
     return first.identity == second.identity && first.protocol == second.protocol &&
-           first.source == second.source && first.target == second.target;
+           first.sender == second.sender && first.target == second.target;
 }
 
 } // namespace

@@ -145,7 +145,7 @@ std::optional<IpPacket> throughIpv6(Frame frame, std::size_t start) {
     const std::size_t announced = wordAt(packet, 4);
     const std::size_t size = announced != 0 ? std::min(40U + announced, packet.size()) : packet.size();
     IpPacket found;
-    found.source = addressAt(packet, 8, true);
+    found.sender = addressAt(packet, 8, true);
     found.target = addressAt(packet, 24, true);
     found.protocol = byteAt(packet, 6);
     std::size_t place = 40;

@@ -22,7 +22,7 @@ struct IpAddress {
 
 /// What a captured frame carries over IP.
 struct IpPacket {
-    IpAddress source;
+    IpAddress sender;
     IpAddress target;
     std::uint8_t protocol = 0;        ///< kUdp, kTcp or another
     std::size_t offset = 0;           ///< of the payload in the frame

@@ -8,18 +8,18 @@
 
 namespace posewire::log {
 
-/// Index of a SourceInfo in the SourceTable of the log; dense, from 0.
-enum class SourceId : std::uint32_t {};
+/// Index of a SenderInfo in the SenderTable of the log; dense, from 0.
+enum class SenderId : std::uint32_t {};
 
 enum class Transport : std::uint8_t { Udp, Tcp, File, Performer };
 
-/// Where packets come from. Two packets have the same SourceId exactly if all three members are equal.
-struct SourceInfo {
+/// Where packets come from. Two packets have the same SenderId exactly if all three members are equal.
+struct SenderInfo {
     std::string address; ///< "127.0.0.1:40001", "[::1]:40001", a file name, the name of a performer
     Transport transport = Transport::Udp;
     std::uint16_t localPort = 0; ///< the port it arrived at; 0 where there is none
 
-    friend bool operator==(const SourceInfo&, const SourceInfo&) = default;
+    friend bool operator==(const SenderInfo&, const SenderInfo&) = default;
 };
 
 struct PacketFlags {
@@ -27,7 +27,7 @@ struct PacketFlags {
     bool stampedByKernel = false; ///< the stamp is the kernel's, else it was taken when the packet was read
     bool skipped = false;         ///< bytes of a byte stream that belong to no datagram
     /// Not a packet but the news of `kernelDropsBefore`, which no packet came to tell: without bytes, and
-    /// `skipped`, so that whoever passes over what is no datagram passes over it. Its source is the one last
+    /// `skipped`, so that whoever passes over what is no datagram passes over it. Its sender is the one last
     /// heard.
     bool isDropRecord = false;
 
@@ -37,7 +37,7 @@ struct PacketFlags {
 /// All that is known about a packet when it arrives, besides its bytes.
 struct Arrival {
     std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
-    SourceId source{};
+    SenderId sender{};
     /// Datagrams that this computer lost for want of room (SO_RXQ_OVFL of the socket, or the receiver's
     /// queue) on the socket of this packet since the packet before it from that socket. It is kept in the log
     /// so that a replay tells the same story.
@@ -49,7 +49,7 @@ struct Arrival {
 struct Packet {
     std::uint64_t number = 0; ///< position in the log: grows for ever, without gaps, in the order of arrival
     std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
-    SourceId source{};
+    SenderId sender{};
     std::uint32_t kernelDropsBefore = 0; ///< see Arrival
     PacketFlags flags{};
     std::span<const std::byte> bytes;

@@ -5,7 +5,7 @@
 #include "core/log/log_reader.h"
 #include "core/log/log_writer.h"
 #include "core/log/packet.h"
-#include "core/log/source_table.h"
+#include "core/log/sender_table.h"
 
 namespace posewire::log {
 
@@ -13,7 +13,7 @@ namespace posewire::log {
 /// memory. One thread writes, any number read, each through a LogReader of its own:
 ///
 ///     PacketLog log;
-///     log.writer().append(bytes, {.stampNs = now, .source = log.sources().intern(info)});
+///     log.writer().append(bytes, {.stampNs = now, .sender = log.senders().intern(info)});
 ///     log.writer().publish();
 ///
 ///     LogReader reader(log);
@@ -29,8 +29,8 @@ public:
     [[nodiscard]] LogWriter& writer() { return m_writer; }
 
     /// To be interned by the writing thread, to be read by all.
-    [[nodiscard]] SourceTable& sources() { return m_sources; }
-    [[nodiscard]] const SourceTable& sources() const { return m_sources; }
+    [[nodiscard]] SenderTable& senders() { return m_senders; }
+    [[nodiscard]] const SenderTable& senders() const { return m_senders; }
 
     /// From any thread.
     [[nodiscard]] LogFigures figures() const { return m_history.figures(); }
@@ -40,7 +40,7 @@ public:
 
 private:
     ChunkHistory m_history;
-    SourceTable m_sources;
+    SenderTable m_senders;
     LogWriter m_writer;
 };
 

@@ -27,20 +27,20 @@ std::string_view clipped(std::string_view text) {
     return text.substr(0, most);
 }
 
-/// What the headers can say about a source.
+/// What the headers can say about a sender.
 struct Ends {
-    IpEndpoint source;
+    IpEndpoint sender;
     IpEndpoint target;
 };
 
 /// The address a packet came to is not known, but that this computer sends to itself over loopback.
-Ends endsOf(const SourceInfo& info) {
+Ends endsOf(const SenderInfo& info) {
     const bool isNetwork = info.transport == Transport::Udp || info.transport == Transport::Tcp;
     const auto found = isNetwork ? parseIpEndpoint(info.address) : std::nullopt;
     Ends ends{found.value_or(IpEndpoint{}), {}};
-    ends.target.address.isIpv6 = ends.source.address.isIpv6;
-    if (isLoopback(ends.source.address)) {
-        ends.target.address = ends.source.address;
+    ends.target.address.isIpv6 = ends.sender.address.isIpv6;
+    if (isLoopback(ends.sender.address)) {
+        ends.target.address = ends.sender.address;
     }
     ends.target.port = info.localPort;
     return ends;
@@ -51,11 +51,11 @@ bool isPlain(const RecordedOrigin& origin, const Packet& packet) {
     return origin == RecordedOrigin{} && wire::startsWithMagic(packet.bytes);
 }
 
-RecordedOrigin originOf(const Packet& packet, const SourceInfo& source, const Ends& ends) {
+RecordedOrigin originOf(const Packet& packet, const SenderInfo& sender, const Ends& ends) {
     constexpr std::size_t ipv4Most = 65'507;
-    const bool isMapped = !ends.source.address.isIpv6 && packet.bytes.size() > ipv4Most;
-    const bool isTold = !isMapped && endpointText(ends.source) == source.address;
-    return {source.transport, packet.flags, isTold ? std::nullopt : std::optional(source.address)};
+    const bool isMapped = !ends.sender.address.isIpv6 && packet.bytes.size() > ipv4Most;
+    const bool isTold = !isMapped && endpointText(ends.sender) == sender.address;
+    return {sender.transport, packet.flags, isTold ? std::nullopt : std::optional(sender.address)};
 }
 
 } // namespace
@@ -86,11 +86,11 @@ PcapngWriter::Result PcapngWriter::begin(const RecordingInfo& info) {
     return write();
 }
 
-PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SourceInfo& source,
+PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& sender,
                                        std::span<const std::string> comments) {
-    const Ends ends = endsOf(source);
+    const Ends ends = endsOf(sender);
     m_frame.clear();
-    appendUdpFrame(m_frame, ends.source, ends.target, packet.bytes);
+    appendUdpFrame(m_frame, ends.sender, ends.target, packet.bytes);
     const std::int64_t stampNs = std::max<std::int64_t>(packet.stampNs, 0);
     PcapngBlock block(m_block, PcapngBlockType::EnhancedPacket);
     block.number(0, 4);
@@ -98,7 +98,7 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SourceInfo& s
     block.number(m_frame.size(), 4);
     block.number(m_frame.size(), 4);
     block.padded(m_frame);
-    const RecordedOrigin origin = originOf(packet, source, ends);
+    const RecordedOrigin origin = originOf(packet, sender, ends);
     const bool isMistakable =
         std::ranges::any_of(comments, [](const std::string& text) { return parseOrigin(text).has_value(); });
     if (!isPlain(origin, packet) || isMistakable) {

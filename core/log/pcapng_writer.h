@@ -20,8 +20,8 @@ struct RecordingInfo {
 
 /// Writes packets as pcapng (draft-ietf-opsawg-pcapng): a section header, one interface with nanosecond
 /// stamps, an enhanced packet block for each packet, interface statistics at the end. Each packet gets IP and
-/// UDP headers that are made up from its source; what they cannot tell (TCP, a file name, flags) is said in a
-/// comment, see RecordedOrigin. readFile() gives back the same packets: bytes, stamps from 1970 on, sources,
+/// UDP headers that are made up from its sender; what they cannot tell (TCP, a file name, flags) is said in a
+/// comment, see RecordedOrigin. readFile() gives back the same packets: bytes, stamps from 1970 on, senders,
 /// kernel drops, flags, comments. `sink` must outlive the writer. After a failure nothing more is written.
 class PcapngWriter {
 public:
@@ -33,7 +33,7 @@ public:
     Result begin(const RecordingInfo& info);
 
     /// `comments`: UTF-8; what is longer than 65,000 bytes is cut.
-    Result add(const Packet& packet, const SourceInfo& source, std::span<const std::string> comments = {});
+    Result add(const Packet& packet, const SenderInfo& sender, std::span<const std::string> comments = {});
 
     /// Last of all.
     Result finish();

@@ -75,10 +75,10 @@ FileFormat fileFormat(std::span<const std::byte> firstBytes) {
     }
 }
 
-Arrival arrivalOf(const FileRecord& record, SourceId source, std::int64_t stampNs) {
+Arrival arrivalOf(const FileRecord& record, SenderId sender, std::int64_t stampNs) {
     Arrival arrival;
     arrival.stampNs = record.stampNs.value_or(stampNs);
-    arrival.source = source;
+    arrival.sender = sender;
     arrival.kernelDropsBefore = record.kernelDropsBefore;
     arrival.flags.truncated = record.isTruncated;
     arrival.flags.stampedByKernel = record.isStampedByKernel;

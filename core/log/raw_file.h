@@ -22,7 +22,7 @@ struct FileRecord {
     std::span<const std::byte> bytes; ///< valid during the call
     bool isSkipped = false; ///< belongs to no datagram; a run longer than 64 KiB comes in several records
     std::optional<std::int64_t> stampNs; ///< since 1970-01-01 UTC; raw files have none
-    std::optional<SourceInfo> source;    ///< raw files know none
+    std::optional<SenderInfo> sender;    ///< raw files know none
 
     // What recordings know besides; see PcapngWriter.
     std::uint32_t kernelDropsBefore = 0; ///< as in Arrival
@@ -32,8 +32,8 @@ struct FileRecord {
     std::span<const std::string> comments{}; ///< UTF-8, valid during the call
 };
 
-/// What the log keeps of a record of `source`. `stampNs` is for records without a stamp.
-[[nodiscard]] Arrival arrivalOf(const FileRecord& record, SourceId source, std::int64_t stampNs);
+/// What the log keeps of a record of `sender`. `stampNs` is for records without a stamp.
+[[nodiscard]] Arrival arrivalOf(const FileRecord& record, SenderId sender, std::int64_t stampNs);
 
 using FileVisitor = std::function<void(const FileRecord&)>;
 

@@ -42,7 +42,7 @@ std::optional<TcpHeader> tcpHeaderOf(std::span<const std::byte> segment) {
 
 FileRecord recordOf(const WholePacket& whole, const UdpPayload& payload) {
     return {whole.fileOffset + payload.offset, payload.bytes, false, whole.stampNs,
-            SourceInfo{endpointText({whole.packet.source, payload.sourcePort}), Transport::Udp,
+            SenderInfo{endpointText({whole.packet.sender, payload.sourcePort}), Transport::Udp,
                        payload.targetPort}};
 }
 
@@ -99,7 +99,7 @@ void Reassembly::addTcp(const WholePacket& whole) {
     }
     const auto bytes = whole.bytes.subspan(header->size);
     const std::uint32_t sequence = header->sequence + (header->begins ? 1U : 0U);
-    const Direction direction{whole.packet.source, whole.packet.target, header->sourcePort,
+    const Direction direction{whole.packet.sender, whole.packet.target, header->sourcePort,
                               header->targetPort};
     auto found = m_streams.find(direction);
     if (found == m_streams.end()) {
@@ -108,9 +108,9 @@ void Reassembly::addTcp(const WholePacket& whole) {
             return;
         }
         endOldest();
-        SourceInfo source{endpointText({direction.source, direction.sourcePort}), Transport::Tcp,
+        SenderInfo sender{endpointText({direction.sender, direction.sourcePort}), Transport::Tcp,
                           direction.targetPort};
-        Followed added{std::make_unique<TcpStream>(std::move(source), sequence), 0};
+        Followed added{std::make_unique<TcpStream>(std::move(sender), sequence), 0};
         found = m_streams.emplace(direction, std::move(added)).first;
     } else if (header->begins && found->second.stream->expected() != sequence) {
         found->second.stream->restart(sequence, m_visit);

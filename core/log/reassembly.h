@@ -35,7 +35,7 @@ public:
 private:
     /// One direction of a connection.
     struct Direction {
-        IpAddress source;
+        IpAddress sender;
         IpAddress target;
         std::uint16_t sourcePort = 0;
         std::uint16_t targetPort = 0;

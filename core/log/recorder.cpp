@@ -34,8 +34,8 @@ Recorder::Result Recorder::writeNew() {
     m_reader.refresh();
     for (; m_next < m_reader.end(); ++m_next) {
         auto packet = m_reader.packet(m_next);
-        const SourceInfo* source = packet ? m_log.sources().find(packet->source) : nullptr;
-        if (source == nullptr) {
+        const SenderInfo* sender = packet ? m_log.senders().find(packet->sender) : nullptr;
+        if (sender == nullptr) {
             ++m_missed;
             ++m_missedBeforeNext;
             continue;
@@ -43,7 +43,7 @@ Recorder::Result Recorder::writeNew() {
         const std::uint64_t drops = packet->kernelDropsBefore + std::exchange(m_missedBeforeNext, 0);
         packet->kernelDropsBefore =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(drops, std::uint64_t{UINT32_MAX}));
-        if (auto added = m_writer.add(*packet, *source); !added) {
+        if (auto added = m_writer.add(*packet, *sender); !added) {
             return added;
         }
     }

@@ -89,7 +89,7 @@ void StreamIndex::add(const Packet& packet) {
 
 void StreamIndex::add(const Packet& packet, const wire::Header& header) {
     m_end = packet.number + 1;
-    StreamEntries* entries = entriesFor({packet.source, header.character, header.type()});
+    StreamEntries* entries = entriesFor({packet.sender, header.character, header.type()});
     if (entries == nullptr) {
         ++m_unindexed;
         return;

@@ -16,9 +16,9 @@
 
 namespace posewire::log {
 
-/// A stream is what one source sends of one character in one message type.
+/// A stream is what one sender sends of one character in one message type.
 struct StreamKey {
-    SourceId source{};
+    SenderId sender{};
     std::uint8_t character = 0;
     std::uint8_t type = 0; ///< the two digits as a decimal number
 
@@ -101,9 +101,9 @@ public:
 private:
     struct Hash {
         std::size_t operator()(const StreamKey& key) const {
-            const auto source = static_cast<std::uint64_t>(key.source);
+            const auto sender = static_cast<std::uint64_t>(key.sender);
             return static_cast<std::size_t>(
-                (source << 16 | std::uint64_t{key.character} << 8 | key.type) * 0x9e3779b97f4a7c15U >> 13);
+                (sender << 16 | std::uint64_t{key.character} << 8 | key.type) * 0x9e3779b97f4a7c15U >> 13);
         }
     };
 

@@ -90,7 +90,7 @@ std::size_t TcpFramer::parse(Bytes bytes, bool isAtEnd, const Visitor& visit) {
     while (window.at < bytes.size() && step(window)) {
     }
     if (isAtEnd) {
-        emit(window, bytes.size(), Kind::Skipped);
+        pass(window, bytes.size(), Kind::Skipped);
     }
     m_ruledOut = window.at - window.begin;
     return window.begin;
@@ -108,7 +108,7 @@ bool TcpFramer::step(Window& window) {
     if (isShort) {
         return await(window, kMark);
     }
-    emit(window, window.at, Kind::Skipped);
+    pass(window, window.at, Kind::Skipped);
     switch (extent.state) {
     case State::Known:
         return stepDatagram(window, extent.size);
@@ -170,18 +170,18 @@ void TcpFramer::skipTo(Window& window, std::size_t position) {
     m_isInStep = false;
     window.at = position;
     while (window.at - window.begin >= kLongestSkip) {
-        emit(window, window.begin + kLongestSkip, Kind::Skipped);
+        pass(window, window.begin + kLongestSkip, Kind::Skipped);
     }
 }
 
 bool TcpFramer::deliver(Window& window, std::size_t size) {
     m_isInStep = true;
     window.at += size;
-    emit(window, window.at, Kind::Datagram);
+    pass(window, window.at, Kind::Datagram);
     return true;
 }
 
-void TcpFramer::emit(Window& window, std::size_t end, Kind kind) {
+void TcpFramer::pass(Window& window, std::size_t end, Kind kind) {
     const std::size_t size = end - window.begin;
     if (size == 0) {
         return;

@@ -56,7 +56,7 @@ private:
     bool stepCutOff(Window& window);
     void skipTo(Window& window, std::size_t position);
     bool deliver(Window& window, std::size_t size);
-    void emit(Window& window, std::size_t end, Kind kind);
+    void pass(Window& window, std::size_t end, Kind kind);
     bool await(const Window& window, std::size_t size);
     bool isTrusted(std::span<const std::byte> datagram);
 

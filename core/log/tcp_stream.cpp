@@ -14,8 +14,8 @@ std::size_t costOf(std::span<const std::byte> bytes) {
 
 } // namespace
 
-TcpStream::TcpStream(SourceInfo source, std::uint32_t firstSequence)
-    : m_source(std::move(source)), m_expected(firstSequence) {}
+TcpStream::TcpStream(SenderInfo sender, std::uint32_t firstSequence)
+    : m_sender(std::move(sender)), m_expected(firstSequence) {}
 
 void TcpStream::add(const TcpSegment& segment, const FileVisitor& visit) {
     if (segment.bytes.empty()) {
@@ -111,7 +111,7 @@ FileRecord TcpStream::recordOf(const TcpFramer::Piece& piece, std::optional<std:
     }
     const Place& place = m_places.front();
     return {place.fileOffset + (piece.offset - place.position), piece.bytes,
-            piece.kind == TcpFramer::Kind::Skipped, stampNs, m_source};
+            piece.kind == TcpFramer::Kind::Skipped, stampNs, m_sender};
 }
 
 } // namespace posewire::log

@@ -26,7 +26,7 @@ public:
     static constexpr std::size_t kMostWaiting = std::size_t{256} << 10;
     static constexpr std::int64_t kLongestWaitNs = 1'000'000'000;
 
-    TcpStream(SourceInfo source, std::uint32_t firstSequence);
+    TcpStream(SenderInfo sender, std::uint32_t firstSequence);
 
     /// Records carry the offset in the file of their first byte and the stamp of the frame that completed
     /// them.
@@ -56,7 +56,7 @@ private:
     [[nodiscard]] bool hasWaitedTooLong(const TcpSegment& segment) const;
     [[nodiscard]] FileRecord recordOf(const TcpFramer::Piece& piece, std::optional<std::int64_t> stampNs);
 
-    SourceInfo m_source;
+    SenderInfo m_sender;
     TcpFramer m_framer;
     std::uint32_t m_expected;
     std::uint64_t m_expectedPosition = 0;       ///< the same, without wrapping around

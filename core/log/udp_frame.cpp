@@ -55,7 +55,7 @@ private:
     std::uint64_t m_sum = 0;
 };
 
-void appendIpv4(std::vector<std::byte>& out, const IpAddress& source, const IpAddress& target,
+void appendIpv4(std::vector<std::byte>& out, const IpAddress& sender, const IpAddress& target,
                 std::size_t size) {
     constexpr std::size_t headerSize = 20;
     const std::size_t start = out.size();
@@ -66,14 +66,14 @@ void appendIpv4(std::vector<std::byte>& out, const IpAddress& source, const IpAd
     bytes.number8(64);
     bytes.number8(kUdp);
     bytes.number16(0);
-    bytes.address(source);
+    bytes.address(sender);
     bytes.address(target);
     Checksum checksum;
     checksum.add(std::span(out).subspan(start));
     wire::store16(out.data() + start + 10, checksum.value());
 }
 
-void appendIpv6(std::vector<std::byte>& out, const IpAddress& source, const IpAddress& target,
+void appendIpv6(std::vector<std::byte>& out, const IpAddress& sender, const IpAddress& target,
                 std::size_t size) {
     constexpr unsigned hopByHop = 0;
     const bool isJumbo = size > kLongest;
@@ -82,7 +82,7 @@ void appendIpv6(std::vector<std::byte>& out, const IpAddress& source, const IpAd
     bytes.number16(isJumbo ? 0 : size);
     bytes.number8(isJumbo ? hopByHop : kUdp);
     bytes.number8(64);
-    bytes.address(source);
+    bytes.address(sender);
     bytes.address(target);
     if (isJumbo) {
         bytes.number16(std::size_t{kUdp} << 8);
@@ -91,18 +91,18 @@ void appendIpv6(std::vector<std::byte>& out, const IpAddress& source, const IpAd
     }
 }
 
-void appendUdp(std::vector<std::byte>& out, const IpEndpoint& source, const IpEndpoint& target,
+void appendUdp(std::vector<std::byte>& out, const IpEndpoint& sender, const IpEndpoint& target,
                std::span<const std::byte> payload) {
     const std::size_t start = out.size();
     const std::size_t size = kUdpHeader + payload.size();
     Bytes bytes(out);
-    bytes.number16(source.port);
+    bytes.number16(sender.port);
     bytes.number16(target.port);
     bytes.number16(size > kLongest ? 0 : size);
     bytes.number16(0);
     bytes.bytes(payload);
     Checksum checksum;
-    checksum.add(source.address.bytes); // of IPv4 the rest is zeros
+    checksum.add(sender.address.bytes); // of IPv4 the rest is zeros
     checksum.add(target.address.bytes);
     checksum.add(kUdp);
     checksum.add(size);
@@ -120,19 +120,19 @@ IpEndpoint mapped(const IpEndpoint& endpoint) {
 
 } // namespace
 
-void appendUdpFrame(std::vector<std::byte>& out, const IpEndpoint& source, const IpEndpoint& target,
+void appendUdpFrame(std::vector<std::byte>& out, const IpEndpoint& sender, const IpEndpoint& target,
                     std::span<const std::byte> payload) {
     const std::size_t size = kUdpHeader + payload.size();
     constexpr std::size_t ipv4Header = 20;
-    if (source.address.isIpv6) {
-        appendIpv6(out, source.address, target.address, size);
+    if (sender.address.isIpv6) {
+        appendIpv6(out, sender.address, target.address, size);
     } else if (size + ipv4Header <= kLongest) {
-        appendIpv4(out, source.address, target.address, size);
+        appendIpv4(out, sender.address, target.address, size);
     } else {
-        appendUdpFrame(out, mapped(source), mapped(target), payload);
+        appendUdpFrame(out, mapped(sender), mapped(target), payload);
         return;
     }
-    appendUdp(out, source, target, payload);
+    appendUdp(out, sender, target, payload);
 }
 
 } // namespace posewire::log

@@ -10,7 +10,7 @@ namespace posewire::model {
 
 /// A character: one sender's character ID.
 struct CharacterKey {
-    log::SourceId source{};
+    log::SenderId sender{};
     std::uint8_t character = 0;
 
     friend auto operator<=>(const CharacterKey&, const CharacterKey&) = default;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/reference_body.h"
-#include "core/model/spaces.h"
+#include "core/model/body/reference_body.h"
+#include "core/model/body/spaces.h"
 
 #include <array>
 

@@ -23,7 +23,7 @@ constexpr double kTogetherMs = 60.0;
 /// Of the sample counter in the header (§2.4.1.2).
 constexpr std::size_t kCounterOffset = 6;
 
-/// One independent source of chance for each kind of fault, so that one kind does not change another.
+/// One independent sender of chance for each kind of fault, so that one kind does not change another.
 enum Chance : std::uint64_t {
     Loss,
     Duplication,

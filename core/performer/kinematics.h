@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/spaces.h"
+#include "core/model/body/spaces.h"
 
 #include <span>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/messages.h"
 
-#include "core/model/joint_angles.h"
+#include "core/model/body/joint_angles.h"
 
 #include <cmath>
 #include <numbers>

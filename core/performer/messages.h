@@ -3,7 +3,7 @@
 
 #include "core/performer/character.h"
 
-#include "core/model/points.h"
+#include "core/model/body/points.h"
 #include "core/wire/messages.h"
 
 #include <cstdint>

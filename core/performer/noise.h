@@ -13,7 +13,7 @@ class KeyedRandom {
 public:
     explicit KeyedRandom(std::uint64_t seed) : m_seed(seed) {}
 
-    /// Another independent source for a part, such as a character.
+    /// Another independent sender for a part, such as a character.
     KeyedRandom fork(std::uint64_t key) const { return KeyedRandom(bits(key)); }
 
     std::uint64_t bits(std::uint64_t key) const;

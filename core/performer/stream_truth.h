@@ -14,7 +14,7 @@
 namespace posewire::performer {
 
 /// What a receiver that misses nothing has to count about one stream: one type of one character of one
-/// source. Types 10 to 13 have datagrams and incomplete alone.
+/// sender. Types 10 to 13 have datagrams and incomplete alone.
 struct StreamFigures {
     std::uint64_t datagrams = 0;
     std::uint64_t samples = 0;

@@ -4,7 +4,7 @@
 #include "core/performer/kinematics.h"
 #include "core/performer/noise.h"
 
-#include "core/model/reference_body.h"
+#include "core/model/body/reference_body.h"
 
 #include <array>
 #include <cstdint>

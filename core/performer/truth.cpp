@@ -5,15 +5,15 @@ namespace posewire::performer {
 
 void Truth::add(const Sending& sending) {
     if (!wire::startsWithMagic(sending.bytes)) {
-        ++m_source.foreign;
+        ++m_sender.foreign;
         return;
     }
-    m_source.bytes += sending.bytes.size();
+    m_sender.bytes += sending.bytes.size();
     if (!wire::decodeInto(sending.bytes, m_scratch)) {
-        ++m_source.malformed;
+        ++m_sender.malformed;
         return;
     }
-    ++m_source.datagrams;
+    ++m_sender.datagrams;
     const wire::Header& header = m_scratch.header;
     m_streams[{header.character, header.type()}].add(header, sending);
 }

@@ -10,14 +10,14 @@
 
 namespace posewire::performer {
 
-/// What a receiver that misses nothing has to count about one source.
-struct SourceFigures {
+/// What a receiver that misses nothing has to count about one sender.
+struct SenderFigures {
     std::uint64_t datagrams = 0; ///< that can be decoded
     std::uint64_t bytes = 0;     ///< of these and of malformed ones
     std::uint64_t malformed = 0; ///< begin with MXTP and cannot be decoded
     std::uint64_t foreign = 0;   ///< do not begin with MXTP
 
-    friend bool operator==(const SourceFigures&, const SourceFigures&) = default;
+    friend bool operator==(const SenderFigures&, const SenderFigures&) = default;
 };
 
 /// Keeps book of everything that one socket really sends, in the order of sending. Whether damaged bytes are
@@ -32,11 +32,11 @@ public:
 
     void add(const Sending& sending);
 
-    [[nodiscard]] const SourceFigures& source() const { return m_source; }
+    [[nodiscard]] const SenderFigures& sender() const { return m_sender; }
     [[nodiscard]] const std::map<StreamKey, StreamTruth>& streams() const { return m_streams; }
 
 private:
-    SourceFigures m_source;
+    SenderFigures m_sender;
     std::map<StreamKey, StreamTruth> m_streams;
     wire::Datagram m_scratch;
 };

@@ -9,15 +9,18 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE RelWithDebInfo)
 endif()
 
+# ccache takes a unit with a precompiled header only where it may trust the header's own stamp.
 find_program(POSEWIRE_CCACHE ccache)
 if(POSEWIRE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${POSEWIRE_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
+    CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${POSEWIRE_CCACHE}")
 endif()
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  add_compile_options(-Wno-restrict) # GCC 12 warns about its own std::string (bug 105651)
+  add_compile_options(-Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds) # GCC 12 warns of its own std::string (bug 105651)
 endif()
+add_compile_options(-pthread) # one setting for all: a precompiled header is only good for units compiled like it
 if(POSEWIRE_WERROR)
   add_compile_options(-Werror)
 endif()
@@ -33,26 +36,53 @@ if(POSEWIRE_FUZZ)
   add_link_options(-fsanitize=address,undefined)
 endif()
 
-# posewire_library(name SOURCES … [PUBLIC …] [PRIVATE …]): a static library, alias posewire::name,
+# posewire_precompile(kind HEADERS … [LIBRARIES …]): headers of others that most units of a kind include, compiled once.
+# Targets name their kind as PRECOMPILED; their units still include what they use.
+function(posewire_precompile kind)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LIBRARIES" ${ARGN})
+  set(unit "${CMAKE_BINARY_DIR}/precompiled_${kind}.cpp")
+  file(CONFIGURE OUTPUT "${unit}" CONTENT "int main() {}\n")
+  if(kind MATCHES "test$") # executables are compiled with other options than libraries
+    add_executable(precompiled_${kind} EXCLUDE_FROM_ALL "${unit}")
+  else()
+    add_library(precompiled_${kind} STATIC EXCLUDE_FROM_ALL "${unit}")
+  endif()
+  set_target_properties(precompiled_${kind} PROPERTIES AUTOMOC OFF)
+  target_link_libraries(precompiled_${kind} PRIVATE ${ARG_LIBRARIES})
+  target_precompile_headers(precompiled_${kind} PRIVATE ${ARG_HEADERS})
+endfunction()
+
+function(posewire_use_precompiled target kind)
+  if(POSEWIRE_PRECOMPILED AND kind)
+    target_precompile_headers(${target} REUSE_FROM precompiled_${kind})
+    target_compile_options(${target} PRIVATE -Winvalid-pch)
+  endif()
+endfunction()
+
+# posewire_library(name SOURCES … [PUBLIC …] [PRIVATE …] [PRECOMPILED kind]): a static library, alias posewire::name,
 # with includes written from the repository root ("core/wire/header.h").
 function(posewire_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
   string(REPLACE "_" "::" alias "${name}")
   add_library(posewire::${alias} ALIAS ${name})
   target_include_directories(${name} PUBLIC "${PROJECT_SOURCE_DIR}")
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  posewire_use_precompiled(${name} "${ARG_PRECOMPILED}")
 endfunction()
 
-# posewire_test(name SOURCES … LIBRARIES … [LABELS …] [ENVIRONMENT …]): a GoogleTest program; each case is a ctest case.
+# posewire_test(name SOURCES … LIBRARIES … [LABELS …] [ENVIRONMENT …] [PRECOMPILED kind]): a GoogleTest program; each case is a ctest case.
 # LABELS is "bytes" for what handles input from outside, "threads" for what runs several threads, "bytes-threads" for both:
 # packaging/test builds these again with sanitizers, as the targets byte_tests and thread_tests.
 function(posewire_test name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;LIBRARIES;LABELS;ENVIRONMENT" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
-  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE POSEWIRE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} posewire::test::support GTest::gmock GTest::gtest_main)
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED test)
+  endif()
+  posewire_use_precompiled(${name} ${ARG_PRECOMPILED})
   set(properties TIMEOUT 300)
   if(ARG_LABELS)
     list(APPEND properties LABELS "${ARG_LABELS}")

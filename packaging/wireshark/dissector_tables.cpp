@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "packaging/wireshark/dissector_tables.h"
 
-#include "core/model/joint_angles.h"
-#include "core/model/points.h"
-#include "core/model/segments.h"
+#include "core/model/body/joint_angles.h"
+#include "core/model/body/points.h"
+#include "core/model/body/segments.h"
 #include "core/wire/header.h"
 #include "core/wire/messages.h"
 #include "core/wire/metadata_text.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/stream_accounting.h"
+#include "core/model/accounting/stream_accounting.h"
 
 #include <algorithm>
 #include <array>

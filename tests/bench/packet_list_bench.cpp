@@ -34,13 +34,13 @@ double millisecondsSince(Clock::time_point begin) {
 void fill(log::PacketLog& log, std::size_t count) {
     wire::Datagram datagram;
     datagram.body = wire::TimeCode{};
-    const auto source = log.sources().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
+    const auto sender = log.senders().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
     std::vector<std::byte> bytes;
     for (std::size_t i = 0; i < count; ++i) {
         datagram.header.sampleCounter = static_cast<std::uint32_t>(i + i / 1000);
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         if (wire::encodeInto(datagram, bytes)) {
-            log.writer().append(bytes, {.stampNs = static_cast<std::int64_t>(i) * 100'000, .source = source});
+            log.writer().append(bytes, {.stampNs = static_cast<std::int64_t>(i) * 100'000, .sender = sender});
         }
     }
     log.writer().publish();

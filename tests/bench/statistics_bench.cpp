@@ -5,7 +5,7 @@
 //   statistics_bench [--check] [--brief]
 // Both are measured in turn, so that a slow spell of the computer hits both; the ratio of the medians counts.
 #include "app/net/receiver.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 #include "tests/bench/udp_bench.h"
 
 #include <QCoreApplication>

@@ -49,14 +49,14 @@ std::vector<std::unique_ptr<Sample>> makeSamples() {
 
 void checkMatching(const filter::Filter& compiled) {
     static const auto samples = makeSamples();
-    const log::SourceInfo source{"192.168.1.20:4001", log::Transport::Udp, 9763};
+    const log::SenderInfo sender{"192.168.1.20:4001", log::Transport::Udp, 9763};
     for (const auto& sample : samples) {
         const wire::Datagram* datagram = sample->isDecoded ? &sample->datagram : nullptr;
-        const filter::Candidate candidate{sample->packet, sample->digest, datagram, &source};
+        const filter::Candidate candidate{sample->packet, sample->digest, datagram, &sender};
         const bool isMatch = compiled.matches(candidate);
         require(isMatch == compiled.matches(candidate));
         if (!compiled.needsDatagram()) {
-            require(isMatch == compiled.matches({sample->packet, sample->digest, nullptr, &source}));
+            require(isMatch == compiled.matches({sample->packet, sample->digest, nullptr, &sender}));
         }
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/filter/filter.h"
-#include "core/model/metadata.h"
+#include "core/model/session/metadata.h"
 #include "core/wire/field_tree.h"
 #include "core/wire/metadata_text.h"
 

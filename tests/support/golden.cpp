@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -24,7 +25,7 @@ std::vector<std::byte> readHexadecimal(const std::filesystem::path& path) {
 
 std::vector<Golden> readGoldens() {
     std::vector<Golden> all;
-    for (const auto& entry : std::filesystem::directory_iterator(POSEWIRE_SOURCE_DIR "/tests/golden")) {
+    for (const auto& entry : std::filesystem::directory_iterator(sourcePath("tests/golden"))) {
         if (entry.path().extension() == ".hex") {
             all.push_back({entry.path().stem().string(), readHexadecimal(entry.path())});
         }
@@ -47,7 +48,7 @@ const Golden& golden(const std::string& name) {
     return found == goldens().end() ? none : *found;
 }
 
-std::vector<std::byte> readBytes(const std::string& path) {
+std::vector<std::byte> readBytes(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(file), {}};
     std::vector<std::byte> bytes(text.size());
@@ -56,7 +57,7 @@ std::vector<std::byte> readBytes(const std::string& path) {
 }
 
 std::vector<std::byte> capture(const std::string& file) {
-    return readBytes(POSEWIRE_SOURCE_DIR "/../shared/captures/" + file);
+    return readBytes(capturesFolder() / file);
 }
 
 } // namespace posewire::test

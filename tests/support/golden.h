@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,6 @@ struct Golden {
 /// A recorded datagram, "mxtp02.bin"; empty where the recordings are not at hand.
 [[nodiscard]] std::vector<std::byte> capture(const std::string& file);
 
-[[nodiscard]] std::vector<std::byte> readBytes(const std::string& path);
+[[nodiscard]] std::vector<std::byte> readBytes(const std::filesystem::path& path);
 
 } // namespace posewire::test

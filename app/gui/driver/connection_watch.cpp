@@ -31,8 +31,8 @@ std::vector<std::byte> bytesOf(const std::string& hexadecimal) {
     return {begin, begin + bytes.size()};
 }
 
-bool isFromNetwork(const model::Source& source) {
-    return source.info.transport == log::Transport::Udp || source.info.transport == log::Transport::Tcp;
+bool isFromNetwork(const model::Sender& sender) {
+    return sender.info.transport == log::Transport::Udp || sender.info.transport == log::Transport::Tcp;
 }
 
 } // namespace
@@ -51,16 +51,16 @@ net::ConnectionFacts connectionFacts(const model::SessionView& session, const Re
         }
     }
     std::int64_t newestNs = openedNs;
-    for (const model::Source& source : session.sources()) {
-        if (!isFromNetwork(source)) {
+    for (const model::Sender& sender : session.senders()) {
+        if (!isFromNetwork(sender)) {
             continue;
         }
-        facts.mxtpDatagrams += source.datagrams + source.malformed;
-        if (source.datagrams + source.malformed != 0) {
-            newestNs = std::max(newestNs, source.lastStampNs);
+        facts.mxtpDatagrams += sender.datagrams + sender.malformed;
+        if (sender.datagrams + sender.malformed != 0) {
+            newestNs = std::max(newestNs, sender.lastStampNs);
         }
-        if (source.foreign != 0) {
-            facts.foreign.push_back({source.info.address, source.foreign, bytesOf(source.firstForeignBytes)});
+        if (sender.foreign != 0) {
+            facts.foreign.push_back({sender.info.address, sender.foreign, bytesOf(sender.firstForeignBytes)});
         }
     }
     facts.silenceNs = std::max<std::int64_t>(0, nowNs - newestNs);

@@ -61,11 +61,11 @@ QString importRawFile(const QString& path, const PacketTaker& take, std::int64_t
         return problem.isEmpty() ? QCoreApplication::translate("RawFileImport", "%1 is empty.").arg(path)
                                  : problem;
     }
-    const log::SourceInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
+    const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
     TimeCodeStamps stamps;
     return visitFile(path, [&](const log::FileRecord& record) {
         const std::int64_t stampNs = endNs - lengthNs + stamps.next(record);
-        take(record.bytes, record.source.value_or(file), log::arrivalOf(record, {}, stampNs));
+        take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stampNs));
     });
 }
 

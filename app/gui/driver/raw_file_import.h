@@ -10,12 +10,12 @@
 
 namespace posewire::gui {
 
-/// Takes one packet of a file on its way to the log; sets `arrival.source` itself.
-using PacketTaker = std::function<void(std::span<const std::byte> bytes, const log::SourceInfo& source,
+/// Takes one packet of a file on its way to the log; sets `arrival.sender` itself.
+using PacketTaker = std::function<void(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                                        const log::Arrival& arrival)>;
 
 /// Reads a file of datagrams. Those of a capture keep their stamps and senders. Those of a raw file are one
-/// source, spaced by their time codes (by their order where those stand still or go back), the newest at
+/// sender, spaced by their time codes (by their order where those stand still or go back), the newest at
 /// `endNs`. The answer is what went wrong, empty for nothing.
 [[nodiscard]] QString importRawFile(const QString& path, const PacketTaker& take, std::int64_t endNs);
 

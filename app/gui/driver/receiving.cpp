@@ -139,8 +139,8 @@ void Receiving::retry() {
 QString Receiving::openFile(const QString& path) {
     const QString problem = importRawFile(
         path,
-        [this](std::span<const std::byte> bytes, const log::SourceInfo& source, const log::Arrival& arrival) {
-            m_receiver.submitWaiting(bytes, source, arrival);
+        [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival) {
+            m_receiver.submitWaiting(bytes, sender, arrival);
         },
         m_clock.wallNs());
     m_receiver.flush();
@@ -201,8 +201,8 @@ std::vector<net::InputStatus> Receiving::openInputs() const {
     return inputs;
 }
 
-SourceChoices Receiving::choices() const {
-    SourceChoices choices{std::vector<InputAddress>{}, {}};
+InputChoices Receiving::choices() const {
+    InputChoices choices{std::vector<InputAddress>{}, {}};
     for (const PortState& state : m_state.ports) {
         choices.inputs->push_back(state.port);
     }

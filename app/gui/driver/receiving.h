@@ -55,7 +55,7 @@ public:
     [[nodiscard]] Relaying& relaying() { return m_relaying; }
 
     /// What is open and forwarded to now.
-    [[nodiscard]] SourceChoices choices() const;
+    [[nodiscard]] InputChoices choices() const;
 
 private:
     struct Totals {

@@ -124,9 +124,9 @@ void SessionDriver::selectPacket(std::uint64_t number) {
         return;
     }
     const bool hasCharacter = digest->type != 0;
-    model::Selection selection{packet->source, std::nullopt, -1, number};
+    model::Selection selection{packet->sender, std::nullopt, -1, number};
     if (hasCharacter) {
-        selection.character = model::CharacterKey{packet->source, digest->character};
+        selection.character = model::CharacterKey{packet->sender, digest->character};
     }
     const model::Selection& before = m_session.selection();
     selection.segment = before.character == selection.character ? before.segment : -1;
@@ -143,8 +143,8 @@ void SessionDriver::setComment(std::uint64_t packet, const QString& comment) {
     announceChange();
 }
 
-void SessionDriver::setOverride(log::SourceId source, const model::SourceOverride& overrides) {
-    m_session.setOverride(source, overrides);
+void SessionDriver::setOverride(log::SenderId sender, const model::SenderOverride& overrides) {
+    m_session.setOverride(sender, overrides);
     announceChange();
 }
 

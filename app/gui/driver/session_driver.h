@@ -5,7 +5,7 @@
 #include "app/gui/driver/demo_sender.h"
 #include "app/gui/driver/health_meter.h"
 #include "app/gui/driver/receiving.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <QObject>
 #include <QTimer>
@@ -54,7 +54,7 @@ public:
     void selectPacket(std::uint64_t number) override;
     void setMarked(std::uint64_t packet, bool isMarked) override;
     void setComment(std::uint64_t packet, const QString& comment) override;
-    void setOverride(log::SourceId source, const model::SourceOverride& overrides) override;
+    void setOverride(log::SenderId sender, const model::SenderOverride& overrides) override;
     void setDisplayFilter(const QString& filter) override;
     void setThresholds(const model::Thresholds& thresholds) override;
     void frameCharacter(const model::CharacterKey& key) override;

@@ -29,42 +29,42 @@ QString unitText(model::LengthUnit unit) {
 }
 
 PropertyValue revision(model::SessionView& view, const Key& key) {
-    const model::Source* source = view.find(key.source);
-    if (source == nullptr) {
+    const model::Sender* sender = view.find(key.sender);
+    if (sender == nullptr) {
         return {};
     }
-    const model::Detection& found = source->detector.result();
+    const model::Detection& found = sender->detector.result();
     const QString detected =
         withEvidence(textOf(model::revisionName(found.revision)), found.revisionEvidence);
     const QString toolTip = tr("Revision of the specification that this sender follows · the evidence");
-    if (!source->overrides.revision) {
+    if (!sender->overrides.revision) {
         return {detected, Health::Unknown, toolTip};
     }
-    return {tr("%1 · as you said").arg(textOf(model::revisionName(source->revision()))), Health::Unknown,
+    return {tr("%1 · as you said").arg(textOf(model::revisionName(sender->revision()))), Health::Unknown,
             toolTip + QLatin1Char('\n') + tr("Detected: %1").arg(detected)};
 }
 
 PropertyValue units(model::SessionView& view, const Key& key) {
-    const model::Source* source = view.find(key.source);
-    if (source == nullptr) {
+    const model::Sender* sender = view.find(key.sender);
+    if (sender == nullptr) {
         return {};
     }
-    const model::Detection& found = source->detector.result();
+    const model::Detection& found = sender->detector.result();
     const QString detected = found.unitEvidence.empty()
                                  ? tr("not known before type 02")
                                  : withEvidence(unitText(found.positionUnit), found.unitEvidence);
     const QString toolTip =
         tr("Unit of positions in types 02, 21 and 24, judged by what a person can be · the evidence");
-    if (!source->overrides.positionUnit) {
+    if (!sender->overrides.positionUnit) {
         return {detected, Health::Unknown, toolTip};
     }
-    return {tr("%1 · as you said").arg(unitText(source->positionUnit())), Health::Unknown,
+    return {tr("%1 · as you said").arg(unitText(sender->positionUnit())), Health::Unknown,
             toolTip + QLatin1Char('\n') + tr("Detected: %1").arg(detected)};
 }
 
 PropertyValue address(model::SessionView& view, const Key& key) {
-    const model::Source* source = view.find(key.source);
-    return source == nullptr ? PropertyValue{} : PropertyValue{QString::fromStdString(source->info.address)};
+    const model::Sender* sender = view.find(key.sender);
+    return sender == nullptr ? PropertyValue{} : PropertyValue{QString::fromStdString(sender->info.address)};
 }
 
 PropertyValue segments(model::SessionView& view, const Key& key) {
@@ -101,7 +101,7 @@ std::vector<Property> characterFacts(model::SessionView& view, const std::option
                                    PropertyValue (*read)(model::SessionView&, const Key&)) {
         return Property{label, [&view, &key, read] { return key ? read(view, *key) : PropertyValue{}; }};
     };
-    return {row(tr("Revision"), revision), row(tr("Units"), units), row(tr("Source"), address),
+    return {row(tr("Revision"), revision), row(tr("Units"), units), row(tr("Sender"), address),
             row(tr("Segments"), segments), row(tr("Null pose"), nullPose)};
 }
 

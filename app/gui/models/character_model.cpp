@@ -16,7 +16,7 @@ namespace posewire::gui {
 namespace {
 
 model::CharacterKey characterOf(const log::StreamKey& key) {
-    return {key.source, key.character};
+    return {key.sender, key.character};
 }
 
 QString transportName(log::Transport transport) {
@@ -36,7 +36,7 @@ QString transportName(log::Transport transport) {
 /// What tells how fast a character comes: its pose, or else the fastest of its streams.
 const model::Stream* leadingStream(model::SessionView& view, const model::CharacterKey& key) {
     for (const std::uint8_t type : std::array<std::uint8_t, 3>{2, 1, 5}) {
-        if (const auto* stream = view.find(log::StreamKey{key.source, key.character, type})) {
+        if (const auto* stream = view.find(log::StreamKey{key.sender, key.character, type})) {
             return stream;
         }
     }
@@ -107,8 +107,8 @@ QVariant CharacterModel::data(const QModelIndex& index, int role) const {
     }
     const Node& node = nodeOf(index);
     switch (node.kind) {
-    case Kind::Source:
-        return sourceData(m_view.sources()[node.entry], index.column(), role);
+    case Kind::Sender:
+        return senderData(m_view.senders()[node.entry], index.column(), role);
     case Kind::Character:
         return characterData(m_view.characters()[node.entry], index.column(), role);
     case Kind::Stream:
@@ -118,25 +118,25 @@ QVariant CharacterModel::data(const QModelIndex& index, int role) const {
 }
 
 /// The state in full, and each contradiction in what the sender sends.
-QString CharacterModel::sourceWords(const model::Source& source) const {
-    QStringList lines{sourceState(m_view, source).display()};
-    for (const model::Contradiction& one : source.contradictions()) {
+QString CharacterModel::senderWords(const model::Sender& sender) const {
+    QStringList lines{senderState(m_view, sender).display()};
+    for (const model::Contradiction& one : sender.contradictions()) {
         lines += healthSymbol(Health::Warning) + QLatin1Char(' ') + QString::fromStdString(one.text);
     }
     lines.removeAll(QString());
     return lines.join(QLatin1Char('\n'));
 }
 
-QVariant CharacterModel::sourceData(const model::Source& source, int column, int role) const {
+QVariant CharacterModel::senderData(const model::Sender& sender, int column, int role) const {
     if (column == kState) {
-        return role == Qt::ToolTipRole ? sourceWords(source) : stateData(sourceState(m_view, source), role);
+        return role == Qt::ToolTipRole ? senderWords(sender) : stateData(senderState(m_view, sender), role);
     }
     if (column == kName) {
-        return role == Qt::DisplayRole ? QString::fromStdString(source.info.address) : QVariant();
+        return role == Qt::DisplayRole ? QString::fromStdString(sender.info.address) : QVariant();
     }
     switch (role) {
     case Qt::DisplayRole:
-        return transportName(source.info.transport);
+        return transportName(sender.info.transport);
     case Qt::ForegroundRole:
         return theme().dim;
     default:

@@ -33,8 +33,8 @@ public:
 private:
     void readRates();
 
-    [[nodiscard]] QString sourceWords(const model::Source& source) const;
-    [[nodiscard]] QVariant sourceData(const model::Source& source, int column, int role) const;
+    [[nodiscard]] QString senderWords(const model::Sender& sender) const;
+    [[nodiscard]] QVariant senderData(const model::Sender& sender, int column, int role) const;
     [[nodiscard]] QVariant characterData(const model::Character& character, int column, int role) const;
     [[nodiscard]] QVariant characterName(const model::Character& character, int role) const;
     [[nodiscard]] QVariant streamData(const model::Stream& stream, int column, int role) const;

@@ -22,7 +22,7 @@ constexpr std::array<std::uint8_t, 11> kClockTypes{2, 1, 5, 21, 22, 23, 20, 24, 
 
 std::uint8_t clockType(model::SessionView& view, const model::CharacterKey& key) {
     for (const std::uint8_t type : kClockTypes) {
-        if (view.find(log::StreamKey{key.source, key.character, type}) != nullptr) {
+        if (view.find(log::StreamKey{key.sender, key.character, type}) != nullptr) {
             return type;
         }
     }
@@ -62,7 +62,7 @@ void ClockHistory::follow(model::SessionView& view, const std::optional<model::C
     }
     const std::int64_t from = std::max(newest->stampNs - kWindowNs, lastStampNs() + 1);
     const std::size_t added =
-        view.visit({key->source, key->character, type}, from, kMostReadings, [this](const auto& message) {
+        view.visit({key->sender, key->character, type}, from, kMostReadings, [this](const auto& message) {
             add({message.stampNs, message.datagram.header.sampleCounter, message.datagram.header.timeCode});
         });
     if (added != 0) {

@@ -60,7 +60,7 @@ const char* conditionOf(EventKind kind) {
 
 /// Conditions that go on are found by the clock: no packet is theirs.
 bool hasPacket(EventKind kind) {
-    return kind != EventKind::SourceDown && kind < EventKind::LossLimit;
+    return kind != EventKind::SenderDown && kind < EventKind::LossLimit;
 }
 
 /// A limit was exceeded in the window before; what is silent has no packets.
@@ -113,8 +113,8 @@ QString severityWord(model::EventSeverity severity) {
 
 QString groupWord(model::EventGroup group) {
     switch (group) {
-    case model::EventGroup::Source:
-        return tr("Source");
+    case model::EventGroup::Sender:
+        return tr("Sender");
     case model::EventGroup::Loss:
         return tr("Loss");
     case model::EventGroup::Content:
@@ -127,10 +127,10 @@ QString groupWord(model::EventGroup group) {
 
 QString whoseWords(model::SessionView& view, const model::Event& event) {
     if (!event.character) {
-        const model::Source* source = view.find(event.source);
-        return source == nullptr ? QString() : QString::fromStdString(source->info.address);
+        const model::Sender* sender = view.find(event.sender);
+        return sender == nullptr ? QString() : QString::fromStdString(sender->info.address);
     }
-    const model::CharacterKey key{event.source, *event.character};
+    const model::CharacterKey key{event.sender, *event.character};
     const QString name = view.find(key) == nullptr ? tr("Character %1").arg(int{*event.character} + 1)
                                                    : characterName(view, key);
     return event.type ? name + QStringLiteral(" · ") + digitsOf(*event.type) : name;
@@ -151,7 +151,7 @@ QString briefWords(const model::Event& event) {
         return tr("time code %1 ms").arg(signedFixed(event.value, 0));
     case EventKind::CharacterConflict:
         return tr("two senders");
-    case EventKind::SourceDown:
+    case EventKind::SenderDown:
     case EventKind::Stale:
     case EventKind::AgeLimit:
         return tr("stale");
@@ -184,9 +184,9 @@ QString packetFilterOf(model::SessionView& view, const model::Event& event) {
     if (event.character) {
         conditions += equals("character", std::to_string(*event.character));
     }
-    const model::Source* source = view.find(event.source);
-    if (source != nullptr && view.sources().size() > 1) {
-        conditions += equals("source", source->info.address);
+    const model::Sender* sender = view.find(event.sender);
+    if (sender != nullptr && view.senders().size() > 1) {
+        conditions += equals("source", sender->info.address);
     }
     conditions +=
         isLimit ? rangeFilter(view, rangeOf(view, event))

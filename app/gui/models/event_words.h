@@ -3,7 +3,7 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/theme/theme.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <QString>
 

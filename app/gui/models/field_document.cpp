@@ -2,8 +2,8 @@
 #include "app/gui/models/field_document.h"
 
 #include "app/gui/models/field_problems.h"
-#include "core/model/character_pose.h"
-#include "core/model/joint_angles.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/body/joint_angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,7 +34,7 @@ FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit unit)
     : m_bytes(packet.bytes.begin(), packet.bytes.end()),
       m_number(packet.number),
       m_stampNs(packet.stampNs),
-      m_source(packet.source),
+      m_sender(packet.sender),
       m_unit(unit) {
     if (packet.flags.skipped) {
         m_kind = model::PacketKind::Skipped;

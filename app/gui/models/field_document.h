@@ -3,9 +3,9 @@
 
 #include "app/gui/theme/theme.h"
 #include "core/log/packet.h"
-#include "core/model/packet_digest.h"
-#include "core/model/points.h"
-#include "core/model/spaces.h"
+#include "core/model/accounting/packet_digest.h"
+#include "core/model/body/points.h"
+#include "core/model/body/spaces.h"
 #include "core/wire/field_tree.h"
 
 #include <QString>
@@ -36,7 +36,7 @@ public:
     [[nodiscard]] bool isEmpty() const { return m_bytes.empty(); }
     [[nodiscard]] std::uint64_t number() const { return m_number; }
     [[nodiscard]] std::int64_t stampNs() const { return m_stampNs; }
-    [[nodiscard]] log::SourceId source() const { return m_source; }
+    [[nodiscard]] log::SenderId sender() const { return m_sender; }
     [[nodiscard]] model::PacketKind kind() const { return m_kind; }
     [[nodiscard]] bool hasHeader() const { return m_hasHeader; }
     [[nodiscard]] std::uint8_t type() const { return m_header.type(); }
@@ -90,7 +90,7 @@ private:
     std::vector<std::byte> m_bytes;
     std::uint64_t m_number = 0;
     std::int64_t m_stampNs = 0;
-    log::SourceId m_source{};
+    log::SenderId m_sender{};
     model::PacketKind m_kind = model::PacketKind::Datagram;
     bool m_hasHeader = false;
     wire::Header m_header;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/field_names.h"
 
-#include "core/model/joint_angles.h"
+#include "core/model/body/joint_angles.h"
 
 #include <QCoreApplication>
 

@@ -24,8 +24,8 @@ QString percent(const std::optional<double>& share, int decimals = 0) {
 
 std::uint64_t droppedHere(model::SessionView& view) {
     std::uint64_t dropped = 0;
-    for (const model::Source& source : view.sources()) {
-        dropped += source.kernelDrops;
+    for (const model::Sender& sender : view.senders()) {
+        dropped += sender.kernelDrops;
     }
     return dropped;
 }

@@ -72,7 +72,7 @@ std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::ui
         const bool isAlike = isDatagram ? digest.type == own->type && digest.character == own->character
                                         : digest.kind == own->kind;
         if (isAlike) {
-            if (const auto found = view.packet(at); found && found->source == ownPacket->source) {
+            if (const auto found = view.packet(at); found && found->sender == ownPacket->sender) {
                 return at;
             }
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <optional>
 
@@ -13,7 +13,7 @@ namespace posewire::gui {
 [[nodiscard]] std::optional<std::uint64_t> inspectedPacket(model::SessionView& view,
                                                            std::uint8_t preferredType);
 
-/// The nearest packet of the same source, character and type before (-1) or after (+1) one; for bytes that
+/// The nearest packet of the same sender, character and type before (-1) or after (+1) one; for bytes that
 /// are no datagram the nearest of their kind. Nothing where there is none.
 [[nodiscard]] std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
                                                              int direction);

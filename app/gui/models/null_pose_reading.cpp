@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/null_pose_reading.h"
 
+#include "core/model/session/null_pose_evidence.h"
+
 #include "app/gui/models/shown_character.h"
 
 namespace posewire::gui {

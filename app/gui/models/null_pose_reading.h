@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/null_pose_findings.h"
-#include "core/model/null_pose_measures.h"
-#include "core/model/session.h"
+#include "core/model/body/null_pose_findings.h"
+#include "core/model/body/null_pose_measures.h"
+#include "core/model/session/session.h"
 
 #include <optional>
 #include <vector>

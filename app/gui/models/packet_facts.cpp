@@ -145,7 +145,7 @@ std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t n
     if (!packet) {
         return std::nullopt;
     }
-    PacketFacts facts{number, packet->stampNs, packet->source, packet->bytes.size(), *digest, {}, {}, {}};
+    PacketFacts facts{number, packet->stampNs, packet->sender, packet->bytes.size(), *digest, {}, {}, {}};
     if (digest->kind == model::PacketKind::Datagram || digest->kind == model::PacketKind::Malformed) {
         if (const auto header = wire::decodeHeader(packet->bytes)) {
             facts.header = *header;
@@ -203,7 +203,7 @@ QString packetPart(model::SessionView& view, const PacketFacts& facts) {
         }
         const auto packet = view.packet(number);
         const auto header = packet ? wire::decodeHeader(packet->bytes) : wire::Result<wire::Header>();
-        if (packet && packet->source == facts.source && header && header->isLast() &&
+        if (packet && packet->sender == facts.sender && header && header->isLast() &&
             header->sampleCounter == own.sampleCounter && header->datagramIndex() > own.datagramIndex()) {
             return place + QLatin1Char('/') + QString::number(header->datagramIndex() + 1);
         }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 #include "core/wire/header.h"
 
 #include <QString>
@@ -17,7 +17,7 @@ namespace posewire::gui {
 struct PacketFacts {
     std::uint64_t number = 0;
     std::int64_t stampNs = 0;
-    log::SourceId source{};
+    log::SenderId sender{};
     std::size_t size = 0;
     model::PacketDigest digest;
     std::optional<wire::Header> header;

@@ -95,8 +95,8 @@ void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::
         }
         const model::PacketDigest& digest = excerpt.at(number);
         const bool isRead = !packet->flags.skipped && wire::decodeInto(packet->bytes, m_datagram).has_value();
-        const log::SourceInfo* source = m_log.sources().find(packet->source);
-        if (m_filter.matches({*packet, digest, isRead ? &m_datagram : nullptr, source, m_firstStampNs})) {
+        const log::SenderInfo* sender = m_log.senders().find(packet->sender);
+        if (m_filter.matches({*packet, digest, isRead ? &m_datagram : nullptr, sender, m_firstStampNs})) {
             found.packets.push_back(number);
             if (digest.isProblem()) {
                 found.problems.push_back(number);

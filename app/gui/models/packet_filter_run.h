@@ -4,7 +4,7 @@
 #include "core/filter/filter.h"
 #include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
-#include "core/model/packet_digest.h"
+#include "core/model/accounting/packet_digest.h"
 
 #include <atomic>
 #include <condition_variable>

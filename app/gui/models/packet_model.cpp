@@ -31,7 +31,7 @@ constexpr std::array<ColumnText, PacketModel::kColumnCount> kColumns{{
      QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "When it arrived; the context menu has other ways")},
     {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Δ ms"),
      QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Since the packet before it in its stream")},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Source"),
+    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Sender"),
      QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Address and port of the sender"), false},
     {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Type"),
      QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Message type"), false},
@@ -258,8 +258,8 @@ QString PacketModel::text(const PacketFacts& facts, int row, int column) const {
         return timeText(facts);
     case kDelta:
         return fixed(deltaMs(facts, row), 2);
-    case kSource: {
-        const log::SourceInfo* info = m_view.log().sources().find(facts.source);
+    case kSender: {
+        const log::SenderInfo* info = m_view.log().senders().find(facts.sender);
         return info != nullptr ? QString::fromStdString(info->address) : QString();
     }
     case kType:
@@ -327,12 +327,12 @@ QVariant PacketModel::data(const QModelIndex& index, int role) const {
         return role == Qt::DisplayRole && column == kNumber ? QVariant(grouped(packetAt(row))) : QVariant();
     }
     const bool hasCharacter = column == kCharacter && shown->header.has_value();
-    const model::CharacterKey key{shown->source, shown->digest.character};
+    const model::CharacterKey key{shown->sender, shown->digest.character};
     switch (role) {
     case Qt::DisplayRole:
         return text(*shown, row, column);
     case Qt::ToolTipRole:
-        return column == kNote || column == kType || column == kSource ? text(*shown, row, column)
+        return column == kNote || column == kType || column == kSender ? text(*shown, row, column)
                                                                        : QVariant();
     case Qt::ForegroundRole:
         return colour(*shown, column);

@@ -26,7 +26,7 @@ public:
         kNumber,
         kTime,
         kDelta,
-        kSource,
+        kSender,
         kType,
         kCharacter,
         kSample,

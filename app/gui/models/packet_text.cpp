@@ -51,9 +51,9 @@ QString cArray(wire::Bytes bytes, std::uint64_t number) {
 }
 
 QString json(model::SessionView& view, const log::Packet& packet) {
-    const log::SourceInfo* source = view.log().sources().find(packet.source);
+    const log::SenderInfo* sender = view.log().senders().find(packet.sender);
     const exporting::DatagramPlace place{packet.number, 0, packet.stampNs,
-                                         source == nullptr ? std::nullopt : std::optional(source->address)};
+                                         sender == nullptr ? std::nullopt : std::optional(sender->address)};
     const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
                                                     : exporting::datagramJson(place, packet.bytes);
     return QString::fromStdString(object) + QLatin1Char('\n');
@@ -172,9 +172,9 @@ QString packetCellFilter(model::SessionView& view, std::uint64_t number, int col
         return digest->deltaS < 0
                    ? QString()
                    : QStringLiteral("delta >= %1").arg(static_cast<double>(digest->deltaS), 0, 'f', 6);
-    case PacketModel::kSource: {
-        const log::SourceInfo* source = view.log().sources().find(packet->source);
-        return source == nullptr ? QString() : expression("source", QString::fromStdString(source->address));
+    case PacketModel::kSender: {
+        const log::SenderInfo* sender = view.log().senders().find(packet->sender);
+        return sender == nullptr ? QString() : expression("source", QString::fromStdString(sender->address));
     }
     case PacketModel::kSize:
         return expression("size", QString::number(packet->bytes.size()));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/range_figures.h"
-#include "core/model/session.h"
+#include "core/model/accounting/range_figures.h"
+#include "core/model/session/session.h"
 
 #include <vector>
 

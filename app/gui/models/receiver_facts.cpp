@@ -13,10 +13,10 @@ QString tr(const char* text) {
     return QCoreApplication::translate("ReceiverFacts", text);
 }
 
-std::uint64_t sum(model::SessionView& view, std::uint64_t model::Source::*count) {
+std::uint64_t sum(model::SessionView& view, std::uint64_t model::Sender::*count) {
     std::uint64_t total = 0;
-    for (const model::Source& source : view.sources()) {
-        total += source.*count;
+    for (const model::Sender& sender : view.senders()) {
+        total += sender.*count;
     }
     return total;
 }
@@ -35,19 +35,19 @@ PropertyValue packets(model::SessionView& view) {
 }
 
 PropertyValue droppedHere(model::SessionView& view) {
-    const std::uint64_t count = sum(view, &model::Source::kernelDrops);
+    const std::uint64_t count = sum(view, &model::Sender::kernelDrops);
     return {grouped(count), count == 0 ? Health::Good : Health::Error,
             tr("Datagrams that reached this computer and found its receive buffer full (SO_RXQ_OVFL)")};
 }
 
 PropertyValue malformed(model::SessionView& view) {
-    const std::uint64_t count = sum(view, &model::Source::malformed);
+    const std::uint64_t count = sum(view, &model::Sender::malformed);
     return {grouped(count), count == 0 ? Health::Good : Health::Error,
             tr("Datagrams that begin with MXTP and cannot be decoded")};
 }
 
 PropertyValue foreign(model::SessionView& view) {
-    const std::uint64_t count = sum(view, &model::Source::foreign);
+    const std::uint64_t count = sum(view, &model::Sender::foreign);
     return {grouped(count), count == 0 ? Health::Good : Health::Warning,
             tr("Datagrams that do not begin with MXTP: another program sends to this port")};
 }

@@ -12,7 +12,7 @@ std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
     }
     const auto characters = view.currentCharacters();
     const auto first = std::ranges::find_if(characters, [&](const model::Character* character) {
-        return !selection.source || character->key.source == *selection.source;
+        return !selection.sender || character->key.sender == *selection.sender;
     });
     if (first == characters.end()) {
         return std::nullopt;
@@ -25,7 +25,7 @@ model::Selection selectionOf(model::SessionView& view, const model::CharacterKey
     if (selection.character != key) {
         selection.segment = -1;
     }
-    selection.source = key.source;
+    selection.sender = key.sender;
     selection.character = key;
     return selection;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <QColor>
 #include <QString>
@@ -11,7 +11,7 @@
 namespace posewire::gui {
 
 /// The character that panels for one character show: the selected one, else the first that appeared (of the
-/// selected source, where a source is selected). Nothing where there is none.
+/// selected sender, where a sender is selected). Nothing where there is none.
 [[nodiscard]] std::optional<model::CharacterKey> shownCharacter(model::SessionView& view);
 
 /// The selection with another character; the segment goes with the character.

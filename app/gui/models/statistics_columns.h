@@ -3,7 +3,7 @@
 
 #include "app/gui/models/columns.h"
 #include "app/gui/theme/theme.h"
-#include "core/model/range_figures.h"
+#include "core/model/accounting/range_figures.h"
 
 #include <QString>
 

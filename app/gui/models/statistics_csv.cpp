@@ -24,10 +24,10 @@ bool isFigure(int column) {
 }
 
 QString lineOf(model::SessionView& view, const model::Stream& stream, const StatisticsFigures& figures) {
-    const model::CharacterKey key{stream.key.source, stream.key.character};
-    const model::Source* source = view.find(key.source);
+    const model::CharacterKey key{stream.key.sender, stream.key.character};
+    const model::Sender* sender = view.find(key.sender);
     const auto digits = wire::typeDigits(stream.key.type);
-    QStringList cells{source == nullptr ? QString() : csvCell(QString::fromStdString(source->info.address)),
+    QStringList cells{sender == nullptr ? QString() : csvCell(QString::fromStdString(sender->info.address)),
                       QString::number(key.character), csvCell(characterName(view, key)),
                       QString::fromLatin1(digits.data(), 2)};
     for (int column = 0; column < kStatisticsColumns; ++column) {
@@ -41,7 +41,7 @@ QString lineOf(model::SessionView& view, const model::Stream& stream, const Stat
 } // namespace
 
 QString StatisticsModel::csv() const {
-    QStringList titles{tr("Source"), tr("Character"), tr("Name"), tr("Type")};
+    QStringList titles{tr("Sender"), tr("Character"), tr("Name"), tr("Type")};
     for (int column = 0; column < kStatisticsColumns; ++column) {
         if (isFigure(column)) {
             titles += csvCell(headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
@@ -49,9 +49,9 @@ QString StatisticsModel::csv() const {
     }
     QString text = titles.join(QLatin1Char(',')) + QStringLiteral("\r\n");
     for (int i = 0; i < rowCount(); ++i) {
-        const QModelIndex source = index(i, 0);
-        for (int j = 0; j < rowCount(source); ++j) {
-            const QModelIndex character = index(j, 0, source);
+        const QModelIndex sender = index(i, 0);
+        for (int j = 0; j < rowCount(sender); ++j) {
+            const QModelIndex character = index(j, 0, sender);
             for (int k = 0; k < rowCount(character); ++k) {
                 const QModelIndex row = index(k, 0, character);
                 text += lineOf(view(), *stream(row), figures(row)) + QStringLiteral("\r\n");

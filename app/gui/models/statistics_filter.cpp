@@ -48,9 +48,9 @@ const char* troubleCondition(Column column) {
 
 void addRow(model::SessionView& view, const StatisticsModel& model, const QModelIndex& index,
             QStringList& conditions) {
-    const auto source = model.source(index);
+    const auto sender = model.sender(index);
     const auto character = model.character(index);
-    const model::Source* sender = source ? view.find(*source) : nullptr;
+    const model::Sender* found = sender ? view.find(*sender) : nullptr;
     if (const model::Stream* stream = model.stream(index)) {
         const auto digits = wire::typeDigits(stream->key.type);
         conditions += condition("type", std::string(digits.data(), 2));
@@ -58,8 +58,8 @@ void addRow(model::SessionView& view, const StatisticsModel& model, const QModel
     if (character) {
         conditions += condition("character", std::to_string(character->character));
     }
-    if (sender != nullptr && (!character || view.sources().size() > 1)) {
-        conditions += condition("source", sender->info.address);
+    if (found != nullptr && (!character || view.senders().size() > 1)) {
+        conditions += condition("source", found->info.address);
     }
 }
 

@@ -75,10 +75,10 @@ StatisticsFigures StatisticsModel::sumOf(const QModelIndex& index) const {
     for (int row = 0; row < rowCount(parent); ++row) {
         sum.add(figures(this->index(row, 0, parent)));
     }
-    if (nodeOf(index).kind == Kind::Source) {
-        const model::Source& source = view().sources()[nodeOf(index).entry]; // also those without a header
+    if (nodeOf(index).kind == Kind::Sender) {
+        const model::Sender& sender = view().senders()[nodeOf(index).entry]; // also those without a header
         sum.range.malformed =
-            m_range ? source.history.malformedBetween(m_range->fromNs, m_range->toNs) : source.malformed;
+            m_range ? sender.history.malformedBetween(m_range->fromNs, m_range->toNs) : sender.malformed;
     }
     return sum;
 }
@@ -162,7 +162,7 @@ QVariant StatisticsModel::nameData(const QModelIndex& index, int role) const {
     }
     const auto key = character(index);
     if (!key) {
-        const model::Source& shown = view().sources()[nodeOf(index).entry];
+        const model::Sender& shown = view().senders()[nodeOf(index).entry];
         return role == Qt::DisplayRole ? QString::fromStdString(shown.info.address) : QVariant();
     }
     switch (role) {

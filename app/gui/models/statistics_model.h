@@ -12,7 +12,7 @@
 
 namespace posewire::gui {
 
-/// Every figure of every stream, with sums for each character and source, over
+/// Every figure of every stream, with sums for each character and sender, over
 /// the range that is chosen. Over all there is they go on while the display is
 /// paused. Figures are made when they are asked for, once a refresh, and curves
 /// once a second.
@@ -34,7 +34,7 @@ public:
     /// The range of the figures; nothing for all.
     [[nodiscard]] const std::optional<model::TimeRange>& range() const { return m_range; }
 
-    /// A line for each stream, with titles (RFC 4180): source, character, type,
+    /// A line for each stream, with titles (RFC 4180): sender, character, type,
     /// and every figure.
     [[nodiscard]] QString csv() const;
 

@@ -44,7 +44,7 @@ State countState(std::uint64_t malformed, std::uint64_t lost) {
     return {lost == 0 ? Health::Good : Health::Warning, grouped(lost)};
 }
 
-/// Another source has taken over: nothing is wrong, and nothing more will come.
+/// Another sender has taken over: nothing is wrong, and nothing more will come.
 State ended() {
     return {Health::Unknown, tr("ended")};
 }
@@ -53,7 +53,7 @@ State ended() {
 std::uint64_t lostOf(model::SessionView& view, const model::CharacterKey& key) {
     std::uint64_t lost = 0;
     for (const model::Stream& stream : view.streams()) {
-        if (stream.key.source == key.source && stream.key.character == key.character) {
+        if (stream.key.sender == key.sender && stream.key.character == key.character) {
             lost = std::max(lost, stream.accounting.counts().lost);
         }
     }
@@ -62,15 +62,15 @@ std::uint64_t lostOf(model::SessionView& view, const model::CharacterKey& key) {
 
 /// What does not fit together about the sender, in brief; empty where all does.
 QString contradictionOf(model::SessionView& view, const model::CharacterKey& key) {
-    const model::Source* source = view.find(key.source);
-    const auto found = source != nullptr ? source->contradictions() : std::vector<model::Contradiction>();
+    const model::Sender* sender = view.find(key.sender);
+    const auto found = sender != nullptr ? sender->contradictions() : std::vector<model::Contradiction>();
     return found.empty() ? QString() : QString::fromStdString(found.front().brief);
 }
 
-bool hasEnded(model::SessionView& view, const model::Source& source) {
+bool hasEnded(model::SessionView& view, const model::Sender& sender) {
     bool hasCharacters = false;
     for (const model::Character& character : view.characters()) {
-        if (character.key.source == source.id) {
+        if (character.key.sender == sender.id) {
             hasCharacters = true;
             if (!view.isSuperseded(character.key)) {
                 return false;
@@ -95,7 +95,7 @@ double streamAge(model::SessionView& view, const model::Stream& stream) {
 }
 
 State streamState(model::SessionView& view, const model::Stream& stream) {
-    if (view.isSuperseded({stream.key.source, stream.key.character})) {
+    if (view.isSuperseded({stream.key.sender, stream.key.character})) {
         return ended();
     }
     if (wire::isSampled(stream.key.type)) {
@@ -126,24 +126,24 @@ State characterState(model::SessionView& view, const model::Character& character
     return {health, contradictionOf(view, character.key)};
 }
 
-State sourceState(model::SessionView& view, const model::Source& source) {
-    if (hasEnded(view, source)) {
+State senderState(model::SessionView& view, const model::Sender& sender) {
+    if (hasEnded(view, sender)) {
         return ended();
     }
-    const State age = ageState(ageOf(view, source.lastStampNs), 0.0);
+    const State age = ageState(ageOf(view, sender.lastStampNs), 0.0);
     if (age.health != Health::Unknown) {
         return age;
     }
-    if (source.kernelDrops != 0) {
-        return {Health::Error, tr("%1 dropped here").arg(grouped(source.kernelDrops))};
+    if (sender.kernelDrops != 0) {
+        return {Health::Error, tr("%1 dropped here").arg(grouped(sender.kernelDrops))};
     }
-    if (source.malformed != 0) {
-        return {Health::Error, tr("%1 malformed").arg(grouped(source.malformed))};
+    if (sender.malformed != 0) {
+        return {Health::Error, tr("%1 malformed").arg(grouped(sender.malformed))};
     }
-    if (source.foreign != 0) {
-        return {Health::Warning, tr("%1 foreign").arg(grouped(source.foreign))};
+    if (sender.foreign != 0) {
+        return {Health::Warning, tr("%1 foreign").arg(grouped(sender.foreign))};
     }
-    if (const auto found = source.contradictions(); !found.empty()) {
+    if (const auto found = sender.contradictions(); !found.empty()) {
         return {Health::Warning, QString::fromStdString(found.front().brief)};
     }
     return {};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <QString>
 
@@ -12,7 +12,7 @@ namespace posewire::gui {
 inline constexpr double kSilentAge = model::Condition::kSilentS;
 inline constexpr double kStaleAge = model::Condition::kStaleS;
 
-/// Whether a stream, character or source is well, in one cell: shape, colour and text.
+/// Whether a stream, character or sender is well, in one cell: shape, colour and text.
 struct State {
     Health health = Health::Unknown;
     QString text;
@@ -29,7 +29,7 @@ struct State {
 [[nodiscard]] State streamState(model::SessionView& view, const model::Stream& stream);
 /// The session's own judgement (Session::conditionOf) in a few words; what was lost in all where it is good.
 [[nodiscard]] State characterState(model::SessionView& view, const model::Character& character);
-[[nodiscard]] State sourceState(model::SessionView& view, const model::Source& source);
+[[nodiscard]] State senderState(model::SessionView& view, const model::Sender& sender);
 
 /// True while data keep coming: no older than kStaleAge.
 [[nodiscard]] bool isLive(model::SessionView& view, const model::Character& character);

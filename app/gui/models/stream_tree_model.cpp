@@ -10,7 +10,7 @@ namespace {
 constexpr int kNone = -1;
 
 model::CharacterKey characterOf(const log::StreamKey& key) {
-    return {key.source, key.character};
+    return {key.sender, key.character};
 }
 
 } // namespace
@@ -19,10 +19,10 @@ StreamTreeModel::StreamTreeModel(model::SessionView& view, QObject* parent)
     : QAbstractItemModel(parent), m_view(view) {}
 
 void StreamTreeModel::insertNew() {
-    m_sourceNodes.resize(m_view.sources().size(), kNone);
+    m_senderNodes.resize(m_view.senders().size(), kNone);
     m_characterNodes.resize(m_view.characters().size(), kNone);
     m_streamNodes.resize(m_view.streams().size(), kNone);
-    if (!insertSources() && !insertCharacters()) {
+    if (!insertSenders() && !insertCharacters()) {
         insertStreams();
     }
 }
@@ -33,15 +33,15 @@ void StreamTreeModel::announceChange() {
     }
 }
 
-bool StreamTreeModel::insertSources() {
+bool StreamTreeModel::insertSenders() {
     const std::size_t first = m_roots.size();
-    const std::size_t end = m_sourceNodes.size();
+    const std::size_t end = m_senderNodes.size();
     if (first == end) {
         return false;
     }
     beginInsertRows({}, static_cast<int>(first), static_cast<int>(end) - 1);
     for (std::size_t entry = first; entry < end; ++entry) {
-        addSource(entry);
+        addSender(entry);
     }
     endInsertRows();
     return true;
@@ -90,11 +90,11 @@ int StreamTreeModel::addNode(Kind kind, std::size_t entry, int parent) {
     return node;
 }
 
-void StreamTreeModel::addSource(std::size_t entry) {
-    m_sourceNodes[entry] = addNode(Kind::Source, entry, kNone);
+void StreamTreeModel::addSender(std::size_t entry) {
+    m_senderNodes[entry] = addNode(Kind::Sender, entry, kNone);
     for (std::size_t i = 0; i < m_characterNodes.size(); ++i) {
-        if (m_characterNodes[i] == kNone && m_view.characters()[i].key.source == m_view.sources()[entry].id) {
-            addCharacter(i, m_sourceNodes[entry]);
+        if (m_characterNodes[i] == kNone && m_view.characters()[i].key.sender == m_view.senders()[entry].id) {
+            addCharacter(i, m_senderNodes[entry]);
         }
     }
 }
@@ -124,11 +124,11 @@ QModelIndex StreamTreeModel::indexOfNode(int node) const {
 }
 
 int StreamTreeModel::parentOfCharacter(std::size_t entry) const {
-    const log::SourceId source = m_view.characters()[entry].key.source;
-    const auto found = std::ranges::find(m_view.sources(), source, &model::Source::id);
-    return found == m_view.sources().end()
+    const log::SenderId sender = m_view.characters()[entry].key.sender;
+    const auto found = std::ranges::find(m_view.senders(), sender, &model::Sender::id);
+    return found == m_view.senders().end()
                ? kNone
-               : m_sourceNodes[static_cast<std::size_t>(found - m_view.sources().begin())];
+               : m_senderNodes[static_cast<std::size_t>(found - m_view.senders().begin())];
 }
 
 int StreamTreeModel::parentOfStream(std::size_t entry) const {
@@ -146,18 +146,18 @@ std::optional<model::CharacterKey> StreamTreeModel::character(const QModelIndex&
         return m_view.characters()[node.entry].key;
     case Kind::Stream:
         return characterOf(m_view.streams()[node.entry].key);
-    case Kind::Source:
+    case Kind::Sender:
         break;
     }
     return std::nullopt;
 }
 
-std::optional<log::SourceId> StreamTreeModel::source(const QModelIndex& index) const {
+std::optional<log::SenderId> StreamTreeModel::sender(const QModelIndex& index) const {
     if (!index.isValid()) {
         return std::nullopt;
     }
     const auto key = character(index);
-    return key ? key->source : m_view.sources()[nodeOf(index).entry].id;
+    return key ? key->sender : m_view.senders()[nodeOf(index).entry].id;
 }
 
 const model::Stream* StreamTreeModel::stream(const QModelIndex& index) const {

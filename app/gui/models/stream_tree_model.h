@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <QAbstractItemModel>
 
@@ -10,7 +10,7 @@
 
 namespace posewire::gui {
 
-/// The rows of tables that show source > character > stream, each in the order of first appearance, so that
+/// The rows of tables that show sender > character > stream, each in the order of first appearance, so that
 /// rows never jump. What stands in them is up to whoever derives from this.
 class StreamTreeModel : public QAbstractItemModel {
     Q_OBJECT
@@ -18,9 +18,9 @@ class StreamTreeModel : public QAbstractItemModel {
 public:
     explicit StreamTreeModel(model::SessionView& view, QObject* parent = nullptr);
 
-    /// What a row stands for; nothing above its own level is filled in for sources.
+    /// What a row stands for; nothing above its own level is filled in for senders.
     [[nodiscard]] std::optional<model::CharacterKey> character(const QModelIndex& index) const;
-    [[nodiscard]] std::optional<log::SourceId> source(const QModelIndex& index) const;
+    [[nodiscard]] std::optional<log::SenderId> sender(const QModelIndex& index) const;
     /// Null where the row is not one of a stream.
     [[nodiscard]] const model::Stream* stream(const QModelIndex& index) const;
     /// The row of a character, or an invalid index.
@@ -31,11 +31,11 @@ public:
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
 
 protected:
-    enum class Kind : std::uint8_t { Source, Character, Stream };
+    enum class Kind : std::uint8_t { Sender, Character, Stream };
     struct Node {
         Kind kind;
         std::size_t entry; ///< in the session's list of its kind
-        int parent;        ///< node, -1 for sources
+        int parent;        ///< node, -1 for senders
         int row;
         std::vector<int> children;
     };
@@ -43,21 +43,21 @@ protected:
     /// Announces at most one insertion: what appears under several parents at once arrives over the next
     /// calls.
     void insertNew();
-    /// Announces that anything may have changed, once, for the sources; views repaint what stands under them
+    /// Announces that anything may have changed, once, for the senders; views repaint what stands under them
     /// too.
     void announceChange();
     [[nodiscard]] const Node& nodeOf(const QModelIndex& index) const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }
 
 private:
-    bool insertSources();
+    bool insertSenders();
     bool insertCharacters();
     bool insertStreams();
     /// Adds the entries without a node that have the same parent as the first of them.
     bool insertChildren(const std::vector<int>& nodes, int (StreamTreeModel::*parentOf)(std::size_t) const,
                         void (StreamTreeModel::*add)(std::size_t, int));
     int addNode(Kind kind, std::size_t entry, int parent);
-    void addSource(std::size_t entry);
+    void addSender(std::size_t entry);
     void addCharacter(std::size_t entry, int parent);
     void addStream(std::size_t entry, int parent);
     [[nodiscard]] QModelIndex indexOfNode(int node) const;
@@ -67,7 +67,7 @@ private:
     model::SessionView& m_view;
     std::vector<Node> m_nodes;
     std::vector<int> m_roots;
-    std::vector<int> m_sourceNodes; ///< by place in the session's list; -1 before the row is there
+    std::vector<int> m_senderNodes; ///< by place in the session's list; -1 before the row is there
     std::vector<int> m_characterNodes;
     std::vector<int> m_streamNodes;
 };

@@ -2,7 +2,7 @@
 #include "app/gui/models/tracker_model.h"
 
 #include "app/gui/models/text.h"
-#include "core/model/spaces.h"
+#include "core/model/body/spaces.h"
 
 #include <QCoreApplication>
 

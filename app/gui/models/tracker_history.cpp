@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/tracker_history.h"
 
-#include "core/model/spaces.h"
+#include "core/model/body/spaces.h"
 
 #include <algorithm>
 #include <array>
@@ -53,7 +53,7 @@ void TrackerHistory::follow(model::SessionView& view, const std::optional<model:
     if (newest == nullptr) {
         return;
     }
-    const log::StreamKey stream{key->source, key->character, wire::TrackerKinematics::kType};
+    const log::StreamKey stream{key->sender, key->character, wire::TrackerKinematics::kType};
     const model::Stream* figures = view.find(stream);
     const std::uint32_t step = figures == nullptr ? 0 : figures->accounting.step();
     const std::int64_t from = std::max(newest->stampNs - kPlotNs, m_lastStampNs + 1);

@@ -4,7 +4,7 @@
 #include "app/gui/models/columns.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
-#include "core/model/segments.h"
+#include "core/model/body/segments.h"
 
 #include <algorithm>
 #include <array>

@@ -81,7 +81,7 @@ void CharactersPanel::followSelection() {
     m_followed = selection;
     const QModelIndex current = m_table->currentIndex();
     const bool isAlreadyThere = selection.character ? m_model.character(current) == selection.character
-                                                    : m_model.source(current) == selection.source;
+                                                    : m_model.sender(current) == selection.sender;
     if (isAlreadyThere) {
         return;
     }
@@ -98,7 +98,7 @@ void CharactersPanel::select(const QModelIndex& index) {
     }
     const auto key = m_model.character(index);
     model::Selection selection = key ? selectionOf(m_view, *key) : model::Selection{};
-    selection.source = m_model.source(index);
+    selection.sender = m_model.sender(index);
     m_commands.select(selection);
 }
 

@@ -88,7 +88,7 @@ void DetectionBar::addRevision(const QString& text, std::optional<Revision> revi
     action->setData(revision ? QVariant(static_cast<int>(*revision)) : QVariant());
     m_revisions->addAction(action);
     connect(action, &QAction::triggered, this,
-            [this, revision] { declare([&](model::SourceOverride& said) { said.revision = revision; }); });
+            [this, revision] { declare([&](model::SenderOverride& said) { said.revision = revision; }); });
 }
 
 void DetectionBar::addUnit(const QString& text, std::optional<LengthUnit> unit) {
@@ -97,22 +97,22 @@ void DetectionBar::addUnit(const QString& text, std::optional<LengthUnit> unit) 
     action->setData(unit ? QVariant(static_cast<int>(*unit)) : QVariant());
     m_units->addAction(action);
     connect(action, &QAction::triggered, this,
-            [this, unit] { declare([&](model::SourceOverride& said) { said.positionUnit = unit; }); });
+            [this, unit] { declare([&](model::SenderOverride& said) { said.positionUnit = unit; }); });
 }
 
-void DetectionBar::declare(const std::function<void(model::SourceOverride&)>& change) {
-    const model::Source* source = m_source ? m_view.find(*m_source) : nullptr;
-    if (source == nullptr) {
+void DetectionBar::declare(const std::function<void(model::SenderOverride&)>& change) {
+    const model::Sender* sender = m_sender ? m_view.find(*m_sender) : nullptr;
+    if (sender == nullptr) {
         return;
     }
-    model::SourceOverride overrides = source->overrides;
+    model::SenderOverride overrides = sender->overrides;
     change(overrides);
-    m_commands.setOverride(*m_source, overrides);
+    m_commands.setOverride(*m_sender, overrides);
 }
 
-void DetectionBar::showSource(std::optional<log::SourceId> source) {
-    m_source = source;
-    const model::Source* found = source ? m_view.find(*source) : nullptr;
+void DetectionBar::showSender(std::optional<log::SenderId> sender) {
+    m_sender = sender;
+    const model::Sender* found = sender ? m_view.find(*sender) : nullptr;
     setVisible(found != nullptr);
     if (found == nullptr) {
         return;
@@ -124,9 +124,9 @@ void DetectionBar::showSource(std::optional<log::SourceId> source) {
     showContradictions(*found);
 }
 
-void DetectionBar::showContradictions(const model::Source& source) {
+void DetectionBar::showContradictions(const model::Sender& sender) {
     QStringList lines;
-    for (const model::Contradiction& one : source.contradictions()) {
+    for (const model::Contradiction& one : sender.contradictions()) {
         lines += healthSymbol(Health::Warning) + QLatin1Char(' ') + QString::fromStdString(one.text);
     }
     m_contradictions->setVisible(!lines.isEmpty());

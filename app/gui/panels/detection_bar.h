@@ -22,19 +22,19 @@ class DetectionBar : public QWidget {
 public:
     DetectionBar(model::SessionView& view, Commands& commands, QWidget* parent);
 
-    /// `source` is whom the choices are about; without one the bar is hidden.
-    void showSource(std::optional<log::SourceId> source);
+    /// `sender` is whom the choices are about; without one the bar is hidden.
+    void showSender(std::optional<log::SenderId> sender);
 
 private:
     QToolButton* addButton(const QString& toolTip, QActionGroup*& group);
     void addRevision(const QString& text, std::optional<model::Revision> revision);
     void addUnit(const QString& text, std::optional<model::LengthUnit> unit);
-    void declare(const std::function<void(model::SourceOverride&)>& change);
-    void showContradictions(const model::Source& source);
+    void declare(const std::function<void(model::SenderOverride&)>& change);
+    void showContradictions(const model::Sender& sender);
 
     model::SessionView& m_view;
     Commands& m_commands;
-    std::optional<log::SourceId> m_source;
+    std::optional<log::SenderId> m_sender;
     QLabel* m_contradictions;
     QActionGroup* m_revisions = nullptr;
     QActionGroup* m_units = nullptr;

@@ -19,9 +19,9 @@ namespace {
 
 constexpr int kDetailLines = 4;
 
-model::LengthUnit unitOf(model::SessionView& view, log::SourceId id) {
-    const model::Source* source = view.find(id);
-    return source == nullptr ? model::LengthUnit::Metre : source->positionUnit();
+model::LengthUnit unitOf(model::SessionView& view, log::SenderId id) {
+    const model::Sender* sender = view.find(id);
+    return sender == nullptr ? model::LengthUnit::Metre : sender->positionUnit();
 }
 
 QString coloured(const QColor& colour, const QString& text) {
@@ -168,8 +168,8 @@ void InspectorPanel::refresh() {
         return;
     }
     const bool isNew = !m_isShown || m_document->number() != packet->number ||
-                       m_document->source() != packet->source ||
-                       m_document->unit() != unitOf(m_view, packet->source);
+                       m_document->sender() != packet->sender ||
+                       m_document->unit() != unitOf(m_view, packet->sender);
     if (isNew) {
         show(*packet);
     }
@@ -194,7 +194,7 @@ void InspectorPanel::showEmpty() {
 }
 
 void InspectorPanel::show(const log::Packet& packet) {
-    m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet.source));
+    m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet.sender));
     m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;
     m_fields->beginChange();
@@ -212,7 +212,7 @@ void InspectorPanel::show(const log::Packet& packet) {
     }
     QString owner;
     if (m_document->hasHeader()) {
-        const model::CharacterKey key{packet.source, m_document->header().character};
+        const model::CharacterKey key{packet.sender, m_document->header().character};
         const QString name =
             m_view.find(key) != nullptr ? characterName(m_view, key) : tr("Character %1").arg(key.character);
         owner = QStringLiteral(" · ") + name;
@@ -231,7 +231,7 @@ void InspectorPanel::showComparison() {
                         : m_comparison == Comparison::Reference ? m_reference
                                                                 : std::nullopt;
     if (const auto packet = number ? m_view.packet(*number) : std::nullopt) {
-        other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, packet->source));
+        other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, packet->sender));
     }
     const bool isSameType = other != nullptr && other->hasHeader() && m_document->hasHeader() &&
                             other->type() == m_document->type();
@@ -387,8 +387,8 @@ void InspectorPanel::select(std::int32_t node) {
     const int segment = m_document->segmentOf(node);
     if (segment >= 0 && m_document->hasHeader() && segment != m_view.selection().segment) {
         model::Selection selection = m_view.selection();
-        selection.source = m_document->source();
-        selection.character = model::CharacterKey{m_document->source(), m_document->header().character};
+        selection.sender = m_document->sender();
+        selection.character = model::CharacterKey{m_document->sender(), m_document->header().character};
         selection.segment = segment;
         m_followed = selection;
         m_commands.select(selection);

@@ -31,7 +31,7 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
 void MetadataPanel::refresh() {
     m_model.refresh();
     const auto key = shownCharacter(m_view);
-    m_detection->showSource(key ? std::optional(key->source) : std::nullopt);
+    m_detection->showSender(key ? std::optional(key->sender) : std::nullopt);
 }
 
 QString MetadataPanel::summary() const {

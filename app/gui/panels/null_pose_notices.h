@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/null_pose_findings.h"
+#include "core/model/body/null_pose_findings.h"
 
 #include <QTextBrowser>
 

@@ -97,7 +97,7 @@ void PacketsPanel::goToSameStream(bool isForward) {
         say(tr("No packet is selected."));
         return;
     }
-    const log::SourceId source = packet->source;
+    const log::SenderId sender = packet->sender;
     const model::PacketDigest wanted = *digest;
     goToRow(
         isForward,
@@ -108,7 +108,7 @@ void PacketsPanel::goToSameStream(bool isForward) {
                 return false;
             }
             const auto found = m_view.packet(other);
-            return found && found->source == source;
+            return found && found->sender == sender;
         },
         isForward ? tr("No later packet of this stream.") : tr("No earlier packet of this stream."));
 }

@@ -109,7 +109,7 @@ void PacketsPanel::refresh() {
     }
     m_packets.refresh();
     // Where everything comes from one sender its address says nothing, and the note has the room.
-    m_list->setColumnUseful(PacketModel::kSource, m_view.sources().size() > 1);
+    m_list->setColumnUseful(PacketModel::kSender, m_view.senders().size() > 1);
     followSelection();
     followCursor();
     showEmptyState();

@@ -137,7 +137,7 @@ void StatisticsPanel::restoreState(const QJsonObject& state) {
 void StatisticsPanel::select(const QModelIndex& index) {
     const auto key = m_streams.character(index);
     model::Selection selection = key ? selectionOf(m_view, *key) : model::Selection{};
-    selection.source = m_streams.source(index);
+    selection.sender = m_streams.sender(index);
     m_commands.select(selection);
 }
 

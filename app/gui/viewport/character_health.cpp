@@ -19,7 +19,7 @@ QString tr(const char* text) {
 double poseRateHz(const model::Session& session, const model::CharacterKey& key) {
     const model::CharacterPose* pose = session.pose(key);
     const model::Stream* stream =
-        pose == nullptr ? nullptr : session.find(log::StreamKey{key.source, key.character, pose->type});
+        pose == nullptr ? nullptr : session.find(log::StreamKey{key.sender, key.character, pose->type});
     return stream == nullptr ? 0 : stream->statistics.rateHz();
 }
 

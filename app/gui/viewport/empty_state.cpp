@@ -74,21 +74,21 @@ EmptyState withoutPort(const ReceivingState& receiving) {
         state.level = Health::Unknown;
         state.title = receiving.file.isEmpty() ? tr("Nothing to listen to")
                                                : tr("No character in %1").arg(receiving.file);
-        state.lines += tr("Choose Source > Sources, or File > Open.");
+        state.lines += tr("Choose Sender > Senders, or File > Open.");
     }
     return state;
 }
 
-EmptyState foreign(const model::Source& source) {
-    const QByteArray bytes = bytesOf(source.firstForeignBytes);
+EmptyState foreign(const model::Sender& sender) {
+    const QByteArray bytes = bytesOf(sender.firstForeignBytes);
     const std::string guess = net::protocolThatBegins(std::as_bytes(std::span(bytes)));
     const QString what = guess.empty() ? tr("Something else uses this port.")
                                        : tr("It looks like %1.").arg(QString::fromStdString(guess));
     return {Health::Warning,
             tr("These datagrams are not MXTP"),
             {tr("%1 from %2, the newest begins with")
-                 .arg(grouped(source.foreign), QString::fromStdString(source.info.address)),
-             bytesText(source.firstForeignBytes),
+                 .arg(grouped(sender.foreign), QString::fromStdString(sender.info.address)),
+             bytesText(sender.firstForeignBytes),
              tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what}};
 }
 
@@ -159,10 +159,10 @@ EmptyState emptyState(const model::Session& session, const ReceivingState& recei
     if (!session.characters().empty()) {
         return withoutPose(session);
     }
-    const auto stranger = std::ranges::find_if(session.sources(), [](const model::Source& source) {
-        return source.foreign > 0 && !source.firstForeignBytes.empty();
+    const auto stranger = std::ranges::find_if(session.senders(), [](const model::Sender& sender) {
+        return sender.foreign > 0 && !sender.firstForeignBytes.empty();
     });
-    if (stranger != session.sources().end()) {
+    if (stranger != session.senders().end()) {
         return foreign(*stranger);
     }
     return openPorts(receiving).isEmpty() ? withoutPort(receiving) : waiting(receiving);

@@ -3,7 +3,7 @@
 
 #include "app/gui/receiving_state.h"
 #include "app/gui/theme/theme.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <QString>
 #include <QStringList>

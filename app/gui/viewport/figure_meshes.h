@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/viewport/scene_frame.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <map>
 #include <memory>

@@ -5,7 +5,7 @@
 #include "app/gui/models/stream_state.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/character_health.h"
-#include "core/model/null_pose_measures.h"
+#include "core/model/body/null_pose_measures.h"
 
 #include <algorithm>
 #include <array>

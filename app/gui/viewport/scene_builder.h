@@ -3,7 +3,7 @@
 
 #include "app/gui/viewport/figure_meshes.h"
 #include "app/gui/viewport/scene_frame.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 
 #include <cstdint>
 #include <set>

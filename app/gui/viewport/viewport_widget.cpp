@@ -269,7 +269,7 @@ void ViewportWidget::mouseReleaseEvent(QMouseEvent* event) {
     model::Selection selection;
     if (const auto pick = pickAt(event->position())) {
         const model::CharacterKey key = m_shown->figures[pick->id].key;
-        selection = {key.source, key, pick->segment};
+        selection = {key.sender, key, pick->segment};
     }
     m_commands.select(selection);
 }

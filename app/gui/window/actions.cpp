@@ -49,7 +49,7 @@ void selectCharacter(Window& window) {
     const auto characters = window.driver().session().currentCharacters();
     if (index < static_cast<int>(characters.size())) {
         const model::CharacterKey& key = characters[index]->key;
-        window.driver().select({key.source, key, -1});
+        window.driver().select({key.sender, key, -1});
     }
 }
 
@@ -113,9 +113,9 @@ const ActionInfo kActions[] = {
     {"findPrevious", "&Edit", QT_TRANSLATE_NOOP("Action", "Find pre&vious"), "Shift+F3", false,
      [](Window& w) { w.inDock("packets", "findPrevious"); }},
 
-    {"sources", QT_TRANSLATE_NOOP("Action", "&Source"), QT_TRANSLATE_NOOP("Action", "&Sources…"), "Ctrl+U",
-     false, [](Window& w) { w.openSources(SourcesDialog::Page::Sources); }},
-    {"demo", "&Source", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", kCheckable, toggleDemo},
+    {"inputs", QT_TRANSLATE_NOOP("Action", "&Input"), QT_TRANSLATE_NOOP("Action", "&Inputs…"), "Ctrl+U",
+     false, [](Window& w) { w.openInputs(InputsDialog::Page::Inputs); }},
+    {"demo", "&Input", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", kCheckable, toggleDemo},
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
      false, [](Window& w) { w.resetLayout(); }},
@@ -221,14 +221,14 @@ const ActionInfo kActions[] = {
      [](Window& w) { w.driver().setPaused(false); }},
 
     {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R", false,
-     [](Window& w) { w.openSources(SourcesDialog::Page::Relay); }},
+     [](Window& w) { w.openInputs(InputsDialog::Page::Relay); }},
     {"thresholds", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Thresholds…"),
      "Ctrl+T", false, [](Window& w) { w.editThresholds(); }},
     {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),
      QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", false, [](Window& w) { w.copyDiagnostics(); }},
 
     {"connectionHelp", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Connection help"),
-     "Shift+F1", false, [](Window& w) { w.openSources(SourcesDialog::Page::Help); }},
+     "Shift+F1", false, [](Window& w) { w.openInputs(InputsDialog::Page::Help); }},
     {"shortcuts", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Keyboard shortcuts"),
      "F1", false, [](Window& w) { w.showShortcuts(); }},
     {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "", false,

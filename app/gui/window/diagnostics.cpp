@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/diagnostics.h"
 
+#include "app/gui/models/input_model.h"
 #include "app/gui/models/relay_model.h"
-#include "app/gui/models/source_model.h"
 
 #include <QGuiApplication>
 #include <QSysInfo>
@@ -14,7 +14,7 @@ namespace {
 
 void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
     for (const PortState& port : receiving.ports) {
-        out << displayText(port.port) << ": " << sourceState(port).text << ", " << port.status.datagrams
+        out << displayText(port.port) << ": " << inputState(port).text << ", " << port.status.datagrams
             << " datagrams, " << port.status.kernelDropped << " dropped here\n";
     }
     for (const RelayState& relay : receiving.relays) {
@@ -29,14 +29,14 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
         << receiving.bytesPerSecond << " bytes/s\n";
 }
 
-void writeSources(QTextStream& out, const model::Session& session) {
-    for (const model::Source& source : session.sources()) {
-        out << "source " << QString::fromStdString(source.info.address) << ": " << source.datagrams
-            << " datagrams, " << source.malformed << " malformed, " << source.foreign << " foreign, "
-            << source.skippedBytes << " bytes skipped\n";
+void writeSenders(QTextStream& out, const model::Session& session) {
+    for (const model::Sender& sender : session.senders()) {
+        out << "source " << QString::fromStdString(sender.info.address) << ": " << sender.datagrams
+            << " datagrams, " << sender.malformed << " malformed, " << sender.foreign << " foreign, "
+            << sender.skippedBytes << " bytes skipped\n";
     }
     for (const model::Stream& stream : session.streams()) {
-        const model::CharacterKey key{stream.key.source, stream.key.character};
+        const model::CharacterKey key{stream.key.sender, stream.key.character};
         out << "stream " << QString::fromStdString(session.displayName(key)) << " type " << stream.key.type
             << ": " << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz()
             << " Hz, " << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed()
@@ -58,7 +58,7 @@ QString diagnosticsText(const model::Session& session, const ReceivingState& rec
     const log::LogFigures figures = session.figures();
     out << "history: packets " << figures.begin << " to " << figures.end << ", " << figures.memoryInUse
         << " of " << figures.memoryCap << " bytes\n";
-    writeSources(out, session);
+    writeSenders(out, session);
     return text;
 }
 

@@ -155,7 +155,7 @@ QWidget* HealthBar::firstEntry() const {
 
 void HealthBar::explain(std::size_t entry) {
     const model::CharacterKey key = m_shown[entry];
-    m_commands.select({key.source, key, -1});
+    m_commands.select({key.sender, key, -1});
     auto* popup = new HealthPopup(m_session, m_commands, key, this);
     popup->showAbove(*m_entries[entry]);
 }

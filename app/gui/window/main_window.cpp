@@ -73,7 +73,7 @@ void MainWindow::makeBars() {
     menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
 
     m_transport = new TransportBar(
-        m_driver.session(), {m_actions["pause"], m_actions["live"], m_actions["sources"], m_actions["relay"]},
+        m_driver.session(), {m_actions["pause"], m_actions["live"], m_actions["inputs"], m_actions["relay"]},
         this);
     auto* bar = new QToolBar(tr("Transport"), this);
     bar->setObjectName(QStringLiteral("transportBar"));
@@ -230,8 +230,8 @@ void MainWindow::showReceiving() {
     m_transport->setReceiving(state);
     m_health->refresh(state);
     m_viewport->setReceiving(state);
-    if (m_sources != nullptr) {
-        m_sources->refresh();
+    if (m_inputs != nullptr) {
+        m_inputs->refresh();
     }
     m_driver.setPicturesShown(m_viewport->picturesShown());
 }
@@ -255,17 +255,17 @@ void MainWindow::saveScreenshot() {
     }
 }
 
-void MainWindow::openSources(SourcesDialog::Page page) {
-    if (m_sources == nullptr) {
-        m_sources = new SourcesDialog(m_driver.receiving(), this);
-        connect(m_sources, &SourcesDialog::openFileRequested, this, &MainWindow::openFile);
-        connect(m_sources, &SourcesDialog::copyRequested, &m_driver, &SessionDriver::copyText);
-        connect(m_sources, &SourcesDialog::choicesChanged, this, [this] {
-            m_settings.sources = m_driver.receiving().choices();
+void MainWindow::openInputs(InputsDialog::Page page) {
+    if (m_inputs == nullptr) {
+        m_inputs = new InputsDialog(m_driver.receiving(), this);
+        connect(m_inputs, &InputsDialog::openFileRequested, this, &MainWindow::openFile);
+        connect(m_inputs, &InputsDialog::copyRequested, &m_driver, &SessionDriver::copyText);
+        connect(m_inputs, &InputsDialog::choicesChanged, this, [this] {
+            m_settings.inputs = m_driver.receiving().choices();
             showReceiving();
         });
     }
-    m_sources->open(page);
+    m_inputs->open(page);
 }
 
 void MainWindow::saveReport() {

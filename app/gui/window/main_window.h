@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/gui/driver/session_driver.h"
+#include "app/gui/inputs/inputs_dialog.h"
 #include "app/gui/panel.h"
-#include "app/gui/sources/sources_dialog.h"
 #include "app/gui/viewport/viewport_widget.h"
 #include "app/gui/window/menus.h"
 #include "app/gui/window/settings.h"
@@ -38,7 +38,7 @@ public:
     void saveScreenshot();
     void saveReport();
     void editThresholds();
-    void openSources(SourcesDialog::Page page);
+    void openInputs(InputsDialog::Page page);
     void useTheme(ThemeChoice choice);
     /// Name of a layout that ships, or a file.
     void useLayout(const QString& nameOrFile);
@@ -93,7 +93,7 @@ private:
     ViewportWidget* m_viewport;
     TransportBar* m_transport = nullptr;
     HealthBar* m_health = nullptr;
-    SourcesDialog* m_sources = nullptr; ///< once it was asked for
+    InputsDialog* m_inputs = nullptr; ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
     ActionMap m_actions;
     AlertSounds m_sounds;

@@ -39,7 +39,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.docks = QByteArray::fromBase64(object["docks"].toString().toLatin1());
     settings.panels = object["panels"].toObject();
     settings.alerts = alertChoicesOf(object["alerts"].toObject());
-    settings.sources = sourceChoicesOf(object["sources"].toObject());
+    settings.inputs = inputChoicesOf(object["sources"].toObject());
     return settings;
 }
 
@@ -56,7 +56,7 @@ QJsonObject objectOf(const Settings& settings) {
             {"docks", QString::fromLatin1(settings.docks.toBase64())},
             {"alerts", jsonOf(settings.alerts)},
             {"panels", settings.panels},
-            {"sources", jsonOf(settings.sources)}};
+            {"sources", jsonOf(settings.inputs)}};
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/source_choices.h"
+#include "app/gui/input_choices.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/window/alerts.h"
 
@@ -21,7 +21,7 @@ struct Settings {
     QByteArray docks;   ///< QMainWindow::saveState; empty for the layout as shipped
     QJsonObject panels; ///< Panel::state() by the name of the dock
     AlertChoices alerts;
-    SourceChoices sources;
+    InputChoices inputs;
 };
 
 /// Reads and writes settings as JSON with the number of their schema.

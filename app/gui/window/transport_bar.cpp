@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/transport_bar.h"
 
+#include "app/gui/models/input_model.h"
 #include "app/gui/models/relay_model.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/source_model.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/icons.h"
@@ -41,7 +41,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_session(session),
       m_pause(framedButton(actions.pause, this)),
       m_live(framedButton(actions.live, this)),
-      m_add(framedButton(actions.sources, this)),
+      m_add(framedButton(actions.inputs, this)),
       m_relay(new ColourText(ColourText::Look::Pill, this)),
       m_time(new QLabel(this)),
       m_detail(new QLabel(this)),
@@ -49,7 +49,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     setObjectName(QStringLiteral("transport"));
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
-    m_add->setText(tr("Source"));
+    m_add->setText(tr("Input"));
     m_time->setAccessibleName(tr("Time of day of what is shown"));
     m_detail->setForegroundRole(QPalette::PlaceholderText);
     auto* row = new QHBoxLayout(this);
@@ -132,7 +132,7 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
     }
     for (std::size_t i = 0; i < receiving.ports.size(); ++i) {
         const PortState& state = receiving.ports[i];
-        const PropertyValue now = sourceState(state);
+        const PropertyValue now = inputState(state);
         const bool isFine = now.health == Health::Good || now.health == Health::Unknown;
         m_pills[i]->setVisible(true);
         m_pills[i]->setContent(isFine ? Health::Unknown : now.health, displayText(state.port));

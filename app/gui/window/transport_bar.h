@@ -22,12 +22,12 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `pause` stops and goes on, `live` goes to the end, `sources` is for one more source, `relay` tells
+    /// `pause` stops and goes on, `live` goes to the end, `inputs` is for one more input, `relay` tells
     /// about forwarding.
     struct Actions {
         QAction* pause;
         QAction* live;
-        QAction* sources;
+        QAction* inputs;
         QAction* relay;
     };
     TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);

@@ -2,6 +2,7 @@
 #include "tests/app/cli/program_run.h"
 #include "tests/core/log/capture_fixture.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 
 #include <QProcess>
 
@@ -19,7 +20,7 @@ TEST(DecodeCommand, WritesEveryGoldenWordForWord) {
     for (const auto& golden : goldens()) {
         const ProgramRun run = runProgram({"decode", "--json", fileWith(asText(golden.bytes))});
         EXPECT_EQ(run.status, 0) << golden.name << run.err;
-        EXPECT_EQ(run.out, textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/" + golden.name + ".json"));
+        EXPECT_EQ(run.out, textOfFile(posewire::test::sourcePath("tests/golden/" + golden.name + ".json")));
     }
 }
 
@@ -27,7 +28,7 @@ TEST(DecodeCommand, ReadsStandardInput) {
     const auto& bytes = golden("24_centre_36_counted").bytes;
     const ProgramRun run = runProgram({"decode", "--json", "-"}, asText(bytes));
     EXPECT_EQ(run.status, 0);
-    EXPECT_EQ(run.out, textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/24_centre_36_counted.json"));
+    EXPECT_EQ(run.out, textOfFile(posewire::test::sourcePath("tests/golden/24_centre_36_counted.json")));
 }
 
 TEST(DecodeCommand, CountsObjectsAndBytesThroughTheFile) {
@@ -77,7 +78,7 @@ TEST(DecodeCommand, GoesOnToTheNextFileWhereOneIsMissing) {
     const std::string good = fileWith(asText(golden("24_centre_12_counted").bytes));
     const ProgramRun run = runProgram({"decode", "--json", "/no/such/file", good});
     EXPECT_EQ(run.status, 2);
-    EXPECT_EQ(run.out, textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/24_centre_12_counted.json"));
+    EXPECT_EQ(run.out, textOfFile(posewire::test::sourcePath("tests/golden/24_centre_12_counted.json")));
 }
 
 TEST(DecodeCommand, ListsEveryFieldForPeople) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/app/cli/program_run.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 
@@ -49,7 +50,7 @@ TEST(EncodeCommand, GivesBackTheRecordedDatagramsBitForBit) {
 
 TEST(EncodeCommand, WritesToAFile) {
     const std::string target = fileWith("before");
-    const std::string line = textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/25_time_code_bare.json");
+    const std::string line = textOfFile(posewire::test::sourcePath("tests/golden/25_time_code_bare.json"));
     const ProgramRun run = runProgram({"encode", fileWith(line), "-o", target});
     EXPECT_EQ(run.status, 0);
     EXPECT_EQ(run.out, "");
@@ -57,7 +58,7 @@ TEST(EncodeCommand, WritesToAFile) {
 }
 
 TEST(EncodeCommand, NamesTheLineAndThePlaceOfAFaultAndGoesOn) {
-    const std::string good = textOfFile(POSEWIRE_SOURCE_DIR "/tests/golden/25_time_code_bare.json");
+    const std::string good = textOfFile(posewire::test::sourcePath("tests/golden/25_time_code_bare.json"));
     const ProgramRun run = runProgram(
         {"encode", "-"}, good + "\n{\"type\":\"24\",\"body\":{\"position\":[1,2]}}\nhello\n" + good);
     EXPECT_EQ(run.status, 1);

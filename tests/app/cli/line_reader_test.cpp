@@ -10,8 +10,8 @@ namespace {
 
 std::vector<std::string> linesOf(const std::string& text) {
     std::istringstream stream(text);
-    const auto source = log::readingFrom(stream, "test");
-    LineReader reader(*source);
+    const auto sender = log::readingFrom(stream, "test");
+    LineReader reader(*sender);
     std::vector<std::string> lines;
     while (true) {
         const auto line = reader.next();

@@ -38,11 +38,11 @@ TEST(MonitorCommand, ReportsWithTheKeysOfTheInterfaceInItsOrder) {
     };
     EXPECT_THAT(first(keysOf(report), 4), ElementsAre("durationS", "local", "foreignDatagrams", "sources"));
     EXPECT_THAT(keysOf(report["local"]), ElementsAre("kernelDropped", "receiveBufferBytes"));
-    const Json& source = report["sources"][0];
-    EXPECT_THAT(first(keysOf(source), 7), ElementsAre("address", "transport", "datagrams", "bytes",
+    const Json& sender = report["sources"][0];
+    EXPECT_THAT(first(keysOf(sender), 7), ElementsAre("address", "transport", "datagrams", "bytes",
                                                       "malformed", "skippedBytes", "characters"));
-    EXPECT_THAT(keysOf(source["characters"][0]), ElementsAre("id", "name", "streams"));
-    EXPECT_THAT(first(keysOf(source["characters"][0]["streams"][0]), 15),
+    EXPECT_THAT(keysOf(sender["characters"][0]), ElementsAre("id", "name", "streams"));
+    EXPECT_THAT(first(keysOf(sender["characters"][0]["streams"][0]), 15),
                 ElementsAre("type", "datagrams", "samples", "lost", "duplicates", "reordered", "late",
                             "incomplete", "restarts", "step", "rateHz", "jitterMs", "longestGapSamples",
                             "firstSample", "lastSample"));
@@ -51,12 +51,12 @@ TEST(MonitorCommand, ReportsWithTheKeysOfTheInterfaceInItsOrder) {
 TEST(MonitorCommand, CountsWhatAFileLacks) {
     const Json report = reportOf(faultyRecording());
     EXPECT_NEAR(report["durationS"], 999.0 / 240, 0.001);
-    const Json& source = report["sources"][0];
-    EXPECT_EQ(source["address"], "10.0.0.2:40001");
-    EXPECT_EQ(source["transport"], "udp");
-    EXPECT_EQ(source["datagrams"], 991);
-    EXPECT_EQ(source["bytes"], 991 * 56);
-    const Json& stream = source["characters"][0]["streams"][0];
+    const Json& sender = report["sources"][0];
+    EXPECT_EQ(sender["address"], "10.0.0.2:40001");
+    EXPECT_EQ(sender["transport"], "udp");
+    EXPECT_EQ(sender["datagrams"], 991);
+    EXPECT_EQ(sender["bytes"], 991 * 56);
+    const Json& stream = sender["characters"][0]["streams"][0];
     EXPECT_EQ(stream["type"], "02");
     EXPECT_EQ(stream["datagrams"], 991);
     EXPECT_EQ(stream["samples"], 990);

@@ -18,9 +18,9 @@ public:
     }
 
     void add(const std::vector<std::byte>& bytes, std::int64_t stampNs,
-             const log::SourceInfo& source = {"10.0.0.2:40001", log::Transport::Udp, 9763},
+             const log::SenderInfo& sender = {"10.0.0.2:40001", log::Transport::Udp, 9763},
              std::uint32_t drops = 0, log::PacketFlags flags = {.stampedByKernel = true}) {
-        static_cast<void>(m_writer.add({0, stampNs, {}, drops, flags, bytes}, source));
+        static_cast<void>(m_writer.add({0, stampNs, {}, drops, flags, bytes}, sender));
     }
     /// A pose of one segment, 240 a second from stamp 1,700,000,000 s on.
     void addPose(std::uint32_t sample, std::uint8_t character = 0) {

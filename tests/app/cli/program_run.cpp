@@ -43,7 +43,7 @@ std::string asText(const std::vector<std::byte>& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::string textOfFile(const std::string& path) {
+std::string textOfFile(const std::filesystem::path& path) {
     return asText(posewire::test::readBytes(path));
 }
 

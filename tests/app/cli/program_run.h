@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,6 @@ struct ProgramRun {
 [[nodiscard]] std::string fileWith(const std::string& content);
 
 [[nodiscard]] std::string asText(const std::vector<std::byte>& bytes);
-[[nodiscard]] std::string textOfFile(const std::string& path);
+[[nodiscard]] std::string textOfFile(const std::filesystem::path& path);
 
 } // namespace posewire::cli::test

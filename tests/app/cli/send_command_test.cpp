@@ -137,16 +137,16 @@ TEST(SendCommand, WritesTheTruthAboutEveryDatagramThatLeft) {
                                        "0.2", "--truncate", "0.1", "--truth", truthFile});
     EXPECT_EQ(run.status, 0) << run.err;
     const auto truth = nlohmann::json::parse(textOfFile(truthFile));
-    const auto& source = truth.at("sources").at(0);
-    const auto& stream = source.at("characters").at(0).at("streams").at(0);
+    const auto& sender = truth.at("sources").at(0);
+    const auto& stream = sender.at("characters").at(0).at("streams").at(0);
     const std::size_t arrived = listener.datagrams().size();
-    EXPECT_EQ(truth.at("foreignDatagrams").get<std::size_t>() + source.at("malformed").get<std::size_t>() +
-                  source.at("datagrams").get<std::size_t>(),
+    EXPECT_EQ(truth.at("foreignDatagrams").get<std::size_t>() + sender.at("malformed").get<std::size_t>() +
+                  sender.at("datagrams").get<std::size_t>(),
               arrived);
     EXPECT_EQ(stream.at("type"), "24");
     EXPECT_EQ(stream.at("samples").get<std::size_t>() + stream.at("lost").get<std::size_t>(),
               stream.at("lastSample").get<std::size_t>() - stream.at("firstSample").get<std::size_t>() + 1);
-    EXPECT_THAT(source.at("address").get<std::string>(), testing::StartsWith("127.0.0.1:"));
+    EXPECT_THAT(sender.at("address").get<std::string>(), testing::StartsWith("127.0.0.1:"));
 }
 
 TEST(SendCommand, SendsFromTwoSocketsWithTheSameCharacters) {
@@ -156,10 +156,10 @@ TEST(SendCommand, SendsFromTwoSocketsWithTheSameCharacters) {
         runProgram({"send", "--to", listener.place(), "--types", "02", "--characters", "1", "--rate", "100",
                     "--duration", "0.1", "--senders", "2", "--truth", truthFile});
     EXPECT_EQ(run.out, "sent 20 datagrams\n") << run.err;
-    const auto sources = nlohmann::json::parse(textOfFile(truthFile)).at("sources");
-    ASSERT_EQ(sources.size(), 2U);
-    EXPECT_NE(sources[0].at("address"), sources[1].at("address"));
-    EXPECT_EQ(sources[0].at("characters"), sources[1].at("characters"));
+    const auto senders = nlohmann::json::parse(textOfFile(truthFile)).at("sources");
+    ASSERT_EQ(senders.size(), 2U);
+    EXPECT_NE(senders[0].at("address"), senders[1].at("address"));
+    EXPECT_EQ(senders[0].at("characters"), senders[1].at("characters"));
 }
 
 TEST(SendCommand, SaysHowFaultsAreToBeGiven) {

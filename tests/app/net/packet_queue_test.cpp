@@ -11,14 +11,14 @@
 namespace posewire::net {
 namespace {
 
-const log::SourceInfo kSource{"10.0.0.5:50000", log::Transport::Tcp, 9763};
+const log::SenderInfo kSender{"10.0.0.5:50000", log::Transport::Tcp, 9763};
 
 TEST(PacketQueue, HandsPacketsOverInOrderWithAllThatIsKnownOfThem) {
     PacketQueue queue;
     log::PacketLog log;
     EXPECT_TRUE(queue.isEmpty());
     for (std::size_t i = 0; i < 100; ++i) {
-        EXPECT_TRUE(queue.push(numbered(i, i), kSource,
+        EXPECT_TRUE(queue.push(numbered(i, i), kSender,
                                {.stampNs = static_cast<std::int64_t>(i), .flags = {.skipped = i == 3}}));
     }
     EXPECT_FALSE(queue.isEmpty());
@@ -33,7 +33,7 @@ TEST(PacketQueue, HandsPacketsOverInOrderWithAllThatIsKnownOfThem) {
         EXPECT_TRUE(equal(packet->bytes, numbered(i, i)));
         EXPECT_EQ(packet->stampNs, static_cast<std::int64_t>(i));
         EXPECT_EQ(packet->flags.skipped, i == 3);
-        EXPECT_EQ(*log.sources().find(packet->source), kSource);
+        EXPECT_EQ(*log.senders().find(packet->sender), kSender);
     }
 }
 
@@ -41,25 +41,25 @@ TEST(PacketQueue, RefusesAndCountsWhatDoesNotFit) {
     PacketQueue queue({}, 4000);
     log::PacketLog log;
     std::size_t taken = 0;
-    while (queue.push(numbered(760, taken), kSource, {})) {
+    while (queue.push(numbered(760, taken), kSender, {})) {
         ++taken;
     }
     EXPECT_GT(taken, 0U);
     EXPECT_LE(taken * 760, 4000U);
     EXPECT_EQ(queue.refused(), 1U);
     EXPECT_EQ(queue.moveTo(log), taken);
-    EXPECT_TRUE(queue.push(numbered(760, 0), kSource, {}));
+    EXPECT_TRUE(queue.push(numbered(760, 0), kSender, {}));
 }
 
 TEST(PacketQueue, LossesReachTheLogAfterWhatWasQueuedBefore) {
     PacketQueue queue({}, 4000);
     log::PacketLog log;
     std::size_t taken = 0;
-    while (queue.push(numbered(760, taken), kSource, {.stampNs = 5})) {
+    while (queue.push(numbered(760, taken), kSender, {.stampNs = 5})) {
         ++taken;
     }
-    const log::SourceInfo other{"10.0.0.6:50000", log::Transport::Tcp, 9763};
-    EXPECT_FALSE(queue.push(numbered(760, 0), kSource, {.stampNs = 6}));
+    const log::SenderInfo other{"10.0.0.6:50000", log::Transport::Tcp, 9763};
+    EXPECT_FALSE(queue.push(numbered(760, 0), kSender, {.stampNs = 6}));
     EXPECT_FALSE(queue.push(numbered(760, 0), other, {.stampNs = 7}));
     queue.moveTo(log);
 
@@ -71,9 +71,9 @@ TEST(PacketQueue, LossesReachTheLogAfterWhatWasQueuedBefore) {
     EXPECT_TRUE(first->bytes.empty());
     EXPECT_EQ(first->kernelDropsBefore, 2U);
     EXPECT_EQ(first->stampNs, 6);
-    EXPECT_EQ(*log.sources().find(first->source), kSource);
+    EXPECT_EQ(*log.senders().find(first->sender), kSender);
     EXPECT_EQ(reader.packet(taken + 1)->kernelDropsBefore, 1U);
-    EXPECT_EQ(*log.sources().find(reader.packet(taken + 1)->source), other);
+    EXPECT_EQ(*log.senders().find(reader.packet(taken + 1)->sender), other);
 }
 
 TEST(PacketQueue, TellsOnceThatItIsNotEmptyAnyMore) {
@@ -82,7 +82,7 @@ TEST(PacketQueue, TellsOnceThatItIsNotEmptyAnyMore) {
     log::PacketLog log;
     for (int round = 1; round <= 3; ++round) {
         for (std::size_t i = 0; i < 10; ++i) {
-            EXPECT_TRUE(queue.push(numbered(10, i), kSource, {}));
+            EXPECT_TRUE(queue.push(numbered(10, i), kSender, {}));
         }
         EXPECT_EQ(told, round);
         queue.moveTo(log);
@@ -94,7 +94,7 @@ TEST(PacketQueue, WaitingForRoomLosesNothingAndEndsWithTheQueue) {
     log::PacketLog log;
     std::atomic<std::size_t> pushed = 0;
     std::thread pushing([&] {
-        while (queue.pushWaiting(numbered(760, 1), kSource, {})) {
+        while (queue.pushWaiting(numbered(760, 1), kSender, {})) {
             ++pushed;
         }
     });
@@ -111,7 +111,7 @@ TEST(PacketQueue, WaitingForRoomLosesNothingAndEndsWithTheQueue) {
 
 TEST(PacketQueue, AnEmptyOneTakesWhatIsLargerThanItsLimit) {
     PacketQueue queue({}, 100);
-    EXPECT_TRUE(queue.pushWaiting(numbered(760, 1), kSource, {}));
+    EXPECT_TRUE(queue.pushWaiting(numbered(760, 1), kSender, {}));
 }
 
 } // namespace

@@ -83,22 +83,22 @@ TEST_P(ReceiverTest, StampsAreOfNowAndDoNotGoBack) {
     }
 }
 
-TEST_P(ReceiverTest, SeveralPortsShareOneLogAndTellTheirSourcesApart) {
+TEST_P(ReceiverTest, SeveralPortsShareOneLogAndTellTheirSendersApart) {
     Receiving receiving(options(), 3);
     auto first = DatagramSender::connect({receiving.target(0), receiving.target(1), receiving.target(2)});
     auto second = DatagramSender::connect({receiving.target(0)});
     ASSERT_TRUE(first->send(numbered(100, 1)).has_value());
     ASSERT_TRUE(second->send(numbered(100, 2)).has_value());
     ASSERT_TRUE(eventually([&] { return receiving.packets() == 4; }));
-    EXPECT_EQ(receiving.log.sources().size(), 4U) << "two senders to one port, one of them to two more";
+    EXPECT_EQ(receiving.log.senders().size(), 4U) << "two senders to one port, one of them to two more";
     log::LogReader reader(receiving.log);
     for (std::size_t i = 0; i < 4; ++i) {
-        const log::SourceInfo* source = receiving.log.sources().find(reader.packet(i)->source);
-        ASSERT_NE(source, nullptr);
-        EXPECT_EQ(source->transport, log::Transport::Udp);
-        EXPECT_EQ(source->address.find("127.0.0.1:"), 0U) << source->address;
+        const log::SenderInfo* sender = receiving.log.senders().find(reader.packet(i)->sender);
+        ASSERT_NE(sender, nullptr);
+        EXPECT_EQ(sender->transport, log::Transport::Udp);
+        EXPECT_EQ(sender->address.find("127.0.0.1:"), 0U) << sender->address;
         EXPECT_TRUE(std::ranges::any_of(receiving.receiver->inputs(), [&](const InputStatus& input) {
-            return input.endpoint.port == source->localPort;
+            return input.endpoint.port == sender->localPort;
         }));
     }
 }
@@ -113,7 +113,7 @@ TEST_P(ReceiverTest, ReceivesOverIpv6) {
     ASSERT_TRUE(eventually([&] { return receiving.packets() == 1; }));
     log::LogReader reader(receiving.log);
     EXPECT_TRUE(equal(reader.packet(0)->bytes, numbered(760, 5)));
-    EXPECT_EQ(receiving.log.sources().find(reader.packet(0)->source)->address.find("[::1]:"), 0U);
+    EXPECT_EQ(receiving.log.senders().find(reader.packet(0)->sender)->address.find("[::1]:"), 0U);
 }
 
 TEST_P(ReceiverTest, AnyAddressTakesIpv4AndShowsItAsSuch) {
@@ -122,7 +122,7 @@ TEST_P(ReceiverTest, AnyAddressTakesIpv4AndShowsItAsSuch) {
     auto sender = DatagramSender::connect({receiving.target()});
     ASSERT_TRUE(sender->send(numbered(24, 5)).has_value());
     ASSERT_TRUE(eventually([&] { return receiving.packets() == 1; }));
-    EXPECT_EQ(receiving.log.sources().find(log::SourceId{})->address.find("127.0.0.1:"), 0U);
+    EXPECT_EQ(receiving.log.senders().find(log::SenderId{})->address.find("127.0.0.1:"), 0U);
 }
 
 TEST_P(ReceiverTest, WakesAfterALongPause) {
@@ -140,17 +140,17 @@ TEST_P(ReceiverTest, WakesAfterALongPause) {
 
 TEST_P(ReceiverTest, PacketsOfOtherThreadsJoinTheLog) {
     Receiving receiving(options());
-    const log::SourceInfo source{"demo", log::Transport::Performer, 0};
+    const log::SenderInfo sender{"demo", log::Transport::Performer, 0};
     std::vector<std::jthread> threads;
     for (std::size_t t = 0; t < 4; ++t) {
         threads.emplace_back([&, t] {
             for (std::size_t i = 0; i < 500; ++i) {
-                receiving.receiver->submit(numbered(100 + t, i), source, {.stampNs = 7});
+                receiving.receiver->submit(numbered(100 + t, i), sender, {.stampNs = 7});
             }
         });
     }
     EXPECT_TRUE(eventually([&] { return receiving.packets() == 2000; }));
-    EXPECT_EQ(*receiving.log.sources().find(log::SourceId{}), source);
+    EXPECT_EQ(*receiving.log.senders().find(log::SenderId{}), sender);
     EXPECT_EQ(receiving.totals().datagrams, 0U);
 }
 
@@ -232,14 +232,14 @@ TEST_P(ReceiverTest, TellsTheReceiveBufferItGot) {
 
 TEST_P(ReceiverTest, LossesOfTheQueueAreInTheLog) {
     Receiving receiving(options());
-    const log::SourceInfo source{"demo", log::Transport::Performer, 0};
+    const log::SenderInfo sender{"demo", log::Transport::Performer, 0};
     const auto packet = numbered(60'000, 0);
     std::atomic<std::uint64_t> submitted = 0;
     std::vector<std::thread> threads; // several fill the queue faster than one thread empties it
     for (int i = 0; i < 4; ++i) {
         threads.emplace_back([&] {
             while (receiving.totals().queueDropped == 0 && submitted < 1'000'000) {
-                receiving.receiver->submit(packet, source, {.stampNs = 7});
+                receiving.receiver->submit(packet, sender, {.stampNs = 7});
                 ++submitted;
             }
         });
@@ -277,7 +277,7 @@ TEST(ReceiverKernelDrops, AreInTheLogThoughNoPacketComesToTell) {
     EXPECT_GT(receiving.dropsInLog(), 0U);
     EXPECT_EQ(receiving.totals().kernelDropped, receiving.dropsInLog());
     EXPECT_EQ(receiving.totals().datagrams + receiving.totals().kernelDropped, kSent);
-    EXPECT_EQ(receiving.log.sources().size(), 1U) << "a record has the source last heard";
+    EXPECT_EQ(receiving.log.senders().size(), 1U) << "a record has the source last heard";
 }
 
 TEST(ReceiverKernelDrops, AreCountedOnceWhetherAPacketOrARecordTellsThem) {

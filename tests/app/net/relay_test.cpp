@@ -15,10 +15,10 @@ using ::testing::HasSubstr;
 
 class RelayTest : public ::testing::Test {
 protected:
-    void append(std::size_t size, std::size_t number, const log::SourceInfo& source, std::int64_t ageNs = 0) {
+    void append(std::size_t size, std::size_t number, const log::SenderInfo& sender, std::int64_t ageNs = 0) {
         log::Arrival arrival;
         arrival.stampNs = clock.wallNs() - ageNs;
-        arrival.source = log.sources().intern(source);
+        arrival.sender = log.senders().intern(sender);
         log.writer().append(numbered(size, number), arrival);
         log.writer().publish();
     }
@@ -26,15 +26,15 @@ protected:
     log::PacketLog log;
     log::SystemClock clock;
     Receiving consumer;
-    const log::SourceInfo sender{"10.0.0.5:50000", log::Transport::Udp, 9763};
+    const log::SenderInfo performer{"10.0.0.5:50000", log::Transport::Udp, 9763};
 };
 
 TEST_F(RelayTest, ForwardsEveryDatagramUnchangedAndInOrder) {
-    append(100, 0, sender); // before there was a target
+    append(100, 0, performer); // before there was a target
     Relay relay(log, clock);
     ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
     for (std::size_t i = 1; i <= 1000; ++i) {
-        append(i * 2, i, sender);
+        append(i * 2, i, performer);
         if (i % 100 == 0) { // the consumer's buffer is not what this test is about
             ASSERT_TRUE(eventually([&] { return consumer.packets() == i; })) << consumer.packets();
         }
@@ -52,15 +52,15 @@ TEST_F(RelayTest, TargetsComeAndGoWithCountersOfTheirOwn) {
     const Receiving second;
     Relay relay(log, clock);
     const auto a = relay.add(consumer.endpoint(), {});
-    append(100, 1, sender);
+    append(100, 1, performer);
     ASSERT_TRUE(eventually([&] { return consumer.packets() == 1; }));
     const auto b = relay.add(second.endpoint(), {});
-    append(100, 2, sender);
+    append(100, 2, performer);
     ASSERT_TRUE(eventually([&] { return consumer.packets() == 2 && second.packets() == 1; }));
     ASSERT_EQ(relay.targets().size(), 2U);
     EXPECT_TRUE(relay.remove(*a));
     EXPECT_FALSE(relay.remove(*a));
-    append(100, 3, sender);
+    append(100, 3, performer);
     ASSERT_TRUE(eventually([&] { return second.packets() == 2; }));
     EXPECT_EQ(consumer.packets(), 2U);
     EXPECT_TRUE(relay.remove(*b));
@@ -73,7 +73,7 @@ TEST_F(RelayTest, WhatIsNoLiveDatagramStaysHere) {
     append(100, 2, {"10.0.0.5:50000", log::Transport::Udp, 1}, 3'600'000'000'000); // from a capture
     log::Arrival record;
     record.stampNs = clock.wallNs();
-    record.source = log.sources().intern(sender);
+    record.sender = log.senders().intern(performer);
     record.kernelDropsBefore = 3;
     record.flags.skipped = true;
     record.flags.isDropRecord = true;
@@ -120,8 +120,8 @@ TEST_F(RelayTest, RefusesThePortsItsMonitorListensOn) {
 TEST_F(RelayTest, WhatItSentItselfDoesNotGoRound) {
     Relay relay(consumer.log, consumer.clock); // a loop that nobody told it of
     ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
-    auto source = DatagramSender::connect({consumer.target()});
-    ASSERT_TRUE(source->send(numbered(100, 1)).has_value());
+    auto sender = DatagramSender::connect({consumer.target()});
+    ASSERT_TRUE(sender->send(numbered(100, 1)).has_value());
     ASSERT_TRUE(eventually([&] { return consumer.packets() == 2; }));
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     EXPECT_EQ(consumer.packets(), 2U);
@@ -139,7 +139,7 @@ TEST_F(RelayTest, FallenBehindItLeavesOutAndCounts) {
     Relay relay(log, clock);
     ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
     log::Arrival arrival;
-    arrival.source = log.sources().intern(sender);
+    arrival.sender = log.senders().intern(performer);
     constexpr std::uint64_t kCount = 3 * Relay::kMostBehind;
     const auto bytes = numbered(24, 1);
     for (std::uint64_t i = 0; i < kCount; ++i) {

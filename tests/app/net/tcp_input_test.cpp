@@ -82,14 +82,14 @@ TEST_P(TcpInputTest, DatagramsOfAPeerAreInTheLogWithItsAddress) {
     send(*peer, datagrams(100));
     ASSERT_TRUE(eventually([&] { return receiving.packets() == 100; }));
     EXPECT_EQ(datagramsInOrder(), 100U);
-    const log::SourceInfo source = *receiving.log.sources().find(log::SourceId{});
-    EXPECT_EQ(source.address, "127.0.0.1:" + std::to_string(peer->localPort()));
-    EXPECT_EQ(source.transport, log::Transport::Tcp);
-    EXPECT_EQ(source.localPort, status().endpoint.port);
+    const log::SenderInfo sender = *receiving.log.senders().find(log::SenderId{});
+    EXPECT_EQ(sender.address, "127.0.0.1:" + std::to_string(peer->localPort()));
+    EXPECT_EQ(sender.transport, log::Transport::Tcp);
+    EXPECT_EQ(sender.localPort, status().endpoint.port);
     EXPECT_EQ(receiving.totals().datagrams, 100U);
     EXPECT_EQ(status().datagrams, 100U);
     ASSERT_TRUE(eventually([&] { return status().peers.size() == 1 && status().peers[0].datagrams == 100; }));
-    EXPECT_EQ(status().peers[0].address, source.address);
+    EXPECT_EQ(status().peers[0].address, sender.address);
 }
 
 TEST_P(TcpInputTest, APeerThatSendsAByteAtATimeIsReadLikeAnyOther) {
@@ -135,7 +135,7 @@ TEST_P(TcpInputTest, AnEndInsideADatagramGivesWhatCameOfIt) {
     EXPECT_THAT(status().text, HasSubstr("nobody"));
 }
 
-TEST_P(TcpInputTest, SeveralPeersAreSourcesOfTheirOwn) {
+TEST_P(TcpInputTest, SeveralPeersAreSendersOfTheirOwn) {
     listen();
     std::vector<std::unique_ptr<QTcpSocket>> peers;
     for (int i = 0; i < 5; ++i) {
@@ -143,7 +143,7 @@ TEST_P(TcpInputTest, SeveralPeersAreSourcesOfTheirOwn) {
         send(*peers.back(), datagrams(10));
     }
     ASSERT_TRUE(eventually([&] { return receiving.packets() == 50; }));
-    EXPECT_EQ(receiving.log.sources().size(), 5U);
+    EXPECT_EQ(receiving.log.senders().size(), 5U);
     EXPECT_TRUE(eventually([&] { return status().peers.size() == 5; }));
     EXPECT_EQ(status().text, "5 connected");
 }
@@ -224,7 +224,7 @@ TEST_P(TcpInputTest, ConnectsToASenderAndAgainAfterItRestarted) {
     peer.reset(server.nextPendingConnection());
     send(*peer, datagrams(10));
     EXPECT_TRUE(eventually([&] { return receiving.packets() == 20; }));
-    EXPECT_EQ(receiving.log.sources().size(), 1U) << "one sender, however often connected";
+    EXPECT_EQ(receiving.log.senders().size(), 1U) << "one sender, however often connected";
 }
 
 TEST_P(TcpInputTest, ASenderThatIsNotThereYetIsTriedAgain) {

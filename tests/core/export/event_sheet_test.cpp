@@ -17,7 +17,7 @@ protected:
     EventSheetTest() {
         gap.number = 7;
         gap.kind = model::EventKind::Gap;
-        gap.source = log.sources().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
+        gap.sender = log.senders().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
         gap.character = 1;
         gap.type = 2;
         gap.firstStampNs = 1'700'000'000'000'000'001;
@@ -28,7 +28,7 @@ protected:
         gap.samples = 3;
         gap.cause = model::LossCause::Network;
         gap.detail = "Other streams \"brought\" it, \xff";
-        down.kind = model::EventKind::SourceDown;
+        down.kind = model::EventKind::SenderDown;
         down.isCurrent = false;
     }
 

@@ -3,6 +3,7 @@
 #include "core/wire/byte_order.h"
 #include "core/wire/codec.h"
 #include "tests/support/golden.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 
@@ -27,7 +28,7 @@ std::string jsonOf(const std::vector<std::byte>& bytes) {
 TEST(DatagramJson, IsWordForWordWhatTheGoldensExpect) {
     for (const auto& golden : posewire::test::goldens()) {
         const auto expected =
-            posewire::test::readBytes(POSEWIRE_SOURCE_DIR "/tests/golden/" + golden.name + ".json");
+            posewire::test::readBytes(posewire::test::sourcePath("tests/golden/" + golden.name + ".json"));
         ASSERT_FALSE(expected.empty()) << golden.name;
         const std::string text(reinterpret_cast<const char*>(expected.data()), expected.size());
         EXPECT_EQ(jsonOf(golden.bytes) + "\n", text) << golden.name;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/null_pose_sheet.h"
 
-#include "core/model/spaces.h"
+#include "core/model/body/spaces.h"
 
 #include <nlohmann/json.hpp>
 

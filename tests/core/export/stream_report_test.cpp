@@ -2,7 +2,7 @@
 #include "core/export/stream_report.h"
 
 #include "core/export/monitor_report.h"
-#include "tests/core/model/session_fixture.h"
+#include "tests/core/model/session/session_fixture.h"
 
 #include <nlohmann/json.hpp>
 
@@ -86,7 +86,7 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
     for (std::uint32_t sample = 0; sample < 480; ++sample) {
         if (sample == 100) {
             m_log.writer().append(
-                {}, {kStart + sample * kSecond / 240, source(), 1, {.skipped = true, .isDropRecord = true}});
+                {}, {kStart + sample * kSecond / 240, sender(), 1, {.skipped = true, .isDropRecord = true}});
         } else if (sample != 200) {
             send(standingAt(0), sample, kStart + sample * kSecond / 240);
         }

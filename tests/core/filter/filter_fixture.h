@@ -27,7 +27,7 @@ struct Case {
     explicit Case(const wire::Datagram& from) : Case(*wire::encode(from)) {}
 
     [[nodiscard]] Candidate candidate() const {
-        return {packet, digest, fault ? nullptr : &datagram, &source, packet.stampNs - 2'500'000'000,
+        return {packet, digest, fault ? nullptr : &datagram, &sender, packet.stampNs - 2'500'000'000,
                 nullptr};
     }
 
@@ -36,7 +36,7 @@ struct Case {
     wire::Datagram datagram;
     std::optional<wire::WireError> fault;
     model::PacketDigest digest;
-    log::SourceInfo source{"192.168.1.20:4001", log::Transport::Udp, 9763};
+    log::SenderInfo sender{"192.168.1.20:4001", log::Transport::Udp, 9763};
 };
 
 inline Case golden(const std::string& name) {

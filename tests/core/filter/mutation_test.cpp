@@ -134,7 +134,7 @@ TEST(Mutations, AreReadAlikeByAllReadersAndNeverFatal) {
         packet.number = i;
         packet.bytes = bytes;
         packet.stampNs = static_cast<std::int64_t>(mutator.pick(1'000'000'000));
-        packet.source = static_cast<log::SourceId>(mutator.pick(5000));
+        packet.sender = static_cast<log::SenderId>(mutator.pick(5000));
         const model::PacketDigest digest = digester.add(packet, decoded ? &datagram : nullptr);
         ASSERT_EQ(digest.kind == model::PacketKind::Datagram, decoded.has_value());
         for (const Filter& filter : all) {

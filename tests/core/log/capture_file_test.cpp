@@ -45,7 +45,7 @@ std::vector<Seen> seenIn(std::span<const std::byte> file, bool isSound = true) {
         all.push_back({record.offset,
                        {record.bytes.begin(), record.bytes.end()},
                        record.stampNs,
-                       record.source ? record.source->address : ""});
+                       record.sender ? record.sender->address : ""});
     });
     EXPECT_EQ(result.has_value(), isSound);
     return all;
@@ -193,7 +193,7 @@ TEST(IpPacket, IsFoundBehindEveryLinkType) {
         EXPECT_EQ(ByteVector(payload->bytes.begin(), payload->bytes.end()), poseDatagram(1, 1)) << linkType;
         EXPECT_EQ(packet->offset + payload->offset, frame.size() - poseDatagram(1, 1).size()) << linkType;
         EXPECT_EQ(payload->targetPort, 9763);
-        EXPECT_THAT(addressText(packet->source), testing::AnyOf("10.0.0.2", "[fe80::1]"));
+        EXPECT_THAT(addressText(packet->sender), testing::AnyOf("10.0.0.2", "[fe80::1]"));
     }
     EXPECT_FALSE(ipPacketOf(999, four));
 }

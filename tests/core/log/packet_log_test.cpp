@@ -24,10 +24,10 @@ TEST(PacketLog, IsEmptyAtFirst) {
 
 TEST(PacketLog, GivesBackWhatWasAppended) {
     PacketLog log;
-    const SourceId source = log.sources().intern({"127.0.0.1:40001", Transport::Tcp, 9763});
+    const SenderId sender = log.senders().intern({"127.0.0.1:40001", Transport::Tcp, 9763});
     const auto bytes = pattern(760, 1);
     log.writer().append(bytes, {.stampNs = 42,
-                                .source = source,
+                                .sender = sender,
                                 .kernelDropsBefore = 7,
                                 .flags = {.truncated = true, .stampedByKernel = true, .skipped = true}});
     log.writer().publish();
@@ -37,7 +37,7 @@ TEST(PacketLog, GivesBackWhatWasAppended) {
     ASSERT_TRUE(packet);
     EXPECT_EQ(packet->number, 0U);
     EXPECT_EQ(packet->stampNs, 42);
-    EXPECT_EQ(packet->source, source);
+    EXPECT_EQ(packet->sender, sender);
     EXPECT_EQ(packet->kernelDropsBefore, 7U);
     EXPECT_EQ(packet->flags, (PacketFlags{true, true, true}));
     EXPECT_TRUE(equal(packet->bytes, bytes));

@@ -115,8 +115,8 @@ TEST(PacketLogThreads, NoReaderMissesAPacketWhereTheCapHasRoom) {
     }
 }
 
-TEST(PacketLogThreads, SourcesAreReadableWhileTheyAreInterned) {
-    SourceTable table;
+TEST(PacketLogThreads, SendersAreReadableWhileTheyAreInterned) {
+    SenderTable table;
     std::jthread writer([&] {
         for (std::size_t i = 0; i < 2000; ++i) {
             table.intern({std::to_string(i), Transport::Udp, 9763});
@@ -125,7 +125,7 @@ TEST(PacketLogThreads, SourcesAreReadableWhileTheyAreInterned) {
     for (std::size_t seen = 0; seen < 2000;) {
         seen = table.size();
         if (seen > 0) {
-            ASSERT_EQ(table.find(static_cast<SourceId>(seen - 1))->address, std::to_string(seen - 1));
+            ASSERT_EQ(table.find(static_cast<SenderId>(seen - 1))->address, std::to_string(seen - 1));
         }
     }
 }

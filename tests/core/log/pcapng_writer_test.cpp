@@ -20,7 +20,7 @@ ByteVector written(const std::vector<Recorded>& packets, bool isFinished = true)
     EXPECT_TRUE(writer.begin({"this machine", "some system", "Posewire test"}));
     for (const Recorded& one : packets) {
         const Packet packet{0, one.stampNs, {}, one.kernelDropsBefore, one.flags, one.bytes};
-        EXPECT_TRUE(writer.add(packet, one.source, one.comments));
+        EXPECT_TRUE(writer.add(packet, one.sender, one.comments));
     }
     if (isFinished) {
         EXPECT_TRUE(writer.finish());
@@ -32,7 +32,7 @@ ByteVector written(const std::vector<Recorded>& packets, bool isFinished = true)
 
 Recorded from(const std::string& address, Transport transport = Transport::Udp, std::uint16_t port = 9763) {
     Recorded one{poseDatagram(7)};
-    one.source = {address, transport, port};
+    one.sender = {address, transport, port};
     return one;
 }
 
@@ -126,8 +126,8 @@ TEST(PcapngWriter, GivesBackRandomPackets) {
     std::vector<Recorded> packets;
     for (int i = 0; i < 500; ++i) {
         Recorded one{bytesOf(random() % 3000)};
-        one.source.localPort = static_cast<std::uint16_t>(random());
-        one.source.transport = static_cast<Transport>(random() % 4);
+        one.sender.localPort = static_cast<std::uint16_t>(random());
+        one.sender.transport = static_cast<Transport>(random() % 4);
         one.stampNs = static_cast<std::int64_t>((std::uint64_t{random()} << 32 | random()) >> 2);
         one.kernelDropsBefore = random() % 3 == 0 ? static_cast<std::uint32_t>(random()) : 0;
         one.flags = {random() % 2 == 0, random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};

@@ -2,6 +2,7 @@
 #include "core/log/raw_file.h"
 
 #include "tests/core/log/datagram_fixture.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -51,7 +52,7 @@ std::vector<Seen> records(ByteSource& source, tl::expected<void, FileError>& res
     result = readFile(source, [&](const FileRecord& record) {
         seen.push_back({record.offset, record.bytes.size(), record.isSkipped});
         EXPECT_FALSE(record.stampNs.has_value());
-        EXPECT_FALSE(record.source.has_value());
+        EXPECT_FALSE(record.sender.has_value());
     });
     return seen;
 }
@@ -119,7 +120,7 @@ TEST(RawFile, MissingFileAndFolderAreClearErrors) {
 }
 
 TEST(RawFile, ReadsTheCapturedDatagrams) {
-    const std::filesystem::path folder = POSEWIRE_SOURCE_DIR "/../shared/captures";
+    const std::filesystem::path folder = test::capturesFolder();
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "the captured datagrams are not here: " << folder;
     }

@@ -58,8 +58,8 @@ private:
                           {record.bytes.begin(), record.bytes.end()},
                           record.isSkipped,
                           record.stampNs,
-                          record.source->address,
-                          record.source->transport});
+                          record.sender->address,
+                          record.sender->transport});
     };
     Reassembly m_reassembly{m_visit};
     std::uint64_t m_offset = 0;

@@ -12,8 +12,8 @@ namespace {
 class RecorderTest : public testing::Test {
 protected:
     void append(std::uint32_t sample, std::uint32_t drops = 0) {
-        const SourceId source = m_log.sources().intern({"10.0.0.2:40001", Transport::Udp, 9763});
-        m_log.writer().append(poseDatagram(sample), {m_stampNs++, source, drops, {.stampedByKernel = true}});
+        const SenderId sender = m_log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+        m_log.writer().append(poseDatagram(sample), {m_stampNs++, sender, drops, {.stampedByKernel = true}});
         m_log.writer().publish();
     }
     PacketLog m_log{kSmallLog};

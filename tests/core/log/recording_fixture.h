@@ -14,7 +14,7 @@ namespace posewire::log {
 /// A packet with what a recording keeps of it.
 struct Recorded {
     ByteVector bytes;
-    SourceInfo source{"10.0.0.2:40001", Transport::Udp, 9763};
+    SenderInfo sender{"10.0.0.2:40001", Transport::Udp, 9763};
     std::int64_t stampNs = 1'700'000'000'123'456'789;
     std::uint32_t kernelDropsBefore = 0;
     PacketFlags flags{.stampedByKernel = true};
@@ -25,8 +25,8 @@ struct Recorded {
 
 /// For the messages of tests.
 inline void PrintTo(const Recorded& one, std::ostream* out) {
-    *out << one.bytes.size() << " bytes from " << one.source.address << " ("
-         << static_cast<int>(one.source.transport) << ") to " << one.source.localPort << " at " << one.stampNs
+    *out << one.bytes.size() << " bytes from " << one.sender.address << " ("
+         << static_cast<int>(one.sender.transport) << ") to " << one.sender.localPort << " at " << one.stampNs
          << " after " << one.kernelDropsBefore << " drops, flags " << one.flags.truncated
          << one.flags.stampedByKernel << one.flags.skipped << one.flags.isDropRecord << ", "
          << one.comments.size() << " comments";
@@ -79,7 +79,7 @@ inline std::vector<Recorded> recordedIn(std::span<const std::byte> file) {
     const auto result = readFile(source, [&](const FileRecord& record) {
         const Arrival arrival = arrivalOf(record, {}, -1);
         all.push_back({{record.bytes.begin(), record.bytes.end()},
-                       record.source.value_or(SourceInfo{"unknown", Transport::File, 0}),
+                       record.sender.value_or(SenderInfo{"unknown", Transport::File, 0}),
                        arrival.stampNs,
                        arrival.kernelDropsBefore,
                        arrival.flags,

@@ -31,9 +31,9 @@ TEST(Recording, HoldsEveryPacketThatWasWrittenMeanwhile) {
     const std::string path = newFile();
     auto recording = Recording::start(log, path, {});
     ASSERT_TRUE(recording) << recording.error().text;
-    const SourceId source = log.sources().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+    const SenderId sender = log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
     for (std::uint32_t sample = 0; sample < count; ++sample) {
-        log.writer().append(poseDatagram(sample, 1), {sample, source, 0, {}});
+        log.writer().append(poseDatagram(sample, 1), {sample, sender, 0, {}});
         log.writer().publish();
     }
     ASSERT_TRUE((*recording)->stop());

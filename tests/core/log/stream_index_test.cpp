@@ -23,8 +23,8 @@ ByteVector headerOnly(std::uint8_t type, std::uint8_t character, std::uint32_t s
 
 class StreamIndexTest : public ::testing::Test {
 protected:
-    void append(const ByteVector& bytes, std::int64_t stampNs, SourceId source = SourceId{}) {
-        m_log.writer().append(bytes, {.stampNs = stampNs, .source = source});
+    void append(const ByteVector& bytes, std::int64_t stampNs, SenderId sender = SenderId{}) {
+        m_log.writer().append(bytes, {.stampNs = stampNs, .sender = sender});
         m_log.writer().publish();
     }
     bool follow(std::uint64_t limit = UINT64_MAX) {
@@ -37,28 +37,28 @@ protected:
     StreamIndex m_index;
 };
 
-TEST_F(StreamIndexTest, KeepsStreamsApartBySourceCharacterAndType) {
+TEST_F(StreamIndexTest, KeepsStreamsApartBySenderCharacterAndType) {
     append(headerOnly(2, 0, 1), 10);
     append(headerOnly(2, 1, 1), 20);
     append(headerOnly(25, 0, 1), 30);
-    append(headerOnly(2, 0, 1), 40, SourceId{1});
+    append(headerOnly(2, 0, 1), 40, SenderId{1});
     append(headerOnly(2, 0, 2), 50);
     EXPECT_TRUE(follow());
     EXPECT_EQ(m_index.streams().size(), 4U);
-    const StreamEntries* entries = m_index.find({SourceId{}, 0, 2});
+    const StreamEntries* entries = m_index.find({SenderId{}, 0, 2});
     ASSERT_NE(entries, nullptr);
     ASSERT_EQ(entries->size(), 2U);
     EXPECT_EQ((*entries)[1].packet, 4U);
     EXPECT_EQ((*entries)[1].stampNs, 50);
     EXPECT_EQ((*entries)[1].sample, 2U);
-    EXPECT_EQ(m_index.find({SourceId{2}, 0, 2}), nullptr);
+    EXPECT_EQ(m_index.find({SenderId{2}, 0, 2}), nullptr);
 }
 
 TEST_F(StreamIndexTest, KnowsTheParts) {
     append(headerOnly(13, 0, 0, 0x00), 1);
     append(headerOnly(13, 0, 0, 0x81), 2);
     follow();
-    const StreamEntries* entries = m_index.find({SourceId{}, 0, 13});
+    const StreamEntries* entries = m_index.find({SenderId{}, 0, 13});
     ASSERT_NE(entries, nullptr);
     EXPECT_EQ((*entries)[0].datagram, 0);
     EXPECT_FALSE((*entries)[0].isLast);
@@ -71,7 +71,7 @@ TEST_F(StreamIndexTest, FindsTheNewestAtOrBefore) {
         append(headerOnly(2, 0, i), 100 + 10 * static_cast<std::int64_t>(i));
     }
     follow();
-    const StreamEntries& entries = *m_index.find({SourceId{}, 0, 2});
+    const StreamEntries& entries = *m_index.find({SenderId{}, 0, 2});
     EXPECT_FALSE(entries.atOrBeforeStamp(99).has_value());
     EXPECT_EQ(entries.atOrBeforeStamp(100), 0U);
     EXPECT_EQ(entries.atOrBeforeStamp(109), 0U);
@@ -87,7 +87,7 @@ TEST_F(StreamIndexTest, StampsNeverGoBackWithinAStream) {
     append(headerOnly(2, 0, 2), 50);
     append(headerOnly(2, 0, 3), 150);
     follow();
-    const StreamEntries& entries = *m_index.find({SourceId{}, 0, 2});
+    const StreamEntries& entries = *m_index.find({SenderId{}, 0, 2});
     EXPECT_EQ(entries[1].stampNs, 100);
     EXPECT_EQ(entries.atOrBeforeStamp(120), 1U);
 }
@@ -113,7 +113,7 @@ TEST_F(StreamIndexTest, GoesOnWhereItStoppedAndInPortions) {
     EXPECT_FALSE(follow(69));
     EXPECT_TRUE(follow(1));
     EXPECT_TRUE(follow());
-    EXPECT_EQ(m_index.find({SourceId{}, 0, 2})->size(), 100U);
+    EXPECT_EQ(m_index.find({SenderId{}, 0, 2})->size(), 100U);
 }
 
 TEST_F(StreamIndexTest, IsTrimmedTogetherWithTheLog) {
@@ -126,14 +126,14 @@ TEST_F(StreamIndexTest, IsTrimmedTogetherWithTheLog) {
     }
     follow();
     ASSERT_GT(m_reader.begin(), 0U);
-    const StreamEntries& entries = *m_index.find({SourceId{}, 0, 2});
+    const StreamEntries& entries = *m_index.find({SenderId{}, 0, 2});
     EXPECT_EQ(entries.size(), m_reader.end() - m_reader.begin());
     EXPECT_EQ(entries[0].packet, m_reader.begin());
     EXPECT_EQ(entries.back().packet, m_reader.end() - 1);
     for (std::size_t i = 0; i < entries.size(); ++i) {
         ASSERT_EQ(entries[i].packet, m_reader.begin() + i);
     }
-    EXPECT_EQ(m_index.find({SourceId{}, 0, 12}), nullptr) << "nothing is left of this stream";
+    EXPECT_EQ(m_index.find({SenderId{}, 0, 12}), nullptr) << "nothing is left of this stream";
     EXPECT_EQ(m_index.streams().size(), 1U);
 }
 

@@ -2,9 +2,9 @@
 #include "core/performer/centre_of_mass.h"
 #include "core/performer/performer.h"
 
-#include "core/model/joint_angles.h"
-#include "core/model/points.h"
-#include "core/model/spaces.h"
+#include "core/model/body/joint_angles.h"
+#include "core/model/body/points.h"
+#include "core/model/body/spaces.h"
 
 #include <gtest/gtest.h>
 

@@ -228,11 +228,11 @@ TEST(Faults, CutAndCorruptIntoWhatTheCodecRejectsOrAccepts) {
     settings.truncate = 0.2;
     FaultTally tally;
     const auto sendings = performWithFaults({}, settings, 2.0, &tally);
-    const SourceFigures source = truthOf(sendings).source();
+    const SenderFigures sender = truthOf(sendings).sender();
     EXPECT_NEAR(static_cast<double>(tally.truncated), 0.2 * static_cast<double>(tally.offered), 400.0);
-    EXPECT_GT(source.malformed, tally.truncated / 2);
-    EXPECT_GT(source.foreign, 10U);
-    EXPECT_EQ(source.datagrams + source.malformed + source.foreign, sendings.size());
+    EXPECT_GT(sender.malformed, tally.truncated / 2);
+    EXPECT_GT(sender.foreign, 10U);
+    EXPECT_EQ(sender.datagrams + sender.malformed + sender.foreign, sendings.size());
     EXPECT_EQ(sendings.size() + tally.dropped, tally.offered + tally.duplicated);
 }
 

@@ -3,7 +3,7 @@
 
 #include "core/performer/motion.h"
 
-#include "core/model/points.h"
+#include "core/model/body/points.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include "tests/core/performer/faulty_performance.h"
 
 #include "core/log/packet_log.h"
-#include "core/model/stream_accounting.h"
+#include "core/model/accounting/stream_accounting.h"
 #include "core/wire/type_table.h"
 
 #include <gtest/gtest.h>
@@ -27,21 +27,21 @@ namespace {
 /// What the receiver makes of it.
 struct Received {
     std::map<Truth::StreamKey, model::StreamAccounting> streams;
-    SourceFigures source;
+    SenderFigures sender;
 };
 
 void receive(const log::Packet& packet, Received& received) {
     if (!wire::startsWithMagic(packet.bytes)) {
-        ++received.source.foreign;
+        ++received.sender.foreign;
         return;
     }
-    received.source.bytes += packet.bytes.size();
+    received.sender.bytes += packet.bytes.size();
     const auto datagram = wire::decode(packet.bytes);
     if (!datagram) {
-        ++received.source.malformed;
+        ++received.sender.malformed;
         return;
     }
-    ++received.source.datagrams;
+    ++received.sender.datagrams;
     const wire::Header& header = datagram->header;
     auto& stream =
         received.streams.try_emplace({header.character, header.type()}, header.type()).first->second;
@@ -51,11 +51,11 @@ void receive(const log::Packet& packet, Received& received) {
 Received receiveAll(const std::vector<Sending>& sendings) {
     constexpr std::int64_t startNs = 1'700'000'000'000'000'000;
     log::PacketLog log;
-    const log::SourceId source = log.sources().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
+    const log::SenderId sender = log.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
     for (const Sending& sending : sendings) {
         log::Arrival arrival;
         arrival.stampNs = startNs + sending.dueNs;
-        arrival.source = source;
+        arrival.sender = sender;
         log.writer().append(sending.bytes, arrival);
     }
     log.writer().publish();
@@ -92,7 +92,7 @@ void expectAgreement(const PerformerSettings& performance, const FaultSettings& 
     const auto sendings = performWithFaults(performance, faults, seconds);
     const Truth truth = truthOf(sendings);
     const Received received = receiveAll(sendings);
-    EXPECT_EQ(received.source, truth.source());
+    EXPECT_EQ(received.sender, truth.sender());
     EXPECT_EQ(received.streams.size(), truth.streams().size());
     for (const auto& [key, stream] : truth.streams()) {
         const auto found = received.streams.find(key);

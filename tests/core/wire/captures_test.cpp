@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/spaces.h"
+#include "core/model/body/spaces.h"
 #include "core/wire/codec.h"
 #include "core/wire/metadata_text.h"
 #include "tests/support/golden.h"

@@ -2,6 +2,7 @@
 #include "core/wire/type_table.h"
 #include "tests/core/wire/expected_datagrams.h"
 #include "tests/core/wire/golden_fixture.h"
+#include "tests/support/paths.h"
 
 #include <algorithm>
 #include <set>
@@ -85,9 +86,9 @@ TEST(Goldens, AreAllExpected) {
 
 TEST(Goldens, AreTheSeedsOfTheFuzzer) {
     for (const auto& golden : posewire::test::goldens()) {
-        EXPECT_EQ(
-            posewire::test::readBytes(POSEWIRE_SOURCE_DIR "/tests/fuzz/corpus/decode_fuzz/" + golden.name),
-            golden.bytes)
+        EXPECT_EQ(posewire::test::readBytes(
+                      posewire::test::sourcePath("tests/fuzz/corpus/decode_fuzz/" + golden.name)),
+                  golden.bytes)
             << golden.name;
     }
 }

@@ -2,6 +2,7 @@
 #include "render/mesh/import.h"
 #include "render/mesh/joints.h"
 #include "render/mesh/mannequin.h"
+#include "tests/support/paths.h"
 
 #include <array>
 #include <cstring>
@@ -14,7 +15,7 @@
 namespace posewire::render {
 namespace {
 
-const std::string kMannequinPath = POSEWIRE_SOURCE_DIR "/resources/mannequin_low.glb";
+const std::string kMannequinPath = posewire::test::sourcePath("resources/mannequin_low.glb").string();
 
 std::string readFile(const std::string& path) {
     std::ifstream file(path, std::ios::binary);

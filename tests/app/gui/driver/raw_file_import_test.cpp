@@ -30,8 +30,8 @@ protected:
     QString import(const QString& file) {
         return importRawFile(
             file,
-            [this](std::span<const std::byte> bytes, const log::SourceInfo& source, log::Arrival arrival) {
-                arrival.source = log.sources().intern(source);
+            [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, log::Arrival arrival) {
+                arrival.sender = log.senders().intern(sender);
                 log.writer().append(bytes, arrival);
                 log.writer().publish();
             },
@@ -69,7 +69,7 @@ TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {
 }
 
 TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
-    const std::vector<log::SourceInfo> sources{{"10.0.0.5:50000", log::Transport::Udp, 9763},
+    const std::vector<log::SenderInfo> senders{{"10.0.0.5:50000", log::Transport::Udp, 9763},
                                                {"10.0.0.6:50001", log::Transport::Udp, 9763},
                                                {"10.0.0.7:50002", log::Transport::Tcp, 9764}};
     const std::vector<std::byte> bytes(40, std::byte{7});
@@ -78,12 +78,12 @@ TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
         ASSERT_TRUE(sink);
         log::PcapngWriter writer(**sink);
         ASSERT_TRUE(writer.begin({}));
-        for (std::size_t i = 0; i < sources.size(); ++i) {
+        for (std::size_t i = 0; i < senders.size(); ++i) {
             log::Packet packet;
             packet.stampNs = Stage::kStart + static_cast<std::int64_t>(i) * 1'000'003;
             packet.kernelDropsBefore = i == 1 ? 17 : 0;
             packet.bytes = bytes;
-            ASSERT_TRUE(writer.add(packet, sources[i]));
+            ASSERT_TRUE(writer.add(packet, senders[i]));
         }
         ASSERT_TRUE(writer.finish());
     }
@@ -92,9 +92,9 @@ TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
                                                    Stage::kStart + 2'000'006}));
     log::LogReader reader(log);
     ASSERT_EQ(reader.end(), 3U);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
+    for (std::size_t i = 0; i < senders.size(); ++i) {
         const auto packet = reader.packet(i);
-        EXPECT_EQ(*log.sources().find(packet->source), sources[i]);
+        EXPECT_EQ(*log.senders().find(packet->sender), senders[i]);
         EXPECT_EQ(packet->kernelDropsBefore, i == 1 ? 17U : 0U);
         EXPECT_EQ(packet->bytes.size(), 40U);
     }

@@ -133,14 +133,14 @@ TEST_F(SessionDriverTest, AFileIsOpenedWhileThePortGoesOnReceiving) {
     listenAndSend(50);
     const auto datagrams = [&](log::Transport transport) {
         std::uint64_t count = 0;
-        for (const model::Source& source : driver.session().sources()) {
-            count += source.info.transport == transport ? source.datagrams : 0;
+        for (const model::Sender& sender : driver.session().senders()) {
+            count += sender.info.transport == transport ? sender.datagrams : 0;
         }
         return count;
     };
     EXPECT_TRUE(tickUntil(driver, [&] { return datagrams(log::Transport::Udp) == 100; }));
     EXPECT_EQ(datagrams(log::Transport::File), 2000U);
-    EXPECT_EQ(driver.session().sources().size(), 2U);
+    EXPECT_EQ(driver.session().senders().size(), 2U);
 }
 
 TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
@@ -157,7 +157,7 @@ TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
         ASSERT_TRUE(sender->send(*wire::encode(datagram)));
     }
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().characters().size() == 1; }));
-    EXPECT_EQ(driver.session().sources()[0].info.transport, log::Transport::Tcp);
+    EXPECT_EQ(driver.session().senders()[0].info.transport, log::Transport::Tcp);
     EXPECT_TRUE(driver.receiving().removePort(listening));
     EXPECT_FALSE(driver.receiving().removePort(listening));
     EXPECT_TRUE(driver.receiving().state().ports.empty());
@@ -167,7 +167,7 @@ TEST_F(SessionDriverTest, TheDemoGoesThroughARealSocket) {
     driver.receiving().addPort({"127.0.0.1", 0});
     driver.setDemo(2);
     EXPECT_TRUE(tickUntil(driver, [&] { return driver.session().characters().size() == 2; }));
-    EXPECT_EQ(driver.session().sources()[0].info.transport, log::Transport::Udp);
+    EXPECT_EQ(driver.session().senders()[0].info.transport, log::Transport::Udp);
     driver.setDemo(0);
     EXPECT_FALSE(driver.isDemoRunning());
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/paths.h"
+
 #include <QColor>
 #include <QFile>
 #include <QImage>
@@ -87,7 +89,7 @@ TEST_F(LivePicture, TwoPerformersSentOverUdpAreSeenInTheirColours) {
 }
 
 TEST_F(LivePicture, RecordedDatagramsSentOneByOneShowThePersonInOrange) {
-    const QString folder = QStringLiteral(POSEWIRE_SOURCE_DIR "/../shared/captures/");
+    const QString folder = QString::fromStdString(test::capturesFolder().string() + "/");
     if (!QFile::exists(folder + "mxtp02.bin")) {
         GTEST_SKIP() << "no recorded datagrams at " << folder.toStdString()
                      << ": the captured person is not shown";

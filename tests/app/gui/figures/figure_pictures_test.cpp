@@ -5,6 +5,7 @@
 #include "core/performer/performer.h"
 #include "render/offscreen.h"
 #include "tests/support/baseline.h"
+#include "tests/support/paths.h"
 
 #include <gtest/gtest.h>
 
@@ -29,7 +30,7 @@ protected:
 
     void send(std::span<const std::byte> bytes) {
         log::Arrival arrival;
-        arrival.source = m_log.sources().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
+        arrival.sender = m_log.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
         m_session.follow(0);
@@ -88,7 +89,7 @@ TEST_F(FigurePictures, AWalkerHalfAStepLater) {
 }
 
 TEST_F(FigurePictures, ARealPersonInTheCapturedPose) {
-    const fs::path folder = fs::path(POSEWIRE_SOURCE_DIR) / "../shared/captures";
+    const fs::path folder = test::capturesFolder();
     if (!fs::exists(folder / "mxtp02.bin")) {
         GTEST_SKIP() << "no recorded datagrams at " << folder << ": the captured pose is not tested";
     }

@@ -18,8 +18,8 @@ protected:
         m_model.refresh();
     }
     QString text(const QModelIndex& index) const { return index.data().toString(); }
-    QModelIndex source() const { return m_model.index(0, 0); }
-    QModelIndex character(int row) const { return m_model.index(row, 0, source()); }
+    QModelIndex sender() const { return m_model.index(0, 0); }
+    QModelIndex character(int row) const { return m_model.index(row, 0, sender()); }
 
     Stage m_stage;
     CharacterModel m_model{m_stage.session, m_stage.commands};
@@ -31,14 +31,14 @@ TEST_F(CharacterModelTest, IsEmptyBeforeADatagramComes) {
     EXPECT_EQ(m_model.rowCount(), 0);
 }
 
-TEST_F(CharacterModelTest, ShowsSourceCharacterAndStream) {
+TEST_F(CharacterModelTest, ShowsSenderCharacterAndStream) {
     m_stage.sendMetadata("name:Factory\ncolor:e96417\n", Stage::kStart);
     m_stage.send(smallPose(), 1, 1, Stage::kStart);
     refresh();
     ASSERT_EQ(m_model.rowCount(), 1);
-    EXPECT_EQ(text(source()), Stage::kAddress);
-    EXPECT_EQ(text(source().siblingAtColumn(CharacterModel::kRate)), "UDP");
-    ASSERT_EQ(m_model.rowCount(source()), 1);
+    EXPECT_EQ(text(sender()), Stage::kAddress);
+    EXPECT_EQ(text(sender().siblingAtColumn(CharacterModel::kRate)), "UDP");
+    ASSERT_EQ(m_model.rowCount(sender()), 1);
     EXPECT_EQ(text(character(0)), "Factory");
     EXPECT_EQ(character(0).data(kSuffixRole).toString(), QStringLiteral("· 0"));
     EXPECT_EQ(character(0).data(kDotRole).value<QColor>().name(), "#e96417");
@@ -54,7 +54,7 @@ TEST_F(CharacterModelTest, AnnouncesOneInsertionAndOneChangeWhateverCame) {
     refresh();
     EXPECT_EQ(inserted.count(), 1);
     EXPECT_EQ(changed.count(), 1);
-    EXPECT_EQ(m_model.rowCount(source()), 4);
+    EXPECT_EQ(m_model.rowCount(sender()), 4);
     EXPECT_EQ(m_model.rowCount(character(3)),
               static_cast<int>(performer::typesOf(performer::Revision::N).size()));
     refresh();
@@ -123,21 +123,21 @@ TEST_F(CharacterModelTest, SaysInShapeAndWordsHowAStreamDoes) {
     EXPECT_EQ(text(character(0).siblingAtColumn(CharacterModel::kState)), QStringLiteral("■ stale 3.4 s"));
 }
 
-TEST_F(CharacterModelTest, NamesForeignDatagramsOfASource) {
+TEST_F(CharacterModelTest, NamesForeignDatagramsOfASender) {
     const std::string foreign = "{\"type\":\"transport\"}";
     m_stage.sendBytes(std::as_bytes(std::span(foreign)), Stage::kStart);
     refresh();
-    EXPECT_EQ(text(source().siblingAtColumn(CharacterModel::kState)), QStringLiteral("▲ 1 foreign"));
-    EXPECT_EQ(m_model.rowCount(source()), 0);
+    EXPECT_EQ(text(sender().siblingAtColumn(CharacterModel::kState)), QStringLiteral("▲ 1 foreign"));
+    EXPECT_EQ(m_model.rowCount(sender()), 0);
 }
 
 TEST_F(CharacterModelTest, SaysInFullWhatContradictsADeclarationWhereTheRowHasNoRoom) {
     m_stage.send(smallPose(), 1, 1, Stage::kStart);
     refresh();
-    model::SourceOverride declared;
+    model::SenderOverride declared;
     declared.revision = model::Revision::JOrK;
-    m_stage.commands.setOverride(m_stage.source(), declared);
-    const QModelIndex state = source().siblingAtColumn(CharacterModel::kState);
+    m_stage.commands.setOverride(m_stage.sender(), declared);
+    const QModelIndex state = sender().siblingAtColumn(CharacterModel::kState);
     EXPECT_TRUE(state.data(Qt::ToolTipRole).toString().contains("header counts are filled"))
         << state.data(Qt::ToolTipRole).toString().toStdString();
 }
@@ -149,7 +149,7 @@ TEST_F(CharacterModelTest, AsksToHideACharacterByItsCheckMark) {
     EXPECT_TRUE(m_model.setData(character(0), Qt::Unchecked, Qt::CheckStateRole));
     EXPECT_FALSE(m_stage.commands.isCharacterVisible(m_stage.key()));
     EXPECT_EQ(character(0).data(Qt::CheckStateRole).toInt(), Qt::Unchecked);
-    EXPECT_FALSE(m_model.setData(source(), Qt::Unchecked, Qt::CheckStateRole));
+    EXPECT_FALSE(m_model.setData(sender(), Qt::Unchecked, Qt::CheckStateRole));
 }
 
 } // namespace

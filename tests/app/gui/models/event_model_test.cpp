@@ -51,7 +51,7 @@ TEST_F(EventModelTest, SaysWhatHappenedWhoseItWasAndHowOften) {
     EXPECT_TRUE(text(row, EventModel::kWho).endsWith(QStringLiteral(" · 02")));
     EXPECT_EQ(text(row, EventModel::kCount), "1");
     EXPECT_EQ(text(row, EventModel::kGroup), "Loss");
-    EXPECT_GE(rowOfKind(model::EventKind::SourceUp), 0);
+    EXPECT_GE(rowOfKind(model::EventKind::SenderUp), 0);
 }
 
 TEST_F(EventModelTest, AnEpisodeIsOneRowThatChanges) {
@@ -91,13 +91,13 @@ TEST_F(EventModelTest, FiltersBySeverityGroupAndText) {
     EventModel::Filter filter;
     filter.severities = {false, true, true};
     m_model.setFilter(filter);
-    EXPECT_EQ(rowOfKind(model::EventKind::SourceUp), -1);
+    EXPECT_EQ(rowOfKind(model::EventKind::SenderUp), -1);
     EXPECT_GE(rowOfKind(model::EventKind::Gap), 0);
     filter = {};
     filter.groups = {true, false, true, true};
     m_model.setFilter(filter);
     EXPECT_EQ(rowOfKind(model::EventKind::Gap), -1);
-    EXPECT_GE(rowOfKind(model::EventKind::SourceUp), 0);
+    EXPECT_GE(rowOfKind(model::EventKind::SenderUp), 0);
     filter = {};
     filter.text = QStringLiteral("SAMPLES LOST");
     m_model.setFilter(filter);
@@ -135,7 +135,7 @@ TEST_F(EventModelTest, WhatHasNoPacketLeadsToTheOneBefore) {
     m_stage.now += 3 * Stage::kSecond;
     m_stage.follow();
     m_model.refresh();
-    const int row = rowOfKind(model::EventKind::SourceDown);
+    const int row = rowOfKind(model::EventKind::SenderDown);
     ASSERT_GE(row, 0);
     const model::Event& event = *m_model.event(m_model.index(row, 0));
     EXPECT_EQ(eventPacket(m_stage.session, event), m_stage.session.end() - 1);

@@ -207,9 +207,9 @@ TEST(InspectedPacket, IsTheSelectedOrTheNewestOfTheShownCharacter) {
     stage.follow();
     EXPECT_EQ(inspectedPacket(stage.session, 0), 2U);
     EXPECT_EQ(inspectedPacket(stage.session, wire::MetaData::kType), 3U);
-    stage.session.setSelection({stage.source(), stage.key(), 0, {}});
+    stage.session.setSelection({stage.sender(), stage.key(), 0, {}});
     EXPECT_EQ(inspectedPacket(stage.session, wire::MetaData::kType), 2U);
-    stage.session.setSelection({stage.source(), stage.key(), 0, 0});
+    stage.session.setSelection({stage.sender(), stage.key(), 0, 0});
     EXPECT_EQ(inspectedPacket(stage.session, 0), 0U);
 }
 

@@ -55,7 +55,7 @@ TEST_F(MetadataModelTest, ShowsWhatTheOperatorDeclaredInsteadOfWhatWasDetected) 
     refresh();
     EXPECT_TRUE(value("Revision").startsWith("L to N"));
     EXPECT_TRUE(value("Units").startsWith("metres"));
-    m_stage.commands.setOverride(m_stage.source(), {model::Revision::E, model::LengthUnit::Centimetre});
+    m_stage.commands.setOverride(m_stage.sender(), {model::Revision::E, model::LengthUnit::Centimetre});
     refresh();
     EXPECT_EQ(value("Revision"), QStringLiteral("E · as you said"));
     EXPECT_EQ(value("Units"), QStringLiteral("centimetres · as you said"));
@@ -92,7 +92,7 @@ TEST_F(MetadataModelTest, FollowsTheSelectedCharacter) {
     m_stage.perform(performer, 0, 2);
     refresh();
     const QString first = value("name");
-    m_stage.session.setSelection({m_stage.source(), m_stage.key(1), -1});
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
     refresh();
     EXPECT_NE(value("name"), first);
     EXPECT_EQ(m_model.character(), m_stage.key(1));
@@ -104,7 +104,7 @@ TEST_F(MetadataModelTest, SaysOnWhatItsConclusionsRest) {
     refresh();
     EXPECT_TRUE(value("Revision").contains(QStringLiteral(" · "))) << value("Revision").toStdString();
     EXPECT_TRUE(value("Units").startsWith("metres")) << value("Units").toStdString();
-    EXPECT_EQ(value("Source"), Stage::kAddress);
+    EXPECT_EQ(value("Sender"), Stage::kAddress);
     EXPECT_EQ(value("Segments"), QStringLiteral("23 body · 0 props · 0 fingers"));
     EXPECT_TRUE(value("Null pose").startsWith(QStringLiteral("● "))) << value("Null pose").toStdString();
 }

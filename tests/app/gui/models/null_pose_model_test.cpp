@@ -177,11 +177,11 @@ TEST_F(NullPoseModelTest, FollowsTheSelectedSegmentByName) {
         }
     });
     stage.follow();
-    stage.session.setSelection({stage.source(), stage.key(), 10, {}});
+    stage.session.setSelection({stage.sender(), stage.key(), 10, {}});
     refresh();
     EXPECT_EQ(reading.selectedPlace(), 9);
     EXPECT_EQ(reading.segmentAt(9), 10);
-    stage.session.setSelection({stage.source(), stage.key(), 40, {}});
+    stage.session.setSelection({stage.sender(), stage.key(), 40, {}});
     EXPECT_EQ(reading.selectedPlace(), -1);
 }
 

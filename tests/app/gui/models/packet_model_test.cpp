@@ -53,7 +53,7 @@ TEST_F(PacketModelTest, ListsWhatIsKnownAboutAPacket) {
     EXPECT_EQ(text(2, PacketModel::kNumber), "2");
     EXPECT_EQ(text(2, PacketModel::kTime), "0.0200");
     EXPECT_EQ(text(2, PacketModel::kDelta), "10.00");
-    EXPECT_EQ(text(2, PacketModel::kSource), Stage::kAddress);
+    EXPECT_EQ(text(2, PacketModel::kSender), Stage::kAddress);
     EXPECT_EQ(text(2, PacketModel::kType), "02 Pose, quaternion");
     EXPECT_EQ(text(2, PacketModel::kCharacter), "0");
     EXPECT_EQ(m_model.index(2, PacketModel::kCharacter).data(kSuffixRole).toString(), "Mira");
@@ -108,7 +108,7 @@ TEST_F(PacketModelTest, NotesInWordsWhatIsWrongWithTheBytes) {
 TEST_F(PacketModelTest, NotesWhatThisComputerDroppedMarksAndComments) {
     log::Arrival arrival;
     arrival.stampNs = Stage::kStart;
-    arrival.source = m_stage.source();
+    arrival.sender = m_stage.sender();
     arrival.kernelDropsBefore = 12;
     m_stage.log.writer().append(test::golden("02_quaternion_counted").bytes, arrival);
     m_stage.log.writer().publish();
@@ -140,11 +140,11 @@ TEST(PacketModel, AnnouncesOneRemovalForWhatTheLogDropped) {
     QSignalSpy removed(&model, &QAbstractItemModel::rowsRemoved);
     QSignalSpy inserted(&model, &QAbstractItemModel::rowsInserted);
     const auto& bytes = test::golden("02_quaternion_counted").bytes;
-    const auto source = log.sources().intern({"sender", log::Transport::Udp, 9763});
+    const auto sender = log.senders().intern({"sender", log::Transport::Udp, 9763});
     int rounds = 0;
     while (session.begin() == 0) {
         for (int i = 0; i < 500; ++i) {
-            log.writer().append(bytes, {.stampNs = Stage::kStart, .source = source});
+            log.writer().append(bytes, {.stampNs = Stage::kStart, .sender = sender});
         }
         log.writer().publish();
         session.follow(Stage::kStart);
@@ -204,14 +204,14 @@ TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
     log::PacketLog log({.memoryCap = 1 << 20, .chunkSize = 1 << 18});
     model::Session session(log);
     std::vector<std::byte> bytes = test::golden("02_quaternion_counted").bytes;
-    const auto source = log.sources().intern({"sender", log::Transport::Udp, 9763});
+    const auto sender = log.senders().intern({"sender", log::Transport::Udp, 9763});
     std::uint32_t sample = 0;
     while (session.begin() == 0) {
         for (int i = 0; i < 500; ++i) {
             sample += i % 5 == 4 ? 3 : 1; // two are missing again and again
             bytes[8] = static_cast<std::byte>(sample >> 8);
             bytes[9] = static_cast<std::byte>(sample);
-            log.writer().append(bytes, {.stampNs = Stage::kStart, .source = source});
+            log.writer().append(bytes, {.stampNs = Stage::kStart, .sender = sender});
         }
         log.writer().publish();
         session.follow(Stage::kStart);

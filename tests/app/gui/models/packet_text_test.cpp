@@ -63,7 +63,7 @@ TEST_F(PacketTextTest, EveryCellMakesAFilterThatItsOwnPacketPasses) {
         const auto datagram = wire::decode(packet->bytes);
         EXPECT_TRUE(
             compiled->matches({*packet, *m_stage.session.digests().find(42), &*datagram,
-                               m_stage.log.sources().find(packet->source), m_stage.session.firstStampNs()}))
+                               m_stage.log.senders().find(packet->sender), m_stage.session.firstStampNs()}))
             << text.toStdString();
     }
     EXPECT_EQ(packetCellFilter(m_stage.session, 42, PacketModel::kNote), "");

@@ -3,7 +3,7 @@
 
 #include "app/gui/commands.h"
 #include "core/log/packet_log.h"
-#include "core/model/session.h"
+#include "core/model/session/session.h"
 #include "core/performer/performer.h"
 
 #include <gtest/gtest.h>
@@ -33,8 +33,8 @@ public:
     void setComment(std::uint64_t packet, const QString& comment) override {
         m_session.setComment(packet, comment.toStdString());
     }
-    void setOverride(log::SourceId source, const model::SourceOverride& overrides) override {
-        m_session.setOverride(source, overrides);
+    void setOverride(log::SenderId sender, const model::SenderOverride& overrides) override {
+        m_session.setOverride(sender, overrides);
     }
     void setDisplayFilter(const QString& filter) override {
         m_session.setDisplayFilter(filter.toStdString());
@@ -72,15 +72,15 @@ struct Stage {
     static constexpr std::int64_t kStart = 1'700'000'000 * kSecond;
     static constexpr const char* kAddress = "192.168.10.21:52011";
 
-    log::SourceId source(const std::string& address = kAddress) {
-        return log.sources().intern({address, log::Transport::Udp, 9763});
+    log::SenderId sender(const std::string& address = kAddress) {
+        return log.senders().intern({address, log::Transport::Udp, 9763});
     }
-    model::CharacterKey key(std::uint8_t character = 0) { return {source(), character}; }
+    model::CharacterKey key(std::uint8_t character = 0) { return {sender(), character}; }
 
     void sendBytes(wire::Bytes bytes, std::int64_t stampNs, const std::string& address = kAddress) {
         log::Arrival arrival;
         arrival.stampNs = stampNs;
-        arrival.source = source(address);
+        arrival.sender = sender(address);
         log.writer().append(bytes, arrival);
         log.writer().publish();
         now = std::max(now, stampNs);

@@ -27,8 +27,8 @@ protected:
         m_stage.follow();
         m_model.refresh();
     }
-    QModelIndex source(int row = 0) const { return m_model.index(row, 0); }
-    QModelIndex character(int row = 0) const { return m_model.index(row, 0, source()); }
+    QModelIndex sender(int row = 0) const { return m_model.index(row, 0); }
+    QModelIndex character(int row = 0) const { return m_model.index(row, 0, sender()); }
     QModelIndex stream(int row = 0) const { return m_model.index(row, 0, character()); }
     static QModelIndex cell(const QModelIndex& row, Column column) {
         return row.siblingAtColumn(static_cast<int>(column));
@@ -91,7 +91,7 @@ TEST_F(StatisticsModelTest, FiguresAreOfTheRangeThatIsChosen) {
     EXPECT_EQ(text(stream(), Column::Samples), "500");
     EXPECT_EQ(text(stream(), Column::Rate), "100.0");
     EXPECT_EQ(text(stream(), Column::Bursts), "0");
-    EXPECT_EQ(text(source(), Column::Samples), "500");
+    EXPECT_EQ(text(sender(), Column::Samples), "500");
     m_stage.commands.selectRange({10 * Stage::kSecond, std::nullopt});
     refresh();
     EXPECT_NEAR(number(stream(), Column::Samples), 1000, 11);
@@ -100,17 +100,17 @@ TEST_F(StatisticsModelTest, FiguresAreOfTheRangeThatIsChosen) {
     EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
 }
 
-TEST_F(StatisticsModelTest, SumsOfCharacterAndSourceAddUpAndLeaveOutWhatMakesNoSense) {
+TEST_F(StatisticsModelTest, SumsOfCharacterAndSenderAddUpAndLeaveOutWhatMakesNoSense) {
     performer::Performer performer(sending(2, {2, 20, 12}, 100.0));
     m_stage.perform(performer, 0, 300, [](std::uint64_t frame) { return frame != 120; });
     refresh();
-    EXPECT_EQ(m_model.rowCount(source()), 2);
+    EXPECT_EQ(m_model.rowCount(sender()), 2);
     EXPECT_EQ(text(character(), Column::Lost), QStringLiteral("▲ 2"));
-    EXPECT_EQ(text(source(), Column::Lost), QStringLiteral("▲ 4"));
-    EXPECT_EQ(text(source(), Column::Rate), "");
-    EXPECT_EQ(text(source(), Column::Skew), "");
-    QString datagrams = text(source(), Column::Datagrams);
-    EXPECT_EQ(datagrams.remove(QChar(0x202f)).toULongLong(), m_stage.session.sources().front().datagrams);
+    EXPECT_EQ(text(sender(), Column::Lost), QStringLiteral("▲ 4"));
+    EXPECT_EQ(text(sender(), Column::Rate), "");
+    EXPECT_EQ(text(sender(), Column::Skew), "");
+    QString datagrams = text(sender(), Column::Datagrams);
+    EXPECT_EQ(datagrams.remove(QChar(0x202f)).toULongLong(), m_stage.session.senders().front().datagrams);
 }
 
 TEST_F(StatisticsModelTest, MessagesWithoutSamplesHaveNoFiguresOfSamples) {
@@ -142,7 +142,7 @@ TEST_F(StatisticsModelTest, AnnouncesAtMostOneInsertionAndOneChangeEachTime) {
         EXPECT_LE(inserted.count(), 1);
         EXPECT_EQ(changed.count(), 1);
     }
-    EXPECT_EQ(m_model.rowCount(source()), 4);
+    EXPECT_EQ(m_model.rowCount(sender()), 4);
     EXPECT_EQ(m_model.rowCount(character()),
               static_cast<int>(performer::typesOf(performer::Revision::N).size()));
 }
@@ -162,7 +162,7 @@ TEST_F(StatisticsModelTest, ACellIsAFilterThatThePacketListUnderstands) {
     EXPECT_EQ(filter(stream(), Column::Lost), "type == 02 && character == 0 && gap > 0");
     EXPECT_EQ(filter(stream(), Column::Duplicates), "type == 02 && character == 0 && duplicate");
     EXPECT_EQ(filter(character(), Column::Restarts), "character == 0 && restart");
-    EXPECT_EQ(filter(source(), Column::Malformed), "source == \"192.168.10.21:52011\" && malformed");
+    EXPECT_EQ(filter(sender(), Column::Malformed), "source == \"192.168.10.21:52011\" && malformed");
     m_stage.sendBytes({}, m_stage.now, "192.168.10.22:52011");
     m_stage.commands.selectRange(
         {0, model::TimeRange{Stage::kStart + Stage::kSecond, Stage::kStart + 2 * Stage::kSecond}});
@@ -182,7 +182,7 @@ TEST_F(StatisticsModelTest, CsvHasALineForEachStreamAndNumbersThatProgramsRead) 
     refresh();
     const QStringList lines = m_model.csv().split(QStringLiteral("\r\n"));
     ASSERT_EQ(lines.size(), 6);
-    EXPECT_TRUE(lines[0].startsWith("Source,Character,Name,Type,Hz,"));
+    EXPECT_TRUE(lines[0].startsWith("Sender,Character,Name,Type,Hz,"));
     EXPECT_TRUE(lines[1].startsWith("192.168.10.21:52011,0,"));
     EXPECT_EQ(lines[1].count(QLatin1Char(',')), lines[0].count(QLatin1Char(',')));
     EXPECT_FALSE(m_model.csv().contains(QChar(0x202f)));
@@ -197,7 +197,7 @@ TEST(ReceiverFacts, TellsWhatThisComputerDropped) {
     EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("● 0"));
     log::Arrival arrival;
     arrival.stampNs = Stage::kStart;
-    arrival.source = stage.source();
+    arrival.sender = stage.sender();
     arrival.kernelDropsBefore = 17;
     wire::Datagram datagram;
     datagram.body = smallPose();

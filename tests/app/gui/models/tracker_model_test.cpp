@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/tracker_model.h"
 
-#include "core/model/spaces.h"
+#include "core/model/body/spaces.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -137,12 +137,12 @@ TEST_F(TrackerModelTest, ReadsTheSameHistoryWhetherLookedAtOftenOrOnce) {
 TEST_F(TrackerModelTest, FollowsTheSelectedSegment) {
     performer::Performer performer(sending(1, {2, 23}));
     m_stage.perform(performer, 0, 50);
-    m_stage.session.setSelection({m_stage.source(), m_stage.key(), 10});
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 10});
     refresh();
     ASSERT_NE(m_model.shown(), nullptr);
     EXPECT_EQ(m_model.shown()->id, 11U);
     // A segment without a tracker leaves the tracker where it was.
-    m_stage.session.setSelection({m_stage.source(), m_stage.key(), 5});
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 5});
     refresh();
     EXPECT_EQ(m_model.shown()->id, 11U);
 }

@@ -15,7 +15,7 @@ protected:
     void SetUp() override {
         m_stage.send(smallPose(), 1, 0, Stage::kStart);
         m_stage.follow();
-        m_bar.showSource(m_stage.source());
+        m_bar.showSender(m_stage.sender());
     }
 
     /// Chooses from the menu of the button whose text begins with `button`.
@@ -24,7 +24,7 @@ protected:
             for (QAction* action : one->menu()->actions()) {
                 if (one->text().startsWith(button) && action->text() == text) {
                     action->trigger();
-                    m_bar.showSource(m_stage.source());
+                    m_bar.showSender(m_stage.sender());
                     return;
                 }
             }
@@ -32,33 +32,33 @@ protected:
         ADD_FAILURE() << button.toStdString() << " has no " << text.toStdString();
     }
     QString contradictions() const { return m_bar.findChild<QLabel*>()->text(); }
-    const model::Source& source() const { return m_stage.session.sources().front(); }
+    const model::Sender& sender() const { return m_stage.session.senders().front(); }
 
     Stage m_stage;
     DetectionBar m_bar{m_stage.session, m_stage.commands, nullptr};
 };
 
-TEST_F(DetectionBarTest, DeclaresRevisionAndUnitOfTheSource) {
+TEST_F(DetectionBarTest, DeclaresRevisionAndUnitOfTheSender) {
     choose("Revision", "J or K");
     choose("Units", "centimetres");
-    EXPECT_EQ(source().overrides.revision, model::Revision::JOrK);
-    EXPECT_EQ(source().overrides.positionUnit, model::LengthUnit::Centimetre);
+    EXPECT_EQ(sender().overrides.revision, model::Revision::JOrK);
+    EXPECT_EQ(sender().overrides.positionUnit, model::LengthUnit::Centimetre);
     choose("Revision", "automatic");
-    EXPECT_FALSE(source().overrides.revision);
-    EXPECT_EQ(source().overrides.positionUnit, model::LengthUnit::Centimetre);
+    EXPECT_FALSE(sender().overrides.revision);
+    EXPECT_EQ(sender().overrides.positionUnit, model::LengthUnit::Centimetre);
 }
 
 TEST_F(DetectionBarTest, SaysWhatContradictsTheDeclaration) {
     EXPECT_TRUE(contradictions().isEmpty());
     choose("Revision", "J or K");
     EXPECT_EQ(contradictions(), QStringLiteral("▲ declared J or K, but header counts are filled"));
-    EXPECT_EQ(sourceState(m_stage.session, source()).text, "declared J or K, sends counts");
+    EXPECT_EQ(senderState(m_stage.session, sender()).text, "declared J or K, sends counts");
     choose("Revision", "L to N");
     EXPECT_TRUE(contradictions().isEmpty());
 }
 
-TEST_F(DetectionBarTest, IsHiddenWithoutASource) {
-    m_bar.showSource(std::nullopt);
+TEST_F(DetectionBarTest, IsHiddenWithoutASender) {
+    m_bar.showSender(std::nullopt);
     EXPECT_TRUE(m_bar.isHidden());
 }
 

@@ -72,7 +72,7 @@ TEST_F(NullPosePanelTest, ARowSelectsItsSegmentEverywhereAndBack) {
     view->setCurrentIndex(view->model()->index(9, 0));
     EXPECT_EQ(selectedSegment(), 9);
     EXPECT_EQ(figure()->accessibleDescription(), "10 RightForeArm");
-    m_stage.session.setSelection({m_stage.source(), m_stage.key(), 3, {}});
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 3, {}});
     const int asked = m_stage.commands.selections;
     refresh();
     EXPECT_EQ(view->currentIndex().row(), 3);
@@ -107,7 +107,7 @@ TEST_F(NullPosePanelTest, APointOfTheTableIsNamedInTheFigureUntilAnotherSegmentI
     refresh();
     EXPECT_EQ(figure()->accessibleDescription(), "1.13 pSacrum");
     EXPECT_EQ(selectedSegment(), 0);
-    m_stage.session.setSelection({m_stage.source(), m_stage.key(), 6, {}});
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 6, {}});
     refresh();
     EXPECT_EQ(figure()->accessibleDescription(), "7 Head");
     EXPECT_FALSE(view->currentIndex().isValid());

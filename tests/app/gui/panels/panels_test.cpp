@@ -89,7 +89,7 @@ TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
     EXPECT_TRUE(view->isExpanded(second));
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
     EXPECT_EQ(m_stage.session.selection().character, m_stage.key(1));
-    EXPECT_EQ(m_stage.session.selection().source, m_stage.source());
+    EXPECT_EQ(m_stage.session.selection().sender, m_stage.sender());
     QTest::mouseDClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
     ASSERT_EQ(m_stage.commands.framed.size(), 1U);
     EXPECT_EQ(m_stage.commands.framed.front(), m_stage.key(1));
@@ -99,7 +99,7 @@ TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
     performer::Performer performer(sending(2, {2, 12}));
     m_stage.perform(performer, 0, 10);
     const auto panel = open<CharactersPanel>();
-    m_stage.session.setSelection({m_stage.source(), m_stage.key(1), 3});
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), 3});
     refresh(*panel);
     EXPECT_EQ(table(*panel)->currentIndex().row(), 1);
     EXPECT_EQ(m_stage.commands.selections, 0);
@@ -129,7 +129,7 @@ TEST_F(PanelsTest, PickingATrackerSelectsItsSegmentAndBack) {
     QTest::keyClick(view, Qt::Key_Down);
     EXPECT_EQ(m_stage.session.selection().segment, 4);
     EXPECT_EQ(m_stage.session.selection().character, m_stage.key());
-    m_stage.session.setSelection({m_stage.source(), m_stage.key(), 10});
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 10});
     refresh(*panel);
     EXPECT_EQ(panel->summary(), QStringLiteral("Right Hand · 11"));
     EXPECT_EQ(m_stage.commands.selections, 1);

@@ -139,7 +139,7 @@ TEST_P(PicturesTest, Busy) {
             if (tick == 5) {
                 m_stage.sendMetadata("mood:fine\nname:Factory\ncolor:e96417\n", m_stage.now);
             }
-            m_stage.session.setSelection({m_stage.source(), m_stage.key(), 10});
+            m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 10});
         },
         120);
 }

@@ -175,7 +175,7 @@ TEST_F(StatisticsPanelTest, MenuOffersThePacketsAndCsv) {
     packets->actions()[1]->trigger();
     EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0 && gap > 0");
     menu.actions().back()->trigger();
-    EXPECT_TRUE(m_commands.copied.startsWith("Source,Character"));
+    EXPECT_TRUE(m_commands.copied.startsWith("Sender,Character"));
 }
 
 } // namespace

@@ -65,7 +65,7 @@ TEST_F(SceneBuilderTest, AxesAreDrawnForAllForTheSelectedOrForNone) {
     EXPECT_EQ(build().axes.size(), 2U * 23);
     options.axes = AxesMode::Selected;
     EXPECT_TRUE(build().axes.empty());
-    stage.session.setSelection({stage.source(), stage.key(1), -1});
+    stage.session.setSelection({stage.sender(), stage.key(1), -1});
     EXPECT_EQ(build().axes.size(), 23U);
     options.axes = AxesMode::None;
     EXPECT_TRUE(build().axes.empty());
@@ -75,7 +75,7 @@ TEST_F(SceneBuilderTest, TheGhostStandsOnTheFloorUnderTheLivePelvisAndLooksItsWa
     perform(2);
     EXPECT_TRUE(build().ghosts.empty());
     options.hasGhost = true;
-    stage.session.setSelection({stage.source(), stage.key(1), 6});
+    stage.session.setSelection({stage.sender(), stage.key(1), 6});
     const SceneFrame frame = build();
     ASSERT_EQ(frame.ghosts.size(), 1U);
     const Figure& ghost = frame.ghosts[0];
@@ -105,7 +105,7 @@ TEST_F(SceneBuilderTest, WithoutANullPoseThereIsNoGhost) {
 
 TEST_F(SceneBuilderTest, TheSelectedSegmentIsMarkedOnItsCharacterOnly) {
     perform(2);
-    stage.session.setSelection({stage.source(), stage.key(1), 6});
+    stage.session.setSelection({stage.sender(), stage.key(1), 6});
     const SceneFrame frame = build();
     EXPECT_EQ(frame.figures[0].selectedSegment, -1);
     EXPECT_EQ(frame.figures[1].selectedSegment, 6);

@@ -41,8 +41,8 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     written.isMaximized = true;
     written.docks = QByteArray("\x00\xff\x01 docks", 9);
     written.panels["statistics"] = QJsonObject{{"columns", QJsonArray{0, 3}}};
-    written.sources.inputs = {{"", 9763, InputAddress::Kind::TcpListen}};
-    written.sources.relays = {{"10.0.0.9", 9763, false}};
+    written.inputs.inputs = {{"", 9763, InputAddress::Kind::TcpListen}};
+    written.inputs.relays = {{"10.0.0.9", 9763, false}};
     ASSERT_EQ(file.write(written), "");
     const Settings read = file.read(&problem);
     EXPECT_TRUE(problem.isEmpty()) << problem.toStdString();
@@ -52,7 +52,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     EXPECT_TRUE(read.isMaximized);
     EXPECT_EQ(read.docks, written.docks);
     EXPECT_EQ(read.panels, written.panels);
-    EXPECT_EQ(read.sources, written.sources);
+    EXPECT_EQ(read.inputs, written.inputs);
 }
 
 TEST_F(SettingsFileTest, SetsABrokenFileAsideEachTimeUnderANewName) {

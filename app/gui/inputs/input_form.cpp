@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/inputs/input_form.h"
+
+#include "app/gui/theme/combo_box.h"
+#include "app/gui/theme/theme.h"
+
+#include <QEvent>
+#include <QGridLayout>
+#include <QHostAddress>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QRegularExpression>
+#include <QSpinBox>
+
+namespace posewire::gui {
+
+namespace {
+
+using Kind = InputAddress::Kind;
+using Read = tl::expected<InputAddress, QString>;
+
+constexpr int kMostPort = 65'535;
+
+tl::unexpected<QString> wrong(const QString& text) {
+    return tl::unexpected(text);
+}
+
+Read readGroups(InputAddress input, const QString& text) {
+    static const QRegularExpression separators(QStringLiteral("[,;\\s]+"));
+    for (const QString& group : text.split(separators, Qt::SkipEmptyParts)) {
+        if (!QHostAddress(group).isMulticast()) {
+            return wrong(InputForm::tr("'%1' is not a multicast group: those are 224.0.0.0 to "
+                                       "239.255.255.255, and ff00:: and above.")
+                             .arg(group));
+        }
+        input.groups += group;
+    }
+    if (!input.groups.isEmpty() && !input.address.isEmpty()) {
+        return wrong(InputForm::tr("With multicast groups, leave the host empty."));
+    }
+    return input;
+}
+
+QString explanation(Kind kind) {
+    switch (kind) {
+    case Kind::Udp:
+        return InputForm::tr("MVN sends to this computer. Leave the host empty to hear at every address it "
+                             "has; groups only where MVN sends to a multicast group.");
+    case Kind::TcpListen:
+        return InputForm::tr("MVN connects to this computer: what it does when its protocol is TCP. Leave "
+                             "the host empty to listen at every address.");
+    case Kind::TcpConnect:
+        break;
+    }
+    return InputForm::tr("This computer connects to a sender that listens, and tries again for as long as "
+                         "it does not answer. MVN itself does not listen.");
+}
+
+} // namespace
+
+Read readInput(const TypedInput& typed) {
+    InputAddress input;
+    input.kind = typed.kind;
+    input.address = typed.host.trimmed();
+    if (input.address.startsWith(QLatin1Char('[')) && input.address.endsWith(QLatin1Char(']'))) {
+        input.address = input.address.mid(1, input.address.size() - 2);
+    }
+    if (typed.port < 1 || typed.port > kMostPort) {
+        return wrong(InputForm::tr("A port is a number from 1 to 65535."));
+    }
+    input.port = static_cast<std::uint16_t>(typed.port);
+    if (typed.kind == Kind::TcpConnect) {
+        return input.address.isEmpty() ? Read(wrong(InputForm::tr("Type the host to connect to.")))
+                                       : Read(input);
+    }
+    if (!input.address.isEmpty() && QHostAddress(input.address).isNull()) {
+        return wrong(InputForm::tr("'%1' is not an address. Type one of this computer's, or leave the host "
+                                   "empty for all of them.")
+                         .arg(input.address));
+    }
+    return typed.kind == Kind::Udp ? readGroups(input, typed.groups) : Read(input);
+}
+
+InputForm::InputForm(QWidget* parent)
+    : QWidget(parent),
+      m_protocol(new ComboBox(this)),
+      m_host(new QLineEdit(this)),
+      m_port(new QSpinBox(this)),
+      m_groups(new QLineEdit(this)),
+      m_note(new QLabel(this)) {
+    m_protocol->addItem(tr("UDP"), static_cast<int>(Kind::Udp));
+    m_protocol->addItem(tr("TCP, listening"), static_cast<int>(Kind::TcpListen));
+    m_protocol->addItem(tr("TCP, connecting"), static_cast<int>(Kind::TcpConnect));
+    m_port->setRange(1, kMostPort);
+    m_port->setValue(kDefaultPort);
+    m_port->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    m_note->setWordWrap(true);
+    m_note->setAlignment(Qt::AlignTop);
+    // The room is there from the beginning, so that nothing jumps under the pointer.
+    m_note->setMinimumHeight(2 * fontMetrics().lineSpacing());
+    const auto field = [this, grid = new QGridLayout(this)](const QString& text, QWidget* edit, int stretch) {
+        const int column = grid->columnCount();
+        auto* label = new QLabel(text, this);
+        label->setBuddy(edit);
+        label->setForegroundRole(QPalette::PlaceholderText);
+        grid->addWidget(label, 0, column);
+        grid->addWidget(edit, 1, column);
+        grid->setColumnStretch(column, stretch);
+        return grid;
+    };
+    field(tr("Pro&tocol"), m_protocol, 0);
+    field(tr("&Host"), m_host, 3);
+    field(tr("&Port"), m_port, 0);
+    QGridLayout* grid = field(tr("Multicast &groups"), m_groups, 2);
+    grid->addWidget(m_note, 2, 1, 1, grid->columnCount() - 1);
+    grid->setContentsMargins(0, 0, 0, 0);
+    m_port->setMinimumWidth(fontMetrics().horizontalAdvance(QStringLiteral("65535")) +
+                            3 * fontMetrics().height());
+    connect(m_protocol, &QComboBox::currentIndexChanged, this, &InputForm::changeKind);
+    for (QLineEdit* edit : {m_host, m_groups}) {
+        connect(edit, &QLineEdit::textChanged, this, [this] { setProblem({}); });
+    }
+    connect(m_port, &QSpinBox::valueChanged, this, [this] { setProblem({}); });
+    changeKind();
+}
+
+TypedInput InputForm::typed() const {
+    return {static_cast<Kind>(m_protocol->currentData().toInt()), m_host->text(), m_port->value(),
+            m_groups->text()};
+}
+
+void InputForm::setInput(const InputAddress& input) {
+    m_protocol->setCurrentIndex(m_protocol->findData(static_cast<int>(input.kind)));
+    m_host->setText(input.address);
+    m_port->setValue(input.port);
+    m_groups->setText(input.groups.join(QStringLiteral(", ")));
+    setProblem({});
+}
+
+void InputForm::focusHost() {
+    m_host->setFocus();
+    m_host->selectAll();
+}
+
+void InputForm::changeKind() {
+    const Kind kind = typed().kind;
+    m_groups->setEnabled(kind == Kind::Udp);
+    m_host->setPlaceholderText(kind == Kind::TcpConnect ? tr("name or address") : tr("every address"));
+    setProblem({});
+}
+
+void InputForm::setProblem(const QString& problem) {
+    m_problem = problem;
+    showNote();
+}
+
+void InputForm::showNote() {
+    m_note->setText(m_problem.isEmpty() ? explanation(typed().kind)
+                                        : healthSymbol(Health::Error) + QLatin1Char(' ') + m_problem);
+    QPalette palette = m_note->palette();
+    palette.setColor(QPalette::WindowText, m_problem.isEmpty() ? theme().dim : theme().error);
+    m_note->setPalette(palette);
+}
+
+void InputForm::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+        emit submitted();
+        return;
+    }
+    QWidget::keyPressEvent(event);
+}
+
+void InputForm::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) {
+        showNote();
+    }
+}
+
+} // namespace posewire::gui

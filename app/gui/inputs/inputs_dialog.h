@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/driver/receiving.h"
+
+#include <QDialog>
+
+class QTabWidget;
+
+namespace posewire::gui {
+
+class ConnectionPage;
+class RelayPage;
+class InputsPage;
+
+/// All about what comes in and goes on: inputs, relay, connection help. Stays open beside the window and
+/// shows what happens.
+class InputsDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    enum class Page : int { Inputs, Relay, Help };
+
+    explicit InputsDialog(Receiving& receiving, QWidget* parent = nullptr);
+
+    void open(Page page);
+    /// Shows the state of now; nothing where it is closed.
+    void refresh();
+
+    [[nodiscard]] InputsPage& inputs() const { return *m_inputs; }
+    [[nodiscard]] RelayPage& relay() const { return *m_relay; }
+    [[nodiscard]] ConnectionPage& help() const { return *m_help; }
+
+signals:
+    /// Receiving::choices() has been changed by the operator.
+    void choicesChanged();
+    void copyRequested(const QString& text);
+    void openFileRequested();
+
+private:
+    Receiving& m_receiving;
+    QTabWidget* m_tabs;
+    InputsPage* m_inputs;
+    RelayPage* m_relay;
+    ConnectionPage* m_help;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/inputs/relay_page.h"
+
+#include "app/gui/panels/table_view.h"
+
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QHostAddress>
+#include <QItemSelectionModel>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QShortcut>
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kTableRows = 6;
+
+/// "::1" has colons of its own: the port of an IPv6 address stands after brackets.
+bool isBareAddress(const QString& text) {
+    return text.count(QLatin1Char(':')) != 1 && !text.startsWith(QLatin1Char('['));
+}
+
+} // namespace
+
+tl::expected<RelayChoice, QString> readRelay(const QString& text) {
+    const QString trimmed = text.trimmed();
+    if (trimmed.isEmpty() || trimmed.contains(QLatin1Char(' '))) {
+        return tl::unexpected(RelayPage::tr("Type a host, or host:port."));
+    }
+    if (isBareAddress(trimmed)) {
+        return trimmed.contains(QLatin1Char(':')) && QHostAddress(trimmed).isNull()
+                   ? tl::expected<RelayChoice, QString>(
+                         tl::unexpected(RelayPage::tr("'%1' is no address.").arg(trimmed)))
+                   : RelayChoice{trimmed};
+    }
+    const auto input = parseInputAddress(trimmed, InputAddress::Kind::TcpConnect);
+    if (!input) {
+        return tl::unexpected(
+            RelayPage::tr("'%1' is not host:port with a port from 1 to 65535.").arg(trimmed));
+    }
+    return RelayChoice{input->address, input->port};
+}
+
+RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
+    : QWidget(parent),
+      m_relaying(relaying),
+      m_model(new RelayModel(this)),
+      m_table(new TableView(tr("Relay targets"), this)),
+      m_target(new QLineEdit(this)),
+      m_note(new QLabel(this)),
+      m_add(new QPushButton(tr("&Add target"), this)),
+      m_remove(new QPushButton(tr("&Remove"), this)) {
+    m_table->setModel(m_model);
+    m_table->setEmptyText(tr("Nothing is forwarded. Add the host of a program that needs the stream too."));
+    m_table->setColumnSamples({QStringLiteral("☑ motion-capture.studio"), QStringLiteral("65535"), QString(),
+                               QStringLiteral("100 000 000"), QStringLiteral("100 000"),
+                               QStringLiteral("100 000")},
+                              tr("looking up studio"));
+    layOut();
+    setFocusProxy(m_target);
+    connect(m_model, &RelayModel::switched, this, &RelayPage::switchTarget, Qt::QueuedConnection);
+    connect(m_table, &TableView::copyRequested, this, &RelayPage::copyRequested);
+    connect(m_add, &QPushButton::clicked, this, &RelayPage::submit);
+    connect(m_remove, &QPushButton::clicked, this, &RelayPage::removeSelected);
+    connect(m_target, &QLineEdit::textChanged, this, [this] { setProblem({}); });
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentChanged, this,
+            [this](const QModelIndex& current) {
+                m_remove->setEnabled(current.isValid());
+                showNote();
+            });
+    auto* removeKey = new QShortcut(QKeySequence::Delete, m_table);
+    removeKey->setContext(Qt::WidgetShortcut);
+    connect(removeKey, &QShortcut::activated, this, &RelayPage::removeSelected);
+    setProblem({});
+    refresh();
+}
+
+void RelayPage::layOut() {
+    auto* about = new QLabel(tr("Every datagram that is received is forwarded by UDP, unchanged, to each "
+                                "target that is on. Receiving never waits for it. What comes from files is "
+                                "not forwarded."),
+                             this);
+    about->setWordWrap(true);
+    about->setForegroundRole(QPalette::PlaceholderText);
+    m_table->setMinimumHeight(m_table->heightForRows(kTableRows));
+    m_target->setPlaceholderText(tr("host:port, such as 192.168.1.40:%1").arg(kDefaultPort));
+    m_note->setWordWrap(true);
+    m_note->setAlignment(Qt::AlignTop);
+    m_note->setMinimumHeight(2 * fontMetrics().lineSpacing());
+    m_remove->setEnabled(false);
+    auto* label = new QLabel(tr("&Target"), this);
+    label->setBuddy(m_target);
+    auto* row = new QHBoxLayout;
+    row->addWidget(label);
+    row->addWidget(m_target, 1);
+    row->addWidget(m_add);
+    row->addSpacing(fontMetrics().height());
+    row->addWidget(m_remove);
+    auto* column = new QVBoxLayout(this);
+    column->setSpacing(fontMetrics().height() * 2 / 3);
+    column->addWidget(about);
+    column->addWidget(m_table, 1);
+    column->addLayout(row);
+    column->addWidget(m_note);
+}
+
+void RelayPage::refresh() {
+    m_model->refresh(m_relaying.states());
+    m_remove->setEnabled(m_table->currentIndex().isValid());
+    showNote();
+}
+
+void RelayPage::submit() {
+    const auto choice = readRelay(m_target->text());
+    if (!choice) {
+        setProblem(choice.error());
+        return;
+    }
+    if (!m_relaying.add(*choice)) {
+        setProblem(tr("%1 is there already.").arg(displayText(*choice)));
+        return;
+    }
+    m_target->clear();
+    refresh();
+    m_table->setCurrentIndex(m_model->index(m_model->rowCount() - 1, 0));
+    emit choicesChanged();
+}
+
+void RelayPage::removeSelected() {
+    const QModelIndex current = m_table->currentIndex();
+    if (current.isValid()) {
+        m_relaying.remove(static_cast<std::size_t>(current.row()));
+        refresh();
+        emit choicesChanged();
+    }
+}
+
+void RelayPage::switchTarget(int row, bool isOn) {
+    if (static_cast<std::size_t>(row) < m_relaying.states().size()) {
+        m_relaying.setOn(static_cast<std::size_t>(row), isOn);
+        refresh();
+        emit choicesChanged();
+    }
+}
+
+void RelayPage::setProblem(const QString& problem) {
+    m_problem = problem;
+    showNote();
+}
+
+/// What is wrong with what is typed, else with the selected target: the table has no room for sentences.
+void RelayPage::showNote() {
+    const QModelIndex state = m_table->currentIndex().siblingAtColumn(RelayModel::kState);
+    const bool isTyped = !m_problem.isEmpty();
+    const QString text =
+        isTyped ? healthSymbol(Health::Error) + QLatin1Char(' ') + m_problem : state.data().toString();
+    const QVariant colour = isTyped ? QVariant(theme().error) : state.data(Qt::ForegroundRole);
+    QPalette palette = m_note->palette();
+    palette.setColor(QPalette::WindowText, colour.isValid() ? colour.value<QColor>() : theme().dim);
+    if (m_note->palette() != palette) {
+        m_note->setPalette(palette);
+    }
+    m_note->setText(text);
+}
+
+void RelayPage::keyPressEvent(QKeyEvent* event) {
+    if (event->key() != Qt::Key_Return && event->key() != Qt::Key_Enter) {
+        QWidget::keyPressEvent(event);
+    } else if (m_target->hasFocus()) {
+        submit();
+    }
+}
+
+void RelayPage::changeEvent(QEvent* event) {
+    QWidget::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange) {
+        showNote();
+    }
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/attribution.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::size_t kMostDrops = 4'096;
+constexpr std::size_t kMostDamages = 1'024;
+constexpr std::size_t kMostSilences = 64;
+// A sender with more streams than these is no performance.
+constexpr std::size_t kMostStreams = 64;
+// So many gaps back, late arrivals are looked for.
+constexpr std::size_t kMostBack = 1'024;
+constexpr std::int64_t kNsPerMs = 1'000'000;
+
+bool isBetween(std::uint32_t sample, const Gap& gap) {
+    return static_cast<std::int32_t>(sample - gap.fromSample) > 0 &&
+           static_cast<std::int32_t>(gap.toSample - sample) > 0;
+}
+
+template <class Value>
+void keepNewest(std::deque<Value>& values, std::size_t most) {
+    if (values.size() > most) {
+        values.pop_front();
+    }
+}
+
+std::string plural(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+std::string twoDigits(std::uint8_t type) {
+    return {static_cast<char>('0' + type / 10 % 10), static_cast<char>('0' + type % 10)};
+}
+
+} // namespace
+
+std::string_view nameOf(LossCause cause) {
+    switch (cause) {
+    case LossCause::ThisComputer:
+        return "this computer";
+    case LossCause::Network:
+        return "network";
+    case LossCause::Sender:
+        return "sender";
+    case LossCause::Unknown:
+        break;
+    }
+    return "unknown";
+}
+
+std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
+    auto result = attributed;
+    const std::uint64_t lost = accounting.counts().lost;
+    const std::uint64_t known = result[0] + result[1] + result[2];
+    result[static_cast<std::size_t>(LossCause::Unknown)] = lost > known ? lost - known : 0;
+    return result;
+}
+
+std::string Gap::evidenceText() const {
+    const std::int64_t lastedMs = (toStampNs - fromStampNs) / kNsPerMs;
+    switch (evidence) {
+    case Evidence::Dropped:
+        return "This computer dropped " + plural(figure, "datagram", "datagrams") +
+               " of the port between packets " + std::to_string(fromPacket) + " and " +
+               std::to_string(toPacket) + ".";
+    case Evidence::Damaged:
+        return "Sample " + std::to_string(figure) + " came truncated or damaged.";
+    case Evidence::Partial:
+        return "Of sample " + std::to_string(figure) + ", next to the gap, only a part came.";
+    case Evidence::OtherStream:
+        return "Type " + twoDigits(otherType) + " of the same source brought sample " +
+               std::to_string(figure) + ", which is missing here.";
+    case Evidence::Reliable:
+        return "TCP loses nothing: " + plural(lost, "sample was", "samples were") + " not sent.";
+    case Evidence::Paused:
+        return "All " + plural(figure, "stream", "streams") + " of the source paused together for " +
+               std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
+               " ms.";
+    case Evidence::None:
+        break;
+    }
+    return isJudged ? "Nothing was dropped here, and nothing else of the source tells where " +
+                          plural(lost, "sample", "samples") + " went in " + std::to_string(lastedMs) + " ms."
+                    : "Late arrivals are still waited for.";
+}
+
+void Attribution::addStream(std::size_t stream, const log::SenderInfo& info) {
+    const log::StreamKey& key = m_streams[stream].key;
+    Sender& sender = m_senders[static_cast<std::uint32_t>(key.sender)];
+    sender.transport = info.transport;
+    sender.localPort = info.localPort;
+    if (countsSamples(key.type) && sender.streams.size() < kMostStreams) {
+        sender.streams.push_back(stream);
+    }
+    m_steps.resize(std::max(m_steps.size(), stream + 1));
+}
+
+std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
+    m_judged.clear();
+    while (!m_due.empty()) {
+        const Gap* gap = find(m_due.front().gap);
+        if (gap != nullptr && packet.stampNs - gap->toStampNs < kPatienceNs) {
+            break;
+        }
+        if (gap != nullptr) {
+            judge(m_due.front().gap, m_due.front().stream);
+            m_judged.push_back(*gap);
+        }
+        m_due.pop_front();
+    }
+    if (packet.kernelDropsBefore != 0) {
+        m_drops.push_back({packet.number, packet.kernelDropsBefore, localPort});
+        keepNewest(m_drops, kMostDrops);
+    }
+    return m_judged;
+}
+
+void Attribution::takeSampled(log::SenderId sender, std::int64_t stampNs) {
+    const auto found = m_senders.find(static_cast<std::uint32_t>(sender));
+    if (found == m_senders.end()) {
+        return;
+    }
+    Sender& figures = found->second;
+    if (figures.lastStampNs != 0 && stampNs - figures.lastStampNs >= kPauseNs) {
+        figures.silences.emplace_back(figures.lastStampNs, stampNs);
+        keepNewest(figures.silences, kMostSilences);
+    }
+    figures.lastStampNs = stampNs;
+}
+
+void Attribution::takeMalformed(const log::Packet& packet, const wire::Header& header) {
+    m_damages.push_back(
+        {{packet.sender, header.character, header.type()}, header.sampleCounter, packet.number});
+    keepNewest(m_damages, kMostDamages);
+}
+
+void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
+    const std::uint32_t step = m_streams[stream].accounting.step();
+    if (verdict.gap != 0) {
+        Gap gap;
+        gap.stream = m_streams[stream].key;
+        gap.fromSample = verdict.sampleBefore;
+        gap.toSample = verdict.sample;
+        gap.fromStampNs = verdict.stampBeforeNs;
+        gap.toStampNs = verdict.stampNs;
+        gap.fromPacket = verdict.packetBefore;
+        gap.toPacket = verdict.packet;
+        gap.lost = verdict.gap;
+        gap.timeCodeMoved = verdict.timeCode - verdict.timeCodeBefore;
+        m_gaps.push_back(gap);
+        m_due.push_back({m_firstGap + m_gaps.size() - 1, stream});
+        if (m_gaps.size() > kMostGaps) {
+            m_gaps.pop_front();
+            ++m_firstGap;
+        }
+        ++m_version;
+    } else if (verdict.isReordered && verdict.isFirstOfSample) {
+        fill(stream, verdict.sample);
+    }
+    if (step != m_steps[stream]) {
+        m_steps[stream] = step;
+        recheck(stream);
+    }
+}
+
+const Gap* Attribution::endedBy(std::uint64_t packet) const {
+    const auto found = std::ranges::lower_bound(m_gaps, packet, {}, &Gap::toPacket);
+    return found != m_gaps.end() && found->toPacket == packet ? &*found : nullptr;
+}
+
+/// Counts again what a gap still lacks, in it and in the sums of its stream.
+void Attribution::recount(Gap& gap, std::size_t stream) {
+    const std::uint32_t lost = m_streams[stream].accounting.missingBetween(gap.fromSample, gap.toSample);
+    if (lost == gap.lost) {
+        return;
+    }
+    if (gap.isJudged) {
+        std::uint64_t& sum = m_streams[stream].attributed[static_cast<std::size_t>(gap.cause)];
+        sum += lost;
+        sum -= std::min<std::uint64_t>(sum, gap.lost);
+    }
+    gap.lost = lost;
+    ++m_version;
+}
+
+void Attribution::judge(std::uint64_t number, std::size_t stream) {
+    Gap& gap = *find(number);
+    recount(gap, stream);
+    findCause(gap, m_streams[stream]);
+    gap.isJudged = true;
+    m_streams[stream].attributed[static_cast<std::size_t>(gap.cause)] += gap.lost;
+    ++m_version;
+}
+
+/// A sample came after all.
+void Attribution::fill(std::size_t stream, std::uint32_t sample) {
+    const log::StreamKey& key = m_streams[stream].key;
+    std::size_t looked = 0;
+    for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && looked < kMostBack; ++gap, ++looked) {
+        if (gap->stream == key && isBetween(sample, *gap)) {
+            recount(*gap, stream);
+            return;
+        }
+    }
+}
+
+/// The step became another in hindsight: what seemed lost may not be.
+void Attribution::recheck(std::size_t stream) {
+    const log::StreamKey& key = m_streams[stream].key;
+    std::size_t looked = 0;
+    for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && looked < kMostBack; ++gap, ++looked) {
+        if (gap->stream == key) {
+            recount(*gap, stream);
+        }
+    }
+}
+
+void Attribution::findCause(Gap& gap, const Stream& stream) const {
+    const auto found = m_senders.find(static_cast<std::uint32_t>(gap.stream.sender));
+    if (gap.lost == 0 || found == m_senders.end()) {
+        return;
+    }
+    const Sender& sender = found->second;
+    const auto decide = [&](LossCause cause, Gap::Evidence evidence, std::uint64_t figure) {
+        gap.cause = cause;
+        gap.evidence = evidence;
+        gap.figure = figure;
+    };
+    if (const std::uint64_t drops = dropsWithin(gap, sender.localPort); drops != 0) {
+        return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, drops);
+    }
+    if (sender.transport == log::Transport::Tcp) {
+        return decide(LossCause::Sender, Gap::Evidence::Reliable, 0);
+    }
+    if (const Damage* damage = damageWithin(gap)) {
+        return decide(LossCause::Network, Gap::Evidence::Damaged, damage->sample);
+    }
+    for (const std::uint32_t neighbour : {gap.fromSample, gap.toSample}) {
+        if (stream.accounting.isIncomplete(neighbour)) {
+            return decide(LossCause::Network, Gap::Evidence::Partial, neighbour);
+        }
+    }
+    const TimeRange when{gap.fromStampNs - kPatienceNs, gap.toStampNs + kPatienceNs};
+    for (const std::size_t other : sender.streams) {
+        const Stream& candidate = m_streams[other];
+        if (candidate.key == gap.stream) {
+            continue;
+        }
+        if (const auto sample = candidate.accounting.arrivedBetween(gap.fromSample, gap.toSample, when)) {
+            gap.otherType = candidate.key.type;
+            return decide(LossCause::Network, Gap::Evidence::OtherStream, *sample);
+        }
+    }
+    if (hasPaused(gap, sender)) {
+        decide(LossCause::Sender, Gap::Evidence::Paused, sender.streams.size());
+    }
+}
+
+std::uint64_t Attribution::dropsWithin(const Gap& gap, std::uint16_t localPort) const {
+    std::uint64_t drops = 0;
+    for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > gap.fromPacket; ++drop) {
+        drops += drop->packet <= gap.toPacket && drop->localPort == localPort ? drop->count : 0;
+    }
+    return drops;
+}
+
+const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {
+    for (auto damage = m_damages.rbegin(); damage != m_damages.rend(); ++damage) {
+        if (damage->packet < gap.fromPacket) {
+            break;
+        }
+        if (damage->stream == gap.stream && isBetween(damage->sample, gap)) {
+            return &*damage;
+        }
+    }
+    return nullptr;
+}
+
+bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
+    const std::int64_t lastedNs = gap.toStampNs - gap.fromStampNs;
+    const bool isSilent =
+        std::any_of(sender.silences.begin(), sender.silences.end(), [&](const auto& silence) {
+            const std::int64_t common =
+                std::min(silence.second, gap.toStampNs) - std::max(silence.first, gap.fromStampNs);
+            return common >= kPauseNs && 10 * common >= 9 * lastedNs;
+        });
+    const std::int64_t lastedMs = lastedNs / kNsPerMs;
+    const std::int64_t moved = static_cast<std::int32_t>(gap.timeCodeMoved);
+    return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
+}
+
+} // namespace posewire::model

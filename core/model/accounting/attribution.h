@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/model/accounting/stream.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+namespace posewire::model {
+
+/// Samples of a stream that did not come between two that did, and whose loss that was.
+struct Gap {
+    /// What the cause rests on.
+    enum class Evidence : std::uint8_t {
+        None,        ///< nothing speaks for anybody
+        Dropped,     ///< this computer dropped datagrams of the socket meanwhile
+        Damaged,     ///< one of the samples came truncated
+        Partial,     ///< of a sample next to it only a part came
+        OtherStream, ///< other streams of the sender brought one of the samples
+        Reliable,    ///< TCP loses nothing
+        Paused,      ///< all streams of the sender paused together, and the time code moved with the pause
+    };
+
+    log::StreamKey stream;
+    std::uint32_t fromSample = 0; ///< the samples around it, which came
+    std::uint32_t toSample = 0;
+    std::int64_t fromStampNs = 0;
+    std::int64_t toStampNs = 0;
+    std::uint64_t fromPacket = 0;
+    std::uint64_t toPacket = 0;
+    std::uint32_t lost = 0; ///< what still is; 0 where all came late or nothing was expected
+    LossCause cause = LossCause::Unknown;
+    Evidence evidence = Evidence::None;
+    bool isJudged = false;           ///< else late arrivals are still waited for
+    std::uint32_t timeCodeMoved = 0; ///< ms
+    std::uint64_t figure = 0;        ///< of the evidence: datagrams, a sample, ms
+    std::uint8_t otherType = 0;      ///< of the evidence OtherStream
+
+    /// One sentence with figures.
+    [[nodiscard]] std::string evidenceText() const;
+};
+
+/// Finds whose loss each gap was, from the log alone: deterministic whoever reads it in whatever portions.
+/// Judged some time of the log after the gap, since late arrivals may fill it, and corrected if they still
+/// do.
+class Attribution {
+public:
+    static constexpr std::int64_t kPatienceNs = 150'000'000;
+    static constexpr std::size_t kMostGaps = 65'536;
+    /// A shorter silence of a sender is no pause.
+    static constexpr std::int64_t kPauseNs = 250'000'000;
+
+    /// The streams of the session, which outlive this.
+    explicit Attribution(std::deque<Stream>& streams) : m_streams(streams) {}
+
+    void addStream(std::size_t stream, const log::SenderInfo& info);
+
+    /// Each packet, before its content: notes drops and judges what is due. Returns the gaps that were
+    /// judged, valid until the next call.
+    std::span<const Gap> takePacket(const log::Packet& packet, std::uint16_t localPort);
+    /// Each datagram of a type that counts samples.
+    void takeSampled(log::SenderId sender, std::int64_t stampNs);
+    /// One that has a header and cannot be decoded.
+    void takeMalformed(const log::Packet& packet, const wire::Header& header);
+    /// What the accounting of a stream says.
+    void takeVerdict(std::size_t stream, const Verdict& verdict);
+
+    /// The newest ones, oldest first.
+    [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
+    /// The gap that a packet ended; null where it ended none, or one that is forgotten.
+    [[nodiscard]] const Gap* endedBy(std::uint64_t packet) const;
+    /// Number of the first one of gaps(), counted from the beginning of the session.
+    [[nodiscard]] std::uint64_t firstGap() const { return m_firstGap; }
+    /// Grows whenever a gap comes or changes.
+    [[nodiscard]] std::uint64_t version() const { return m_version; }
+
+private:
+    struct Sender {
+        std::vector<std::size_t> streams; ///< those that count samples
+        log::Transport transport = log::Transport::Udp;
+        std::uint16_t localPort = 0;
+        std::int64_t lastStampNs = 0;
+        std::deque<std::pair<std::int64_t, std::int64_t>> silences; ///< from, to
+    };
+    struct Drop {
+        std::uint64_t packet = 0;
+        std::uint32_t count = 0;
+        std::uint16_t localPort = 0;
+    };
+    struct Damage {
+        log::StreamKey stream;
+        std::uint32_t sample = 0;
+        std::uint64_t packet = 0;
+    };
+    /// A gap and the stream it is of.
+    struct Place {
+        std::uint64_t gap = 0;
+        std::size_t stream = 0;
+    };
+
+    void judge(std::uint64_t number, std::size_t stream);
+    void recount(Gap& gap, std::size_t stream);
+    void recheck(std::size_t stream);
+    void fill(std::size_t stream, std::uint32_t sample);
+    void findCause(Gap& gap, const Stream& stream) const;
+    [[nodiscard]] std::uint64_t dropsWithin(const Gap& gap, std::uint16_t localPort) const;
+    [[nodiscard]] const Damage* damageWithin(const Gap& gap) const;
+    [[nodiscard]] bool hasPaused(const Gap& gap, const Sender& sender) const;
+    [[nodiscard]] Gap* find(std::uint64_t number) {
+        return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
+    }
+
+    std::deque<Stream>& m_streams;
+    std::unordered_map<std::uint32_t, Sender> m_senders; ///< by sender
+    std::vector<std::uint32_t> m_steps;                  ///< of the streams, when last looked at
+    std::deque<Gap> m_gaps;
+    std::uint64_t m_firstGap = 0;
+    std::uint64_t m_version = 0;
+    std::deque<Place> m_due; ///< yet to be judged, oldest first
+    std::vector<Gap> m_judged;
+    std::deque<Drop> m_drops;
+    std::deque<Damage> m_damages;
+};
+
+} // namespace posewire::model

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/count_history.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::model {
+namespace {
+
+constexpr double kMsPerNs = 1e-6;
+
+std::int64_t aligned(std::int64_t stampNs, std::int64_t widthNs) {
+    const std::int64_t rest = stampNs % widthNs;
+    return stampNs - (rest < 0 ? rest + widthNs : rest);
+}
+
+} // namespace
+
+void CountHistory::apply(Bucket& bucket, const Change& change) {
+    bucket.datagrams += static_cast<std::uint32_t>(change.datagrams);
+    bucket.bytes += static_cast<std::uint64_t>(change.bytes);
+    bucket.samples += static_cast<std::uint32_t>(change.samples);
+    bucket.lost += static_cast<std::uint32_t>(change.lost);
+    bucket.duplicates += static_cast<std::uint32_t>(change.duplicates);
+    bucket.reordered += static_cast<std::uint32_t>(change.reordered);
+    bucket.late += static_cast<std::uint32_t>(change.late);
+    bucket.incomplete += static_cast<std::uint32_t>(change.incomplete);
+    bucket.restarts += static_cast<std::uint32_t>(change.restarts);
+    bucket.malformed += static_cast<std::uint32_t>(change.malformed);
+    bucket.bursts += static_cast<std::uint32_t>(change.bursts);
+    bucket.burstLost += static_cast<std::uint32_t>(change.burstLost);
+    bucket.burstSamples += static_cast<std::uint32_t>(change.burstSamples);
+}
+
+/// The newest bucket, made where the stamp is beyond it; an earlier stamp makes none.
+CountHistory::Bucket& CountHistory::bucketAt(std::int64_t stampNs) {
+    if (m_buckets.empty()) {
+        Bucket& first = m_buckets.emplace_back();
+        first.startNs = aligned(stampNs, m_widthNs);
+    } else if (stampNs >= m_buckets.back().startNs + m_widthNs) {
+        if (m_buckets.size() == kMostBuckets) {
+            halve();
+        }
+        if (stampNs >= m_buckets.back().startNs + m_widthNs) {
+            Bucket next = m_buckets.back();
+            next.startNs = aligned(stampNs, m_widthNs);
+            next.longestGap = 0;
+            next.leastMs = next.mostMs = 0;
+            next.hasArrivals = next.hasDifference = false;
+            m_buckets.push_back(next);
+        }
+    }
+    return m_buckets.back();
+}
+
+/// Into a bucket, the one before it.
+void CountHistory::merge(Bucket& bucket, const Bucket& before) {
+    bucket.longestGap = std::max(bucket.longestGap, before.longestGap);
+    if (before.hasArrivals) {
+        bucket.leastMs = bucket.hasArrivals ? std::min(bucket.leastMs, before.leastMs) : before.leastMs;
+        bucket.mostMs = std::max(bucket.mostMs, before.mostMs);
+        bucket.hasArrivals = true;
+    }
+    const bool isLess = !bucket.hasDifference ||
+                        (bucket.generation == before.generation && before.differenceMs < bucket.differenceMs);
+    if (before.hasDifference && isLess) {
+        bucket.hasDifference = true;
+        bucket.generation = before.generation;
+        bucket.leastDelayedNs = before.leastDelayedNs;
+        bucket.differenceMs = before.differenceMs;
+    }
+}
+
+void CountHistory::halve() {
+    while (m_buckets.size() > kMostBuckets / 2) {
+        m_widthNs *= 2;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < m_buckets.size(); ++i) {
+            Bucket bucket = m_buckets[i];
+            bucket.startNs = aligned(bucket.startNs, m_widthNs);
+            if (kept != 0 && m_buckets[kept - 1].startNs == bucket.startNs) {
+                merge(bucket, m_buckets[kept - 1]);
+                --kept;
+            }
+            m_buckets[kept++] = bucket;
+        }
+        m_buckets.resize(kept);
+    }
+}
+
+void CountHistory::add(std::int64_t stampNs, const Change& change) {
+    Bucket& newest = bucketAt(stampNs);
+    if (stampNs >= newest.startNs) {
+        apply(newest, change);
+        return;
+    }
+    const std::size_t after = firstFrom(stampNs + 1);
+    for (std::size_t i = after == 0 ? 0 : after - 1; i < m_buckets.size(); ++i) {
+        apply(m_buckets[i], change);
+    }
+}
+
+void CountHistory::addGap(std::int64_t stampNs, std::uint32_t samples) {
+    Bucket& bucket = bucketAt(stampNs);
+    bucket.longestGap = std::max(bucket.longestGap, samples);
+}
+
+void CountHistory::addArrival(std::int64_t stampNs, std::int64_t sinceNs, double jitterMs) {
+    Bucket& bucket = bucketAt(stampNs);
+    const double since = static_cast<double>(sinceNs) * kMsPerNs;
+    const auto shown = static_cast<float>(since);
+    bucket.sumNs += static_cast<std::uint64_t>(sinceNs);
+    bucket.sumSquares += since * since;
+    ++bucket.arrivals;
+    bucket.leastMs = bucket.hasArrivals ? std::min(bucket.leastMs, shown) : shown;
+    bucket.mostMs = std::max(bucket.mostMs, shown);
+    bucket.jitterMs = static_cast<float>(jitterMs);
+    bucket.hasArrivals = true;
+}
+
+void CountHistory::addDifference(std::int64_t stampNs, double differenceMs, std::uint32_t generation) {
+    Bucket& bucket = bucketAt(stampNs);
+    if (!bucket.hasDifference || bucket.generation != generation || differenceMs < bucket.differenceMs) {
+        bucket.hasDifference = true;
+        bucket.generation = generation;
+        bucket.leastDelayedNs = stampNs;
+        bucket.differenceMs = differenceMs;
+    }
+}
+
+std::size_t CountHistory::firstFrom(std::int64_t stampNs) const {
+    const auto found =
+        std::lower_bound(m_buckets.begin(), m_buckets.end(), stampNs,
+                         [](const Bucket& bucket, std::int64_t stamp) { return bucket.startNs < stamp; });
+    return static_cast<std::size_t>(found - m_buckets.begin());
+}
+
+std::optional<CountHistory::Ends> CountHistory::endsOf(std::int64_t fromNs, std::int64_t toNs) const {
+    const std::size_t first = firstFrom(fromNs);
+    const std::size_t end = firstFrom(toNs);
+    if (end <= first) {
+        return std::nullopt;
+    }
+    return Ends{first == 0 ? Bucket{} : m_buckets[first - 1], m_buckets[end - 1], first, end};
+}
+
+StreamCounts CountHistory::countsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    StreamCounts counts;
+    const auto ends = endsOf(fromNs, toNs);
+    if (!ends) {
+        return counts;
+    }
+    const auto& [before, last, first, end] = *ends;
+    counts.datagrams = last.datagrams - before.datagrams;
+    counts.bytes = last.bytes - before.bytes;
+    counts.samples = last.samples - before.samples;
+    counts.lost = last.lost - before.lost;
+    counts.duplicates = last.duplicates - before.duplicates;
+    counts.reordered = last.reordered - before.reordered;
+    counts.late = last.late - before.late;
+    counts.incomplete = last.incomplete - before.incomplete;
+    counts.restarts = last.restarts - before.restarts;
+    for (std::size_t i = first; i < end; ++i) {
+        counts.longestGapSamples = std::max<std::uint64_t>(counts.longestGapSamples, m_buckets[i].longestGap);
+    }
+    return counts;
+}
+
+BurstCounts CountHistory::burstsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    const auto ends = endsOf(fromNs, toNs);
+    return ends ? BurstCounts{ends->last.bursts - ends->before.bursts,
+                              ends->last.burstLost - ends->before.burstLost,
+                              ends->last.burstSamples - ends->before.burstSamples}
+                : BurstCounts{};
+}
+
+std::uint64_t CountHistory::malformedBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    const auto ends = endsOf(fromNs, toNs);
+    return ends ? ends->last.malformed - ends->before.malformed : 0;
+}
+
+ClockSkew CountHistory::skewBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    const auto ends = endsOf(fromNs, toNs);
+    if (!ends) {
+        return {};
+    }
+    // The newest generation: from where on it is alone, and what it spans.
+    std::size_t first = ends->end;
+    const Bucket* newest = nullptr;
+    for (std::size_t i = ends->end; i > ends->first; --i) {
+        const Bucket& bucket = m_buckets[i - 1];
+        if (bucket.hasDifference && newest != nullptr && bucket.generation != newest->generation) {
+            break;
+        }
+        if (bucket.hasDifference) {
+            newest = newest == nullptr ? &bucket : newest;
+            first = i - 1;
+        }
+    }
+    if (newest == nullptr) {
+        return {};
+    }
+    ClockFit fit(newest->leastDelayedNs - m_buckets[first].leastDelayedNs);
+    for (std::size_t i = first; i < ends->end; ++i) {
+        if (m_buckets[i].hasDifference) {
+            fit.add(m_buckets[i].leastDelayedNs, m_buckets[i].differenceMs);
+        }
+    }
+    return fit.skew();
+}
+
+InterArrival CountHistory::arrivalsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    InterArrival result;
+    const auto ends = endsOf(fromNs, toNs);
+    if (!ends) {
+        return result;
+    }
+    const auto& [before, last, first, end] = *ends;
+    result.count = last.arrivals - before.arrivals;
+    if (result.count == 0) {
+        return result;
+    }
+    const auto count = static_cast<double>(result.count);
+    result.meanMs = static_cast<double>(last.sumNs - before.sumNs) * kMsPerNs / count;
+    const double squares = (last.sumSquares - before.sumSquares) / count;
+    result.deviationMs = std::sqrt(std::max(0.0, squares - result.meanMs * result.meanMs));
+    bool isFirst = true;
+    for (std::size_t i = first; i < end; ++i) {
+        const Bucket& bucket = m_buckets[i];
+        if (bucket.hasArrivals) {
+            const auto least = static_cast<double>(bucket.leastMs);
+            result.leastMs = isFirst ? least : std::min(result.leastMs, least);
+            result.mostMs = std::max(result.mostMs, static_cast<double>(bucket.mostMs));
+            isFirst = false;
+        }
+    }
+    return result;
+}
+
+double CountHistory::jitterMsAt(std::int64_t toNs) const {
+    const std::size_t end = firstFrom(toNs);
+    return end == 0 ? 0 : static_cast<double>(m_buckets[end - 1].jitterMs);
+}
+
+} // namespace posewire::model

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/event_follower.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <tuple>
+#include <utility>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::int64_t kSecondNs = 1'000'000'000;
+constexpr std::int64_t kSilentNs = kSecondNs;
+constexpr std::int64_t kCheckNs = 100'000'000;
+constexpr std::int64_t kWatchNs = 500'000'000;
+constexpr std::int64_t kJumpMs = 500;
+constexpr std::size_t kMostSenders = 4'096;
+/// So many samples lost in a row are a burst.
+constexpr std::uint32_t kBurstSamples = 10;
+
+} // namespace
+
+Event EventFollower::eventOf(EventKind kind, const log::Packet& packet) {
+    Event event;
+    event.kind = kind;
+    event.sender = packet.sender;
+    event.firstStampNs = event.lastStampNs = packet.stampNs;
+    event.firstPacket = event.lastPacket = packet.number;
+    return event;
+}
+
+Event EventFollower::eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdict) {
+    Event event;
+    event.kind = kind;
+    event.sender = stream.sender;
+    event.character = stream.character;
+    event.firstStampNs = event.lastStampNs = verdict.stampNs;
+    event.firstPacket = event.lastPacket = verdict.packet;
+    return event;
+}
+
+void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
+                               const std::deque<Stream>& streams) {
+    if (packet.stampNs >= m_nextCheckNs) {
+        check(packet.stampNs);
+        m_nextCheckNs = packet.stampNs + kCheckNs;
+    }
+    if (packet.stampNs >= m_nextWatchNs) {
+        m_watch.check(streams, packet.stampNs, m_events);
+        m_nextWatchNs = packet.stampNs + kWatchNs;
+    }
+    if (packet.kernelDropsBefore != 0) {
+        Event event = eventOf(EventKind::Dropped, packet);
+        event.samples = packet.kernelDropsBefore;
+        m_events.report(event);
+    }
+    if (digest.kind == PacketKind::Malformed) {
+        m_events.report(eventOf(EventKind::Malformed, packet));
+    } else if (digest.kind == PacketKind::Foreign) {
+        m_events.report(eventOf(EventKind::Foreign, packet));
+    }
+}
+
+void EventFollower::takeDatagram(const log::Packet& packet, const wire::Header& header) {
+    auto sender = m_senders.find(packet.sender);
+    if (sender == m_senders.end()) {
+        if (m_senders.size() == kMostSenders) {
+            return;
+        }
+        sender = m_senders.try_emplace(packet.sender).first;
+        m_events.report(eventOf(EventKind::SenderUp, packet));
+    }
+    if (countsSamples(header.type())) {
+        sender->second.lastSampledNs = packet.stampNs;
+        if (std::exchange(sender->second.isDown, false)) {
+            m_events.end(eventOf(EventKind::SenderDown, packet), packet.stampNs);
+        }
+        noteSampled(packet, header);
+    }
+}
+
+void EventFollower::noteSampled(const log::Packet& packet, const wire::Header& header) {
+    const CharacterKey key{packet.sender, header.character};
+    Person& person = m_persons[key];
+    if (std::exchange(person.isStale, false)) {
+        Event event = eventOf(EventKind::Stale, packet);
+        event.character = header.character;
+        m_events.end(event, packet.stampNs);
+    }
+    person.lastSampledNs = packet.stampNs;
+    person.lastPacket = packet.number;
+    noteClaim(packet, header);
+}
+
+/// Two senders that take turns with one character in one type.
+void EventFollower::noteClaim(const log::Packet& packet, const wire::Header& header) {
+    Claim& claim = m_claims[{header.character, header.type()}];
+    if (claim.stampNs == 0) {
+        claim.sender = packet.sender;
+    } else if (claim.sender != packet.sender) {
+        const bool isBack =
+            claim.hasBefore && claim.before == packet.sender && packet.stampNs - claim.beforeNs < kSecondNs;
+        if (isBack) {
+            Event event = eventOf(EventKind::CharacterConflict, packet);
+            event.sender = std::min(packet.sender, claim.sender);
+            event.character = header.character;
+            m_events.report(event);
+        }
+        claim.before = claim.sender;
+        claim.beforeNs = claim.stampNs;
+        claim.hasBefore = true;
+        claim.sender = packet.sender;
+    }
+    claim.stampNs = packet.stampNs;
+}
+
+void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& verdict) {
+    if (countsSamples(stream.type)) {
+        noteTimeCode(stream, verdict);
+    }
+    if (!verdict.isRestart) {
+        return;
+    }
+    // All streams of a character begin anew together, each by a verdict of its own.
+    std::int64_t& restartNs = m_persons[{stream.sender, stream.character}].restartNs;
+    const bool isTold = restartNs != 0 && std::abs(verdict.stampNs - restartNs) < kSecondNs;
+    if (!isTold) {
+        restartNs = verdict.stampNs;
+        m_events.report(eventOf(EventKind::Restart, stream, verdict));
+    }
+}
+
+/// A time code that moves otherwise than our clock, though the counter goes on. What came out of order says
+/// nothing of it.
+void EventFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
+    Person& person = m_persons[{stream.sender, stream.character}];
+    const bool isFirst = person.stampNs == 0;
+    const auto moved = static_cast<std::int32_t>(verdict.sample - person.sample);
+    const bool isAnew = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
+    if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isAnew)) {
+        return;
+    }
+    const std::int64_t passedMs = (verdict.stampNs - person.stampNs) / 1'000'000;
+    const std::int64_t jumpMs = static_cast<std::int32_t>(verdict.timeCode - person.timeCode) - passedMs;
+    if (!isAnew && moved < Probation::kMostForward && verdict.timeCode != person.timeCode &&
+        std::abs(jumpMs) > kJumpMs) {
+        Event event = eventOf(EventKind::TimeCodeJump, stream, verdict);
+        event.value = static_cast<double>(jumpMs);
+        m_events.report(event);
+    }
+    person.sample = verdict.sample;
+    person.timeCode = verdict.timeCode;
+    person.stampNs = verdict.stampNs;
+}
+
+void EventFollower::takeGap(const Gap& gap) {
+    if (gap.lost == 0) {
+        return;
+    }
+    Event event;
+    event.kind = gap.lost >= kBurstSamples ? EventKind::Burst : EventKind::Gap;
+    event.sender = gap.stream.sender;
+    event.character = gap.stream.character;
+    event.type = gap.stream.type;
+    event.firstStampNs = gap.fromStampNs;
+    event.lastStampNs = gap.toStampNs;
+    event.firstPacket = gap.fromPacket;
+    event.lastPacket = gap.toPacket;
+    event.samples = gap.lost;
+    event.cause = gap.cause;
+    event.detail = gap.evidenceText();
+    m_events.report(event);
+}
+
+void EventFollower::takeChange(EventKind kind, const CharacterKey& key, const log::Packet& packet,
+                               std::string detail) {
+    Event event = eventOf(kind, packet);
+    event.character = key.character;
+    event.detail = std::move(detail);
+    m_events.report(event);
+}
+
+void EventFollower::advance(std::int64_t stampNs) {
+    if (stampNs >= m_nextCheckNs) {
+        check(stampNs);
+    }
+}
+
+void EventFollower::check(std::int64_t stampNs) {
+    m_events.advance(stampNs);
+    for (auto& [id, sender] : m_senders) {
+        const bool isSilent = sender.lastSampledNs != 0 && stampNs - sender.lastSampledNs > kSilentNs;
+        if (isSilent && !sender.isDown) {
+            sender.isDown = true;
+            Event event;
+            event.kind = EventKind::SenderDown;
+            event.sender = id;
+            event.firstStampNs = event.lastStampNs = sender.lastSampledNs + kSilentNs;
+            m_events.report(event);
+        }
+    }
+    for (auto& [key, person] : m_persons) {
+        const auto sender = m_senders.find(key.sender);
+        const bool isSilent = stampNs - person.lastSampledNs > kSilentNs;
+        if (isSilent && !person.isStale && sender != m_senders.end() && !sender->second.isDown) {
+            person.isStale = true;
+            Event event;
+            event.kind = EventKind::Stale;
+            event.sender = key.sender;
+            event.character = key.character;
+            event.firstStampNs = event.lastStampNs = person.lastSampledNs + kSilentNs;
+            event.firstPacket = event.lastPacket = person.lastPacket;
+            m_events.report(event);
+        }
+    }
+}
+
+std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key,
+                                                    std::optional<std::int64_t> stampNs) const {
+    std::vector<const Event*> troubles = stampNs ? m_events.currentAt(*stampNs) : m_events.current();
+    std::erase_if(troubles, [&key](const Event* event) {
+        return event->sender != key.sender || event->character.value_or(key.character) != key.character ||
+               event->severity() == EventSeverity::Info;
+    });
+    // What happened tells more than the limit that it broke.
+    const auto rank = [](const Event* event) {
+        return std::tuple(event->severity(), event->group() != EventGroup::Limit, event->number);
+    };
+    std::ranges::sort(troubles, [&](const Event* a, const Event* b) { return rank(a) > rank(b); });
+    return troubles;
+}
+
+Condition EventFollower::conditionOf(const CharacterKey& key, std::optional<std::int64_t> stampNs) const {
+    const auto troubles = troublesOf(key, stampNs);
+    if (troubles.empty()) {
+        return {};
+    }
+    const Event& worst = *troubles.front();
+    const bool isError = worst.severity() == EventSeverity::Error;
+    return {isError ? Condition::Level::Error : Condition::Level::Warning, worst.text(), worst.number};
+}
+
+} // namespace posewire::model

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/model/accounting/attribution.h"
+#include "core/model/accounting/events.h"
+#include "core/model/accounting/packet_digest.h"
+#include "core/model/accounting/thresholds.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace posewire::model {
+
+/// How a character does, for all who show it.
+struct Condition {
+    /// Silent for so many seconds is a warning, for the second an error, also before an event says so.
+    static constexpr double kSilentS = 0.25;
+    static constexpr double kStaleS = 1.0;
+
+    enum class Level : std::uint8_t { Good, Warning, Error };
+    Level level = Level::Good;
+    std::string reason; ///< one line; empty where it is good
+    /// What it rests on where that is an event: its number. Else silence or a contradiction.
+    std::optional<std::uint64_t> event{};
+};
+
+/// Turns what the session finds in the log into events.
+class EventFollower {
+public:
+    [[nodiscard]] const Events& events() const { return m_events; }
+    void setThresholds(const Thresholds& thresholds) { m_watch.set(thresholds); }
+    [[nodiscard]] const Thresholds& thresholds() const { return m_watch.thresholds(); }
+
+    /// Each packet before its content: moves the time of the log, and notes what is no datagram.
+    void takePacket(const log::Packet& packet, const PacketDigest& digest, const std::deque<Stream>& streams);
+    /// Each datagram with its header.
+    void takeDatagram(const log::Packet& packet, const wire::Header& header);
+    void takeVerdict(const log::StreamKey& stream, const Verdict& verdict);
+    void takeGap(const Gap& gap);
+    void takeChange(EventKind kind, const CharacterKey& key, const log::Packet& packet, std::string detail);
+
+    /// Time goes on without packets: only what is silent is told then.
+    void advance(std::int64_t stampNs);
+
+    /// What goes on, or went on at a time of the past, and concerns the character or its sender, worst first,
+    /// limits last of their like; no notes.
+    [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key,
+                                                       std::optional<std::int64_t> stampNs) const;
+    /// The worst of these.
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key, std::optional<std::int64_t> stampNs) const;
+
+private:
+    struct Sender {
+        std::int64_t lastSampledNs = 0;
+        bool isDown = false;
+    };
+    struct Person {
+        std::int64_t lastSampledNs = 0;
+        std::uint64_t lastPacket = 0;
+        bool isStale = false;
+        std::int64_t restartNs = 0; ///< when its counter last began anew
+        // Of the newest sample, for jumps of the time code:
+        std::uint32_t sample = 0;
+        std::uint32_t timeCode = 0;
+        std::int64_t stampNs = 0;
+    };
+    /// Who sends a character in a type.
+    struct Claim {
+        log::SenderId sender{};
+        std::int64_t stampNs = 0;
+        log::SenderId before{}; ///< the other one
+        std::int64_t beforeNs = 0;
+        bool hasBefore = false;
+    };
+    void check(std::int64_t stampNs);
+    void noteSampled(const log::Packet& packet, const wire::Header& header);
+    void noteTimeCode(const log::StreamKey& stream, const Verdict& verdict);
+    void noteClaim(const log::Packet& packet, const wire::Header& header);
+    [[nodiscard]] static Event eventOf(EventKind kind, const log::Packet& packet);
+    [[nodiscard]] static Event eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdict);
+
+    Events m_events;
+    ThresholdWatch m_watch;
+    std::map<log::SenderId, Sender> m_senders;
+    std::map<CharacterKey, Person> m_persons;
+    std::map<std::pair<std::uint8_t, std::uint8_t>, Claim> m_claims;
+    std::int64_t m_nextCheckNs = 0;
+    std::int64_t m_nextWatchNs = 0;
+};
+
+} // namespace posewire::model

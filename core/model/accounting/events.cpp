@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/events.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace posewire::model {
+namespace {
+
+struct KindFacts {
+    std::string_view name;
+    EventSeverity severity;
+    EventGroup group;
+    bool lasts; ///< goes on until it is ended, else until it has been quiet
+};
+
+constexpr std::array<KindFacts, 18> kKinds{{
+    {"source up", EventSeverity::Info, EventGroup::Sender, false},
+    {"source down", EventSeverity::Error, EventGroup::Sender, true},
+    {"gap", EventSeverity::Warning, EventGroup::Loss, false},
+    {"burst", EventSeverity::Error, EventGroup::Loss, false},
+    {"restart", EventSeverity::Info, EventGroup::Sender, false},
+    {"malformed", EventSeverity::Error, EventGroup::Content, false},
+    {"foreign", EventSeverity::Warning, EventGroup::Content, false},
+    {"dropped here", EventSeverity::Error, EventGroup::Loss, false},
+    {"metadata change", EventSeverity::Info, EventGroup::Content, false},
+    {"scale change", EventSeverity::Info, EventGroup::Content, false},
+    {"time code jump", EventSeverity::Warning, EventGroup::Content, false},
+    {"character conflict", EventSeverity::Error, EventGroup::Sender, false},
+    {"stale", EventSeverity::Warning, EventGroup::Sender, true},
+    {"loss limit", EventSeverity::Warning, EventGroup::Limit, true},
+    {"jitter limit", EventSeverity::Warning, EventGroup::Limit, true},
+    {"gap limit", EventSeverity::Warning, EventGroup::Limit, true},
+    {"age limit", EventSeverity::Error, EventGroup::Limit, true},
+    {"rate limit", EventSeverity::Warning, EventGroup::Limit, true},
+}};
+
+const KindFacts& factsOf(EventKind kind) {
+    return kKinds[static_cast<std::size_t>(kind)];
+}
+
+bool isSameEpisode(const Event& a, const Event& b) {
+    return a.kind == b.kind && a.sender == b.sender && a.character == b.character && a.type == b.type &&
+           a.cause == b.cause;
+}
+
+std::string counted(std::uint64_t count, const char* one, const char* many) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : many);
+}
+
+std::string fixed(double value, int decimals) {
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
+    return text.data();
+}
+
+std::string lossText(const Event& event) {
+    std::string text =
+        counted(event.samples, "sample", "samples") + " lost in " + counted(event.count, "gap", "gaps");
+    if (event.cause) {
+        text += ", cause: " + std::string(nameOf(*event.cause)) + '.';
+    }
+    return event.detail.empty() ? text : text + ' ' + event.detail;
+}
+
+std::string limitText(const Event& event, const char* what, const char* unit, int decimals) {
+    return std::string(what) + ' ' + fixed(event.value, decimals) + ' ' + unit + ", limit " +
+           fixed(event.limit, decimals) + ' ' + unit;
+}
+
+} // namespace
+
+EventSeverity severityOf(EventKind kind) {
+    return factsOf(kind).severity;
+}
+
+EventGroup groupOf(EventKind kind) {
+    return factsOf(kind).group;
+}
+
+std::string_view nameOf(EventKind kind) {
+    return factsOf(kind).name;
+}
+
+std::string Event::text() const {
+    switch (kind) {
+    case EventKind::SenderUp:
+        return "A source began to send.";
+    case EventKind::SenderDown:
+        return "Nothing has come for more than 1 s.";
+    case EventKind::Gap:
+    case EventKind::Burst:
+        return lossText(*this);
+    case EventKind::Restart:
+        return "The sample counter began anew.";
+    case EventKind::Malformed:
+        return counted(count, "datagram", "datagrams") + " could not be decoded.";
+    case EventKind::Foreign:
+        return counted(count, "datagram is", "datagrams are") + " not MXTP.";
+    case EventKind::Dropped:
+        return "This computer dropped " + counted(samples, "datagram", "datagrams") + '.';
+    case EventKind::MetadataChange:
+        return detail;
+    case EventKind::ScaleChange:
+        return "The null pose changed.";
+    case EventKind::TimeCodeJump:
+        return "The time code jumped by " + fixed(value, 0) + " ms.";
+    case EventKind::CharacterConflict:
+        return "Two sources send character " + std::to_string(character.value_or(0)) + " at the same time.";
+    case EventKind::Stale:
+        return "No pose has come for more than 1 s while the source sends.";
+    case EventKind::LossLimit:
+        return limitText(*this, "Loss", "%", 2);
+    case EventKind::JitterLimit:
+        return limitText(*this, "Jitter", "ms", 1);
+    case EventKind::GapLimit:
+        return limitText(*this, "Gap", "ms", 0);
+    case EventKind::AgeLimit:
+        return limitText(*this, "Age", "s", 1);
+    case EventKind::RateLimit:
+        return limitText(*this, "Rate off by", "%", 1);
+    }
+    return {};
+}
+
+std::size_t Events::indexOf(std::uint64_t number) const {
+    const auto found =
+        std::lower_bound(m_events.begin(), m_events.end(), number,
+                         [](const Event& event, std::uint64_t value) { return event.number < value; });
+    return static_cast<std::size_t>(found - m_events.begin());
+}
+
+std::vector<const Event*> Events::current() const {
+    std::vector<const Event*> events;
+    for (const std::uint64_t number : m_current) {
+        events.push_back(&at(number));
+    }
+    return events;
+}
+
+std::vector<const Event*> Events::currentAt(std::int64_t stampNs) const {
+    const auto wentOn = [stampNs](const Event& event) {
+        if (event.firstStampNs > stampNs) {
+            return false;
+        }
+        return factsOf(event.kind).lasts ? event.isCurrent || event.lastStampNs > stampNs
+                                         : event.lastStampNs + kQuietNs > stampNs;
+    };
+    std::vector<const Event*> events;
+    for (const Event& event : m_events) {
+        if (wentOn(event)) {
+            events.push_back(&event);
+        }
+    }
+    return events;
+}
+
+const Event* Events::find(std::uint64_t number) const {
+    const std::size_t index = indexOf(number);
+    return index < m_events.size() && m_events[index].number == number ? &m_events[index] : nullptr;
+}
+
+const Event* Events::findCurrent(const Event& like) const {
+    for (auto number = m_current.rbegin(); number != m_current.rend(); ++number) {
+        const Event& event = at(*number);
+        if (isSameEpisode(event, like)) {
+            return &event;
+        }
+    }
+    return nullptr;
+}
+
+void Events::report(const Event& event) {
+    ++m_version;
+    if (const Event* current = findCurrent(event)) {
+        Event& known = m_events[indexOf(current->number)];
+        known.lastStampNs = std::max(known.lastStampNs, event.lastStampNs);
+        known.lastPacket = std::max(known.lastPacket, event.lastPacket);
+        known.count += event.count;
+        known.samples += event.samples;
+        known.value = std::max(known.value, event.value);
+        known.detail = event.detail;
+        return;
+    }
+    m_events.push_back(event);
+    m_events.back().number = m_next;
+    m_current.push_back(m_next);
+    ++m_next;
+    forget();
+}
+
+void Events::end(const Event& like, std::int64_t stampNs) {
+    const Event* current = findCurrent(like);
+    if (current == nullptr) {
+        return;
+    }
+    Event& known = m_events[indexOf(current->number)];
+    known.isCurrent = false;
+    known.lastStampNs = std::max(known.lastStampNs, stampNs);
+    std::erase(m_current, known.number);
+    ++m_version;
+}
+
+void Events::advance(std::int64_t stampNs) {
+    std::erase_if(m_current, [&](std::uint64_t number) {
+        Event& event = m_events[indexOf(number)];
+        const bool isOver = !factsOf(event.kind).lasts && stampNs - event.lastStampNs >= kQuietNs;
+        event.isCurrent = !isOver;
+        m_version += isOver ? 1 : 0;
+        return isOver;
+    });
+}
+
+/// Makes room: the oldest that has ended goes, or the oldest where all go on.
+void Events::forget() {
+    if (m_events.size() <= kMost) {
+        return;
+    }
+    auto oldest =
+        std::find_if(m_events.begin(), m_events.end(), [](const Event& event) { return !event.isCurrent; });
+    oldest = oldest == m_events.end() ? m_events.begin() : oldest;
+    std::erase(m_current, oldest->number);
+    m_events.erase(oldest);
+}
+
+} // namespace posewire::model

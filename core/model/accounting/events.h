@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/loss_cause.h"
+#include "core/model/keys.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace posewire::model {
+
+enum class EventKind : std::uint8_t {
+    SenderUp,
+    SenderDown,
+    Gap,
+    Burst,
+    Restart,
+    Malformed,
+    Foreign,
+    Dropped,
+    MetadataChange,
+    ScaleChange,
+    TimeCodeJump,
+    CharacterConflict,
+    Stale,
+    LossLimit,
+    JitterLimit,
+    GapLimit,
+    AgeLimit,
+    RateLimit,
+};
+
+enum class EventSeverity : std::uint8_t { Info, Warning, Error };
+
+enum class EventGroup : std::uint8_t { Sender, Loss, Content, Limit };
+
+[[nodiscard]] EventSeverity severityOf(EventKind kind);
+[[nodiscard]] EventGroup groupOf(EventKind kind);
+/// "source up", "gap" and so on.
+[[nodiscard]] std::string_view nameOf(EventKind kind);
+
+/// Something that happened or goes on: one for an episode, however often it happens in it.
+struct Event {
+    std::uint64_t number = 0; ///< counted from the beginning of the session
+    EventKind kind = EventKind::SenderUp;
+    log::SenderId sender{};
+    std::optional<std::uint8_t> character{};
+    std::optional<std::uint8_t> type{}; ///< of the stream, where it is of one
+    std::int64_t firstStampNs = 0;
+    std::int64_t lastStampNs = 0;
+    std::uint64_t firstPacket = 0;
+    std::uint64_t lastPacket = 0;
+    std::uint64_t count = 1;   ///< how often it happened
+    std::uint64_t samples = 0; ///< Gap, Burst: lost; Dropped: datagrams
+    double value = 0;          ///< limits: the worst; TimeCodeJump: ms
+    double limit = 0;          ///< limits: what must not be exceeded
+    std::optional<LossCause> cause{};
+    std::string detail{};  ///< content: what changed; Gap and Burst: evidence of the newest
+    bool isCurrent = true; ///< goes on, or may
+
+    [[nodiscard]] EventSeverity severity() const { return severityOf(kind); }
+    [[nodiscard]] EventGroup group() const { return groupOf(kind); }
+    /// One line, without who and when.
+    [[nodiscard]] std::string text() const;
+};
+
+/// The events of a session. Bounded: the oldest that have ended go first.
+class Events {
+public:
+    static constexpr std::size_t kMost = 10'000;
+    /// What happens again within this time is of the same episode.
+    static constexpr std::int64_t kQuietNs = 5'000'000'000;
+
+    /// Oldest first.
+    [[nodiscard]] const std::deque<Event>& all() const { return m_events; }
+    /// Grows whenever an event comes or changes.
+    [[nodiscard]] std::uint64_t version() const { return m_version; }
+
+    /// Those that go on, in the order in which they began.
+    [[nodiscard]] std::vector<const Event*> current() const;
+    /// Those that went on at a time of the past, in the same order, with all that is known of them now.
+    [[nodiscard]] std::vector<const Event*> currentAt(std::int64_t stampNs) const;
+    /// Null where there is none of that number, or none any more.
+    [[nodiscard]] const Event* find(std::uint64_t number) const;
+
+    /// Something happened: a new event, or one more of an episode that goes on (same kind, sender, character,
+    /// type and cause).
+    void report(const Event& event);
+    /// An episode is over.
+    void end(const Event& like, std::int64_t stampNs);
+    [[nodiscard]] bool isCurrent(const Event& like) const { return findCurrent(like) != nullptr; }
+    /// Ends what has been quiet for long, by the time of the log.
+    void advance(std::int64_t stampNs);
+
+private:
+    [[nodiscard]] const Event* findCurrent(const Event& like) const;
+    [[nodiscard]] const Event& at(std::uint64_t number) const { return m_events[indexOf(number)]; }
+    [[nodiscard]] std::size_t indexOf(std::uint64_t number) const;
+    void forget();
+
+    std::deque<Event> m_events;
+    std::vector<std::uint64_t> m_current; ///< numbers of those that go on
+    std::uint64_t m_next = 0;
+    std::uint64_t m_version = 0;
+};
+
+} // namespace posewire::model

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/packet_digest.h"
+
+#include <algorithm>
+
+namespace posewire::model {
+namespace {
+
+constexpr double kSecondsPerNs = 1e-9;
+
+} // namespace
+
+PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram) {
+    PacketDigest digest;
+    digest.isTruncated = packet.flags.truncated;
+    digest.followsDrops = packet.kernelDropsBefore != 0;
+    if (datagram != nullptr) {
+        digest.type = datagram->header.type();
+        digest.character = datagram->header.character;
+        digest.hasNotices = !datagram->notices.empty();
+        return digest;
+    }
+    const auto header = wire::decodeHeader(packet.bytes);
+    digest.kind = packet.flags.skipped                  ? PacketKind::Skipped
+                  : wire::startsWithMagic(packet.bytes) ? PacketKind::Malformed
+                                                        : PacketKind::Foreign;
+    if (header && digest.kind == PacketKind::Malformed) {
+        digest.type = header->type();
+        digest.character = header->character;
+    }
+    return digest;
+}
+
+void applyVerdict(const Verdict& verdict, PacketDigest& digest) {
+    digest.gap = verdict.gap;
+    digest.isDuplicate = verdict.isDuplicate;
+    digest.isReordered = verdict.isReordered;
+    digest.isRestart = verdict.isRestart;
+}
+
+std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
+                                     StreamAccounting& accounting, PacketDigest& digest) {
+    if (accounting.datagrams() != 0) {
+        const auto since = static_cast<double>(packet.stampNs - accounting.lastStampNs());
+        digest.deltaS = static_cast<float>(std::max(0.0, since * kSecondsPerNs));
+    }
+    const bool wasInDoubt = accounting.isInDoubt();
+    const auto verdicts = accounting.add(packet, header);
+    if (!verdicts.empty() && verdicts.back().packet == packet.number) {
+        applyVerdict(verdicts.back(), digest);
+    } else {
+        digest.isRestart = !wasInDoubt;
+    }
+    return verdicts;
+}
+
+PacketDigest PacketDigester::add(const log::Packet& packet, const wire::Datagram* datagram) {
+    PacketDigest digest = digestOf(packet, datagram);
+    if (datagram == nullptr) {
+        return digest;
+    }
+    const wire::Header& header = datagram->header;
+    const log::StreamKey key{packet.sender, header.character, header.type()};
+    auto stream = m_streams.find(key);
+    if (stream == m_streams.end()) {
+        if (m_streams.size() == log::StreamIndex::kStreamLimit) {
+            return digest;
+        }
+        stream = m_streams.try_emplace(key, key.type).first;
+    }
+    addToStream(packet, header, stream->second, digest);
+    return digest;
+}
+
+void PacketDigests::append(std::uint64_t number, const PacketDigest& digest) {
+    if (m_blocks.empty()) {
+        m_firstOfBlocks = m_begin = m_end = number;
+    }
+    while (number - m_firstOfBlocks >= m_blocks.size() * kBlock) {
+        m_blocks.push_back(std::make_shared<Block>());
+    }
+    const std::uint64_t place = number - m_firstOfBlocks;
+    Block& block = *m_blocks[place / kBlock];
+    block.digests[place % kBlock] = digest;
+    block.problems += digest.isProblem() ? 1 : 0;
+    m_end = number + 1;
+}
+
+void PacketDigests::dropBefore(std::uint64_t begin) {
+    m_begin = std::clamp(begin, m_begin, m_end);
+    while (!m_blocks.empty() && m_begin - m_firstOfBlocks >= kBlock) {
+        m_blocks.pop_front();
+        m_firstOfBlocks += kBlock;
+    }
+}
+
+void PacketDigests::amend(const Verdict& verdict) {
+    if (verdict.packet < m_begin || verdict.packet >= m_end) {
+        return;
+    }
+    const std::uint64_t place = verdict.packet - m_firstOfBlocks;
+    std::shared_ptr<Block>& block = m_blocks[place / kBlock];
+    PacketDigest amended = block->digests[place % kBlock];
+    const bool wasProblem = amended.isProblem();
+    applyVerdict(verdict, amended);
+    if (block.use_count() > 1) {
+        block = std::make_shared<Block>(*block);
+    }
+    block->digests[place % kBlock] = amended;
+    block->problems += amended.isProblem() ? 1 : 0;
+    block->problems -= wasProblem ? 1 : 0;
+}
+
+const PacketDigest* PacketDigests::find(std::uint64_t number) const {
+    if (number < m_begin || number >= m_end) {
+        return nullptr;
+    }
+    const std::uint64_t place = number - m_firstOfBlocks;
+    return &m_blocks[place / kBlock]->digests[place % kBlock];
+}
+
+PacketDigests::Excerpt PacketDigests::excerpt(std::uint64_t from) const {
+    Excerpt excerpt;
+    excerpt.m_begin = std::clamp(from, m_begin, m_end);
+    excerpt.m_end = m_end;
+    if (excerpt.m_begin == m_end) {
+        return excerpt;
+    }
+    const std::uint64_t first = (excerpt.m_begin - m_firstOfBlocks) / kBlock;
+    excerpt.m_firstOfBlocks = m_firstOfBlocks + first * kBlock;
+    excerpt.m_blocks.assign(m_blocks.begin() + static_cast<std::ptrdiff_t>(first), m_blocks.end());
+    const bool isLastComplete = (m_end - m_firstOfBlocks) % kBlock == 0;
+    if (!isLastComplete) {
+        excerpt.m_blocks.back() = std::make_shared<const Block>(*m_blocks.back());
+    }
+    return excerpt;
+}
+
+std::optional<std::uint64_t> PacketDigests::nextProblem(std::uint64_t after) const {
+    for (std::uint64_t number = std::max(after + 1, m_begin); number < m_end;) {
+        const std::uint64_t place = number - m_firstOfBlocks;
+        if (m_blocks[place / kBlock]->problems == 0) {
+            number += kBlock - place % kBlock;
+        } else if (find(number)->isProblem()) {
+            return number;
+        } else {
+            ++number;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<std::uint64_t> PacketDigests::previousProblem(std::uint64_t before) const {
+    for (std::uint64_t end = std::min(before, m_end); end > m_begin;) {
+        const std::uint64_t place = end - 1 - m_firstOfBlocks;
+        if (m_blocks[place / kBlock]->problems == 0) {
+            end -= std::min(end - m_begin, place % kBlock + 1);
+        } else if (find(end - 1)->isProblem()) {
+            return end - 1;
+        } else {
+            --end;
+        }
+    }
+    return std::nullopt;
+}
+
+} // namespace posewire::model

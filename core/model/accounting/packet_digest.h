@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/log/stream_index.h"
+#include "core/model/accounting/stream_accounting.h"
+#include "core/wire/codec.h"
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <optional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+namespace posewire::model {
+
+enum class PacketKind : std::uint8_t {
+    Datagram,  ///< decoded
+    Malformed, ///< begins with MXTP and cannot be decoded
+    Foreign,   ///< does not begin with MXTP
+    Skipped,   ///< bytes of a byte stream that belong to no datagram
+};
+
+/// What can be told about a packet without its bytes at hand: enough to list it, to colour it and to find
+/// problems among millions. How it relates to the packets of its stream before it is what the accounting of
+/// the stream says: known when it came, or a few packets later where its sample counter was unexpected.
+struct PacketDigest {
+    float deltaS = -1;     ///< seconds since the packet before it in its stream, -1 for the first of a stream
+    std::uint32_t gap = 0; ///< samples that are missing just before it, counted in the stream's own step
+    PacketKind kind = PacketKind::Datagram;
+    std::uint8_t type = 0; ///< of a Datagram or where the header of a Malformed one could be read, else 0
+    std::uint8_t character = 0;    ///< likewise
+    bool isDuplicate : 1 = false;  ///< the same sample and datagram counter came before
+    bool isReordered : 1 = false;  ///< its sample counter is below the highest one seen (RFC 4737 §3)
+    bool isRestart : 1 = false;    ///< the sender's counter has begun anew
+    bool hasNotices : 1 = false;   ///< odd but readable
+    bool isTruncated : 1 = false;  ///< longer than what could be received
+    bool followsDrops : 1 = false; ///< this computer dropped datagrams of its socket just before it
+
+    /// Whether an operator who looks for trouble wants to stop here.
+    [[nodiscard]] bool isProblem() const {
+        return kind != PacketKind::Datagram || gap != 0 || isDuplicate || isReordered || isRestart ||
+               hasNotices || isTruncated || followsDrops;
+    }
+};
+static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the log");
+
+/// What a packet tells by itself. `datagram` is what it was decoded to, null where that failed.
+[[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
+
+/// Puts in what the accounting of its stream says.
+void applyVerdict(const Verdict& verdict, PacketDigest& digest);
+
+/// Adds the packet of a digest to the accounting of its stream and puts in what that says now. One that must
+/// wait for a verdict seems to begin anew where the doubt began with it; the verdicts on those before it are
+/// among those returned.
+std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
+                                     StreamAccounting& accounting, PacketDigest& digest);
+
+/// Makes digests of packets in the order of the log, without a session. Deterministic: whoever walks over the
+/// same packets from the same beginning gets the same digests. Memory is bounded: of streams beyond
+/// StreamIndex::kStreamLimit nothing is compared.
+class PacketDigester {
+public:
+    PacketDigest add(const log::Packet& packet, const wire::Datagram* datagram);
+
+private:
+    struct Hash {
+        std::size_t operator()(const log::StreamKey& key) const {
+            return (static_cast<std::size_t>(key.sender) << 16 | std::size_t{key.character} << 8 | key.type) *
+                   0x9e3779b97f4a7c15U;
+        }
+    };
+    std::unordered_map<log::StreamKey, StreamAccounting, Hash> m_streams;
+};
+
+/// The digests of the packets that a log holds. Belongs to one thread.
+class PacketDigests {
+    static constexpr std::size_t kBlock = 4096;
+    struct Block {
+        std::array<PacketDigest, kBlock> digests;
+        std::size_t problems = 0; ///< a block without one is passed over
+    };
+
+public:
+    /// Digests [begin(), end()) as they were; for one other thread to read while more are appended.
+    class Excerpt {
+    public:
+        [[nodiscard]] std::uint64_t begin() const { return m_begin; }
+        [[nodiscard]] std::uint64_t end() const { return m_end; }
+        /// The number must lie within.
+        [[nodiscard]] const PacketDigest& at(std::uint64_t number) const {
+            const std::uint64_t place = number - m_firstOfBlocks;
+            return m_blocks[place / kBlock]->digests[place % kBlock];
+        }
+
+    private:
+        friend class PacketDigests;
+        std::vector<std::shared_ptr<const Block>> m_blocks;
+        std::uint64_t m_firstOfBlocks = 0;
+        std::uint64_t m_begin = 0;
+        std::uint64_t m_end = 0;
+    };
+
+    /// Numbers grow; those that are left out have an empty digest.
+    void append(std::uint64_t number, const PacketDigest& digest);
+    void dropBefore(std::uint64_t begin);
+    /// Corrects a digest by a verdict that took its time. Excerpts that were given out stay as they are.
+    void amend(const Verdict& verdict);
+
+    [[nodiscard]] std::uint64_t begin() const { return m_begin; }
+    [[nodiscard]] std::uint64_t end() const { return m_end; }
+
+    /// Null outside [begin, end).
+    [[nodiscard]] const PacketDigest* find(std::uint64_t number) const;
+
+    /// The nearest problem after or before a packet; nothing where there is none.
+    [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
+    [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
+
+    /// From a packet on; whole blocks are shared, at most one is copied.
+    [[nodiscard]] Excerpt excerpt(std::uint64_t from) const;
+
+private:
+    std::deque<std::shared_ptr<Block>> m_blocks; ///< all but the last are complete
+    std::uint64_t m_firstOfBlocks = 0;           ///< number of the first digest of the first block
+    std::uint64_t m_begin = 0;
+    std::uint64_t m_end = 0;
+};
+
+} // namespace posewire::model

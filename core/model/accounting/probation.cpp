@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/probation.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace posewire::model {
+namespace {
+
+// So many advances of the expected place end the doubt about what came from elsewhere.
+constexpr std::size_t kAdvances = 3;
+// So many that agree on a new place, where nothing can have come late from there.
+constexpr std::size_t kAgreeing = 2;
+// So many, and close together, where they may be late arrivals.
+constexpr std::size_t kAgreeingClosely = 8;
+// So many, whatever they look like.
+constexpr std::size_t kAgreeingAnyhow = 32;
+
+std::int32_t away(std::uint32_t sample, std::uint32_t from) {
+    return static_cast<std::int32_t>(sample - from);
+}
+
+/// Whether datagrams from there may have been on the way for long.
+bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, std::int64_t stampNs) {
+    constexpr std::int32_t kBefore = 4'096;
+    constexpr std::int32_t kNear = 100;
+    const auto isIn = [&](const SampleSequence& sequence, std::int32_t below, std::int32_t above) {
+        return !sequence.empty() && away(high, sequence.window()[0].sample) >= -below &&
+               away(low, sequence.highest()) <= above;
+    };
+    return isIn(ledger.present(), kBefore, 0) ||
+           (ledger.hasBefore(stampNs) && isIn(ledger.before(), kNear, kNear));
+}
+
+bool isMissing(const SampleSequence& sequence, const SampleLedger::Datagram& datagram) {
+    if (sequence.empty() || away(datagram.sample, sequence.window()[0].sample) < 0 ||
+        away(datagram.sample, sequence.highest()) > 0) {
+        return false;
+    }
+    const auto place = sequence.window().find(datagram.sample);
+    return !place.isThere || !sequence.window().contains(place.index, datagram.index);
+}
+
+/// Losses of more in a row are counted too, but only once what comes next agrees.
+std::int32_t forwardLimit(const SampleLedger& ledger, const SampleLedger::Datagram& datagram) {
+    constexpr std::uint32_t kSteps = 100;
+    constexpr std::uint32_t kStepsInDoubt = 8;
+    const std::uint32_t step = ledger.present().step();
+    const bool isStraggling = ledger.hasBefore(datagram.stampNs) && isMissing(ledger.before(), datagram);
+    if (step == 0 && !isStraggling) {
+        return Probation::kMostForward;
+    }
+    const std::uint32_t limit = std::max(step, 1U) * (isStraggling ? kStepsInDoubt : kSteps);
+    return static_cast<std::int32_t>(std::min(limit, static_cast<std::uint32_t>(Probation::kMostForward)));
+}
+
+} // namespace
+
+bool Probation::isExpected(const SampleLedger& ledger, const SampleLedger::Datagram& datagram) {
+    if (ledger.present().empty()) {
+        return true;
+    }
+    const std::int32_t moved = away(datagram.sample, ledger.present().highest());
+    return moved >= -kMostBack && moved <= forwardLimit(ledger, datagram);
+}
+
+void Probation::add(const Waiting& waiting) {
+    if (m_waiting.capacity() < kMost) {
+        m_waiting.reserve(kMost);
+    }
+    m_waiting.push_back(waiting);
+    m_waiting.back().isRepeat =
+        std::any_of(m_waiting.begin(), m_waiting.end() - 1, [&](const Waiting& other) {
+            return other.datagram.sample == waiting.datagram.sample &&
+                   other.datagram.index == waiting.datagram.index;
+        });
+}
+
+void Probation::drop(std::size_t decided) {
+    m_waiting.erase(m_waiting.begin(), m_waiting.begin() + static_cast<std::ptrdiff_t>(decided));
+}
+
+void Probation::takeUnexpected(const Waiting& waiting, std::size_t near, const SampleLedger& ledger,
+                               Scan& scan) {
+    const std::uint32_t sample = waiting.datagram.sample;
+    if (near == scan.groupCount) {
+        if (scan.groupCount == kGroups) {
+            std::move(scan.groups.begin() + 1, scan.groups.end(), scan.groups.begin());
+            for (std::uint8_t& label : scan.labels) {
+                // The first group is given up; its members are of none from now on.
+                label = label >= kGroups ? label
+                        : label == 0     ? kNoGroup
+                                         : static_cast<std::uint8_t>(label - 1);
+            }
+            --near;
+        } else {
+            ++scan.groupCount;
+        }
+        scan.groups[near] = {sample, sample, sample, 0, 0};
+    }
+    Group& group = scan.groups[near];
+    if (group.count == 0) {
+        group.low = group.high = sample;
+    }
+    group.highest = away(sample, group.highest) > 0 ? sample : group.highest;
+    group.low = away(sample, group.low) < 0 ? sample : group.low;
+    group.high = away(sample, group.high) > 0 ? sample : group.high;
+    if (!waiting.isRepeat) {
+        ++group.count;
+        group.filling += isMissing(ledger.present(), waiting.datagram) ? 1 : 0;
+    }
+    scan.advances = 0;
+    scan.newest = static_cast<std::uint8_t>(near);
+}
+
+void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
+    scan.highest = ledger.present().highest();
+    const auto reach = static_cast<std::int32_t>(kMostBack * std::clamp(ledger.present().step(), 1U, 30U));
+    for (std::size_t i = 0; i < m_waiting.size(); ++i) {
+        const std::uint32_t sample = m_waiting[i].datagram.sample;
+        const std::int32_t fromExpected = away(sample, scan.highest);
+        const std::int32_t limit = forwardLimit(ledger, m_waiting[i].datagram);
+        std::size_t near = scan.groupCount;
+        std::int32_t distance =
+            fromExpected >= -kMostBack && fromExpected <= limit ? std::abs(fromExpected) : INT32_MAX;
+        const bool isExplained = distance != INT32_MAX;
+        for (std::size_t g = 0; g < scan.groupCount; ++g) {
+            const std::int32_t from = away(sample, scan.groups[g].highest);
+            // What came late is behind what is expected, what follows a long loss is ahead.
+            const bool isOneSide = (away(scan.groups[g].highest, scan.highest) > 0) == (fromExpected > 0);
+            // What the expected place can explain is no sign of another one that it has refuted.
+            const bool isRefuted = isExplained && scan.groups[g].count == 0;
+            if (isOneSide && !isRefuted && from >= -kMostBack && from <= reach && std::abs(from) < distance) {
+                near = g;
+                distance = std::abs(from);
+            }
+        }
+        if (near == scan.groupCount && distance != INT32_MAX) {
+            scan.labels[i] = kExpected;
+            if (fromExpected > 0) {
+                scan.highest = sample;
+                ++scan.advances;
+                scan.afterAdvance = i + 1;
+                for (Group& group : scan.groups) {
+                    group.count = group.filling = 0;
+                }
+            }
+        } else {
+            takeUnexpected(m_waiting[i], near, ledger, scan);
+            scan.labels[i] = scan.newest;
+        }
+    }
+}
+
+/// Whether a group is the new place of the counter.
+bool Probation::isSettled(const Group& group, const SampleLedger& ledger, std::int64_t stampNs, bool isEnd) {
+    if (group.count < kAgreeing) {
+        return false;
+    }
+    if (!mayBeLate(ledger, group.low, group.high, stampNs) || group.count >= kAgreeingAnyhow) {
+        return true;
+    }
+    const std::uint32_t step = std::max(ledger.present().step(), ledger.present().step() == 0 ? 4U : 1U);
+    const bool isClose = group.high - group.low <= std::uint64_t{2} * step * group.count;
+    return isClose && (group.count >= kAgreeingClosely || (isEnd && 2 * group.filling <= group.count));
+}
+
+void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decision) const {
+    Scan found;
+    scan(ledger, found);
+    decision.decided = 0;
+    const auto settle = [&](std::size_t count, std::uint8_t winner, Place begun) {
+        decision.decided = count;
+        bool isFirst = true;
+        for (std::size_t i = 0; i < count; ++i) {
+            const bool isWinner = winner != kExpected && found.labels[i] == winner;
+            decision.places[i] = found.labels[i] == kExpected ? Place::Expected
+                                 : !isWinner                  ? Place::Alone
+                                 : isFirst                    ? begun
+                                                              : Place::Begun;
+            isFirst = isFirst && !isWinner;
+        }
+    };
+    if (found.newest != kExpected) {
+        const Group& group = found.groups[found.newest];
+        if (isSettled(group, ledger, m_waiting.back().datagram.stampNs, isEnd)) {
+            const std::int32_t jump = away(group.low, found.highest);
+            settle(m_waiting.size(), found.newest,
+                   jump > 0 && jump <= kMostForward ? Place::Begun : Place::Restarted);
+            return;
+        }
+    }
+    if (found.advances >= kAdvances || isEnd) {
+        settle(m_waiting.size(), kExpected, Place::Begun);
+    } else if (m_waiting.size() == kMost) {
+        settle(found.afterAdvance != 0 ? found.afterAdvance : kMost / 2, kExpected, Place::Begun);
+    }
+}
+
+} // namespace posewire::model

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/sample_ledger.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace posewire::model {
+
+/// Decides what a datagram with an unexpected sample counter means: that the counter began anew, that many
+/// samples are lost, that it came late, or that it is corrupt. That is told by those that come after it, so
+/// all wait here until it is clear; at most kMost.
+class Probation {
+public:
+    static constexpr std::size_t kMost = 128;
+    /// RFC 3550 appendix A.1: a jump that is no loss.
+    static constexpr std::int32_t kMostBack = 100;
+    static constexpr std::int32_t kMostForward = 3'000;
+
+    struct Waiting {
+        SampleLedger::Datagram datagram;
+        std::uint64_t packet = 0;
+        std::uint32_t timeCode = 0;
+        bool isRepeat = false; ///< of one that waits too
+    };
+
+    enum class Place : std::uint8_t { Expected, Alone, Begun, Restarted };
+    /// What is to be done with those that wait, the oldest first.
+    struct Decision {
+        std::size_t decided = 0; ///< so many; 0 while nothing is clear
+        std::array<Place, kMost> places{};
+    };
+
+    /// Whether a counter is near enough to what was expected to be counted at once.
+    [[nodiscard]] static bool isExpected(const SampleLedger& ledger, const SampleLedger::Datagram& datagram);
+
+    [[nodiscard]] bool empty() const { return m_waiting.empty(); }
+    [[nodiscard]] const std::vector<Waiting>& waiting() const { return m_waiting; }
+    void add(const Waiting& waiting);
+    void drop(std::size_t decided);
+
+    /// `isEnd`: nothing more comes; it is decided as far as it is likely.
+    void decide(const SampleLedger& ledger, bool isEnd, Decision& decision) const;
+
+private:
+    /// Datagrams that agree with each other on another place than the expected one.
+    struct Group {
+        std::uint32_t highest = 0;
+        std::uint32_t low = 0; ///< of those since the expected place was last heard of
+        std::uint32_t high = 0;
+        std::size_t count = 0;   ///< likewise, without repeats
+        std::size_t filling = 0; ///< of these, those that are missing in the expected place
+    };
+    static constexpr std::size_t kGroups = 4;
+    static constexpr std::uint8_t kExpected = 0xff;
+    static constexpr std::uint8_t kNoGroup = 0xfe;
+    struct Scan {
+        std::array<Group, kGroups> groups{};
+        std::size_t groupCount = 0;
+        std::uint8_t newest = kExpected;
+        std::uint32_t highest = 0;    ///< in the expected place
+        std::size_t advances = 0;     ///< there, since the newest unexpected one
+        std::size_t afterAdvance = 0; ///< one past the newest advance
+        std::array<std::uint8_t, kMost> labels{};
+    };
+    void scan(const SampleLedger& ledger, Scan& scan) const;
+    static void takeUnexpected(const Waiting& waiting, std::size_t near, const SampleLedger& ledger,
+                               Scan& scan);
+    [[nodiscard]] static bool isSettled(const Group& group, const SampleLedger& ledger, std::int64_t stampNs,
+                                        bool isEnd);
+
+    std::vector<Waiting> m_waiting;
+};
+
+} // namespace posewire::model

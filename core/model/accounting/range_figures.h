@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/stream_accounting.h"
+#include "core/model/accounting/time_range.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+namespace posewire::model {
+
+/// Samples a second; of types without samples, datagrams a second. 0 before there are two.
+struct RateFigures {
+    double meanHz = 0;
+    /// Of parts of the range, each at least a second long and on the air from its beginning to its end;
+    /// without such a part all are as the mean, and the deviation 0.
+    double leastHz = 0;
+    double mostHz = 0;
+    double deviationHz = 0;
+    double datagramsPerSecond = 0;
+    double bytesPerSecond = 0;
+};
+
+/// Every figure of one stream in a range of time.
+struct RangeFigures {
+    StreamCounts counts;
+    InterArrival arrivals;
+    ClockFigures clock; ///< the jitter at the end of the range; skew and drift over it
+    RateFigures rate;
+    LossPattern pattern;
+    std::uint64_t malformed = 0; ///< datagrams with a header of the stream that could not be decoded
+};
+
+/// All there is where no range is given; everything but the rate. The cost does not depend on the range.
+[[nodiscard]] RangeFigures countedFigures(const StreamAccounting& stream,
+                                          const std::optional<TimeRange>& range);
+/// With the rate, for which the range must have ends.
+[[nodiscard]] RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range);
+
+/// What came and what did not in a part of a range.
+struct RangePart {
+    std::uint32_t datagrams = 0;
+    std::uint32_t samples = 0;
+    std::uint32_t lost = 0; ///< samples, incomplete ones included
+
+    RangePart& operator+=(const RangePart& other);
+};
+
+/// Equal parts that follow one another, in whole buckets of the accounting.
+struct RangeParts {
+    std::int64_t firstNs = 0; ///< where the first one begins
+    std::int64_t widthNs = 0; ///< 0: there are none
+    std::size_t count = 0;
+
+    [[nodiscard]] std::int64_t beginOf(std::size_t part) const {
+        return firstNs + static_cast<std::int64_t>(part) * widthNs;
+    }
+};
+
+/// At most `most` parts of at least `leastWidthNs` that cover a range, so that none mixes buckets of a
+/// history with that resolution.
+[[nodiscard]] RangeParts partsOf(const TimeRange& range, std::size_t most, std::int64_t leastWidthNs,
+                                 std::int64_t resolutionNs);
+
+/// Adds what a stream has in each part.
+void addParts(const StreamAccounting& stream, const RangeParts& parts, std::span<RangePart> into);
+
+} // namespace posewire::model

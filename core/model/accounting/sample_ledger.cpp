@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/sample_ledger.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace posewire::model {
+namespace {
+
+bool isWithin(const SampleSequence& sequence, std::uint32_t sample, std::int32_t below, std::int32_t above) {
+    return !sequence.empty() && static_cast<std::int32_t>(sample - sequence.window()[0].sample) >= -below &&
+           static_cast<std::int32_t>(sample - sequence.highest()) <= above;
+}
+
+} // namespace
+
+Placement SampleLedger::count(const Placement& placement, std::int64_t stampNs, CountHistory* history) {
+    const bool isDuplicate = placement.kind == Placement::Kind::Duplicate;
+    const bool isLate = placement.isReordered && placement.lateNs > m_lateAfterNs;
+    if (isDuplicate || placement.isReordered) {
+        m_settled.duplicates += isDuplicate ? 1 : 0;
+        m_settled.reordered += placement.isReordered ? 1 : 0;
+        m_settled.late += isLate ? 1 : 0;
+        if (history != nullptr) {
+            CountHistory::Change change;
+            change.duplicates = isDuplicate ? 1 : 0;
+            change.reordered = placement.isReordered ? 1 : 0;
+            change.late = isLate ? 1 : 0;
+            history->add(stampNs, change);
+        }
+    }
+    return placement;
+}
+
+Placement SampleLedger::place(const Datagram& datagram, CountHistory* history) {
+    return count(m_present.place(datagram, history), datagram.stampNs, history);
+}
+
+Placement SampleLedger::placeBefore(const Datagram& datagram, CountHistory* history) {
+    return m_before.empty() ? Placement{}
+                            : count(m_before.place(datagram, history), datagram.stampNs, history);
+}
+
+Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* history) {
+    constexpr std::int32_t kNear = 100;
+    // The first samples of a stream may come late too.
+    if (isWithin(m_present, datagram.sample, kNear, 0)) {
+        return place(datagram, history);
+    }
+    return hasBefore(datagram.stampNs) && isWithin(m_before, datagram.sample, kNear, kNear)
+               ? placeBefore(datagram, history)
+               : Placement{};
+}
+
+void SampleLedger::restart(std::int64_t stampNs, CountHistory* history) {
+    if (!m_before.empty()) {
+        // A straggler may have been the first sample of all.
+        m_firstSample = m_settled.restarts == 1 ? m_before.first() : m_firstSample;
+        const auto totals = m_before.totals();
+        m_settled.samples += totals.samples;
+        m_settled.incomplete += totals.incomplete;
+        m_settled.lost += totals.lost;
+        m_longestGap = std::max(m_longestGap, m_before.longestGap());
+        m_before.clear(history);
+    }
+    if (m_settled.restarts == 0) {
+        m_firstSample = m_present.first();
+    }
+    std::swap(m_present, m_before);
+    m_restartNs = stampNs;
+    ++m_settled.restarts;
+    if (history != nullptr) {
+        CountHistory::Change change;
+        change.restarts = 1;
+        history->add(stampNs, change);
+    }
+}
+
+StreamCounts SampleLedger::counts() const {
+    StreamCounts counts = m_settled;
+    counts.longestGapSamples = m_longestGap;
+    for (const SampleSequence* sequence : {&m_before, &m_present}) {
+        const auto totals = sequence->totals();
+        counts.samples += totals.samples;
+        counts.incomplete += totals.incomplete;
+        counts.lost += totals.lost;
+        if (!sequence->empty()) {
+            counts.longestGapSamples = std::max(counts.longestGapSamples, sequence->longestGap());
+        }
+    }
+    if (!m_present.empty()) {
+        counts.step = m_present.step();
+        const bool isBeforeFirst = counts.restarts == 1 && !m_before.empty();
+        counts.firstSample = counts.restarts == 0 ? m_present.first()
+                             : isBeforeFirst      ? m_before.first()
+                                                  : m_firstSample;
+        counts.lastSample = m_present.highest();
+    }
+    return counts;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/sample_sequence.h"
+
+#include <cstdint>
+
+namespace posewire::model {
+
+/// Counts datagrams whose place among the samples of a stream is decided: what belongs to the sequence since
+/// the newest restart, and stragglers of the one before it.
+class SampleLedger {
+public:
+    /// So long after a restart a straggler of the sequence before is known.
+    static constexpr std::int64_t kStragglingNs = 10'000'000'000;
+
+    using Datagram = SampleSequence::Datagram;
+
+    void setLateAfter(std::int64_t lateAfterNs) { m_lateAfterNs = lateAfterNs; }
+    [[nodiscard]] std::int64_t lateAfterNs() const { return m_lateAfterNs; }
+
+    /// In the present sequence.
+    Placement place(const Datagram& datagram, CountHistory* history);
+    /// In the sequence before the restart; nothing is counted where there is none.
+    Placement placeBefore(const Datagram& datagram, CountHistory* history);
+    /// One that came alone from far away: where it is missing or known, else nowhere.
+    Placement placeAlone(const Datagram& datagram, CountHistory* history);
+    /// The counter began anew; the next datagram placed is the first of a sequence.
+    void restart(std::int64_t stampNs, CountHistory* history);
+
+    [[nodiscard]] const SampleSequence& present() const { return m_present; }
+    [[nodiscard]] const SampleSequence& before() const { return m_before; }
+    /// Whether something of the sequence before may still come.
+    [[nodiscard]] bool hasBefore(std::int64_t stampNs) const {
+        return !m_before.empty() && stampNs - m_restartNs < kStragglingNs;
+    }
+
+    /// All but datagrams and bytes.
+    [[nodiscard]] StreamCounts counts() const;
+    /// Adds the bursts that the history does not know yet, those that ended in a range of time.
+    void addNewestBursts(const TimeRange& range, BurstCounts& into) const {
+        m_before.addNewestBursts(range, into);
+        m_present.addNewestBursts(range, into);
+    }
+
+private:
+    Placement count(const Placement& placement, std::int64_t stampNs, CountHistory* history);
+
+    std::int64_t m_lateAfterNs = 50'000'000;
+    std::int64_t m_restartNs = 0;
+    SampleSequence m_present;
+    SampleSequence m_before;
+    StreamCounts m_settled; ///< of the sequences before those, and what belongs to none
+    std::uint32_t m_firstSample = 0;
+    std::uint64_t m_longestGap = 0; ///< likewise
+};
+
+} // namespace posewire::model

@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/sample_sequence.h"
+
+#include "core/model/accounting/step_finder.h"
+
+#include <algorithm>
+
+namespace posewire::model {
+namespace {
+
+std::uint32_t lostWithin(std::int64_t difference, std::uint32_t step) {
+    return step == 0 || difference <= step ? 0 : static_cast<std::uint32_t>(difference / step - 1);
+}
+
+/// Differences between successive samples at the end of a window, oldest first.
+struct NewestDifferences {
+    std::array<std::uint32_t, kStepHistory> values{};
+    std::size_t size = 0;
+    [[nodiscard]] std::span<const std::uint32_t> all() const { return {values.data(), size}; }
+};
+
+NewestDifferences differencesFrom(const SampleWindow& window, std::size_t first) {
+    NewestDifferences result;
+    const std::size_t from =
+        std::max(first + 1, window.size() > kStepHistory ? window.size() - kStepHistory : 0);
+    for (std::size_t i = from; i < window.size(); ++i) {
+        result.values[result.size++] = window[i].sample - window[i - 1].sample;
+    }
+    return result;
+}
+
+/// The difference at which spacing that was regular became irregular, or the other way round.
+std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint32_t before,
+                          std::uint32_t after) {
+    const std::uint32_t step = after == 0 ? before : after;
+    std::ptrdiff_t best = PTRDIFF_MIN;
+    std::ptrdiff_t score = 0;
+    std::size_t place = 0;
+    for (std::size_t i = 0; i < differences.size(); ++i) {
+        const bool isEqual = differences[i] == step;
+        score += isEqual == (after == 0) ? 1 : -1;
+        if (score > best) {
+            best = score;
+            place = i;
+        }
+    }
+    return std::min(place + 1, differences.size() - 1);
+}
+
+void tellHistory(const std::optional<LossBursts::Burst>& burst, CountHistory* history) {
+    if (burst && history != nullptr) {
+        CountHistory::Change change;
+        change.bursts = 1;
+        change.burstLost = static_cast<std::int32_t>(burst->lost);
+        change.burstSamples = static_cast<std::int32_t>(burst->samples);
+        history->add(burst->endNs, change);
+    }
+}
+
+} // namespace
+
+std::int64_t SampleSequence::Run::lost() const {
+    return step == 0 ? 0 : std::max<std::int64_t>(0, (last - first) / step + 1 - samples - incomplete);
+}
+
+std::int64_t SampleSequence::position(std::uint32_t sample) const {
+    return m_highest + static_cast<std::int32_t>(sample - m_window.back().sample);
+}
+
+std::int64_t SampleSequence::lostNow() const {
+    std::int64_t lost = m_pastLost;
+    for (std::size_t i = 0; i < m_runCount; ++i) {
+        lost += m_runs[i].lost();
+    }
+    return lost;
+}
+
+SampleSequence::Totals SampleSequence::totals() const {
+    std::int64_t samples = m_past.samples;
+    std::int64_t incomplete = m_past.incomplete;
+    for (std::size_t i = 0; i < m_runCount; ++i) {
+        samples += m_runs[i].samples;
+        incomplete += m_runs[i].incomplete;
+    }
+    return {static_cast<std::uint64_t>(samples), static_cast<std::uint64_t>(incomplete),
+            static_cast<std::uint64_t>(lostNow())};
+}
+
+/// The run that a position lies in; the first that it would extend where it lies between two.
+const SampleSequence::Run* SampleSequence::runAt(std::int64_t position) const {
+    for (std::size_t i = m_runCount; i-- > 0;) {
+        if (position >= m_runs[i].first) {
+            return &m_runs[i];
+        }
+    }
+    return nullptr;
+}
+
+/// The same for a sample that is to be counted in: the run is extended where it lies outside.
+SampleSequence::Run& SampleSequence::runFor(std::int64_t position) {
+    for (std::size_t i = m_runCount; i-- > 0;) {
+        Run& run = m_runs[i];
+        const bool isBelow = position < run.first;
+        if (!isBelow) {
+            run.last = std::max(run.last, position);
+            return run;
+        }
+        const bool isBetween = i > 0 && position > m_runs[i - 1].last;
+        if (i == 0 ? !m_hasPast : isBetween && run.step != 0 && (run.first - position) % run.step == 0) {
+            run.first = position;
+            return run;
+        }
+    }
+    return m_past;
+}
+
+Placement SampleSequence::place(const Datagram& datagram, CountHistory* history) {
+    if (m_window.empty()) {
+        begin(datagram);
+        return mark(datagram, 0, history);
+    }
+    const auto place = m_window.find(datagram.sample);
+    if (place.isThere) {
+        return mark(datagram, place.index, history);
+    }
+    if (place.index == m_window.size()) {
+        return advance(datagram, history);
+    }
+    if (place.index == 0 && (m_window.hasForgotten() || m_window.size() == SampleWindow::kKept)) {
+        return {};
+    }
+    return fill(datagram, place.index, history);
+}
+
+void SampleSequence::begin(const Datagram& datagram) {
+    m_window.insert(0, datagram.sample, datagram.stampNs);
+    m_highest = datagram.sample;
+    m_first = datagram.sample;
+    m_runs[0] = {m_highest, m_highest, 0, 0, 0};
+    m_runCount = 1;
+}
+
+/// Counts the datagram of a sample that is in the window, and in its run where it is the sample's first.
+/// `isSteady` says that nothing is lost between it and the sample before.
+Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, CountHistory* history,
+                               bool isSteady) {
+    Placement placement;
+    const bool isFirst = m_window[index].parts == SampleWindow::kUnmarked;
+    const auto mark = m_window.mark(index, datagram.index, datagram.isLast);
+    if (mark == SampleWindow::Mark::Duplicate) {
+        placement.kind = Placement::Kind::Duplicate;
+        return placement;
+    }
+    const bool isHighest = index + 1 == m_window.size();
+    placement.kind = !isFirst    ? Placement::Kind::Part
+                     : isHighest ? Placement::Kind::Advance
+                                 : Placement::Kind::Filled;
+    const std::int64_t dueNs = dueStamp(index);
+    if (!isHighest) {
+        placement.isReordered = true;
+        placement.lateNs = datagram.stampNs - dueStamp(index + 1);
+    }
+    const bool isCompleting = mark == SampleWindow::Mark::Completing;
+    if (!isFirst && !isCompleting) {
+        return placement;
+    }
+    const std::int64_t place = position(datagram.sample);
+    const bool mayChangeLost = isFirst && !isSteady && history != nullptr;
+    const std::int64_t lostBefore = mayChangeLost ? lostNow() : 0;
+    Run& run = runFor(place);
+    CountHistory::Change change;
+    if (isFirst) {
+        change.incomplete = 1;
+    }
+    if (isCompleting) {
+        change.samples = 1;
+        change.incomplete -= 1;
+    }
+    run.samples += change.samples;
+    run.incomplete += change.incomplete;
+    if (isFirst && &run == &m_past) {
+        m_pastLost = std::max<std::int64_t>(0, m_pastLost - 1);
+    }
+    if (history != nullptr) {
+        change.lost = mayChangeLost ? static_cast<std::int32_t>(lostNow() - lostBefore) : 0;
+        history->add(dueNs, change);
+    }
+    return placement;
+}
+
+Placement SampleSequence::advance(const Datagram& datagram, CountHistory* history) {
+    const std::uint32_t before = m_window.back().sample;
+    const std::uint32_t difference = datagram.sample - before;
+    const bool wasFull = m_window.size() == SampleWindow::kKept;
+    m_window.insert(m_window.size(), datagram.sample, datagram.stampNs);
+    m_settled -= wasFull && m_settled > 0 ? 1 : 0;
+    m_highest += difference;
+    const std::uint32_t step = newestRun().step;
+    Placement placement = mark(datagram, m_window.size() - 1, history, difference == step);
+    placement.gap = lostWithin(difference, step);
+    placement.sampleBefore = before;
+    if (placement.gap != 0 && history != nullptr) {
+        history->addGap(datagram.stampNs, placement.gap);
+    }
+    if (difference != step) {
+        reconsiderStep(history);
+    }
+    settle(kSettling, history);
+    return placement;
+}
+
+Placement SampleSequence::fill(const Datagram& datagram, std::size_t index, CountHistory* history) {
+    const bool wasFull = m_window.size() == SampleWindow::kKept;
+    index = m_window.insert(index, datagram.sample, datagram.stampNs);
+    m_settled -= wasFull && m_settled > 0 ? 1 : 0;
+    m_settled += index < m_settled ? 1 : 0;
+    if (index == 0 && static_cast<std::int32_t>(datagram.sample - m_first) < 0) {
+        m_first = datagram.sample;
+    }
+    Placement placement = mark(datagram, index, history);
+    const std::uint32_t step = newestRun().step;
+    const bool isRegular = m_window[index + 1].sample - datagram.sample == step &&
+                           (index == 0 || datagram.sample - m_window[index - 1].sample == step);
+    if (!isRegular) {
+        reconsiderStep(history);
+    }
+    return placement;
+}
+
+/// When the sample at an index should have come: when it came, or when the first one above it did.
+std::int64_t SampleSequence::dueStamp(std::size_t index) const {
+    while (!m_window[index].isAdvance && index + 1 < m_window.size()) {
+        ++index;
+    }
+    return m_window[index].stampNs;
+}
+
+/// The first entry of a run, or the `most`th from the end where that is later.
+std::size_t SampleSequence::firstOfRun(const Run& run, std::size_t most) const {
+    std::size_t index = m_window.size() > most ? m_window.size() - most : 0;
+    while (index + 1 < m_window.size() && position(m_window[index].sample) < run.first) {
+        ++index;
+    }
+    return index;
+}
+
+void SampleSequence::reconsiderStep(CountHistory* history) {
+    const std::size_t first = firstOfRun(newestRun(), kStepHistory + 1);
+    const NewestDifferences differences = differencesFrom(m_window, first);
+    const std::int64_t totalBefore = lostNow();
+    const LostByEntry before = lostAfter(first);
+    changeStep(first, differences.all());
+    std::int64_t rest = lostNow() - totalBefore;
+    if (history == nullptr || rest == 0) {
+        return;
+    }
+    // What seemed lost, or did not, is corrected at the time when it seemed so.
+    const LostByEntry after = lostAfter(first);
+    CountHistory::Change correction;
+    for (std::size_t i = 0; i < differences.size; ++i) {
+        if (after[i] != before[i]) {
+            correction.lost = static_cast<std::int32_t>(after[i] - before[i]);
+            rest -= correction.lost;
+            history->add(dueStamp(first + 1 + i), correction);
+        }
+    }
+    if (rest != 0) {
+        correction.lost = static_cast<std::int32_t>(rest);
+        history->add(m_window.back().stampNs, correction);
+    }
+}
+
+/// `differences` are those behind the entry `first`, which is in the newest run.
+void SampleSequence::changeStep(std::size_t first, std::span<const std::uint32_t> differences) {
+    Run& run = newestRun();
+    if (const auto change = findStepChange(differences, run.step)) {
+        splitRun(first + change->place + 1, change->step);
+        return;
+    }
+    const bool isYoung =
+        differences.size() <= kStepDifferences && position(m_window[first].sample) == run.first;
+    if (isYoung && differences.size() > kStepDifferences / 4) {
+        // A step that changed before it could be told from loss.
+        const std::uint32_t step = mostFrequent(differences.first(kStepDifferences / 8));
+        if (const auto change = step == run.step ? std::nullopt : findStepChange(differences, step)) {
+            run.step = step;
+            splitRun(first + change->place + 1, change->step);
+            return;
+        }
+    }
+    const std::uint32_t step = findStep(differences);
+    if (isYoung) {
+        run.step = step;
+    } else if (step != run.step && !stillHolds(differences, run.step)) {
+        constexpr std::size_t kLasting = 32;
+        const std::size_t place = placeOfChange(differences, run.step, step);
+        if (place + kLasting < differences.size()) {
+            splitRun(first + place + 1, step);
+        }
+    }
+}
+
+SampleSequence::LostByEntry SampleSequence::lostAfter(std::size_t first) const {
+    LostByEntry result{};
+    const Run* run = nullptr;
+    for (std::size_t i = first + 1; i < m_window.size(); ++i) {
+        result[i - first - 1] = static_cast<std::int64_t>(lostBefore(i, run));
+    }
+    return result;
+}
+
+/// Ends the newest run before an entry of the window, which begins the next.
+void SampleSequence::splitRun(std::size_t firstEntry, std::uint32_t step) {
+    if (m_runCount == kRuns) {
+        m_past.samples += m_runs[0].samples;
+        m_past.incomplete += m_runs[0].incomplete;
+        m_hasPast = true;
+        m_pastLost += m_runs[0].lost();
+        std::move(m_runs.begin() + 1, m_runs.end(), m_runs.begin());
+        --m_runCount;
+    }
+    Run& old = newestRun();
+    Run next{position(m_window[firstEntry].sample), old.last, step, 0, 0};
+    for (std::size_t i = firstEntry; i < m_window.size(); ++i) {
+        ++(m_window[i].isComplete ? next.samples : next.incomplete);
+    }
+    old.last = position(m_window[firstEntry - 1].sample);
+    old.samples -= next.samples;
+    old.incomplete -= next.incomplete;
+    m_runs[m_runCount++] = next;
+}
+
+/// Samples lost between the entry at an index and the one before it. `run` is that of the entry, kept by the
+/// caller from one call to the next.
+std::uint64_t SampleSequence::lostBefore(std::size_t index, const Run*& run) const {
+    const std::int64_t to = position(m_window[index].sample);
+    const std::int64_t from = position(m_window[index - 1].sample);
+    if (run == nullptr || to < run->first || to > run->last) {
+        run = runAt(to);
+    }
+    return run == nullptr || from < run->first ? 0 : lostWithin(to - from, run->step);
+}
+
+/// Tells the history of bursts among all but the newest samples.
+void SampleSequence::settle(std::size_t most, CountHistory* history) {
+    const Run* run = nullptr;
+    for (; m_settled + most < m_window.size(); ++m_settled) {
+        const std::uint64_t lost = m_settled == 0 ? 0 : lostBefore(m_settled, run);
+        tellHistory(m_bursts.add(lost, dueStamp(m_settled)), history);
+    }
+}
+
+std::uint64_t SampleSequence::longestGap() const {
+    LossBursts bursts = m_bursts;
+    const Run* run = nullptr;
+    for (std::size_t i = m_settled; i < m_window.size(); ++i) {
+        bursts.add(i == 0 ? 0 : lostBefore(i, run), 0);
+    }
+    return bursts.longestGap();
+}
+
+void SampleSequence::addNewestBursts(const TimeRange& range, BurstCounts& into) const {
+    const auto take = [&](const std::optional<LossBursts::Burst>& burst) {
+        if (burst && burst->endNs >= range.fromNs && burst->endNs < range.toNs) {
+            into.bursts += 1;
+            into.lost += burst->lost;
+            into.samples += burst->samples;
+        }
+    };
+    LossBursts bursts = m_bursts;
+    const Run* run = nullptr;
+    for (std::size_t i = m_settled; i < m_window.size(); ++i) {
+        take(bursts.add(i == 0 ? 0 : lostBefore(i, run), dueStamp(i)));
+    }
+    take(bursts.endRun());
+}
+
+std::uint32_t SampleSequence::missingBetween(std::uint32_t from, std::uint32_t to) const {
+    if (m_window.empty()) {
+        return 0;
+    }
+    std::uint32_t missing = 0;
+    const Run* run = nullptr;
+    for (std::size_t i = m_window.find(from).index + 1; i < m_window.size(); ++i) {
+        if (static_cast<std::int32_t>(m_window[i].sample - to) > 0) {
+            break;
+        }
+        missing += static_cast<std::uint32_t>(lostBefore(i, run));
+    }
+    return missing;
+}
+
+void SampleSequence::clear(CountHistory* history) {
+    settle(0, history);
+    tellHistory(m_bursts.endRun(), history);
+    m_window.clear();
+    m_runCount = 0;
+    m_past = {};
+    m_hasPast = false;
+    m_pastLost = 0;
+    m_bursts = {};
+    m_settled = 0;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/count_history.h"
+#include "core/model/accounting/loss_bursts.h"
+#include "core/model/accounting/sample_window.h"
+#include "core/model/accounting/time_range.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace posewire::model {
+
+/// Where a datagram of a stream has its place among the samples.
+struct Placement {
+    enum class Kind : std::uint8_t {
+        Advance,   ///< of a sample above all before
+        Filled,    ///< the first of a sample that seemed lost
+        Part,      ///< a further one of a sample
+        Duplicate, ///< it came before
+        Outside,   ///< so long ago that nothing is known of it any more
+    };
+    Kind kind = Kind::Outside;
+    bool isReordered = false;
+    std::int64_t lateNs = 0;        ///< of a reordered one: since the first arrival above it (RFC 4737 §4.3)
+    std::uint32_t gap = 0;          ///< samples missing just before an advance, as far as the step is known
+    std::uint32_t sampleBefore = 0; ///< the highest before an advance with a gap
+};
+
+/// The samples of a stream between two restarts. It is cut into runs of one step each; per run, always,
+/// (last - first) / step + 1 = samples + incomplete + lost. What it told before is corrected by what comes.
+class SampleSequence {
+public:
+    struct Datagram {
+        std::int64_t stampNs = 0;
+        std::uint32_t sample = 0;
+        std::uint8_t index = 0; ///< in its sample
+        bool isLast = false;
+    };
+
+    /// Counts in what belongs to samples; changes are told to `history` at the time when the samples were
+    /// due, unless it is null.
+    Placement place(const Datagram& datagram, CountHistory* history);
+
+    struct Totals {
+        std::uint64_t samples = 0;
+        std::uint64_t incomplete = 0;
+        std::uint64_t lost = 0;
+    };
+    [[nodiscard]] Totals totals() const;
+
+    [[nodiscard]] bool empty() const { return m_window.empty(); }
+    [[nodiscard]] const SampleWindow& window() const { return m_window; }
+    [[nodiscard]] std::uint32_t step() const { return m_runCount == 0 ? 0 : newestRun().step; }
+    [[nodiscard]] std::uint32_t first() const { return m_first; }
+    [[nodiscard]] std::uint32_t highest() const { return m_window.back().sample; }
+    /// Samples between two counters, both exclusive, of which nothing has come.
+    [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
+
+    [[nodiscard]] std::uint64_t longestGap() const;
+    /// Adds the bursts that the history does not know yet, those that ended in a range of time.
+    void addNewestBursts(const TimeRange& range, BurstCounts& into) const;
+
+    /// Nothing of it will come any more: tells the history of the newest bursts and begins anew.
+    void clear(CountHistory* history);
+
+private:
+    struct Run {
+        std::int64_t first = 0; ///< positions: counters without wrap-around
+        std::int64_t last = 0;
+        std::uint32_t step = 0;
+        std::int64_t samples = 0;
+        std::int64_t incomplete = 0;
+        [[nodiscard]] std::int64_t lost() const;
+    };
+    static constexpr std::size_t kRuns = 8;
+    /// So far behind the highest, losses are taken for settled.
+    static constexpr std::size_t kSettling = 512;
+
+    [[nodiscard]] Run& newestRun() { return m_runs[m_runCount - 1]; }
+    [[nodiscard]] const Run& newestRun() const { return m_runs[m_runCount - 1]; }
+    [[nodiscard]] std::int64_t position(std::uint32_t sample) const;
+    [[nodiscard]] const Run* runAt(std::int64_t position) const;
+    Run& runFor(std::int64_t position);
+    void begin(const Datagram& datagram);
+    Placement advance(const Datagram& datagram, CountHistory* history);
+    Placement fill(const Datagram& datagram, std::size_t index, CountHistory* history);
+    Placement mark(const Datagram& datagram, std::size_t index, CountHistory* history, bool isSteady = false);
+    [[nodiscard]] std::int64_t dueStamp(std::size_t index) const;
+    void reconsiderStep(CountHistory* history);
+    /// What seems lost before each of the newest entries.
+    using LostByEntry = std::array<std::int64_t, 128>;
+    [[nodiscard]] LostByEntry lostAfter(std::size_t first) const;
+    void changeStep(std::size_t first, std::span<const std::uint32_t> differences);
+    void splitRun(std::size_t firstEntry, std::uint32_t step);
+    [[nodiscard]] std::size_t firstOfRun(const Run& run, std::size_t most) const;
+    [[nodiscard]] std::uint64_t lostBefore(std::size_t index, const Run*& run) const;
+    [[nodiscard]] std::int64_t lostNow() const;
+    void settle(std::size_t most, CountHistory* history);
+
+    SampleWindow m_window;
+    std::int64_t m_highest = 0; ///< position
+    std::uint32_t m_first = 0;  ///< as on the wire
+    std::array<Run, kRuns> m_runs{};
+    std::size_t m_runCount = 0;
+    bool m_hasPast = false;
+    Run m_past; ///< sums of runs before those kept
+    std::int64_t m_pastLost = 0;
+    LossBursts m_bursts;
+    std::size_t m_settled = 0; ///< entries at the front of the window that m_bursts has seen
+};
+
+} // namespace posewire::model

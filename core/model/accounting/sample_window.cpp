@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/sample_window.h"
+
+#include <bit>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::size_t kFirstCapacity = 64;
+
+bool isBelow(std::uint32_t a, std::uint32_t b) {
+    return static_cast<std::int32_t>(a - b) < 0;
+}
+
+} // namespace
+
+SampleWindow::Place SampleWindow::find(std::uint32_t sample) const {
+    if (m_size == 0 || isBelow(back().sample, sample)) {
+        return {m_size, false};
+    }
+    // Most late arrivals are near the end: the search widens from there.
+    std::size_t high = m_size - 1;
+    std::size_t low = high;
+    for (std::size_t reach = 1; low > 0 && isBelow(sample, (*this)[low].sample); reach *= 2) {
+        high = low;
+        low = low > reach ? low - reach : 0;
+    }
+    while (low < high) {
+        const std::size_t middle = (low + high) / 2;
+        if (isBelow((*this)[middle].sample, sample)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return {low, (*this)[low].sample == sample};
+}
+
+std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, std::int64_t stampNs) {
+    if (m_size == kKept) {
+        forgetFront();
+        index = index == 0 ? 0 : index - 1;
+    } else if (m_size == m_entries.size()) {
+        grow();
+    }
+    ++m_size;
+    for (std::size_t i = m_size - 1; i > index; --i) {
+        at(i) = at(i - 1);
+    }
+    Entry& entry = at(index);
+    entry = {};
+    entry.stampNs = stampNs;
+    entry.sample = sample;
+    entry.parts = kUnmarked;
+    entry.isAdvance = index + 1 == m_size;
+    return index;
+}
+
+SampleWindow::Mark SampleWindow::mark(std::size_t index, std::uint8_t datagram, bool isLast) {
+    Entry& entry = at(index);
+    if (entry.parts == kUnmarked && datagram == 0 && isLast) {
+        entry.parts = kWhole;
+        entry.last = 0;
+        entry.isComplete = true;
+        return Mark::Completing;
+    }
+    if (entry.parts == kUnmarked) {
+        entry.parts = takeMask();
+    } else if (entry.parts == kWhole) {
+        if (datagram == 0) {
+            return Mark::Duplicate;
+        }
+        entry.parts = takeMask();
+        m_masks[entry.parts][0] = 1;
+    }
+    Mask& mask = m_masks[entry.parts];
+    const std::uint64_t bit = std::uint64_t{1} << (datagram & 63);
+    std::uint64_t& half = mask[(datagram >> 6) & 1];
+    if ((half & bit) != 0) {
+        return Mark::Duplicate;
+    }
+    half |= bit;
+    if (isLast && entry.last == 0xff) {
+        entry.last = datagram;
+    }
+    if (!entry.isComplete && entry.last != 0xff && isWhole(mask, entry.last)) {
+        entry.isComplete = true;
+        return Mark::Completing;
+    }
+    return Mark::Part;
+}
+
+bool SampleWindow::contains(std::size_t index, std::uint8_t datagram) const {
+    const Entry& entry = (*this)[index];
+    if (entry.parts == kWhole || entry.parts == kUnmarked) {
+        return entry.parts == kWhole && datagram == 0;
+    }
+    return (m_masks[entry.parts][(datagram >> 6) & 1] >> (datagram & 63) & 1) != 0;
+}
+
+bool SampleWindow::isWhole(const Mask& mask, std::uint8_t last) {
+    const int count = last + 1;
+    const auto low = count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+    const auto high = count <= 64    ? 0
+                      : count >= 128 ? ~std::uint64_t{0}
+                                     : (std::uint64_t{1} << (count - 64)) - 1;
+    return (mask[0] & low) == low && (mask[1] & high) == high;
+}
+
+std::uint16_t SampleWindow::takeMask() {
+    if (m_spareMasks.empty()) {
+        m_masks.push_back({});
+        return static_cast<std::uint16_t>(m_masks.size() - 1);
+    }
+    const std::uint16_t parts = m_spareMasks.back();
+    m_spareMasks.pop_back();
+    m_masks[parts] = {};
+    return parts;
+}
+
+void SampleWindow::giveMask(std::uint16_t parts) {
+    if (parts < kUnmarked) {
+        m_spareMasks.push_back(parts);
+    }
+}
+
+void SampleWindow::forgetFront() {
+    giveMask(at(0).parts);
+    ++m_front;
+    --m_size;
+    m_hasForgotten = true;
+}
+
+void SampleWindow::grow() {
+    std::vector<Entry> larger(m_entries.empty() ? kFirstCapacity : m_entries.size() * 2);
+    for (std::size_t i = 0; i < m_size; ++i) {
+        larger[i] = (*this)[i];
+    }
+    m_entries = std::move(larger);
+    m_front = 0;
+}
+
+void SampleWindow::clear() {
+    m_front = 0;
+    m_size = 0;
+    m_hasForgotten = false;
+    m_masks.clear();
+    m_spareMasks.clear();
+}
+
+} // namespace posewire::model

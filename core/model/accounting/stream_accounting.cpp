@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/stream_accounting.h"
+
+#include <algorithm>
+
+namespace posewire::model {
+
+std::span<const Verdict> StreamAccounting::add(std::int64_t stampNs, std::size_t bytes,
+                                               const wire::Header& header) {
+    log::Packet packet;
+    packet.number = m_datagrams;
+    packet.stampNs = stampNs;
+    packet.bytes = {static_cast<const std::byte*>(nullptr), std::size_t{0}};
+    const auto verdicts = add(packet, header);
+    m_bytes += bytes;
+    CountHistory::Change change;
+    change.bytes = static_cast<std::int32_t>(bytes);
+    m_history.add(stampNs, change);
+    return verdicts;
+}
+
+std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const wire::Header& header) {
+    m_verdicts.clear();
+    m_firstStampNs = m_datagrams == 0 ? packet.stampNs : m_firstStampNs;
+    m_lastStampNs = packet.stampNs;
+    ++m_datagrams;
+    m_bytes += packet.bytes.size();
+    CountHistory::Change change;
+    change.datagrams = 1;
+    change.bytes = static_cast<std::int32_t>(packet.bytes.size());
+    if (m_countsSamples) {
+        m_history.add(packet.stampNs, change);
+        takeSample({{packet.stampNs, header.sampleCounter, header.datagramIndex(), header.isLast()},
+                    packet.number,
+                    header.timeCode,
+                    false});
+        return m_verdicts;
+    }
+    const std::uint64_t incomplete = m_rounds.incomplete();
+    m_rounds.add(packet.stampNs, header.datagramIndex(), header.isLast());
+    change.incomplete = static_cast<std::int32_t>(m_rounds.incomplete() - incomplete);
+    m_history.add(packet.stampNs, change);
+    Verdict verdict;
+    verdict.packet = packet.number;
+    verdict.stampNs = packet.stampNs;
+    verdict.sample = header.sampleCounter;
+    m_verdicts.push_back(verdict);
+    return m_verdicts;
+}
+
+void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
+    if (m_probation.empty() && Probation::isExpected(m_ledger, datagram.datagram)) {
+        settle(datagram, Probation::Place::Expected, false);
+        return;
+    }
+    m_probation.add(datagram);
+    Probation::Decision decision;
+    m_probation.decide(m_ledger, false, decision);
+    if (decision.decided != 0) {
+        bool isMoved = false;
+        for (std::size_t i = 0; i < decision.decided; ++i) {
+            settle(m_probation.waiting()[i], decision.places[i], isMoved);
+            isMoved = isMoved || decision.places[i] == Probation::Place::Restarted;
+        }
+        m_probation.drop(decision.decided);
+    }
+}
+
+/// `isMoved`: the counter began anew among those that waited, so that what was expected before is now past.
+Placement StreamAccounting::carryOut(const Probation::Waiting& datagram, Probation::Place place, bool isMoved,
+                                     SampleLedger& ledger, CountHistory* history) {
+    switch (place) {
+    case Probation::Place::Restarted:
+        ledger.restart(datagram.datagram.stampNs, history);
+        return ledger.place(datagram.datagram, history);
+    case Probation::Place::Begun:
+        return ledger.place(datagram.datagram, history);
+    case Probation::Place::Expected:
+        return isMoved ? ledger.placeBefore(datagram.datagram, history)
+                       : ledger.place(datagram.datagram, history);
+    case Probation::Place::Alone:
+        break;
+    }
+    return ledger.placeAlone(datagram.datagram, history);
+}
+
+void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Place place, bool isMoved) {
+    const Placement placement = carryOut(datagram, place, isMoved, m_ledger, &m_history);
+    Verdict& verdict = m_verdicts.emplace_back();
+    verdict.packet = datagram.packet;
+    verdict.stampNs = datagram.datagram.stampNs;
+    verdict.sample = datagram.datagram.sample;
+    verdict.gap = placement.gap;
+    verdict.timeCode = datagram.timeCode;
+    if (placement.gap != 0) {
+        verdict.sampleBefore = placement.sampleBefore;
+        verdict.timeCodeBefore = m_highest.timeCode;
+        verdict.packetBefore = m_highest.packet;
+        verdict.stampBeforeNs = m_highest.datagram.stampNs;
+    }
+    verdict.isDuplicate = placement.kind == Placement::Kind::Duplicate;
+    verdict.isReordered = placement.isReordered;
+    verdict.isLate = placement.isReordered && placement.lateNs > m_ledger.lateAfterNs();
+    verdict.isRestart = place == Probation::Place::Restarted;
+    verdict.isStray = placement.kind == Placement::Kind::Outside;
+    verdict.isFirstOfSample =
+        placement.kind == Placement::Kind::Advance || placement.kind == Placement::Kind::Filled;
+    const bool isPast = isMoved && place == Probation::Place::Expected;
+    if (!verdict.isFirstOfSample || isPast || place == Probation::Place::Alone) {
+        return;
+    }
+    if (verdict.isRestart) {
+        m_clock.restart();
+    }
+    if (placement.kind == Placement::Kind::Advance) {
+        m_highest = datagram;
+    }
+    m_clock.add({verdict.stampNs, verdict.sample, datagram.timeCode});
+    if (m_hasSample) {
+        m_history.addArrival(verdict.stampNs, std::max<std::int64_t>(0, verdict.stampNs - m_lastSampleNs),
+                             m_clock.jitterMs());
+    }
+    m_history.addDifference(verdict.stampNs, m_clock.differenceMs(), m_clock.generation());
+    m_hasSample = true;
+    m_lastSampleNs = verdict.stampNs;
+}
+
+SampleLedger StreamAccounting::ledgerInHindsight() const {
+    SampleLedger ledger = m_ledger;
+    Probation::Decision decision;
+    m_probation.decide(ledger, true, decision);
+    bool isMoved = false;
+    for (std::size_t i = 0; i < decision.decided; ++i) {
+        carryOut(m_probation.waiting()[i], decision.places[i], isMoved, ledger, nullptr);
+        isMoved = isMoved || decision.places[i] == Probation::Place::Restarted;
+    }
+    return ledger;
+}
+
+StreamCounts StreamAccounting::counts() const {
+    StreamCounts counts = m_probation.empty() ? m_ledger.counts() : ledgerInHindsight().counts();
+    counts.datagrams = m_datagrams;
+    counts.bytes = m_bytes;
+    if (!m_countsSamples) {
+        counts.incomplete = m_rounds.incomplete();
+    }
+    return counts;
+}
+
+StreamCounts StreamAccounting::countsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    StreamCounts counts = m_history.countsBetween(fromNs, toNs);
+    counts.step = step();
+    return counts;
+}
+
+LossPattern StreamAccounting::patternIn(const TimeRange& range, const StreamCounts& counts) const {
+    BurstCounts bursts = m_history.burstsBetween(range.fromNs, range.toNs);
+    m_ledger.addNewestBursts(range, bursts);
+    return patternOf(bursts, counts);
+}
+
+LossPattern StreamAccounting::lossPattern() const {
+    return patternIn({kBeginning, kEnd}, counts());
+}
+
+LossPattern StreamAccounting::lossPatternBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    return patternIn({fromNs, toNs}, countsBetween(fromNs, toNs));
+}
+
+ClockFigures StreamAccounting::clockBetween(std::int64_t fromNs, std::int64_t toNs) const {
+    ClockFigures figures;
+    figures.jitterMs = m_history.jitterMsAt(toNs);
+    figures.isFromTimeCode = m_clock.isFromTimeCode();
+    if (figures.isFromTimeCode) {
+        const ClockSkew skew = m_history.skewBetween(fromNs, toNs);
+        figures.skewPpm = skew.skewPpm;
+        figures.driftMs = skew.driftMs;
+    }
+    return figures;
+}
+
+ClockFigures StreamAccounting::clock() const {
+    ClockFigures figures = clockBetween(kBeginning, kEnd);
+    figures.jitterMs = m_clock.jitterMs();
+    return figures;
+}
+
+void StreamAccounting::addMalformed(std::int64_t stampNs) {
+    CountHistory::Change change;
+    change.malformed = 1;
+    ++m_malformed;
+    m_history.add(stampNs, change);
+}
+
+std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,
+                                                              const TimeRange& when) const {
+    const SampleWindow& window = m_ledger.present().window();
+    const auto isBelow = [](std::uint32_t a, std::uint32_t b) {
+        return static_cast<std::int32_t>(a - b) < 0;
+    };
+    for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
+        const SampleWindow::Entry& entry = window[i];
+        if (!isBelow(entry.sample, to) || !isBelow(from, entry.sample)) {
+            break;
+        }
+        if (entry.stampNs >= when.fromNs && entry.stampNs < when.toNs) {
+            return entry.sample;
+        }
+    }
+    return std::nullopt;
+}
+
+bool StreamAccounting::isIncomplete(std::uint32_t sample) const {
+    const SampleWindow& window = m_ledger.present().window();
+    const auto place = window.find(sample);
+    return place.isThere && !window[place.index].isComplete;
+}
+
+std::uint32_t StreamAccounting::missingBetween(std::uint32_t from, std::uint32_t to) const {
+    for (const SampleSequence* sequence : {&m_ledger.present(), &m_ledger.before()}) {
+        if (!sequence->empty() && sequence->window().find(from).isThere) {
+            return sequence->missingBetween(from, to);
+        }
+    }
+    return 0;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/model/accounting/count_history.h"
+#include "core/model/accounting/message_rounds.h"
+#include "core/model/accounting/probation.h"
+#include "core/model/accounting/sample_ledger.h"
+#include "core/model/accounting/sender_clock.h"
+#include "core/model/accounting/stream_counts.h"
+#include "core/model/accounting/time_range.h"
+#include "core/wire/header.h"
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace posewire::model {
+
+/// What one datagram turned out to be.
+struct Verdict {
+    std::uint64_t packet = 0;
+    std::int64_t stampNs = 0;
+    std::uint32_t sample = 0;
+    std::uint32_t timeCode = 0; ///< ms
+    std::uint32_t gap = 0;      ///< samples missing just before it
+    // Of the highest sample before it, where there is a gap:
+    std::uint32_t sampleBefore = 0;
+    std::uint32_t timeCodeBefore = 0;
+    std::uint64_t packetBefore = 0;
+    std::int64_t stampBeforeNs = 0;
+    bool isDuplicate = false;
+    bool isReordered = false;
+    bool isLate = false;
+    bool isRestart = false; ///< the first after the sender's counter began anew
+    bool isStray = false;   ///< belongs to no sample: its counter is corrupt, or it is very old
+    bool isFirstOfSample = false;
+};
+
+/// Counts exactly what came and what did not come of one stream. Follows the log: figures are of what was
+/// added, never of a clock. O(1) for each datagram, no allocation once its bounded memory (at most about 0.5
+/// MB) has grown to what the stream needs.
+///
+/// Whether a step changed, the counter began anew or a datagram was only late is known only after the fact:
+/// figures are always those of the best present knowledge, and right in hindsight.
+class StreamAccounting {
+public:
+    explicit StreamAccounting(std::uint8_t type = 2) : m_countsSamples(countsSamples(type)) {}
+
+    /// Adds a well-formed datagram of the stream. Returns the verdicts that this made possible, in the order
+    /// of arrival: usually its own, none while it is in doubt, and several when a doubt ends. Valid until the
+    /// next call.
+    std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
+    std::span<const Verdict> add(std::int64_t stampNs, std::size_t bytes, const wire::Header& header);
+
+    /// A datagram of the stream that could not be decoded.
+    void addMalformed(std::int64_t stampNs);
+
+    /// Reordered by more than this is late; counts from the next datagram on. 50 ms unless set.
+    void setLateAfter(std::int64_t lateAfterNs) { m_ledger.setLateAfter(lateAfterNs); }
+
+    [[nodiscard]] StreamCounts counts() const;
+    [[nodiscard]] ClockFigures clock() const;
+    [[nodiscard]] InterArrival interArrival() const { return interArrivalBetween(kBeginning, kEnd); }
+    [[nodiscard]] LossPattern lossPattern() const;
+
+    /// Figures of a range of time, at a cost that does not depend on it. The ends are rounded to the
+    /// resolution, at first 0.1 s. What belongs to samples counts when they were due.
+    [[nodiscard]] StreamCounts countsBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] InterArrival interArrivalBetween(std::int64_t fromNs, std::int64_t toNs) const {
+        return m_history.arrivalsBetween(fromNs, toNs);
+    }
+    [[nodiscard]] double jitterMsAt(std::int64_t toNs) const { return m_history.jitterMsAt(toNs); }
+    /// A burst counts where it ended.
+    [[nodiscard]] LossPattern lossPatternBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    /// The jitter at the end of the range; skew and drift from its beginning or the newest restart in it on.
+    [[nodiscard]] ClockFigures clockBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] std::uint64_t malformed() const { return m_malformed; }
+    [[nodiscard]] std::uint64_t malformedBetween(std::int64_t fromNs, std::int64_t toNs) const {
+        return m_history.malformedBetween(fromNs, toNs);
+    }
+    [[nodiscard]] std::int64_t resolutionNs() const { return m_history.widthNs(); }
+
+    /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
+    [[nodiscard]] std::optional<std::uint32_t> arrivedBetween(std::uint32_t from, std::uint32_t to,
+                                                              const TimeRange& when) const;
+    /// Whether some but not all datagrams of a sample came.
+    [[nodiscard]] bool isIncomplete(std::uint32_t sample) const;
+
+    /// Samples between two counters, both exclusive, that are still missing. After a restart, those of before
+    /// are known for a while.
+    [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
+
+    [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
+    [[nodiscard]] std::uint64_t bytes() const { return m_bytes; }
+    [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
+    [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
+    [[nodiscard]] std::int64_t firstStampNs() const { return m_firstStampNs; }
+    [[nodiscard]] std::int64_t lastStampNs() const { return m_lastStampNs; }
+
+private:
+    static constexpr std::int64_t kBeginning = std::numeric_limits<std::int64_t>::min();
+    static constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+
+    [[nodiscard]] LossPattern patternIn(const TimeRange& range, const StreamCounts& counts) const;
+    void takeSample(const Probation::Waiting& datagram);
+    void settle(const Probation::Waiting& datagram, Probation::Place place, bool isMoved);
+    static Placement carryOut(const Probation::Waiting& datagram, Probation::Place place, bool isMoved,
+                              SampleLedger& ledger, CountHistory* history);
+    [[nodiscard]] SampleLedger ledgerInHindsight() const;
+
+    bool m_countsSamples;
+    std::uint64_t m_datagrams = 0;
+    std::uint64_t m_bytes = 0;
+    std::uint64_t m_malformed = 0;
+    std::int64_t m_firstStampNs = 0;
+    std::int64_t m_lastStampNs = 0;
+    std::int64_t m_lastSampleNs = 0; ///< stamp of the newest first arrival of a sample
+    bool m_hasSample = false;
+    Probation::Waiting m_highest; ///< the first datagram of the highest sample
+    SampleLedger m_ledger;
+    Probation m_probation;
+    MessageRounds m_rounds;
+    SenderClock m_clock;
+    CountHistory m_history;
+    std::vector<Verdict> m_verdicts;
+};
+
+} // namespace posewire::model

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/events.h"
+#include "core/model/accounting/stream.h"
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+namespace posewire::model {
+
+/// What a stream must keep; a limit of 0 is none.
+struct Thresholds {
+    double lossPercent = 1;  ///< of the samples expected in the window, incomplete ones included
+    double jitterMs = 10;    ///< RFC 3550
+    double gapMs = 250;      ///< longest time between samples in the window
+    double ageS = 1;         ///< since the newest sample
+    double ratePercent = 20; ///< how far the rate in the window is off what it was before
+    double windowS = 5;      ///< the past that counts
+    double hysteresis = 0.8; ///< an alert ends below this part of its limit
+
+    friend bool operator==(const Thresholds&, const Thresholds&) = default;
+};
+
+/// Holds the streams to the thresholds, in the time of the log: one event for each episode.
+class ThresholdWatch {
+public:
+    void set(const Thresholds& thresholds) { m_thresholds = thresholds; }
+    [[nodiscard]] const Thresholds& thresholds() const { return m_thresholds; }
+
+    /// Looks at all streams that count samples as they were just before a moment.
+    void check(const std::deque<Stream>& streams, std::int64_t stampNs, Events& events);
+
+private:
+    struct Habit {
+        double rateHz = 0; ///< what was usual before the window; 0 before it is known
+    };
+    struct Measure {
+        EventKind kind;
+        double value;
+        double limit;
+    };
+    void check(const Stream& stream, Habit& habit, std::int64_t stampNs, Events& events) const;
+    void hold(const Stream& stream, const Measure& measure, std::int64_t stampNs, Events& events) const;
+
+    Thresholds m_thresholds;
+    std::vector<Habit> m_habits; ///< of the streams
+};
+
+} // namespace posewire::model

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/body/character_pose.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::size_t kBody = kBodySegmentCount;
+
+bool isFinite(const SegmentPose& pose) {
+    return pose.position.allFinite() && pose.orientation.coeffs().allFinite();
+}
+
+void place(CharacterPose& pose, std::size_t index, const SegmentPose& segment) {
+    if (index < pose.segments.size() && isFinite(segment)) {
+        pose.segments[index] = segment;
+        pose.isPresent[index] = true;
+    }
+}
+
+void prepare(CharacterPose& pose, const wire::Header& header, std::size_t items) {
+    pose.layout = segmentLayout(header, items);
+    pose.segments.assign(static_cast<std::size_t>(pose.layout.count()), {});
+    pose.isPresent.assign(static_cast<std::size_t>(pose.layout.count()), false);
+    pose.type = header.type();
+    pose.sample = header.sampleCounter;
+    pose.timeCode = header.timeCode;
+}
+
+/// Metres or centimetres, from how far the body segments reach from the pelvis: nobody is five metres tall,
+/// and nobody fits into ten centimetres. Where they do not tell (a tracked object), what the type usually
+/// has.
+template <class Item>
+LengthUnit unitOf(const std::vector<Item>& items, LengthUnit usual) {
+    double reach = 0;
+    for (std::size_t i = 1; i < std::min(items.size(), kBody); ++i) {
+        const double distance = (toVector(items[i].position) - toVector(items[0].position)).norm();
+        reach = std::isfinite(distance) ? std::max(reach, distance) : reach;
+    }
+    return reach < 0.1 ? usual : detectLengthUnit(reach);
+}
+
+bool read(const wire::PoseEuler& message, const wire::Header& header, CharacterPose& pose) {
+    prepare(pose, header, message.segments.size());
+    const LengthUnit unit = unitOf(message.segments, LengthUnit::Centimetre);
+    for (std::size_t i = 0; i < message.segments.size(); ++i) {
+        const wire::SegmentEuler& item = message.segments[i];
+        place(pose, i, poseFromEuler({item.position, item.rotation}, unit));
+    }
+    return true;
+}
+
+bool read(const wire::PoseQuaternion& message, const wire::Header& header, std::optional<LengthUnit> declared,
+          CharacterPose& pose) {
+    prepare(pose, header, message.segments.size());
+    const LengthUnit unit = declared ? *declared : unitOf(message.segments, LengthUnit::Metre);
+    for (std::size_t i = 0; i < message.segments.size(); ++i) {
+        const wire::SegmentQuaternion& item = message.segments[i];
+        place(pose, i, poseFromQuaternion({item.position, item.orientation}, unit));
+    }
+    return true;
+}
+
+/// Chains the local rotations from the pelvis outward over the null pose, parents before children.
+bool read(const wire::PoseUnity& message, const wire::Header& header,
+          std::span<const Eigen::Vector3d> origins, LengthUnit unit, CharacterPose& pose) {
+    prepare(pose, header, kBody);
+    if (message.segments.size() < kBody || origins.size() < kBody) {
+        return false;
+    }
+    const auto& places = unityPlaces();
+    for (std::size_t i = 0; i < kBody; ++i) {
+        const auto& item = message.segments[static_cast<std::size_t>(places[i])];
+        const SegmentPose local = poseFromUnity({item.position, item.orientation}, unit);
+        const int parent = bodySegments()[i].parent;
+        if (parent < 0) {
+            place(pose, i, local);
+            continue;
+        }
+        const auto from = static_cast<std::size_t>(parent);
+        const SegmentPose bone{origins[i] - origins[from], local.orientation};
+        place(pose, i, composed(pose.segments[from], bone));
+    }
+    return true;
+}
+
+} // namespace
+
+SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
+    if (header.countedSegments() == items && header.bodySegments != 0) {
+        return {header.bodySegments, header.props, header.fingerSegments};
+    }
+    const int count = static_cast<int>(std::min<std::size_t>(items, wire::kMaxSegments));
+    const int body = std::min(count, kBodySegmentCount);
+    const int rest = count - body;
+    const int fingers = rest >= kFingerSegmentCount ? kFingerSegmentCount : 0;
+    return {body, rest - fingers, fingers};
+}
+
+bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
+                     CharacterPose& pose, std::optional<LengthUnit> declaredUnit) {
+    if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {
+        return read(*euler, datagram.header, pose);
+    }
+    if (const auto* quaternion = std::get_if<wire::PoseQuaternion>(&datagram.body)) {
+        return read(*quaternion, datagram.header, declaredUnit, pose);
+    }
+    if (const auto* unity = std::get_if<wire::PoseUnity>(&datagram.body)) {
+        return read(*unity, datagram.header, nullPose, declaredUnit.value_or(LengthUnit::Metre), pose);
+    }
+    return false;
+}
+
+} // namespace posewire::model

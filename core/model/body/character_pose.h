@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/body/segments.h"
+#include "core/model/body/spaces.h"
+#include "core/wire/codec.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace posewire::model {
+
+/// Where a character's segments are at one sample, in the one frame above the wire (core/model/spaces.h).
+struct CharacterPose {
+    SegmentLayout layout;
+    std::vector<SegmentPose> segments; ///< by position in the datagram: body, props, left hand, right hand
+    std::vector<bool> isPresent;       ///< false where the datagram had no item, or one that is not finite
+    std::uint8_t type = 0;             ///< the message type it was taken from
+    std::uint32_t sample = 0;
+    std::uint32_t timeCode = 0;
+    std::int64_t stampNs = 0;
+    std::uint64_t packet = 0;
+};
+
+/// Body, props and fingers of a pose datagram: from the header's counts where they add up to the items, else
+/// from the number of items (older senders: 23 body segments, then props, then fingers).
+[[nodiscard]] SegmentLayout segmentLayout(const wire::Header& header, std::size_t items);
+
+/// Pose from a message of type 01, 02 or 05; false for any other body. Items are placed by their position in
+/// the datagram; for type 05 by the Unity3D order, chained from the pelvis over `nullPose` (23 segment
+/// origins, metres), since wire positions of that type are relative and not always filled in.
+/// `declaredUnit` is what positions of types 02 and 05 are read as, whatever they look like.
+[[nodiscard]] bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
+                                   CharacterPose& pose, std::optional<LengthUnit> declaredUnit = {});
+
+} // namespace posewire::model

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/body/joint_angles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace posewire::model {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+using namespace segment;
+
+using Signs = std::array<double, 3>;
+constexpr Signs kCentreSigns{1.0, 1.0, 1.0};
+constexpr Signs kRightSigns{-1.0, 1.0, -1.0};
+constexpr Signs kLeftSigns{1.0, -1.0, -1.0};
+constexpr Signs kRightKneeSigns{-1.0, 1.0, 1.0};
+constexpr Signs kLeftKneeSigns{1.0, -1.0, 1.0};
+
+constexpr std::array<JointDefinition, kJointCount> kJoints{{
+    {"jL5S1", "L5 S1", {1, 2}, {2, 1}, kCentreSigns},
+    {"jL4L3", "L4 L3", {2, 2}, {3, 1}, kCentreSigns},
+    {"jL1T12", "L1 T12", {3, 2}, {4, 1}, kCentreSigns},
+    {"jT9T8", "T9 T8", {4, 2}, {5, 1}, kCentreSigns},
+    {"jT1C7", "T1 C7", {5, 2}, {6, 1}, kCentreSigns},
+    {"jC1Head", "C1 Head", {6, 2}, {7, 1}, kCentreSigns},
+    {"jRightT4Shoulder", "Right T4 Shoulder", {5, 3}, {8, 1}, kRightSigns},
+    {"jRightShoulder", "Right Shoulder", {8, 2}, {9, 1}, kRightSigns},
+    {"jRightElbow", "Right Elbow", {9, 2}, {10, 1}, kRightSigns},
+    {"jRightWrist", "Right Wrist", {10, 2}, {11, 1}, kRightSigns},
+    {"jLeftT4Shoulder", "Left T4 Shoulder", {5, 4}, {12, 1}, kLeftSigns},
+    {"jLeftShoulder", "Left Shoulder", {12, 2}, {13, 1}, kLeftSigns},
+    {"jLeftElbow", "Left Elbow", {13, 2}, {14, 1}, kLeftSigns},
+    {"jLeftWrist", "Left Wrist", {14, 2}, {15, 1}, kLeftSigns},
+    {"jRightHip", "Right Hip", {1, 3}, {16, 1}, kRightSigns},
+    {"jRightKnee", "Right Knee", {16, 2}, {17, 1}, kRightKneeSigns},
+    {"jRightAnkle", "Right Ankle", {17, 2}, {18, 1}, kRightSigns},
+    {"jRightBallFoot", "Right Ball of Foot", {18, 2}, {19, 1}, kRightSigns},
+    {"jLeftHip", "Left Hip", {1, 4}, {20, 1}, kLeftSigns},
+    {"jLeftKnee", "Left Knee", {20, 2}, {21, 1}, kLeftKneeSigns},
+    {"jLeftAnkle", "Left Ankle", {21, 2}, {22, 1}, kLeftSigns},
+    {"jLeftBallFoot", "Left Ball of Foot", {22, 2}, {23, 1}, kLeftSigns},
+    {"T8_Head", "T8 to Head", {5, 0}, {7, 0}, kCentreSigns},
+    {"T8_LeftUpperArm", "T8 to Left Upper Arm", {5, 0}, {13, 0}, kLeftSigns},
+    {"T8_RightUpperArm", "T8 to Right Upper Arm", {5, 0}, {9, 0}, kRightSigns},
+    {"Pelvis_T8", "Pelvis to T8", {1, 0}, {5, 0}, kCentreSigns},
+    {"Vertical_Pelvis", "Vertical to Pelvis", {1, 0}, {1, 0}, kCentreSigns, true},
+    {"Vertical_T8", "Vertical to T8", {1, 0}, {5, 0}, kCentreSigns, true},
+}};
+
+Quaterniond isbFrame(int segment) {
+    constexpr double kHalfRoot = std::numbers::sqrt2 / 2.0;
+    switch (segment) {
+    case kRightUpperArm:
+        return {kHalfRoot, -kHalfRoot, 0.0, 0.0};
+    case kLeftUpperArm:
+        return {kHalfRoot, kHalfRoot, 0.0, 0.0};
+    case kRightForeArm:
+    case kRightHand:
+        return {0.5, -0.5, 0.5, 0.5};
+    case kLeftForeArm:
+    case kLeftHand:
+        return {0.5, 0.5, 0.5, -0.5};
+    default:
+        return Quaterniond::Identity();
+    }
+}
+
+Quaterniond headingOf(const Quaterniond& orientation) {
+    const Vector3d forward = orientation * Vector3d::UnitX();
+    return Quaterniond(Eigen::AngleAxisd(std::atan2(forward.y(), forward.x()), Vector3d::UnitZ()));
+}
+
+} // namespace
+
+const std::array<JointDefinition, kJointCount>& jointDefinitions() {
+    return kJoints;
+}
+
+Vector3d jointAngle(const JointDefinition& joint, const Quaterniond& parent, const Quaterniond& child) {
+    const Quaterniond parentFrame =
+        joint.isVertical ? headingOf(child) : Quaterniond(parent * isbFrame(joint.parentSegment()));
+    const Quaterniond childFrame = child * isbFrame(joint.childSegment());
+    const Eigen::Matrix3d r = (parentFrame.conjugate() * childFrame).normalized().toRotationMatrix();
+    const double abduction = std::asin(std::clamp(-r(1, 2), -1.0, 1.0));
+    const double flexion = std::atan2(r(0, 2), r(2, 2));
+    const double axial = std::atan2(r(1, 0), r(1, 1));
+    return {joint.signs[0] * abduction, joint.signs[1] * axial, joint.signs[2] * flexion};
+}
+
+bool JointAnglesJob::validate() const {
+    return orientations.size() == kBodySegmentCount &&
+           (angles.size() == kAnatomicalJointCount || angles.size() == kJointCount);
+}
+
+void JointAnglesJob::run() const {
+    for (std::size_t row = 0; row < angles.size(); ++row) {
+        const JointDefinition& joint = kJoints[row];
+        angles[row] = jointAngle(joint, orientations[static_cast<std::size_t>(joint.parentSegment())],
+                                 orientations[static_cast<std::size_t>(joint.childSegment())]);
+    }
+}
+
+} // namespace posewire::model

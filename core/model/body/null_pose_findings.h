@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/body/null_pose.h"
+#include "core/model/body/segments.h"
+#include "core/wire/messages.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace posewire::model {
+
+enum class Severity : std::uint8_t { Note, Warning, Error };
+
+enum class NullPoseFault : std::uint8_t {
+    NeverSent,
+    NotFinite,
+    MissingPart,
+    EarlierPartMissing,
+    SegmentCount,
+    NameTwice,
+    NameOrder,
+    UnknownName,
+    Unit,
+    Stature,
+    AxisUp,
+    Mirrored,
+    BelowFloor,
+    AboveFloor,
+    Asymmetric,
+    LengthChanged,
+    PointWithoutSegment,
+    PointTwice,
+    PointName,
+    PointAgainstSegment,
+    ScaleAgainstNullPose,
+};
+
+/// One contradiction, in words.
+struct NullPoseFinding {
+    NullPoseFault fault = NullPoseFault::NeverSent;
+    Severity severity = Severity::Note;
+    int segment = -1;    ///< body segment to look at, −1 for none in particular
+    std::string what;    ///< what is wrong and where
+    std::string meaning; ///< what follows for whoever uses the data
+};
+
+/// What the scale messages of a character are judged by.
+struct NullPoseEvidence {
+    NullPoseRecord record;
+    const wire::ScaleInformation* scale = nullptr; ///< newest type 10, null where none was sent
+    std::optional<SegmentLayout> layout;           ///< of the newest pose
+    double poseSeconds = 0;                        ///< for how long poses have come
+    std::int64_t nowNs = 0;                        ///< stamp at the cursor
+};
+
+/// Every contradiction, gravest first.
+[[nodiscard]] std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence);
+
+/// "2 errors, 1 warning"; empty where there are neither.
+[[nodiscard]] std::string findingsSummary(const std::vector<NullPoseFinding>& findings);
+
+/// Poses for this long without a scale message are reported (seconds).
+inline constexpr double kScaleMessageDue = 10.0;
+
+/// A part that has not come this long after its neighbours does not come any more (seconds).
+inline constexpr double kPartOverdue = 1.0;
+
+/// Parts of findContradictions: each adds what it finds.
+namespace contradictions {
+using Findings = std::vector<NullPoseFinding>;
+void findAboutParts(const NullPoseEvidence& evidence, Findings& findings);
+void findAboutNames(const NullPoseEvidence& evidence, Findings& findings);
+void findAboutShape(const NullPose& pose, Findings& findings);
+void findAboutChange(const NullPoseRecord& record, Findings& findings);
+void findAboutPoints(const NullPose& pose, Findings& findings);
+void findAboutScale(const NullPoseEvidence& evidence, Findings& findings);
+} // namespace contradictions
+
+} // namespace posewire::model

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstdint>
+#include <numbers>
+
+/// Every change of space and unit between the wire and the rest of the program.
+///
+/// Above the wire there is one frame: Z up, right-handed, X forward in the null pose, metres, seconds,
+/// radians, quaternions w x y z that turn segment coordinates into world coordinates.
+///
+/// Senders: the pairing of type 01 and type 02 was verified on a recording that holds both for the same
+/// sample (largest difference of a position 1e-5 cm, of a matrix element 1e-6). The Unity mapping is that of
+/// the vendor's own Unity plug-in for type 02.
+namespace posewire::model {
+
+/// Where a segment is: `position` of its origin in the world, `orientation` = worldFromSegment.
+struct SegmentPose {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
+};
+
+inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
+inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
+inline constexpr double kCentimetresPerMetre = 100.0;
+inline constexpr double kGravity = 9.81; ///< m/s²
+
+enum class LengthUnit : std::uint8_t { Metre, Centimetre };
+
+/// Metres per wire unit.
+constexpr double metresPer(LengthUnit unit) {
+    return unit == LengthUnit::Metre ? 1.0 : 0.01;
+}
+
+/// The manual and the recordings disagree about the unit of type 01, so the figure decides: nobody's pelvis
+/// is five metres up. `pelvisHeight` in wire units along the wire's vertical axis.
+LengthUnit detectLengthUnit(double pelvisHeight);
+
+// Y-up right-handed (types 01, 03, 04): a cyclic permutation, X_y = Y_z, Y_y = Z_z, Z_y = X_z.
+Eigen::Vector3d zUpFromYUp(const Eigen::Vector3d& yUp);
+Eigen::Vector3d yUpFromZUp(const Eigen::Vector3d& zUp);
+Eigen::Quaterniond zUpFromYUp(const Eigen::Quaterniond& yUp);
+Eigen::Quaterniond yUpFromZUp(const Eigen::Quaterniond& zUp);
+
+// Y-up left-handed (type 05): position (-y, z, x), quaternion (w; y, -z, -x).
+Eigen::Vector3d zUpFromUnity(const Eigen::Vector3d& unity);
+Eigen::Vector3d unityFromZUp(const Eigen::Vector3d& zUp);
+Eigen::Quaterniond zUpFromUnity(const Eigen::Quaterniond& unity);
+Eigen::Quaterniond unityFromZUp(const Eigen::Quaterniond& zUp);
+
+/// Fixed-axis XYZ, as type 01: R = Rz(z)·Ry(y)·Rx(x), in radians, in whichever frame the angles live.
+Eigen::Quaterniond quaternionFromEuler(const Eigen::Vector3d& radians);
+/// The inverse: x and z in (-pi, pi], y in [-pi/2, pi/2]. At y = ±pi/2 x carries the whole turn and z is 0.
+Eigen::Vector3d eulerFromQuaternion(const Eigen::Quaterniond& orientation);
+
+/// One item of type 01 as sent: Y-up, wire unit, degrees.
+struct EulerItem {
+    std::array<float, 3> position{};
+    std::array<float, 3> rotation{};
+};
+SegmentPose poseFromEuler(const EulerItem& item, LengthUnit unit = LengthUnit::Centimetre);
+EulerItem eulerFromPose(const SegmentPose& pose, LengthUnit unit = LengthUnit::Centimetre);
+
+/// One item of type 02 or 05 as sent: metres, quaternion w x y z.
+struct QuaternionItem {
+    std::array<float, 3> position{};
+    std::array<float, 4> orientation{1.0F, 0.0F, 0.0F, 0.0F};
+};
+/// A quaternion that cannot be normalized (zero, NaN) becomes the identity.
+SegmentPose poseFromQuaternion(const QuaternionItem& item, LengthUnit unit = LengthUnit::Metre);
+QuaternionItem quaternionFromPose(const SegmentPose& pose);
+/// Type 05: the pelvis in the world, every other segment relative to its parent.
+SegmentPose poseFromUnity(const QuaternionItem& item, LengthUnit unit = LengthUnit::Metre);
+QuaternionItem unityFromPose(const SegmentPose& pose);
+
+/// `parent` o `local`, and back: a pose relative to the parent's frame.
+SegmentPose composed(const SegmentPose& parent, const SegmentPose& local);
+SegmentPose relativeTo(const SegmentPose& parent, const SegmentPose& world);
+
+/// Points of types 03 and 04: Y-up, wire unit.
+Eigen::Vector3d pointFromYUp(const std::array<float, 3>& wire, LengthUnit unit = LengthUnit::Centimetre);
+std::array<float, 3> yUpFromPoint(const Eigen::Vector3d& point, LengthUnit unit = LengthUnit::Centimetre);
+
+// Plain copies between the wire's floats and Eigen, no change of space.
+std::array<float, 3> toFloats(const Eigen::Vector3d& vector);
+std::array<float, 4> toFloats(const Eigen::Quaterniond& orientation);
+Eigen::Vector3d toVector(const std::array<float, 3>& floats);
+Eigen::Quaterniond toQuaternion(const std::array<float, 4>& floats);
+
+/// Normalized; the identity where that is impossible.
+Eigen::Quaterniond normalizedOrIdentity(const Eigen::Quaterniond& orientation);
+
+} // namespace posewire::model

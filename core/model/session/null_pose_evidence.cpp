@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/null_pose_evidence.h"
+
+#include "core/model/session/session.h"
+
+#include <algorithm>
+
+namespace posewire::model {
+
+NullPoseEvidence nullPoseEvidence(const Session& session, const CharacterKey& key) {
+    NullPoseEvidence evidence;
+    evidence.nowNs = session.cursorStampNs();
+    const std::uint64_t newest = session.end() == 0 ? 0 : session.end() - 1;
+    const std::uint64_t visible =
+        session.cursor().mode == Cursor::Mode::Paused ? std::min(session.cursor().packet, newest) : newest;
+    for (const Character* character = session.find(key);
+         character != nullptr && evidence.record.messages == 0;
+         character = session.predecessor(character->key)) {
+        evidence.record = character->nullPoses.record(visible);
+    }
+    if (const Session::Message* message = session.message(key, wire::ScaleInformation::kType)) {
+        evidence.scale = std::get_if<wire::ScaleInformation>(&message->datagram.body);
+    }
+    if (const CharacterPose* pose = session.pose(key)) {
+        evidence.layout = pose->layout;
+        if (const Stream* stream = session.find(log::StreamKey{key.sender, key.character, pose->type})) {
+            evidence.poseSeconds =
+                static_cast<double>(pose->stampNs - stream->accounting.firstStampNs()) * 1e-9;
+        }
+    }
+    return evidence;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/model/accounting/count_history.h"
+#include "core/model/session/detection.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace posewire::model {
+
+/// One sender.
+struct Sender {
+    log::SenderId id{};
+    log::SenderInfo info;
+    std::uint64_t datagrams = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t malformed = 0; ///< begins with MXTP and cannot be decoded
+    std::uint64_t foreign = 0;   ///< does not begin with MXTP
+    std::uint64_t foreignBytes = 0;
+    std::uint64_t skippedBytes = 0;
+    std::uint64_t kernelDrops = 0;
+    std::int64_t lastStampNs = 0;
+    CountHistory history;          ///< of malformed datagrams alone, also those without a header
+    std::string firstForeignBytes; ///< hexadecimal, of the newest foreign datagram, at most 16 bytes
+    Detector detector;
+    SenderOverride overrides{};
+
+    void takeMalformed(std::int64_t stampNs);
+
+    /// As declared, else as detected.
+    [[nodiscard]] Revision revision() const {
+        return overrides.revision.value_or(detector.result().revision);
+    }
+    [[nodiscard]] LengthUnit positionUnit() const {
+        return overrides.positionUnit.value_or(detector.result().positionUnit);
+    }
+    [[nodiscard]] std::vector<Contradiction> contradictions() const {
+        return detector.contradictions(overrides);
+    }
+};
+
+} // namespace posewire::model

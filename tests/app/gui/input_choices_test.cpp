@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/input_choices.h"
+
+#include <QJsonDocument>
+
+#include <gtest/gtest.h>
+
+namespace posewire::gui {
+namespace {
+
+using Kind = InputAddress::Kind;
+
+TEST(InputChoices, AreReadBackAsTheyWereWritten) {
+    InputChoices choices;
+    EXPECT_EQ(inputChoicesOf(jsonOf(choices)), choices) << "nobody has chosen";
+    choices.inputs.emplace();
+    EXPECT_EQ(inputChoicesOf(jsonOf(choices)), choices) << "nothing is listened to";
+    choices.inputs = {{"", 9763, Kind::Udp, {"239.1.2.3"}},
+                      {"::1", 9764, Kind::TcpListen},
+                      {"studio", 9765, Kind::TcpConnect}};
+    choices.relays = {{"10.0.0.9", 9763, true}, {"later", 9000, false}};
+    EXPECT_EQ(inputChoicesOf(jsonOf(choices)), choices);
+}
+
+TEST(InputChoices, LeaveOutWhatMakesNoSense) {
+    const QByteArray text = R"({"inputs": [{"protocol": "udp", "port": 0}, {"protocol": "osc", "port": 5}, 7,
+        {"protocol": "tcp", "host": "", "port": 5}, {"protocol": "udp", "port": 5}],
+        "relays": [{"host": "", "port": 5}, {"host": "a", "port": 70000}, {"host": "b", "port": 5}]})";
+    const InputChoices choices = inputChoicesOf(QJsonDocument::fromJson(text).object());
+    ASSERT_TRUE(choices.inputs);
+    EXPECT_EQ(*choices.inputs, std::vector<InputAddress>({{"", 5}}));
+    EXPECT_EQ(choices.relays, std::vector<RelayChoice>({{"b", 5}}));
+}
+
+TEST(InputChoices, AreOpenedUnlessTheCommandLineSaysOtherwise) {
+    const std::vector<InputAddress> kept{{"", 9000, Kind::TcpListen}};
+    const std::vector<InputAddress> usual{InputAddress{}};
+    InputChoices choices;
+    EXPECT_EQ(inputsToOpen({}, choices), usual);
+    choices.inputs = kept;
+    EXPECT_EQ(inputsToOpen({}, choices), kept);
+    Options options;
+    options.udpPorts = {{"", 9800}};
+    EXPECT_EQ(inputsToOpen(options, choices), options.udpPorts);
+    options = {};
+    options.tcpInputs = {{"studio", 1, Kind::TcpConnect}};
+    EXPECT_EQ(inputsToOpen(options, choices), options.tcpInputs);
+    options = {};
+    options.file = "take.pcapng";
+    EXPECT_TRUE(inputsToOpen(options, choices).empty()) << "a file is looked at by itself";
+    options.demoCharacters = 1;
+    EXPECT_EQ(inputsToOpen(options, choices), usual);
+}
+
+} // namespace
+} // namespace posewire::gui

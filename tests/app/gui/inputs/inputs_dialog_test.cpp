@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/inputs/inputs_dialog.h"
+
+#include "app/gui/driver/session_driver.h"
+#include "app/gui/inputs/connection_page.h"
+#include "app/gui/inputs/input_form.h"
+#include "app/gui/inputs/inputs_page.h"
+#include "app/gui/inputs/relay_page.h"
+#include "app/gui/inputs/sender_settings.h"
+#include "app/gui/panels/table_view.h"
+#include "app/net/datagram_sender.h"
+
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace posewire::gui {
+namespace {
+
+using Kind = InputAddress::Kind;
+using ::testing::HasSubstr;
+
+TEST(InputForm, TakesWhatMakesSense) {
+    const auto read = readInput({Kind::Udp, " 127.0.0.1 ", 9763, ""});
+    ASSERT_TRUE(read);
+    EXPECT_EQ(*read, (InputAddress{"127.0.0.1", 9763}));
+    EXPECT_EQ(readInput({Kind::TcpConnect, "studio", 9000, ""})->kind, Kind::TcpConnect);
+    EXPECT_EQ(readInput({Kind::TcpListen, "[::1]", 9763, "239.1.1.1"}),
+              (InputAddress{"::1", 9763, Kind::TcpListen}));
+    EXPECT_EQ(readInput({Kind::Udp, "", 9763, "239.1.1.1, ff02::5"})->groups,
+              QStringList({"239.1.1.1", "ff02::5"}));
+}
+
+TEST(InputForm, SaysWhatMakesNone) {
+    EXPECT_THAT(readInput({Kind::Udp, "stage left", 9763, ""}).error().toStdString(),
+                HasSubstr("stage left"));
+    EXPECT_THAT(readInput({Kind::TcpConnect, "", 9763, ""}).error().toStdString(), HasSubstr("host"));
+    EXPECT_THAT(readInput({Kind::Udp, "", 9763, "10.0.0.1"}).error().toStdString(), HasSubstr("10.0.0.1"));
+    EXPECT_FALSE(readInput({Kind::Udp, "127.0.0.1", 9763, "239.1.1.1"}));
+    EXPECT_FALSE(readInput({Kind::Udp, "", 0, ""}));
+}
+
+TEST(SenderSettings, NamesTheAddressesThatReachAInput) {
+    const std::vector<net::LocalAddress> addresses{{"192.168.1.20", "eth0", true, false, false},
+                                                   {"10.0.0.4", "wlan0", true, false, false},
+                                                   {"fe80::1%eth0", "eth0", false, false, true}};
+    SenderSettings settings;
+    settings.showFor({}, addresses);
+    EXPECT_EQ(settings.hosts(), QStringList({"192.168.1.20", "10.0.0.4"}));
+    settings.showFor({"10.0.0.4", 9763}, addresses);
+    EXPECT_EQ(settings.hosts(), QStringList("10.0.0.4"));
+    settings.showFor({"", 9763, Kind::Udp, {"239.1.2.3"}}, addresses);
+    EXPECT_EQ(settings.hosts(), QStringList("239.1.2.3"));
+    settings.showFor({"studio", 9763, Kind::TcpConnect}, addresses);
+    EXPECT_TRUE(settings.hosts().isEmpty());
+}
+
+TEST(RelayPage, ReadsHostsWithAndWithoutPorts) {
+    EXPECT_EQ(readRelay("studio:9000"), (RelayChoice{"studio", 9000}));
+    EXPECT_EQ(readRelay(" 10.0.0.9 "), (RelayChoice{"10.0.0.9", kDefaultPort}));
+    EXPECT_EQ(readRelay("[::1]:9000"), (RelayChoice{"::1", 9000}));
+    EXPECT_EQ(readRelay("::1"), (RelayChoice{"::1", kDefaultPort}));
+    for (const char* text : {"", "studio:", "studio:0", "studio:70000", "a b", "1:2:x"}) {
+        EXPECT_FALSE(readRelay(text)) << text;
+    }
+}
+
+class InputsDialogTest : public testing::Test {
+protected:
+    InputsDialogTest() { dialog.open(InputsDialog::Page::Inputs); }
+
+    /// Ticks until something holds, at most five seconds.
+    template <typename Condition>
+    bool tickUntil(const Condition& condition) {
+        return QTest::qWaitFor([&] {
+            driver.tick();
+            dialog.refresh();
+            return condition();
+        });
+    }
+    void type(const InputAddress& input) {
+        dialog.inputs().form().setInput(input);
+        dialog.inputs().submit();
+    }
+    [[nodiscard]] QString problem() const { return dialog.inputs().form().problem(); }
+    /// Of this computer, chosen by the system and free again.
+    std::uint16_t freePort() {
+        driver.receiving().addPort({"127.0.0.1", 0});
+        const InputAddress port = driver.receiving().state().ports.back().port;
+        driver.receiving().removePort(port);
+        return port.port;
+    }
+    [[nodiscard]] const std::vector<PortState>& ports() { return driver.receiving().state().ports; }
+
+    log::SystemClock clock;
+    SessionDriver driver{clock};
+    InputsDialog dialog{driver.receiving()};
+    QSignalSpy changed{&dialog, &InputsDialog::choicesChanged};
+};
+
+TEST_F(InputsDialogTest, AddsChangesAndRemovesInputsWhileTheyRun) {
+    const InputAddress first{"127.0.0.1", freePort()};
+    type(first);
+    EXPECT_EQ(problem(), "");
+    ASSERT_EQ(ports().size(), 1U);
+    EXPECT_EQ(dialog.inputs().model().rowOf(first), 0);
+
+    dialog.inputs().editSelected();
+    const InputAddress second{"127.0.0.1", freePort(), Kind::TcpListen};
+    type(second);
+    ASSERT_EQ(ports().size(), 1U);
+    EXPECT_EQ(ports()[0].port, second);
+    EXPECT_TRUE(ports()[0].id);
+
+    dialog.inputs().removeSelected();
+    EXPECT_TRUE(ports().empty());
+    EXPECT_EQ(changed.size(), 3);
+}
+
+TEST_F(InputsDialogTest, SaysBesideTheFieldsWhatCannotBeOpenedAndKeepsNothingOfIt) {
+    const InputAddress input{"127.0.0.1", freePort()};
+    type(input);
+    type(input);
+    EXPECT_THAT(problem().toStdString(), HasSubstr("already"));
+    type({"", input.port});
+    EXPECT_THAT(problem().toStdString(), HasSubstr("already"));
+    EXPECT_EQ(ports().size(), 1U);
+    EXPECT_EQ(changed.size(), 1);
+}
+
+TEST_F(InputsDialogTest, NamesWhoHoldsThePort) {
+    SessionDriver other{clock};
+    other.receiving().addPort({"127.0.0.1", 0});
+    type({"127.0.0.1", other.receiving().openPort()});
+    EXPECT_THAT(problem().toStdString(), HasSubstr("in use by"));
+    EXPECT_TRUE(ports().empty());
+}
+
+TEST_F(InputsDialogTest, LeavesAInputAsItWasWhereItsChangeFails) {
+    const InputAddress first{"127.0.0.1", freePort()};
+    type(first);
+    const InputAddress second{"127.0.0.1", freePort()};
+    type(second);
+    dialog.inputs().table().setCurrentIndex(dialog.inputs().model().index(0, 0));
+    dialog.inputs().editSelected();
+    type({"192.0.2.1", first.port});
+    EXPECT_NE(problem(), "");
+    ASSERT_EQ(ports().size(), 2U);
+    EXPECT_EQ(ports()[0].port, first);
+    EXPECT_TRUE(ports()[0].id);
+}
+
+TEST_F(InputsDialogTest, OpensWhereOneGoesOn) {
+    EXPECT_TRUE(dynamic_cast<TableView*>(dialog.focusWidget())) << "the list of sources";
+    dialog.open(InputsDialog::Page::Relay);
+    EXPECT_TRUE(dynamic_cast<QLineEdit*>(dialog.focusWidget())) << "the target to add";
+}
+
+TEST_F(InputsDialogTest, EnterInTheFormAddsWhatIsTyped) {
+    dialog.inputs().form().setInput({"127.0.0.1", freePort()});
+    dialog.inputs().form().focusHost();
+    QTest::keyClick(dialog.inputs().form().findChild<QLineEdit*>(), Qt::Key_Return);
+    EXPECT_EQ(ports().size(), 1U);
+    EXPECT_TRUE(dialog.isVisible());
+}
+
+TEST_F(InputsDialogTest, TellsWhoHasConnectedByTcp) {
+    const InputAddress listener{"127.0.0.1", freePort(), Kind::TcpListen};
+    type(listener);
+    const auto sender =
+        net::DatagramSender::connect({{{"127.0.0.1", listener.port}, net::SendTarget::Transport::Tcp}});
+    ASSERT_TRUE(sender);
+    EXPECT_TRUE(
+        tickUntil([&] { return inputState(ports()[0]).text.startsWith("connected from 127.0.0.1:"); }));
+}
+
+TEST_F(InputsDialogTest, TriesAgainForAsLongAsASenderDoesNotListen) {
+    type({"127.0.0.1", freePort(), Kind::TcpConnect});
+    EXPECT_TRUE(tickUntil([&] { return ports()[0].problem.contains("trying again in"); }));
+    dialog.open(InputsDialog::Page::Help);
+    EXPECT_TRUE(tickUntil([&] { return dialog.help().text().contains("MVN itself does not listen"); }));
+}
+
+TEST_F(InputsDialogTest, HelpSaysThatNothingIsListenedTo) {
+    dialog.open(InputsDialog::Page::Help);
+    EXPECT_TRUE(tickUntil([&] { return dialog.help().text().contains("No port is open."); }));
+}
+
+TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
+    const InputAddress input{"127.0.0.1", freePort()};
+    const InputAddress away{"127.0.0.1", freePort()};
+    type(input);
+    driver.receiving().measure(clock.wallNs());
+    dialog.open(InputsDialog::Page::Relay);
+    dialog.relay().targetEdit().setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
+    dialog.relay().submit();
+    dialog.relay().targetEdit().setText(QStringLiteral("127.0.0.1:%1").arg(input.port));
+    dialog.relay().submit();
+    const auto& relays = driver.receiving().relaying().states();
+    ASSERT_EQ(relays.size(), 2U);
+    EXPECT_TRUE(tickUntil([&] {
+        return relays[0].stage == RelayState::Stage::Forwarding &&
+               relays[1].stage == RelayState::Stage::Refused;
+    }));
+    EXPECT_THAT(relays[1].problem.toStdString(), HasSubstr("round for ever"));
+
+    driver.receiving().addPort(away);
+    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == RelayState::Stage::Refused; }));
+    driver.receiving().removePort(away);
+    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == RelayState::Stage::Forwarding; }));
+
+    EXPECT_TRUE(dialog.relay().model().setData(dialog.relay().model().index(0, 0), int{Qt::Unchecked},
+                                               Qt::CheckStateRole));
+    EXPECT_TRUE(tickUntil([&] { return relays[0].stage == RelayState::Stage::Off; }));
+}
+
+TEST_F(InputsDialogTest, RefusesARelayTargetThatIsThereAlready) {
+    dialog.relay().targetEdit().setText("127.0.0.1:9");
+    dialog.relay().submit();
+    dialog.relay().targetEdit().setText("127.0.0.1:9");
+    dialog.relay().submit();
+    EXPECT_THAT(dialog.relay().problem().toStdString(), HasSubstr("already"));
+    EXPECT_EQ(driver.receiving().relaying().states().size(), 1U);
+}
+
+} // namespace
+} // namespace posewire::gui

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "tests/core/model/session/session_fixture.h"
+
+namespace posewire::model {
+namespace {
+
+/// Streams of one sender at 250 Hz, of which single datagrams fail to come.
+class AttributionTest : public SessionTest {
+protected:
+    struct Sent {
+        std::uint8_t type = 2;
+        std::uint32_t drops = 0;
+        log::Transport transport = log::Transport::Udp;
+        bool isTruncated = false;
+        std::uint8_t datagramCounter = 0x80;
+    };
+
+    void put(std::uint32_t sample, const Sent& sent) {
+        wire::Datagram datagram;
+        if (sent.type == 2) {
+            datagram.body = wire::PoseQuaternion{{{1, {0, 0, 1}, {1, 0, 0, 0}}}};
+        } else {
+            datagram.body = wire::CentreOfMass{};
+        }
+        datagram.header.sampleCounter = sample;
+        datagram.header.timeCode = static_cast<std::uint32_t>(m_at / kMillisecond);
+        datagram.header.datagramCounter = sent.datagramCounter;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        auto bytes = *wire::encode(datagram);
+        if (sent.isTruncated) {
+            bytes.resize(bytes.size() - 4);
+        }
+        log::Arrival arrival;
+        arrival.stampNs = m_at;
+        arrival.sender = m_log.senders().intern({"127.0.0.1:40001", sent.transport, 9763});
+        arrival.kernelDropsBefore = sent.drops;
+        m_log.writer().append(bytes, arrival);
+        m_log.writer().publish();
+        m_now = m_at;
+    }
+    void frames(std::uint32_t first, std::uint32_t last) { frames(first, last, Sent()); }
+    void frames(std::uint32_t first, std::uint32_t last, const Sent& sent) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 4 * kMillisecond) {
+            put(sample, sent);
+        }
+    }
+    const Gap& onlyGap() {
+        follow();
+        EXPECT_EQ(m_session.gaps().size(), 1U);
+        return m_session.gaps().front();
+    }
+
+    std::int64_t m_at = 10 * kSecond;
+};
+
+TEST_F(AttributionTest, BlamesThisComputerWhereItsCounterRose) {
+    frames(1, 50);
+    m_at += 8 * kMillisecond;
+    put(53, {.drops = 2});
+    m_at += 4 * kMillisecond;
+    frames(54, 120);
+    const Gap& gap = onlyGap();
+    EXPECT_EQ(gap.cause, LossCause::ThisComputer);
+    EXPECT_EQ(gap.lost, 2U);
+    EXPECT_EQ(gap.fromSample, 50U);
+    EXPECT_EQ(gap.toSample, 53U);
+    EXPECT_EQ(gap.fromPacket, 49U);
+    EXPECT_EQ(gap.evidenceText(), "This computer dropped 2 datagrams of the port between packets 49 and 50.");
+    EXPECT_EQ(m_session.streams().front().lostByCause()[0], 2U);
+}
+
+TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 4 * kMillisecond) {
+        if (sample != 60) {
+            put(sample, {});
+        }
+        put(sample, {.type = 24});
+    }
+    const Gap& gap = onlyGap();
+    EXPECT_EQ(gap.cause, LossCause::Network);
+    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same source brought sample 60, which is missing here.");
+}
+
+TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
+    frames(1, 50);
+    put(51, {.isTruncated = true});
+    m_at += 4 * kMillisecond;
+    frames(52, 120);
+    EXPECT_EQ(onlyGap().cause, LossCause::Network);
+    EXPECT_EQ(m_session.senders().front().malformed, 1U);
+}
+
+TEST_F(AttributionTest, BlamesTheNetworkWhereOnlyAPartOfANeighbourCame) {
+    frames(1, 50);
+    put(51, {.datagramCounter = 0x00});
+    m_at += 8 * kMillisecond;
+    frames(53, 120);
+    EXPECT_EQ(onlyGap().cause, LossCause::Network);
+}
+
+TEST_F(AttributionTest, BlamesTheSenderOnTcp) {
+    frames(1, 50, {.transport = log::Transport::Tcp});
+    frames(52, 120, {.transport = log::Transport::Tcp});
+    EXPECT_EQ(onlyGap().cause, LossCause::Sender);
+}
+
+TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4 * kMillisecond) {
+        if (sample <= 100 || sample > 300) {
+            put(sample, {});
+            put(sample, {.type = 24});
+        }
+    }
+    follow();
+    ASSERT_EQ(m_session.gaps().size(), 2U);
+    for (const Gap& gap : m_session.gaps()) {
+        EXPECT_EQ(gap.cause, LossCause::Sender);
+        EXPECT_EQ(gap.lost, 200U);
+        EXPECT_EQ(gap.evidenceText(), "All 2 streams of the source paused together for 804 ms, and the time "
+                                      "code moved by 804 ms.");
+    }
+}
+
+TEST_F(AttributionTest, SaysUnknownWithoutEvidence) {
+    frames(1, 50);
+    m_at += 4 * kMillisecond;
+    frames(52, 120);
+    const Gap& gap = onlyGap();
+    EXPECT_EQ(gap.cause, LossCause::Unknown);
+    EXPECT_TRUE(gap.isJudged);
+    EXPECT_EQ(m_session.streams().front().lostByCause()[3], 1U);
+}
+
+TEST_F(AttributionTest, DoesNotBlameAnotherPortsDrops) {
+    frames(1, 50);
+    log::Arrival other;
+    other.stampNs = m_at;
+    other.sender = m_log.senders().intern({"127.0.0.1:40002", log::Transport::Udp, 9764});
+    other.kernelDropsBefore = 5;
+    m_log.writer().append(std::as_bytes(std::span("hello")), other);
+    m_at += 4 * kMillisecond;
+    frames(52, 120);
+    EXPECT_EQ(onlyGap().cause, LossCause::Unknown);
+}
+
+TEST_F(AttributionTest, TakesBackWhatCameLate) {
+    frames(1, 50);
+    frames(52, 120); // judged meanwhile
+    put(51, {});
+    m_at += 4 * kMillisecond;
+    frames(121, 200);
+    const Gap& gap = onlyGap();
+    EXPECT_EQ(gap.lost, 0U);
+    EXPECT_EQ(m_session.streams().front().lostByCause()[3], 0U);
+}
+
+TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
+    frames(1, 100);
+    for (std::uint32_t sample = 102; sample <= 400; sample += 2, m_at += 8 * kMillisecond) {
+        put(sample, {});
+    }
+    follow();
+    for (const Gap& gap : m_session.gaps()) {
+        EXPECT_EQ(gap.lost, 0U) << gap.fromSample;
+    }
+    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, 0U);
+}
+
+TEST_F(AttributionTest, IsTheSameInWhateverPortionsTheLogIsRead) {
+    std::uint32_t random = 7;
+    for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 4 * kMillisecond) {
+        for (const std::uint8_t type : {std::uint8_t{2}, std::uint8_t{24}}) {
+            random = random * 1'664'525 + 1'013'904'223;
+            const std::uint32_t what = random >> 24;
+            if (what > 20 && (sample < 1'000 || sample > 1'200)) {
+                put(sample, {.type = type, .drops = what == 21 ? 1U : 0U, .isTruncated = what == 22});
+            }
+        }
+    }
+    std::vector<std::string> told[2];
+    for (const std::size_t portion : {std::size_t{1}, std::size_t{100'000}}) {
+        Session session(m_log);
+        while (session.follow(m_now, portion)) {
+        }
+        for (const Gap& gap : session.gaps()) {
+            told[portion == 1 ? 0 : 1].push_back(std::to_string(gap.fromSample) + " " +
+                                                 std::to_string(gap.lost) + " " + gap.evidenceText());
+        }
+    }
+    EXPECT_GT(told[0].size(), 100U);
+    EXPECT_EQ(told[0], told[1]);
+}
+
+} // namespace
+} // namespace posewire::model

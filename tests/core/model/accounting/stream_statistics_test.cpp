@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/stream_statistics.h"
+
+#include <gtest/gtest.h>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+StreamStatistics steady(int count, double rateHz) {
+    StreamStatistics statistics;
+    for (int i = 0; i < count; ++i) {
+        statistics.add(static_cast<std::int64_t>(i * 1e9 / rateHz), 760, true);
+    }
+    return statistics;
+}
+
+TEST(StreamStatistics, IsSilentBeforeTheSecondSample) {
+    StreamStatistics statistics;
+    EXPECT_EQ(statistics.rateHz(), 0);
+    statistics.add(5, 760, true);
+    EXPECT_EQ(statistics.rateHz(), 0);
+    EXPECT_EQ(statistics.spacing().most, 0);
+    EXPECT_EQ(statistics.bytesPerSecond(), 0);
+}
+
+TEST(StreamStatistics, MeasuresRateAndBandwidthFromStamps) {
+    const StreamStatistics statistics = steady(2'000, 240);
+    EXPECT_NEAR(statistics.rateHz(), 240, 0.01);
+    EXPECT_NEAR(statistics.bytesPerSecond(), 240 * 760, 10);
+    EXPECT_NEAR(statistics.spacing().deviation, 0, 2);
+}
+
+TEST(StreamStatistics, FollowsASlowStream) {
+    EXPECT_NEAR(steady(5, 0.2).rateHz(), 0.2, 1e-6);
+}
+
+TEST(StreamStatistics, CountsDatagramsOfOneSampleAsOneSample) {
+    StreamStatistics statistics;
+    for (std::uint32_t sample = 0; sample < 10; ++sample) {
+        statistics.add(sample * kSecond, 100, true);
+        statistics.add(sample * kSecond + 5, 100, false);
+    }
+    EXPECT_NEAR(statistics.rateHz(), 1, 1e-6);
+}
+
+} // namespace
+} // namespace posewire::model

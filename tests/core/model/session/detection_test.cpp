@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/detection.h"
+
+#include "tests/core/model/session/session_fixture.h"
+
+#include <gmock/gmock.h>
+
+namespace posewire::model {
+namespace {
+
+wire::Header headerOf(std::uint8_t type) {
+    wire::Header header;
+    header.setType(type);
+    return header;
+}
+
+TEST(Detector, KnowsNothingFromATypeThatAllRevisionsHave) {
+    Detector detector;
+    detector.addHeader(headerOf(2));
+    EXPECT_EQ(detector.result().revision, Revision::Unknown);
+}
+
+TEST(Detector, TakesDeprecatedTypesForRevisionE) {
+    Detector detector;
+    detector.addHeader(headerOf(10));
+    EXPECT_EQ(detector.result().revision, Revision::E);
+}
+
+TEST(Detector, TakesNewTypesWithReservedHeaderForRevisionJOrK) {
+    Detector detector;
+    detector.addHeader(headerOf(10));
+    detector.addHeader(headerOf(13));
+    EXPECT_EQ(detector.result().revision, Revision::JOrK);
+}
+
+TEST(Detector, LetsHeaderCountsOutweighTheTypes) {
+    Detector detector;
+    wire::Header header = headerOf(2);
+    header.bodySegments = 23;
+    header.payloadSize = 736;
+    detector.addHeader(header);
+    detector.addHeader(headerOf(10));
+    EXPECT_EQ(detector.result().revision, Revision::N);
+    EXPECT_FALSE(detector.result().revisionEvidence.empty());
+}
+
+TEST(Detector, TellsMetresFromCentimetresByThePelvis) {
+    Detector metres;
+    metres.addPelvisHeight(0.0);
+    EXPECT_TRUE(metres.result().unitEvidence.empty());
+    metres.addPelvisHeight(1.05);
+    EXPECT_EQ(metres.result().positionUnit, LengthUnit::Metre);
+    EXPECT_EQ(metres.result().unitEvidence, "pelvis at 1.05");
+
+    Detector centimetres;
+    centimetres.addPelvisHeight(104.8);
+    EXPECT_EQ(centimetres.result().positionUnit, LengthUnit::Centimetre);
+}
+
+using testing::HasSubstr;
+
+wire::Header countedHeader(std::uint8_t type) {
+    wire::Header header = headerOf(type);
+    header.bodySegments = 23;
+    header.payloadSize = 736;
+    return header;
+}
+
+std::vector<std::string> texts(const Detector& detector, const SenderOverride& declared = {}) {
+    std::vector<std::string> found;
+    for (const Contradiction& one : detector.contradictions(declared)) {
+        EXPECT_FALSE(one.brief.empty());
+        found.push_back(one.text);
+    }
+    return found;
+}
+
+TEST(Contradictions, AreNoneWhereDeclarationAndDatagramsAgree) {
+    Detector detector;
+    detector.addHeader(countedHeader(2));
+    detector.addPelvisHeight(1.0);
+    EXPECT_TRUE(texts(detector).empty());
+    EXPECT_TRUE(texts(detector, {Revision::N, LengthUnit::Metre}).empty());
+    EXPECT_TRUE(texts(Detector(), {Revision::E, LengthUnit::Centimetre}).empty());
+}
+
+TEST(Contradictions, TellHeaderCountsThatTheDeclaredRevisionDoesNotHave) {
+    Detector detector;
+    detector.addHeader(countedHeader(2));
+    EXPECT_THAT(texts(detector, {.revision = Revision::JOrK}),
+                testing::ElementsAre("declared J or K, but header counts are filled"));
+}
+
+TEST(Contradictions, TellCountsThatAreMissing) {
+    Detector detector;
+    detector.addHeader(headerOf(2));
+    EXPECT_THAT(texts(detector, {.revision = Revision::N}),
+                testing::ElementsAre("declared L to N, but header bytes 17 to 23 are zero"));
+}
+
+TEST(Contradictions, TellTypesThatCameAfterRevisionE) {
+    Detector detector;
+    detector.addHeader(headerOf(2));
+    detector.addHeader(headerOf(20));
+    EXPECT_THAT(texts(detector, {.revision = Revision::E}),
+                testing::ElementsAre("declared E, but type 20 is on the air, which came with J"));
+}
+
+TEST(Contradictions, TellASenderThatChangesItsHeaders) {
+    Detector detector;
+    detector.addHeader(countedHeader(2));
+    detector.addHeader(headerOf(12));
+    EXPECT_TRUE(texts(detector).empty()) << "another type may well come without counts";
+    detector.addHeader(headerOf(2));
+    ASSERT_EQ(texts(detector).size(), 1U);
+    EXPECT_THAT(texts(detector).front(), HasSubstr("type 02 came with header counts and without"));
+}
+
+TEST(Contradictions, TellAUnitThatIsNotTheDeclaredOne) {
+    Detector detector;
+    detector.addPelvisHeight(105.2);
+    EXPECT_THAT(texts(detector, {.positionUnit = LengthUnit::Metre}),
+                testing::ElementsAre("positions look like centimetres (pelvis at 105.20), read as metres "
+                                     "because you said so"));
+}
+
+TEST(Contradictions, BelieveAnotherUnitOnlyAfterManyPoses) {
+    Detector detector;
+    detector.addPelvisHeight(1.05);
+    for (unsigned i = 1; i < Detector::kUnitPatience; ++i) {
+        detector.addPelvisHeight(105.0);
+    }
+    EXPECT_EQ(detector.result().positionUnit, LengthUnit::Metre);
+    EXPECT_TRUE(texts(detector).empty());
+    detector.addPelvisHeight(105.0);
+    EXPECT_EQ(detector.result().positionUnit, LengthUnit::Centimetre);
+    EXPECT_THAT(texts(detector), testing::ElementsAre("positions were in metres (pelvis at 1.05) and are in "
+                                                      "centimetres now (pelvis at 105.00)"));
+}
+
+class OverrideTest : public SessionTest {};
+
+TEST_F(OverrideTest, ReadsPosesInTheDeclaredUnit) {
+    send(standingAt(2), 1, kSecond);
+    follow();
+    ASSERT_NE(m_session.pose(key()), nullptr);
+    EXPECT_NEAR(m_session.pose(key())->segments[0].position.x(), 2.0, 1e-6);
+    m_session.setOverride(sender(), {.positionUnit = LengthUnit::Centimetre});
+    EXPECT_NEAR(m_session.pose(key())->segments[0].position.x(), 0.02, 1e-6);
+    EXPECT_EQ(m_session.senders().front().positionUnit(), LengthUnit::Centimetre);
+    ASSERT_EQ(m_session.senders().front().contradictions().size(), 1U);
+    m_session.setOverride(sender(), {});
+    EXPECT_NEAR(m_session.pose(key())->segments[0].position.x(), 2.0, 1e-6);
+    EXPECT_TRUE(m_session.senders().front().contradictions().empty());
+}
+
+TEST_F(OverrideTest, HoldsForTheSenderThatComesBackFromAnotherPort) {
+    send(standingAt(0), 1, kSecond);
+    follow();
+    m_session.setOverride(sender(), {.revision = Revision::JOrK});
+    wire::Datagram datagram;
+    datagram.body = standingAt(0);
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    sendBytes(*wire::encode(datagram), 2 * kSecond, "127.0.0.1:40002");
+    sendBytes(*wire::encode(datagram), 2 * kSecond, "127.0.0.2:40002");
+    follow();
+    EXPECT_EQ(m_session.find(sender("127.0.0.1:40002"))->revision(), Revision::JOrK);
+    EXPECT_EQ(m_session.find(sender("127.0.0.2:40002"))->revision(), Revision::N);
+}
+
+TEST_F(OverrideTest, OfAnUnknownSenderIsNothing) {
+    m_session.setOverride(log::SenderId{77}, {.revision = Revision::E});
+    EXPECT_TRUE(m_session.senders().empty());
+}
+
+} // namespace
+} // namespace posewire::model

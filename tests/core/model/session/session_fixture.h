@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet_log.h"
+#include "core/model/body/reference_body.h"
+#include "core/model/session/session.h"
+
+#include <gtest/gtest.h>
+
+namespace posewire::model {
+
+/// A log to which tests send datagrams at stamps of their choosing, and a session that follows it.
+class SessionTest : public testing::Test {
+protected:
+    static constexpr std::int64_t kMillisecond = 1'000'000;
+    static constexpr std::int64_t kSecond = 1'000'000'000;
+
+    log::SenderId sender(const std::string& address = "127.0.0.1:40001") {
+        return m_log.senders().intern({address, log::Transport::Udp, 9763});
+    }
+
+    void sendBytes(wire::Bytes bytes, std::int64_t stampNs, const std::string& address = "127.0.0.1:40001") {
+        log::Arrival arrival;
+        arrival.stampNs = stampNs;
+        arrival.sender = sender(address);
+        m_log.writer().append(bytes, arrival);
+        m_log.writer().publish();
+        m_now = stampNs;
+    }
+
+    void send(wire::Body body, std::uint32_t sample, std::int64_t stampNs,
+              std::uint8_t datagramCounter = 0x80) {
+        wire::Datagram datagram;
+        datagram.body = std::move(body);
+        datagram.header.sampleCounter = sample;
+        datagram.header.datagramCounter = datagramCounter;
+        datagram.header.timeCode = static_cast<std::uint32_t>(stampNs / kMillisecond);
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        const auto bytes = wire::encode(datagram);
+        ASSERT_TRUE(bytes.has_value());
+        sendBytes(*bytes, stampNs);
+    }
+
+    void follow() { m_session.follow(m_now); }
+
+    /// A person whose pelvis is at (x, 0, 1), everything else as in the reference null pose.
+    static wire::PoseQuaternion standingAt(float x) {
+        wire::PoseQuaternion pose;
+        std::uint32_t id = 0;
+        for (const Eigen::Vector3d& origin : referenceOrigins()) {
+            const auto floats = toFloats(origin);
+            pose.segments.push_back({++id, {floats[0] + x, floats[1], floats[2]}, {1, 0, 0, 0}});
+        }
+        return pose;
+    }
+
+    CharacterKey key() { return {sender(), 0}; }
+
+    log::PacketLog m_log;
+    Session m_session{m_log};
+    std::int64_t m_now = 0;
+};
+
+} // namespace posewire::model

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "tests/core/model/session/session_fixture.h"
+
+#include <array>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::array<std::byte, 5> kForeign{std::byte{'{'}, std::byte{'"'}, std::byte{'a'}, std::byte{'"'},
+                                            std::byte{'}'}};
+
+TEST_F(SessionTest, ListsSenderCharacterAndStreamInOrderOfAppearance) {
+    send(wire::MetaData{true, "name:Factory\n"}, 0, 1 * kSecond);
+    send(standingAt(0), 1, 2 * kSecond);
+    follow();
+    ASSERT_EQ(m_session.senders().size(), 1U);
+    EXPECT_EQ(m_session.senders()[0].info.address, "127.0.0.1:40001");
+    ASSERT_EQ(m_session.streams().size(), 2U);
+    EXPECT_EQ(m_session.streams()[0].key.type, 12);
+    EXPECT_EQ(m_session.streams()[1].key.type, 2);
+    EXPECT_EQ(m_session.displayName(key()), "Factory");
+}
+
+TEST_F(SessionTest, CountsForeignMalformedAndSkippedApart) {
+    sendBytes(kForeign, 1);
+    const std::array<std::byte, 6> cut{std::byte{'M'}, std::byte{'X'}, std::byte{'T'},
+                                       std::byte{'P'}, std::byte{'0'}, std::byte{'2'}};
+    sendBytes(cut, 2);
+    log::Arrival skipped;
+    skipped.sender = sender();
+    skipped.flags.skipped = true;
+    m_log.writer().append(kForeign, skipped);
+    m_log.writer().publish();
+    follow();
+    const Sender& sender = m_session.senders().front();
+    EXPECT_EQ(sender.foreign, 1U);
+    EXPECT_EQ(sender.malformed, 1U);
+    EXPECT_EQ(sender.skippedBytes, kForeign.size());
+    EXPECT_EQ(sender.firstForeignBytes, "7b 22 61 22 7d");
+}
+
+TEST_F(SessionTest, GivesTheNewestPoseAndFreezesItWhenPaused) {
+    send(standingAt(0), 1, 1 * kSecond);
+    send(standingAt(1), 2, 2 * kSecond);
+    follow();
+    ASSERT_NE(m_session.pose(key()), nullptr);
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 1.0F);
+
+    m_session.setCursor({Cursor::Mode::Paused, 0});
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 0.0F);
+    EXPECT_EQ(m_session.cursorStampNs(), 1 * kSecond);
+
+    send(standingAt(2), 3, 3 * kSecond);
+    follow();
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 0.0F);
+    EXPECT_EQ(m_session.end(), 3U);
+
+    m_session.setCursor({});
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 2.0F);
+}
+
+TEST_F(SessionTest, PosesOfTypes01And02And05AgreeInTheOneFrame) {
+    const wire::PoseQuaternion quaternion = standingAt(0.5F);
+    wire::PoseEuler euler;
+    wire::PoseUnity unity;
+    unity.segments.resize(kBodySegmentCount);
+    for (std::size_t i = 0; i < quaternion.segments.size(); ++i) {
+        const auto& item = quaternion.segments[i];
+        const SegmentPose pose = poseFromQuaternion({item.position, item.orientation});
+        const EulerItem e = eulerFromPose(pose);
+        euler.segments.push_back({item.id, e.position, e.rotation});
+        const QuaternionItem u = unityFromPose(pose);
+        const auto place = static_cast<std::size_t>(unityPlaces()[i]);
+        unity.segments[place] = {static_cast<std::uint32_t>(place + 1), u.position, u.orientation};
+    }
+    const std::array<wire::Body, 3> bodies{quaternion, euler, unity};
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        // A second apart, so that the newest type is the one that counts.
+        send(bodies[i], static_cast<std::uint32_t>(i), static_cast<std::int64_t>(i + 1) * kSecond);
+        follow();
+        const CharacterPose* pose = m_session.pose(key());
+        ASSERT_NE(pose, nullptr);
+        EXPECT_EQ(pose->segments.size(), 23U);
+        for (std::size_t s = 0; s < 23; ++s) {
+            const Eigen::Vector3d expected = toVector(quaternion.segments[s].position);
+            EXPECT_NEAR((pose->segments[s].position - expected).norm(), 0, 2e-6)
+                << "type " << int{pose->type} << " segment " << s;
+            EXPECT_NEAR(pose->segments[s].orientation.angularDistance(Eigen::Quaterniond::Identity()), 0,
+                        1e-6);
+        }
+    }
+}
+
+TEST_F(SessionTest, PrefersTheQuaternionPoseAmongTypesSentTogether) {
+    wire::PoseEuler euler;
+    euler.segments.push_back({1, {0, 104, 0}, {}});
+    send(standingAt(0), 7, 1 * kSecond);
+    send(euler, 7, 1 * kSecond + kMillisecond);
+    follow();
+    EXPECT_EQ(m_session.pose(key())->type, 2);
+}
+
+TEST_F(SessionTest, JoinsAPoseThatCameInSeveralDatagramsOnceAllAreThere) {
+    const wire::PoseQuaternion whole = standingAt(0);
+    wire::PoseQuaternion first;
+    wire::PoseQuaternion second;
+    first.segments.assign(whole.segments.begin(), whole.segments.begin() + 12);
+    second.segments.assign(whole.segments.begin() + 12, whole.segments.end());
+    send(first, 5, 1 * kSecond, 0);
+    follow();
+    EXPECT_EQ(m_session.message(key(), 2), nullptr);
+    send(second, 5, 1 * kSecond, 0x81);
+    follow();
+    const Session::Message* message = m_session.message(key(), 2);
+    ASSERT_NE(message, nullptr);
+    EXPECT_EQ(std::get<wire::PoseQuaternion>(message->datagram.body), whole);
+
+    // The first half of the next sample must not hide the last complete one.
+    send(first, 6, 2 * kSecond, 0);
+    follow();
+    EXPECT_EQ(m_session.message(key(), 2)->datagram.header.sampleCounter, 5U);
+}
+
+TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
+    for (std::uint32_t sample = 0; sample < 10; ++sample) {
+        send(standingAt(0), sample, sample * kSecond);
+    }
+    follow();
+    m_session.setCursor({Cursor::Mode::Paused, 7});
+    std::vector<std::uint32_t> samples;
+    const auto visited =
+        m_session.visit({sender(), 0, 2}, 3 * kSecond, 100, [&](const Session::Message& message) {
+            samples.push_back(message.datagram.header.sampleCounter);
+        });
+    EXPECT_EQ(visited, 5U);
+    EXPECT_EQ(samples, (std::vector<std::uint32_t>{3, 4, 5, 6, 7}));
+    EXPECT_EQ(m_session.visit({sender(), 0, 2}, 0, 2, [](const auto&) {}), 2U);
+}
+
+TEST_F(SessionTest, FindsThePacketOfATime) {
+    EXPECT_EQ(m_session.packetAt(kSecond), 0U) << "there is none";
+    for (std::uint32_t sample = 0; sample < 100; ++sample) {
+        send(standingAt(0), sample, kSecond + sample * 10 * kMillisecond);
+    }
+    follow();
+    EXPECT_EQ(m_session.packetAt(0), 0U);
+    EXPECT_EQ(m_session.packetAt(kSecond + 95 * kMillisecond), 9U);
+    EXPECT_EQ(m_session.packetAt(kSecond + 100 * kMillisecond), 10U);
+    EXPECT_EQ(m_session.packetAt(100 * kSecond), 99U);
+}
+
+TEST_F(SessionTest, TellsTheAgeOfACharacterAgainstTheGivenTime) {
+    send(standingAt(0), 1, 1 * kSecond);
+    m_session.follow(3 * kSecond + kSecond / 5);
+    EXPECT_NEAR(m_session.ageSeconds(key()), 2.2, 1e-9);
+}
+
+TEST_F(SessionTest, FallsBackToDefaultNameAndColour) {
+    send(standingAt(0), 1, 1 * kSecond);
+    follow();
+    EXPECT_EQ(m_session.displayName(key()), "Character 0");
+    EXPECT_EQ(m_session.colour(key()), defaultColour(0));
+    send(wire::MetaData{true, "color:e96417\n"}, 0, 2 * kSecond);
+    follow();
+    EXPECT_NEAR(m_session.colour(key()).red, 0xe9 / 255.0, 1e-6);
+}
+
+TEST_F(SessionTest, ForgetsWhatTheLogForgetsWithoutLosingItsPlace) {
+    log::PacketLog small({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
+    Session session(small);
+    log::Arrival arrival;
+    arrival.sender = small.senders().intern({"a:1", log::Transport::Udp, 9763});
+    wire::Datagram datagram;
+    datagram.body = standingAt(0);
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    const auto bytes = wire::encode(datagram);
+    for (int i = 0; i < 60'000; ++i) {
+        small.writer().append(*bytes, arrival);
+        small.writer().publish();
+        if (i % 5'000 == 0) {
+            session.follow(0);
+        }
+    }
+    session.follow(0);
+    EXPECT_EQ(session.end(), 60'000U);
+    EXPECT_GT(session.begin(), 0U);
+    EXPECT_NE(session.message({arrival.sender, 0}, 2), nullptr);
+}
+
+} // namespace
+} // namespace posewire::model
