@@ -68,12 +68,12 @@ OffscreenRenderer::OffscreenRenderer(OffscreenRenderer&&) noexcept = default;
 OffscreenRenderer& OffscreenRenderer::operator=(OffscreenRenderer&&) noexcept = default;
 OffscreenRenderer::~OffscreenRenderer() = default;
 
-tl::expected<OffscreenRenderer, std::string> OffscreenRenderer::create() {
+tl::expected<OffscreenRenderer, std::string> OffscreenRenderer::create(std::optional<RenderQuality> quality) {
     tl::expected<OffscreenContext, std::string> context = OffscreenContext::create();
     if (!context) {
         return tl::unexpected(context.error());
     }
-    tl::expected<Renderer, std::string> renderer = Renderer::create();
+    tl::expected<Renderer, std::string> renderer = Renderer::create(quality);
     if (!renderer) {
         return tl::unexpected(renderer.error());
     }

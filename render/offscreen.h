@@ -40,7 +40,8 @@ private:
 /// the next render: a worker copies or swaps it out (takeImage) before it hands it to the window.
 class OffscreenRenderer {
 public:
-    static tl::expected<OffscreenRenderer, std::string> create();
+    /// `quality` as for Renderer::create.
+    static tl::expected<OffscreenRenderer, std::string> create(std::optional<RenderQuality> quality = {});
 
     OffscreenRenderer(OffscreenRenderer&&) noexcept;
     OffscreenRenderer& operator=(OffscreenRenderer&&) noexcept;

@@ -24,8 +24,4 @@ RenderQuality interactiveQuality(std::string_view rendererName) {
     return quality;
 }
 
-RenderQuality stillQuality() {
-    return {.samples = 4, .edgeSmoothing = false, .shadowMapSize = 2048, .floorShadowSize = 1024};
-}
-
 } // namespace posewire::render

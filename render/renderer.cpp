@@ -102,7 +102,7 @@ Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 
-tl::expected<Renderer, std::string> Renderer::create() {
+tl::expected<Renderer, std::string> Renderer::create(std::optional<RenderQuality> quality) {
     const int version = epoxy_gl_version();
     if (!epoxy_is_desktop_gl() || version < kLowestVersion) {
         return tl::unexpected("OpenGL 3.3 is needed; this driver (" + glText(GL_RENDERER) + ") offers " +
@@ -110,7 +110,7 @@ tl::expected<Renderer, std::string> Renderer::create() {
     }
     auto impl = std::make_unique<Impl>();
     impl->name = glText(GL_RENDERER);
-    impl->quality = interactiveQuality(impl->name);
+    impl->quality = quality.value_or(interactiveQuality(impl->name));
     impl->frameBuffer = gl::Buffer::create();
     impl->palettes = Palettes::create();
     std::string error;
@@ -133,32 +133,8 @@ const RenderQuality& Renderer::quality() const {
     return m_impl->quality;
 }
 
-void Renderer::setQuality(const RenderQuality& quality) {
-    if (quality == m_impl->quality) {
-        return;
-    }
-    RenderQuality wanted = quality;
-    const int largest = integer(GL_MAX_TEXTURE_SIZE);
-    wanted.shadowMapSize = std::clamp(wanted.shadowMapSize, 16, largest);
-    wanted.floorShadowSize = std::clamp(wanted.floorShadowSize, 16, largest);
-    const bool keepsShadow = wanted.shadowMapSize == m_impl->quality.shadowMapSize &&
-                             wanted.floorShadowSize == m_impl->quality.floorShadowSize;
-    if (!keepsShadow) {
-        auto shadow = ShadowPass::create(wanted);
-        if (!shadow) {
-            return;
-        }
-        m_impl->shadow = std::move(*shadow);
-    }
-    m_impl->quality = wanted;
-}
-
 MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
     return m_impl->meshes.add(mesh, templatePositions);
-}
-
-bool Renderer::replaceMesh(MeshId id, const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
-    return m_impl->meshes.replace(id, mesh, templatePositions);
 }
 
 void Renderer::releaseMesh(MeshId id) {
@@ -202,12 +178,7 @@ std::vector<glm::vec3> Renderer::skinnedPositions(MeshId id, std::span<const Dua
     }
     m_impl->palettes.upload(palette.first(kJointCount));
     m_impl->palettes.bind();
-    const std::vector<glm::vec3> recorded = m_impl->skinned->record(*mesh);
-    std::vector<glm::vec3> positions(recorded.size());
-    for (std::size_t i = 0; i < recorded.size(); ++i) {
-        positions[mesh->originalVertices[i]] = recorded[i];
-    }
-    return positions;
+    return m_impl->skinned->record(*mesh);
 }
 
 } // namespace posewire::render

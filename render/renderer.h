@@ -5,6 +5,7 @@
 #include "render/scene.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,8 +32,6 @@ struct RenderQuality {
 bool isSoftwareRenderer(std::string_view rendererName);
 /// What suits a renderer when pictures follow one another: `rendererName` is GL_RENDERER.
 RenderQuality interactiveQuality(std::string_view rendererName);
-/// For a single picture: time does not matter.
-RenderQuality stillQuality();
 
 /// Where to draw: an existing framebuffer object with colour and depth, 0 for the default one.
 struct Viewport {
@@ -48,8 +47,9 @@ struct Viewport {
 /// changed: bindings, viewport and enables; a caller that draws too sets its own.
 class Renderer {
 public:
-    /// The error tells what is missing: a version, or the shader compiler's own text.
-    static tl::expected<Renderer, std::string> create();
+    /// `quality` defaults to interactiveQuality. The error says what is missing: the OpenGL version, or the
+    /// shader compiler's own text.
+    static tl::expected<Renderer, std::string> create(std::optional<RenderQuality> quality = {});
 
     Renderer(Renderer&&) noexcept;
     Renderer& operator=(Renderer&&) noexcept;
@@ -58,15 +58,11 @@ public:
     /// GL_RENDERER.
     const std::string& rendererName() const;
     const RenderQuality& quality() const;
-    /// Starts as interactiveQuality.
-    void setQuality(const RenderQuality& quality);
 
     /// `templatePositions` says where each vertex sits on the mannequin in its reference null pose: the suit
     /// is painted there, so that a fitted mesh keeps its seams. Empty paints without a suit, as for imported
     /// meshes. MeshId::None where mesh.validate() fails.
     MeshId uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
-    /// Same mesh, new shape. False leaves what was there.
-    bool replaceMesh(MeshId id, const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
     void releaseMesh(MeshId id);
 
     /// Characters whose mesh is unknown or whose palette is short are left out.

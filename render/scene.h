@@ -51,24 +51,25 @@ struct Light {
 /// left from wherever one looks.
 Light keyLight(const Camera& camera);
 
-/// One character.
-struct SkinnedInstance {
-    MeshId mesh = MeshId::None;
-    /// A coarser mesh of the same performer for the shadow, where that saves time. None draws `mesh`.
-    MeshId shadowMesh = MeshId::None;
-    /// kJointCount rigid motions from the mesh's null pose to the world, as PaletteJob makes them.
-    std::span<const DualQuaternion> palette;
+/// How a character is painted.
+struct CharacterLook {
     glm::vec3 colour{0.20F, 0.45F, 0.75F};
     /// 0 is live, 1 has faded into the background.
     float dim = 0.0F;
     /// Below 1 it is a ghost: seen through, without a shadow.
     float opacity = 1.0F;
     /// Striped, for a character whose data have stopped.
-    bool hatched = false;
+    bool isHatched = false;
     /// Index of the segment to mark (MVN's ID − 1), or −1.
     int selectedSegment = -1;
-    /// What picking answers with; the caller's own.
-    std::uint32_t id = 0;
+};
+
+/// One character.
+struct SkinnedInstance {
+    MeshId mesh = MeshId::None;
+    /// kJointCount rigid motions from the mesh's null pose to the world, as PaletteJob makes them.
+    std::span<const DualQuaternion> palette;
+    CharacterLook look;
 };
 
 /// The local axes of one segment, tracker or prop, drawn over the body. Axes without length draw nothing.

@@ -9,15 +9,7 @@ namespace posewire::render {
 namespace {
 
 std::string_view bytesOf(Detail detail) {
-    switch (detail) {
-    case Detail::Low:
-        return embedded::mannequinLowGlb();
-    case Detail::Medium:
-        return embedded::mannequinMediumGlb();
-    case Detail::High:
-        break;
-    }
-    return embedded::mannequinGlb();
+    return detail == Detail::High ? embedded::mannequinGlb() : embedded::mannequinMediumGlb();
 }
 
 } // namespace

@@ -7,9 +7,8 @@ namespace posewire::render {
 
 /// How fine the built-in mannequin is.
 enum class Detail {
-    Low,    ///< For software OpenGL.
-    Medium, ///< For many characters.
-    High    ///< For a close look.
+    Medium, ///< For software OpenGL.
+    High    ///< For graphics processors.
 };
 
 /// The built-in mannequin in the reference null pose (kReferenceNullPose), with the joints of joints.h.

@@ -60,7 +60,7 @@ void EdgePass::draw(const Frame& frame) {
     std::vector<Region> regions;
     for (const DrawnCharacter& character : frame.characters) {
         // Stripes are smooth of themselves, and would be taken for edges.
-        if (!character.onScreen.isEmpty() && !character.instance->hatched) {
+        if (!character.onScreen.isEmpty() && !character.instance->look.isHatched) {
             const Region seen = regionOf(character.onScreen, viewport, 2.0F + kReach);
             m_copy.copyFromFramebuffer(seen.x, seen.y, seen.width, seen.height);
             regions.push_back(regionOf(character.onScreen, viewport, 2.0F));

@@ -49,12 +49,10 @@ std::vector<DrawnCharacter> drawable(const Scene& scene, const MeshStore& meshes
     int paletteBase = 0;
     for (const SkinnedInstance& instance : scene.characters) {
         const GpuMesh* mesh = meshes.find(instance.mesh);
-        if (mesh == nullptr || instance.palette.size() < kJointCount || !(instance.opacity > 0.0F)) {
+        if (mesh == nullptr || instance.palette.size() < kJointCount || !(instance.look.opacity > 0.0F)) {
             continue;
         }
-        const GpuMesh* shadowMesh = meshes.find(instance.shadowMesh);
-        characters.push_back(
-            {&instance, mesh, shadowMesh != nullptr ? shadowMesh : mesh, paletteBase, Bounds{}, Bounds{}});
+        characters.push_back({&instance, mesh, paletteBase, Bounds{}, Bounds{}});
         paletteBase += kTexelsPerJoint * static_cast<int>(kJointCount);
     }
     return characters;

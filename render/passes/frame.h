@@ -38,7 +38,6 @@ struct FrameBlock {
 struct DrawnCharacter {
     const SkinnedInstance* instance = nullptr;
     const GpuMesh* mesh = nullptr;
-    const GpuMesh* shadowMesh = nullptr;
     /// Its first texel in the palette.
     int paletteBase = 0;
     /// Device coordinates of the light's picture, z unused.
@@ -46,7 +45,7 @@ struct DrawnCharacter {
     /// Device coordinates of the picture, clamped to it; empty where the character is out of sight.
     Bounds onScreen;
 
-    bool isGhost() const { return instance->opacity < 1.0F; }
+    bool isGhost() const { return instance->look.opacity < 1.0F; }
 };
 
 /// Everything the passes share for one picture, worked out once.

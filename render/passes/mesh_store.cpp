@@ -2,7 +2,6 @@
 #include "render/passes/mesh_store.h"
 
 #include <cstddef>
-#include <limits>
 
 #include <epoxy/gl.h>
 
@@ -21,33 +20,6 @@ struct Vertex {
     glm::vec4 weights;
 };
 static_assert(sizeof(Vertex) == 60);
-
-/// The vertices in the order of their first use, those without a triangle last.
-struct Order {
-    std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> originals;
-};
-
-Order orderOf(const SkinnedMesh& mesh) {
-    constexpr auto kUnseen = std::numeric_limits<std::uint32_t>::max();
-    std::vector<std::uint32_t> renamed(mesh.vertexCount(), kUnseen);
-    Order order;
-    order.indices = orderForVertexReuse(mesh.indices, mesh.vertexCount());
-    const auto use = [&](std::uint32_t vertex) {
-        if (renamed[vertex] == kUnseen) {
-            renamed[vertex] = static_cast<std::uint32_t>(order.originals.size());
-            order.originals.push_back(vertex);
-        }
-        return renamed[vertex];
-    };
-    for (std::uint32_t& index : order.indices) {
-        index = use(index);
-    }
-    for (std::uint32_t vertex = 0; vertex < mesh.vertexCount(); ++vertex) {
-        use(vertex);
-    }
-    return order;
-}
 
 void attachAttributes(GpuMesh& gpu) {
     using Kind = gl::Attribute::Kind;
@@ -75,10 +47,9 @@ std::optional<GpuMesh> upload(const SkinnedMesh& mesh, std::span<const glm::vec3
     if (!mesh.validate(kJointCount) || (hasSuit && templatePositions.size() != mesh.vertexCount())) {
         return std::nullopt;
     }
-    Order order = orderOf(mesh);
     std::vector<Vertex> vertices;
-    vertices.reserve(order.originals.size());
-    for (const std::uint32_t i : order.originals) {
+    vertices.reserve(mesh.vertexCount());
+    for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
         vertices.push_back({mesh.positions[i], mesh.occlusion[i], mesh.normals[i],
                             hasSuit ? templatePositions[i] : mesh.positions[i], mesh.joints[i],
                             mesh.weights[i]});
@@ -88,10 +59,9 @@ std::optional<GpuMesh> upload(const SkinnedMesh& mesh, std::span<const glm::vec3
     gpu.vertices = gl::Buffer::create();
     gpu.vertices.upload(std::span<const Vertex>(vertices), gl::Buffer::Usage::Static);
     gpu.indices = gl::Buffer::create();
-    gpu.indices.upload(std::span<const std::uint32_t>(order.indices), gl::Buffer::Usage::Static);
-    gpu.indexCount = static_cast<int>(order.indices.size());
+    gpu.indices.upload(std::span<const std::uint32_t>(mesh.indices), gl::Buffer::Usage::Static);
+    gpu.indexCount = static_cast<int>(mesh.indices.size());
     gpu.vertexCount = static_cast<int>(vertices.size());
-    gpu.originalVertices = std::move(order.originals);
     gpu.array = gl::VertexArray::create();
     attachAttributes(gpu);
     measure(mesh, gpu);
@@ -116,18 +86,6 @@ MeshId MeshStore::add(const SkinnedMesh& mesh, std::span<const glm::vec3> templa
     }
     m_meshes.push_back(std::move(gpu));
     return static_cast<MeshId>(m_meshes.size());
-}
-
-bool MeshStore::replace(MeshId id, const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
-    if (find(id) == nullptr) {
-        return false;
-    }
-    std::optional<GpuMesh> gpu = upload(mesh, templatePositions);
-    if (!gpu) {
-        return false;
-    }
-    m_meshes[indexOf(id)] = std::move(gpu);
-    return true;
 }
 
 void MeshStore::remove(MeshId id) {

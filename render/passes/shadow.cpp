@@ -88,7 +88,7 @@ void ShadowPass::drawDepth(const Frame& frame) {
     for (const DrawnCharacter& character : frame.characters) {
         if (castsShadow(character)) {
             m_depthProgram.set("paletteBase", character.paletteBase);
-            character.shadowMesh->draw();
+            character.mesh->draw();
         }
     }
 }

@@ -25,14 +25,14 @@ tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
 }
 
 void SkinnedPass::drawCharacter(const DrawnCharacter& character) {
-    const SkinnedInstance& instance = *character.instance;
+    const CharacterLook& look = character.instance->look;
     m_program.set("paletteBase", character.paletteBase);
-    m_program.set("colour", instance.colour);
+    m_program.set("colour", look.colour);
     m_program.set("hasSuit", character.mesh->hasSuit ? 1.0F : 0.0F);
-    m_program.set("dim", std::clamp(instance.dim, 0.0F, 1.0F));
-    m_program.set("opacity", std::clamp(instance.opacity, 0.0F, 1.0F));
-    m_program.set("hatched", instance.hatched ? 1.0F : 0.0F);
-    m_program.set("selectedSegment", instance.selectedSegment);
+    m_program.set("dim", std::clamp(look.dim, 0.0F, 1.0F));
+    m_program.set("opacity", std::clamp(look.opacity, 0.0F, 1.0F));
+    m_program.set("hatched", look.isHatched ? 1.0F : 0.0F);
+    m_program.set("selectedSegment", look.selectedSegment);
     character.mesh->draw();
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How long one frame of two characters with their axes takes at 1280 x 720, read back included, for each
-// detail of the mannequin. Meshes for the shadow are always the coarsest. Numbers mean something on an idle
-// machine only.
+// detail of the mannequin. Numbers mean something on an idle machine only.
 #include "render/mesh/mannequin.h"
 #include "render/offscreen.h"
 #include "tests/render/poses.h"
@@ -22,13 +21,12 @@ struct Stage {
     Scene scene;
 };
 
-void fill(Stage& stage, MeshId mesh, MeshId shadowMesh) {
+void fill(Stage& stage, MeshId mesh) {
     stage.poses = {placed(standingPose(), {-0.3F, -0.85F, 0.0F}, 0.35F),
                    placed(lungePose(), {0.1F, 0.75F, 0.0F})};
     for (std::size_t i = 0; i < 2; ++i) {
         stage.palettes[i] = paletteOf(stage.poses[i]);
         stage.characters[i].mesh = mesh;
-        stage.characters[i].shadowMesh = shadowMesh;
         stage.characters[i].palette = stage.palettes[i];
         for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
             stage.axes.push_back(
@@ -51,10 +49,8 @@ void drawTwoCharacters(benchmark::State& state) {
         return;
     }
     const SkinnedMesh mesh = loadMannequin(static_cast<Detail>(state.range(0)));
-    const SkinnedMesh coarse = loadMannequin(Detail::Low);
     Stage stage;
-    fill(stage, offscreen->renderer().uploadMesh(mesh, mesh.positions),
-         offscreen->renderer().uploadMesh(coarse, coarse.positions));
+    fill(stage, offscreen->renderer().uploadMesh(mesh, mesh.positions));
     for (auto _ : state) {
         stage.scene.camera.yaw += 0.001F;
         benchmark::DoNotOptimize(offscreen->render(stage.scene, 1280, 720).pixels.data());
@@ -64,7 +60,6 @@ void drawTwoCharacters(benchmark::State& state) {
 }
 
 BENCHMARK(drawTwoCharacters)
-    ->Arg(static_cast<int>(Detail::Low))
     ->Arg(static_cast<int>(Detail::Medium))
     ->Arg(static_cast<int>(Detail::High))
     ->Unit(benchmark::kMillisecond)

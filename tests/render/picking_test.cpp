@@ -11,7 +11,7 @@ namespace posewire::render::testing {
 namespace {
 
 const SegmentCapsules& mannequinCapsules() {
-    static const SegmentCapsules kCapsules = segmentCapsules(loadMannequin(Detail::Low));
+    static const SegmentCapsules kCapsules = segmentCapsules(loadMannequin(Detail::Medium));
     return kCapsules;
 }
 

@@ -65,23 +65,23 @@ TEST_F(Picture, ShowsLocalAxesThroughTheBody) {
 
 TEST_F(Picture, FadesAndStripesStaleCharacters) {
     addPair();
-    characters[0].dim = 0.6F;
-    characters[0].hatched = true;
-    characters[1].dim = 0.6F;
+    characters[0].look.dim = 0.6F;
+    characters[0].look.isHatched = true;
+    characters[1].look.dim = 0.6F;
     expectMatchesBaseline(shoot(), "stale");
 }
 
 TEST_F(Picture, MarksTheSelectedSegment) {
     addPair();
-    characters[0].selectedSegment = RightForeArm;
-    characters[1].selectedSegment = T8;
+    characters[0].look.selectedSegment = RightForeArm;
+    characters[1].look.selectedSegment = T8;
     scene.colours = darkSceneColours();
     expectMatchesBaseline(shoot(), "selected_dark");
 }
 
 TEST_F(Picture, ShowsAGhostBesideALiveCharacter) {
     addPair();
-    characters[0].opacity = 0.35F;
+    characters[0].look.opacity = 0.35F;
     expectMatchesBaseline(shoot(), "ghost");
 }
 
@@ -128,10 +128,13 @@ TEST_F(Picture, KeepsTheSuitOnAFittedPerformer) {
     expectMatchesBaseline(shoot(), "fitted_child");
 }
 
-TEST_F(Picture, IsMultisampledAtStillQuality) {
+TEST_F(Picture, IsMultisampledWhereTheQualityAsksForIt) {
     addPair();
-    renderer().setQuality(stillQuality());
-    expectMatchesBaseline(shoot(), "still_quality");
+    scene.characters = characters;
+    auto still = OffscreenRenderer::create(RenderQuality{.samples = 4, .edgeSmoothing = false});
+    ASSERT_TRUE(still.has_value()) << still.error();
+    ASSERT_EQ(still->renderer().uploadMesh(mesh(), mesh().positions), meshId());
+    expectMatchesBaseline(still->render(scene, kWidth, kHeight), "still_quality");
 }
 
 TEST_F(Picture, IsTheSameToTheBitInASecondContext) {

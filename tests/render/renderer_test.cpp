@@ -2,11 +2,9 @@
 #include "tests/render/studio.h"
 
 #include "render/gl/program.h"
-#include "render/passes/mesh_store.h"
 
 #include <algorithm>
 #include <array>
-#include <deque>
 #include <limits>
 #include <thread>
 
@@ -49,7 +47,7 @@ TEST_F(RendererTest, LeavesOutWhatCannotBeDrawn) {
     SkinnedInstance& cut = add(tPose());
     cut.palette = cut.palette.first(kSegmentCount);
     SkinnedInstance& invisible = add(tPose());
-    invisible.opacity = 0.0F;
+    invisible.look.opacity = 0.0F;
     EXPECT_EQ(shoot().pixels, empty.pixels);
 }
 
@@ -66,22 +64,17 @@ TEST_F(RendererTest, RefusesMeshesThatDoNotHoldTogether) {
     broken.indices.back() = static_cast<std::uint32_t>(broken.vertexCount());
     EXPECT_EQ(renderer().uploadMesh(broken, broken.positions), MeshId::None);
     EXPECT_EQ(renderer().uploadMesh(mesh(), std::span(mesh().positions).first(3)), MeshId::None);
-    EXPECT_FALSE(renderer().replaceMesh(meshId(), broken, {}));
-    EXPECT_FALSE(renderer().replaceMesh(static_cast<MeshId>(99), mesh(), {}));
 }
 
-TEST_F(RendererTest, ReplacesAndReleasesMeshes) {
+TEST_F(RendererTest, ForgetsReleasedMeshes) {
     const Image empty = shoot();
     add(tPose());
-    const Image before = shoot();
-    SkinnedMesh taller = mesh();
-    for (glm::vec3& position : taller.positions) {
-        position *= 1.1F;
-    }
-    ASSERT_TRUE(renderer().replaceMesh(meshId(), taller, mesh().positions));
-    EXPECT_GT(compareImages(shoot(), before, 2).shareBeyond, 0.01);
+    EXPECT_NE(shoot().pixels, empty.pixels);
     renderer().releaseMesh(meshId());
+    renderer().releaseMesh(meshId());
+    renderer().releaseMesh(MeshId::None);
     EXPECT_EQ(shoot().pixels, empty.pixels);
+    EXPECT_TRUE(renderer().skinnedPositions(meshId(), characters[0].palette).empty());
 }
 
 TEST_F(RendererTest, ThrowsTheShadowAwayFromTheLight) {
@@ -155,7 +148,7 @@ TEST_F(RendererTest, DrawsPicturesOfAnySize) {
 }
 
 TEST_F(RendererTest, MakesOpaquePictures) {
-    add(tPose()).opacity = 0.5F;
+    add(tPose()).look.opacity = 0.5F;
     axes.push_back({{0.0F, 0.0F, 1.0F}, glm::quat(1.0F, 0.0F, 0.0F, 0.0F), 0.4F});
     const Image& image = shoot();
     for (std::size_t alpha = 3; alpha < image.pixels.size(); alpha += 4) {
@@ -185,43 +178,6 @@ TEST_F(RendererTest, GivesTheCompilersOwnText) {
     ASSERT_FALSE(program.has_value());
     EXPECT_NE(program.error().find("program broken, fragment shader"), std::string::npos) << program.error();
     EXPECT_NE(program.error().find("undeclared"), std::string::npos) << program.error();
-}
-
-using Triangle = std::array<std::uint32_t, 3>;
-
-std::vector<Triangle> sortedTriangles(std::span<const std::uint32_t> indices) {
-    std::vector<Triangle> triangles;
-    for (std::size_t i = 0; i < indices.size(); i += 3) {
-        triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
-    }
-    std::ranges::sort(triangles);
-    return triangles;
-}
-
-/// Vertices that have to be skinned per triangle where the last 24 are remembered.
-double missesPerTriangle(std::span<const std::uint32_t> indices) {
-    std::deque<std::uint32_t> cache;
-    std::size_t misses = 0;
-    for (const std::uint32_t vertex : indices) {
-        if (std::ranges::find(cache, vertex) == cache.end()) {
-            ++misses;
-            cache.push_back(vertex);
-            if (cache.size() > 24) {
-                cache.pop_front();
-            }
-        }
-    }
-    return 3.0 * static_cast<double>(misses) / static_cast<double>(indices.size());
-}
-
-TEST(VertexReuse, KeepsEveryTriangleAndSkinsVerticesAboutOnce) {
-    const SkinnedMesh mesh = loadMannequin(Detail::Medium);
-    const std::vector<std::uint32_t> ordered = orderForVertexReuse(mesh.indices, mesh.vertexCount());
-    EXPECT_EQ(sortedTriangles(ordered), sortedTriangles(mesh.indices));
-    EXPECT_LT(missesPerTriangle(ordered), 0.75);
-    EXPECT_TRUE(orderForVertexReuse({}, 0).empty());
-    RecordProperty("before", std::to_string(missesPerTriangle(mesh.indices)));
-    RecordProperty("after", std::to_string(missesPerTriangle(ordered)));
 }
 
 TEST(RenderQualityTest, SparesSoftwareRenderersAndUsesGraphicsProcessors) {

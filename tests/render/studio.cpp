@@ -25,8 +25,7 @@ SkinnedInstance& Studio::add(const Pose& pose, const glm::vec3& colour) {
     SkinnedInstance instance;
     instance.mesh = m_meshId;
     instance.palette = m_palettes.emplace_back(paletteOf(pose));
-    instance.colour = colour;
-    instance.id = static_cast<std::uint32_t>(characters.size());
+    instance.look.colour = colour;
     return characters.emplace_back(instance);
 }
 

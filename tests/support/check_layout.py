@@ -22,6 +22,7 @@ MAY_INCLUDE = [
     ("core/export", ["core/wire", "core/log", "core/model"]),
     ("core/filter", ["core/wire", "core/log", "core/model"]),
     ("render", []),
+    ("packaging/mannequin", ["render/mesh"]),
     ("app/net", ["core"]),
     ("app/cli", ["core", "app/net"]),
     ("app/gui/theme", []),
@@ -130,7 +131,7 @@ def main(arguments):
         return self_test()
     root = pathlib.Path(arguments[0])
     found = []
-    for folder in ("core", "render", "app", "tests"):
+    for folder in ("core", "render", "app", "packaging/mannequin", "tests"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix in SOURCES:
                 path = file.relative_to(root).as_posix()

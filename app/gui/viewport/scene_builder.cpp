@@ -81,12 +81,12 @@ void SceneBuilder::build(const ViewOptions& options, SceneFrame& frame) {
         addFigure(character, *pose, frame);
         Figure& figure = frame.figures.back();
         const bool isSelected = selection.character == character.key;
-        figure.selectedSegment =
+        figure.look.selectedSegment =
             isSelected && selection.segment < model::kBodySegmentCount ? selection.segment : -1;
         if (options.axes == AxesMode::All || (options.axes == AxesMode::Selected && isSelected)) {
-            addAxes(*pose, isSelected ? selection.segment : -1, 1.0F - figure.dim, frame);
+            addAxes(*pose, isSelected ? selection.segment : -1, 1.0F - figure.look.dim, frame);
         }
-        addFingers(*pose, figure.colour, frame);
+        addFingers(*pose, figure.look.colour, frame);
         if (options.hasGhost && shownCharacter(m_session) == character.key) {
             addGhost(figure, *pose, frame);
         }
@@ -99,10 +99,10 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     figure.key = character.key;
     figure.mesh = m_meshes.of(m_session, character.key);
     const model::Colour colour = m_session.colour(character.key);
-    figure.colour = {colour.red, colour.green, colour.blue};
+    figure.look.colour = {colour.red, colour.green, colour.blue};
     const double age = shownAgeSeconds(m_session, character.key);
-    figure.dim = dimFor(age);
-    figure.isHatched = age >= kStaleAge;
+    figure.look.dim = dimFor(age);
+    figure.look.isHatched = age >= kStaleAge;
     makePalette(pose, figure);
     const glm::vec3 head = figure.mesh->origins[render::Head];
     figure.labelPosition =
@@ -133,9 +133,9 @@ void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& po
     Figure ghost;
     ghost.key = figure.key;
     ghost.mesh = figure.mesh;
-    ghost.colour = figure.colour;
-    ghost.opacity = kGhostOpacity;
-    ghost.selectedSegment = figure.selectedSegment;
+    ghost.look.colour = figure.look.colour;
+    ghost.look.opacity = kGhostOpacity;
+    ghost.look.selectedSegment = figure.look.selectedSegment;
     const render::PaletteJob job{positions, orientations, origins, ghost.palette};
     if (job.validate()) {
         job.run();

@@ -25,11 +25,7 @@ struct Figure {
     model::CharacterKey key;
     std::shared_ptr<const FigureMesh> mesh;
     std::array<render::DualQuaternion, render::kJointCount> palette{};
-    glm::vec3 colour{0.0F};
-    float dim = 0.0F;
-    float opacity = 1.0F; ///< below 1 it is a ghost
-    bool isHatched = false;
-    int selectedSegment = -1;
+    render::CharacterLook look;
     glm::vec3 labelPosition{0.0F}; ///< above the head
     render::Bounds bounds;         ///< of the segment origins
 };

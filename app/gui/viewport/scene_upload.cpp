@@ -29,15 +29,7 @@ void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
     if (isNew) {
         entry->second = renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions);
     }
-    render::SkinnedInstance instance;
-    instance.mesh = entry->second;
-    instance.palette = figure.palette;
-    instance.colour = figure.colour;
-    instance.dim = figure.dim;
-    instance.opacity = figure.opacity;
-    instance.hatched = figure.isHatched;
-    instance.selectedSegment = figure.selectedSegment;
-    m_instances.push_back(instance);
+    m_instances.push_back({entry->second, figure.palette, figure.look});
 }
 
 void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& renderer) {

@@ -127,10 +127,11 @@ void ViewportWidget::updateOverlay() {
                 continue;
             }
             const CharacterHealth health = characterHealth(m_session, figure.key);
-            labels.push_back({pointerAt(*place, size()),
-                              QColor::fromRgbF(figure.colour.r, figure.colour.g, figure.colour.b),
-                              QString::fromStdString(m_session.displayName(figure.key)), health.level,
-                              health.words, m_session.selection().character == figure.key});
+            labels.push_back(
+                {pointerAt(*place, size()),
+                 QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
+                 QString::fromStdString(m_session.displayName(figure.key)), health.level, health.words,
+                 m_session.selection().character == figure.key});
         }
     }
     m_overlay->setLabels(std::move(labels));

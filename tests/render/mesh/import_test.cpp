@@ -15,7 +15,7 @@
 namespace posewire::render {
 namespace {
 
-const std::string kMannequinPath = posewire::test::sourcePath("resources/mannequin_low.glb").string();
+const std::string kMannequinPath = posewire::test::sourcePath("resources/mannequin_medium.glb").string();
 
 std::string readFile(const std::string& path) {
     std::ifstream file(path, std::ios::binary);
@@ -29,7 +29,7 @@ auto importText(const std::string& text, const std::string& extension) {
 TEST(Import, ReadsOurOwnMannequinWithTheSameShapeAndWeights) {
     const auto imported = importCharacter(kMannequinPath);
     ASSERT_TRUE(imported) << imported.error();
-    const SkinnedMesh own = loadMannequin(Detail::Low);
+    const SkinnedMesh own = loadMannequin(Detail::Medium);
     const SkinnedMesh& mesh = imported->mesh;
     ASSERT_EQ(mesh.vertexCount(), own.vertexCount());
     ASSERT_EQ(mesh.indices, own.indices);

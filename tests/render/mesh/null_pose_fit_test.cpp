@@ -43,7 +43,7 @@ class NullPoseFitTest : public testing::Test {
 protected:
     SkinnedMesh fit(const NullPose& performer) { return fitToNullPose(m_template, performer, m_origins); }
 
-    const SkinnedMesh m_template = loadMannequin(Detail::Low);
+    const SkinnedMesh m_template = loadMannequin(Detail::Medium);
     NullPose m_origins{};
 };
 

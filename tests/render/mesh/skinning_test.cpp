@@ -180,7 +180,7 @@ protected:
         return output;
     }
 
-    const SkinnedMesh m_mesh = loadMannequin(Detail::Low);
+    const SkinnedMesh m_mesh = loadMannequin(Detail::Medium);
 };
 
 TEST_F(SkinTest, LeavesTheNullPoseUnchanged) {

@@ -24,7 +24,7 @@ protected:
 
     Stage stage;
     ViewOptions options;
-    SceneBuilder builder{stage.session, render::Detail::Low};
+    SceneBuilder builder{stage.session, render::Detail::Medium};
 };
 
 TEST_F(SceneBuilderTest, WithoutCharactersTheSceneIsEmpty) {
@@ -39,11 +39,11 @@ TEST_F(SceneBuilderTest, EachCharacterHasAFigureInItsMetadataColour) {
     ASSERT_EQ(frame.figures.size(), 3U);
     for (const Figure& figure : frame.figures) {
         const model::Colour colour = stage.session.colour(figure.key);
-        EXPECT_EQ(figure.colour, glm::vec3(colour.red, colour.green, colour.blue));
-        EXPECT_EQ(figure.dim, 0.0F);
-        EXPECT_FALSE(figure.isHatched);
+        EXPECT_EQ(figure.look.colour, glm::vec3(colour.red, colour.green, colour.blue));
+        EXPECT_EQ(figure.look.dim, 0.0F);
+        EXPECT_FALSE(figure.look.isHatched);
     }
-    EXPECT_NE(frame.figures[0].colour, frame.figures[1].colour);
+    EXPECT_NE(frame.figures[0].look.colour, frame.figures[1].look.colour);
 }
 
 TEST_F(SceneBuilderTest, ThePaletteTakesEachSegmentWhereThePoseHasIt) {
@@ -80,8 +80,8 @@ TEST_F(SceneBuilderTest, TheGhostStandsOnTheFloorUnderTheLivePelvisAndLooksItsWa
     ASSERT_EQ(frame.ghosts.size(), 1U);
     const Figure& ghost = frame.ghosts[0];
     EXPECT_EQ(ghost.key, stage.key(1));
-    EXPECT_LT(ghost.opacity, 1.0F);
-    EXPECT_EQ(ghost.selectedSegment, 6);
+    EXPECT_LT(ghost.look.opacity, 1.0F);
+    EXPECT_EQ(ghost.look.selectedSegment, 6);
     const auto at = [&](render::Segment segment) {
         return render::transformPoint(ghost.palette[segment], ghost.mesh->origins[segment]);
     };
@@ -107,8 +107,8 @@ TEST_F(SceneBuilderTest, TheSelectedSegmentIsMarkedOnItsCharacterOnly) {
     perform(2);
     stage.session.setSelection({stage.sender(), stage.key(1), 6});
     const SceneFrame frame = build();
-    EXPECT_EQ(frame.figures[0].selectedSegment, -1);
-    EXPECT_EQ(frame.figures[1].selectedSegment, 6);
+    EXPECT_EQ(frame.figures[0].look.selectedSegment, -1);
+    EXPECT_EQ(frame.figures[1].look.selectedSegment, 6);
 }
 
 TEST_F(SceneBuilderTest, HiddenCharactersAreLeftOut) {
@@ -125,12 +125,12 @@ TEST_F(SceneBuilderTest, DataThatStopFadeAndAreStripedAfterASecond) {
     const std::int64_t newest = stage.now;
     stage.session.follow(newest + 300 * Stage::kMillisecond);
     const SceneFrame fading = build();
-    EXPECT_GT(fading.figures[0].dim, 0.1F);
-    EXPECT_FALSE(fading.figures[0].isHatched);
+    EXPECT_GT(fading.figures[0].look.dim, 0.1F);
+    EXPECT_FALSE(fading.figures[0].look.isHatched);
     stage.session.follow(newest + 1100 * Stage::kMillisecond);
     const SceneFrame stale = build();
-    EXPECT_GT(stale.figures[0].dim, fading.figures[0].dim);
-    EXPECT_TRUE(stale.figures[0].isHatched);
+    EXPECT_GT(stale.figures[0].look.dim, fading.figures[0].look.dim);
+    EXPECT_TRUE(stale.figures[0].look.isHatched);
 }
 
 TEST_F(SceneBuilderTest, TheMeshIsMadeOnceForANullPose) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/lattice.h"
+#include "packaging/mannequin/lattice.h"
 
-#include "render/mesh/generator/body_tables.h"
+#include "packaging/mannequin/body_tables.h"
 
 #include <algorithm>
 

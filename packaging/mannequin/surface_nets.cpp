@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/half_surface.h"
-#include "render/mesh/generator/lattice.h"
+#include "packaging/mannequin/half_surface.h"
+#include "packaging/mannequin/lattice.h"
 
 #include <limits>
 #include <utility>

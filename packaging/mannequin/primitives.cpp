@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/primitives.h"
+#include "packaging/mannequin/primitives.h"
 
 #include <algorithm>
 #include <cmath>

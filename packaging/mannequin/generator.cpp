@@ -1,39 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/generator.h"
+#include "packaging/mannequin/generator.h"
 
-#include "render/mesh/generator/decimate.h"
-#include "render/mesh/generator/half_surface.h"
-#include "render/mesh/generator/weights.h"
+#include "packaging/mannequin/half_surface.h"
+#include "packaging/mannequin/weights.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include <meshoptimizer.h>
+
 namespace posewire::render::mannequin {
 namespace {
 
-/// Faces are looked at more closely than anything else.
-double importanceAt(const glm::dvec3& point) {
-    return 1.0 + 24.0 * smoothstep(1.48, 1.56, point.z) * smoothstep(-0.02, 0.04, point.x);
-}
-
-struct Recipe {
-    /// Of the lattice, metres. Chosen so that no two sheets of the surface share a cell's edge.
-    double step;
-    /// No faces: the surface stays as it was extracted.
-    DecimationTarget target{};
-};
-
-Recipe recipeOf(Detail detail) {
-    switch (detail) {
-    case Detail::Low:
-        return {0.013, {2000, 0.055, importanceAt}};
-    case Detail::Medium:
-        return {0.022};
-    case Detail::High:
-        break;
-    }
-    return {0.013};
+/// Step of the lattice in metres, so fine that no two sheets of the surface share a cell's edge.
+double latticeStep(Detail detail) {
+    return detail == Detail::High ? 0.013 : 0.022;
 }
 
 /// Ambient light by probing the field along the normal; in steps of 1/255, as it is stored.
@@ -92,18 +74,37 @@ private:
     SkinnedMesh m_mesh;
 };
 
+template <typename Element>
+void renumber(std::vector<Element>& elements, const std::vector<unsigned>& newIndex) {
+    meshopt_remapVertexBuffer(elements.data(), elements.data(), elements.size(), sizeof(Element),
+                              newIndex.data());
+}
+
+/// Puts triangles that share vertices close together, and vertices in the order of their first use: graphics
+/// processors and software alike then skin each vertex about once.
+void orderForDrawing(SkinnedMesh& mesh) {
+    const std::size_t count = mesh.vertexCount();
+    unsigned* indices = mesh.indices.data();
+    meshopt_optimizeVertexCache(indices, indices, mesh.indices.size(), count);
+    std::vector<unsigned> newIndex(count);
+    meshopt_optimizeVertexFetchRemap(newIndex.data(), indices, mesh.indices.size(), count);
+    meshopt_remapIndexBuffer(indices, indices, mesh.indices.size(), newIndex.data());
+    renumber(mesh.positions, newIndex);
+    renumber(mesh.normals, newIndex);
+    renumber(mesh.occlusion, newIndex);
+    renumber(mesh.joints, newIndex);
+    renumber(mesh.weights, newIndex);
+}
+
 } // namespace
 
 SkinnedMesh generate(Detail detail) {
     const Body body;
-    const Recipe recipe = recipeOf(detail);
-    QuadSurface quads = extractSurface(body, recipe.step);
+    QuadSurface quads = extractSurface(body, latticeStep(detail));
     relaxOntoSurface(body, quads);
-    TriangleSurface half = triangulated(quads);
-    if (recipe.target.faceCount > 0) {
-        half = decimated(half, recipe.target);
-    }
-    return Assembly(body, half).take();
+    SkinnedMesh mesh = Assembly(body, triangulated(quads)).take();
+    orderForDrawing(mesh);
+    return mesh;
 }
 
 } // namespace posewire::render::mannequin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/half_surface.h"
+#include "packaging/mannequin/half_surface.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/mesh/generator/primitives.h"
+#include "packaging/mannequin/primitives.h"
 
 #include <array>
 #include <span>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/weights.h"
+#include "packaging/mannequin/weights.h"
 
-#include "render/mesh/generator/primitives.h"
+#include "packaging/mannequin/primitives.h"
 
 #include <algorithm>
 #include <cmath>

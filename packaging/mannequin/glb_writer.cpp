@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/glb_writer.h"
+#include "packaging/mannequin/glb_writer.h"
 
 #include "render/mesh/joints.h"
 #include "render/mesh/mannequin_file.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/mesh/generator/body_tables.h"
+#include "packaging/mannequin/body_tables.h"
 
 #include <optional>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/body.h"
+#include "packaging/mannequin/body.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "render/mesh/generator/generator.h"
-#include "render/mesh/generator/glb_writer.h"
+#include "packaging/mannequin/generator.h"
+#include "packaging/mannequin/glb_writer.h"
 
 #include <array>
 #include <filesystem>
@@ -17,8 +17,7 @@ struct Output {
     const char* name;
 };
 
-constexpr std::array<Output, 3> kOutputs{{
-    {Detail::Low, "mannequin_low.glb"},
+constexpr std::array<Output, 2> kOutputs{{
     {Detail::Medium, "mannequin_medium.glb"},
     {Detail::High, "mannequin.glb"},
 }};
@@ -32,7 +31,7 @@ bool write(const std::filesystem::path& path, const std::string& bytes) {
 
 } // namespace
 
-/// mannequin_generator FOLDER: writes the mannequins of resources/ anew.
+/// mannequin_generator FOLDER: writes the mannequins of resources/.
 int main(int argc, char** argv) {
     if (argc != 2) {
         std::cerr << "usage: mannequin_generator FOLDER\n";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "render/mesh/generator/body.h"
+#include "packaging/mannequin/body.h"
 
 #include <array>
 #include <cstdint>
