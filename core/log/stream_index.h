@@ -3,6 +3,7 @@
 
 #include "core/log/log_reader.h"
 #include "core/log/packet.h"
+#include "core/log/stream_key.h"
 #include "core/wire/header.h"
 
 #include <cstddef>
@@ -15,15 +16,6 @@
 #include <vector>
 
 namespace posewire::log {
-
-/// A stream is what one sender sends of one character in one message type.
-struct StreamKey {
-    SenderId sender{};
-    std::uint8_t character = 0;
-    std::uint8_t type = 0; ///< the two digits as a decimal number
-
-    friend bool operator==(const StreamKey&, const StreamKey&) = default;
-};
 
 /// One datagram of a stream.
 struct StreamEntry {
@@ -99,17 +91,9 @@ public:
     [[nodiscard]] std::uint64_t unindexed() const { return m_unindexed; }
 
 private:
-    struct Hash {
-        std::size_t operator()(const StreamKey& key) const {
-            const auto sender = static_cast<std::uint64_t>(key.sender);
-            return static_cast<std::size_t>(
-                (sender << 16 | std::uint64_t{key.character} << 8 | key.type) * 0x9e3779b97f4a7c15U >> 13);
-        }
-    };
-
     StreamEntries* entriesFor(const StreamKey& key);
 
-    std::unordered_map<StreamKey, std::unique_ptr<StreamEntries>, Hash> m_streams;
+    std::unordered_map<StreamKey, std::unique_ptr<StreamEntries>> m_streams;
     std::vector<StreamKey> m_keys;
     StreamEntries::Spare m_spare;
     StreamKey m_lastKey;

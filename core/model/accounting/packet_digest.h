@@ -68,13 +68,7 @@ public:
     PacketDigest add(const log::Packet& packet, const wire::Datagram* datagram);
 
 private:
-    struct Hash {
-        std::size_t operator()(const log::StreamKey& key) const {
-            return (static_cast<std::size_t>(key.sender) << 16 | std::size_t{key.character} << 8 | key.type) *
-                   0x9e3779b97f4a7c15U;
-        }
-    };
-    std::unordered_map<log::StreamKey, StreamAccounting, Hash> m_streams;
+    std::unordered_map<log::StreamKey, StreamAccounting> m_streams;
 };
 
 /// The digests of the packets that a log holds. Belongs to one thread.
