@@ -82,7 +82,7 @@ std::string heading() {
     return row("", titles);
 }
 
-std::string streamLine(const model::Session& session, const model::Stream& stream) {
+std::string streamLine(const model::SessionView& session, const model::Stream& stream) {
     const exporting::StreamFigures figures = exporting::figuresOf(session, stream);
     const model::StreamCounts& counts = figures.counts;
     const std::string name = "    " + wire::typeTitle(stream.key.type);
@@ -95,7 +95,7 @@ std::string streamLine(const model::Session& session, const model::Stream& strea
                 grouped(counts.late), fixed(figures.clock.jitterMs, 3), fixed(figures.arrivals.mostMs, 1)});
 }
 
-std::string summaryLine(const model::Session& session, double elapsedS) {
+std::string summaryLine(const model::SessionView& session, double elapsedS) {
     std::uint64_t datagrams = 0;
     std::uint64_t malformed = 0;
     std::uint64_t foreign = 0;
@@ -111,7 +111,8 @@ std::string summaryLine(const model::Session& session, double elapsedS) {
            grouped(dropped);
 }
 
-std::vector<const model::Stream*> streamsOf(const model::Session& session, const model::CharacterKey& key) {
+std::vector<const model::Stream*> streamsOf(const model::SessionView& session,
+                                            const model::CharacterKey& key) {
     std::vector<const model::Stream*> streams;
     for (const model::Stream& stream : session.streams()) {
         if (stream.key.sender == key.sender && stream.key.character == key.character) {
@@ -144,7 +145,7 @@ std::string printable(std::string_view text) {
     return result;
 }
 
-std::vector<std::string> liveTable(const model::Session& session, double elapsedS) {
+std::vector<std::string> liveTable(const model::SessionView& session, double elapsedS) {
     std::vector<std::string> lines{summaryLine(session, elapsedS)};
     if (session.streams().empty()) {
         lines.emplace_back("No MXTP datagram so far.");

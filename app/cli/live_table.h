@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <string>
 #include <vector>
@@ -10,7 +10,7 @@ namespace posewire::cli {
 
 /// What `monitor` shows while it runs: a line for the whole, then each sender with its characters and a line
 /// for each of their streams. Texts from the wire are made harmless for a terminal.
-[[nodiscard]] std::vector<std::string> liveTable(const model::Session& session, double elapsedS);
+[[nodiscard]] std::vector<std::string> liveTable(const model::SessionView& session, double elapsedS);
 
 /// Characters as they may be printed: what controls a terminal, or is no UTF-8, becomes "?".
 [[nodiscard]] std::string printable(std::string_view text);

@@ -16,7 +16,7 @@ struct Judged {
     std::optional<double> limit;
 };
 
-std::string placeOf(const model::Session& session, const log::StreamKey& key) {
+std::string placeOf(const model::SessionView& session, const log::StreamKey& key) {
     const model::Sender* sender = session.find(key.sender);
     return (sender != nullptr ? sender->info.address : std::string("unknown source")) + ", " +
            session.displayName({key.sender, key.character}) + ", type " + wire::typeTitle(key.type);
@@ -24,7 +24,7 @@ std::string placeOf(const model::Session& session, const log::StreamKey& key) {
 
 } // namespace
 
-std::vector<std::string> exceeded(const model::Session& session, const Limits& limits) {
+std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits) {
     std::vector<std::string> lines;
     if (limits.isAny() && session.streams().empty()) {
         lines.emplace_back(

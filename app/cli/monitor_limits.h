@@ -18,6 +18,6 @@ struct Limits {
 };
 
 /// One line for each limit that a stream exceeds; one if nothing was received although there are limits.
-[[nodiscard]] std::vector<std::string> exceeded(const model::Session& session, const Limits& limits);
+[[nodiscard]] std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits);
 
 } // namespace posewire::cli

@@ -20,7 +20,7 @@ public:
     MonitorRun(const MonitorOptions& options, Console& console);
 
     [[nodiscard]] log::PacketLog& log() { return m_log; }
-    [[nodiscard]] const model::Session& session() const { return m_session; }
+    [[nodiscard]] const model::SessionView& session() const { return m_session; }
 
     /// Takes in everything that is in the log.
     void follow(std::int64_t nowNs);

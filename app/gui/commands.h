@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/monitor_health.h"
-#include "app/gui/receiving_state.h"
-#include "core/model/session/session.h"
+#include "core/model/accounting/thresholds.h"
+#include "core/model/session/choices.h"
+#include "core/model/session/detection.h"
 
 #include <QString>
 
@@ -29,21 +29,15 @@ public:
     /// Points the camera at a character.
     virtual void frameCharacter(const model::CharacterKey& key) = 0;
     virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;
-    [[nodiscard]] virtual bool isCharacterVisible(const model::CharacterKey& key) const = 0;
     /// Shows the null pose of the shown character as a ghost over its figure.
     virtual void setGhostVisible(bool isVisible) = 0;
-    [[nodiscard]] virtual bool isGhostVisible() const = 0;
-    /// Stops the display at the newest packet, or follows the stream again. Receiving goes on.
+    /// Stops the display at the newest packet, or follows the stream again. Receiving is not touched.
     virtual void setPaused(bool isPaused) = 0;
     virtual void copyText(const QString& text) = 0;
     /// Brings a dock before the others, by its object name.
-    virtual void showDock(const QString& /*dock*/) {}
+    virtual void showDock(const QString& dock) = 0;
     /// What streams must keep from now on.
-    virtual void setThresholds(const model::Thresholds& /*thresholds*/) {}
-    /// How receiving stands: ports, buffers, what was dropped here.
-    [[nodiscard]] virtual ReceivingState receivingState() const { return {}; }
-    /// How this program itself fares.
-    [[nodiscard]] virtual MonitorHealth monitorHealth() const { return {}; }
+    virtual void setThresholds(const model::Thresholds& thresholds) = 0;
 };
 
 } // namespace posewire::gui

@@ -2,6 +2,8 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "app/gui/program_view.h"
+#include "core/model/session/session_view.h"
 
 #include <QJsonObject>
 #include <QWidget>
@@ -35,7 +37,7 @@ struct PanelInfo {
     const char* id;    ///< object name of the dock, fixed for scripts
     const char* title; ///< translated in context "Panel"
     Qt::DockWidgetArea area;
-    Panel* (*make)(model::SessionView& view, Commands& commands, QWidget* parent);
+    Panel* (*make)(model::SessionView& view, Commands& commands, const ProgramView& program, QWidget* parent);
 };
 
 [[nodiscard]] std::span<const PanelInfo> panelTable();

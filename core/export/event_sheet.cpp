@@ -17,7 +17,7 @@ constexpr std::string_view kHeader =
     "number,severity,group,event,source,character,type,from,to,firstPacket,lastPacket,count,samples,cause,"
     "current,text\r\n";
 
-std::string addressOf(const model::Session& session, const Event& event) {
+std::string addressOf(const model::SessionView& session, const Event& event) {
     const model::Sender* sender = session.find(event.sender);
     return sender == nullptr ? std::string() : sender->info.address;
 }
@@ -45,7 +45,7 @@ std::string cellText(const std::string& content) {
     return text + "\"";
 }
 
-Json objectOf(const model::Session& session, const Event& event) {
+Json objectOf(const model::SessionView& session, const Event& event) {
     Json object{{"number", event.number},
                 {"severity", nameOf(event.severity())},
                 {"group", nameOf(event.group())},
@@ -83,7 +83,7 @@ std::string_view nameOf(model::EventGroup group) {
     return kNames[static_cast<std::size_t>(group)];
 }
 
-std::string eventsCsv(const model::Session& session, std::span<const Event* const> events) {
+std::string eventsCsv(const model::SessionView& session, std::span<const Event* const> events) {
     std::string text(kHeader);
     for (const Event* event : events) {
         const std::array<std::string, 16> cells{
@@ -111,7 +111,7 @@ std::string eventsCsv(const model::Session& session, std::span<const Event* cons
     return text;
 }
 
-std::string eventsJson(const model::Session& session, std::span<const Event* const> events) {
+std::string eventsJson(const model::SessionView& session, std::span<const Event* const> events) {
     std::string text = "[";
     for (std::size_t i = 0; i < events.size(); ++i) {
         // What a sender put into a name may be no UTF-8.

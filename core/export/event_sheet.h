@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <span>
 #include <string>
@@ -15,12 +15,12 @@ namespace posewire::exporting {
 ///     current,text
 ///
 /// from and to are seconds since 1970 UTC with nine decimals. Cells of what an event is not about are empty.
-[[nodiscard]] std::string eventsCsv(const model::Session& session,
+[[nodiscard]] std::string eventsCsv(const model::SessionView& session,
                                     std::span<const model::Event* const> events);
 
 /// An array with one object for each event, one on a line, with the keys of the columns but "fromNs" and
 /// "toNs" (nanoseconds since 1970 UTC) for from and to. Keys of what an event is not about are missing.
-[[nodiscard]] std::string eventsJson(const model::Session& session,
+[[nodiscard]] std::string eventsJson(const model::SessionView& session,
                                      std::span<const model::Event* const> events);
 
 /// "info", "warning", "error".

@@ -64,7 +64,7 @@ Json streamJson(const StreamFigures& figures) {
 }
 
 /// By type, whatever came first.
-Json streamsJson(const model::Session& session, const model::CharacterKey& key) {
+Json streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
     std::vector<const model::Stream*> streams;
     for (const model::Stream& stream : session.streams()) {
         if (stream.key.sender == key.sender && stream.key.character == key.character) {
@@ -79,7 +79,7 @@ Json streamsJson(const model::Session& session, const model::CharacterKey& key) 
     return list;
 }
 
-Json charactersJson(const model::Session& session, const model::Sender& sender) {
+Json charactersJson(const model::SessionView& session, const model::Sender& sender) {
     std::vector<model::CharacterKey> keys;
     for (const model::Character& character : session.characters()) {
         if (character.key.sender == sender.id) {
@@ -100,7 +100,7 @@ bool isMxtp(const model::Sender& sender) {
     return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
 }
 
-Json senderJson(const model::Session& session, const model::Sender& sender) {
+Json senderJson(const model::SessionView& session, const model::Sender& sender) {
     return {{"address", sender.info.address},
             {"transport", transportName(sender.info.transport)},
             {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
@@ -114,7 +114,7 @@ Json senderJson(const model::Session& session, const model::Sender& sender) {
 
 } // namespace
 
-std::string monitorReport(const model::Session& session, const MonitorFacts& facts) {
+std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
     std::uint64_t kernelDropped = 0;
     std::uint64_t foreign = 0;
     Json senders = Json::array();
@@ -128,7 +128,7 @@ std::string monitorReport(const model::Session& session, const MonitorFacts& fac
         if (sender.foreign != 0) {
             foreignSenders.push_back({{"address", sender.info.address},
                                       {"datagrams", sender.foreign},
-                                      {"firstBytes", sender.firstForeignBytes}});
+                                      {"firstBytes", sender.foreignText()}});
         }
     }
     const Json report{

@@ -15,6 +15,6 @@ struct MonitorFacts {
 };
 
 /// One JSON object without a newline: every sender with its characters, their streams and all their figures.
-[[nodiscard]] std::string monitorReport(const model::Session& session, const MonitorFacts& facts);
+[[nodiscard]] std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts);
 
 } // namespace posewire::exporting

@@ -27,7 +27,7 @@ ReportSeverity severityOf(const Event& event) {
 }
 
 /// Sender, character and type, as far as the event is about them.
-std::string whose(const model::Session& session, const Event& event) {
+std::string whose(const model::SessionView& session, const Event& event) {
     const model::Sender* sender = session.find(event.sender);
     std::string text = sender != nullptr ? sender->info.address : "";
     if (event.character) {
@@ -45,7 +45,7 @@ std::string secondsAfter(std::int64_t stampNs, const ReportSteps& steps) {
 
 } // namespace
 
-std::string eventSection(const model::Session& session, const ReportSteps& steps) {
+std::string eventSection(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const Event*> events;
     for (const Event& event : session.events().all()) {
         if (event.lastStampNs >= steps.fromNs && event.firstStampNs <= steps.toNs) {

@@ -2,6 +2,7 @@
 #include "core/export/report_gaps.h"
 
 #include "core/export/html.h"
+#include "core/model/accounting/attribution.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -14,7 +15,7 @@ using model::Gap;
 /// More of them nobody reads; the longest tell the story.
 constexpr std::size_t kMostListed = 100;
 
-std::vector<const Gap*> gapsIn(const model::Session& session, const ReportSteps& steps) {
+std::vector<const Gap*> gapsIn(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const Gap*> gaps;
     for (const Gap& gap : session.gaps()) {
         if (gap.lost != 0 && gap.toStampNs >= steps.fromNs && gap.toStampNs <= steps.toNs) {
@@ -34,7 +35,8 @@ double milliseconds(std::int64_t ns) {
     return static_cast<double>(ns) * 1e-6;
 }
 
-std::vector<std::string> cellsOf(const model::Session& session, const Gap& gap, const ReportSteps& steps) {
+std::vector<std::string> cellsOf(const model::SessionView& session, const Gap& gap,
+                                 const ReportSteps& steps) {
     const model::CharacterKey key{gap.stream.sender, gap.stream.character};
     return {fixed(milliseconds(gap.fromStampNs - steps.fromNs) * 1e-3, 3),
             escaped(session.displayName(key)) + ", " + escaped(wire::typeTitle(gap.stream.type)),
@@ -47,7 +49,7 @@ std::vector<std::string> cellsOf(const model::Session& session, const Gap& gap, 
 
 } // namespace
 
-SvgPlot causePlot(const model::Session& session, const ReportSteps& steps) {
+SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
     const double durationS = static_cast<double>(steps.widthNs) * 1e-9 * static_cast<double>(steps.count);
     SvgPlot plot{"Samples lost, by cause", SvgPlot::Form::StackedBars, durationS, {}, 1};
     for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
@@ -62,7 +64,7 @@ SvgPlot causePlot(const model::Session& session, const ReportSteps& steps) {
     return plot;
 }
 
-std::string gapSection(const model::Session& session, const ReportSteps& steps) {
+std::string gapSection(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const Gap*> gaps = gapsIn(session, steps);
     if (gaps.empty()) {
         return {};

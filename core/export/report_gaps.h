@@ -8,9 +8,9 @@
 namespace posewire::exporting {
 
 /// Samples lost over time, in a colour for each cause.
-[[nodiscard]] SvgPlot causePlot(const model::Session& session, const ReportSteps& steps);
+[[nodiscard]] SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps);
 
 /// The longest gaps of the range with cause and evidence, in the order of time; empty where there are none.
-[[nodiscard]] std::string gapSection(const model::Session& session, const ReportSteps& steps);
+[[nodiscard]] std::string gapSection(const model::SessionView& session, const ReportSteps& steps);
 
 } // namespace posewire::exporting

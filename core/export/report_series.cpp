@@ -12,7 +12,7 @@ constexpr std::int64_t kMostSteps = 120;
 constexpr std::size_t kMostCurves = 8;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<const model::Stream*> sampledStreams(const model::Session& session,
+std::vector<const model::Stream*> sampledStreams(const model::SessionView& session,
                                                  const model::CharacterKey& key) {
     std::vector<const model::Stream*> streams;
     for (const model::Stream& stream : session.streams()) {
@@ -49,7 +49,7 @@ struct CharacterSeries {
     std::vector<double> jitter;
 };
 
-CharacterSeries seriesOf(const model::Session& session, const model::CharacterKey& key,
+CharacterSeries seriesOf(const model::SessionView& session, const model::CharacterKey& key,
                          const ReportSteps& steps) {
     CharacterSeries series;
     const auto streams = sampledStreams(session, key);
@@ -77,7 +77,7 @@ CharacterSeries seriesOf(const model::Session& session, const model::CharacterKe
 
 } // namespace
 
-ReportSteps stepsOf(const model::Session& session, const TimeRange& range) {
+ReportSteps stepsOf(const model::SessionView& session, const TimeRange& range) {
     ReportSteps steps;
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     std::int64_t last = std::numeric_limits<std::int64_t>::min();
@@ -99,7 +99,7 @@ ReportSteps stepsOf(const model::Session& session, const TimeRange& range) {
     return steps;
 }
 
-std::vector<SvgPlot> plotsOf(const model::Session& session, const ReportSteps& steps) {
+std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportSteps& steps) {
     const double durationS = static_cast<double>(steps.widthNs) * 1e-9 * static_cast<double>(steps.count);
     std::vector<SvgPlot> plots{
         {"Samples a second, of the fastest stream", SvgPlot::Form::Curves, durationS, {}, 1},

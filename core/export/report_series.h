@@ -18,10 +18,10 @@ struct ReportSteps {
 };
 
 /// All streams of the session together, within the range.
-[[nodiscard]] ReportSteps stepsOf(const model::Session& session, const TimeRange& range);
+[[nodiscard]] ReportSteps stepsOf(const model::SessionView& session, const TimeRange& range);
 
 /// Rate, loss and jitter over time; a curve for each character, of its fastest, all and its worst stream.
-[[nodiscard]] std::vector<SvgPlot> plotsOf(const model::Session& session, const ReportSteps& steps);
+[[nodiscard]] std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportSteps& steps);
 
 /// Percent lost of one stream in each step; NaN where nothing was expected.
 [[nodiscard]] std::vector<double> lossSeries(const model::Stream& stream, const ReportSteps& steps);

@@ -114,7 +114,7 @@ std::vector<std::string> timingCells(const StreamFigures& figures) {
 
 } // namespace
 
-std::string streamTable(const model::Session& session, const model::CharacterKey& key,
+std::string streamTable(const model::SessionView& session, const model::CharacterKey& key,
                         const std::vector<StreamFigures>& figures, const ReportSteps& steps) {
     std::vector<const StreamFigures*> own;
     for (const StreamFigures& one : figures) {
@@ -137,7 +137,7 @@ std::string streamTable(const model::Session& session, const model::CharacterKey
     return delivery.html() + (timing.isEmpty() ? "" : timing.html());
 }
 
-std::string metadataList(const model::Session& session, const model::CharacterKey& key) {
+std::string metadataList(const model::SessionView& session, const model::CharacterKey& key) {
     std::string html;
     for (const model::MetadataTag& tag : session.metadata(key).tags()) {
         const std::string& value = tag.values.back().text;

@@ -83,7 +83,7 @@ void addOrder(std::vector<Finding>& findings, const model::StreamCounts& counts)
     add(counts.restarts, "time a sample counter began anew.", "times a sample counter began anew.");
 }
 
-void addSenders(std::vector<Finding>& findings, const model::Session& session) {
+void addSenders(std::vector<Finding>& findings, const model::SessionView& session) {
     for (const model::Sender& sender : session.senders()) {
         if (sender.kernelDrops != 0) {
             findings.push_back(
@@ -106,7 +106,7 @@ void addSenders(std::vector<Finding>& findings, const model::Session& session) {
             findings.push_back({ReportSeverity::Warning, counted(sender.foreign, "datagram", "datagrams") +
                                                              " from " + sender.info.address +
                                                              " were not MXTP; the newest begins with " +
-                                                             sender.firstForeignBytes + '.'});
+                                                             sender.foreignText() + '.'});
         }
     }
 }
@@ -123,7 +123,7 @@ std::string_view severityMark(ReportSeverity severity) {
     return marks[static_cast<std::size_t>(severity)];
 }
 
-std::vector<Finding> verdictOn(const model::Session& session, const std::vector<StreamFigures>& streams,
+std::vector<Finding> verdictOn(const model::SessionView& session, const std::vector<StreamFigures>& streams,
                                const StreamReportOptions& options) {
     std::vector<Finding> findings;
     const Sums sums = sumsOf(streams);

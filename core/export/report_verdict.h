@@ -19,7 +19,7 @@ struct Finding {
 [[nodiscard]] std::string_view severityMark(ReportSeverity severity);
 
 /// What all figures together mean: the first says it all, the others why.
-[[nodiscard]] std::vector<Finding> verdictOn(const model::Session& session,
+[[nodiscard]] std::vector<Finding> verdictOn(const model::SessionView& session,
                                              const std::vector<StreamFigures>& streams,
                                              const StreamReportOptions& options);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/stream_figures.h"
 
+#include "core/model/accounting/attribution.h"
 #include "core/model/accounting/range_figures.h"
 
 #include <algorithm>
@@ -22,7 +23,7 @@ double rateOf(const StreamFigures& figures, double seconds) {
 }
 
 /// What is not attributed is unknown.
-std::array<std::uint64_t, model::kLossCauses> causesIn(const model::Session& session,
+std::array<std::uint64_t, model::kLossCauses> causesIn(const model::SessionView& session,
                                                        const StreamFigures& figures, const TimeRange& range) {
     std::array<std::uint64_t, model::kLossCauses> causes{};
     std::uint64_t known = 0;
@@ -40,7 +41,8 @@ std::array<std::uint64_t, model::kLossCauses> causesIn(const model::Session& ses
 
 } // namespace
 
-StreamFigures figuresOf(const model::Session& session, const model::Stream& stream, const TimeRange& range) {
+StreamFigures figuresOf(const model::SessionView& session, const model::Stream& stream,
+                        const TimeRange& range) {
     const model::StreamAccounting& accounting = stream.accounting;
     const model::TimeRange part{range.fromNs.value_or(kBeginning), range.toNs.value_or(kEnd)};
     const model::RangeFigures read =
@@ -59,7 +61,7 @@ StreamFigures figuresOf(const model::Session& session, const model::Stream& stre
     return figures;
 }
 
-std::string sentName(const model::Session& session, const model::CharacterKey& key) {
+std::string sentName(const model::SessionView& session, const model::CharacterKey& key) {
     const model::MetadataTag* tag = session.metadata(key).find("name");
     return tag != nullptr ? tag->values.back().text : std::string();
 }

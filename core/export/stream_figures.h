@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/model/accounting/stream_counts.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <array>
 #include <optional>
@@ -30,11 +30,11 @@ struct StreamFigures {
     std::array<std::uint64_t, model::kLossCauses> lostByCause{};
 };
 
-[[nodiscard]] StreamFigures figuresOf(const model::Session& session, const model::Stream& stream,
+[[nodiscard]] StreamFigures figuresOf(const model::SessionView& session, const model::Stream& stream,
                                       const TimeRange& range = {});
 
 /// The name that was sent; empty where there was none.
-[[nodiscard]] std::string sentName(const model::Session& session, const model::CharacterKey& key);
+[[nodiscard]] std::string sentName(const model::SessionView& session, const model::CharacterKey& key);
 
 /// "udp", "tcp", "file", "performer".
 [[nodiscard]] std::string_view transportName(log::Transport transport);

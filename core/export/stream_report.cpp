@@ -15,7 +15,7 @@ namespace {
 /// Stamps before this are counted from the beginning of a file that has none.
 constexpr std::int64_t kFirstRealStampNs = 86'400'000'000'000;
 
-std::vector<StreamFigures> allFigures(const model::Session& session, const TimeRange& range) {
+std::vector<StreamFigures> allFigures(const model::SessionView& session, const TimeRange& range) {
     std::vector<StreamFigures> all;
     for (const model::Stream& stream : session.streams()) {
         const StreamFigures figures = figuresOf(session, stream, range);
@@ -54,7 +54,7 @@ std::string verdictList(const std::vector<Finding>& findings) {
     return html + "</ul>\n";
 }
 
-std::string plotSection(const model::Session& session, const ReportSteps& steps) {
+std::string plotSection(const model::SessionView& session, const ReportSteps& steps) {
     if (steps.count < 2) {
         return {};
     }
@@ -65,7 +65,7 @@ std::string plotSection(const model::Session& session, const ReportSteps& steps)
     return html + svgPlot(causePlot(session, steps)) + "</div>\n";
 }
 
-std::string senderSection(const model::Session& session, const std::vector<StreamFigures>& figures,
+std::string senderSection(const model::SessionView& session, const std::vector<StreamFigures>& figures,
                           const ReportSteps& steps) {
     std::string html;
     for (const model::Sender& sender : session.senders()) {
@@ -99,7 +99,7 @@ std::string settingsSection(const StreamReportOptions& options) {
 
 } // namespace
 
-std::string streamReport(const model::Session& session, const StreamReportOptions& options) {
+std::string streamReport(const model::SessionView& session, const StreamReportOptions& options) {
     const std::vector<StreamFigures> figures = allFigures(session, options.range);
     const ReportSteps steps = stepsOf(session, options.range);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"

@@ -19,6 +19,6 @@ struct StreamReportOptions {
 /// What a technician attaches to a ticket: one HTML file without anything outside it, light and dark, to be
 /// read and to be printed. A verdict in words, plots over time, every figure of every stream, gaps with their
 /// causes, events, what the characters said about themselves.
-[[nodiscard]] std::string streamReport(const model::Session& session, const StreamReportOptions& options);
+[[nodiscard]] std::string streamReport(const model::SessionView& session, const StreamReportOptions& options);
 
 } // namespace posewire::exporting

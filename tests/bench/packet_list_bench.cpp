@@ -8,6 +8,7 @@
 #include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/theme.h"
 #include "core/log/packet_log.h"
+#include "core/model/session/session.h"
 #include "core/wire/codec.h"
 
 #include <QApplication>

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/connection_watch.h"
 
-#include <QByteArray>
-
 #include <algorithm>
 #include <cstdlib>
 
@@ -23,12 +21,6 @@ net::InputKind kindOf(InputAddress::Kind kind) {
         break;
     }
     return net::InputKind::TcpConnection;
-}
-
-std::vector<std::byte> bytesOf(const std::string& hexadecimal) {
-    const QByteArray bytes = QByteArray::fromHex(QByteArray::fromStdString(hexadecimal));
-    const auto* begin = reinterpret_cast<const std::byte*>(bytes.constData());
-    return {begin, begin + bytes.size()};
 }
 
 bool isFromNetwork(const model::Sender& sender) {
@@ -60,7 +52,7 @@ net::ConnectionFacts connectionFacts(const model::SessionView& session, const Re
             newestNs = std::max(newestNs, sender.lastStampNs);
         }
         if (sender.foreign != 0) {
-            facts.foreign.push_back({sender.info.address, sender.foreign, bytesOf(sender.firstForeignBytes)});
+            facts.foreign.push_back({sender.info.address, sender.foreign, sender.foreignHead});
         }
     }
     facts.silenceNs = std::max<std::int64_t>(0, nowNs - newestNs);

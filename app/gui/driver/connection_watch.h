@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/receiving_state.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <cstdint>
 #include <vector>

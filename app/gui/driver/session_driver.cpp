@@ -168,20 +168,13 @@ void SessionDriver::frameCharacter(const model::CharacterKey& key) {
 }
 
 void SessionDriver::setCharacterVisible(const model::CharacterKey& key, bool isVisible) {
-    if (isVisible) {
-        m_hidden.erase(key);
-    } else {
-        m_hidden.insert(key);
-    }
-    emit visibilityChanged(key, isVisible);
-}
-
-bool SessionDriver::isCharacterVisible(const model::CharacterKey& key) const {
-    return !m_hidden.contains(key);
+    m_session.setHidden(key, !isVisible);
+    announceChange();
 }
 
 void SessionDriver::setGhostVisible(bool isVisible) {
-    m_isGhostVisible = isVisible;
+    m_session.setGhostShown(isVisible);
+    announceChange();
     emit ghostChanged(isVisible);
 }
 

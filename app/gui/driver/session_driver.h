@@ -5,26 +5,26 @@
 #include "app/gui/driver/demo_sender.h"
 #include "app/gui/driver/health_meter.h"
 #include "app/gui/driver/receiving.h"
+#include "app/gui/program_view.h"
 #include "core/model/session/session.h"
 
 #include <QObject>
 #include <QTimer>
 
 #include <memory>
-#include <set>
 
 namespace posewire::gui {
 
-/// Lets the session follow the log, once each display tick, and carries out commands. Nothing here is needed
-/// for receiving to go on.
-class SessionDriver final : public QObject, public Commands {
+/// Lets the session follow the log, once each display tick, and carries out commands. Receiving does not wait
+/// for it.
+class SessionDriver final : public QObject, public Commands, public ProgramView {
     Q_OBJECT
 
 public:
     explicit SessionDriver(const log::Clock& clock, QObject* parent = nullptr);
     ~SessionDriver() override;
 
-    [[nodiscard]] model::SessionView& session() const { return m_session; }
+    [[nodiscard]] model::SessionView& session() { return m_session; }
     [[nodiscard]] Receiving& receiving() { return m_receiving; }
 
     /// Begins to tick.
@@ -36,14 +36,14 @@ public:
     /// nothing.
     [[nodiscard]] QString openFile(const QString& path);
 
-    /// Stops the display so many seconds after the first packet there was.
+    /// Stops the display this many seconds after the first packet there was.
     void seek(double seconds);
 
     /// 0 ends the demo.
     void setDemo(int characters);
     [[nodiscard]] bool isDemoRunning() const { return m_demo != nullptr; }
 
-    /// So many pictures were shown since the start.
+    /// Pictures shown since the start.
     void setPicturesShown(std::uint64_t pictures) { m_pictures = pictures; }
 
     [[nodiscard]] bool isPaused() const { return m_session.cursor().mode == model::Cursor::Mode::Paused; }
@@ -59,12 +59,12 @@ public:
     void setThresholds(const model::Thresholds& thresholds) override;
     void frameCharacter(const model::CharacterKey& key) override;
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override;
-    [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const override;
     void setGhostVisible(bool isVisible) override;
-    [[nodiscard]] bool isGhostVisible() const override { return m_isGhostVisible; }
     void setPaused(bool isPaused) override;
     void copyText(const QString& text) override;
     void showDock(const QString& dock) override;
+
+    // ProgramView
     [[nodiscard]] MonitorHealth monitorHealth() const override { return m_meter.health(); }
     [[nodiscard]] ReceivingState receivingState() const override { return m_receiving.state(); }
 
@@ -76,7 +76,6 @@ signals:
     void pausedChanged(bool isPaused);
     void demoChanged(bool isRunning);
     void frameRequested(const model::CharacterKey& key);
-    void visibilityChanged(const model::CharacterKey& key, bool isVisible);
     void ghostChanged(bool isVisible);
     void dockRequested(const QString& dock);
 
@@ -91,12 +90,10 @@ private:
     Receiving m_receiving;
     std::unique_ptr<DemoSender> m_demo;
     QTimer m_timer;
-    std::set<model::CharacterKey> m_hidden;
     HealthMeter m_meter;
     std::uint64_t m_pictures = 0;
     std::int64_t m_tableTickNs = 0;
     std::int64_t m_retryNs = 0;
-    bool m_isGhostVisible = false;
     bool m_isChanged = true;
 };
 

@@ -2,6 +2,8 @@
 #include "app/gui/models/character_facts.h"
 
 #include "app/gui/models/text.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/body/null_pose.h"
 
 #include <QCoreApplication>
 

@@ -6,6 +6,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
+#include "core/model/session/message.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -153,7 +154,7 @@ QVariant CharacterModel::characterName(const model::Character& character, int ro
     case kDotRole:
         return characterColour(m_view, character.key);
     case Qt::CheckStateRole:
-        return m_commands.isCharacterVisible(character.key) ? Qt::Checked : Qt::Unchecked;
+        return m_view.isHidden(character.key) ? Qt::Unchecked : Qt::Checked;
     case Qt::ToolTipRole:
         return tr("Character ID %1. Check mark: shown in the viewport. Double click: frame in the viewport.")
             .arg(character.key.character);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/clock_history.h"
 
+#include "core/model/session/message.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>

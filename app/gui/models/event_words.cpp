@@ -130,9 +130,7 @@ QString whoseWords(model::SessionView& view, const model::Event& event) {
         const model::Sender* sender = view.find(event.sender);
         return sender == nullptr ? QString() : QString::fromStdString(sender->info.address);
     }
-    const model::CharacterKey key{event.sender, *event.character};
-    const QString name = view.find(key) == nullptr ? tr("Character %1").arg(int{*event.character} + 1)
-                                                   : characterName(view, key);
+    const QString name = characterName(view, {event.sender, *event.character});
     return event.type ? name + QStringLiteral(" · ") + digitsOf(*event.type) : name;
 }
 

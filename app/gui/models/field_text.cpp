@@ -47,11 +47,10 @@ struct Scale {
 Scale scaleOf(const FieldDocument& document, const FieldNode& node) {
     switch (node.unit) {
     case Unit::Metres:
+    case Unit::Centimetres:
         return {model::metresPer(document.type() == wire::NullPose::kType ? model::LengthUnit::Metre
                                                                           : document.unit()),
                 "m", 4};
-    case Unit::Centimetres:
-        return {0.01, "m", 4};
     case Unit::Degrees:
         return {1, "°", 2};
     case Unit::RadiansPerSecond:

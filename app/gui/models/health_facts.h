@@ -3,7 +3,7 @@
 
 #include "app/gui/models/property_model.h"
 #include "app/gui/monitor_health.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <functional>
 #include <vector>

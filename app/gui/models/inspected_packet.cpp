@@ -2,6 +2,7 @@
 #include "app/gui/models/inspected_packet.h"
 
 #include "app/gui/models/shown_character.h"
+#include "core/model/session/message.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
 
@@ -17,7 +18,7 @@ constexpr std::array<std::uint8_t, 5> kSegmentTypes{wire::PoseQuaternion::kType,
 
 std::optional<std::uint64_t> newestOf(model::SessionView& view, const model::CharacterKey& key,
                                       std::uint8_t type) {
-    const model::Session::Message* message = view.message(key, type);
+    const model::Message* message = view.message(key, type);
     return message != nullptr ? std::optional(message->packet) : std::nullopt;
 }
 

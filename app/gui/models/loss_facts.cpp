@@ -2,6 +2,7 @@
 #include "app/gui/models/loss_facts.h"
 
 #include "app/gui/models/text.h"
+#include "core/model/accounting/attribution.h"
 
 #include <QCoreApplication>
 #include <QStringList>

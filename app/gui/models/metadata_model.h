@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/models/property_model.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <QAbstractItemModel>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/null_pose_reading.h"
 
+#include "core/model/session/message.h"
 #include "core/model/session/null_pose_evidence.h"
 
 #include "app/gui/models/shown_character.h"
@@ -10,7 +11,7 @@ namespace posewire::gui {
 namespace {
 
 template <class T>
-std::optional<T> bodyOf(const model::Session::Message* message) {
+std::optional<T> bodyOf(const model::Message* message) {
     const T* body = message == nullptr ? nullptr : std::get_if<T>(&message->datagram.body);
     return body == nullptr ? std::nullopt : std::optional<T>(*body);
 }

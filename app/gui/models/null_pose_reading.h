@@ -3,7 +3,7 @@
 
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <optional>
 #include <vector>

@@ -2,6 +2,7 @@
 #include "app/gui/models/packet_facts.h"
 
 #include "app/gui/models/text.h"
+#include "core/model/accounting/attribution.h"
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
@@ -56,7 +57,7 @@ QStringList notices(const log::Packet& packet) {
 
 /// "3 lost · network" where it is known whose loss it was.
 QString gapText(model::SessionView& view, std::uint64_t number, std::uint64_t samples) {
-    const model::Gap* gap = view.attribution().endedBy(number);
+    const model::Gap* gap = view.gapEndedBy(number);
     if (gap != nullptr && gap->isJudged && gap->cause != model::LossCause::Unknown) {
         return tr("%1 lost").arg(grouped(samples)) + dot() +
                QString::fromLatin1(model::nameOf(gap->cause).data());
@@ -120,7 +121,7 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
         const QString missing = digest->gap == 1
                                     ? tr("1 sample is missing just before it.")
                                     : tr("%1 samples are missing just before it.").arg(grouped(digest->gap));
-        const model::Gap* gap = view.attribution().endedBy(number);
+        const model::Gap* gap = view.gapEndedBy(number);
         texts += gap == nullptr ? missing
                                 : missing + QLatin1Char(' ') +
                                       tr("Cause: %1. %2")

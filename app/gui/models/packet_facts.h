@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 #include "core/wire/header.h"
 
 #include <QString>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <QString>
 
@@ -18,7 +18,7 @@ namespace posewire::gui {
 [[nodiscard]] tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view,
                                                                 const QString& text);
 
-/// The first packet from a stamp on; Session::end() where there is none. Stamps are taken to grow.
+/// The first packet from a stamp on; SessionView::end() where there is none. Stamps are taken to grow.
 [[nodiscard]] std::uint64_t packetFrom(model::SessionView& view, std::int64_t stampNs);
 
 } // namespace posewire::gui

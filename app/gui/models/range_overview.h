@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/model/accounting/range_figures.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <QString>
 
@@ -27,7 +27,8 @@ struct State {
 /// Age first, then malformed datagrams, then lost samples. Types that are sent now and then (12, 13) never
 /// get stale.
 [[nodiscard]] State streamState(model::SessionView& view, const model::Stream& stream);
-/// The session's own judgement (Session::conditionOf) in a few words; what was lost in all where it is good.
+/// The session's own judgement (SessionView::conditionOf) in a few words; what was lost in all where it is
+/// good.
 [[nodiscard]] State characterState(model::SessionView& view, const model::Character& character);
 [[nodiscard]] State senderState(model::SessionView& view, const model::Sender& sender);
 

@@ -64,7 +64,7 @@ void TrackerHistory::follow(model::SessionView& view, const std::optional<model:
     }
 }
 
-void TrackerHistory::add(const model::Session::Message& message, std::uint32_t step) {
+void TrackerHistory::add(const model::Message& message, std::uint32_t step) {
     const auto* body = std::get_if<wire::TrackerKinematics>(&message.datagram.body);
     if (body == nullptr) {
         return;

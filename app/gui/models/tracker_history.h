@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session/session.h"
+#include "core/model/session/message.h"
+#include "core/model/session/session_view.h"
 
 #include <cstdint>
 #include <deque>
@@ -54,7 +55,7 @@ private:
         bool hasMedian = false;
         std::optional<std::int64_t> saturatedNs;
     };
-    void add(const model::Session::Message& message, std::uint32_t step);
+    void add(const model::Message& message, std::uint32_t step);
     void addPoint(const wire::Tracker& tracker, std::int64_t stampNs, bool followsGap);
     void addNorm(Lately& lately, std::int64_t stampNs, float norm) const;
     void computeMedians();

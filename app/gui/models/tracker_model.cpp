@@ -5,6 +5,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "core/model/body/segments.h"
+#include "core/model/session/message.h"
 
 #include <algorithm>
 #include <array>

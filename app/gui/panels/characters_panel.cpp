@@ -11,10 +11,12 @@
 
 namespace posewire::gui {
 
-CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
+                                 QWidget* parent)
     : Panel(parent),
       m_view(view),
       m_commands(commands),
+      m_program(program),
       m_model(view, commands),
       m_table(new TableView(tr("Characters"), this)) {
     auto* layout = new QVBoxLayout(this);
@@ -34,7 +36,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, Q
 }
 
 void CharactersPanel::showEmptyState() {
-    const std::vector<PortState> ports = m_commands.receivingState().ports;
+    const std::vector<PortState> ports = m_program.receivingState().ports;
     const auto open =
         std::ranges::find_if(ports, [](const PortState& state) { return state.id.has_value(); });
     const auto port = open == ports.end() ? kDefaultPort : open->status.endpoint.port;

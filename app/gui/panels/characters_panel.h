@@ -12,7 +12,8 @@ class CharactersPanel : public Panel {
     Q_OBJECT
 
 public:
-    CharactersPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+    CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
+                    QWidget* parent);
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;
@@ -26,6 +27,7 @@ private:
 
     model::SessionView& m_view;
     Commands& m_commands;
+    const ProgramView& m_program;
     CharacterModel m_model;
     TableView* m_table;
     model::Selection m_followed; ///< the selection that the table stands at

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "core/model/session/session_view.h"
 
 #include <QToolButton>
 #include <QWidget>

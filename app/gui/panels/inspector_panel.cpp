@@ -19,9 +19,11 @@ namespace {
 
 constexpr int kDetailLines = 4;
 
-model::LengthUnit unitOf(model::SessionView& view, log::SenderId id) {
-    const model::Sender* sender = view.find(id);
-    return sender == nullptr ? model::LengthUnit::Metre : sender->positionUnit();
+model::LengthUnit unitOf(model::SessionView& view, const log::Packet& packet) {
+    const model::Sender* sender = view.find(packet.sender);
+    const model::PacketDigest* digest = view.digests().find(packet.number);
+    return sender == nullptr || digest == nullptr ? model::LengthUnit::Metre
+                                                  : sender->positionUnit(digest->type);
 }
 
 QString coloured(const QColor& colour, const QString& text) {
@@ -169,7 +171,7 @@ void InspectorPanel::refresh() {
     }
     const bool isNew = !m_isShown || m_document->number() != packet->number ||
                        m_document->sender() != packet->sender ||
-                       m_document->unit() != unitOf(m_view, packet->sender);
+                       m_document->unit() != unitOf(m_view, *packet);
     if (isNew) {
         show(*packet);
     }
@@ -194,7 +196,7 @@ void InspectorPanel::showEmpty() {
 }
 
 void InspectorPanel::show(const log::Packet& packet) {
-    m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet.sender));
+    m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet));
     m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;
     m_fields->beginChange();
@@ -213,9 +215,7 @@ void InspectorPanel::show(const log::Packet& packet) {
     QString owner;
     if (m_document->hasHeader()) {
         const model::CharacterKey key{packet.sender, m_document->header().character};
-        const QString name =
-            m_view.find(key) != nullptr ? characterName(m_view, key) : tr("Character %1").arg(key.character);
-        owner = QStringLiteral(" · ") + name;
+        owner = QStringLiteral(" · ") + characterName(m_view, key);
     }
     m_title->setText(documentTitle(*m_document), owner);
     m_title->setToolTip(
@@ -231,7 +231,7 @@ void InspectorPanel::showComparison() {
                         : m_comparison == Comparison::Reference ? m_reference
                                                                 : std::nullopt;
     if (const auto packet = number ? m_view.packet(*number) : std::nullopt) {
-        other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, packet->sender));
+        other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, *packet));
     }
     const bool isSameType = other != nullptr && other->hasHeader() && m_document->hasHeader() &&
                             other->type() == m_document->type();

@@ -192,7 +192,7 @@ void NullPosePanel::refresh() {
     QPalette dim = m_comparison->palette();
     dim.setColor(QPalette::WindowText, theme().dim);
     m_comparison->setPalette(dim);
-    m_ghost->setChecked(m_commands.isGhostVisible());
+    m_ghost->setChecked(m_view.isGhostShown());
     followSelection();
     arrange();
     m_isFollowing = false;

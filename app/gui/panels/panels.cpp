@@ -12,14 +12,19 @@
 #include "app/gui/panels/trackers_panel.h"
 
 #include <array>
+#include <type_traits>
 
 namespace posewire::gui {
 
 namespace {
 
 template <class T>
-Panel* make(model::SessionView& view, Commands& commands, QWidget* parent) {
-    return new T(view, commands, parent);
+Panel* make(model::SessionView& view, Commands& commands, const ProgramView& program, QWidget* parent) {
+    if constexpr (std::is_constructible_v<T, model::SessionView&, Commands&, const ProgramView&, QWidget*>) {
+        return new T(view, commands, program, parent);
+    } else {
+        return new T(view, commands, parent);
+    }
 }
 
 constexpr std::array<PanelInfo, 9> kPanels{{

@@ -20,11 +20,11 @@ namespace {
 
 constexpr int kFactsShown = 4;
 
-std::vector<Property> computerFacts(model::SessionView& view, Commands& commands) {
+std::vector<Property> computerFacts(model::SessionView& view, const ProgramView& program) {
     std::vector<Property> facts = lossFacts(view);
     for (auto& more :
-         {healthFacts(view, [&commands] { return commands.monitorHealth(); }),
-          receivingFacts([&commands] { return commands.receivingState(); }), receiverFacts(view)}) {
+         {healthFacts(view, [&program] { return program.monitorHealth(); }),
+          receivingFacts([&program] { return program.receivingState(); }), receiverFacts(view)}) {
         facts.insert(facts.end(), more.begin(), more.end());
     }
     return facts;
@@ -32,12 +32,13 @@ std::vector<Property> computerFacts(model::SessionView& view, Commands& commands
 
 } // namespace
 
-StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
+                                 QWidget* parent)
     : Panel(parent),
       m_view(view),
       m_commands(commands),
       m_streams(view),
-      m_computer(computerFacts(view, commands)),
+      m_computer(computerFacts(view, program)),
       m_range(new RangeBar(view, commands, this)),
       m_table(new TableView(tr("Statistics of streams"), this)),
       m_facts(new TableView(tr("This computer"), this)),

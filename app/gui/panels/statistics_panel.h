@@ -17,7 +17,8 @@ class StatisticsPanel : public Panel {
     Q_OBJECT
 
 public:
-    StatisticsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+    StatisticsPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
+                    QWidget* parent);
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;

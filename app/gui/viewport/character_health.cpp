@@ -2,6 +2,7 @@
 #include "app/gui/viewport/character_health.h"
 
 #include "app/gui/models/stream_state.h"
+#include "core/model/body/character_pose.h"
 
 #include <QCoreApplication>
 
@@ -16,7 +17,7 @@ QString tr(const char* text) {
 }
 
 /// Of the poses that are shown; 0 where there is none.
-double poseRateHz(const model::Session& session, const model::CharacterKey& key) {
+double poseRateHz(model::SessionView& session, const model::CharacterKey& key) {
     const model::CharacterPose* pose = session.pose(key);
     const model::Stream* stream =
         pose == nullptr ? nullptr : session.find(log::StreamKey{key.sender, key.character, pose->type});
@@ -25,7 +26,7 @@ double poseRateHz(const model::Session& session, const model::CharacterKey& key)
 
 } // namespace
 
-double shownAgeSeconds(const model::Session& session, const model::CharacterKey& key) {
+double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& key) {
     const model::CharacterPose* pose = session.pose(key);
     if (pose == nullptr) {
         return session.ageSeconds(key);
@@ -33,7 +34,7 @@ double shownAgeSeconds(const model::Session& session, const model::CharacterKey&
     return std::max(0.0, static_cast<double>(session.cursorStampNs() - pose->stampNs) * 1e-9);
 }
 
-CharacterHealth characterHealth(const model::Session& session, const model::CharacterKey& key) {
+CharacterHealth characterHealth(model::SessionView& session, const model::CharacterKey& key) {
     const double age = shownAgeSeconds(session, key);
     const model::Character* character = session.find(key);
     const State state = character == nullptr ? State{} : characterState(session, *character);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <QString>
 
@@ -15,9 +15,9 @@ struct CharacterHealth {
     double ageSeconds = 0;
 };
 
-[[nodiscard]] CharacterHealth characterHealth(const model::Session& session, const model::CharacterKey& key);
+[[nodiscard]] CharacterHealth characterHealth(model::SessionView& session, const model::CharacterKey& key);
 
 /// Age of what is shown of a character: of its newest pose, or of any message where it sends no poses.
-[[nodiscard]] double shownAgeSeconds(const model::Session& session, const model::CharacterKey& key);
+[[nodiscard]] double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& key);
 
 } // namespace posewire::gui

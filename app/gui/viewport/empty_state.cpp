@@ -17,14 +17,11 @@ QString tr(const char* text) {
     return QCoreApplication::translate("EmptyState", text);
 }
 
-QByteArray bytesOf(const std::string& hexadecimal) {
-    return QByteArray::fromHex(QByteArray::fromStdString(hexadecimal));
-}
-
 /// "47 45 54 20   GET ", of the first half: a line that fits.
-QString bytesText(const std::string& hexadecimal) {
-    constexpr qsizetype kShown = 8;
-    const QByteArray data = bytesOf(hexadecimal).left(kShown);
+QString bytesText(std::span<const std::byte> bytes) {
+    constexpr std::size_t kShown = 8;
+    const auto shown = bytes.first(std::min(bytes.size(), kShown));
+    const QByteArray data(reinterpret_cast<const char*>(shown.data()), static_cast<qsizetype>(shown.size()));
     QString readable;
     for (const char byte : data) {
         readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
@@ -80,15 +77,14 @@ EmptyState withoutPort(const ReceivingState& receiving) {
 }
 
 EmptyState foreign(const model::Sender& sender) {
-    const QByteArray bytes = bytesOf(sender.firstForeignBytes);
-    const std::string guess = net::protocolThatBegins(std::as_bytes(std::span(bytes)));
+    const std::string guess = net::protocolThatBegins(sender.foreignHead);
     const QString what = guess.empty() ? tr("Something else uses this port.")
                                        : tr("It looks like %1.").arg(QString::fromStdString(guess));
     return {Health::Warning,
             tr("These datagrams are not MXTP"),
             {tr("%1 from %2, the newest begins with")
                  .arg(grouped(sender.foreign), QString::fromStdString(sender.info.address)),
-             bytesText(sender.firstForeignBytes),
+             bytesText(sender.foreignHead),
              tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what}};
 }
 
@@ -133,7 +129,7 @@ EmptyState waiting(const ReceivingState& receiving) {
     return state;
 }
 
-EmptyState withoutPose(const model::Session& session) {
+EmptyState withoutPose(model::SessionView& session) {
     QStringList types;
     for (const model::Stream& stream : session.streams()) {
         const QString type = QStringLiteral("%1").arg(stream.key.type, 2, 10, QLatin1Char('0'));
@@ -149,7 +145,7 @@ EmptyState withoutPose(const model::Session& session) {
 
 } // namespace
 
-EmptyState emptyState(const model::Session& session, const ReceivingState& receiving) {
+EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving) {
     const bool hasPose = std::ranges::any_of(session.characters(), [&](const model::Character& character) {
         return session.pose(character.key) != nullptr;
     });
@@ -160,7 +156,7 @@ EmptyState emptyState(const model::Session& session, const ReceivingState& recei
         return withoutPose(session);
     }
     const auto stranger = std::ranges::find_if(session.senders(), [](const model::Sender& sender) {
-        return sender.foreign > 0 && !sender.firstForeignBytes.empty();
+        return sender.foreign > 0 && !sender.foreignHead.empty();
     });
     if (stranger != session.senders().end()) {
         return foreign(*stranger);

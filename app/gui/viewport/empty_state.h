@@ -3,7 +3,7 @@
 
 #include "app/gui/receiving_state.h"
 #include "app/gui/theme/theme.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <QString>
 #include <QStringList>
@@ -17,6 +17,6 @@ struct EmptyState {
     QStringList lines;
 };
 
-[[nodiscard]] EmptyState emptyState(const model::Session& session, const ReceivingState& receiving);
+[[nodiscard]] EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving);
 
 } // namespace posewire::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/figure_meshes.h"
 
+#include "core/model/body/reference_body.h"
 #include "render/mesh/null_pose_fit.h"
 
 #include <algorithm>
@@ -22,14 +23,14 @@ std::shared_ptr<const FigureMesh> FigureMeshes::fitted(const render::NullPose& p
     return figure;
 }
 
-std::shared_ptr<const FigureMesh> FigureMeshes::of(const model::Session& session,
+std::shared_ptr<const FigureMesh> FigureMeshes::of(model::SessionView& session,
                                                    const model::CharacterKey& key) {
-    render::NullPose performer = render::kReferenceNullPose;
-    const std::vector<Eigen::Vector3d> origins = session.bodyOrigins(key);
-    for (std::size_t i = 0; i < std::min(origins.size(), performer.size()); ++i) {
-        performer[i] = {static_cast<float>(origins[i].x()), static_cast<float>(origins[i].y()),
-                        static_cast<float>(origins[i].z())};
-    }
+    render::NullPose performer{};
+    const model::BodyOrigins& origins = session.bodyOrigins(key);
+    static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
+    std::ranges::transform(origins.places, performer.begin(), [](const Eigen::Vector3d& origin) {
+        return glm::vec3(origin.x(), origin.y(), origin.z());
+    });
     Entry& entry = m_entries[key];
     if (entry.mesh == nullptr || entry.performer != performer) {
         entry = {performer, fitted(performer)};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/viewport/scene_frame.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <map>
 #include <memory>
@@ -14,7 +14,7 @@ class FigureMeshes {
 public:
     explicit FigureMeshes(render::Detail detail) : m_detail(detail) {}
 
-    [[nodiscard]] std::shared_ptr<const FigureMesh> of(const model::Session& session,
+    [[nodiscard]] std::shared_ptr<const FigureMesh> of(model::SessionView& session,
                                                        const model::CharacterKey& key);
 
 private:

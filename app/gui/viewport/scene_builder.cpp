@@ -65,17 +65,18 @@ void makePalette(const model::CharacterPose& pose, Figure& figure) {
 
 float dimFor(double ageSeconds) {
     const double share = (ageSeconds - kSilentAge) / (kStaleAge - kSilentAge);
-    // What has begun to fade must be seen to: a step first, the rest gradually.
+    // That it has begun to fade must be visible: a step first, the rest gradually.
     return share < 0 ? 0.0F : kGreatestDim * static_cast<float>(0.4 + 0.6 * std::min(share, 1.0));
 }
 
-void SceneBuilder::build(const ViewOptions& options, SceneFrame& frame) {
+void SceneBuilder::build(AxesMode axes, SceneFrame& frame) {
     frame.colours = themedSceneColours();
     const model::Selection& selection = m_session.selection();
     for (const model::Character* shown : m_session.currentCharacters()) {
         const model::Character& character = *shown;
-        const model::CharacterPose* pose = m_session.pose(character.key);
-        if (pose == nullptr || options.hidden.contains(character.key)) {
+        const model::CharacterPose* pose =
+            m_session.isHidden(character.key) ? nullptr : m_session.pose(character.key);
+        if (pose == nullptr) {
             continue;
         }
         addFigure(character, *pose, frame);
@@ -83,11 +84,11 @@ void SceneBuilder::build(const ViewOptions& options, SceneFrame& frame) {
         const bool isSelected = selection.character == character.key;
         figure.look.selectedSegment =
             isSelected && selection.segment < model::kBodySegmentCount ? selection.segment : -1;
-        if (options.axes == AxesMode::All || (options.axes == AxesMode::Selected && isSelected)) {
+        if (axes == AxesMode::All || (axes == AxesMode::Selected && isSelected)) {
             addAxes(*pose, isSelected ? selection.segment : -1, 1.0F - figure.look.dim, frame);
         }
         addFingers(*pose, figure.look.colour, frame);
-        if (options.hasGhost && shownCharacter(m_session) == character.key) {
+        if (m_session.isGhostShown() && shownCharacter(m_session) == character.key) {
             addGhost(figure, *pose, frame);
         }
     }

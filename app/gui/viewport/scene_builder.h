@@ -3,21 +3,14 @@
 
 #include "app/gui/viewport/figure_meshes.h"
 #include "app/gui/viewport/scene_frame.h"
-#include "core/model/session/session.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/session/session_view.h"
 
 #include <cstdint>
-#include <set>
 
 namespace posewire::gui {
 
 enum class AxesMode : std::uint8_t { All, Selected, None };
-
-/// How the operator wants to see the characters; the camera apart.
-struct ViewOptions {
-    AxesMode axes = AxesMode::All;
-    bool hasGhost = false; ///< the shown character's null pose over its figure
-    std::set<model::CharacterKey> hidden{};
-};
 
 /// How far a figure has faded: 0 for live data, a step at kSilentAge, rising to its greatest value at
 /// kStaleAge.
@@ -26,11 +19,11 @@ struct ViewOptions {
 /// Session to picture: the newest pose of each character at the cursor.
 class SceneBuilder {
 public:
-    SceneBuilder(const model::Session& session, render::Detail detail)
-        : m_session(session), m_meshes(detail) {}
+    SceneBuilder(model::SessionView& session, render::Detail detail) : m_session(session), m_meshes(detail) {}
 
-    /// Fills figures, axes, lines, points and colours; camera and size are the caller's.
-    void build(const ViewOptions& options, SceneFrame& frame);
+    /// Fills figures, axes, lines, points and colours; camera and size are the caller's. Hidden characters
+    /// are left out.
+    void build(AxesMode axes, SceneFrame& frame);
 
 private:
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
@@ -41,7 +34,7 @@ private:
                  SceneFrame& frame) const;
     void addFingers(const model::CharacterPose& pose, const glm::vec3& colour, SceneFrame& frame) const;
 
-    const model::Session& m_session;
+    model::SessionView& m_session;
     FigureMeshes m_meshes;
 };
 

@@ -93,7 +93,7 @@ void ViewportWidget::drawNext() {
     frame->pixelRatio = static_cast<float>(devicePixelRatioF());
     frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
-    m_builder->build(m_options, *frame);
+    m_builder->build(m_axes, *frame);
     followCharacters(*frame);
     frame->camera = m_motion.camera();
     frame->builtNs = m_session.nowNs();
@@ -165,7 +165,7 @@ float ViewportWidget::aspect() const {
 }
 
 void ViewportWidget::setAxes(AxesMode mode) {
-    m_options.axes = mode;
+    m_axes = mode;
     outdate();
     emit optionsChanged();
 }
@@ -198,24 +198,6 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
             outdate();
         }
     }
-}
-
-void ViewportWidget::setGhostVisible(bool isVisible) {
-    m_options.hasGhost = isVisible;
-    outdate();
-}
-
-void ViewportWidget::setCharacterVisible(const model::CharacterKey& key, bool isVisible) {
-    if (isVisible) {
-        m_options.hidden.erase(key);
-    } else {
-        m_options.hidden.insert(key);
-    }
-    outdate();
-}
-
-bool ViewportWidget::isCharacterVisible(const model::CharacterKey& key) const {
-    return !m_options.hidden.contains(key);
 }
 
 void ViewportWidget::paintEvent(QPaintEvent* /*event*/) {

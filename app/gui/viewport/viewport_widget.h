@@ -32,22 +32,18 @@ public:
     void setReceiving(const ReceivingState& receiving);
 
     void setAxes(AxesMode mode);
-    [[nodiscard]] AxesMode axes() const { return m_options.axes; }
+    [[nodiscard]] AxesMode axes() const { return m_axes; }
     void setProjection(render::Projection projection);
     [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
     void face(render::StandardView view);
     void frameAll();
     void frameCharacter(const model::CharacterKey& key);
 
-    void setGhostVisible(bool isVisible);
-    void setCharacterVisible(const model::CharacterKey& key, bool isVisible);
-    [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const;
-
     /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
     [[nodiscard]] bool isSettled() const;
     [[nodiscard]] const ViewportOverlay& overlay() const { return *m_overlay; }
     [[nodiscard]] QString rendererName() const;
-    /// So many since the start.
+    /// Since the start.
     [[nodiscard]] std::uint64_t picturesShown() const { return m_picturesShown; }
     /// Why there is no picture; empty where there is one.
     [[nodiscard]] QString failure() const;
@@ -77,7 +73,7 @@ private:
 
     model::SessionView& m_session;
     Commands& m_commands;
-    ViewOptions m_options;
+    AxesMode m_axes = AxesMode::All;
     CameraMotion m_motion;
     std::unique_ptr<SceneBuilder> m_builder;
     Presenter* m_presenter = nullptr;

@@ -30,7 +30,7 @@ void nextAxes(Window& window) {
 }
 
 void toggleGhost(Window& window) {
-    window.driver().setGhostVisible(!window.driver().isGhostVisible());
+    window.driver().setGhostVisible(!window.driver().session().isGhostShown());
 }
 
 void toggleOrthographic(Window& window) {

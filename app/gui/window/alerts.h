@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <QJsonObject>
 

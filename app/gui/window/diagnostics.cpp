@@ -29,7 +29,7 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
         << receiving.bytesPerSecond << " bytes/s\n";
 }
 
-void writeSenders(QTextStream& out, const model::Session& session) {
+void writeSenders(QTextStream& out, model::SessionView& session) {
     for (const model::Sender& sender : session.senders()) {
         out << "source " << QString::fromStdString(sender.info.address) << ": " << sender.datagrams
             << " datagrams, " << sender.malformed << " malformed, " << sender.foreign << " foreign, "
@@ -46,7 +46,7 @@ void writeSenders(QTextStream& out, const model::Session& session) {
 
 } // namespace
 
-QString diagnosticsText(const model::Session& session, const ReceivingState& receiving,
+QString diagnosticsText(model::SessionView& session, const ReceivingState& receiving,
                         const QString& rendererName) {
     QString text;
     QTextStream out(&text);

@@ -2,14 +2,14 @@
 #pragma once
 
 #include "app/gui/receiving_state.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <QString>
 
 namespace posewire::gui {
 
 /// What someone who helps from afar wants to know, as plain text: program, system, ports, senders, streams.
-[[nodiscard]] QString diagnosticsText(const model::Session& session, const ReceivingState& receiving,
+[[nodiscard]] QString diagnosticsText(model::SessionView& session, const ReceivingState& receiving,
                                       const QString& rendererName);
 
 } // namespace posewire::gui

@@ -21,7 +21,7 @@ QString perSecondText(double bytesPerSecond) {
 }
 
 /// From the first packet to the newest.
-double historySeconds(const model::Session& session) {
+double historySeconds(model::SessionView& session) {
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     std::int64_t last = 0;
     for (const model::Stream& stream : session.streams()) {
@@ -31,7 +31,7 @@ double historySeconds(const model::Session& session) {
     return last <= first ? 0.0 : static_cast<double>(last - first) * 1e-9;
 }
 
-QString historyText(const model::Session& session) {
+QString historyText(model::SessionView& session) {
     const log::LogFigures figures = session.figures();
     QString text = HealthBar::tr("%1 of %2")
                        .arg(megabytes(figures.memoryInUse).section(QLatin1Char(' '), 0, 0),

@@ -3,6 +3,7 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/theme/theme.h"
+#include "core/model/session/session_view.h"
 
 #include <QFrame>
 

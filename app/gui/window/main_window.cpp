@@ -93,7 +93,7 @@ void MainWindow::makeDocks() {
     for (const PanelInfo& info : panelTable()) {
         auto* dock = new QDockWidget(QCoreApplication::translate("Panel", info.title), this);
         dock->setObjectName(QLatin1String(info.id));
-        Panel* panel = info.make(m_driver.session(), m_driver, dock);
+        Panel* panel = info.make(m_driver.session(), m_driver, m_driver, dock);
         dock->setWidget(new DockScroll(panel, dock));
         panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
         auto* title = new DockTitle(dock);
@@ -126,8 +126,6 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
     connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
-    connect(&m_driver, &SessionDriver::visibilityChanged, m_viewport, &ViewportWidget::setCharacterVisible);
-    connect(&m_driver, &SessionDriver::ghostChanged, m_viewport, &ViewportWidget::setGhostVisible);
     connect(&m_driver, &SessionDriver::ghostChanged, m_actions["ghost"], &QAction::setChecked);
     connect(&m_driver, &SessionDriver::dockRequested, this, &MainWindow::showDock);
     connect(&m_driver, &SessionDriver::pausedChanged, m_actions["pause"], &QAction::setChecked);

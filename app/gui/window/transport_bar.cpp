@@ -8,6 +8,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/window/colour_text.h"
+#include "core/model/body/character_pose.h"
 
 #include <QAction>
 #include <QEvent>

@@ -3,6 +3,7 @@
 
 #include "core/log/packet.h"
 #include "core/model/accounting/attribution.h"
+#include "core/model/accounting/condition.h"
 #include "core/model/accounting/events.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/thresholds.h"
@@ -14,19 +15,6 @@
 #include <vector>
 
 namespace posewire::model {
-
-/// How a character does, for all who show it.
-struct Condition {
-    /// Silent for so many seconds is a warning, for the second an error, also before an event says so.
-    static constexpr double kSilentS = 0.25;
-    static constexpr double kStaleS = 1.0;
-
-    enum class Level : std::uint8_t { Good, Warning, Error };
-    Level level = Level::Good;
-    std::string reason; ///< one line; empty where it is good
-    /// What it rests on where that is an event: its number. Else silence or a contradiction.
-    std::optional<std::uint64_t> event{};
-};
 
 /// Turns what the session finds in the log into events.
 class EventFollower {

@@ -2,7 +2,6 @@
 #include "core/model/body/character_pose.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace posewire::model {
 namespace {
@@ -29,22 +28,8 @@ void prepare(CharacterPose& pose, const wire::Header& header, std::size_t items)
     pose.timeCode = header.timeCode;
 }
 
-/// Metres or centimetres, from how far the body segments reach from the pelvis: nobody is five metres tall,
-/// and nobody fits into ten centimetres. Where they do not tell (a tracked object), what the type usually
-/// has.
-template <class Item>
-LengthUnit unitOf(const std::vector<Item>& items, LengthUnit usual) {
-    double reach = 0;
-    for (std::size_t i = 1; i < std::min(items.size(), kBody); ++i) {
-        const double distance = (toVector(items[i].position) - toVector(items[0].position)).norm();
-        reach = std::isfinite(distance) ? std::max(reach, distance) : reach;
-    }
-    return reach < 0.1 ? usual : detectLengthUnit(reach);
-}
-
-bool read(const wire::PoseEuler& message, const wire::Header& header, CharacterPose& pose) {
+bool read(const wire::PoseEuler& message, const wire::Header& header, LengthUnit unit, CharacterPose& pose) {
     prepare(pose, header, message.segments.size());
-    const LengthUnit unit = unitOf(message.segments, LengthUnit::Centimetre);
     for (std::size_t i = 0; i < message.segments.size(); ++i) {
         const wire::SegmentEuler& item = message.segments[i];
         place(pose, i, poseFromEuler({item.position, item.rotation}, unit));
@@ -52,10 +37,9 @@ bool read(const wire::PoseEuler& message, const wire::Header& header, CharacterP
     return true;
 }
 
-bool read(const wire::PoseQuaternion& message, const wire::Header& header, std::optional<LengthUnit> declared,
+bool read(const wire::PoseQuaternion& message, const wire::Header& header, LengthUnit unit,
           CharacterPose& pose) {
     prepare(pose, header, message.segments.size());
-    const LengthUnit unit = declared ? *declared : unitOf(message.segments, LengthUnit::Metre);
     for (std::size_t i = 0; i < message.segments.size(); ++i) {
         const wire::SegmentQuaternion& item = message.segments[i];
         place(pose, i, poseFromQuaternion({item.position, item.orientation}, unit));
@@ -100,15 +84,15 @@ SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
 }
 
 bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
-                     CharacterPose& pose, std::optional<LengthUnit> declaredUnit) {
+                     LengthUnit unit, CharacterPose& pose) {
     if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {
-        return read(*euler, datagram.header, pose);
+        return read(*euler, datagram.header, unit, pose);
     }
     if (const auto* quaternion = std::get_if<wire::PoseQuaternion>(&datagram.body)) {
-        return read(*quaternion, datagram.header, declaredUnit, pose);
+        return read(*quaternion, datagram.header, unit, pose);
     }
     if (const auto* unity = std::get_if<wire::PoseUnity>(&datagram.body)) {
-        return read(*unity, datagram.header, nullPose, declaredUnit.value_or(LengthUnit::Metre), pose);
+        return read(*unity, datagram.header, nullPose, unit, pose);
     }
     return false;
 }

@@ -5,7 +5,6 @@
 #include "core/model/body/spaces.h"
 #include "core/wire/codec.h"
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,8 +29,8 @@ struct CharacterPose {
 /// Pose from a message of type 01, 02 or 05; false for any other body. Items are placed by their position in
 /// the datagram; for type 05 by the Unity3D order, chained from the pelvis over `nullPose` (23 segment
 /// origins, metres), since wire positions of that type are relative and not always filled in.
-/// `declaredUnit` is what positions of types 02 and 05 are read as, whatever they look like.
+/// `unit` is what the sender's positions of this type are in.
 [[nodiscard]] bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
-                                   CharacterPose& pose, std::optional<LengthUnit> declaredUnit = {});
+                                   LengthUnit unit, CharacterPose& pose);
 
 } // namespace posewire::model

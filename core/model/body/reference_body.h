@@ -39,6 +39,11 @@ struct ReferenceBody {
     double legLength() const;
 };
 
+/// Origins of the 23 body segments in the null pose, in metres.
+struct BodyOrigins {
+    std::array<Eigen::Vector3d, kBodySegmentCount> places;
+};
+
 /// Origins of the 1.75 m reference body, floor at z = 0: leg, arm and total lengths from the ratios of
 /// Drillis and Contini as printed in Winter, trunk split and offsets as measured in public MVN recordings.
 const std::array<Eigen::Vector3d, kBodySegmentCount>& referenceOrigins();

@@ -9,9 +9,9 @@ namespace posewire::model {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-LengthUnit detectLengthUnit(double pelvisHeight) {
-    constexpr double kTallestPelvisInMetres = 5.0;
-    return std::abs(pelvisHeight) > kTallestPelvisInMetres ? LengthUnit::Centimetre : LengthUnit::Metre;
+LengthUnit detectLengthUnit(double length) {
+    constexpr double kLongestInMetres = 5.0;
+    return std::abs(length) > kLongestInMetres ? LengthUnit::Centimetre : LengthUnit::Metre;
 }
 
 Vector3d zUpFromYUp(const Vector3d& yUp) {

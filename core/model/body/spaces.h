@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/body/length_unit.h"
+
 #include <Eigen/Geometry>
 
 #include <array>
@@ -27,17 +29,6 @@ inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 inline constexpr double kCentimetresPerMetre = 100.0;
 inline constexpr double kGravity = 9.81; ///< m/s²
-
-enum class LengthUnit : std::uint8_t { Metre, Centimetre };
-
-/// Metres per wire unit.
-constexpr double metresPer(LengthUnit unit) {
-    return unit == LengthUnit::Metre ? 1.0 : 0.01;
-}
-
-/// The manual and the recordings disagree about the unit of type 01, so the figure decides: nobody's pelvis
-/// is five metres up. `pelvisHeight` in wire units along the wire's vertical axis.
-LengthUnit detectLengthUnit(double pelvisHeight);
 
 // Y-up right-handed (types 01, 03, 04): a cyclic permutation, X_y = Y_z, Y_y = Z_z, Z_y = X_z.
 Eigen::Vector3d zUpFromYUp(const Eigen::Vector3d& yUp);

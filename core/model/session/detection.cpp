@@ -1,18 +1,31 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/detection.h"
 
+#include "core/model/body/segments.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace posewire::model {
 namespace {
 
-std::string pelvisText(double height) {
-    char text[64];
-    std::snprintf(text, sizeof text, "pelvis at %.2f", height);
-    return text;
+template <class Position>
+double distance(const Position& a, const Position& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// How far the body segments reach from the pelvis; those without finite positions apart.
+template <class Item>
+double reachOf(const std::vector<Item>& segments) {
+    double reach = 0;
+    for (std::size_t i = 1; i < std::min<std::size_t>(segments.size(), kBodySegmentCount); ++i) {
+        const double next = distance(segments[i].position, segments[0].position);
+        reach = std::isfinite(next) ? std::max(reach, next) : reach;
+    }
+    return reach;
 }
 
 bool isSinceJ(std::uint8_t type) {
@@ -53,9 +66,9 @@ std::string_view unitName(LengthUnit unit) {
 /// ones.
 void Detector::addHeader(const wire::Header& header) {
     const auto conclude = [&](Revision revision, const char* evidence) {
-        if (m_result.revision < revision) {
-            m_result.revision = revision;
-            m_result.revisionEvidence = evidence;
+        if (m_revision < revision) {
+            m_revision = revision;
+            m_revisionEvidence = evidence;
         }
     };
     const std::uint8_t type = header.type();
@@ -83,23 +96,41 @@ void Detector::noteHeaderForm(std::uint8_t type, HeaderForm form) {
     }
 }
 
-void Detector::addPelvisHeight(double height) {
-    if (!(height > 0.05)) {
+void UnitFinder::add(double height, double reach) {
+    const bool hasHeight = height > 0.05;
+    const bool hasReach = reach >= 0.1;
+    const LengthUnit unit = detectLengthUnit(hasHeight ? height : reach);
+    if (!(hasHeight || hasReach) || (hasHeight && hasReach && detectLengthUnit(reach) != unit)) {
         return;
     }
-    const LengthUnit unit = detectLengthUnit(height);
-    if (!m_hasUnit) {
-        m_hasUnit = true;
-        m_result.positionUnit = unit;
-        m_result.unitEvidence = pelvisText(height);
+    m_otherRun = unit == m_unit ? 0 : m_otherRun + 1;
+    const bool isChange = m_otherRun == kPatience;
+    if (!m_evidence.empty() && !isChange) {
         return;
     }
-    m_otherUnitRun = unit == m_result.positionUnit ? 0 : m_otherUnitRun + 1;
-    if (m_otherUnitRun == kUnitPatience) {
-        m_otherUnitRun = 0;
-        m_unitBefore = std::string(unitName(m_result.positionUnit)) + " (" + m_result.unitEvidence + ')';
-        m_result.positionUnit = unit;
-        m_result.unitEvidence = pelvisText(height);
+    if (isChange) {
+        m_before = std::string(unitName(m_unit)) + " (" + m_evidence + ')';
+    }
+    char text[64];
+    std::snprintf(text, sizeof text, hasHeight ? "pelvis at %.2f" : "reach of %.2f",
+                  hasHeight ? height : reach);
+    m_evidence = text;
+    m_unit = unit;
+    m_otherRun = 0;
+}
+
+void Detector::addBody(const wire::Body& body) {
+    const auto add = [](UnitFinder& finder, const auto& segments, std::size_t vertical) {
+        if (!segments.empty()) {
+            finder.add(segments.front().position[vertical], reachOf(segments));
+        }
+    };
+    if (const auto* pose = std::get_if<wire::PoseQuaternion>(&body)) {
+        add(m_zUp, pose->segments, 2);
+    } else if (const auto* linear = std::get_if<wire::LinearKinematics>(&body)) {
+        add(m_zUp, linear->segments, 2);
+    } else if (const auto* euler = std::get_if<wire::PoseEuler>(&body)) {
+        add(m_yUp, euler->segments, 1);
     }
 }
 
@@ -132,17 +163,17 @@ std::vector<Contradiction> Detector::contradictions(const SenderOverride& declar
                          typeText(*m_typeOfBothForms) +
                              " came with header counts and without: the sender has changed its revision"});
     }
-    const std::string looks = std::string(unitName(m_result.positionUnit));
-    if (declared.positionUnit && m_hasUnit && *declared.positionUnit != m_result.positionUnit) {
+    const std::string looks = std::string(unitName(m_zUp.unit()));
+    if (declared.positionUnit && !m_zUp.evidence().empty() && *declared.positionUnit != m_zUp.unit()) {
         const std::string read = std::string(unitName(*declared.positionUnit));
-        found.push_back({"looks like " + looks + ", read as " + read,
-                         "positions look like " + looks + " (" + m_result.unitEvidence + "), read as " +
-                             read + " because you said so"});
+        found.push_back({"looks like " + looks + ", read as " + read, "positions look like " + looks + " (" +
+                                                                          m_zUp.evidence() + "), read as " +
+                                                                          read + " because you said so"});
     }
-    if (!m_unitBefore.empty()) {
-        found.push_back({"unit has changed to " + looks, "positions were in " + m_unitBefore +
+    if (!m_zUp.before().empty()) {
+        found.push_back({"unit has changed to " + looks, "positions were in " + m_zUp.before() +
                                                              " and are in " + looks + " now (" +
-                                                             m_result.unitEvidence + ')'});
+                                                             m_zUp.evidence() + ')'});
     }
     return found;
 }

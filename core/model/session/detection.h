@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/body/spaces.h"
+#include "core/model/body/length_unit.h"
 #include "core/wire/codec.h"
 
 #include <array>
@@ -24,8 +24,9 @@ enum class Revision : std::uint8_t { Unknown, E, JOrK, N };
 struct Detection {
     Revision revision = Revision::Unknown;
     std::string revisionEvidence;                ///< "header counts and payload size"
-    LengthUnit positionUnit = LengthUnit::Metre; ///< of types 02, 21 and 24
-    std::string unitEvidence;                    ///< "pelvis at 1.05", empty before a pose came
+    LengthUnit positionUnit = LengthUnit::Metre; ///< of types 02, 05, 21 and 24
+    LengthUnit yUpUnit = LengthUnit::Centimetre; ///< of types 01, 03 and 04
+    std::string unitEvidence; ///< of positionUnit: "pelvis at 1.05", empty before a pose came
 };
 
 /// What the operator says about a sender; what is empty is left to detection.
@@ -41,18 +42,42 @@ struct Contradiction {
     std::string text;  ///< the sentence: "declared J or K, but header counts are filled"
 };
 
+/// Finds the unit of positions from one pose after the other, and sticks to it: somebody may climb or fall.
+class UnitFinder {
+public:
+    /// Poses in a row that must look like the other unit before the sender is believed to have changed it.
+    static constexpr unsigned kPatience = 30;
+
+    explicit UnitFinder(LengthUnit usual) : m_unit(usual) {}
+
+    /// Height of the pelvis and how far the other segments reach from it, in the wire's unit; a height up to
+    /// 0.05 and a reach up to 0.1 say nothing. What contradicts itself (somebody who sends centimetres lies
+    /// on the floor) is no evidence.
+    void add(double height, double reach);
+
+    [[nodiscard]] LengthUnit unit() const { return m_unit; }
+    /// "pelvis at 1.05", empty before there was any.
+    [[nodiscard]] const std::string& evidence() const { return m_evidence; }
+    /// For the unit that the sender has given up; empty for none.
+    [[nodiscard]] const std::string& before() const { return m_before; }
+
+private:
+    LengthUnit m_unit;
+    std::string m_evidence;
+    std::string m_before;
+    unsigned m_otherRun = 0; ///< poses in a row that look like the other unit
+};
+
 /// Gathers evidence from each header, and from the height of the pelvis in poses.
 class Detector {
 public:
-    /// So many poses in a row must look like the other unit before it is believed that the sender has
-    /// changed it: somebody may climb or fall.
-    static constexpr unsigned kUnitPatience = 30;
-
     void addHeader(const wire::Header& header);
-    /// Height of a pelvis in the wire's unit, from type 02 or 21.
-    void addPelvisHeight(double height);
+    /// Types 01, 02 and 21 say in which unit the sender's positions are; others nothing.
+    void addBody(const wire::Body& body);
 
-    [[nodiscard]] const Detection& result() const { return m_result; }
+    [[nodiscard]] Detection result() const {
+        return {m_revision, m_revisionEvidence, m_zUp.unit(), m_yUp.unit(), m_zUp.evidence()};
+    }
 
     /// What arrives against what is declared, and against what arrived before; empty where all agrees.
     [[nodiscard]] std::vector<Contradiction> contradictions(const SenderOverride& declared) const;
@@ -64,14 +89,14 @@ private:
     void noteHeaderForm(std::uint8_t type, HeaderForm form);
     [[nodiscard]] std::optional<Contradiction> againstRevision(Revision declared) const;
 
-    Detection m_result;
+    Revision m_revision = Revision::Unknown;
+    std::string m_revisionEvidence;
+    UnitFinder m_zUp{LengthUnit::Metre};
+    UnitFinder m_yUp{LengthUnit::Centimetre};
     std::array<std::uint8_t, 100> m_headerForms{}; ///< by type, of HeaderForm
     std::uint8_t m_allForms = 0;
     std::optional<std::uint8_t> m_typeOfBothForms{};
     std::optional<std::uint8_t> m_typeSinceJ{}; ///< the first that revision E does not know
-    bool m_hasUnit = false;
-    unsigned m_otherUnitRun = 0; ///< poses in a row that look like the other unit
-    std::string m_unitBefore;    ///< evidence for the unit that the sender has given up; empty for none
 };
 
 } // namespace posewire::model

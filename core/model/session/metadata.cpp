@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/metadata.h"
 
+#include "core/wire/messages.h"
 #include "core/wire/metadata_text.h"
 
 #include <algorithm>

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/null_pose_evidence.h"
 
-#include "core/model/session/session.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/session/message.h"
+#include "core/model/session/session_view.h"
 
 #include <algorithm>
 
 namespace posewire::model {
 
-NullPoseEvidence nullPoseEvidence(const Session& session, const CharacterKey& key) {
+NullPoseEvidence nullPoseEvidence(const SessionView& session, const CharacterKey& key) {
     NullPoseEvidence evidence;
     evidence.nowNs = session.cursorStampNs();
     const std::uint64_t newest = session.end() == 0 ? 0 : session.end() - 1;
@@ -16,9 +18,11 @@ NullPoseEvidence nullPoseEvidence(const Session& session, const CharacterKey& ke
     for (const Character* character = session.find(key);
          character != nullptr && evidence.record.messages == 0;
          character = session.predecessor(character->key)) {
-        evidence.record = character->nullPoses.record(visible);
+        if (const NullPoseHistory* history = session.nullPoses(character->key)) {
+            evidence.record = history->record(visible);
+        }
     }
-    if (const Session::Message* message = session.message(key, wire::ScaleInformation::kType)) {
+    if (const Message* message = session.message(key, wire::ScaleInformation::kType)) {
         evidence.scale = std::get_if<wire::ScaleInformation>(&message->datagram.body);
     }
     if (const CharacterPose* pose = session.pose(key)) {

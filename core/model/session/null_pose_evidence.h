@@ -6,10 +6,10 @@
 
 namespace posewire::model {
 
-class Session;
+class SessionView;
 
 /// Of a character at the session's cursor, or of its predecessor where it has sent no scale message itself.
 /// Valid until the session's next follow().
-[[nodiscard]] NullPoseEvidence nullPoseEvidence(const Session& session, const CharacterKey& key);
+[[nodiscard]] NullPoseEvidence nullPoseEvidence(const SessionView& session, const CharacterKey& key);
 
 } // namespace posewire::model

@@ -5,6 +5,7 @@
 #include "core/model/accounting/count_history.h"
 #include "core/model/session/detection.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,20 +24,27 @@ struct Sender {
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
     std::int64_t lastStampNs = 0;
-    CountHistory history;          ///< of malformed datagrams alone, also those without a header
-    std::string firstForeignBytes; ///< hexadecimal, of the newest foreign datagram, at most 16 bytes
+    CountHistory history;               ///< of malformed datagrams alone, also those without a header
+    std::vector<std::byte> foreignHead; ///< what the newest foreign datagram begins with, at most 16 bytes
     Detector detector;
     SenderOverride overrides{};
 
     void takeMalformed(std::int64_t stampNs);
+    void takeForeign(wire::Bytes datagram);
+    /// "7b 22 61": foreignHead in hexadecimal.
+    [[nodiscard]] std::string foreignText() const;
 
     /// As declared, else as detected.
     [[nodiscard]] Revision revision() const {
         return overrides.revision.value_or(detector.result().revision);
     }
+    /// Of types 02, 05, 21 and 24: the one rule for all who convert.
     [[nodiscard]] LengthUnit positionUnit() const {
         return overrides.positionUnit.value_or(detector.result().positionUnit);
     }
+    /// Of any type. Those with Y up (01, 03, 04) have a unit of their own, usually centimetres, and a scale
+    /// message (13) is in metres by definition.
+    [[nodiscard]] LengthUnit positionUnit(std::uint8_t type) const;
     [[nodiscard]] std::vector<Contradiction> contradictions() const {
         return detector.contradictions(overrides);
     }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
+#include "core/model/session/ingest.h"
 #include "core/model/session/message_parts.h"
-#include "core/model/session/session.h"
+#include "core/model/session/session_view.h"
 
 #include <algorithm>
 
-/// What the session reads from the log at its cursor.
+/// What the view reads from the log at its cursor.
 namespace posewire::model {
 namespace {
 
@@ -14,13 +16,40 @@ constexpr std::int64_t kPoseTieNs = 250'000'000;
 constexpr std::array<std::uint8_t, 3> kPoseTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType,
                                                  wire::PoseUnity::kType};
 
-/// So many entries are looked at for the parts of one sample: 128 indices, each at most twice.
+/// Entries that are looked at for the parts of one sample: 128 indices, each at most twice.
 constexpr std::size_t kPartSearch = 256;
 
 } // namespace
 
+/// Bounded by the streams and characters of the session; what is asked for again while the cursor is where it
+/// was is not decoded again.
+struct SessionView::Decoded {
+    struct OfStream {
+        std::uint64_t packet = UINT64_MAX; ///< the newest datagram it was made from
+        bool isValid = false;
+        Message message;
+    };
+    struct OfCharacter {
+        std::uint64_t packet = UINT64_MAX; ///< of the pose, and the unit it was read in
+        LengthUnit unit = LengthUnit::Metre;
+        bool isValid = false;
+        CharacterPose pose;
+        std::uint64_t nullPosePacket = UINT64_MAX; ///< of the origins; UINT64_MAX for the reference body
+        std::optional<BodyOrigins> origins;
+    };
+    std::unordered_map<log::StreamKey, OfStream> messages;
+    std::map<CharacterKey, OfCharacter> characters;
+    Message part;
+    Message visited;
+};
+
+SessionView::SessionView(Ingest& ingest, const Choices& choices)
+    : m_ingest(ingest), m_choices(choices), m_decoded(std::make_unique<Decoded>()) {}
+
+SessionView::~SessionView() = default;
+
 /// Entries of packets that the cursor has reached.
-std::size_t Session::visibleCount(const log::StreamEntries& entries) const {
+std::size_t SessionView::visibleCount(const log::StreamEntries& entries) const {
     const std::uint64_t end = visibleEnd();
     if (end == 0) {
         return 0;
@@ -29,18 +58,19 @@ std::size_t Session::visibleCount(const log::StreamEntries& entries) const {
     return newest ? *newest + 1 : 0;
 }
 
-bool Session::readWhole(const log::StreamEntry& entry, Message& message) const {
-    const auto packet = m_reader.packet(entry.packet);
+bool SessionView::readWhole(const log::StreamEntry& entry, Message& message) const {
+    const auto packet = this->packet(entry.packet);
     if (!packet || !wire::decodeInto(packet->bytes, message.datagram)) {
         return false;
     }
     message.stampNs = packet->stampNs;
     message.packet = entry.packet;
+    message.sender = packet->sender;
     return true;
 }
 
 /// The newest sample among the first `count` entries whose datagrams are all there.
-bool Session::readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const {
+bool SessionView::readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const {
     const std::size_t oldest = count > kPartSearch ? count - kPartSearch : 0;
     for (std::size_t i = count; i-- > oldest;) {
         const log::StreamEntry& last = entries[i];
@@ -64,8 +94,8 @@ bool Session::readMessage(const log::StreamEntries& entries, std::size_t count, 
             continue;
         }
         for (std::size_t part = 1; part <= last.datagram; ++part) {
-            if (readWhole(entries[places[part] - 1], m_part)) {
-                appendPart(message.datagram, m_part.datagram);
+            if (readWhole(entries[places[part] - 1], m_decoded->part)) {
+                appendPart(message.datagram, m_decoded->part.datagram);
             }
         }
         message.packet = last.packet;
@@ -75,26 +105,32 @@ bool Session::readMessage(const log::StreamEntries& entries, std::size_t count, 
     return false;
 }
 
-const Session::Message* Session::message(const CharacterKey& key, std::uint8_t type) const {
+const Message* SessionView::message(const CharacterKey& key, std::uint8_t type) const {
     const log::StreamKey streamKey{key.sender, key.character, type};
-    const log::StreamEntries* stream = entries(streamKey);
+    const log::StreamEntries* stream = m_ingest.index().find(streamKey);
     const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
     if (count == 0) {
         const Character* before = predecessor(key);
         return before != nullptr ? message(before->key, type) : nullptr;
     }
-    CachedMessage& cached = m_messages[streamKey];
-    const std::uint64_t newest = (*stream)[count - 1].packet;
-    if (cached.packet != newest) {
-        cached.isValid = readMessage(*stream, count, cached.message);
-        cached.packet = newest;
+    const log::StreamEntry& newest = (*stream)[count - 1];
+    if (newest.isLast && newest.datagram == 0) {
+        const Message* ingested = m_ingest.newest(streamKey);
+        if (ingested != nullptr && ingested->packet == newest.packet) {
+            return ingested;
+        }
     }
-    return cached.isValid ? &cached.message : nullptr;
+    Decoded::OfStream& decoded = m_decoded->messages[streamKey];
+    if (decoded.packet != newest.packet) {
+        decoded.isValid = readMessage(*stream, count, decoded.message);
+        decoded.packet = newest.packet;
+    }
+    return decoded.isValid ? &decoded.message : nullptr;
 }
 
-std::size_t Session::visit(const log::StreamKey& key, std::int64_t fromStampNs, std::size_t most,
-                           const std::function<void(const Message&)>& visitor) const {
-    const log::StreamEntries* stream = entries(key);
+std::size_t SessionView::visit(const log::StreamKey& key, std::int64_t fromStampNs, std::size_t most,
+                               const std::function<void(const Message&)>& visitor) const {
+    const log::StreamEntries* stream = m_ingest.index().find(key);
     const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
     if (count == 0) {
         return 0;
@@ -104,15 +140,15 @@ std::size_t Session::visit(const log::StreamKey& key, std::int64_t fromStampNs, 
     std::size_t visited = 0;
     for (std::size_t i = first; i < count; ++i) {
         const log::StreamEntry& entry = (*stream)[i];
-        if (entry.isLast && entry.datagram == 0 && readWhole(entry, m_visited)) {
-            visitor(m_visited);
+        if (entry.isLast && entry.datagram == 0 && readWhole(entry, m_decoded->visited)) {
+            visitor(m_decoded->visited);
             ++visited;
         }
     }
     return visited;
 }
 
-const CharacterPose* Session::pose(const CharacterKey& key) const {
+const CharacterPose* SessionView::pose(const CharacterKey& key) const {
     const Message* best = nullptr;
     for (const std::uint8_t type : kPoseTypes) {
         const Message* candidate = message(key, type);
@@ -123,107 +159,48 @@ const CharacterPose* Session::pose(const CharacterKey& key) const {
     if (best == nullptr) {
         return nullptr;
     }
-    CachedPose& cached = m_poses[key];
-    if (cached.packet != best->packet) {
-        const auto origins = bodyOrigins(key);
-        const Sender* sender = find(key.sender);
-        const auto unit = sender != nullptr ? sender->overrides.positionUnit : std::nullopt;
-        cached.isValid = poseFromMessage(best->datagram, origins, cached.pose, unit);
-        cached.packet = best->packet;
-        cached.pose.stampNs = best->stampNs;
-        cached.pose.packet = best->packet;
+    Decoded::OfCharacter& decoded = m_decoded->characters[key];
+    const std::uint8_t type = best->datagram.header.type();
+    const Sender* sender = find(best->sender);
+    const LengthUnit unit = sender != nullptr ? sender->positionUnit(type) : LengthUnit::Metre;
+    if (decoded.packet != best->packet || decoded.unit != unit) {
+        decoded.isValid = poseFromMessage(best->datagram, bodyOrigins(key).places, unit, decoded.pose);
+        decoded.packet = decoded.pose.packet = best->packet;
+        decoded.pose.stampNs = best->stampNs;
+        decoded.unit = unit;
     }
-    return cached.isValid ? &cached.pose : nullptr;
+    return decoded.isValid ? &decoded.pose : nullptr;
 }
 
-const NullPose* Session::nullPose(const CharacterKey& key) const {
-    const Character* character = find(key);
+const NullPoseHistory* SessionView::nullPoses(const CharacterKey& key) const {
+    return m_ingest.nullPoses(key);
+}
+
+const NullPose* SessionView::nullPose(const CharacterKey& key) const {
+    const NullPoseHistory* history = nullPoses(key);
     const std::uint64_t end = visibleEnd();
-    const NullPose* pose = character != nullptr && end != 0 ? character->nullPoses.at(end - 1) : nullptr;
+    const NullPose* pose = history != nullptr && end != 0 ? history->at(end - 1) : nullptr;
     const Character* before = pose == nullptr ? predecessor(key) : nullptr;
     return before != nullptr ? nullPose(before->key) : pose;
 }
 
-std::vector<Eigen::Vector3d> Session::bodyOrigins(const CharacterKey& key) const {
+const BodyOrigins& SessionView::bodyOrigins(const CharacterKey& key) const {
     const NullPose* pose = nullPose(key);
-    const auto& reference = referenceOrigins();
-    std::vector<Eigen::Vector3d> origins(reference.begin(), reference.end());
-    if (pose != nullptr && pose->segments.size() >= origins.size()) {
+    Decoded::OfCharacter& decoded = m_decoded->characters[key];
+    const std::uint64_t packet = pose != nullptr ? pose->packet : UINT64_MAX;
+    if (decoded.origins && decoded.nullPosePacket == packet) {
+        return *decoded.origins;
+    }
+    decoded.nullPosePacket = packet;
+    decoded.origins = BodyOrigins{referenceOrigins()};
+    BodyOrigins& origins = *decoded.origins;
+    if (pose != nullptr && pose->segments.size() >= origins.places.size()) {
         const BodyPlaces places = bodyPlaces(*pose);
-        for (std::size_t i = 0; i < origins.size(); ++i) {
-            origins[i] = originOf(*pose, places, static_cast<int>(i)).value_or(origins[i]);
+        for (std::size_t i = 0; i < origins.places.size(); ++i) {
+            origins.places[i] = originOf(*pose, places, static_cast<int>(i)).value_or(origins.places[i]);
         }
     }
     return origins;
-}
-
-const Metadata& Session::metadata(const CharacterKey& key) const {
-    const Character* character = find(key);
-    for (const Character* other = character; other != nullptr; other = predecessor(other->key)) {
-        if (!other->metadata.tags().empty()) {
-            return other->metadata;
-        }
-    }
-    return character->metadata;
-}
-
-std::string_view Session::metadataValue(const CharacterKey& key, std::string_view tag) const {
-    const Character* character = find(key);
-    const std::uint64_t end = visibleEnd();
-    const std::string_view value =
-        character != nullptr && end != 0 ? character->metadata.value(tag, end - 1) : std::string_view();
-    const Character* before = value.empty() ? predecessor(key) : nullptr;
-    return before != nullptr ? metadataValue(before->key, tag) : value;
-}
-
-std::string Session::displayName(const CharacterKey& key) const {
-    const std::string_view name = metadataValue(key, "name");
-    return name.empty() ? "Character " + std::to_string(key.character) : std::string(name);
-}
-
-Colour Session::colour(const CharacterKey& key) const {
-    const auto sent = parseColour(metadataValue(key, "color"));
-    const Character* character = find(key);
-    return sent ? *sent : defaultColour(character != nullptr ? character->ordinal : 0);
-}
-
-Condition Session::conditionOf(const CharacterKey& key) const {
-    if (isSuperseded(key)) {
-        return {};
-    }
-    const Condition condition = m_follower.conditionOf(key, pausedStampNs());
-    if (condition.level != Condition::Level::Good) {
-        return condition;
-    }
-    const double age = ageSeconds(key);
-    if (age >= Condition::kStaleS) {
-        return {Condition::Level::Error, "Nothing has come for more than 1 s.", {}};
-    }
-    if (age >= Condition::kSilentS) {
-        return {Condition::Level::Warning, "Nothing has come for more than a quarter of a second.", {}};
-    }
-    const Sender* sender = find(key.sender);
-    const auto contradictions = sender != nullptr ? sender->contradictions() : std::vector<Contradiction>();
-    return contradictions.empty() ? condition
-                                  : Condition{Condition::Level::Warning, contradictions.front().text, {}};
-}
-
-double Session::ageSeconds(const CharacterKey& key) const {
-    const Character* character = find(key);
-    if (character == nullptr) {
-        return 0;
-    }
-    std::int64_t newest = character->lastStampNs;
-    if (m_cursor.mode == Cursor::Mode::Paused) {
-        newest = 0;
-        for (const Stream& stream : m_streams) {
-            const bool isHis = stream.key.sender == key.sender && stream.key.character == key.character;
-            const log::StreamEntries* list = isHis ? entries(stream.key) : nullptr;
-            const std::size_t count = list != nullptr ? visibleCount(*list) : 0;
-            newest = count != 0 ? std::max(newest, (*list)[count - 1].stampNs) : newest;
-        }
-    }
-    return std::max(0.0, static_cast<double>(cursorStampNs() - newest) * 1e-9);
 }
 
 } // namespace posewire::model

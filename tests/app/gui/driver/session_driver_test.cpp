@@ -66,6 +66,22 @@ TEST_F(SessionDriverTest, WhatArrivesAtThePortIsInTheSessionAtTheNextTick) {
     EXPECT_NE(driver.session().pose(driver.session().characters()[0].key), nullptr);
 }
 
+TEST_F(SessionDriverTest, WhatIsHiddenIsOfTheSessionAndTheViewMoves) {
+    const model::CharacterKey key{log::SenderId{0}, 1};
+    driver.tick();
+    QSignalSpy moved(&driver, &SessionDriver::moved);
+    QSignalSpy ghost(&driver, &SessionDriver::ghostChanged);
+    driver.setCharacterVisible(key, false);
+    driver.setGhostVisible(true);
+    driver.tick();
+    EXPECT_TRUE(driver.session().isHidden(key));
+    EXPECT_TRUE(driver.session().isGhostShown());
+    EXPECT_EQ(moved.count(), 1);
+    EXPECT_EQ(ghost.count(), 1);
+    driver.setCharacterVisible(key, true);
+    EXPECT_FALSE(driver.session().isHidden(key));
+}
+
 TEST_F(SessionDriverTest, PausingFreezesTheDisplayWhileTheLogGoesOn) {
     listenAndSend(10);
     ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().end() >= 10; }));

@@ -2,6 +2,7 @@
 #include "app/gui/viewport/scene_builder.h"
 #include "app/gui/viewport/scene_upload.h"
 #include "core/log/packet_log.h"
+#include "core/model/session/session.h"
 #include "core/performer/performer.h"
 #include "render/offscreen.h"
 #include "tests/support/baseline.h"
@@ -48,7 +49,7 @@ protected:
     const render::Image& shoot(AxesMode axes, float yaw) {
         SceneBuilder builder(m_session, render::Detail::High);
         m_frame = {};
-        builder.build({.axes = axes}, m_frame);
+        builder.build(axes, m_frame);
         m_frame.colours = render::lightSceneColours();
         if (!m_frame.figures.empty()) {
             m_frame.camera.target = m_frame.figures.front().bounds.centre();

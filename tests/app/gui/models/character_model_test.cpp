@@ -147,7 +147,7 @@ TEST_F(CharacterModelTest, AsksToHideACharacterByItsCheckMark) {
     refresh();
     EXPECT_EQ(character(0).data(Qt::CheckStateRole).toInt(), Qt::Checked);
     EXPECT_TRUE(m_model.setData(character(0), Qt::Unchecked, Qt::CheckStateRole));
-    EXPECT_FALSE(m_stage.commands.isCharacterVisible(m_stage.key()));
+    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key()));
     EXPECT_EQ(character(0).data(Qt::CheckStateRole).toInt(), Qt::Unchecked);
     EXPECT_FALSE(m_model.setData(sender(), Qt::Unchecked, Qt::CheckStateRole));
 }

@@ -130,6 +130,15 @@ TEST_F(EventModelTest, AGapLeadsToItsPackets) {
     EXPECT_TRUE(briefWords(*gap).startsWith(QStringLiteral("3 lost"))) << briefWords(*gap).toStdString();
 }
 
+TEST_F(EventModelTest, NamesACharacterThatTheSessionDoesNotKnowByItsId) {
+    model::Event event;
+    event.sender = log::SenderId{77};
+    event.character = 3;
+    EXPECT_EQ(whoseWords(m_stage.session, event), "Character 3");
+    event.type = 2;
+    EXPECT_EQ(whoseWords(m_stage.session, event), "Character 3 · 02");
+}
+
 TEST_F(EventModelTest, WhatHasNoPacketLeadsToTheOneBefore) {
     perform(0, 60);
     m_stage.now += 3 * Stage::kSecond;

@@ -95,7 +95,7 @@ TEST(FieldText, ConvertsToTheOneFrameAboveTheWire) {
     EXPECT_EQ(value(*centimetres, "segments[6].position.z"), "1.0700 m");
     wire::PoseEuler euler;
     euler.segments.push_back({1, {10, 20, 30}, {90, 0, 0}});
-    const auto yUp = documentOf(encoded(euler));
+    const auto yUp = documentOf(encoded(euler), 7, model::LengthUnit::Centimetre);
     EXPECT_EQ(value(*yUp, "segments[0].position"), "0.300  0.100  0.200 m");
     EXPECT_EQ(value(*yUp, "segments[0].position.y"), "z = 0.2000 m");
     EXPECT_EQ(value(*yUp, "segments[0].rotation.x"), "90.00°");

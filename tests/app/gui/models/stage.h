@@ -2,14 +2,15 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "app/gui/program_view.h"
 #include "core/log/packet_log.h"
+#include "core/model/body/character_pose.h"
 #include "core/model/session/session.h"
 #include "core/performer/performer.h"
 
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <set>
 #include <string>
 
 namespace posewire::gui {
@@ -41,28 +42,27 @@ public:
     }
     void frameCharacter(const model::CharacterKey& key) override { framed.push_back(key); }
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
-        if (isVisible) {
-            m_hidden.erase(key);
-        } else {
-            m_hidden.insert(key);
-        }
+        m_session.setHidden(key, !isVisible);
     }
-    [[nodiscard]] bool isCharacterVisible(const model::CharacterKey& key) const override {
-        return !m_hidden.contains(key);
-    }
-    void setGhostVisible(bool isVisible) override { hasGhost = isVisible; }
-    [[nodiscard]] bool isGhostVisible() const override { return hasGhost; }
+    void setGhostVisible(bool isVisible) override { m_session.setGhostShown(isVisible); }
     void setPaused(bool) override {}
+    void showDock(const QString&) override {}
+    void setThresholds(const model::Thresholds& thresholds) override { m_session.setThresholds(thresholds); }
     void copyText(const QString& text) override { copied = text; }
 
     int selections = 0;
     std::vector<model::CharacterKey> framed;
     QString copied;
-    bool hasGhost = false;
 
 private:
     model::Session& m_session;
-    std::set<model::CharacterKey> m_hidden;
+};
+
+/// A program that listens to nothing and costs nothing.
+class IdleProgram : public ProgramView {
+public:
+    [[nodiscard]] ReceivingState receivingState() const override { return {}; }
+    [[nodiscard]] MonitorHealth monitorHealth() const override { return {}; }
 };
 
 /// A log to which tests send datagrams at stamps of their choosing, and a session that follows it.
@@ -127,6 +127,7 @@ struct Stage {
     log::PacketLog log{{.memoryCap = std::size_t{64} << 20, .chunkSize = std::size_t{1} << 20}};
     model::Session session{log};
     ImmediateCommands commands{session};
+    IdleProgram program;
     std::int64_t now = kStart;
 };
 

@@ -152,8 +152,8 @@ TEST_F(NullPosePanelTest, GhostButtonAsksForTheGhostAndShowsItsState) {
     ASSERT_NE(ghost, nullptr);
     EXPECT_NE(ghost->focusPolicy() & Qt::TabFocus, 0);
     ghost->click();
-    EXPECT_TRUE(m_stage.commands.hasGhost);
-    m_stage.commands.hasGhost = false;
+    EXPECT_TRUE(m_stage.session.isGhostShown());
+    m_stage.session.setGhostShown(false);
     refresh();
     EXPECT_FALSE(ghost->isChecked());
 }

@@ -22,11 +22,19 @@ class PanelsTest : public testing::Test {
 protected:
     template <class T>
     std::unique_ptr<T> open() {
-        auto panel = std::make_unique<T>(m_stage.session, m_stage.commands, nullptr);
+        auto panel = make<T>();
         panel->resize(360, 420);
         panel->show();
         refresh(*panel);
         return panel;
+    }
+    template <class T>
+    std::unique_ptr<T> make() {
+        if constexpr (std::is_constructible_v<T, model::SessionView&, Commands&, QWidget*>) {
+            return std::make_unique<T>(m_stage.session, m_stage.commands, nullptr);
+        } else {
+            return std::make_unique<T>(m_stage.session, m_stage.commands, m_stage.program, nullptr);
+        }
     }
     void refresh(Panel& panel) {
         m_stage.follow();
@@ -41,7 +49,8 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnow) {
     std::vector<std::string> ids;
     for (const PanelInfo& info : panelTable()) {
         ids.emplace_back(info.id);
-        const std::unique_ptr<Panel> panel(info.make(m_stage.session, m_stage.commands, nullptr));
+        const std::unique_ptr<Panel> panel(
+            info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
         panel->refresh();
         EXPECT_NE(std::string(info.title), "");
     }
@@ -61,7 +70,8 @@ TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {
 
 TEST_F(PanelsTest, EveryTableHasANameForScreenReaders) {
     for (const PanelInfo& info : panelTable()) {
-        const std::unique_ptr<Panel> panel(info.make(m_stage.session, m_stage.commands, nullptr));
+        const std::unique_ptr<Panel> panel(
+            info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
         for (const TableView* view : panel->findChildren<TableView*>()) {
             EXPECT_FALSE(view->accessibleName().isEmpty()) << info.id;
         }

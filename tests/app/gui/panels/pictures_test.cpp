@@ -85,7 +85,7 @@ protected:
     void photographAll(const QString& occasion, const std::function<void(int tick)>& play, int ticks) {
         std::vector<std::unique_ptr<Panel>> panels;
         for (const PanelInfo& info : panelTable()) {
-            panels.emplace_back(info.make(m_stage.session, m_stage.commands, nullptr));
+            panels.emplace_back(info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
             const bool isTall = QString(info.id) == "trackers";
             panels.back()->resize(info.area == Qt::LeftDockWidgetArea ? 330 : 390, isTall ? 640 : 300);
             panels.back()->show();

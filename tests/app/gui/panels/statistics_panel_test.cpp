@@ -28,7 +28,7 @@ public:
 class StatisticsPanelTest : public testing::Test {
 protected:
     void open(int width = 420) {
-        m_panel = std::make_unique<StatisticsPanel>(m_stage.session, m_commands, nullptr);
+        m_panel = std::make_unique<StatisticsPanel>(m_stage.session, m_commands, m_stage.program, nullptr);
         m_panel->resize(width, 400);
         m_panel->show();
         refresh();

@@ -18,12 +18,12 @@ protected:
     }
     SceneFrame build() {
         SceneFrame frame;
-        builder.build(options, frame);
+        builder.build(axes, frame);
         return frame;
     }
 
     Stage stage;
-    ViewOptions options;
+    AxesMode axes = AxesMode::All;
     SceneBuilder builder{stage.session, render::Detail::Medium};
 };
 
@@ -63,18 +63,18 @@ TEST_F(SceneBuilderTest, ThePaletteTakesEachSegmentWhereThePoseHasIt) {
 TEST_F(SceneBuilderTest, AxesAreDrawnForAllForTheSelectedOrForNone) {
     perform(2);
     EXPECT_EQ(build().axes.size(), 2U * 23);
-    options.axes = AxesMode::Selected;
+    axes = AxesMode::Selected;
     EXPECT_TRUE(build().axes.empty());
     stage.session.setSelection({stage.sender(), stage.key(1), -1});
     EXPECT_EQ(build().axes.size(), 23U);
-    options.axes = AxesMode::None;
+    axes = AxesMode::None;
     EXPECT_TRUE(build().axes.empty());
 }
 
 TEST_F(SceneBuilderTest, TheGhostStandsOnTheFloorUnderTheLivePelvisAndLooksItsWay) {
     perform(2);
     EXPECT_TRUE(build().ghosts.empty());
-    options.hasGhost = true;
+    stage.session.setGhostShown(true);
     stage.session.setSelection({stage.sender(), stage.key(1), 6});
     const SceneFrame frame = build();
     ASSERT_EQ(frame.ghosts.size(), 1U);
@@ -99,7 +99,7 @@ TEST_F(SceneBuilderTest, WithoutANullPoseThereIsNoGhost) {
     performer::Performer performer(sending(1, {2}));
     stage.perform(performer, 0, 3);
     stage.follow();
-    options.hasGhost = true;
+    stage.session.setGhostShown(true);
     EXPECT_TRUE(build().ghosts.empty());
 }
 
@@ -113,7 +113,7 @@ TEST_F(SceneBuilderTest, TheSelectedSegmentIsMarkedOnItsCharacterOnly) {
 
 TEST_F(SceneBuilderTest, HiddenCharactersAreLeftOut) {
     perform(2);
-    options.hidden.insert(stage.key(0));
+    stage.session.setHidden(stage.key(0), true);
     const SceneFrame frame = build();
     ASSERT_EQ(frame.figures.size(), 1U);
     EXPECT_EQ(frame.figures[0].key, stage.key(1));

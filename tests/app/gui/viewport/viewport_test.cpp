@@ -79,7 +79,8 @@ TEST_F(Viewport, LabelsStaleDataAsStale) {
 }
 
 TEST_F(Viewport, HidesACharacterOnRequest) {
-    viewport.setCharacterVisible(stage.key(), false);
+    stage.session.setHidden(stage.key(), true);
+    viewport.refresh();
     EXPECT_TRUE(QTest::qWaitFor([this] { return viewport.overlay().labels().empty(); }));
 }
 

@@ -8,6 +8,13 @@
 namespace posewire::model {
 namespace {
 
+/// One segment alone, which says nothing about how far a body reaches.
+wire::PoseQuaternion pelvisAt(float height) {
+    wire::PoseQuaternion pose;
+    pose.segments.push_back({1, {0, 0, height}, {1, 0, 0, 0}});
+    return pose;
+}
+
 wire::Header headerOf(std::uint8_t type) {
     wire::Header header;
     header.setType(type);
@@ -46,14 +53,14 @@ TEST(Detector, LetsHeaderCountsOutweighTheTypes) {
 
 TEST(Detector, TellsMetresFromCentimetresByThePelvis) {
     Detector metres;
-    metres.addPelvisHeight(0.0);
+    metres.addBody(pelvisAt(0.0F));
     EXPECT_TRUE(metres.result().unitEvidence.empty());
-    metres.addPelvisHeight(1.05);
+    metres.addBody(pelvisAt(1.05F));
     EXPECT_EQ(metres.result().positionUnit, LengthUnit::Metre);
     EXPECT_EQ(metres.result().unitEvidence, "pelvis at 1.05");
 
     Detector centimetres;
-    centimetres.addPelvisHeight(104.8);
+    centimetres.addBody(pelvisAt(104.8F));
     EXPECT_EQ(centimetres.result().positionUnit, LengthUnit::Centimetre);
 }
 
@@ -78,7 +85,7 @@ std::vector<std::string> texts(const Detector& detector, const SenderOverride& d
 TEST(Contradictions, AreNoneWhereDeclarationAndDatagramsAgree) {
     Detector detector;
     detector.addHeader(countedHeader(2));
-    detector.addPelvisHeight(1.0);
+    detector.addBody(pelvisAt(1.0F));
     EXPECT_TRUE(texts(detector).empty());
     EXPECT_TRUE(texts(detector, {Revision::N, LengthUnit::Metre}).empty());
     EXPECT_TRUE(texts(Detector(), {Revision::E, LengthUnit::Centimetre}).empty());
@@ -118,7 +125,7 @@ TEST(Contradictions, TellASenderThatChangesItsHeaders) {
 
 TEST(Contradictions, TellAUnitThatIsNotTheDeclaredOne) {
     Detector detector;
-    detector.addPelvisHeight(105.2);
+    detector.addBody(pelvisAt(105.2F));
     EXPECT_THAT(texts(detector, {.positionUnit = LengthUnit::Metre}),
                 testing::ElementsAre("positions look like centimetres (pelvis at 105.20), read as metres "
                                      "because you said so"));
@@ -126,16 +133,85 @@ TEST(Contradictions, TellAUnitThatIsNotTheDeclaredOne) {
 
 TEST(Contradictions, BelieveAnotherUnitOnlyAfterManyPoses) {
     Detector detector;
-    detector.addPelvisHeight(1.05);
-    for (unsigned i = 1; i < Detector::kUnitPatience; ++i) {
-        detector.addPelvisHeight(105.0);
+    detector.addBody(pelvisAt(1.05F));
+    for (unsigned i = 1; i < UnitFinder::kPatience; ++i) {
+        detector.addBody(pelvisAt(105.0F));
     }
     EXPECT_EQ(detector.result().positionUnit, LengthUnit::Metre);
     EXPECT_TRUE(texts(detector).empty());
-    detector.addPelvisHeight(105.0);
+    detector.addBody(pelvisAt(105.0F));
     EXPECT_EQ(detector.result().positionUnit, LengthUnit::Centimetre);
     EXPECT_THAT(texts(detector), testing::ElementsAre("positions were in metres (pelvis at 1.05) and are in "
                                                       "centimetres now (pelvis at 105.00)"));
+}
+
+TEST(UnitFinder, IsNotMisledBySomebodyWhoSendsCentimetresAndLiesDown) {
+    UnitFinder finder(LengthUnit::Metre);
+    finder.add(4, 170);
+    EXPECT_TRUE(finder.evidence().empty()) << "height and reach contradict each other";
+    finder.add(0, 170);
+    EXPECT_EQ(finder.unit(), LengthUnit::Centimetre);
+    EXPECT_EQ(finder.evidence(), "reach of 170.00");
+    for (unsigned i = 0; i < 2 * UnitFinder::kPatience; ++i) {
+        finder.add(4, 170);
+    }
+    EXPECT_EQ(finder.unit(), LengthUnit::Centimetre);
+}
+
+wire::PoseQuaternion inCentimetres(wire::PoseQuaternion pose) {
+    for (wire::SegmentQuaternion& segment : pose.segments) {
+        for (float& coordinate : segment.position) {
+            coordinate *= 100;
+        }
+    }
+    return pose;
+}
+
+class UnitTest : public SessionTest {
+protected:
+    LengthUnit unit(std::uint8_t type) { return m_session.find(sender())->positionUnit(type); }
+    double poseX() { return m_session.pose(key())->segments[0].position.x(); }
+};
+
+TEST_F(UnitTest, IsTheSendersForPosesAsForEverybodyElse) {
+    send(standingAt(2), 1, kSecond);
+    follow();
+    EXPECT_NEAR(poseX(), 2.0, 1e-6);
+    // Reaches five metres and more, on a sender whose pelvis says metres.
+    wire::PoseQuaternion stretched = standingAt(2);
+    stretched.segments[6].position = {2, 0, 9};
+    send(stretched, 2, 2 * kSecond);
+    follow();
+    EXPECT_EQ(unit(wire::PoseQuaternion::kType), LengthUnit::Metre);
+    EXPECT_NEAR(poseX(), 2.0, 1e-6);
+}
+
+TEST_F(UnitTest, ChangesForPosesWhenItChangesForTheSender) {
+    send(standingAt(2), 1, kSecond);
+    follow();
+    for (std::uint32_t i = 1; i <= UnitFinder::kPatience; ++i) {
+        send(inCentimetres(standingAt(2)), 1 + i, (1 + i) * kSecond);
+        follow();
+        const LengthUnit now = unit(wire::PoseQuaternion::kType);
+        EXPECT_EQ(now, i < UnitFinder::kPatience ? LengthUnit::Metre : LengthUnit::Centimetre);
+        EXPECT_NEAR(poseX(), 200 * metresPer(now), 1e-4);
+    }
+}
+
+TEST_F(UnitTest, OfTypesWithYUpIsTheirOwn) {
+    send(standingAt(0), 1, kSecond);
+    follow();
+    EXPECT_EQ(unit(wire::PoseEuler::kType), LengthUnit::Centimetre);
+    wire::PoseEuler euler;
+    for (const wire::SegmentQuaternion& segment : standingAt(0).segments) {
+        const auto& [x, y, z] = segment.position;
+        euler.segments.push_back({segment.id, {y, z, x}, {0, 0, 0}});
+    }
+    send(euler, 2, 2 * kSecond);
+    follow();
+    EXPECT_EQ(unit(wire::PoseEuler::kType), LengthUnit::Metre);
+    EXPECT_EQ(unit(wire::PointPositions::kType), LengthUnit::Metre);
+    EXPECT_NEAR(m_session.pose(key())->segments[0].position.z(), referenceOrigins()[0].z(), 1e-4);
 }
 
 class OverrideTest : public SessionTest {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/metadata.h"
 
+#include "core/wire/messages.h"
+
 #include <gtest/gtest.h>
 
 namespace posewire::model {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet_log.h"
+#include "core/model/body/character_pose.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/session/session.h"
 
@@ -43,7 +44,7 @@ protected:
 
     void follow() { m_session.follow(m_now); }
 
-    /// A person whose pelvis is at (x, 0, 1), everything else as in the reference null pose.
+    /// A character whose pelvis is at (x, 0, 1), everything else as in the reference null pose.
     static wire::PoseQuaternion standingAt(float x) {
         wire::PoseQuaternion pose;
         std::uint32_t id = 0;

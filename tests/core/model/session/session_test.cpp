@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/model/session/session_fixture.h"
 
+#include <gmock/gmock.h>
+
 #include <array>
 
 namespace posewire::model {
@@ -36,7 +38,44 @@ TEST_F(SessionTest, CountsForeignMalformedAndSkippedApart) {
     EXPECT_EQ(sender.foreign, 1U);
     EXPECT_EQ(sender.malformed, 1U);
     EXPECT_EQ(sender.skippedBytes, kForeign.size());
-    EXPECT_EQ(sender.firstForeignBytes, "7b 22 61 22 7d");
+    EXPECT_THAT(sender.foreignHead, testing::ElementsAreArray(kForeign));
+    EXPECT_EQ(sender.foreignText(), "7b 22 61 22 7d");
+}
+
+TEST_F(SessionTest, HandsOnTheNewestMessageAsItWasDecodedWhenItCame) {
+    log::PacketLog log;
+    Ingest ingest(log);
+    for (std::uint32_t sample = 1; sample <= 3; ++sample) {
+        wire::Datagram datagram{{}, standingAt(static_cast<float>(sample)), {}};
+        datagram.header.sampleCounter = sample;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        log.writer().append(*wire::encode(datagram),
+                            {.stampNs = sample * kSecond, .sender = log.senders().intern({"a:1"})});
+        log.writer().publish();
+        ingest.follow(sample * kSecond, 100);
+        const Message* newest = ingest.newest({log::SenderId{0}, 0, wire::PoseQuaternion::kType});
+        ASSERT_NE(newest, nullptr);
+        EXPECT_EQ(newest->datagram.header.sampleCounter, sample);
+        EXPECT_EQ(newest->packet, sample - 1);
+    }
+    EXPECT_EQ(ingest.newest({log::SenderId{0}, 1, wire::PoseQuaternion::kType}), nullptr);
+}
+
+TEST_F(SessionTest, ReadsTheMessageBeforeAMalformedOneFromTheLog) {
+    send(standingAt(1), 1, 1 * kSecond);
+    send(standingAt(2), 2, 2 * kSecond);
+    wire::Datagram datagram{{}, standingAt(3), {}};
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    const auto bytes = *wire::encode(datagram);
+    sendBytes(wire::Bytes(bytes).first(100), 3 * kSecond);
+    follow();
+    EXPECT_EQ(m_session.senders().front().malformed, 1U);
+    EXPECT_EQ(m_session.streams().front().accounting.malformed(), 1U);
+    const Message* message = m_session.message(key(), wire::PoseQuaternion::kType);
+    ASSERT_NE(message, nullptr);
+    EXPECT_EQ(message->datagram.header.sampleCounter, 2U);
+    EXPECT_EQ(message->packet, 1U);
+    EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 2.0F);
 }
 
 TEST_F(SessionTest, GivesTheNewestPoseAndFreezesItWhenPaused) {
@@ -111,7 +150,7 @@ TEST_F(SessionTest, JoinsAPoseThatCameInSeveralDatagramsOnceAllAreThere) {
     EXPECT_EQ(m_session.message(key(), 2), nullptr);
     send(second, 5, 1 * kSecond, 0x81);
     follow();
-    const Session::Message* message = m_session.message(key(), 2);
+    const Message* message = m_session.message(key(), 2);
     ASSERT_NE(message, nullptr);
     EXPECT_EQ(std::get<wire::PoseQuaternion>(message->datagram.body), whole);
 
@@ -121,6 +160,46 @@ TEST_F(SessionTest, JoinsAPoseThatCameInSeveralDatagramsOnceAllAreThere) {
     EXPECT_EQ(m_session.message(key(), 2)->datagram.header.sampleCounter, 5U);
 }
 
+TEST_F(SessionTest, ComputesTheOriginsOfABodyOncePerScaleMessage) {
+    send(standingAt(0), 1, 1 * kSecond);
+    follow();
+    EXPECT_EQ(m_session.bodyOrigins(key()).places, referenceOrigins());
+    wire::NullPose nullPose;
+    for (const Eigen::Vector3d& origin : referenceOrigins()) {
+        nullPose.segments.push_back(
+            {"Segment " + std::to_string(nullPose.segments.size()), toFloats(1.1 * origin)});
+    }
+    send(nullPose, 0, 2 * kSecond);
+    follow();
+    const BodyOrigins* origins = &m_session.bodyOrigins(key());
+    const Eigen::Vector3d head = origins->places[segment::kHead];
+    EXPECT_GT(head.z(), referenceOrigins()[segment::kHead].z());
+    EXPECT_EQ(&m_session.bodyOrigins(key()), origins);
+    m_session.setCursor({Cursor::Mode::Paused, 0});
+    EXPECT_EQ(m_session.bodyOrigins(key()).places, referenceOrigins());
+    m_session.setCursor({});
+    EXPECT_EQ(m_session.bodyOrigins(key()).places[segment::kHead], head);
+}
+
+TEST_F(SessionTest, NamesACharacterByItsIdWhereNoNameWasSentAndWhereItIsUnknown) {
+    send(standingAt(0), 1, 1 * kSecond);
+    follow();
+    EXPECT_EQ(m_session.displayName(key()), "Character 0");
+    EXPECT_EQ(m_session.displayName({sender(), 3}), "Character 3");
+    EXPECT_EQ(m_session.displayName({log::SenderId{77}, 3}), "Character 3");
+}
+
+TEST_F(SessionTest, KeepsWhatIsHiddenWithTheChoices) {
+    m_session.setHidden({sender(), 1}, true);
+    EXPECT_TRUE(m_session.isHidden({sender(), 1}));
+    EXPECT_FALSE(m_session.isHidden({sender(), 0}));
+    m_session.setHidden({sender(), 1}, false);
+    EXPECT_FALSE(m_session.isHidden({sender(), 1}));
+    EXPECT_FALSE(m_session.isGhostShown());
+    m_session.setGhostShown(true);
+    EXPECT_TRUE(m_session.isGhostShown());
+}
+
 TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
         send(standingAt(0), sample, sample * kSecond);
@@ -128,10 +207,9 @@ TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
     follow();
     m_session.setCursor({Cursor::Mode::Paused, 7});
     std::vector<std::uint32_t> samples;
-    const auto visited =
-        m_session.visit({sender(), 0, 2}, 3 * kSecond, 100, [&](const Session::Message& message) {
-            samples.push_back(message.datagram.header.sampleCounter);
-        });
+    const auto visited = m_session.visit({sender(), 0, 2}, 3 * kSecond, 100, [&](const Message& message) {
+        samples.push_back(message.datagram.header.sampleCounter);
+    });
     EXPECT_EQ(visited, 5U);
     EXPECT_EQ(samples, (std::vector<std::uint32_t>{3, 4, 5, 6, 7}));
     EXPECT_EQ(m_session.visit({sender(), 0, 2}, 0, 2, [](const auto&) {}), 2U);

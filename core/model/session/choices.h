@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/time_range.h"
+#include "core/model/keys.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+namespace posewire::model {
+
+/// Where in time the operator looks.
+struct Cursor {
+    enum class Mode : std::uint8_t { Following, Paused };
+    Mode mode = Mode::Following;
+    std::uint64_t packet = 0; ///< paused: the newest packet that counts
+};
+
+/// What is selected.
+struct Selection {
+    std::optional<log::SenderId> sender{};
+    std::optional<CharacterKey> character{};
+    int segment = -1;                      ///< position in the pose datagram, -1 for none
+    std::optional<std::uint64_t> packet{}; ///< its number in the log; nothing: the newest one
+    friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+/// What the operator wrote on packets; kept by packet number, also where the log has dropped the packet.
+struct Annotations {
+    std::set<std::uint64_t> marks;
+    std::map<std::uint64_t, std::string> comments; ///< UTF-8, never empty
+
+    friend bool operator==(const Annotations&, const Annotations&) = default;
+};
+
+/// What the operator chose. Part of the session, so that all panels agree without knowing each other.
+struct Choices {
+    Cursor cursor;
+    Selection selection;
+    RangeChoice range;         ///< what time statistics are of; stays while the selection changes
+    std::string displayFilter; ///< which packets are listed, in the filter language; empty for all
+    Annotations annotations;
+    std::set<CharacterKey> hidden; ///< characters that are not drawn
+    bool isGhostShown = false;     ///< the null pose of the shown character over its figure
+};
+
+} // namespace posewire::model

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/wire/codec.h"
+
+#include <cstdint>
+
+namespace posewire::model {
+
+/// A complete message, decoded. Items of a sample that came in several datagrams are joined.
+struct Message {
+    wire::Datagram datagram;
+    std::int64_t stampNs = 0;
+    std::uint64_t packet =
+        UINT64_MAX; ///< its number in the log, of the last datagram where there are several
+    log::SenderId sender{};
+};
+
+} // namespace posewire::model

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/session_view.h"
+
+#include "core/model/session/ingest.h"
+
+#include <algorithm>
+
+/// What the view counts and names; messages and poses are in session_messages.cpp.
+namespace posewire::model {
+
+const std::deque<Sender>& SessionView::senders() const {
+    return m_ingest.senders();
+}
+
+const std::deque<Character>& SessionView::characters() const {
+    return m_ingest.characters();
+}
+
+const std::deque<Stream>& SessionView::streams() const {
+    return m_ingest.streams();
+}
+
+const Sender* SessionView::find(log::SenderId id) const {
+    return m_ingest.find(id);
+}
+
+const Character* SessionView::find(const CharacterKey& key) const {
+    return m_ingest.find(key);
+}
+
+const Stream* SessionView::find(const log::StreamKey& key) const {
+    return m_ingest.find(key);
+}
+
+const Events& SessionView::events() const {
+    return m_ingest.follower().events();
+}
+
+const Thresholds& SessionView::thresholds() const {
+    return m_ingest.follower().thresholds();
+}
+
+const std::deque<Gap>& SessionView::gaps() const {
+    return m_ingest.attribution().gaps();
+}
+
+const Gap* SessionView::gapEndedBy(std::uint64_t packet) const {
+    return m_ingest.attribution().endedBy(packet);
+}
+
+const PacketDigests& SessionView::digests() const {
+    return m_ingest.digests();
+}
+
+std::uint64_t SessionView::end() const {
+    return m_ingest.end();
+}
+
+std::uint64_t SessionView::begin() const {
+    return m_ingest.begin();
+}
+
+std::int64_t SessionView::nowNs() const {
+    return m_ingest.nowNs();
+}
+
+std::int64_t SessionView::firstStampNs() const {
+    return m_ingest.firstStampNs();
+}
+
+const log::PacketLog& SessionView::log() const {
+    return m_ingest.log();
+}
+
+std::optional<log::Packet> SessionView::packet(std::uint64_t number) const {
+    return m_ingest.reader().packet(number);
+}
+
+template <class Selected, class Counts>
+StreamCounts SessionView::sumOf(Selected isSelected, Counts counts) const {
+    StreamCounts sum;
+    for (const Stream& stream : streams()) {
+        if (isSelected(stream.key)) {
+            sum += counts(stream.accounting);
+        }
+    }
+    return sum;
+}
+
+namespace {
+
+auto ofCharacter(const CharacterKey& key) {
+    return [key](const log::StreamKey& stream) {
+        return CharacterKey{stream.sender, stream.character} == key;
+    };
+}
+
+auto ofSender(log::SenderId id) {
+    return [id](const log::StreamKey& stream) { return stream.sender == id; };
+}
+
+auto within(const TimeRange& range) {
+    return [range](const StreamAccounting& accounting) {
+        return accounting.countsBetween(range.fromNs, range.toNs);
+    };
+}
+
+constexpr auto kAll = [](const StreamAccounting& accounting) { return accounting.counts(); };
+
+} // namespace
+
+StreamCounts SessionView::countsOf(const CharacterKey& key) const {
+    return sumOf(ofCharacter(key), kAll);
+}
+
+StreamCounts SessionView::countsOf(log::SenderId id) const {
+    return sumOf(ofSender(id), kAll);
+}
+
+StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
+    return sumOf(ofCharacter(key), within(range));
+}
+
+StreamCounts SessionView::countsOf(log::SenderId id, const TimeRange& range) const {
+    return sumOf(ofSender(id), within(range));
+}
+
+StreamCounts SessionView::countsBetween(const TimeRange& range) const {
+    return sumOf([](const log::StreamKey&) { return true; }, within(range));
+}
+
+std::uint64_t SessionView::packetAt(std::int64_t stampNs) const {
+    std::uint64_t first = begin();
+    std::uint64_t last = end();
+    while (first < last) {
+        const std::uint64_t middle = first + (last - first) / 2;
+        const auto packet = this->packet(middle);
+        if (packet && packet->stampNs > stampNs) {
+            last = middle;
+        } else {
+            first = middle + 1;
+        }
+    }
+    return std::max(begin(), first == 0 ? 0 : first - 1);
+}
+
+std::optional<TimeRange> SessionView::range() const {
+    if (rangeChoice().fixed || rangeChoice().lastNs <= 0) {
+        return rangeChoice().fixed;
+    }
+    // What arrives at this very moment belongs to it.
+    const std::int64_t end = cursorStampNs() + 1;
+    return TimeRange{end - rangeChoice().lastNs, end};
+}
+
+std::int64_t SessionView::cursorStampNs() const {
+    if (!isPaused()) {
+        return nowNs();
+    }
+    const auto packet = this->packet(cursor().packet);
+    return packet ? packet->stampNs : nowNs();
+}
+
+std::uint64_t SessionView::visibleEnd() const {
+    return isPaused() ? std::min(end(), cursor().packet + 1) : end();
+}
+
+std::optional<std::int64_t> SessionView::pausedStampNs() const {
+    return isPaused() ? std::optional(cursorStampNs()) : std::nullopt;
+}
+
+std::vector<const Event*> SessionView::troublesOf(const CharacterKey& key) const {
+    return m_ingest.follower().troublesOf(key, pausedStampNs());
+}
+
+Condition SessionView::conditionOf(const CharacterKey& key) const {
+    if (isSuperseded(key)) {
+        return {};
+    }
+    const Condition condition = m_ingest.follower().conditionOf(key, pausedStampNs());
+    if (condition.level != Condition::Level::Good) {
+        return condition;
+    }
+    const double age = ageSeconds(key);
+    if (age >= Condition::kStaleS) {
+        return {Condition::Level::Error, "Nothing has come for more than 1 s.", {}};
+    }
+    if (age >= Condition::kSilentS) {
+        return {Condition::Level::Warning, "Nothing has come for more than a quarter of a second.", {}};
+    }
+    const Sender* sender = find(key.sender);
+    const auto contradictions = sender != nullptr ? sender->contradictions() : std::vector<Contradiction>();
+    return contradictions.empty() ? condition
+                                  : Condition{Condition::Level::Warning, contradictions.front().text, {}};
+}
+
+const Character* SessionView::predecessor(const CharacterKey& key) const {
+    const Character* character = find(key);
+    const Character* before = character != nullptr && character->before ? find(*character->before) : nullptr;
+    return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
+}
+
+CharacterKey SessionView::current(const CharacterKey& key) const {
+    const std::uint64_t end = visibleEnd();
+    CharacterKey current = key;
+    for (const Character* character = find(key); character != nullptr && character->after;) {
+        const Character* next = find(*character->after);
+        if (next->firstPacket >= end || next->firstPacket <= character->lastPacket) {
+            break;
+        }
+        current = next->key;
+        character = next;
+    }
+    return current;
+}
+
+std::vector<const Character*> SessionView::currentCharacters() const {
+    std::vector<const Character*> shown;
+    for (const Character& character : characters()) {
+        if (!isSuperseded(character.key)) {
+            shown.push_back(&character);
+        }
+    }
+    return shown;
+}
+
+const Metadata& SessionView::metadata(const CharacterKey& key) const {
+    const Character* character = find(key);
+    for (const Character* other = character; other != nullptr; other = predecessor(other->key)) {
+        if (!other->metadata.tags().empty()) {
+            return other->metadata;
+        }
+    }
+    return character->metadata;
+}
+
+std::string_view SessionView::metadataValue(const CharacterKey& key, std::string_view tag) const {
+    const Character* character = find(key);
+    const std::uint64_t end = visibleEnd();
+    const std::string_view value =
+        character != nullptr && end != 0 ? character->metadata.value(tag, end - 1) : std::string_view();
+    const Character* before = value.empty() ? predecessor(key) : nullptr;
+    return before != nullptr ? metadataValue(before->key, tag) : value;
+}
+
+std::string SessionView::displayName(const CharacterKey& key) const {
+    const std::string_view name = metadataValue(key, "name");
+    return name.empty() ? "Character " + std::to_string(key.character) : std::string(name);
+}
+
+Colour SessionView::colour(const CharacterKey& key) const {
+    const auto sent = parseColour(metadataValue(key, "color"));
+    const Character* character = find(key);
+    return sent ? *sent : defaultColour(character != nullptr ? character->ordinal : 0);
+}
+
+double SessionView::ageSeconds(const CharacterKey& key) const {
+    const Character* character = find(key);
+    if (character == nullptr) {
+        return 0;
+    }
+    std::int64_t newest = character->lastStampNs;
+    if (isPaused()) {
+        newest = 0;
+        for (const Stream& stream : streams()) {
+            const bool isOwn = stream.key.sender == key.sender && stream.key.character == key.character;
+            const log::StreamEntries* list = isOwn ? m_ingest.index().find(stream.key) : nullptr;
+            const std::size_t count = list != nullptr ? visibleCount(*list) : 0;
+            newest = count != 0 ? std::max(newest, (*list)[count - 1].stampNs) : newest;
+        }
+    }
+    return std::max(0.0, static_cast<double>(cursorStampNs() - newest) * 1e-9);
+}
+
+} // namespace posewire::model

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet_log.h"
+#include "core/log/stream_key.h"
+#include "core/model/accounting/condition.h"
+#include "core/model/accounting/events.h"
+#include "core/model/accounting/packet_digest.h"
+#include "core/model/accounting/stream.h"
+#include "core/model/accounting/thresholds.h"
+#include "core/model/session/character.h"
+#include "core/model/session/choices.h"
+#include "core/model/session/sender.h"
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace posewire::model {
+
+class Ingest;
+class NullPoseHistory;
+struct BodyOrigins;
+struct CharacterPose;
+struct Gap;
+struct Message;
+struct NullPose;
+
+/// The session as panels, exports and the viewport read it: what was received, at the operator's cursor, and
+/// what the operator chose. It changes nothing but its own memory of what it decoded. One thread.
+///
+/// Poses, messages, gaps and the like are declared here and defined in headers of their own, which only those
+/// include who look into them: body/character_pose.h, body/null_pose.h, body/reference_body.h, message.h,
+/// accounting/attribution.h.
+class SessionView {
+public:
+    SessionView(const SessionView&) = delete;
+    SessionView& operator=(const SessionView&) = delete;
+
+    // What was received, whatever the cursor.
+    [[nodiscard]] const std::deque<Sender>& senders() const;
+    [[nodiscard]] const std::deque<Character>& characters() const;
+    [[nodiscard]] const std::deque<Stream>& streams() const;
+    [[nodiscard]] const Sender* find(log::SenderId id) const;
+    [[nodiscard]] const Character* find(const CharacterKey& key) const;
+    [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
+
+    /// Sums over the streams of a character, a sender, or all, without what makes no sense of several.
+    [[nodiscard]] StreamCounts countsOf(const CharacterKey& key) const;
+    [[nodiscard]] StreamCounts countsOf(log::SenderId id) const;
+    [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
+    [[nodiscard]] StreamCounts countsOf(log::SenderId id, const TimeRange& range) const;
+    [[nodiscard]] StreamCounts countsBetween(const TimeRange& range) const;
+
+    /// What happened, in the time of the log; with conditions that last.
+    [[nodiscard]] const Events& events() const;
+    [[nodiscard]] const Thresholds& thresholds() const;
+    /// Every gap in a stream with whose loss it was; the newest ones, oldest first.
+    [[nodiscard]] const std::deque<Gap>& gaps() const;
+    /// The gap that a packet ended; null where it ended none, or one that is forgotten.
+    [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const;
+    /// One for every packet from begin() to end().
+    [[nodiscard]] const PacketDigests& digests() const;
+
+    /// Packets followed so far: one past the newest packet number.
+    [[nodiscard]] std::uint64_t end() const;
+    [[nodiscard]] std::uint64_t begin() const;
+    [[nodiscard]] std::int64_t nowNs() const;
+    /// Of the first packet that was followed, also where the log has dropped it; 0 before there is one.
+    [[nodiscard]] std::int64_t firstStampNs() const;
+    [[nodiscard]] log::LogFigures figures() const { return log().figures(); }
+    /// For readers on other threads.
+    [[nodiscard]] const log::PacketLog& log() const;
+    /// Nothing where the log has dropped it. The bytes are valid until the session follows the log again.
+    [[nodiscard]] std::optional<log::Packet> packet(std::uint64_t number) const;
+    /// The newest packet that had been received by then; the oldest there is where all came later.
+    [[nodiscard]] std::uint64_t packetAt(std::int64_t stampNs) const;
+
+    // What the operator chose.
+    [[nodiscard]] const Cursor& cursor() const { return m_choices.cursor; }
+    [[nodiscard]] const Selection& selection() const { return m_choices.selection; }
+    [[nodiscard]] const RangeChoice& rangeChoice() const { return m_choices.range; }
+    /// The range that was chosen, as it is at the cursor; nothing for all there is.
+    [[nodiscard]] std::optional<TimeRange> range() const;
+    [[nodiscard]] const std::string& displayFilter() const { return m_choices.displayFilter; }
+    [[nodiscard]] const Annotations& annotations() const { return m_choices.annotations; }
+    [[nodiscard]] bool isHidden(const CharacterKey& key) const { return m_choices.hidden.contains(key); }
+    [[nodiscard]] bool isGhostShown() const { return m_choices.isGhostShown; }
+
+    // Characters at the cursor.
+    /// What is wrong with a character or its sender at the cursor, worst first.
+    [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const;
+    /// How a character does at the cursor: the one rule for all who show it. By the worst of its troubles;
+    /// else by its silence, or a warning where what its sender says does not fit together.
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
+
+    /// A sender that is restarted has another port, and some senders use a port for each kind of message. So
+    /// a character of the same host with the same ID that fell silent before this one came is the same one:
+    /// what this one has not sent yet is taken from there. Null where there is none, or where both turned out
+    /// to send at the same time.
+    [[nodiscard]] const Character* predecessor(const CharacterKey& key) const;
+    /// True where another sender has taken over at the cursor; its character is shown instead of this one.
+    [[nodiscard]] bool isSuperseded(const CharacterKey& key) const { return current(key) != key; }
+    /// The one that is shown for a character: itself, or the newest that has taken over.
+    [[nodiscard]] CharacterKey current(const CharacterKey& key) const;
+    /// All characters that are to be shown at the cursor, in order of first appearance.
+    [[nodiscard]] std::vector<const Character*> currentCharacters() const;
+
+    /// "Factory", or "Character 1" with its ID where no name was sent, or there is no such character.
+    [[nodiscard]] std::string displayName(const CharacterKey& key) const;
+    [[nodiscard]] Colour colour(const CharacterKey& key) const;
+    /// Seconds since the newest datagram of the character, against cursorStampNs().
+    [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
+    /// What type 12 messages said about a character, or about its predecessor where it has sent none itself.
+    /// The character must be one of this session.
+    [[nodiscard]] const Metadata& metadata(const CharacterKey& key) const;
+
+    // Messages and poses at the cursor.
+    /// The newest complete message of a stream; null where there is none or it cannot be decoded. Valid until
+    /// the session follows the log again, or message() of the same stream.
+    [[nodiscard]] const Message* message(const CharacterKey& key, std::uint8_t type) const;
+    /// Reads the messages of a stream from a stamp up to the cursor, oldest first, at most the newest `most`
+    /// of them. Datagrams that cannot be decoded or are one of several of a sample are left out. Returns how
+    /// many were visited.
+    std::size_t visit(const log::StreamKey& key, std::int64_t fromStampNs, std::size_t most,
+                      const std::function<void(const Message&)>& visitor) const;
+    /// The newest pose, of type 02, 01 or 05: the first of these that is not more than 0.25 s older than the
+    /// newest of them, so that a figure does not jump between types that are sent together.
+    [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
+    /// The scale message; null where none was received.
+    [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
+    /// All scale messages of the character itself; null where none was received.
+    [[nodiscard]] const NullPoseHistory* nullPoses(const CharacterKey& key) const;
+    /// Of the null pose, or of the reference body where none was received. Valid as message() is.
+    [[nodiscard]] const BodyOrigins& bodyOrigins(const CharacterKey& key) const;
+
+    /// What "now" means at the cursor: nowNs() when following, the packet's stamp when paused.
+    [[nodiscard]] std::int64_t cursorStampNs() const;
+
+protected:
+    /// Both outlive this; neither is looked at here.
+    SessionView(Ingest& ingest, const Choices& choices);
+    ~SessionView();
+
+private:
+    /// What was decoded when somebody asked for it, until the cursor has moved on.
+    struct Decoded;
+
+    [[nodiscard]] bool isPaused() const { return m_choices.cursor.mode == Cursor::Mode::Paused; }
+    /// One past the newest packet that the cursor lets through.
+    [[nodiscard]] std::uint64_t visibleEnd() const;
+    /// The cursor's time where it is paused.
+    [[nodiscard]] std::optional<std::int64_t> pausedStampNs() const;
+    template <class Selected, class Counts>
+    [[nodiscard]] StreamCounts sumOf(Selected isSelected, Counts counts) const;
+    [[nodiscard]] std::string_view metadataValue(const CharacterKey& key, std::string_view tag) const;
+    [[nodiscard]] std::size_t visibleCount(const log::StreamEntries& entries) const;
+    bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
+    bool readWhole(const log::StreamEntry& entry, Message& message) const;
+
+    Ingest& m_ingest;
+    const Choices& m_choices;
+    std::unique_ptr<Decoded> m_decoded;
+};
+
+} // namespace posewire::model
