@@ -99,21 +99,49 @@ local function hand_name(side, place)
   return hand_segments[place] and side .. hand_segments[place]
 end
 
--- Props and fingers by the counts in the header, since their IDs move with the number of props.
-local function segment_name(id, header)
+local function extra_name(extra, props)
+  if extra <= props then
+    return extra <= most_props and "Prop" .. extra or nil
+  end
+  return hand_name("Left", extra - props) or hand_name("Right", extra - props - #hand_segments)
+end
+
+-- Body, props, left hand, right hand. Older senders do not count them: then 23 body segments come first.
+local function segment_at(place, header)
+  local body, props = header.bodySegments, header.props
+  if body == 0 or body + props + header.fingerSegments ~= header.items then
+    body = math.min(header.items, #body_segments)
+    props = header.items - body
+    local both_hands = 2 * #hand_segments
+    if props >= both_hands then props = props - both_hands end
+  end
+  if place <= body then
+    return body_segments[place]
+  end
+  return extra_name(place - body, props)
+end
+
+-- Whether the items are all segments of the character in their order.
+local function is_in_order(header)
+  local first = messages[header.type].forms.standard[1]
+  return header.datagramCounter == 0x80 and first.kind == "items" and first.item == "segment"
+end
+
+-- Revisions disagree on the IDs from the left foot on: E has 23 and 24 for left foot and toe, and before N props may
+-- begin at 24 or at 25. So there the place decides, where it is known.
+local function segment_name(id, header, place)
+  local may_be_one_more = place and place >= #body_segments - 1
+  if place and (id == place or (may_be_one_more and id == place + 1)) and is_in_order(header) then
+    return segment_at(place, header)
+  end
   if id <= #body_segments then
     return body_segments[id]
   end
   local extra = id - #body_segments
-  local props = header.bodySegments == 0 and most_props or header.props
-  if extra <= props then
-    return "Prop" .. extra
+  if header.bodySegments == 0 then
+    return extra <= most_props + 1 and extra_name(math.max(extra - 1, 1), most_props) or nil
   end
-  local finger = extra - props
-  if finger > header.fingerSegments then
-    return nil
-  end
-  return hand_name("Left", finger) or hand_name("Right", finger - #hand_segments)
+  return extra - header.props <= header.fingerSegments and extra_name(extra, header.props) or nil
 end
 
 local function local_point_name(segment, point)
@@ -128,35 +156,45 @@ local function joint_end_name(id)
   return local_point_name(segment, id % 256)
 end
 
--- Point IDs of type 03 are 256 times the segment plus the point, in older revisions 100 times. One ID may be either;
--- all of a datagram are not.
-local function every_id(tvb, header, fits)
-  for i = 0, header.items - 1 do
-    local at = header_size + 16 * i
-    if at + 4 <= tvb:len() and not fits(tvb(at, 4):uint()) then return false end
+-- Point IDs of type 03 are 256 times the segment plus the point, in older revisions 100 times. One ID may be either,
+-- many are not; tags with any ID may follow. Returns how many IDs from the first on fit.
+local function leading_run(tvb, header, fits)
+  local at, run = header_size, 0
+  while run < header.items and at + 4 <= tvb:len() and fits(tvb(at, 4):uint()) do
+    at, run = at + 16, run + 1
   end
-  return header.items > 0
+  return run
 end
 
-local function point_coding(tvb, header)
-  if header.type ~= 3 then return nil end
-  if every_id(tvb, header, function(id)
-    local segment, point = math.floor(id / 256), id % 256
-    return segment >= 1 and segment <= most_segments and point <= 14 and (not points[segment] or points[segment][point])
-  end) then
-    return 256
-  end
-  return every_id(tvb, header, function(id) return id >= 100 and id < 2900 and id % 100 <= 14 end) and 100 or nil
+local last_segment = #body_segments + most_props + 2 * #hand_segments
+
+local function fits_256(id)
+  local segment, point = math.floor(id / 256), id % 256
+  local has_point = points[segment] and (point == 0 or points[segment][point])
+  return segment >= 1 and segment <= last_segment and point <= 14 and (has_point or segment > #body_segments)
 end
 
-local function point_name(id, header)
-  local base = header.point_coding
-  return base and local_point_name(math.floor(id / base), id % base)
+local function fits_100(id)
+  return id >= 100 and id < 2900 and id % 100 <= 14
+end
+
+local function find_point_coding(tvb, header)
+  if header.type ~= 3 then return end
+  local run_256, run_100 = leading_run(tvb, header, fits_256), leading_run(tvb, header, fits_100)
+  header.named_points = math.max(run_256, run_100)
+  header.point_base = run_256 >= run_100 and 256 or 100
+end
+
+local function point_name(id, header, place)
+  if not header.point_base or place > header.named_points then return nil end
+  return local_point_name(math.floor(id / header.point_base), id % header.point_base)
 end
 
 local namers = {
   segment = segment_name,
-  unity_segment = function(id) return body_segments[unity_order[id]] end,
+  unity_segment = function(id, header, place)
+    return id <= #body_segments and body_segments[unity_order[id]] or segment_name(id, header, place)
+  end,
   point = point_name,
   joint_end = joint_end_name,
 }
@@ -230,8 +268,8 @@ function Reader:fail(code, need, have)
   return false
 end
 
-function Reader:add_name(field, node, tree, range, id)
-  local name = namers[field.names](id, self.header)
+function Reader:add_name(field, node, tree, range, id, place)
+  local name = namers[field.names](id, self.header, place)
   if name then
     node:append_text(" (" .. name .. ")")
     if field.name_node then
@@ -263,7 +301,7 @@ function Reader:read_integer(field, tree, values)
       node:add(own.index, range)
       node:add(own.last, range)
     end
-    if field.names then values.label = self:add_name(field, node, tree, range, value) or values.label end
+    if field.names then values.label = self:add_name(field, node, tree, range, value, values.place) or values.label end
     if field.checked and (value < 1 or value > most_segments) then values.is_out_of_range = true end
   end
   self.offset = self.offset + field.size
@@ -375,7 +413,7 @@ end
 
 -- An item and what the checks need to know of it. `start`: where notices about it point to.
 function Reader:read_item(field, list, index, start)
-  local values, item = {}, nil
+  local values, item = { place = index }, nil
   if self.checks then
     item = list:add(field.item_node, self:range(self.offset, 0))
   end
@@ -619,18 +657,23 @@ local function header_of(tvb)
   return header
 end
 
+-- Where the payload ends in `size` bytes with the header, and which layout it is in.
+local function extent_and_form(header, at, size)
+  local limit = math.min(size, header_size + sent_payload(header, at, size - header_size))
+  if not form_of[header.type] then
+    return limit, messages[header.type] and "standard" or "raw"
+  end
+  local within = function(place) return place < limit - header_size and at(place) or nil end
+  return limit, form_of[header.type](header, within, limit - header_size)
+end
+
 local function read_body(tvb, tree, header, checks)
-  local at = payload_bytes(tvb)
-  local sent = sent_payload(header, at, tvb:len() - header_size)
-  local limit = math.min(tvb:len(), header_size + sent)
+  local limit, form = extent_and_form(header, payload_bytes(tvb), tvb:len())
   local announced = header_size + header.payloadSize
   local is_cut_off = header.payloadSize ~= 0 and limit < announced
   local message = messages[header.type]
-  local within = function(place) return place < limit - header_size and at(place) or nil end
-  local form = message and "standard" or "raw"
-  if form_of[header.type] then form = form_of[header.type](header, within, limit - header_size) end
   local reader = new_reader(tvb, header_size, limit, header, checks)
-  header.point_coding = point_coding(tvb, header)
+  find_point_coding(tvb, header)
   local is_read = true
   if form == "raw" then
     if limit > header_size then tree:add(own.raw, tvb(header_size, limit - header_size)) end
@@ -677,7 +720,8 @@ local function info_text(header, checks, fault)
     words[#words + 1] = "datagram " .. index .. (header.datagramCounter >= 128 and " (last)" or "")
   end
   for _, what in ipairs(checks.shown) do words[#words + 1] = what end
-  if type(checks.values.timeCode) == "string" then words[#words + 1] = checks.values.timeCode end
+  local time_code = checks.values.timeCode
+  if time_code then words[#words + 1] = time_code:gsub("[^ -~]", "?") end
   return table.concat(words, ", ") .. (fault and " [" .. fault.code .. "]" or "")
 end
 
@@ -853,7 +897,7 @@ end
 
 local port_type_tcp = 2
 
-function mxtp.dissector(tvb, pinfo, root)
+local function dissect(tvb, pinfo, root)
   local infos
   if pinfo.port_type == port_type_tcp then
     infos = dissect_stream(tvb, pinfo, root)
@@ -870,6 +914,7 @@ function mxtp.dissector(tvb, pinfo, root)
   return tvb:len()
 end
 
+mxtp.dissector = dissect
 DissectorTable.get("udp.port"):add(default_port, mxtp)
 DissectorTable.get("tcp.port"):add(default_port, mxtp)
 
@@ -879,7 +924,7 @@ local function recognize(tvb, pinfo, root)
     return false
   end
   pinfo.conversation = mxtp
-  mxtp.dissector(tvb, pinfo, root)
+  dissect(tvb, pinfo, root) -- not by `mxtp.dissector`, where a stream can no longer wait for its next segment
   return true
 end
 mxtp:register_heuristic("udp", recognize)

@@ -48,14 +48,10 @@ def protocols(script: pathlib.Path, capture: pathlib.Path, home: pathlib.Path):
     assert process.returncode == 0, f"tshark ended with {process.returncode}"
 
 
-# tshark writes the bytes of texts as they are, but XML cannot hold all of them; values are read from hexadecimal.
-NOT_XML = {code: "?" for code in list(range(32)) + [0xFFFE, 0xFFFF] if chr(code) not in "\t\n\r"}
-
-
 def trees_of(process: subprocess.Popen):
     parser = ElementTree.XMLPullParser()
     for line in process.stdout:
-        parser.feed(line.decode("utf-8", "replace").translate(NOT_XML))
+        parser.feed(line)
         for _, element in parser.read_events():
             if element.tag == "packet":
                 fields = element.iter("field")

@@ -11,6 +11,7 @@ import pathlib
 import random
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -20,20 +21,8 @@ CLI, SCRIPT, SOURCE_DIR = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(s
 sys.path[:0] = [str(SOURCE_DIR / "tests/support"), str(SOURCE_DIR / "tests/app/cli")]
 import capture_writer  # noqa: E402
 import dissected  # noqa: E402
+from datagrams import STAMP, as_tcp, as_udp, damaged, goldens  # noqa: E402
 from second_encoder_cases import all_cases  # noqa: E402
-
-STAMP = 1_700_000_000_000_000_000
-
-
-def goldens() -> dict:
-    """Bytes by name."""
-    found = {}
-    for path in sorted((SOURCE_DIR / "tests/golden").glob("*.hex")):
-        lines = [line.split("#")[0] for line in path.read_text(encoding="utf-8").splitlines()]
-        found[path.stem] = bytes.fromhex("".join(lines))
-    assert len(found) > 40
-    return found
-
 
 def decode(path: pathlib.Path) -> list:
     done = subprocess.run([CLI, "decode", str(path), "--json"], capture_output=True, timeout=240, check=False)
@@ -83,12 +72,10 @@ def pieces(data: bytes, seed: int, longest: int) -> list:
     return cut
 
 
-def as_tcp(parts: list, target=("192.0.2.2", 9763)) -> list:
-    packets, sequence = [capture_writer.tcp_packet(b"", 999, target=target, flags=capture_writer.SYN)], 1000
-    for part in parts:
-        packets.append(capture_writer.tcp_packet(part, sequence, target=target))
-        sequence += len(part)
-    return [(STAMP + number * 1000, packet) for number, packet in enumerate(packets)]
+def pose_of(ids: list, counts=(0, 0, 0), counter=0x80) -> bytes:
+    """Type 02 with these IDs."""
+    body = b"".join(struct.pack(">I7f", segment, 0, 0, 0, 1, 0, 0, 0) for segment in ids)
+    return b"MXTP02" + struct.pack(">IBBIBBBBHH", 1, counter, len(ids), 0, 0, *counts, 0, len(body)) + body
 
 
 class Dissector(unittest.TestCase):
@@ -104,7 +91,7 @@ class Dissector(unittest.TestCase):
 
     def compare_udp(self, datagrams: list):
         """`datagrams`: pairs of a label and bytes."""
-        frames = self.dissect([(STAMP, capture_writer.udp_packet(data)) for _, data in datagrams])
+        frames = self.dissect(as_udp(data for _, data in datagrams))
         decoded = decode(self.folder / "capture.pcap")
         self.assertEqual(len(datagrams), len(decoded))
         self.assertEqual(len(datagrams), len(frames))
@@ -139,16 +126,11 @@ class Dissector(unittest.TestCase):
                           for size in range(4, len(data)) if size < 160 or size % 11 == 0 or size > len(data) - 20])
 
     def test_agrees_on_damaged_bytes(self):
-        chance, damaged = random.Random(1), []
+        chance, cases = random.Random(1), []
         for name, data in goldens().items():
             for number in range(60):
-                broken = bytearray(data)
-                for _ in range(chance.randint(1, 3)):
-                    # The header and the first fields decide about the rest.
-                    at = chance.randrange(4, min(len(data), 40) if chance.random() < 0.7 else len(data))
-                    broken[at] = chance.choice([0, 1, 0x7f, 0x80, 0xff, chance.randrange(256)])
-                damaged.append((f"{name}, damage {number}", bytes(broken) + bytes(chance.choice([0, 0, 0, 1, 4]))))
-        self.compare_udp(damaged)
+                cases.append((f"{name}, damage {number}", damaged(chance, data)))
+        self.compare_udp(cases)
 
     def test_agrees_on_what_a_second_encoder_sends(self):
         self.compare_udp([(case.label, case.to_bytes()) for case in all_cases(5)])
@@ -196,8 +178,46 @@ class Dissector(unittest.TestCase):
         self.assertEqual([1], [len(trees) for trees in frames])
         self.assertEqual(2, sum(len(trees) for trees in self.dissect(as_tcp([pose, pose], target))))
 
+    def test_waits_for_the_rest_of_the_first_datagram_on_other_ports(self):
+        pose, target = goldens()["02_quaternion_counted"], ("192.0.2.2", 20001)
+        trees = [tree for trees in self.dissect(as_tcp([pose[:100], pose[100:] + pose], target)) for tree in trees]
+        decoded = about_datagram(decode(self.folder / "capture.pcap")[0])
+        self.assertIsNone(difference("stream", [decoded] * 2, [dissected.object_of(tree) for tree in trees]))
+
+    def names_in(self, *datagrams: bytes) -> list:
+        """The segment names that a filter finds, for each datagram."""
+        lines = self.read_fields(list(datagrams), "mxtp", "mxtp.segment.name")
+        return [line.split(",") for line in lines]
+
+    def test_names_props_by_their_place(self):
+        for first_id in (24, 25):
+            for revision in "EJK":
+                with self.subTest(revision=revision, first_id=first_id):
+                    feet = [21, 23, 24] if revision == "E" else [21, 22, 23]
+                    names = self.names_in(pose_of([*range(1, 21), *feet, *range(first_id, first_id + 4)]))[0]
+                    self.assertEqual(["LeftLowerLeg", "LeftFoot", "LeftToe", "Prop1", "Prop2", "Prop3", "Prop4"],
+                                     names[20:])
+        names = self.names_in(pose_of([1, 2, 3, 24, 25], counts=(3, 2, 0)), pose_of([1, 2, 3, 4, 5], counts=(3, 2, 0)))
+        self.assertEqual([["Pelvis", "L5", "L3", "Prop1", "Prop2"]] * 2, names)
+
+    def test_names_the_segments_of_parts_by_their_ids(self):
+        names = self.names_in(pose_of([21, 22, 23, 25, 26, 27, 28], counter=0x81))
+        self.assertEqual([["LeftLowerLeg", "LeftFoot", "LeftToe", "Prop1", "Prop2", "Prop3", "Prop4"]], names)
+
+    def test_names_points_before_tags(self):
+        ids = [269, 513, 1025, 5001, 5002]
+        body = b"".join(struct.pack(">Ifff", point, 0, 0, 0) for point in ids)
+        lines = self.read_fields([b"MXTP03" + struct.pack(">IBBI6xH", 1, 0x80, len(ids), 0, len(body)) + body], "mxtp",
+                                 "mxtp.point.name")
+        self.assertEqual("pSacrum,jL5S1,jL1T12", lines[0])
+
+    def test_time_codes_that_are_no_text_stay_xml(self):
+        code = b"MXTP25" + struct.pack(">IBBI6xHi", 1, 0x80, 1, 0, 16, 12) + b"12:34:\xff\x00.789"
+        self.compare_udp([("type 25", code)])
+        self.assertIn("12:34:??.789", self.read_fields([code], "mxtp", "_ws.col.Info")[0])
+
     def test_leaves_other_datagrams_alone(self):
-        frames = self.dissect([(STAMP, capture_writer.udp_packet(data)) for data in [b"{}", b"", b"MXT", b"\0" * 99]])
+        frames = self.dissect(as_udp([b"{}", b"", b"MXT", b"\0" * 99]))
         self.assertEqual([0, 0, 0, 0], [len(trees) for trees in frames])
 
     def test_puts_ip_fragments_together(self):
@@ -211,7 +231,7 @@ class Dissector(unittest.TestCase):
 
     def read_fields(self, datagrams: list, wanted_filter: str, *fields: str) -> list:
         path = self.folder / "fields.pcap"
-        path.write_bytes(capture_writer.pcap([(STAMP, capture_writer.udp_packet(data)) for data in datagrams]))
+        path.write_bytes(capture_writer.pcap(as_udp(datagrams)))
         arguments = [word for field in fields for word in ("-e", field)]
         process = dissected.run_tshark(SCRIPT, path, self.folder, "-Y", wanted_filter, "-T", "fields", *arguments)
         output, _ = process.communicate(timeout=60)
@@ -242,6 +262,7 @@ class Dissector(unittest.TestCase):
                                ("mxtp.error.payloadTruncated", ["3"]), ("mxtp.sample == 16909060", ["1", "3"]),
                                ("mxtp.segment.position.x > -1e9 && mxtp.last == 1", ["1", "3"])]:
             self.assertEqual(frames, self.read_fields(datagrams, wanted, "frame.number"), wanted)
+
 
 
 if __name__ == "__main__":
