@@ -474,7 +474,7 @@ local own = {
   tag_name = ProtoField.string("mxtp.tag.name", "name"),
   tag_value = ProtoField.string("mxtp.tag.value", "value"),
   raw = ProtoField.bytes("mxtp.raw", "raw", base.NONE, "payload of an unknown layout"),
-  rest = ProtoField.bytes("mxtp.rest", "rest", base.NONE, "bytes that no field stands on"),
+  rest = ProtoField.bytes("mxtp.rest", "rest", base.NONE, "bytes that belong to no field"),
   skipped = ProtoField.bytes("mxtp.skipped", "skipped", base.NONE, "bytes of the stream that belong to no datagram"),
   error = ProtoField.string("mxtp.error", "error", base.NONE, "code of the fault"),
   error_offset = ProtoField.uint32("mxtp.error.offset", "offset", base.DEC, nil, nil, "first byte of the fault"),
@@ -1138,7 +1138,294 @@ local function add_remark(tree, tvb, field, offset_field, experts, code, offset,
   node:add_proto_expert_info(experts[code], text)
 end
 
+-- ---------------------------------------------------------------------------------------------------------------
+-- The quick path, for lists and filters, where nobody sees the tree: checks the whole datagram with one unpacking an
+-- item and adds the fields that somebody asks for. It leaves everything odd to the readers above.
+
+local codes = { uint8 = "B", uint16 = "I2", uint32 = "I4", int32 = "i4" }
+
+-- Writes Lua that moves `at` (from 1) over a layout in `raw`, ends with nothing where a datagram is odd, and keeps what
+-- the checks and the summary need: numbers and texts outside lists in `values`, sizes of lists in `shown`.
+local Script = {}
+Script.__index = Script
+
+function Script:line(text, ...)
+  self[#self + 1] = select("#", ...) > 0 and text:format(...) or text
+end
+
+function Script:keep(field, variable)
+  if self.depth == 0 then self:line("values.%s = %s", field.name, variable) end
+end
+
+function Script:add_number_checks(field, variables)
+  if field.checked then
+    self:line("if %s < 1 or %s > %d then return end", variables[1], variables[1], most_segments)
+  elseif field.kind == "floats" then
+    self:line("sum = %s", table.concat(variables, " + "))
+    self:line("if sum - sum ~= 0 then return end") -- with an infinity or a NaN in it
+    if #variables == 4 then
+      local squares = {}
+      for i, variable in ipairs(variables) do squares[i] = variable .. " * " .. variable end
+      self:line("if not (abs(%s - 1) <= 0.02) then return end", table.concat(squares, " + "))
+    end
+  end
+end
+
+-- Fields of fixed size that follow each other from `first` on are read at once. Returns the place of the next field.
+function Script:add_fixed(layout, first)
+  local formats, all, of_field, size, place = {}, {}, {}, 0, first
+  while layout[place] and layout[place].size and not layout[place].fields do
+    local field = layout[place]
+    local format = codes[field.kind] or (field.kind == "floats" and "f" or "c" .. field.size)
+    of_field[field] = {}
+    for i = 1, field.parts and #field.parts or 1 do
+      formats[#formats + 1] = format
+      all[#all + 1] = "v" .. #formats
+      of_field[field][i] = all[#all]
+    end
+    size, place = size + field.size, place + 1
+  end
+  self:line("if stop - at < %d then return end", size)
+  self:line("do local %s = unpack('>%s', raw, at)", table.concat(all, ", "), table.concat(formats))
+  self:line("at = at + %d", size)
+  for i = first, place - 1 do
+    self:add_number_checks(layout[i], of_field[layout[i]])
+    self:keep(layout[i], of_field[layout[i]][1])
+  end
+  self:line("end")
+  return place
+end
+
+function Script:add_count(most)
+  self:line("if stop - at < 4 then return end")
+  self:line("count, at = unpack('>I4', raw, at), at + 4")
+  self:line("if count > %d then return end", most)
+end
+
+local text_ends = {
+  prefixed_text = "last = at + count - 1 next = last + 1",
+  zero_text = "next = find(raw, '\\0', at, true) if not next then return end last = next - 1 next = next + 1",
+  rest_text = "last = stop - 1 next = stop",
+}
+
+function Script:add_text(field)
+  if field.kind == "prefixed_text" then self:add_count(most_bytes) end
+  self:line(text_ends[field.kind])
+  self:line("if next > stop then return end")
+  self:line("do local text = sub(raw, at, last)")
+  self:line("if first_invalid(text) then return end")
+  self:keep(field, "text")
+  self:line("at = next end")
+end
+
+function Script:add_list(field)
+  if field.max then
+    self:add_count(field.max)
+  else
+    self:line("count = items")
+  end
+  self:line("shown[#shown + 1] = count .. ' %s'", field.name)
+  self:line("for _ = 1, count do")
+  self.depth = self.depth + 1
+  self:add_layout(field.fields)
+  self.depth = self.depth - 1
+  self:line("end")
+end
+
+function Script:add_layout(layout)
+  local place = 1
+  while layout[place] do
+    local field = layout[place]
+    if field.fields then
+      self:add_list(field)
+    elseif field.size then
+      place = self:add_fixed(layout, place) - 1
+    else
+      self:add_text(field)
+    end
+    place = place + 1
+  end
+end
+
+-- A function that checks a layout: (raw, at, stop, items, values, shown). Returns where it ends, nil where it is odd.
+local function checker_of(layout)
+  local script = setmetatable({ depth = 0 }, Script)
+  script:line("local unpack, first_invalid, abs, find, sub = ...")
+  script:line("return function(raw, at, stop, items, values, shown)")
+  script:line("local sum, count, last, next")
+  script:add_layout(layout)
+  script:line("return at end")
+  local compile = loadstring or load -- by version of Lua
+  return assert(compile(table.concat(script, "\n")))(Struct.unpack, first_invalid, math.abs, string.find, string.sub)
+end
+
+-- What can be added without reading: leaves with their offset in a part, which is a run of fields or a list of items.
+local function add_leaf(leaves, node, field, offset, size, more)
+  local leaf = more or {}
+  leaf.node, leaf.field, leaf.offset, leaf.size = node, field, offset, size
+  leaves[#leaves + 1] = leaf
+end
+
+local function add_leaves_of(leaves, field, offset)
+  local is_text = field.kind == "characters"
+  add_leaf(leaves, field.node, field, offset, field.size, { encoding = is_text and ENC_ASCII + ENC_STRING })
+  for i, component in ipairs(field.components or {}) do
+    add_leaf(leaves, component, field, offset + 4 * (i - 1), 4)
+  end
+  if field.name_node then
+    add_leaf(leaves, field.name_node, field, offset, field.size, { is_name = true })
+  end
+  if field.filter == "mxtp.id" then
+    add_leaf(leaves, own.type, field, offset + 4, 2, { is_type = true })
+  elseif field.filter == "mxtp.datagramCounter" then
+    add_leaf(leaves, own.index, field, offset, 1)
+    add_leaf(leaves, own.last, field, offset, 1)
+  end
+end
+
+local function list_part(list)
+  local part, offset = { list = list, size = list.size, leaves = {} }, 0
+  for _, field in ipairs(list.fields) do
+    add_leaves_of(part.leaves, field, offset)
+    offset = offset + field.size
+  end
+  add_leaf(part.leaves, list.item_node, list, 0, list.size)
+  if list.places then add_leaf(part.leaves, list.name_node, list, 0, list.size, { is_place = true }) end
+  return part
+end
+
+local function parts_of(layout)
+  local parts, open = {}, nil
+  for _, field in ipairs(layout) do
+    if field.fields then
+      parts[#parts + 1], open = list_part(field), nil
+    else
+      open = open or { size = 0, leaves = {} }
+      if open.size == 0 then parts[#parts + 1] = open end
+      add_leaves_of(open.leaves, field, open.size)
+      open.size = open.size + field.size
+    end
+  end
+  return parts
+end
+
+local function add_nodes(nodes, layout)
+  for _, field in ipairs(layout) do
+    for _, node in ipairs({ field.node, field.item_node or field.node, field.count_node or field.node,
+        field.name_node or field.node }) do
+      nodes[#nodes + 1] = node
+    end
+    for _, component in ipairs(field.components or {}) do nodes[#nodes + 1] = component end
+    if field.fields then add_nodes(nodes, field.fields) end
+    if field.name == "text" then
+      for _, node in ipairs({ own.tag, own.tag_name, own.tag_value }) do nodes[#nodes + 1] = node end
+    end
+  end
+  return nodes
+end
+
+-- Layouts of texts have no parts: where one of their fields is asked for, the readers add it.
+local function is_fixed(layout)
+  for _, field in ipairs(layout) do
+    if not field.size or (field.fields and (field.max or not is_fixed(field.fields))) then return false end
+  end
+  return true
+end
+
+local function sheet_of(layout)
+  return { check = checker_of(layout), nodes = add_nodes({}, layout), parts = is_fixed(layout) and parts_of(layout) }
+end
+
+local header_sheet, sheets = sheet_of(header_layout), {}
+for type, message in pairs(messages) do
+  sheets[type] = {}
+  for form, layout in pairs(message.forms) do sheets[type][form] = sheet_of(layout) end
+end
+
+-- The header, the checks and the form of a datagram; nil for an odd one.
+local function skim(tvb)
+  local raw = tvb:raw()
+  if #raw < header_size or not raw:find("^MXTP%d%d") then return nil end
+  local header, checks = {}, new_checks()
+  header_sheet.check(raw, 1, header_size + 1, 0, header, checks.shown)
+  header.type = tonumber(raw:sub(5, 6))
+  local limit, form = extent_and_form(header, function(place) return raw:byte(header_size + place + 1) end, #raw)
+  local sheet = sheets[header.type] and sheets[header.type][form]
+  if not sheet or limit < #raw or (header.payloadSize ~= 0 and header_size + header.payloadSize ~= limit) then
+    return nil
+  end
+  local stop = sheet.check(raw, header_size + 1, limit + 1, header.items, checks.values, checks.shown)
+  if stop ~= limit + 1 then return nil end
+  checks:check_header(header)
+  checks:check_body(header.type, form, checks.values)
+  if #checks.notices > 0 then return nil end
+  return header, checks, sheet
+end
+
+local function name_of_item(leaf, range, header, place)
+  if leaf.is_place then return leaf.field.places[place] end
+  return namers[leaf.field.names](range:uint(), header, place)
+end
+
+local function add_leaf_of_items(tree, tvb, leaf, at, stride, count, header)
+  local node, size = leaf.node, leaf.size
+  at = at + leaf.offset
+  for place = 1, count do
+    local range = tvb(at, size)
+    if leaf.is_name or leaf.is_place then
+      local name = name_of_item(leaf, range, header, place)
+      if name then tree:add(node, range, name):set_generated() end
+    elseif leaf.encoding then
+      tree:add_packet_field(node, range, leaf.encoding)
+    elseif leaf.is_type then
+      tree:add(node, range, header.type)
+    else
+      tree:add(node, range)
+    end
+    at = at + stride
+  end
+end
+
+local function add_parts(tree, tvb, parts, at, header)
+  for _, part in ipairs(parts) do
+    local count = part.list and header.items or 1
+    if part.list and tree:referenced(part.list.node) then tree:add(part.list.node, tvb(at, count * part.size)) end
+    for _, leaf in ipairs(part.leaves) do
+      if tree:referenced(leaf.node) then add_leaf_of_items(tree, tvb, leaf, at, part.size, count, header) end
+    end
+    at = at + count * part.size
+  end
+end
+
+local function is_asked_for(root, nodes)
+  for _, node in ipairs(nodes) do
+    if root:referenced(node) then return true end
+  end
+  return false
+end
+
+local function needs_readers(root, sheet, header)
+  local list = sheet.parts and sheet.parts[#sheet.parts].list
+  local is_plain = sheet.parts and not (list and (header.items == 0 or (list.places and header.items > #list.places)))
+  return not is_plain and is_asked_for(root, sheet.nodes)
+end
+
+-- Returns the summary; nil where the readers have to do it.
+local function dissect_quickly(tvb, root)
+  local header, checks, sheet = skim(tvb)
+  if not header or needs_readers(root, sheet, header) then return nil end
+  local tree = root:add(mxtp, tvb())
+  add_parts(tree, tvb, header_sheet.parts, 0, header)
+  if sheet.parts then
+    find_point_coding(tvb, header)
+    add_parts(tree, tvb, sheet.parts, header_size, header)
+  end
+  return info_text(header, checks)
+end
+
 local function dissect_datagram(tvb, root)
+  local quick = not root.visible and dissect_quickly(tvb, root)
+  if quick then return quick end
   local tree = root:add(mxtp, tvb())
   local checks = new_checks()
   local header, fault = read_header(tvb, tree, checks)
@@ -1165,7 +1452,7 @@ end
 -- ---------------------------------------------------------------------------------------------------------------
 -- How long a datagram is in a stream. Returns a size, or nil and "foreign", "more" or "unknown".
 
--- False where the bytes cannot begin a datagram, however they go on.
+-- False where the bytes cannot begin a datagram, whatever follows.
 local function may_start(tvb, offset)
   local front = tvb:len() > offset and tvb(offset, math.min(6, tvb:len() - offset)):raw() or ""
   return ("MXTP"):sub(1, #front) == front:sub(1, 4) and front:sub(5):find("^%d*$") ~= nil
@@ -1250,7 +1537,7 @@ local function find_mark(tvb, from)
   end
 end
 
--- Where a datagram of unknown size ends: before the next one, else with the segment; text goes on until a line ends.
+-- Where a datagram of unknown size ends: before the next one, else with the segment; a text lasts until a line ends.
 local function end_of_unsized(tvb)
   local mark = find_mark(tvb, header_size)
   local is_text = header_of(tvb).type == 12

@@ -57,7 +57,7 @@ def about(decoded: dict) -> dict:
 
 
 def tells_its_end(datagram: bytes) -> bool:
-    """Older senders leave the payload size out; then some types can only be told to end by what follows them."""
+    """Older senders leave the payload size out; then some types end only where the next datagram begins."""
     is_sized = datagram[22:24] != b"\0\0"
     return is_sized or datagram[4:6] not in (b"04", b"12", b"23", b"24", b"77")
 
