@@ -11,16 +11,12 @@
 namespace posewire::render {
 namespace {
 
-constexpr std::size_t segmentOf(std::size_t joint) {
-    return joint < kSegmentCount ? joint : std::size_t{kTwistJoints[joint - kSegmentCount].segment};
-}
-
 /// The segment that a vertex follows most, twist joints counted for theirs.
 std::size_t leadingSegment(const JointIndices& joints, const glm::vec4& weights) {
     std::array<float, kSegmentCount> shares{};
     for (int i = 0; i < 4; ++i) {
         if (joints[i] < kJointCount) {
-            shares[segmentOf(joints[i])] += weights[i];
+            shares[jointSegment(joints[i])] += weights[i];
         }
     }
     return static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin());
@@ -62,6 +58,9 @@ std::optional<float> intersectSide(const Ray& ray, const Capsule& capsule) {
     const glm::vec3 axis = capsule.to - capsule.from;
     const glm::vec3 offset = ray.origin - capsule.from;
     const float axisAxis = glm::dot(axis, axis);
+    if (!(axisAxis > 0.0F)) {
+        return std::nullopt; // a ball has no side
+    }
     const float axisRay = glm::dot(axis, ray.direction);
     const float axisOffset = glm::dot(axis, offset);
     const float a = axisAxis - axisRay * axisRay;

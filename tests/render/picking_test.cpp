@@ -4,6 +4,8 @@
 #include "render/mesh/mannequin.h"
 #include "tests/render/poses.h"
 
+#include <limits>
+
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -81,6 +83,40 @@ TEST(Picking, FindsNothingBesideTheBody) {
         {{1, &mannequinCapsules(), palette}, {2, nullptr, palette}, {3, &mannequinCapsules(), {}}}};
     EXPECT_FALSE(pickSegment({{5.0F, 0.5F, 0.8F}, {-1.0F, 0.0F, 0.0F}}, targets).has_value());
     EXPECT_FALSE(pickSegment({{5.0F, 0.0F, 1.6F}, {1.0F, 0.0F, 0.0F}}, targets).has_value());
+}
+
+TEST(Capsule, IsHitAlongItsAxisAndFromInsideItsEnds) {
+    const Capsule capsule{{0.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, 0.1F};
+    // Beside the axis and parallel to it only the end is in the way.
+    EXPECT_NEAR(intersect({{0.06F, 0, 3}, {0, 0, -1}}, capsule).value_or(-1.0F), 1.92F, 1e-5F);
+    EXPECT_FALSE(intersect({{0.2F, 0, 3}, {0, 0, -1}}, capsule).has_value());
+    EXPECT_EQ(intersect({{0, 0, 1.05F}, {0, 0, 1}}, capsule).value_or(-1.0F), 0.0F);
+    EXPECT_FALSE(intersect({{0, 0, 1.2F}, {0, 0, 1}}, capsule).has_value());
+}
+
+TEST(Capsule, WithoutLengthIsABall) {
+    const Capsule ball{{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}, 0.5F};
+    EXPECT_NEAR(intersect({{2, 0, 1}, {-1, 0, 0}}, ball).value_or(-1.0F), 1.5F, 1e-6F);
+    EXPECT_FALSE(intersect({{2, 0.6F, 1}, {-1, 0, 0}}, ball).has_value());
+}
+
+TEST(Capsule, IsNeverHitWhereNumbersAreNotFinite) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Ray ray{{2, 0, 0.5F}, {-1, 0, 0}};
+    EXPECT_FALSE(intersect(ray, {{0, 0, 0}, {0, 0, 1}, nan}).has_value());
+    EXPECT_FALSE(intersect(ray, {glm::vec3(nan), glm::vec3(nan), 0.1F}).has_value());
+}
+
+TEST(SegmentCapsules, AreAbsentWhereNoVertexFollowsASegment) {
+    SkinnedMesh mesh;
+    mesh.positions = {{0.0F, 0.0F, 1.0F}, {0.0F, 0.3F, 1.0F}, {0.1F, 0.0F, 1.0F}};
+    mesh.joints.assign(3, {LeftUpperArm, kSegmentCount + 1, 200, 0});
+    mesh.weights.assign(3, {0.2F, 0.3F, 0.5F, 0.0F});
+    const SegmentCapsules capsules = segmentCapsules(mesh);
+    // The twist joint of the left upper arm counts for its segment, a joint that does not exist for none.
+    EXPECT_GT(capsules[LeftUpperArm].radius, 0.0F);
+    EXPECT_LT(capsules[Pelvis].radius, 0.0F);
+    EXPECT_LT(capsules[RightUpperArm].radius, 0.0F);
 }
 
 } // namespace
