@@ -19,6 +19,12 @@ struct Bounds {
     /// Radius of the sphere about the box.
     float radius() const { return isEmpty() ? 0.0F : 0.5F * glm::length(max - min); }
 
+    /// 0 … 7; bit n says whether it is the upper end along axis n.
+    glm::vec3 corner(int index) const {
+        return {(index & 1) != 0 ? max.x : min.x, (index & 2) != 0 ? max.y : min.y,
+                (index & 4) != 0 ? max.z : min.z};
+    }
+
     void add(const glm::vec3& point) {
         min = glm::min(min, point);
         max = glm::max(max, point);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/camera.h"
 
+#include "render/mesh/finite.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,18 +19,11 @@ constexpr float kFarthestDistance = 200.0F;
 /// Room about what is framed.
 constexpr float kFrameMargin = 1.06F;
 
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Largest |x| and |y| of the box in the picture, as tangents, seen from `distance` before its centre.
 glm::vec2 tangentExtent(const Camera& camera, const Bounds& bounds, float distance) {
     glm::vec2 extent{0.0F};
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 point{(corner & 1) != 0 ? bounds.max.x : bounds.min.x,
-                              (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                              (corner & 4) != 0 ? bounds.max.z : bounds.min.z};
-        const glm::vec3 offset = point - bounds.centre();
+        const glm::vec3 offset = bounds.corner(corner) - bounds.centre();
         const float depth = camera.projection == Projection::Perspective
                                 ? std::max(distance + glm::dot(offset, camera.forward()), 0.05F)
                                 : distance;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/skinning.h"
 
+#include "render/mesh/finite.h"
+
 #include <array>
 #include <cmath>
 #include <optional>
@@ -9,10 +11,6 @@
 
 namespace posewire::render {
 namespace {
-
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 std::optional<glm::quat> unitQuaternion(const glm::quat& q) {
     const float length = glm::length(q);

@@ -5,7 +5,6 @@
 #include <array>
 
 #include <epoxy/gl.h>
-#include <glm/gtc/type_ptr.hpp>
 
 namespace posewire::render::gl {
 namespace {
@@ -128,25 +127,17 @@ void Program::set(std::string_view uniform, float value) {
     glUniform1f(locate(uniform), value);
 }
 
-void Program::set(std::string_view uniform, const glm::vec2& value) {
-    glUniform2fv(locate(uniform), 1, glm::value_ptr(value));
-}
-
 void Program::set(std::string_view uniform, const glm::vec3& value) {
-    glUniform3fv(locate(uniform), 1, glm::value_ptr(value));
+    glUniform3fv(locate(uniform), 1, &value.x);
 }
 
 void Program::set(std::string_view uniform, const glm::vec4& value) {
-    glUniform4fv(locate(uniform), 1, glm::value_ptr(value));
-}
-
-void Program::set(std::string_view uniform, const glm::mat4& value) {
-    glUniformMatrix4fv(locate(uniform), 1, GL_FALSE, glm::value_ptr(value));
+    glUniform4fv(locate(uniform), 1, &value.x);
 }
 
 void Program::set(std::string_view uniform, std::span<const glm::vec4> values) {
     if (!values.empty()) {
-        glUniform4fv(locate(uniform), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+        glUniform4fv(locate(uniform), static_cast<GLsizei>(values.size()), &values.front().x);
     }
 }
 

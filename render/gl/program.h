@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include <glm/mat4x4.hpp>
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <tl/expected.hpp>
@@ -38,10 +36,8 @@ public:
     /// A uniform that the program does not use is ignored. The program must be in use.
     void set(std::string_view uniform, int value);
     void set(std::string_view uniform, float value);
-    void set(std::string_view uniform, const glm::vec2& value);
     void set(std::string_view uniform, const glm::vec3& value);
     void set(std::string_view uniform, const glm::vec4& value);
-    void set(std::string_view uniform, const glm::mat4& value);
     void set(std::string_view uniform, std::span<const glm::vec4> values);
 
     /// Ties a uniform block to a binding point.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/mesh.h"
 
+#include "render/mesh/finite.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,10 +10,6 @@
 
 namespace posewire::render {
 namespace {
-
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 bool areWeightsSound(const glm::vec4& weights) {
     float sum = 0.0F;

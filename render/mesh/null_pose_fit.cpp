@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/null_pose_fit.h"
 
+#include "render/mesh/finite.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +16,6 @@ namespace {
 constexpr float kLargestRatio = 3.0F;
 /// A pelvis farther from the origin than this is no null pose.
 constexpr float kFarthestPelvis = 10.0F;
-
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 bool isUsable(float ratio) {
     return ratio >= 1.0F / kLargestRatio && ratio <= kLargestRatio;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "render/passes/frame.h"
 
+#include "render/mesh/finite.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,20 +25,13 @@ bool isAboveFloor(const Camera& camera) {
     return camera.projection == Projection::Perspective ? camera.eye().z > 0.0F : camera.pitch > 0.0F;
 }
 
-bool isFinite(const glm::vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 /// Calls `visit` with the corners of the boxes about the joints, where the palette puts them.
 template <typename Visit>
 void forEachCorner(const DrawnCharacter& character, Visit visit) {
     for (std::size_t joint = 0; joint < kJointCount; ++joint) {
         const Bounds& box = character.mesh->jointBoxes[joint];
         for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
-            const glm::vec3 point{(corner & 1) != 0 ? box.max.x : box.min.x,
-                                  (corner & 2) != 0 ? box.max.y : box.min.y,
-                                  (corner & 4) != 0 ? box.max.z : box.min.z};
-            const glm::vec3 world = transformPoint(character.instance->palette[joint], point);
+            const glm::vec3 world = transformPoint(character.instance->palette[joint], box.corner(corner));
             if (isFinite(world)) {
                 visit(world);
             }

@@ -123,11 +123,8 @@ TEST(Camera, FramesTheWholeBoxAndLittleMore) {
             camera.frame(person(), aspect);
             float outermost = 0.0F;
             for (int corner = 0; corner < 8; ++corner) {
-                const Bounds box = person();
-                const glm::vec3 point{(corner & 1) != 0 ? box.max.x : box.min.x,
-                                      (corner & 2) != 0 ? box.max.y : box.min.y,
-                                      (corner & 4) != 0 ? box.max.z : box.min.z};
-                const glm::vec2 screen = camera.project(point, aspect).value_or(glm::vec2(9.0F));
+                const glm::vec2 screen =
+                    camera.project(person().corner(corner), aspect).value_or(glm::vec2(9.0F));
                 outermost = std::max({outermost, std::abs(screen.x), std::abs(screen.y)});
             }
             EXPECT_LT(outermost, 1.0F);
@@ -156,6 +153,40 @@ TEST(Camera, HasStandardViews) {
     // From above x points up, as on a map.
     expectNear(facing(camera, StandardView::Top).forward(), {0.0F, 0.0F, -1.0F}, 0.05F);
     expectNear(facing(camera, StandardView::Top).up(), {1.0F, 0.0F, 0.0F}, 0.05F);
+}
+
+TEST(Camera, TurnsToAThreeQuarterViewFromAbove) {
+    const Camera camera = facing(facing(Camera(), StandardView::Top), StandardView::ThreeQuarter);
+    EXPECT_LT(camera.forward().x, -0.8F);
+    EXPECT_LT(camera.forward().y, -0.3F);
+    EXPECT_LT(camera.forward().z, -0.1F);
+}
+
+TEST(Camera, KeepsTargetAndDistanceInStandardViews) {
+    Camera camera;
+    camera.target = {3.0F, -2.0F, 1.0F};
+    camera.distance = 7.0F;
+    camera.projection = Projection::Orthographic;
+    for (const StandardView view : {StandardView::Front, StandardView::Top, StandardView::ThreeQuarter}) {
+        const Camera turned = facing(camera, view);
+        EXPECT_EQ(turned.target, camera.target);
+        EXPECT_EQ(turned.distance, camera.distance);
+        EXPECT_EQ(turned.projection, camera.projection);
+    }
+}
+
+TEST(Camera, FramesASinglePointFromClose) {
+    Bounds point;
+    point.add(glm::vec3(1.0F, 1.0F, 1.0F));
+    Camera camera;
+    camera.frame(point, kAspect);
+    expectNear(camera.target, {1.0F, 1.0F, 1.0F});
+    EXPECT_LT(camera.distance, 0.21F);
+    Bounds huge;
+    huge.add(glm::vec3(-1e6F));
+    huge.add(glm::vec3(1e6F));
+    camera.frame(huge, kAspect);
+    EXPECT_LE(camera.distance, 200.0F);
 }
 
 } // namespace

@@ -88,5 +88,35 @@ TEST(ImageComparison, ShowsWhereTheDifferenceIs) {
     EXPECT_EQ(difference.pixels[0], 0);
 }
 
+TEST(ImageComparison, OfNothingIsNoDifference) {
+    const ImageDifference difference = compareImages(Image(), Image(), 0);
+    EXPECT_TRUE(difference.sameSize);
+    EXPECT_EQ(difference.largest, 0);
+    EXPECT_TRUE(differenceImage(Image(), Image()).pixels.empty());
+}
+
+TEST(ImageComparison, ShowsGreatDifferencesAtFullStrength) {
+    const Image a = gradient(PixelOrder::Rgba);
+    Image b = a;
+    b.pixels[6] = 0;
+    EXPECT_EQ(differenceImage(a, b).pixels[6], 255);
+    EXPECT_EQ(differenceImage(a, b).pixels[7], 255);
+}
+
+TEST_F(ImageFile, RefusesAPictureThatIsCutOff) {
+    ASSERT_TRUE(writePng(gradient(PixelOrder::Rgba), path()).has_value());
+    std::filesystem::resize_file(path(), std::filesystem::file_size(path()) / 2);
+    const auto cut = readPng(path());
+    ASSERT_FALSE(cut.has_value());
+    EXPECT_NE(cut.error().find(path().string()), std::string::npos) << cut.error();
+}
+
+TEST_F(ImageFile, RefusesToWriteTooFewPixels) {
+    Image image = gradient(PixelOrder::Rgba);
+    image.pixels.pop_back();
+    EXPECT_FALSE(writePng(image, path()).has_value());
+    EXPECT_FALSE(std::filesystem::exists(path()));
+}
+
 } // namespace
 } // namespace posewire::render

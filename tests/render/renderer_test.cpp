@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "tests/render/studio.h"
 
-#include "render/gl/program.h"
-
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -11,7 +9,13 @@
 namespace posewire::render::testing {
 namespace {
 
-using RendererTest = Studio;
+class RendererTest : public Studio {
+protected:
+    const Image& shootMarks(std::span<const PointInstance> points, float pixelRatio) {
+        scene.points = points;
+        return shoot(kWidth, kHeight, pixelRatio);
+    }
+};
 
 float largestDistance(std::span<const glm::vec3> a, std::span<const glm::vec3> b) {
     float largest = 0.0F;
@@ -171,13 +175,119 @@ TEST_F(RendererTest, WorksOnAThreadOfItsOwn) {
     EXPECT_EQ(there.pixels, here.pixels);
 }
 
-TEST_F(RendererTest, GivesTheCompilersOwnText) {
-    constexpr std::array<std::string_view, 1> kVertex{"void main() { gl_Position = vec4(0.0); }"};
-    constexpr std::array<std::string_view, 1> kFragment{"void main() { undeclared = 1.0; }"};
-    const auto program = gl::Program::create({"broken", kVertex, kFragment});
-    ASSERT_FALSE(program.has_value());
-    EXPECT_NE(program.error().find("program broken, fragment shader"), std::string::npos) << program.error();
-    EXPECT_NE(program.error().find("undeclared"), std::string::npos) << program.error();
+TEST_F(RendererTest, SaysThatAShadowIsTooLargeForTheDriver) {
+    const auto large = OffscreenRenderer::create(RenderQuality{.shadowMapSize = 1 << 20});
+    ASSERT_FALSE(large.has_value());
+    EXPECT_NE(large.error().find("1048576 x 1048576 pixels"), std::string::npos) << large.error();
+}
+
+TEST_F(RendererTest, GivesAnEmptyPictureBeyondTheLimitsOfTheDriver) {
+    add(tPose());
+    const Image before = shoot();
+    const Image& image = shoot(1 << 20, 4);
+    EXPECT_EQ(image.width, 0);
+    EXPECT_TRUE(image.pixels.empty());
+    EXPECT_EQ(shoot().pixels, before.pixels);
+}
+
+TEST_F(RendererTest, ShowsCharactersThroughTheFloorFromBelow) {
+    look(0.3F, {0.0F, 0.0F, 0.9F}, 4.6F);
+    for (const Projection projection : {Projection::Perspective, Projection::Orthographic}) {
+        scene.camera.projection = projection;
+        scene.camera.pitch = -0.6F;
+        characters.clear();
+        const Image floor = shoot();
+        add(grounded(tPose(), mesh()));
+        EXPECT_GT(compareImages(shoot(), floor, 8).shareBeyond, 0.02);
+    }
+}
+
+TEST_F(RendererTest, LeavesTheFloorOutWhereAsked) {
+    const Image with = shoot();
+    scene.showFloor = false;
+    const Image& without = shoot();
+    // What is left is the background, which is the same across a row.
+    EXPECT_EQ(compareImages(with, without, 8).sameSize, true);
+    const glm::ivec3 left = pixel(without, 0, kHeight - 1);
+    const glm::ivec3 middle = pixel(without, kWidth / 2, kHeight - 1);
+    EXPECT_LE(std::abs(left.x - middle.x), 1);
+    EXPECT_NE(pixel(with, kWidth / 2, kHeight - 1), middle);
+}
+
+TEST_F(RendererTest, DrawsFromInsideABody) {
+    const Image empty = shoot();
+    add(tPose());
+    scene.camera.target = {0.0F, 0.0F, 1.2F};
+    scene.camera.distance = 0.2F;
+    EXPECT_GT(compareImages(shoot(), empty, 8).shareBeyond, 0.1);
+}
+
+TEST_F(RendererTest, DrawsNothingOfCharactersOutOfSight) {
+    scene.showFloor = false;
+    const Image empty = shoot();
+    add(placed(tPose(), {0.0F, 60.0F, 0.0F}));
+    add(placed(tPose(), {0.0F, -60.0F, 0.0F})).look.opacity = 0.5F;
+    EXPECT_EQ(shoot().pixels, empty.pixels);
+}
+
+TEST_F(RendererTest, LightsFromAboveWhereTheLightHasNoDirection) {
+    add(grounded(tPose(), mesh()));
+    scene.light.towards = {0.0F, 0.0F, 1.0F};
+    const Image above = shoot();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    for (const glm::vec3& towards : {glm::vec3(0.0F), glm::vec3(kNan)}) {
+        scene.light.towards = towards;
+        EXPECT_EQ(shoot().pixels, above.pixels);
+    }
+    // From below the horizon there would be no shadow on the floor.
+    scene.light.towards = {0.0F, 0.0F, -1.0F};
+    EXPECT_EQ(shoot().pixels, above.pixels);
+}
+
+TEST_F(RendererTest, LeavesOutAxesThatHaveNoSizeOrDirection) {
+    const Image empty = shoot();
+    constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+    const glm::vec3 place{0.0F, 0.0F, 1.0F};
+    const glm::quat upright(1.0F, 0.0F, 0.0F, 0.0F);
+    axes = {{place, upright, 0.0F},
+            {place, upright, -0.4F},
+            {place, upright, kNan},
+            {place, upright, 0.4F, 0.0F},
+            {place, glm::quat(kNan, 0.0F, 0.0F, 0.0F), 0.4F}};
+    EXPECT_EQ(shoot().pixels, empty.pixels);
+}
+
+TEST_F(RendererTest, DrawsNoMarksBehindTheEye) {
+    const Image empty = shoot();
+    const glm::vec3 behind = scene.camera.eye() - scene.camera.forward();
+    const std::array<LineInstance, 1> lines{{{behind, behind + scene.camera.right(), glm::vec4(1, 0, 1, 1)}}};
+    const std::array<PointInstance, 1> points{{{behind, glm::vec4(1, 0, 1, 1), 40.0F}}};
+    scene.lines = lines;
+    scene.points = points;
+    EXPECT_EQ(shoot().pixels, empty.pixels);
+    // A line that comes from behind the eye is seen from where it passes it.
+    const std::array<LineInstance, 1> passing{
+        {{behind, behind + 6.0F * scene.camera.forward() + 0.2F * scene.camera.right(),
+          glm::vec4(1, 0, 1, 1)}}};
+    scene.lines = passing;
+    EXPECT_NE(shoot().pixels, empty.pixels);
+}
+
+TEST_F(RendererTest, WidensMarksWithThePixelRatio) {
+    const std::array<PointInstance, 1> points{{{{0.0F, 0.0F, 0.9F}, glm::vec4(1, 0, 1, 1), 20.0F}}};
+    const auto magentaPixels = [](const Image& image) {
+        int count = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                const glm::ivec3 colour = pixel(image, x, y);
+                count += colour.x > 150 && colour.y < 60 && colour.z > 150 ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    const int single = magentaPixels(shootMarks(points, 1.0F));
+    EXPECT_NEAR(single, 314, 60);
+    EXPECT_NEAR(magentaPixels(shootMarks(points, 2.0F)), 4 * single, single);
 }
 
 TEST(RenderQualityTest, SparesSoftwareRenderersAndUsesGraphicsProcessors) {

@@ -42,10 +42,10 @@ void Studio::look(float yaw, const glm::vec3& target, float distance) {
     scene.light = keyLight(scene.camera);
 }
 
-const Image& Studio::shoot(int width, int height) {
+const Image& Studio::shoot(int width, int height, float pixelRatio) {
     scene.characters = characters;
     scene.axes = axes;
-    return m_offscreen->render(scene, width, height);
+    return m_offscreen->render(scene, width, height, pixelRatio);
 }
 
 glm::ivec3 pixel(const Image& image, int x, int y) {

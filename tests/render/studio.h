@@ -32,7 +32,7 @@ protected:
     void addAxes(const Pose& pose, float length = 0.12F);
     /// The characters' camera of the sketches, with the light over the right shoulder.
     void look(float yaw, const glm::vec3& target, float distance);
-    const Image& shoot(int width = kWidth, int height = kHeight);
+    const Image& shoot(int width = kWidth, int height = kHeight, float pixelRatio = 1.0F);
 
     Scene scene;
     std::vector<SkinnedInstance> characters;

@@ -2,6 +2,7 @@
 #include "render/mesh/import.h"
 #include "render/mesh/joints.h"
 #include "render/mesh/mannequin.h"
+#include "tests/render/mesh/gltf_text.h"
 #include "tests/support/paths.h"
 
 #include <array>
@@ -106,6 +107,84 @@ TEST(Import, RefusesAMeshWithoutBones) {
     const auto imported = importText("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", "obj");
     ASSERT_FALSE(imported);
     EXPECT_EQ(imported.error(), "the file has no mesh with bones");
+}
+
+using testing::GltfText;
+
+ImportedCharacter importGltf(const GltfText& file) {
+    auto imported = importText(file.text(), "gltf");
+    EXPECT_TRUE(imported) << imported.error();
+    return imported.value_or(ImportedCharacter{});
+}
+
+TEST(Import, TurnsYUpIntoZUp) {
+    const ImportedCharacter character = importGltf({});
+    ASSERT_EQ(character.bones.size(), 2U);
+    EXPECT_LT(glm::distance(character.bones[0].position, glm::vec3(0.0F, 0.0F, 1.0F)), 1e-6F);
+    EXPECT_LT(glm::distance(character.bones[1].position, glm::vec3(0.0F, 0.0F, 2.0F)), 1e-6F);
+    EXPECT_EQ(character.bones[1].parent, 0);
+    ASSERT_EQ(character.mesh.vertexCount(), 3U);
+    EXPECT_LT(glm::distance(character.mesh.positions[2], glm::vec3(0.0F, 0.0F, 1.0F)), 1e-6F);
+}
+
+TEST(Import, MakesWeightsSumToOneLargestFirst) {
+    GltfText file;
+    file.meshes[0].weights = {0.2F, 0.6F, 0.0F, 0.0F};
+    const SkinnedMesh mesh = importGltf(file).mesh;
+    ASSERT_EQ(mesh.vertexCount(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_LT(glm::distance(mesh.weights[i], glm::vec4(0.75F, 0.25F, 0.0F, 0.0F)), 1e-5F);
+        EXPECT_EQ(mesh.joints[i][0], 1);
+    }
+}
+
+TEST(Import, LetsVerticesWithoutWeightsFollowTheFirstBone) {
+    GltfText file;
+    file.meshes[0].weights = {0.0F, 0.0F, 0.0F, 0.0F};
+    const SkinnedMesh mesh = importGltf(file).mesh;
+    ASSERT_EQ(mesh.vertexCount(), 3U);
+    EXPECT_EQ(mesh.weights[0], glm::vec4(1.0F, 0.0F, 0.0F, 0.0F));
+    EXPECT_EQ(mesh.joints[0][0], 0);
+}
+
+TEST(Import, MakesNormalsWhereTheFileHasNone) {
+    GltfText file;
+    const SkinnedMesh made = importGltf(file).mesh;
+    file.meshes[0].hasNormals = true;
+    const SkinnedMesh read = importGltf(file).mesh;
+    ASSERT_EQ(made.vertexCount(), 3U);
+    ASSERT_EQ(read.vertexCount(), 3U);
+    EXPECT_LT(glm::distance(made.normals[0], glm::vec3(0.0F, -1.0F, 0.0F)), 1e-5F);
+    EXPECT_LT(glm::distance(read.normals[0], made.normals[0]), 1e-5F);
+}
+
+TEST(Import, TakesTheOcclusionFromRed) {
+    GltfText file;
+    EXPECT_EQ(importGltf(file).mesh.occlusion, std::vector<float>(3, 1.0F));
+    file.meshes[0].red = 0.25F;
+    EXPECT_EQ(importGltf(file).mesh.occlusion, std::vector<float>(3, 0.25F));
+    file.meshes[0].red = 7.0F;
+    EXPECT_EQ(importGltf(file).mesh.occlusion, std::vector<float>(3, 1.0F));
+}
+
+TEST(Import, JoinsTheMeshesOfAFile) {
+    GltfText file;
+    file.meshes.resize(2);
+    file.meshes[1].positions[0] = 5.0F;
+    const SkinnedMesh mesh = importGltf(file).mesh;
+    EXPECT_EQ(mesh.vertexCount(), 6U);
+    EXPECT_EQ(mesh.triangleCount(), 2U);
+    EXPECT_TRUE(mesh.validate(2));
+}
+
+TEST(Import, TakesAtMost256Bones) {
+    GltfText file;
+    file.boneCount = 256;
+    EXPECT_EQ(importGltf(file).bones.size(), 256U);
+    file.boneCount = 257;
+    const auto imported = importText(file.text(), "gltf");
+    ASSERT_FALSE(imported);
+    EXPECT_EQ(imported.error(), "the file has more than 256 bones");
 }
 
 } // namespace

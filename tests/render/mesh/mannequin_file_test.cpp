@@ -49,5 +49,27 @@ TEST(MannequinFile, RefusesIndicesOutOfRange) {
     EXPECT_FALSE(readMannequinFile(bytes));
 }
 
+TEST(MannequinFile, RefusesAnotherVersion) {
+    std::string bytes = committedFile();
+    bytes[bytes.find("PWMN") + 4] = '\x02';
+    EXPECT_EQ(readMannequinFile(bytes).error(), "this glTF file is not a mannequin of this version");
+}
+
+TEST(MannequinFile, RefusesAFileWithoutABinaryChunk) {
+    std::string bytes = committedFile();
+    bytes.replace(bytes.find(std::string("BIN\0", 4)), 3, "BIX");
+    EXPECT_EQ(readMannequinFile(bytes).error(), "this is no binary glTF file");
+    EXPECT_FALSE(readMannequinFile("glTF is mentioned here, and that is all"));
+    EXPECT_FALSE(readMannequinFile("{\"asset\": {\"version\": \"2.0\"}}"));
+}
+
+TEST(MannequinFile, RefusesWeightsThatDoNotSumToOne) {
+    std::string bytes = committedFile();
+    const SkinnedMesh mesh = loadMannequin(Detail::Medium);
+    const auto layout = MannequinFileLayout::of(mesh.vertexCount(), mesh.indices.size());
+    bytes.replace(bytes.find("PWMN") + layout.weights, 4, 4, '\0');
+    EXPECT_EQ(readMannequinFile(bytes).error(), "the weights of vertex 0 do not sum to 1");
+}
+
 } // namespace
 } // namespace posewire::render

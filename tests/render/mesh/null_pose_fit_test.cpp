@@ -186,5 +186,20 @@ TEST_F(NullPoseFitTest, RefusesSpansOfTheWrongSize) {
     EXPECT_FALSE(job.validate());
 }
 
+TEST_F(NullPoseFitTest, TakesTheStatureFromTheTrunkWhereTheFeetAreUnknown) {
+    NullPose performer = scaled(1.1F);
+    performer[LeftFoot] = performer[RightFoot] = glm::vec3(kNan);
+    const SkinnedMesh fitted = fit(performer);
+    ASSERT_TRUE(fitted.validate(kJointCount));
+    EXPECT_NEAR(heightOf(fitted), 1.1F * heightOf(m_template), 0.01F);
+}
+
+TEST_F(NullPoseFitTest, PutsAPelvisThatIsFarAwayAtTheReference) {
+    NullPose performer = kReferenceNullPose;
+    performer[Pelvis] = {0.0F, 0.0F, 500.0F};
+    fit(performer);
+    EXPECT_EQ(m_origins[Pelvis], kReferenceNullPose[Pelvis]);
+}
+
 } // namespace
 } // namespace posewire::render

@@ -248,5 +248,19 @@ TEST_F(SkinTest, KeepsTheForearmThickUnderPronation) {
     }
 }
 
+TEST_F(SkinTest, RefusesWhatDoesNotFitTogether) {
+    const auto palette = Pose().palette();
+    SkinnedMesh output = m_mesh;
+    SkinJob job{nullptr, palette, output.positions, output.normals};
+    EXPECT_EQ(job.validate().error(), "there is no mesh to skin");
+    job.mesh = &m_mesh;
+    EXPECT_TRUE(job.validate());
+    job.normals = job.normals.first(5);
+    EXPECT_EQ(job.validate().error(), "the output differs in size from the mesh");
+    job.normals = output.normals;
+    job.palette = job.palette.first(kSegmentCount);
+    EXPECT_FALSE(job.validate()) << "the mesh uses twist joints";
+}
+
 } // namespace
 } // namespace posewire::render
