@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/path.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -45,13 +43,12 @@ Eigen::Vector4d placeAt(double halfWidth, double u) {
 
 } // namespace
 
-FigureOfEight::FigureOfEight(double halfWidth, const Eigen::Vector2d& centre, double heading) {
+FigureOfEight::FigureOfEight(double halfWidth, const Eigen::Vector2d& centre) {
     constexpr std::size_t kSteps = 2048;
     constexpr std::size_t kSamples = 512;
     const std::vector<double> lengths = arcLengths(halfWidth, kSteps);
     m_length = lengths.back();
     const double du = 2.0 * std::numbers::pi / static_cast<double>(kSteps);
-    const Eigen::Rotation2Dd turn(heading);
     std::vector<Eigen::Vector4d> places;
     places.reserve(kSamples);
     std::size_t step = 0;
@@ -63,8 +60,7 @@ FigureOfEight::FigureOfEight(double halfWidth, const Eigen::Vector2d& centre, do
         const double share = (wanted - lengths[step]) / (lengths[step + 1] - lengths[step]);
         Eigen::Vector4d place =
             placeAt(halfWidth, -0.5 * std::numbers::pi + du * (static_cast<double>(step) + share));
-        place.head<2>() = turn * place.head<2>() + centre;
-        place[2] += heading;
+        place.head<2>() += centre;
         if (!places.empty()) {
             place[2] +=
                 2.0 * std::numbers::pi * std::round((places.back()[2] - place[2]) / (2.0 * std::numbers::pi));

@@ -7,7 +7,7 @@
 
 namespace posewire::performer {
 
-/// A place on the floor and the way the path goes there. Metres, radians.
+/// A place on the floor and the direction of the path there. Metres, radians.
 struct PathPlace {
     Eigen::Vector2d position = Eigen::Vector2d::Zero();
     double heading = 0.0;   ///< about z, from the x-axis
@@ -18,8 +18,7 @@ struct PathPlace {
 /// zero at the crossing to 3 / `halfWidth` at the far ends.
 class FigureOfEight {
 public:
-    explicit FigureOfEight(double halfWidth, const Eigen::Vector2d& centre = Eigen::Vector2d::Zero(),
-                           double heading = 0.0);
+    explicit FigureOfEight(double halfWidth, const Eigen::Vector2d& centre = Eigen::Vector2d::Zero());
 
     /// Length of one lap, in metres.
     double length() const { return m_length; }

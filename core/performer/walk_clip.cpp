@@ -56,14 +56,13 @@ WalkClip::WalkClip(const model::ReferenceBody& body, const WalkStyle& style) : m
         soles[sample] = {worldSolePoints(m_body, Side::Right, pose),
                          worldSolePoints(m_body, Side::Left, pose)};
     }
-    std::vector<Vector3d> roots(kSamples);
-    RootJob{soles, roots, m_strideLength}.run();
+    PelvisPath path = pelvisPath(soles);
+    m_strideLength = path.strideLength;
     for (const Side side : {Side::Right, Side::Left}) {
-        std::vector<Vector3d> corrections(kSamples);
-        PlantingJob{soles, roots, m_strideLength, side, corrections}.run();
-        m_footCorrections[side == Side::Right ? 0 : 1] = PeriodicSpline<Vector3d>(std::move(corrections));
+        m_footCorrections[side == Side::Right ? 0 : 1] =
+            PeriodicSpline<Vector3d>(footCorrections(soles, path, side));
     }
-    m_root = PeriodicSpline<Vector3d>(std::move(roots));
+    m_root = PeriodicSpline<Vector3d>(std::move(path.roots));
 }
 
 double WalkClip::sidePhase(Side side, double phase) {

@@ -14,7 +14,6 @@ namespace {
 using Eigen::Vector3d;
 using model::Side;
 
-constexpr std::size_t kFewestSamples = 32;
 constexpr std::array<Side, 2> kSides{Side::Right, Side::Left};
 
 /// Shares of the cycle.
@@ -64,11 +63,7 @@ std::vector<Vector3d> lowestAround(const std::vector<Vector3d>& values, double r
 }
 
 double lowest(const std::array<Vector3d, kSolePointCount>& points) {
-    double height = points[0].z();
-    for (const Vector3d& point : points) {
-        height = std::min(height, point.z());
-    }
-    return height;
+    return std::ranges::min(points, {}, [](const Vector3d& point) { return point.z(); }).z();
 }
 
 /// Sum of velocities (per cycle) of the points near the floor, weighted by nearness, and the sum of weights.
@@ -144,21 +139,21 @@ double ownPhase(std::size_t step, std::size_t count) {
 /// One foot of the straight walk in the world.
 struct FootTrack {
     const std::vector<SoleFrame>& soles;
-    const std::vector<Vector3d>& roots;
-    double strideLength;
+    const PelvisPath& path;
     std::size_t foot;
 
     /// Of the lowest point.
-    double height(std::size_t i) const { return lowest(soles[i][foot]) + roots[i].z(); }
+    double height(std::size_t i) const { return lowest(soles[i][foot]) + path.roots[i].z(); }
 
     /// Horizontal velocity of what touches the floor, or would first, in metres per cycle.
     Vector3d slip(std::size_t i) const {
         const std::size_t n = soles.size();
         ContactVelocity contact;
         contact.add(soles, i, foot, lowest(soles[i][foot]), 1.0);
-        const Vector3d root = 0.5 * static_cast<double>(n) * (roots[(i + 1) % n] - roots[(i + n - 1) % n]);
+        const Vector3d root =
+            0.5 * static_cast<double>(n) * (path.roots[(i + 1) % n] - path.roots[(i + n - 1) % n]);
         const Vector3d slip = contact.mean() + root;
-        return {slip.x() + strideLength, slip.y(), 0.0};
+        return {slip.x() + path.strideLength, slip.y(), 0.0};
     }
 };
 
@@ -173,11 +168,7 @@ double liftFor(double height, double own) {
 
 } // namespace
 
-bool RootJob::validate() const {
-    return soles.size() >= kFewestSamples && roots.size() == soles.size();
-}
-
-void RootJob::run() const {
+PelvisPath pelvisPath(const std::vector<SoleFrame>& soles) {
     const std::size_t n = soles.size();
     std::vector<Vector3d> heights(n, Vector3d::Zero());
     std::vector<Vector3d> velocities(n);
@@ -194,27 +185,23 @@ void RootJob::run() const {
     velocities = smoothed(velocities, kRootSmoothing);
     heights = smoothed(lowestAround(heights, kDipReach), kRootSmoothing);
     const Vector3d average = mean(velocities);
-    strideLength = average.x();
     // A limp would make the straight walk drift to one side; the path decides about the direction, so that is
     // dropped.
     subtract(velocities, average);
-    roots = integrated(velocities);
-    subtract(roots, mean(roots));
+    PelvisPath path{integrated(velocities), average.x()};
+    subtract(path.roots, mean(path.roots));
     for (std::size_t i = 0; i < n; ++i) {
-        roots[i].z() = heights[i].z();
+        path.roots[i].z() = heights[i].z();
     }
+    return path;
 }
 
-bool PlantingJob::validate() const {
-    return soles.size() >= kFewestSamples && roots.size() == soles.size() &&
-           corrections.size() == soles.size() && side != Side::Centre;
-}
-
-void PlantingJob::run() const {
+std::vector<Vector3d> footCorrections(const std::vector<SoleFrame>& soles, const PelvisPath& path,
+                                      Side side) {
     const std::size_t n = soles.size();
     const auto first =
         static_cast<std::size_t>(fraction(kSeam + (side == Side::Left ? 0.5 : 0.0)) * static_cast<double>(n));
-    const FootTrack track{soles, roots, strideLength, side == Side::Right ? std::size_t{0} : std::size_t{1}};
+    const FootTrack track{soles, path, side == Side::Right ? std::size_t{0} : std::size_t{1}};
     std::vector<Vector3d> velocities(n);
     for (std::size_t step = 0; step < n; ++step) {
         const double loaded = smoothWindow(0.06, 0.57, 0.05, ownPhase(step, n));
@@ -233,7 +220,7 @@ void PlantingJob::run() const {
         placed[i] = ways[step] - (1.0 - before) * atStrike + after * (atStrike - atEnd);
         placed[i].z() = liftFor(track.height(i), own);
     }
-    corrections = smoothed(placed, kFootSmoothing);
+    return smoothed(placed, kFootSmoothing);
 }
 
 } // namespace posewire::performer

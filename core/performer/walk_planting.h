@@ -12,28 +12,20 @@ namespace posewire::performer {
 /// origin.
 using SoleFrame = std::array<std::array<Eigen::Vector3d, kSolePointCount>, 2>;
 
-/// From the feet to the way of the pelvis: its height puts the lowest point of the carrying feet on the
-/// floor, its velocity is the opposite of the mean velocity of the points that touch it. Both are smoothed by
-/// about 40 ms.
-struct RootJob {
-    const std::vector<SoleFrame>& soles;
-    std::vector<Eigen::Vector3d>& roots; ///< against an evenly moving point, same size as `soles`
-    double& strideLength;
-
-    bool validate() const;
-    void run() const;
+/// How the pelvis moves over one cycle.
+struct PelvisPath {
+    std::vector<Eigen::Vector3d> roots; ///< against an evenly moving point, one for each frame of the soles
+    double strideLength = 0.0;          ///< metres
 };
 
-/// What keeps a foot from slipping, sinking and floating once the pelvis moves as RootJob says.
-struct PlantingJob {
-    const std::vector<SoleFrame>& soles;
-    const std::vector<Eigen::Vector3d>& roots;
-    double strideLength;
-    model::Side side;
-    std::vector<Eigen::Vector3d>& corrections; ///< same size as `soles`
+/// From the feet: the height of the pelvis puts the lowest point of the feet that carry it on the floor, its
+/// velocity is the opposite of the mean velocity of the points that touch it. Both are smoothed by about
+/// 40 ms. Takes at least 32 frames.
+PelvisPath pelvisPath(const std::vector<SoleFrame>& soles);
 
-    bool validate() const;
-    void run() const;
-};
+/// What keeps a foot from slipping, sinking and floating while the pelvis moves along `path`; one for each
+/// frame of the soles.
+std::vector<Eigen::Vector3d> footCorrections(const std::vector<SoleFrame>& soles, const PelvisPath& path,
+                                             model::Side side);
 
 } // namespace posewire::performer

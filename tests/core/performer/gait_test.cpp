@@ -82,7 +82,7 @@ TEST(FigureOfEight, IsWalkedAtEvenSpeedAlongItsHeading) {
 }
 
 TEST(FigureOfEight, CrossesItselfInItsCentre) {
-    const FigureOfEight path(4.0, {1.0, 2.0}, 0.5);
+    const FigureOfEight path(4.0, {1.0, 2.0});
     const Eigen::Vector2d centre(1.0, 2.0);
     EXPECT_LT((path.at(0.0).position - centre).norm(), 1e-9);
     EXPECT_LT((path.at(0.5 * path.length()).position - centre).norm(), 1e-6);

@@ -133,7 +133,7 @@ TEST(ExtraSegments, MirrorTheHands) {
 
 /// One foot after the other rests on the floor, moving backwards under the body, and swings forward in an
 /// arc.
-TEST(RootJob, RollsOverPointsThatRestOnTheFloor) {
+TEST(PelvisPath, RollsOverPointsThatRestOnTheFloor) {
     constexpr std::size_t kCount = 128;
     constexpr double kStride = 1.2;
     constexpr double kStance = 0.62;
@@ -148,13 +148,10 @@ TEST(RootJob, RollsOverPointsThatRestOnTheFloor) {
             soles[i][foot].fill(Vector3d(x, 0.0, z));
         }
     }
-    std::vector<Vector3d> roots(kCount);
-    double strideLength = 0.0;
-    const RootJob job{soles, roots, strideLength};
-    ASSERT_TRUE(job.validate());
-    job.run();
-    EXPECT_NEAR(strideLength, kStride, 0.005);
-    for (const Vector3d& root : roots) {
+    const PelvisPath path = pelvisPath(soles);
+    EXPECT_NEAR(path.strideLength, kStride, 0.005);
+    ASSERT_EQ(path.roots.size(), kCount);
+    for (const Vector3d& root : path.roots) {
         EXPECT_NEAR(root.z(), 0.9, 0.005);
         EXPECT_LT(std::abs(root.x()), 0.01);
     }
