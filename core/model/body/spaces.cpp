@@ -79,10 +79,6 @@ SegmentPose poseFromQuaternion(const QuaternionItem& item, LengthUnit unit) {
     return {toVector(item.position) * metresPer(unit), normalizedOrIdentity(toQuaternion(item.orientation))};
 }
 
-QuaternionItem quaternionFromPose(const SegmentPose& pose) {
-    return {toFloats(pose.position), toFloats(pose.orientation)};
-}
-
 SegmentPose poseFromUnity(const QuaternionItem& item, LengthUnit unit) {
     return {zUpFromUnity(Vector3d(toVector(item.position) * metresPer(unit))),
             normalizedOrIdentity(zUpFromUnity(toQuaternion(item.orientation)))};

@@ -62,7 +62,6 @@ struct QuaternionItem {
 };
 /// A quaternion that cannot be normalized (zero, NaN) becomes the identity.
 SegmentPose poseFromQuaternion(const QuaternionItem& item, LengthUnit unit = LengthUnit::Metre);
-QuaternionItem quaternionFromPose(const SegmentPose& pose);
 /// Type 05: the pelvis in the world, every other segment relative to its parent.
 SegmentPose poseFromUnity(const QuaternionItem& item, LengthUnit unit = LengthUnit::Metre);
 QuaternionItem unityFromPose(const SegmentPose& pose);
