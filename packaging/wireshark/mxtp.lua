@@ -1050,17 +1050,6 @@ local function read_header(tvb, tree, checks)
   return header
 end
 
--- The header's numbers without a tree.
-local function header_of(tvb)
-  local header, at = {}, 0
-  for _, field in ipairs(header_layout) do
-    if integers[field.kind] then header[field.name] = tvb(at, field.size):uint() end
-    at = at + field.size
-  end
-  header.type = tonumber(tvb(4, 2):raw())
-  return header
-end
-
 -- Where the payload ends in `size` bytes with the header, and which layout it is in.
 local function extent_and_form(header, at, size)
   local limit = math.min(size, header_size + sent_payload(header, at, size - header_size))
@@ -1342,13 +1331,19 @@ for type, message in pairs(messages) do
   for form, layout in pairs(message.forms) do sheets[type][form] = sheet_of(layout) end
 end
 
+-- The header without a tree; there are `header_size` bytes at least.
+local function header_of(raw)
+  local header = {}
+  header_sheet.check(raw, 1, header_size + 1, 0, header)
+  header.type = tonumber(raw:sub(5, 6))
+  return header
+end
+
 -- The header, the checks and the form of a datagram; nil for an odd one.
 local function skim(tvb)
   local raw = tvb:raw()
   if #raw < header_size or not raw:find("^MXTP%d%d") then return nil end
-  local header, checks = {}, new_checks()
-  header_sheet.check(raw, 1, header_size + 1, 0, header, checks.shown)
-  header.type = tonumber(raw:sub(5, 6))
+  local header, checks = header_of(raw), new_checks()
   local limit, form = extent_and_form(header, function(place) return raw:byte(header_size + place + 1) end, #raw)
   local sheet = sheets[header.type] and sheets[header.type][form]
   if not sheet or limit < #raw or (header.payloadSize ~= 0 and header_size + header.payloadSize ~= limit) then
@@ -1510,7 +1505,7 @@ local computed = {
 local function extent_of(tvb)
   if not may_start(tvb, 0) then return nil, "foreign" end
   if tvb:len() < header_size then return nil, "more" end
-  local header = header_of(tvb)
+  local header = header_of(tvb(0, header_size):raw())
   if header.payloadSize ~= 0 then
     if header.type == 25 and header.payloadSize == 12 and tvb:len() < header_size + 12 then
       return nil, "more"
@@ -1540,7 +1535,7 @@ end
 -- Where a datagram of unknown size ends: before the next one, else with the segment; a text lasts until a line ends.
 local function end_of_unsized(tvb)
   local mark = find_mark(tvb, header_size)
-  local is_text = header_of(tvb).type == 12
+  local is_text = header_of(tvb(0, header_size):raw()).type == 12
   if is_text and mark + 6 > tvb:len() and tvb(mark - 1, 1):uint() ~= 0x0a then
     return nil
   end
