@@ -43,8 +43,8 @@ struct Viewport {
 };
 
 /// Draws scenes in the OpenGL context that was current at `create`: any context of 3.3 or newer.
-/// Every call, the destructor included, needs that context current on the calling thread. State that is left
-/// changed: bindings, viewport and enables; a caller that draws too sets its own.
+/// Every call, the destructor included, needs that context current on the calling thread. It leaves
+/// bindings, viewport and enables changed; a caller that draws as well sets its own.
 class Renderer {
 public:
     /// `quality` defaults to interactiveQuality. The error says what is missing: the OpenGL version, or the
@@ -65,11 +65,11 @@ public:
     MeshId uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
     void releaseMesh(MeshId id);
 
-    /// Characters whose mesh is unknown or whose palette is short are left out.
+    /// Leaves out characters whose mesh is unknown or whose palette is too short.
     void draw(const Scene& scene, const Viewport& viewport);
 
-    /// Positions as the vertex shader skins them, in the order of the mesh's own vertices: what SkinJob is
-    /// compared with. Empty where the mesh is unknown or the palette short.
+    /// Positions as the vertex shader skins them, in the order of the mesh's own vertices: the tests compare
+    /// SkinJob with them. Empty where the mesh is unknown or the palette short.
     std::vector<glm::vec3> skinnedPositions(MeshId id, std::span<const DualQuaternion> palette);
 
 private:

@@ -88,7 +88,7 @@ struct LineInstance {
     glm::vec4 colour{1.0F};
     /// Logical pixels.
     float width = 1.5F;
-    /// Share of the alpha that is left behind other things: 0 hides, 1 shows through.
+    /// Share of the alpha that remains behind other things: 0 hides, 1 shows through.
     float behind = 0.35F;
 };
 

@@ -26,7 +26,7 @@ struct LocalRotations {
 BodyPose posed(const model::ReferenceBody& body, const Eigen::Vector3d& root,
                const LocalRotations& rotations);
 
-/// Poses again, from their parents, the segments `first` to `last`: one limb after its rotations changed.
+/// Recomputes the segments `first` to `last` from their parents, as for a limb whose rotations have changed.
 struct SegmentRange {
     int first = 0;
     int last = 0;
@@ -34,7 +34,7 @@ struct SegmentRange {
 void poseRange(const model::ReferenceBody& body, const LocalRotations& rotations, SegmentRange range,
                BodyPose& pose);
 
-/// Rotations about the axes, in degrees, as motions are written down.
+/// Rotations about the axes, in degrees, the unit of the motions.
 Eigen::Quaterniond aboutX(double degrees);
 Eigen::Quaterniond aboutY(double degrees);
 Eigen::Quaterniond aboutZ(double degrees);

@@ -14,7 +14,7 @@
 
 namespace posewire::performer {
 
-/// Who somebody is, as type 12 tells it.
+/// A character's identity, as sent in type 12.
 struct Identity {
     std::string name;
     std::string colour; ///< RRGGBB
@@ -33,7 +33,7 @@ struct CharacterSettings {
     model::SegmentLayout layout;
 };
 
-/// All that can be said about a character at one moment.
+/// Everything known about a character at one moment.
 struct CharacterMoment {
     std::vector<SegmentState> segments; ///< body, props, fingers, as in the layout
     PointState centreOfMass;

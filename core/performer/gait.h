@@ -15,7 +15,7 @@ struct GaitAngles {
     double ankleDorsiflexion = 0.0; ///< dorsiflexion +
 };
 
-/// Mean over a cycle of the pelvis tilt and so the hip flexion of upright standing.
+/// Mean pelvis tilt over a cycle, and so the hip flexion of a person standing upright.
 inline constexpr double kMeanPelvisTilt = 11.588;
 
 /// Walking speed and stride time that belong to the curves.

@@ -31,7 +31,7 @@ PointState differentiated(const Eigen::Vector3d& before, const Eigen::Vector3d& 
 /// The rotation vector of `to` against `from`, in the world: axis times angle, the shorter way round.
 Eigen::Vector3d rotationBetween(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
 
-/// Segments at three moments `step` seconds apart to their states at the middle one.
+/// Derives the states of segments at the middle of three moments `step` seconds apart.
 struct KinematicsJob {
     std::span<const model::SegmentPose> before;
     std::span<const model::SegmentPose> now;

@@ -11,7 +11,7 @@ class LossPattern {
 public:
     LossPattern(const FaultSettings& settings, const KeyedRandom& random);
 
-    /// Whether the next datagram is lost. To be asked for each, in order.
+    /// Whether the next datagram is lost. Call it once for each, in order.
     bool loses();
 
 private:

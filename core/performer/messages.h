@@ -29,7 +29,7 @@ wire::PoseQuaternion poseQuaternion(const Character& character, const CharacterM
 /// The 64 markers.
 wire::PointPositions pointPositions(const Character& character, const CharacterMoment& moment,
                                     const MessageDialect& dialect);
-/// Two tags that nobody wears: one carried around the floor, one lying still.
+/// Two tags off the body: one carried across the floor, one lying still.
 wire::TagPositions tagPositions(double seconds);
 wire::PoseUnity poseUnity(const CharacterMoment& moment);
 wire::JointAngles jointAngles(const CharacterMoment& moment);

@@ -8,12 +8,12 @@
 
 namespace posewire::performer {
 
-/// Random figures by key: the same seed and key always give the same figure, in any order of asking.
+/// Random numbers by key: the same seed and key always give the same number, whatever the order of the calls.
 class KeyedRandom {
 public:
     explicit KeyedRandom(std::uint64_t seed) : m_seed(seed) {}
 
-    /// Another independent sender for a part, such as a character.
+    /// An independent source for a part, such as a character.
     KeyedRandom fork(std::uint64_t key) const { return KeyedRandom(bits(key)); }
 
     std::uint64_t bits(std::uint64_t key) const;
@@ -22,7 +22,7 @@ public:
     double uniform(std::uint64_t key, double from, double to) const {
         return from + (to - from) * uniform(key);
     }
-    /// Three independent figures with mean 0 and variance 1, close to normal (sums of four uniform figures).
+    /// Three independent numbers with mean 0 and variance 1, close to normal (sums of four uniform ones).
     Eigen::Vector3d normal3(std::uint64_t key) const;
 
 private:

@@ -11,7 +11,7 @@
 
 namespace posewire::performer {
 
-/// The specification whose sender is played.
+/// The revision of the specification that the sender follows.
 ///
 /// E: no types 05, 13, 20–25; 10, 11 and 12 without a length; points as 100 · segment + point; header bytes
 /// 17–23 zero. J, K: header bytes 17–23 zero; type 24 of 12 bytes, type 25 without a length. N: as real
@@ -40,8 +40,8 @@ std::optional<std::string> findProblem(const PerformerSettings& settings);
 std::vector<std::uint8_t> typesOf(Revision revision);
 
 /// A synthetic sender: characters in motion and every message about them, each consistent with all others
-/// since all come from the same motion. Frame n is a pure function of the settings and n: any frame can be
-/// asked for in any order; asking in order is fastest. There is no clock inside. One thread at a time.
+/// since all come from the same motion. Frame n is a pure function of the settings and n: frames can
+/// be requested in any order, fastest in theirs. There is no clock inside. One thread at a time.
 class Performer {
 public:
     /// The settings must be without a problem. Takes a few milliseconds a character.

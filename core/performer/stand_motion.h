@@ -6,7 +6,7 @@
 
 namespace posewire::performer {
 
-/// The exact null pose, for ever.
+/// The exact null pose at any time.
 class TPoseMotion final : public Motion {
 public:
     explicit TPoseMotion(const MotionSettings& settings);
@@ -16,11 +16,11 @@ private:
     BodyPose m_pose;
 };
 
-/// What is done while standing.
+/// What a standing character does.
 enum class StandAction : std::uint8_t { Idle, Wave, Squat };
 
 /// Stands on one spot with both feet planted: breathes, sways, shifts weight, looks around; waves or squats
-/// now and then if asked to.
+/// now and then, if that is its action.
 class StandMotion final : public Motion {
 public:
     StandMotion(const MotionSettings& settings, StandAction action);
@@ -41,7 +41,7 @@ private:
     std::array<Wander, 6> m_wander; ///< sway x, sway y (m); look, trunk x, y, arms (degrees)
 };
 
-/// Where a standing character has its place: in a row along y.
+/// A standing character's place: in a row along y.
 Eigen::Vector3d standingSpot(const MotionSettings& settings);
 
 } // namespace posewire::performer

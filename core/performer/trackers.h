@@ -37,7 +37,7 @@ struct TrackerMoment {
     std::array<double, 2> sinceHeelStrike{}; ///< right, left, in seconds
 };
 
-/// The 17 trackers of a full-body suit, strapped on a little crooked, the same way for a whole session.
+/// The 17 trackers of a full-body suit, strapped on slightly askew, in the same way for a whole session.
 ///
 /// Noise is of the order of the trackers' class: gyroscope 0.1 °/s white with a slowly wandering bias of 0.2
 /// °/s, accelerometer 0.02 m/s², magnetometer 0.003. A heel strike rings at 35 Hz through foot, shank, pelvis

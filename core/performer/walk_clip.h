@@ -9,7 +9,7 @@
 
 namespace posewire::performer {
 
-/// How somebody walks, as factors and angles on top of the mean.
+/// A personal way of walking: factors and angles on top of the mean.
 struct WalkStyle {
     double amplitude = 1.0;                     ///< of all leg angles about their means
     double armSwing = 1.0;                      ///< of the swing of the arms
@@ -21,9 +21,9 @@ struct WalkStyle {
 /// One cycle of straight walking along x on a level floor, for one body. Phase 0 is the strike of the right
 /// heel, phase 0.5 that of the left.
 ///
-/// The joint angles come from the gait curves; where the pelvis is follows from the feet that carry it; what
-/// is left of slipping and of feet in or above the floor is measured once at construction and given as a
-/// correction per foot.
+/// The joint angles come from the gait curves; the feet that carry the pelvis determine where it is. What
+/// then remains of slipping, sinking and floating is measured once, at construction, and given as a
+/// correction for each foot.
 class WalkClip {
 public:
     WalkClip(const model::ReferenceBody& body, const WalkStyle& style);
@@ -36,8 +36,8 @@ public:
     /// The pelvis against a point on the floor that moves evenly along x at strideLength() per cycle.
     Eigen::Vector3d root(double phase) const { return m_root.at(phase); }
 
-    /// To be added to the foot that rotations() and root() give, so that it stands still on the floor while
-    /// it bears weight and stays clear of it while it swings. `phase` is that of the clip.
+    /// Added to the foot's position from rotations() and root(), it keeps the foot still on the floor while
+    /// it bears weight and clear of it while it swings. `phase` is that of the clip.
     Eigen::Vector3d footCorrection(model::Side side, double phase) const;
 
     /// The phase of that side's own cycle, 0 at its heel strike.

@@ -56,7 +56,7 @@ double startShareFor(const MotionSettings& settings) {
     const int group = settings.character / kPerGroup;
     const int groupSize = std::clamp(settings.characterCount - kPerGroup * group, 1, kPerGroup);
     const int place = settings.character % kPerGroup;
-    // Every other one starts in the other lobe. Whoever passes the crossing does so at a time of his own.
+    // Every other character starts in the other lobe, so that no two pass the crossing at once.
     return 0.5 * place / groupSize + (place % 2 == 1 ? 0.5 : 0.0);
 }
 
@@ -81,7 +81,7 @@ double leanFor(const PathPlace& place) {
 WalkMotion::WalkMotion(const MotionSettings& settings)
     : m_body(settings.body), m_path(pathFor(settings)), m_clip(settings.body, styleFor(randomOf(settings))) {
     const KeyedRandom random = randomOf(settings);
-    // Everybody starts a little after the crossing, the first one on the way to the near lobe.
+    // All start a little after the crossing, the first on the way to the near lobe.
     m_startDistance = m_path.length() * (startShareFor(settings) + 0.04);
     m_startPhase = random.uniform(kPhase);
     m_strideTime = m_clip.strideLength() / kSpeed;

@@ -87,7 +87,7 @@ struct ContactVelocity {
     Vector3d mean() const { return sum / weights; }
 };
 
-/// How much a foot carries at its own phase.
+/// The share of the load that a foot carries at its own phase.
 double carrying(double phase) {
     return smoothStep(0.0, 0.10, phase) * (1.0 - smoothStep(0.50, 0.60, phase));
 }
@@ -213,7 +213,7 @@ std::vector<Vector3d> footCorrections(const std::vector<SoleFrame>& soles, const
     std::vector<Vector3d> placed(n);
     for (std::size_t step = 0; step < n; ++step) {
         const double own = ownPhase(step, n);
-        // What the foot was moved during the stance is made good during the swing, before and after the seam.
+        // The swing, before and after the seam, takes back what the stance moved the foot.
         const double before = 1.0 - smoothStep(kSeam - 1.0, 0.0, own);
         const double after = smoothStep(kStanceEnd, kSeam, own);
         const std::size_t i = (first + step) % n;

@@ -34,7 +34,7 @@ struct ImportedCharacter {
 /// sentence that says what is wrong with the file.
 tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& path);
 
-/// The same from memory; `extension` ("glb") is what the format is recognised by where the bytes do not tell.
+/// The same from memory; `extension` ("glb") names the format where the bytes alone leave it open.
 tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std::byte> bytes,
                                                              const std::string& extension);
 

@@ -12,7 +12,7 @@ namespace posewire::render {
 /// Stretches a mesh from one null pose to a performer's: v' = Σ wᵢ (o'ᵢ + Sᵢ (v − oᵢ)), with the weights of
 /// twist joints counted for their segments. Null poses have identity orientations, so that a diagonal Sᵢ is
 /// exact: along the bone it is the ratio of the lengths, across it the girth that follows from the stature.
-/// A length that is not finite, zero or beyond all reason counts as the reference's.
+/// Where a length is zero, not finite or absurd, the reference's is used.
 struct NullPoseFitJob {
     const SkinnedMesh* mesh = nullptr;
     /// Segment origins that the mesh was made for, metres.

@@ -59,7 +59,7 @@ void EdgePass::draw(const Frame& frame) {
     // All copies before all drawing: overlapping regions must not be smoothed twice.
     std::vector<Region> regions;
     for (const DrawnCharacter& character : frame.characters) {
-        // Stripes are smooth of themselves, and would be taken for edges.
+        // Stripes are smooth already and would be taken for edges.
         if (!character.onScreen.isEmpty() && !character.instance->look.isHatched) {
             const Region seen = regionOf(character.onScreen, viewport, 2.0F + kReach);
             m_copy.copyFromFramebuffer(seen.x, seen.y, seen.width, seen.height);

@@ -11,8 +11,8 @@
 
 namespace posewire::render {
 
-/// Smooths the edges of the finished picture, only where characters are: the grid, lines and points are
-/// smooth of themselves.
+/// Smooths the edges of the finished picture, only where characters are: the shaders of the grid, lines and
+/// points smooth their own.
 class EdgePass {
 public:
     static tl::expected<EdgePass, std::string> create();

@@ -28,7 +28,7 @@ struct ProgramParts {
     std::span<const char* const> recorded = {};
 };
 
-/// Joins the shared texts with the pass's own, and ties the block and the samplers to their places.
+/// Joins the shared texts with the pass's own, and binds the uniform block and the samplers.
 tl::expected<gl::Program, std::string> createProgram(const ProgramParts& parts);
 
 } // namespace posewire::render

@@ -10,8 +10,8 @@
 
 namespace posewire::render {
 
-/// What the characters stand in: the background, and the floor with its grid, its shadows and the triangle at
-/// the origin. Drawn after the characters, so that nothing is painted that they hide.
+/// The surroundings of the characters: the background, and the floor with its grid, its shadows and the
+/// triangle at the origin. Drawn after the characters, so that nothing they hide is painted.
 class SurroundingsPass {
 public:
     static tl::expected<SurroundingsPass, std::string> create();

@@ -4,7 +4,7 @@
 uniform sampler2D shadowDepth;
 uniform sampler2DShadow shadowMap;
 uniform int capsuleCount;
-// Pairs: from and radius, to and nothing.
+// Pairs: from and radius, then to and an unused value.
 uniform vec4 capsules[24];
 uniform float mapSize;
 

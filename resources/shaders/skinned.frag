@@ -14,7 +14,7 @@ uniform float hatched;
 out vec4 fragment;
 
 // 1 in the light. Six bilinear comparisons about the point soften the edge by five texels. Where the light only grazes
-// the surface, a texel of its picture covers much of it: there the point is looked up further outside.
+// the surface, a texel of its picture covers much of it: there the point is looked up farther outside.
 float lit(vec3 position, vec3 normal, float facing) {
     float outside = 0.012 + 0.022 * (1.0 - max(facing, 0.0));
     vec4 inLight = lightViewProjection * vec4(position + outside * normal, 1.0);
@@ -49,7 +49,7 @@ vec3 shade(Paint paint, vec3 normal, vec3 view, float occlusion) {
     float rim = grazing * grazing * grazing;
     result += paint.gloss * visible * step(0.0, facing) * (0.13 * sharp + 0.045 * shine8);
     result += 0.11 * rim * occlusion * (0.35 + 0.65 * hemisphere);
-    // Lifts the middle as a power of 1 / 1.15 does, at a third of its price.
+    // Lifts the middle as a power of 1 / 1.15 does, at a third of its cost.
     result = clamp(result, 0.0, 1.0);
     return result * (1.22 - 0.22 * result);
 }

@@ -72,7 +72,7 @@ TEST(ImageComparison, CountsPixelsAndNotChannels) {
     EXPECT_DOUBLE_EQ(compareImages(a, b, 1).shareBeyond, 2.0 / 35.0);
 }
 
-TEST(ImageComparison, TellsThatSizesDisagree) {
+TEST(ImageComparison, ReportsSizesThatDisagree) {
     const Image a = gradient(PixelOrder::Rgba);
     const Image turned{5, 7, PixelOrder::Rgba, a.pixels};
     EXPECT_FALSE(compareImages(a, turned, 2).sameSize);

@@ -97,7 +97,7 @@ std::string GltfText::text() const {
                  ",\"skin\":0}";
         roots += "," + std::to_string(static_cast<std::size_t>(boneCount) + mesh);
     }
-    // The bind pose is the rest pose: bone n stands at a height of n + 1.
+    // The bind pose is the rest pose: bone n is at a height of n + 1.
     std::vector<float> inverseBinds;
     for (int bone = 0; bone < boneCount; ++bone) {
         inverseBinds.insert(inverseBinds.end(),
