@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/cli/command_line.h"
 #include "app/cli/output.h"
 
 #include <functional>
 #include <string>
-
-namespace CLI {
-class App;
-}
 
 namespace posewire::cli {
 
@@ -32,15 +29,15 @@ struct Console {
 
 /// One command of the program: its place in the command line, and what it does once that is parsed.
 struct Command {
-    CLI::App* parser = nullptr;
+    std::string name;
     std::function<ExitStatus(Console&)> run;
 };
 
-Command addDecodeCommand(CLI::App& program);
-Command addEncodeCommand(CLI::App& program);
-Command addMonitorCommand(CLI::App& program);
-Command addReferenceCommand(CLI::App& program);
-Command addReportCommand(CLI::App& program);
-Command addSendCommand(CLI::App& program);
+Command addDecodeCommand(CommandLine& program);
+Command addEncodeCommand(CommandLine& program);
+Command addMonitorCommand(CommandLine& program);
+Command addReferenceCommand(CommandLine& program);
+Command addReportCommand(CommandLine& program);
+Command addSendCommand(CommandLine& program);
 
 } // namespace posewire::cli

@@ -8,8 +8,6 @@
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
-#include <CLI/CLI.hpp>
-
 namespace posewire::cli {
 namespace {
 
@@ -158,19 +156,17 @@ ExitStatus decode(const DecodeOptions& options, Console& console) {
 
 } // namespace
 
-Command addDecodeCommand(CLI::App& program) {
+Command addDecodeCommand(CommandLine& program) {
     auto options = std::make_shared<DecodeOptions>();
-    CLI::App* parser =
-        program.add_subcommand("decode", "Show the datagrams of files, field by field or as JSON Lines");
-    parser
-        ->add_option("FILE", options->files,
-                     "datagrams back to back, or pcap or pcapng; - for standard input")
-        ->required();
-    parser->add_flag("--json", options->asJson, "one JSON object a line for each datagram");
-    parser->add_option("--filter", options->filter,
-                       "only packets that this matches, such as \"type == 02 && position.z > 2\"; "
-                       "reference --filter has the language");
-    return {parser, [options](Console& console) { return decode(*options, console); }};
+    Arguments arguments =
+        program.addCommand("decode", "Show the datagrams of files, field by field or as JSON Lines");
+    arguments.add("FILE", options->files, "datagrams back to back, or pcap or pcapng; - for standard input")
+        .required();
+    arguments.flag("--json", options->asJson, "one JSON object a line for each datagram");
+    arguments.add("--filter", options->filter,
+                  "only packets that this matches, such as \"type == 02 && position.z > 2\"; "
+                  "reference --filter has the language");
+    return {"decode", [options](Console& console) { return decode(*options, console); }};
 }
 
 } // namespace posewire::cli

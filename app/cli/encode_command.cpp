@@ -4,8 +4,6 @@
 #include "app/cli/line_reader.h"
 #include "core/export/json.h"
 
-#include <CLI/CLI.hpp>
-
 namespace posewire::cli {
 namespace {
 
@@ -89,16 +87,15 @@ ExitStatus encode(const EncodeOptions& options, Console& console) {
 
 } // namespace
 
-Command addEncodeCommand(CLI::App& program) {
+Command addEncodeCommand(CommandLine& program) {
     auto options = std::make_shared<EncodeOptions>();
-    CLI::App* parser =
-        program.add_subcommand("encode", "Turn the output of decode --json back into datagrams");
-    parser->add_option("FILE", options->input, "JSON Lines; - for standard input")->required();
-    parser
-        ->add_option("-o,--output", options->output,
-                     "where the datagrams go, back to back; - for standard output")
-        ->capture_default_str();
-    return {parser, [options](Console& console) { return encode(*options, console); }};
+    Arguments arguments =
+        program.addCommand("encode", "Turn the output of decode --json back into datagrams");
+    arguments.add("FILE", options->input, "JSON Lines; - for standard input").required();
+    arguments
+        .add("-o,--output", options->output, "where the datagrams go, back to back; - for standard output")
+        .showDefault();
+    return {"encode", [options](Console& console) { return encode(*options, console); }};
 }
 
 } // namespace posewire::cli

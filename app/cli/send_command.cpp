@@ -92,116 +92,105 @@ std::string motionList() {
     return list;
 }
 
-void addPlaces(CLI::App& parser, SendOptions& options) {
-    parser.option_defaults()->group("Where to and for how long");
-    parser.add_option("--to", options.to, "where to, HOST:PORT; may be given several times")
-        ->expected(1)
-        ->take_all()
-        ->capture_default_str();
-    CLI::Option* udp = parser.add_flag("--udp")->description("one datagram a packet (default)");
-    parser.add_flag("--tcp", options.overTcp, "connect, as MVN does, and send datagrams back to back")
-        ->excludes(udp);
-    parser
-        .add_option("--duration", options.durationSeconds, "stop after so many seconds; 0: when interrupted")
-        ->check(CLI::NonNegativeNumber)
-        ->capture_default_str();
+void addPlaces(Arguments arguments, SendOptions& options) {
+    arguments.beginGroup("Where to and for how long");
+    arguments.add("--to", options.to, "where to, HOST:PORT; may be given several times")
+        .repeatable()
+        .showDefault();
+    const Option udp = arguments.flag("--udp", "one datagram a packet (default)");
+    arguments.flag("--tcp", options.overTcp, "connect, as MVN does, and send datagrams back to back")
+        .excludes(udp);
+    arguments.add("--duration", options.durationSeconds, "stop after so many seconds; 0: when interrupted")
+        .notNegative()
+        .showDefault();
 }
 
-void addPerformer(CLI::App& parser, SendOptions& options) {
-    parser.option_defaults()->group("The performance");
+void addPerformer(Arguments arguments, SendOptions& options) {
+    arguments.beginGroup("The performance");
     performer::PerformerSettings& settings = options.performer;
-    parser.add_option("--characters", settings.characters, "how many perform")->capture_default_str();
-    parser.add_option("--rate", settings.rateHz, "frames a second")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
-    parser.add_option("--types", options.types, "message types, such as 02,12,13, or all of the revision")
-        ->capture_default_str();
-    parser.add_option("--revision", options.revision, "of the specification: E, J, K or N")
-        ->capture_default_str();
-    parser.add_option("--seed", settings.seed, "the same seed gives the same bytes and faults")
-        ->capture_default_str();
-    parser.add_option("--motion", settings.motion, "one of " + motionList())->capture_default_str();
-    parser.add_option("--props", settings.props, "props of each character, 0 to 4")->capture_default_str();
-    parser.add_flag("--fingers", settings.fingers, "with both hands (revision N)");
-    parser
-        .add_option("--first-sample", settings.firstSample,
-                    "sample counter to begin with; near 4294967295 it wraps around")
-        ->capture_default_str();
-    parser.add_option("--senders", options.senders, "so many sockets send characters of the same numbers")
-        ->check(CLI::Range(1, 16))
-        ->capture_default_str();
+    arguments.add("--characters", settings.characters, "how many perform").showDefault();
+    arguments.add("--rate", settings.rateHz, "frames a second").positive().showDefault();
+    arguments.add("--types", options.types, "message types, such as 02,12,13, or all of the revision")
+        .showDefault();
+    arguments.add("--revision", options.revision, "of the specification: E, J, K or N").showDefault();
+    arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults").showDefault();
+    arguments.add("--motion", settings.motion, "one of " + motionList()).showDefault();
+    arguments.add("--props", settings.props, "props of each character, 0 to 4").showDefault();
+    arguments.flag("--fingers", settings.fingers, "with both hands (revision N)");
+    arguments
+        .add("--first-sample", settings.firstSample,
+             "sample counter to begin with; near 4294967295 it wraps around")
+        .showDefault();
+    arguments.add("--senders", options.senders, "so many sockets send characters of the same numbers")
+        .within(1, 16)
+        .showDefault();
 }
 
-CLI::Option* addChance(CLI::App& parser, const std::string& name, double& value, const char* text) {
-    return parser.add_option(name, value, text)->check(CLI::Range(0.0, 1.0))->type_name("P");
+Option addChance(Arguments arguments, const std::string& name, double& value, const char* text) {
+    return arguments.add(name, value, text).within(0.0, 1.0).form("P");
 }
 
-void addFaults(CLI::App& parser, SendOptions& options) {
-    parser.option_defaults()->group("Faults, in any combination (P: chance per datagram)");
+void addFaults(Arguments arguments, SendOptions& options) {
+    arguments.beginGroup("Faults, in any combination (P: chance per datagram)");
     performer::FaultSettings& faults = options.faults;
-    CLI::Option* drop = addChance(parser, "--drop", faults.drop, "lose datagrams");
-    parser.add_option("--burst", faults.burst, "lose so many in a row, with the same share in all")
-        ->check(CLI::Range(1, 1'000'000))
-        ->needs(drop)
-        ->type_name("N");
-    parser
-        .add_option("--gilbert-elliott", options.gilbertElliott,
-                    "lose by state: chances to go bad and back, then to pass in good (1) and bad (0)")
-        ->excludes(drop)
-        ->type_name("p,r[,k,h]");
-    addChance(parser, "--duplicate", faults.duplicate, "send datagrams twice, at once or later");
-    addChance(parser, "--reorder", faults.reorder, "hold datagrams back, up to more than 100 samples");
-    parser.add_option("--delay", faults.delayMs, "hold all back by so much")
-        ->check(CLI::NonNegativeNumber)
-        ->type_name("MS");
-    parser.add_option("--jitter", faults.jitterMs, "hold each back by up to so much")
-        ->check(CLI::NonNegativeNumber)
-        ->type_name("MS");
-    addChance(parser, "--corrupt", faults.corrupt, "flip bits in datagrams");
-    addChance(parser, "--truncate", faults.truncate, "cut datagrams short");
-    parser.add_flag("--split", faults.splits, "send samples of several items in two to four datagrams");
-    parser.add_option("--restart-at", options.restart, "begin the sample counter anew after S seconds")
-        ->type_name("S[:SAMPLE]");
-    parser
-        .add_option("--pause-at", options.pause,
-                    "send nothing from S on for so many seconds; the counter goes on")
-        ->type_name("S:S");
-    parser.add_option("--reduce-at", options.reduction, "from S on send every Kth sample")->type_name("S:K");
+    const Option drop = addChance(arguments, "--drop", faults.drop, "lose datagrams");
+    arguments.add("--burst", faults.burst, "lose so many in a row, with the same share in all")
+        .within(1, 1'000'000)
+        .needs(drop)
+        .form("N");
+    arguments
+        .add("--gilbert-elliott", options.gilbertElliott,
+             "lose by state: chances to go bad and back, then to pass in good (1) and bad (0)")
+        .excludes(drop)
+        .form("p,r[,k,h]");
+    addChance(arguments, "--duplicate", faults.duplicate, "send datagrams twice, at once or later");
+    addChance(arguments, "--reorder", faults.reorder, "hold datagrams back, up to more than 100 samples");
+    arguments.add("--delay", faults.delayMs, "hold all back by so much").notNegative().form("MS");
+    arguments.add("--jitter", faults.jitterMs, "hold each back by up to so much").notNegative().form("MS");
+    addChance(arguments, "--corrupt", faults.corrupt, "flip bits in datagrams");
+    addChance(arguments, "--truncate", faults.truncate, "cut datagrams short");
+    arguments.flag("--split", faults.splits, "send samples of several items in two to four datagrams");
+    arguments.add("--restart-at", options.restart, "begin the sample counter anew after S seconds")
+        .form("S[:SAMPLE]");
+    arguments
+        .add("--pause-at", options.pause, "send nothing from S on for so many seconds; the counter goes on")
+        .form("S:S");
+    arguments.add("--reduce-at", options.reduction, "from S on send every Kth sample").form("S:K");
 }
 
-CLI::Option* addFile(CLI::App& parser, SendOptions& options) {
-    parser.option_defaults()->group("A recording");
-    CLI::Option* file = parser.add_option(
-        "--file", options.file, "send this recording instead of a performance; - for standard input");
-    parser.add_option("--speed", options.speed, "how fast a recording plays")
-        ->check(CLI::PositiveNumber)
-        ->needs(file)
-        ->capture_default_str();
-    parser.add_flag("--loop", options.loops, "begin a recording again at its end")->needs(file);
+Option addFile(Arguments arguments, SendOptions& options) {
+    arguments.beginGroup("A recording");
+    const Option file = arguments.add("--file", options.file,
+                                      "send this recording instead of a performance; - for standard input");
+    arguments.add("--speed", options.speed, "how fast a recording plays")
+        .positive()
+        .needs(file)
+        .showDefault();
+    arguments.flag("--loop", options.loops, "begin a recording again at its end").needs(file);
     return file;
 }
 
-void addTruth(CLI::App& parser, SendOptions& options, CLI::Option* file) {
-    parser.option_defaults()->group("The truth");
-    parser
-        .add_option("--truth", options.truth,
-                    "write what was really sent to this file, as JSON with the names that monitor uses")
-        ->excludes(file)
-        ->needs(parser.get_option("--duration"))
-        ->type_name("FILE");
+void addTruth(Arguments arguments, SendOptions& options, Option file) {
+    arguments.beginGroup("The truth");
+    arguments
+        .add("--truth", options.truth,
+             "write what was really sent to this file, as JSON with the names that monitor uses")
+        .excludes(file)
+        .needs(arguments.option("--duration"))
+        .form("FILE");
 }
 
 } // namespace
 
-Command addSendCommand(CLI::App& program) {
+Command addSendCommand(CommandLine& program) {
     auto options = std::make_shared<SendOptions>();
-    CLI::App* parser =
-        program.add_subcommand("send", "Send a synthetic performance or a recording to the network");
-    addPlaces(*parser, *options);
-    addPerformer(*parser, *options);
-    addFaults(*parser, *options);
-    addTruth(*parser, *options, addFile(*parser, *options));
-    return {parser, [options](Console& console) { return send(*options, console); }};
+    Arguments arguments =
+        program.addCommand("send", "Send a synthetic performance or a recording to the network");
+    addPlaces(arguments, *options);
+    addPerformer(arguments, *options);
+    addFaults(arguments, *options);
+    addTruth(arguments, *options, addFile(arguments, *options));
+    return {"send", [options](Console& console) { return send(*options, console); }};
 }
 
 } // namespace posewire::cli

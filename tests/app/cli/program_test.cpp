@@ -80,6 +80,19 @@ TEST(Program, NamesTheOptionThatItDoesNotKnow) {
               "posewire-cli decode: --jsno is not known here; see posewire-cli decode --help\n");
 }
 
+TEST(Program, SaysWhichNumbersAnOptionTakes) {
+    const auto complaint = [](const std::vector<std::string>& arguments) {
+        return runProgram(arguments).err;
+    };
+    EXPECT_EQ(complaint({"monitor", "--duration", "-3"}),
+              "posewire-cli monitor: --duration: \"-3\" is not a number from 0 up; see posewire-cli monitor "
+              "--help\n");
+    EXPECT_THAT(complaint({"send", "--rate", "x"}),
+                HasSubstr("--rate: \"x\" is not a number greater than 0;"));
+    EXPECT_THAT(complaint({"send", "--drop", "2"}), HasSubstr("--drop: \"2\" is not a number from 0 to 1;"));
+    EXPECT_THAT(complaint({"send", "--senders", "99"}), HasSubstr("\"99\" is not a number from 1 to 16;"));
+}
+
 TEST(Program, PrintsTheProtocolReference) {
     const ProgramRun run = runProgram({"reference"});
     EXPECT_EQ(run.status, 0);
