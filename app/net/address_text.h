@@ -7,7 +7,7 @@
 
 namespace posewire::net {
 
-/// The text of an address as the operator writes it: IPv4 as such also where an IPv6 socket received it.
+/// An address as the operator writes it: IPv4 in its own form even where an IPv6 socket received it.
 inline std::string addressText(const QHostAddress& address) {
     bool isIpv4 = false;
     const QHostAddress ipv4(address.toIPv4Address(&isIpv4));

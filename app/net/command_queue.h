@@ -8,7 +8,7 @@
 
 namespace posewire::net {
 
-/// Calls that other threads want made in one thread. Looking whether there are any costs one load.
+/// Calls that other threads queue for one thread to make. Checking for calls costs one load.
 class CommandQueue {
 public:
     using Command = std::function<void()>;
@@ -19,7 +19,7 @@ public:
         m_isEmpty.store(false, std::memory_order_release);
     }
 
-    /// Makes the calls, in their order. The one thread only.
+    /// Makes the queued calls in order. Only from the one thread.
     void run() {
         if (m_isEmpty.load(std::memory_order_acquire)) {
             return;

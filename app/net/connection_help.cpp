@@ -46,16 +46,15 @@ void findFailed(const ConnectionFacts& facts, Findings& findings) {
                             hasAdvice ? failed.error.text.substr(cut + 2) : "choose another port"});
     }
     if (facts.inputs.empty() && facts.failed.empty()) {
-        findings.push_back(
-            {Kind::NoInput, "no port is open", "add UDP port 9763, where MVN sends unless told"});
+        findings.push_back({Kind::NoInput, "no port is open", "add UDP port 9763, MVN's default"});
     }
 }
 
-/// What one program sends, though it takes a new port for each datagram.
+/// All that one program sends, even if it uses a new port for each datagram.
 struct ForeignHost {
     std::string host;
     std::string guess;
-    ForeignSender sender; ///< the newest, with the count of all
+    ForeignSender sender; ///< the newest one, with the total count
     std::size_t ports = 1;
 };
 
@@ -125,8 +124,9 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
         return;
     }
     if (facts.mxtpDatagrams != 0) {
-        findings.push_back({Kind::WentSilent, "nothing has come for " + secondsText(facts.silenceNs),
-                            "look whether MVN plays and streams: paused, it sends only with Send Paused on"});
+        findings.push_back(
+            {Kind::WentSilent, "no data for " + secondsText(facts.silenceNs),
+             "check that MVN is playing and streaming: while paused it sends only with Send Paused on"});
         return;
     }
     const auto open = std::ranges::find_if(
@@ -138,7 +138,7 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
                             std::to_string(open->endpoint.port) + ", protocol " + protocolOf(open->kind)});
 }
 
-/// What goes to a transport that nobody listens to cannot be seen from here: say so.
+/// Data sent by a transport that no input uses is invisible here, so say so.
 void findTransport(const ConnectionFacts& facts, Findings& findings) {
     const bool hasUdp = has(facts, InputKind::Udp);
     const bool hasTcp = has(facts, InputKind::TcpListener);
@@ -148,9 +148,9 @@ void findTransport(const ConnectionFacts& facts, Findings& findings) {
     const char* other = hasUdp ? "TCP" : "UDP";
     findings.push_back(
         {Kind::OtherTransport,
-         std::string("only ") + (hasUdp ? "UDP" : "TCP") + " is listened to; a sender that uses " + other +
-             " would not be noticed",
-         std::string("look at Protocol in MVN's Network Streamer, or listen to ") + other + " as well"});
+         std::string("only ") + (hasUdp ? "UDP" : "TCP") + " inputs are open; a sender that uses " + other +
+             " would go unnoticed",
+         std::string("check Protocol in MVN's Network Streamer, or listen for ") + other + " as well"});
 }
 
 void findFirewall(const ConnectionFacts& facts, Findings& findings) {
@@ -166,11 +166,11 @@ void findFirewall(const ConnectionFacts& facts, Findings& findings) {
     if (input.kind != InputKind::Udp && protocol != std::string::npos) {
         remedy.replace(protocol, 3, "tcp");
     }
-    findings.push_back({Kind::FirewallOn,
-                        "a firewall (" + facts.firewall->name +
-                            ") is switched on in this computer; its rules are not known here, and it may "
-                            "keep datagrams out",
-                        remedy});
+    findings.push_back(
+        {Kind::FirewallOn,
+         "a firewall (" + facts.firewall->name +
+             ") is active on this computer and may block datagrams; Posewire cannot read its rules",
+         remedy});
 }
 
 } // namespace

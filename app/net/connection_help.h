@@ -18,7 +18,7 @@ namespace posewire::net {
 struct ForeignSender {
     std::string address;
     std::uint64_t count = 0;
-    std::vector<std::byte> firstBytes; ///< of the newest, as many as are kept
+    std::vector<std::byte> firstBytes; ///< of the newest datagram, as far as they are kept
 };
 
 /// An input that could not be opened.
@@ -28,41 +28,41 @@ struct FailedInput {
     NetError error;
 };
 
-/// Everything that tells why no characters are seen.
+/// Everything that can explain why no characters are visible.
 struct ConnectionFacts {
     std::vector<InputStatus> inputs;
     std::vector<FailedInput> failed;
-    std::uint64_t mxtpDatagrams = 0; ///< ever received, also malformed ones
-    std::int64_t silenceNs = 0;      ///< since the newest of them, else since the inputs were opened
+    std::uint64_t mxtpDatagrams = 0; ///< received in total, malformed ones included
+    std::int64_t silenceNs = 0;      ///< since the newest of them, or since the inputs were opened
     std::vector<ForeignSender> foreign;
     std::vector<LocalAddress> addresses; ///< see reachable()
     std::optional<Firewall> firewall;
     std::int64_t nowNs = 0; ///< since 1970-01-01 UTC
 };
 
-/// One thing that is, or may be, wrong.
+/// Something that is, or may be, wrong.
 struct Finding {
     enum class Kind : std::uint8_t {
         NoInput,
         CannotOpen,
         NotMxtp,
-        NotReachable, ///< a TCP connection that is tried again and again
-        SilentPeer,   ///< connected by TCP, and nothing comes
-        GarbledPeer,  ///< connected by TCP, and what comes is not MXTP
+        NotReachable, ///< a TCP connection that keeps failing
+        SilentPeer,   ///< connected by TCP but silent
+        GarbledPeer,  ///< connected by TCP, but what it sends is not MXTP
         NothingArrives,
-        OtherTransport, ///< only one of UDP and TCP is listened to, and the sender may use the other
+        OtherTransport, ///< only UDP or only TCP inputs are open, and the sender may use the other
         FirewallOn,
-        WentSilent, ///< datagrams came, and come no more
+        WentSilent, ///< datagrams arrived once but no longer do
     };
     Kind kind{};
     std::string text;   ///< what is known, one sentence
-    std::string remedy; ///< what to do, in the words of MVN where it is about MVN
+    std::string remedy; ///< what to do, in MVN's own words where it concerns MVN
 
     friend bool operator==(const Finding&, const Finding&) = default;
 };
 
-/// What to tell an operator who sees nothing, the surest first; empty where all is well. Silence counts from
-/// two seconds on.
+/// Advice for an operator who sees nothing, most certain first; empty where all is well. Silence counts after
+/// two seconds.
 [[nodiscard]] std::vector<Finding> connectionHelp(const ConnectionFacts& facts);
 
 } // namespace posewire::net

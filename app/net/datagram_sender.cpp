@@ -12,7 +12,7 @@ namespace posewire::net {
 namespace {
 
 constexpr int kPatienceMs = 5000;
-/// A TCP receiver that takes nothing makes the sender wait from here on.
+/// Once this much is unsent, a TCP receiver that reads nothing makes the sender wait.
 constexpr qint64 kMostUnsent = 1 << 20;
 
 std::string textOf(const QHostAddress& address, quint16 port) {
@@ -25,7 +25,7 @@ std::string textOf(const QHostAddress& address, quint16 port) {
 class DatagramSender::Channel {
 public:
     virtual ~Channel() = default;
-    /// False where the datagram was not taken and nothing can be done about it.
+    /// False if the datagram was refused for good.
     virtual NetResult<bool> send(const char* bytes, qint64 size) = 0;
     virtual NetResult<void> flush() = 0;
     [[nodiscard]] virtual std::string localAddress() const = 0;
@@ -43,7 +43,7 @@ public:
     }
     NetResult<void> flush() override { return {}; }
 
-    /// The system chooses the address on sending; a connection that sends nothing tells which.
+    /// The system chooses the local address when it sends; connecting a socket without sending reveals it.
     [[nodiscard]] std::string localAddress() const override {
         QUdpSocket probe;
         probe.connectToHost(m_address, m_port);
@@ -103,7 +103,7 @@ private:
     [[nodiscard]] tl::unexpected<NetError> ended() const {
         return netError(NetError::Kind::NotConnected, "the TCP connection to " + net::textOf(m_endpoint) +
                                                           " ended: " + m_socket.errorString().toStdString() +
-                                                          "; start the receiver again and connect anew");
+                                                          "; restart the receiver and connect again");
     }
 
     Endpoint m_endpoint;

@@ -16,38 +16,35 @@ namespace posewire::net {
 struct SendTarget {
     enum class Transport : std::uint8_t {
         Udp,
-        Tcp, ///< connects out, as MVN does; datagrams follow each other without anything between them
+        Tcp, ///< connects out, as MVN does; datagrams follow each other back to back
     };
     Endpoint endpoint;
     Transport transport = Transport::Udp;
 };
 
-/// Sends datagrams to one or more places. Belongs to the thread that makes it; the process needs a
-/// QCoreApplication, whose loop need not run.
+/// Sends datagrams to one or more places. Belongs to the thread that created it; the process needs a
+/// QCoreApplication, but its event loop need not run.
 class DatagramSender {
 public:
-    /// Looks up names and connects, waiting at most five seconds for each. Fails with the first that does not
-    /// work.
+    /// Resolves names and connects, waiting at most five seconds for each target. Returns the first error.
     static NetResult<DatagramSender> connect(const std::vector<SendTarget>& targets);
 
     DatagramSender(DatagramSender&&) noexcept;
     DatagramSender& operator=(DatagramSender&&) noexcept;
     ~DatagramSender();
 
-    /// To all targets, in their order. Waits while a TCP receiver does not take what was sent before. A
-    /// datagram that UDP does not take is counted, not an error; a TCP connection that ended is.
+    /// Sends to all targets in order. Blocks while a TCP receiver has not read earlier data. A datagram that
+    /// UDP refuses is counted, not an error; a closed TCP connection is an error.
     NetResult<void> send(std::span<const std::byte> datagram);
 
-    /// Waits until TCP has taken everything, at most five seconds.
+    /// Waits at most five seconds for TCP to send everything.
     NetResult<void> flush();
 
-    /// Where the datagrams come from in the eyes of each target, in their order: "127.0.0.1:40001".
+    /// The address that each target sees as the sender's, in order: "127.0.0.1:40001".
     [[nodiscard]] std::vector<std::string> localAddresses() const;
 
-    [[nodiscard]] std::uint64_t sent() const { return m_sent; } ///< datagrams, counted for each target
-    [[nodiscard]] std::uint64_t refused() const {
-        return m_refused;
-    } ///< datagrams that the system did not take
+    [[nodiscard]] std::uint64_t sent() const { return m_sent; }       ///< datagrams, counted for each target
+    [[nodiscard]] std::uint64_t refused() const { return m_refused; } ///< datagrams that the system refused
 
 private:
     class Channel;

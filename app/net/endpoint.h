@@ -9,7 +9,7 @@
 
 namespace posewire::net {
 
-/// The port that MVN sends to unless told otherwise.
+/// The port that MVN sends to by default.
 inline constexpr std::uint16_t kDefaultPort = 9763;
 
 struct Endpoint {
@@ -22,7 +22,7 @@ struct Endpoint {
 /// "127.0.0.1:9763", "[::1]:9763"; ":9763" where there is no host.
 [[nodiscard]] std::string textOf(const Endpoint& endpoint);
 
-/// "PORT", "HOST:PORT", "[IPv6]:PORT". Port 0 is accepted: the system then chooses one to listen on.
+/// "PORT", "HOST:PORT", "[IPv6]:PORT". Port 0 is accepted: the system then picks a free one.
 [[nodiscard]] NetResult<Endpoint> parseEndpoint(std::string_view text);
 
 } // namespace posewire::net

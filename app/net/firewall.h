@@ -6,14 +6,14 @@
 
 namespace posewire::net {
 
-/// A packet filter of this computer. Its rules are not read: that would take an administrator.
+/// A packet filter on this computer. Its rules are not read, which would need administrator rights.
 struct Firewall {
     std::string name;   ///< "ufw", "firewalld", "nftables", "iptables"
-    std::string remedy; ///< what lets a port through, with "PORT/udp" where the port belongs
+    std::string remedy; ///< what opens a port, with "PORT/udp" as its placeholder
 };
 
-/// The packet filter that is switched on, as far as this system's files tell without special rights; `root`
-/// is for tests. Nothing where none is seen, which does not mean that there is none.
+/// The active packet filter, as far as files that any user may read show it; `root` is for tests. Empty
+/// if none was found, which is no proof that there is none.
 [[nodiscard]] std::optional<Firewall> findFirewall(const std::string& root = "/");
 
 } // namespace posewire::net

@@ -43,7 +43,7 @@ bool isVicon(Bytes bytes) {
     return bytes.size() >= 8 && at(bytes, 4) != 0 && at(bytes, 5) == 0 && littleEndian16(bytes, 6) == 72;
 }
 
-/// A packet's size, big-endian, and its kind, of which there are few.
+/// A packet's size, big-endian, and its kind, one of a few.
 bool isQualisys(Bytes bytes) {
     return bytes.size() >= 8 && at(bytes, 0) == 0 && at(bytes, 1) == 0 && at(bytes, 4) == 0 &&
            at(bytes, 5) == 0 && at(bytes, 6) == 0 && at(bytes, 7) <= 9 && at(bytes, 2) + at(bytes, 3) != 0;
@@ -64,8 +64,7 @@ std::string protocolThatBegins(Bytes bytes) {
                                      Beginning{"<", "XML text (MVN's own remote control, or a web page)"}};
     const std::string_view text = textOf(bytes);
     if (const auto mark = text.find("MXTP"); mark != std::string_view::npos && mark != 0) {
-        return "MXTP behind " + std::to_string(mark) +
-               " other bytes (a tunnel, or a length written before it)";
+        return "MXTP behind " + std::to_string(mark) + " other bytes (a tunnel, or a length prefix)";
     }
     for (const Beginning& beginning : kBeginnings) {
         if (text.starts_with(beginning.text)) {

@@ -8,8 +8,8 @@
 
 namespace posewire::net {
 
-/// The address of a host, IPv4 where it has both; of this computer where the host is empty. Waits for the
-/// answer of the name service where a name is given.
+/// The address of a host, IPv4 if it has both; this computer's if the host is empty. Blocks while a name is
+/// resolved.
 [[nodiscard]] NetResult<QHostAddress> lookUp(const Endpoint& endpoint);
 
 } // namespace posewire::net

@@ -12,33 +12,33 @@
 
 namespace posewire::net {
 
-/// One place that a Receiver hears; never used again for another.
+/// Identifies one input of a Receiver; never reused.
 enum class InputId : std::uint32_t {};
 
 enum class InputKind : std::uint8_t { Udp, TcpListener, TcpConnection };
 
-/// What a UDP input listens to. Broadcasts come where the host is empty.
+/// Where a UDP input listens. Broadcasts are received if the host is empty.
 struct UdpInput {
-    Endpoint endpoint; ///< a multicast group as host is the same as that group with an empty host
-    /// Multicast groups to join, IPv4 and IPv6, on every interface that can; the host must then be empty.
+    Endpoint endpoint; ///< a multicast group as host means that group and an empty host
+    /// Multicast groups to join, IPv4 and IPv6, on every capable interface; the host must then be empty.
     std::vector<std::string> groups;
 
     friend bool operator==(const UdpInput&, const UdpInput&) = default;
 };
 
 enum class InputState : std::uint8_t {
-    Listening,  ///< UDP, and TCP whether or not somebody has connected
-    Connecting, ///< a TCP connection that has not answered yet
+    Listening,  ///< UDP, and TCP with or without a connected sender
+    Connecting, ///< a TCP connection without an answer so far
     Connected,
-    Retrying, ///< a TCP connection that failed or ended and is tried again after a pause
+    Retrying, ///< a TCP connection that failed or ended; the next attempt follows a pause
 };
 
 /// Counters of an input: each written by one thread, read by any.
 struct InputCounters {
     std::atomic<std::uint64_t> datagrams = 0;
     std::atomic<std::uint64_t> bytes = 0;
-    std::atomic<std::uint64_t> skippedBytes = 0;      ///< TCP: belong to no datagram
-    std::atomic<std::uint64_t> kernelDropped = 0;     ///< UDP: lost in this computer for want of buffer room
+    std::atomic<std::uint64_t> skippedBytes = 0;  ///< TCP: bytes that belong to no datagram
+    std::atomic<std::uint64_t> kernelDropped = 0; ///< UDP: lost on this computer because the buffer was full
     std::atomic<std::int64_t> receiveBufferBytes = 0; ///< UDP: what the kernel granted
 };
 
@@ -51,11 +51,11 @@ struct Peer {
     std::uint64_t skippedBytes = 0;
 };
 
-/// A copy of what there is to know about an input.
+/// A snapshot of an input.
 struct InputStatus {
     InputId id{};
     InputKind kind = InputKind::Udp;
-    Endpoint endpoint; ///< the real port where 0 was asked for
+    Endpoint endpoint; ///< with the real port where 0 was requested
     std::vector<std::string> groups;
     InputState state = InputState::Listening;
     std::string text; ///< the state in words, one line
@@ -64,7 +64,7 @@ struct InputStatus {
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDropped = 0;
     std::int64_t receiveBufferBytes = 0;
-    std::uint64_t refusedPeers = 0; ///< connections closed because there were too many
+    std::uint64_t refusedPeers = 0; ///< connections closed because too many were open
     std::vector<Peer> peers;        ///< connected now
 };
 
@@ -90,7 +90,7 @@ private:
     const InputKind m_kind;
     const std::vector<std::string> m_groups;
     InputCounters m_counters;
-    mutable std::mutex m_mutex; ///< guards all that follows
+    mutable std::mutex m_mutex; ///< guards the members below
     Endpoint m_endpoint;
     InputState m_state = InputState::Listening;
     std::string m_text;

@@ -12,7 +12,7 @@ struct LocalAddress {
     std::string interface; ///< as the system calls it: "eth0", "Ethernet 2"
     bool isIpv4 = true;
     bool isLoopback = false;
-    bool isLinkLocal = false; ///< good in its own network segment only
+    bool isLinkLocal = false; ///< valid only on its own network segment
 
     friend bool operator==(const LocalAddress&, const LocalAddress&) = default;
 };
@@ -20,8 +20,8 @@ struct LocalAddress {
 /// All addresses of interfaces that are up, as the system orders them.
 [[nodiscard]] std::vector<LocalAddress> localAddresses();
 
-/// Those to type into a sender, the best first: IPv4 before IPv6, link-local ones last; the loopback's only
-/// where there are no others.
+/// The addresses to type into a sender, best first: IPv4 before IPv6, link-local last; loopback only if there
+/// is nothing else.
 [[nodiscard]] std::vector<LocalAddress> reachable(std::vector<LocalAddress> addresses);
 
 } // namespace posewire::net

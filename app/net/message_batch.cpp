@@ -35,7 +35,7 @@ Received MessageBatch::received(std::size_t index) const {
     Received received;
     received.size = m_messages[index].msg_len;
     received.isTruncated = (header.msg_flags & MSG_TRUNC) != 0;
-    // By hand: CMSG_NXTHDR is a call into the library for each message, of which there are very many here.
+    // By hand, since CMSG_NXTHDR is a call into the library for each message, and there are very many here.
     const std::byte* const controls = m_controls[index].bytes.data();
     for (std::size_t at = 0; at + sizeof(cmsghdr) <= header.msg_controllen;) {
         cmsghdr control{};

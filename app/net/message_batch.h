@@ -13,25 +13,25 @@
 
 namespace posewire::net {
 
-/// What the kernel tells of one datagram besides its bytes.
+/// What the kernel reports about one datagram besides its bytes.
 struct Received {
     std::size_t size = 0;
-    std::int64_t stampNs = 0; ///< of the kernel, since 1970-01-01 UTC; 0 where it gave none
+    std::int64_t stampNs = 0; ///< the kernel's, since 1970-01-01 UTC; 0 if it gave none
     std::uint32_t drops =
         0; ///< datagrams the socket had dropped when this one was queued, modulo 2³²; 0 where none
     bool isTruncated = false;
 };
 
-/// The arguments of recvmmsg for the lanes of a log, and what it brought. One for each socket: the addresses
-/// it leaves unwritten stay zero.
+/// The arguments of recvmmsg for the lanes of a log, and its results. One for each socket, so that addresses
+/// that it leaves unwritten stay zero.
 class MessageBatch {
 public:
     MessageBatch();
     MessageBatch(const MessageBatch&) = delete;
     MessageBatch& operator=(const MessageBatch&) = delete;
 
-    /// Receives what is there, at most one datagram a lane, without waiting. The number of datagrams; 0 also
-    /// on an error.
+    /// Receives what has arrived, at most one datagram per lane, without blocking. Returns the number of
+    /// datagrams, 0 on an error too.
     std::size_t receive(int descriptor, std::span<const log::LogWriter::Lane> lanes);
 
     [[nodiscard]] Received received(std::size_t index) const;

@@ -8,7 +8,7 @@
 
 namespace posewire::net {
 
-/// Why something about the network did not work.
+/// Why a network operation failed.
 struct NetError {
     enum class Kind : std::uint8_t {
         PortInUse,

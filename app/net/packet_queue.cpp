@@ -7,7 +7,7 @@ namespace posewire::net {
 
 namespace {
 
-/// Losses of more senders than this at a time are told as those of the last of them.
+/// Losses of more senders than this at a time are booked to the last one.
 constexpr std::size_t kMostLosses = 64;
 
 } // namespace
@@ -54,12 +54,12 @@ void PacketQueue::close() {
     m_hasRoom.notify_all();
 }
 
-/// An empty queue takes anything, so that nobody waits for ever.
+/// An empty queue accepts a packet of any size, so that nobody waits forever.
 bool PacketQueue::hasRoomFor(std::size_t bytes) const {
     return m_entries.empty() || m_bytes.size() + bytes + m_entries.size() * sizeof(Entry) <= m_byteLimit;
 }
 
-/// True where the queue was empty.
+/// True if the queue was empty.
 bool PacketQueue::place(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                         const log::Arrival& arrival) {
     if (!m_lastSender || *m_lastSender != sender) {
@@ -112,7 +112,7 @@ std::size_t PacketQueue::moveTo(log::PacketLog& log) {
     return moved;
 }
 
-/// A queue that refused is not empty, so that losses never wait for another packet to be told.
+/// A queue that refused a packet is not empty, so losses are logged without waiting for another packet.
 void PacketQueue::appendLosses(log::PacketLog& log) {
     for (const Loss& loss : m_takenLosses) {
         log::Arrival arrival;

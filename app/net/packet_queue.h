@@ -15,28 +15,29 @@
 
 namespace posewire::net {
 
-/// Packets that other threads have for the one thread that writes the log: from TCP connections, from files,
-/// from a performer. Bounded, and no larger than what can be appended without keeping sockets waiting.
+/// Packets from other threads (TCP connections, files, a performer) for the one thread that writes the log.
+/// Bounded to what can be appended without keeping sockets waiting.
 class PacketQueue {
 public:
     static constexpr std::size_t kByteLimit = std::size_t{4} << 20;
 
-    /// `onFilled` is called, by the pushing thread, whenever the queue was empty and is not any more.
+    /// The pushing thread calls `onFilled` whenever the queue stops being empty.
     explicit PacketQueue(std::function<void()> onFilled = {}, std::size_t byteLimit = kByteLimit)
         : m_onFilled(std::move(onFilled)), m_byteLimit(byteLimit) {}
 
-    /// False where there is no room: the packet is lost, counted, and the log gets a record of the loss after
-    /// the packets that are queued. `arrival.sender` is set when the packet reaches the log. From any thread.
+    /// False if the queue is full: the packet is lost and counted, and the log gets a record of the loss
+    /// after the queued packets. `arrival.sender` is set when the packet reaches the log. From any thread.
     bool push(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
 
     /// Waits for room. False once the queue is closed.
     bool pushWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                      const log::Arrival& arrival);
 
-    /// Nobody empties the queue any more: ends the waiting of others.
+    /// The queue is no longer emptied: releases those who wait.
     void close();
 
-    /// Appends everything to the log and publishes it; tells how many packets. The log's writing thread only.
+    /// Appends everything to the log and publishes it; returns the number of packets. Only from the log's
+    /// writing thread.
     std::size_t moveTo(log::PacketLog& log);
 
     [[nodiscard]] bool isEmpty() const { return m_isEmpty.load(std::memory_order_acquire); }
@@ -46,7 +47,7 @@ private:
     using Sender = std::shared_ptr<const log::SenderInfo>;
     struct Entry {
         std::size_t size;
-        Sender sender; ///< one for many: packets come in runs from one sender
+        Sender sender; ///< shared, since packets arrive in runs from one sender
         log::Arrival arrival;
     };
     struct Loss {
@@ -62,7 +63,7 @@ private:
 
     const std::function<void()> m_onFilled;
     const std::size_t m_byteLimit;
-    std::mutex m_mutex; ///< guards all that is not atomic nor taken
+    std::mutex m_mutex; ///< guards all members that are neither atomic nor taken
     std::condition_variable m_hasRoom;
     std::vector<Entry> m_entries;
     std::vector<std::byte> m_bytes;

@@ -20,7 +20,7 @@ unsigned long portOf(const std::string& hexadecimal) {
     return std::strtoul(hexadecimal.c_str(), nullptr, 16);
 }
 
-/// The states of sockets in the kernel's tables; a UDP socket that hears everybody is told as closed.
+/// The states of sockets in the kernel's tables; a UDP socket without a peer is listed as closed.
 constexpr std::string_view kUdpUnconnected = "07";
 constexpr std::string_view kTcpListening = "0A";
 

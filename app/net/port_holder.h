@@ -12,8 +12,8 @@ struct Process {
     std::int64_t id = 0;
 };
 
-/// The process that listens on a port of this computer. Nothing where the system does not tell: other systems
-/// than Linux, and processes of other users.
+/// The process that listens on a port of this computer. Empty where the system does not reveal it: off Linux,
+/// and for other users' processes.
 [[nodiscard]] std::optional<Process> holderOfUdpPort(std::uint16_t port);
 [[nodiscard]] std::optional<Process> holderOfTcpPort(std::uint16_t port);
 

@@ -104,7 +104,7 @@ void QtReceiveLoop::wake() {
     }
 }
 
-/// What is there now, and not for ever what goes on arriving: other sockets wait, too.
+/// Only what has arrived by now: other sockets are waiting.
 void QtReceiveLoop::drain(Socket& socket) {
     constexpr int kMost = 1000;
     int count = 0;

@@ -14,7 +14,7 @@
 
 namespace posewire::net {
 
-/// What a loop works with; outlives it.
+/// What a loop works with; must outlive it.
 struct ReceiveContext {
     log::PacketLog& log;
     const log::Clock& clock;
@@ -24,23 +24,23 @@ struct ReceiveContext {
     ReceiverOptions options;
 };
 
-/// What the receiving thread does. Made, fed and destroyed in that thread; only stop() and wake() come from
-/// others.
+/// What the receiving thread runs. Created, used and destroyed in that thread; only stop() and wake() may be
+/// called from others.
 class ReceiveLoop {
 public:
     virtual ~ReceiveLoop() = default;
 
-    /// Opens the input's sockets and tells the input its port and buffer. A port in use is told without its
-    /// holder: looking for that takes time, and other sockets wait.
+    /// Opens the input's sockets and sets its port and buffer size. The error for a port in use does not name
+    /// its holder: finding that takes time, and other sockets are waiting.
     virtual NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) = 0;
 
-    /// Takes what the input's sockets still hold and closes them.
+    /// Reads what the input's sockets still hold and closes them.
     virtual void remove(InputId id) = 0;
 
-    /// Receives until stop(), then once more what is there already.
+    /// Receives until stop(), then reads what has already arrived.
     virtual void run() = 0;
 
-    /// Makes an idle loop look at the queues. From any thread.
+    /// Makes an idle loop check the queues. From any thread.
     virtual void wake() = 0;
 
     void stop() {
@@ -55,10 +55,10 @@ private:
     std::atomic<bool> m_isStopping = false;
 };
 
-/// The loop for a path on this system.
+/// The loop of this path on this system.
 [[nodiscard]] std::unique_ptr<ReceiveLoop> makeReceiveLoop(const ReceiveContext& context);
 
-/// Adds for the one thread that writes it: cheaper than an atomic addition.
+/// Adds to a counter that only this thread writes: cheaper than an atomic addition.
 template <typename Number>
 void increase(std::atomic<Number>& counter, Number amount) {
     counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);

@@ -20,7 +20,7 @@ Receiver::Receiver(log::PacketLog& log, const log::Clock& clock, const ReceiverO
 }
 
 Receiver::~Receiver() {
-    m_tcp.reset(); // while its last packets still find their way into the log
+    m_tcp.reset(); // while its last packets can still reach the log
     m_loop->stop();
     m_thread.join();
     m_queue.close();
@@ -56,7 +56,7 @@ void Receiver::callAndWait(const CommandQueue::Command& command) {
 }
 
 NetResult<InputId> Receiver::addUdp(const UdpInput& where) {
-    // Qt's sockets belong to the thread that makes them, so even opening them is the receiving thread's.
+    // Qt's sockets belong to the thread that makes them, so the receiving thread has to open them.
     const auto input = makeInput(InputKind::Udp, where.endpoint, where.groups);
     NetResult<void> result;
     callAndWait([&] { result = m_loop->add(input, where); });

@@ -23,19 +23,19 @@ namespace posewire::net {
 
 namespace {
 
-/// After so many naps without a datagram the loop waits for one instead: an idle monitor uses no processor
+/// After this many naps without a datagram the loop blocks until one arrives, so an idle monitor uses no CPU
 /// time.
 constexpr int kNapsUntilIdle = 200;
 /// Below this, naps cost more than they save.
 constexpr std::chrono::microseconds kShortestNap{500};
 /// What the kernel charges a socket's buffer for a datagram of usual size (measured for 760 bytes).
 constexpr std::size_t kBufferPerDatagram = 2304;
-/// So many batches are taken from one socket before the others have their turn.
+/// Batches read from one socket before the others get a turn.
 constexpr int kBatchesPerTurn = 256;
-/// The kernel's drop counters are read once in so many rounds, about ten times a second.
+/// Rounds between two reads of the kernel's drop counters: about ten reads a second.
 constexpr int kRoundsPerDropCheck = 16;
 
-/// A descriptor that is closed with its owner.
+/// A descriptor that its owner closes.
 class Descriptor {
 public:
     explicit Descriptor(int descriptor = -1) : m_descriptor(descriptor) {}
@@ -56,11 +56,11 @@ struct Socket {
     std::shared_ptr<Input> input;
     Descriptor descriptor;
     SenderCache senders;
-    std::uint32_t dropsInLog = 0;   ///< so many of those that the kernel counts for the socket
-    std::uint32_t dropsCounted = 0; ///< so many of them are in the counters
+    std::uint32_t dropsInLog = 0;   ///< how many of the kernel's drops the log has
+    std::uint32_t dropsCounted = 0; ///< how many of them the counters have
     log::SenderId lastSender{};
     bool hasSender = false;
-    bool isEmpty = true; ///< when it was last looked at
+    bool isEmpty = true; ///< at the last look
     MessageBatch batch{};
 };
 
@@ -100,19 +100,19 @@ private:
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
     std::vector<std::unique_ptr<Socket>> m_sockets;
     int m_idleNaps = 0;
-    bool m_isDelayed = false; ///< the sockets had to wait for longer than usual
+    bool m_isDelayed = false; ///< the sockets waited longer than usual
     int m_roundsSinceDropCheck = 0;
     std::int64_t m_lookedNs = 0; ///< when the sockets were last looked at, monotonic
 };
 
-/// Where it is refused, stamps come from the clock.
+/// If the kernel refuses, stamps come from the clock.
 void enable(int descriptor, int option) {
     const int on = 1;
     ::setsockopt(descriptor, SOL_SOCKET, option, &on, sizeof on);
 }
 
-/// Qt has the kernel tell with each datagram on which interface it came and after how many hops. Nobody here
-/// reads it, and it costs a fifteenth of all that receiving costs.
+/// Qt asks the kernel for the interface and hop count of each datagram. Nobody here reads them, and they cost
+/// a fifteenth of the receiving time.
 void disableWhatQtAsksFor(int descriptor) {
     const int off = 0;
     for (const int option : {IP_PKTINFO, IP_RECVTTL}) {
@@ -124,7 +124,7 @@ void disableWhatQtAsksFor(int descriptor) {
 }
 
 NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
-    const QEventLoop dispatcher; // Qt's sockets want one in their thread, if only to be opened
+    const QEventLoop dispatcher; // Qt's sockets need one in their thread, if only to open
     const auto bound = bindUdp(where, m_context.options.bufferBytes);
     if (!bound) {
         return tl::unexpected(bound.error());
@@ -133,7 +133,7 @@ NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const Udp
     input->setEndpoint({where.endpoint.host, port});
     input->counters().receiveBufferBytes = receiveBufferBytes(*bound->front());
     for (const auto& socket : *bound) {
-        // A descriptor of our own, on which Qt's notifiers have no hold; Qt's goes at the end of this turn.
+        // A descriptor of our own, without Qt's notifiers; Qt closes its own at the end of this turn.
         Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
         disableWhatQtAsksFor(descriptor.get());
         enable(descriptor.get(), SO_TIMESTAMPNS);
@@ -175,7 +175,7 @@ void RecvmmsgLoop::run() {
     m_context.queue.moveTo(m_context.log);
 }
 
-/// All that a full buffer holds, and what was dropped: there is no later. Not for ever what goes on arriving.
+/// Up to a full buffer and its drops, since there is no later chance; bounded, since data may keep arriving.
 void RecvmmsgLoop::drainToTheEnd(Socket& socket) {
     constexpr int kMostTurns = 16;
     for (int turn = 0; turn < kMostTurns && drain(socket) != 0; ++turn) {
@@ -187,7 +187,7 @@ void RecvmmsgLoop::drainToTheEnd(Socket& socket) {
 void RecvmmsgLoop::wake() {
     const std::uint64_t one = 1;
     [[maybe_unused]] const auto written =
-        ::write(m_wake.get(), &one, sizeof one); // full is as good as written
+        ::write(m_wake.get(), &one, sizeof one); // a full pipe wakes the loop just as well
 }
 
 /// How many packets there were.
@@ -243,7 +243,7 @@ std::size_t RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
     arrival.flags.truncated = received.isTruncated;
     arrival.flags.stampedByKernel = received.stampNs != 0;
     arrival.stampNs = received.stampNs != 0 ? received.stampNs : m_context.clock.wallNs();
-    // 0 is none. A packet may tell of fewer than a record that was made when it was already on its way.
+    // 0 is none. A packet under way may carry a smaller count than a record made meanwhile.
     if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {
         arrival.kernelDropsBefore = received.drops - socket.dropsInLog;
         socket.dropsInLog = received.drops;
@@ -253,8 +253,7 @@ std::size_t RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
     return received.size;
 }
 
-/// `drops` is what the kernel has counted so far; a packet may tell less than the counter that was read
-/// before it.
+/// `drops` is the kernel's count so far; a packet may carry less than the counter that was read before it.
 void RecvmmsgLoop::countDrops(Socket& socket, std::uint32_t drops) {
     const auto more = static_cast<std::int32_t>(drops - socket.dropsCounted);
     if (more > 0) {
@@ -264,10 +263,10 @@ void RecvmmsgLoop::countDrops(Socket& socket, std::uint32_t drops) {
     }
 }
 
-/// What no packet came to tell becomes a record of its own.
+/// Drops that no packet reported become a record of their own.
 void RecvmmsgLoop::recordDrops(Socket& socket, std::uint32_t drops) {
     const auto more = static_cast<std::int32_t>(drops - socket.dropsInLog);
-    if (more <= 0 || !socket.hasSender) { // a full buffer has packets, so that a sender is known by then
+    if (more <= 0 || !socket.hasSender) { // a full buffer holds packets, so a sender is known by then
         return;
     }
     log::Arrival arrival;
@@ -281,7 +280,7 @@ void RecvmmsgLoop::recordDrops(Socket& socket, std::uint32_t drops) {
     m_context.log.writer().publish();
 }
 
-/// Loss shows in a packet only when the next one comes; the socket itself tells at once.
+/// A packet reports loss only once the next one arrives; the socket knows at once.
 void RecvmmsgLoop::checkDrops(Socket& socket) {
     std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
     socklen_t size = sizeof info;
@@ -293,7 +292,7 @@ void RecvmmsgLoop::checkDrops(Socket& socket) {
     }
 }
 
-/// Before the sockets are emptied; the fullest counts.
+/// Before the sockets are emptied; the fullest one counts.
 void RecvmmsgLoop::measureFill() {
     m_isDelayed = false;
     for (const auto& socket : m_sockets) {
@@ -316,7 +315,7 @@ void RecvmmsgLoop::checkAllDrops() {
     }
 }
 
-/// Naps as long as it may, and never so long that what arrives at this rate fills more than an eighth of the
+/// Naps up to the limit, but never long enough for the current rate to fill more than an eighth of the
 /// buffer.
 void RecvmmsgLoop::adaptNap(std::size_t received) {
     if (received * kBufferPerDatagram > m_smallestBuffer / 8) {

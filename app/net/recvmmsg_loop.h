@@ -5,8 +5,8 @@
 
 namespace posewire::net {
 
-/// Linux: many datagrams with one system call, written by the kernel straight into the log, with its stamps
-/// and its count of what it had to drop.
+/// Linux: many datagrams per system call, written by the kernel straight into the log, with its stamps and
+/// its drop counter.
 [[nodiscard]] std::unique_ptr<ReceiveLoop> makeRecvmmsgLoop(const ReceiveContext& context);
 
 } // namespace posewire::net

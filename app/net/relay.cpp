@@ -17,12 +17,12 @@ namespace posewire::net {
 
 namespace {
 
-/// So many packets are forwarded before commands have their turn.
+/// Packets forwarded before commands get a turn.
 constexpr std::uint64_t kAtOnce = 1024;
 constexpr std::chrono::milliseconds kNap{2};
-/// A packet so much older than the last time when none was left is no live one.
+/// A packet this much older than the last time the relay had caught up is not live.
 constexpr std::int64_t kOldNs = 1'000'000'000;
-/// The send buffer of the socket is emptied by the network; so long it is waited for.
+/// How long to wait for the network to empty the socket's send buffer.
 constexpr int kAttempts = 10;
 constexpr std::chrono::microseconds kAttemptPause{200};
 
@@ -34,7 +34,7 @@ bool isOfThisComputer(const QHostAddress& address) {
                                [&](const LocalAddress& local) { return local.address == text; });
 }
 
-/// Whether what is sent there comes back by one of the inputs.
+/// Whether data sent there comes back through one of the inputs.
 bool isHeardBy(const InputStatus& input, const QHostAddress& address, std::uint16_t port) {
     if (input.kind != InputKind::Udp || input.endpoint.port != port) {
         return false;
@@ -58,7 +58,7 @@ std::optional<NetError> loopProblem(const Endpoint& target, const QHostAddress& 
     }
     return NetError{NetError::Kind::BadEndpoint,
                     textOf(target) + " is where this monitor itself listens: every datagram would come back "
-                                     "and go round for ever; choose another host or port"};
+                                     "and circulate forever; choose another host or port"};
 }
 
 } // namespace
@@ -74,9 +74,9 @@ struct Relay::Target {
     std::string problem{}; ///< guarded by the mutex
 };
 
-/// Made and used in the relay's thread. Bound, so that what comes back from it can be told by its port.
+/// Created and used in the relay's thread. Bound, so that its port identifies what comes back from it.
 struct Relay::Sockets {
-    QEventLoop dispatcher; // first: sockets want one in their thread
+    QEventLoop dispatcher; // first: sockets need one in their thread
     QUdpSocket ipv4;
     QUdpSocket ipv6;
 
@@ -93,7 +93,7 @@ Relay::Relay(const log::PacketLog& log, const log::Clock& clock)
     : m_log(log), m_clock(clock), m_reader(log), m_thread([this] { run(); }) {}
 
 Relay::~Relay() {
-    // By a command: a thread that saw it earlier would be gone before a command came, and never answer it.
+    // As a command: a thread that saw a flag earlier would end before a queued command and never answer it.
     call([this] { m_isStopping = true; });
     m_thread.join();
 }
@@ -168,7 +168,7 @@ void Relay::run() {
     while (true) {
         m_commands.run();
         if (m_isStopping) {
-            break; // before it waits: nobody would wake it any more
+            break; // before it waits: nobody would wake it afterwards
         }
         if (!m_targets.empty() && forwardSome()) {
             continue;
@@ -185,7 +185,7 @@ void Relay::run() {
     m_sockets.reset();
 }
 
-/// True where there is more.
+/// True if there is more.
 bool Relay::forwardSome() {
     m_reader.refresh();
     skipWhatIsOld();
@@ -227,7 +227,7 @@ bool Relay::isForwarded(const log::Packet& packet) {
            packet.stampNs >= m_caughtUpNs - kOldNs;
 }
 
-/// Not what this relay has sent itself, should it come back on some way that add() did not see.
+/// Leaves out what this relay itself has sent, should it come back by a path that add() did not see.
 Relay::Verdict Relay::judge(log::SenderId sender) const {
     const log::SenderInfo* info = m_log.senders().find(sender);
     if (info == nullptr ||

@@ -18,25 +18,24 @@
 
 namespace posewire::net {
 
-/// A host that gets every datagram; never used again for another.
+/// Identifies a host that gets every datagram; never reused.
 enum class RelayId : std::uint32_t {};
 
 struct RelayTarget {
     RelayId id{};
     Endpoint endpoint;
     std::uint64_t sent = 0;
-    std::uint64_t refused = 0; ///< this system did not take them: no route, or too long for UDP
-    std::uint64_t skipped = 0; ///< left out because the relay had fallen too far behind
-    std::string problem;       ///< why the newest was refused; empty where it was not
+    std::uint64_t refused = 0; ///< refused by this system: no route, or too long for UDP
+    std::uint64_t skipped = 0; ///< skipped because the relay had fallen too far behind
+    std::string problem;       ///< why the newest was refused; empty if it was not
 };
 
-/// Forwards every datagram that is received, unchanged, to other hosts by UDP: a follower of the log with a
-/// thread of its own, so that it never delays receiving. What comes from files is not forwarded. Targets come
-/// and go while it runs. Every member may be called from any thread.
+/// Forwards every received datagram unchanged to other hosts by UDP. It follows the log in a thread of its
+/// own, so it never delays receiving. Packets from files are not forwarded. Targets can be added and removed
+/// while it runs. Every member may be called from any thread.
 class Relay {
 public:
-    /// Further behind than this many packets it leaves some out: what is old is of no use to who wants it
-    /// live.
+    /// Further behind than this many packets it skips some: old data is useless to someone who wants it live.
     static constexpr std::uint64_t kMostBehind = 20'000;
 
     /// Both must outlive it.
@@ -45,11 +44,11 @@ public:
     Relay(const Relay&) = delete;
     Relay& operator=(const Relay&) = delete;
 
-    /// Forwards from now on. Looks up names, which may take seconds. Refuses a port that one of `inputs`
-    /// listens on, since every datagram would come back and go round for ever.
+    /// Forwards from now on. Resolves names, which may take seconds. Refuses a port that one of `inputs`
+    /// listens on, since every datagram would come back and circulate forever.
     NetResult<RelayId> add(const Endpoint& target, const std::vector<InputStatus>& inputs);
 
-    /// Why a target can stay no longer with these inputs; nothing where it can, or is none.
+    /// Why a target cannot stay with these inputs; empty if it can, or if there is no such target.
     [[nodiscard]] std::optional<NetError> problemWith(RelayId id,
                                                       const std::vector<InputStatus>& inputs) const;
 
@@ -76,16 +75,16 @@ private:
     std::mutex m_wakeMutex;
     std::condition_variable m_wake;
     bool m_isWoken = false;    ///< guarded by m_wakeMutex
-    bool m_isStopping = false; ///< known to the thread alone
+    bool m_isStopping = false; ///< only the thread reads it
 
-    mutable std::mutex m_mutex; ///< guards m_targets against other threads' looking
+    mutable std::mutex m_mutex; ///< guards m_targets against readers in other threads
     std::vector<std::shared_ptr<Target>> m_targets;
     std::uint32_t m_nextId = 0;
 
-    // The thread's own.
+    // Of the thread alone.
     log::LogReader m_reader;
     std::uint64_t m_next = 0;        ///< the packet to forward
-    std::int64_t m_caughtUpNs = 0;   ///< when it was last at the end, wall clock
+    std::int64_t m_caughtUpNs = 0;   ///< when it last had caught up, wall clock
     std::vector<Verdict> m_verdicts; ///< of senders, by id
     std::unique_ptr<Sockets> m_sockets;
     std::thread m_thread;

@@ -8,15 +8,15 @@
 
 namespace posewire::net {
 
-/// When to send: every moment is counted from one start, so that late sleeps never add up to drift.
+/// When to send: every deadline counts from one start, so late wake-ups never add up to drift.
 class SendSchedule {
 public:
     using Sleep = std::function<void(std::int64_t nanoseconds)>;
 
-    /// The start is now. `sleep` is for tests; without it the thread sleeps.
+    /// Starts now. `sleep` is for tests; by default the thread sleeps.
     explicit SendSchedule(const log::Clock& clock, Sleep sleep = {});
 
-    /// Sleeps until so long after the start; not at all where that is past. Tells how late it is.
+    /// Sleeps until that long after the start, or not at all if it has passed. Returns how late it is.
     std::int64_t waitUntil(std::int64_t nanosecondsAfterStart);
 
     [[nodiscard]] std::int64_t elapsedNs() const { return m_clock.monotonicNs() - m_startNs; }

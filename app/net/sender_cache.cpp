@@ -13,7 +13,7 @@ namespace posewire::net {
 
 namespace {
 
-/// "127.0.0.1:40001"; IPv4 as such also where an IPv6 socket received it.
+/// "127.0.0.1:40001"; IPv4 in its own form even where an IPv6 socket received it.
 std::string senderText(const sockaddr_in6& address) {
     std::array<char, INET6_ADDRSTRLEN> text{};
     if (address.sin6_family == AF_INET) {
@@ -39,7 +39,7 @@ std::string senderText(const sockaddr_in6& address) {
 }
 
 std::size_t hashOf(const sockaddr_in6& address) {
-    // The port and the last four bytes of either kind of address tell senders apart well enough.
+    // The port and the last four bytes of either kind of address distinguish senders well enough.
     std::uint32_t ipv4 = 0;
     std::uint32_t ipv6 = 0;
     std::memcpy(&ipv4, reinterpret_cast<const char*>(&address) + offsetof(sockaddr_in, sin_addr),

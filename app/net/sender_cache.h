@@ -11,13 +11,13 @@
 
 namespace posewire::net {
 
-/// From the kernel's form of an address to the sender's id, without making text for senders seen lately. For
-/// one socket.
+/// Maps the kernel's form of an address to the sender's id, without formatting text for recent senders. One
+/// for each socket.
 class SenderCache {
 public:
     SenderCache(log::SenderTable& table, std::uint16_t localPort) : m_table(&table), m_localPort(localPort) {}
 
-    /// `address` is IPv4 or IPv6; of anything else all senders are one.
+    /// `address` is IPv4 or IPv6; all other families count as one sender.
     log::SenderId idOf(const sockaddr_in6& address) {
         return std::memcmp(&m_last.address, &address, sizeof address) == 0 ? m_last.id : look(address);
     }
@@ -33,7 +33,7 @@ private:
     log::SenderTable* m_table;
     std::uint16_t m_localPort;
     Entry m_last;
-    std::array<Entry, 64> m_entries; ///< a place for each hash; the newcomer takes it over
+    std::array<Entry, 64> m_entries; ///< one slot for each hash; a newcomer replaces the old entry
 };
 
 } // namespace posewire::net

@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kPublishNs = 100'000'000;
 constexpr std::int64_t kFirstPauseNs = 250'000'000;
 constexpr std::int64_t kLongestPauseNs = 5'000'000'000;
-/// An attempt that has no answer by then has failed.
+/// An attempt without an answer by then has failed.
 constexpr std::int64_t kPatienceNs = 5'000'000'000;
 
 std::string secondsText(std::int64_t nanoseconds) {
@@ -34,7 +34,7 @@ NetError listenError(const QTcpServer& server, const Endpoint& endpoint) {
         return {Kind::PortInUse,
                 port + " is in use by another program; close that program or choose another port"};
     case QAbstractSocket::SocketAccessError:
-        return {Kind::NoPermission, port + " may not be opened by this user; choose a port from 1024 on"};
+        return {Kind::NoPermission, port + " needs administrator rights; choose a port from 1024 up"};
     case QAbstractSocket::SocketAddressNotAvailableError:
         return {Kind::AddressNotHere, endpoint.host + " is not an address of this computer; leave it out to "
                                                       "listen on all addresses"};
@@ -168,7 +168,7 @@ void TcpDialer::begin(std::int64_t nowNs) {
 void TcpDialer::await(std::int64_t nowNs) {
     const auto state = m_socket->state();
     if (state == QAbstractSocket::ConnectedState || m_socket->bytesAvailable() > 0) {
-        // 0: the port on this side changes with each connection and would make a new sender of it.
+        // 0: the local port changes with each connection and would make it a new sender.
         m_peer = std::make_unique<TcpPeer>(m_context, m_input, std::move(m_socket), std::uint16_t{0});
         publish();
     } else if (state == QAbstractSocket::UnconnectedState) {

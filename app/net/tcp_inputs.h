@@ -13,7 +13,7 @@
 
 namespace posewire::net {
 
-/// An input whose bytes come by TCP. Belongs to one thread, whose event loop runs between its turns.
+/// An input that receives by TCP. Belongs to one thread, whose event loop runs between turns.
 class TcpInput {
 public:
     explicit TcpInput(std::shared_ptr<Input> input) : m_input(std::move(input)) {}
@@ -23,13 +23,13 @@ public:
 
     [[nodiscard]] InputId id() const { return m_input->id(); }
 
-    /// Does what there is to do; true where there is more that nothing will announce.
+    /// Does the work at hand; true if there is more that no event will announce.
     virtual bool turn(std::int64_t nowNs) = 0;
 
-    /// When it wants a turn even if nothing happens, monotonic; nothing for never.
+    /// When it needs a turn even without events, monotonic; empty for never.
     [[nodiscard]] virtual std::optional<std::int64_t> dueNs() const = 0;
 
-    /// Reads what has arrived, before it is destroyed.
+    /// Reads what has arrived, before destruction.
     virtual void drain() = 0;
 
 protected:
@@ -54,10 +54,10 @@ private:
     QTcpServer m_server;
     std::vector<std::unique_ptr<TcpPeer>> m_peers;
     std::uint64_t m_refused = 0;
-    std::optional<std::int64_t> m_publishNs; ///< when the counters of peers are to be told
+    std::optional<std::int64_t> m_publishNs; ///< when to publish the peers' counters next
 };
 
-/// Connects to a sender that listens, again and again.
+/// Connects to a sender that listens, and reconnects.
 class TcpDialer final : public TcpInput {
 public:
     TcpDialer(const TcpContext& context, std::shared_ptr<Input> input, Endpoint endpoint);
@@ -76,8 +76,8 @@ private:
     Endpoint m_endpoint;
     std::unique_ptr<QTcpSocket> m_socket; ///< while it connects
     std::unique_ptr<TcpPeer> m_peer;      ///< once it has
-    std::int64_t m_begunNs = 0;           ///< the attempt
-    std::int64_t m_nextNs = 0;            ///< the next attempt
+    std::int64_t m_begunNs = 0;           ///< of this attempt
+    std::int64_t m_nextNs = 0;            ///< of the next attempt
     std::int64_t m_pauseNs;
     std::optional<std::int64_t> m_publishNs;
 };

@@ -29,7 +29,7 @@ TcpPeer::TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::u
 }
 
 bool TcpPeer::read() {
-    std::array<char, kAtOnce> buffer; // left as it is: most of it is not used
+    std::array<char, kAtOnce> buffer; // uninitialized: most of it is never used
     const qint64 size = m_socket->read(buffer.data(), static_cast<qint64>(buffer.size()));
     if (size <= 0) {
         return false;

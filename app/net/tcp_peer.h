@@ -12,35 +12,35 @@
 
 namespace posewire::net {
 
-/// What a TCP connection works with; outlives it.
+/// What a TCP connection works with; must outlive it.
 struct TcpContext {
     const log::Clock& clock;
     PacketQueue& queue;
     InputCounters& totals;
 };
 
-/// One TCP connection: cuts its bytes into datagrams and hands them on. Of its own it keeps at most
-/// kReadBuffer and what the framer keeps. Belongs to one thread.
+/// One TCP connection: splits its bytes into datagrams and passes them on. Buffers at most kReadBuffer plus
+/// what the framer keeps. Belongs to one thread.
 class TcpPeer {
 public:
     static constexpr qint64 kReadBuffer = qint64{128} << 10;
 
-    /// `socket` is connected. `localPort` is what the sender is told to have arrived at.
+    /// `socket` is connected. `localPort` is recorded as the port that the sender's data arrived at.
     TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::unique_ptr<QTcpSocket> socket,
             std::uint16_t localPort);
 
-    /// Reads some of what is there, so that others have their turn; true where there is more. Waits while the
-    /// queue is full.
+    /// Reads a bounded amount, so that others get a turn; true if there is more. Blocks while the queue is
+    /// full.
     bool read();
 
-    /// The other end has closed, or was lost, and everything it sent was read.
+    /// The other end closed or was lost, and everything it sent has been read.
     [[nodiscard]] bool hasEnded() const;
 
-    /// Reads what has arrived here, without waiting for more. For an end that is ours: an unfinished datagram
-    /// is then nobody's fault and not told.
+    /// Reads what has arrived, without waiting for more. For closing from this side: an unfinished datagram
+    /// is then nobody's fault and is not reported.
     void drain();
 
-    /// What an end inside a datagram leaves over comes out. After hasEnded().
+    /// Passes on the rest of a connection that ended inside a datagram. After hasEnded().
     void finish();
 
     [[nodiscard]] const Peer& status() const { return m_status; }
@@ -54,7 +54,7 @@ private:
     std::unique_ptr<QTcpSocket> m_socket;
     log::SenderInfo m_sender;
     log::TcpFramer m_framer;
-    std::int64_t m_stampNs = 0; ///< of what is being read
+    std::int64_t m_stampNs = 0; ///< of the bytes being read
     Peer m_status;
 };
 

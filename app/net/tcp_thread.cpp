@@ -24,9 +24,9 @@ struct TcpThread::Inside {
 
     TcpContext context;
     std::vector<std::unique_ptr<TcpInput>> inputs;
-    QTimer timer; ///< ends the waiting for events when an input is due
+    QTimer timer; ///< ends the wait for events when an input is due
 
-    /// True where there is more to do at once.
+    /// True if there is more to do at once.
     bool turn() {
         const std::int64_t nowNs = context.clock.monotonicNs();
         bool hasMore = false;

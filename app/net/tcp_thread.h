@@ -18,14 +18,14 @@ namespace posewire::net {
 
 class TcpInput;
 
-/// Reads TCP connections and hands their datagrams to the queue; where that is full it waits, and TCP makes
-/// the senders wait. One thread for all of them, apart from the one that receives UDP.
+/// Reads TCP connections and passes their datagrams to the queue; while that is full it waits, and TCP makes
+/// the senders wait. One thread for all connections, separate from the one that receives UDP.
 class TcpThread {
 public:
-    /// All must outlive it. `totals` is written by its thread.
+    /// All must outlive it. Its thread writes `totals`.
     TcpThread(const log::Clock& clock, PacketQueue& queue, InputCounters& totals);
 
-    /// Ends all connections. Somebody must go on emptying the queue, or have closed it.
+    /// Ends all connections. The queue must be emptied meanwhile, or be closed.
     ~TcpThread();
     TcpThread(const TcpThread&) = delete;
     TcpThread& operator=(const TcpThread&) = delete;
@@ -49,7 +49,7 @@ private:
     std::atomic<bool> m_isStopping = false;
     std::mutex m_mutex; ///< guards m_eventLoop
     std::unique_ptr<QEventLoop> m_eventLoop;
-    std::unique_ptr<Inside> m_inside; ///< the thread's own
+    std::unique_ptr<Inside> m_inside; ///< of the thread alone
     std::thread m_thread;
 };
 

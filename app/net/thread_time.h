@@ -6,7 +6,7 @@
 
 namespace posewire::net {
 
-/// Processor time that a running thread took so far, in seconds; nothing where the system does not tell.
+/// CPU time of a running thread so far, in seconds; empty where the system does not report it.
 [[nodiscard]] std::optional<double> cpuSeconds(std::thread& thread);
 
 } // namespace posewire::net

@@ -28,7 +28,7 @@ tl::unexpected<NetError> bindError(const QUdpSocket& socket, const Endpoint& end
                                              "another port");
     case QAbstractSocket::SocketAccessError:
         return netError(Kind::NoPermission,
-                        portText(endpoint) + " may not be opened by this user; choose a port from 1024 on");
+                        portText(endpoint) + " needs administrator rights; choose a port from 1024 up");
     case QAbstractSocket::SocketAddressNotAvailableError:
         return netError(Kind::AddressNotHere, endpoint.host +
                                                   " is not an address of this computer; leave it out to "
@@ -50,7 +50,7 @@ NetResult<std::unique_ptr<QUdpSocket>> bindOne(const QHostAddress& address, cons
     return socket;
 }
 
-/// Joins on every interface that is up: a sender may be behind any of them.
+/// Joins on every interface that is up, since the sender may be reached by any.
 NetResult<void> join(QUdpSocket& socket, const QHostAddress& group) {
     int joined = 0;
     for (const QNetworkInterface& interface : QNetworkInterface::allInterfaces()) {
@@ -74,7 +74,7 @@ NetResult<std::vector<QHostAddress>> groupsOf(const UdpInput& where) {
         const QHostAddress group(QString::fromStdString(text));
         if (!group.isMulticast()) {
             return netError(Kind::BadEndpoint, "\"" + text +
-                                                   "\" is no multicast group; those are 224.0.0.0 to "
+                                                   "\" is not a multicast group; those are 224.0.0.0 to "
                                                    "239.255.255.255 and addresses that begin with ff");
         }
         groups.push_back(group);
@@ -132,7 +132,7 @@ NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes) {
     if (!groups->empty() && !where.endpoint.host.empty()) {
         return netError(Kind::BadEndpoint,
                         "a port of " + where.endpoint.host +
-                            " alone hears no multicast; leave the address out to join a group");
+                            " alone receives no multicast; leave the address out to join a group");
     }
     if (!groups->empty()) {
         return bindGroups(where.endpoint, *groups, bufferBytes);

@@ -11,19 +11,19 @@
 
 namespace posewire::net {
 
-/// The sockets of one input, all with the same port: one, or one for IPv4 and one for IPv6 where there are
-/// multicast groups, since a socket for both joins no IPv4 groups on all systems.
+/// The sockets of one input, all on the same port: one, or one each for IPv4 and IPv6 if there are multicast
+/// groups, since not every system lets a dual-stack socket join IPv4 groups.
 using UdpSockets = std::vector<std::unique_ptr<QUdpSocket>>;
 
-/// Sockets that nobody shares, bound in the calling thread, with a receive buffer of `bufferBytes` asked for
-/// each, members of their groups. Every failure says what to do about it.
+/// Unshared sockets, bound in the calling thread, that have requested a receive buffer of `bufferBytes` each
+/// and joined their groups. Every error says what to do about it.
 [[nodiscard]] NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes);
 
-/// The error with the holder of the port named, where the port is in use and the system gives it away.
+/// The error with the port's holder named, if the port is in use and the system reveals who has it.
 [[nodiscard]] NetError withHolder(NetError error, std::uint16_t port, bool isTcp);
 
-/// The receive buffer that was granted, in bytes of the caller's arithmetic: Linux counts its own overhead
-/// and says double.
+/// The granted receive buffer in the bytes that were requested: Linux adds its own overhead and reports
+/// double.
 [[nodiscard]] int receiveBufferBytes(QUdpSocket& socket);
 
 } // namespace posewire::net

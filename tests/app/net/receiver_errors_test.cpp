@@ -83,10 +83,10 @@ TEST_P(ReceiverErrorsTest, NameInsteadOfAnAddressIsClear) {
 TEST_P(ReceiverErrorsTest, GroupsThatAreNoneAreClear) {
     UdpInput where{Endpoint{"", 0}, {}};
     where.groups.emplace_back("10.0.0.1");
-    EXPECT_THAT(errorOf(where).text, HasSubstr("10.0.0.1\" is no multicast group"));
+    EXPECT_THAT(errorOf(where).text, HasSubstr("10.0.0.1\" is not a multicast group"));
     where = {Endpoint{"127.0.0.1", 0}, {}};
     where.groups.emplace_back("239.1.2.3");
-    EXPECT_THAT(errorOf(where).text, HasSubstr("hears no multicast"));
+    EXPECT_THAT(errorOf(where).text, HasSubstr("receives no multicast"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Paths, ReceiverErrorsTest,

@@ -205,7 +205,7 @@ TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
         return relays[0].stage == RelayState::Stage::Forwarding &&
                relays[1].stage == RelayState::Stage::Refused;
     }));
-    EXPECT_THAT(relays[1].problem.toStdString(), HasSubstr("round for ever"));
+    EXPECT_THAT(relays[1].problem.toStdString(), HasSubstr("circulate forever"));
 
     driver.receiving().addPort(away);
     EXPECT_TRUE(tickUntil([&] { return relays[0].stage == RelayState::Stage::Refused; }));
