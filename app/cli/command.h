@@ -27,7 +27,7 @@ struct Console {
     std::function<void(const std::string&)> complain; ///< one line: what, where, what to do
 };
 
-/// One command of the program: its place in the command line, and what it does once that is parsed.
+/// One command of the program: its name, and what it does once the command line is parsed.
 struct Command {
     std::string name;
     std::function<ExitStatus(Console&)> run;

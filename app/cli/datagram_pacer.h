@@ -8,8 +8,8 @@
 
 namespace posewire::cli {
 
-/// When the datagrams of a recording are due. Stamps decide where there are any. Without them the time codes
-/// of the senders do, and where those stand still or jump, each sample takes one period.
+/// When the datagrams of a recording are due: by their stamps; without stamps by the senders' time codes; and
+/// where those freeze or jump, one period per sample.
 class DatagramPacer {
 public:
     DatagramPacer(double periodSeconds, double speed) : m_periodNs(periodSeconds * 1e9), m_speed(speed) {}

@@ -17,7 +17,7 @@ struct DecodeOptions {
     std::string filter;
 };
 
-/// Writes one file's records and counts what is wrong with them.
+/// Writes one file's records and counts their faults.
 class RecordWriter {
 public:
     /// Without a filter everything is written.
@@ -47,7 +47,7 @@ public:
         m_out.write(m_asJson ? exporting::datagramJson(place, record.bytes) + '\n' : listed(place, record));
     }
 
-    /// To be called after the last record.
+    /// Call after the last record.
     void endSkipped() {
         const std::uint64_t skipped = std::exchange(m_skipped, 0);
         if (skipped == 0) {
@@ -64,7 +64,7 @@ public:
         m_allSkipped += skipped;
     }
 
-    /// One line about what was wrong; empty where nothing was.
+    /// One line about the faults; empty if there were none.
     [[nodiscard]] std::string complaint(const std::string& name) const {
         std::string text;
         if (m_faults != 0) {
@@ -106,7 +106,7 @@ private:
     bool m_asJson;
     std::optional<RecordFilter> m_filter;
     std::vector<std::byte>
-        m_firstSkipped; ///< what a filter sees of skipped bytes: as much as a packet can have
+        m_firstSkipped; ///< the part of skipped bytes that a filter sees: at most one packet's worth
     std::uint64_t m_index = 0;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_faults = 0;

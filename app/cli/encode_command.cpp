@@ -35,8 +35,10 @@ public:
 
     [[nodiscard]] ExitStatus conclude() {
         if (m_withoutDatagram != 0) {
-            m_console.complain(m_name + ": " + std::to_string(m_withoutDatagram) +
-                               " lines stand for no datagram (an error, or skipped bytes) and are left out");
+            const bool isOne = m_withoutDatagram == 1;
+            m_console.complain(
+                m_name + ": " + std::to_string(m_withoutDatagram) + (isOne ? " line holds" : " lines hold") +
+                " no datagram (an error, or skipped bytes) and " + (isOne ? "is left out" : "are left out"));
         }
         return m_hasFaults || m_withoutDatagram != 0 ? ExitStatus::Faults : ExitStatus::Fine;
     }

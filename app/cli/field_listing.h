@@ -7,7 +7,7 @@
 
 namespace posewire::cli {
 
-/// Every field of a datagram with its offset, value and unit, a line each, then what is odd or wrong.
+/// Every field of a datagram with its offset, value and unit, one per line, then notices and errors.
 [[nodiscard]] std::string fieldListing(wire::Bytes bytes);
 
 } // namespace posewire::cli

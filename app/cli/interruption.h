@@ -3,8 +3,8 @@
 
 namespace posewire::cli {
 
-/// While it lives, Ctrl+C (and a polite request to end) does not end the program but is remembered; a second
-/// one ends it. One at a time.
+/// During its lifetime the first Ctrl+C (or SIGTERM) is only remembered; a second one ends the program. One
+/// object at a time.
 class Interruption {
 public:
     Interruption();

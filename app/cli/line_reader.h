@@ -9,18 +9,18 @@
 
 namespace posewire::cli {
 
-/// Reads a source line by line.
+/// Reads a byte source line by line.
 class LineReader {
 public:
-    /// No datagram needs a longer line; a longer one is cut off here, so that memory stays bounded.
+    /// No datagram needs a longer line; longer ones are cut here, so that memory stays bounded.
     static constexpr std::size_t kLongestLine = std::size_t{4} << 20;
 
     explicit LineReader(log::ByteSource& source) : m_source(source) {}
 
-    /// The next line without its end, valid until the next call; nothing at the end of the source.
+    /// The next line without its line end, valid until the next call; empty at the end.
     tl::expected<std::optional<std::string_view>, log::FileError> next();
 
-    /// Of the line given out last, from 1.
+    /// Number of the last line, from 1.
     [[nodiscard]] std::size_t lineNumber() const { return m_lineNumber; }
 
 private:

@@ -14,20 +14,20 @@ namespace posewire::cli {
 /// A file that is written from front to back, or standard output.
 class Output {
 public:
-    /// Takes standard output for "-". Fails with one line for the user.
+    /// "-" is standard output. The error is one line for the user.
     static tl::expected<Output, std::string> open(const std::string& path);
     static Output standard();
 
     void write(std::string_view text);
     void write(std::span<const std::byte> bytes);
 
-    /// False once the reader at the other end has gone or a write has failed: what follows is not needed.
+    /// False once the reader has closed its end or a write has failed: no more output is needed.
     [[nodiscard]] bool isWanted() const { return m_isWanted; }
 
-    /// What was written can be seen at once.
+    /// Flushes, so that the reader sees it at once.
     void flush();
 
-    /// Hands everything over. Fails with one line for the user; a reader that has gone is no failure.
+    /// Flushes and closes. The error is one line for the user; a reader that has left is not an error.
     tl::expected<void, std::string> finish();
 
 private:

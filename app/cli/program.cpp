@@ -26,7 +26,7 @@ ExitStatus run(const Command& command) {
 
 int runProgram(int argumentCount, const char* const* arguments) {
 #ifdef SIGPIPE
-    // A reader that has seen enough closes the pipe; the write that fails then ends the program in order.
+    // When the reader closes the pipe, the failed write ends the program in good order.
     std::signal(SIGPIPE, SIG_IGN);
 #endif
     std::ios::sync_with_stdio(false);

@@ -6,7 +6,7 @@
 namespace posewire::cli {
 namespace {
 
-/// Characters rather than bytes, so that the caret stands right.
+/// Counts characters, not bytes, so that the caret is in the right place.
 std::size_t charactersOf(std::string_view text) {
     return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
         return (static_cast<unsigned char>(byte) & 0xc0) != 0x80;

@@ -10,12 +10,12 @@
 
 namespace posewire::cli {
 
-/// A filter over the records of one file, in their order. A file without stamps is as if all came at once.
+/// A filter over the records of one file, in order. In a file without stamps all records have the same time.
 class RecordFilter {
 public:
     explicit RecordFilter(filter::Filter filter) : m_filter(std::move(filter)) {}
 
-    /// `index` is what the output counts; runs of skipped bytes count too.
+    /// `index` is the number in the output; runs of skipped bytes count too.
     [[nodiscard]] bool matches(const log::FileRecord& record, std::uint64_t index);
 
 private:
@@ -26,7 +26,7 @@ private:
     std::optional<std::int64_t> m_firstStampNs;
 };
 
-/// Why a filter was not understood, over three lines: the reason, the text, and a caret under the place.
+/// Why a filter was rejected, in three lines: the reason, the filter, and a caret under the place.
 [[nodiscard]] std::string markedError(std::string_view text, const filter::FilterError& error);
 
 } // namespace posewire::cli

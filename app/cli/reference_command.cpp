@@ -10,7 +10,7 @@ namespace posewire::cli {
 Command addReferenceCommand(CommandLine& program) {
     Arguments arguments = program.addCommand("reference", "Print the protocol reference in Markdown");
     auto isFilterWanted = std::make_shared<bool>(false);
-    arguments.flag("--filter", *isFilterWanted, "the language of decode --filter instead");
+    arguments.flag("--filter", *isFilterWanted, "print the language of decode --filter instead");
     return {"reference", [isFilterWanted](Console& console) {
                 console.out.write(*isFilterWanted ? filter::filterReference() : wire::protocolReference());
                 return ExitStatus::Fine;

@@ -18,10 +18,10 @@ Command addReportCommand(CommandLine& program) {
     arguments.add("-o,--output", options->report, "the HTML file; - for standard output")
         .form("FILE")
         .required();
-    arguments.add("--from", options->fromSeconds, "begin so many seconds after the first datagram")
+    arguments.add("--from", options->fromSeconds, "begin this many seconds after the first datagram")
         .form("SECONDS")
         .notNegative();
-    arguments.add("--to", options->toSeconds, "end so many seconds after the first datagram")
+    arguments.add("--to", options->toSeconds, "end this many seconds after the first datagram")
         .form("SECONDS")
         .notNegative();
     return {"report", [options](Console& console) {

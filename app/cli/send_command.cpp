@@ -15,7 +15,7 @@ ExitStatus unusable(Console& console, const std::string& complaint) {
     return ExitStatus::Unusable;
 }
 
-/// The sockets of all senders, each with chances of its own.
+/// The sockets of all senders, each with its own random faults.
 tl::expected<std::vector<SendLine>, Complaint> linesOf(const SendOptions& options,
                                                        const std::vector<net::SendTarget>& targets) {
     auto faults = faultsOf(options);
@@ -34,7 +34,7 @@ tl::expected<std::vector<SendLine>, Complaint> linesOf(const SendOptions& option
     return lines;
 }
 
-/// Tells what was sent; the truth also where the sending was cut short.
+/// Reports what was sent, and writes the truth even if sending was cut short.
 ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Console& console) {
     std::uint64_t sent = 0;
     std::uint64_t refused = 0;
@@ -50,7 +50,7 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
     if (refused != 0) {
         console.complain(
             std::to_string(refused) +
-            " datagrams were not taken by the network; is the address right and somebody listening?");
+            " datagrams were refused by the network; check the address and that the receiver is running");
     }
     if (!options.truth.empty()) {
         if (const auto written = writeTruth(options.truth, lines, options.durationSeconds); !written) {
@@ -70,7 +70,7 @@ ExitStatus send(const SendOptions& options, Console& console) {
     if (!settings) {
         return unusable(console, settings.error());
     }
-    // Qt's sockets want an application to be there.
+    // Qt's sockets need an application object.
     std::string name = "posewire-cli";
     std::array<char*, 2> arguments{name.data(), nullptr};
     int argumentCount = 1;
@@ -93,14 +93,14 @@ std::string motionList() {
 }
 
 void addPlaces(Arguments arguments, SendOptions& options) {
-    arguments.beginGroup("Where to and for how long");
-    arguments.add("--to", options.to, "where to, HOST:PORT; may be given several times")
+    arguments.beginGroup("Target and duration");
+    arguments.add("--to", options.to, "target, HOST:PORT; may be given several times")
         .repeatable()
         .showDefault();
-    const Option udp = arguments.flag("--udp", "one datagram a packet (default)");
+    const Option udp = arguments.flag("--udp", "one datagram per packet (default)");
     arguments.flag("--tcp", options.overTcp, "connect, as MVN does, and send datagrams back to back")
         .excludes(udp);
-    arguments.add("--duration", options.durationSeconds, "stop after so many seconds; 0: when interrupted")
+    arguments.add("--duration", options.durationSeconds, "stop after this many seconds; 0: when interrupted")
         .notNegative()
         .showDefault();
 }
@@ -108,8 +108,8 @@ void addPlaces(Arguments arguments, SendOptions& options) {
 void addPerformer(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("The performance");
     performer::PerformerSettings& settings = options.performer;
-    arguments.add("--characters", settings.characters, "how many perform").showDefault();
-    arguments.add("--rate", settings.rateHz, "frames a second").positive().showDefault();
+    arguments.add("--characters", settings.characters, "number of performers").showDefault();
+    arguments.add("--rate", settings.rateHz, "samples per second").positive().showDefault();
     arguments.add("--types", options.types, "message types, such as 02,12,13, or all of the revision")
         .showDefault();
     arguments.add("--revision", options.revision, "of the specification: E, J, K or N").showDefault();
@@ -121,7 +121,7 @@ void addPerformer(Arguments arguments, SendOptions& options) {
         .add("--first-sample", settings.firstSample,
              "sample counter to begin with; near 4294967295 it wraps around")
         .showDefault();
-    arguments.add("--senders", options.senders, "so many sockets send characters of the same numbers")
+    arguments.add("--senders", options.senders, "number of sockets that send characters with the same ids")
         .within(1, 16)
         .showDefault();
 }
@@ -134,7 +134,7 @@ void addFaults(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("Faults, in any combination (P: chance per datagram)");
     performer::FaultSettings& faults = options.faults;
     const Option drop = addChance(arguments, "--drop", faults.drop, "lose datagrams");
-    arguments.add("--burst", faults.burst, "lose so many in a row, with the same share in all")
+    arguments.add("--burst", faults.burst, "lose this many in a row, with the same overall share")
         .within(1, 1'000'000)
         .needs(drop)
         .form("N");
@@ -144,16 +144,17 @@ void addFaults(Arguments arguments, SendOptions& options) {
         .excludes(drop)
         .form("p,r[,k,h]");
     addChance(arguments, "--duplicate", faults.duplicate, "send datagrams twice, at once or later");
-    addChance(arguments, "--reorder", faults.reorder, "hold datagrams back, up to more than 100 samples");
-    arguments.add("--delay", faults.delayMs, "hold all back by so much").notNegative().form("MS");
-    arguments.add("--jitter", faults.jitterMs, "hold each back by up to so much").notNegative().form("MS");
+    addChance(arguments, "--reorder", faults.reorder, "hold datagrams back, some by more than 100 samples");
+    arguments.add("--delay", faults.delayMs, "delay all datagrams by this much").notNegative().form("MS");
+    arguments.add("--jitter", faults.jitterMs, "delay each datagram by up to this much")
+        .notNegative()
+        .form("MS");
     addChance(arguments, "--corrupt", faults.corrupt, "flip bits in datagrams");
     addChance(arguments, "--truncate", faults.truncate, "cut datagrams short");
     arguments.flag("--split", faults.splits, "send samples of several items in two to four datagrams");
-    arguments.add("--restart-at", options.restart, "begin the sample counter anew after S seconds")
+    arguments.add("--restart-at", options.restart, "restart the sample counter after S seconds")
         .form("S[:SAMPLE]");
-    arguments
-        .add("--pause-at", options.pause, "send nothing from S on for so many seconds; the counter goes on")
+    arguments.add("--pause-at", options.pause, "pause at S for S seconds; the counter keeps counting")
         .form("S:S");
     arguments.add("--reduce-at", options.reduction, "from S on send every Kth sample").form("S:K");
 }
@@ -174,7 +175,7 @@ void addTruth(Arguments arguments, SendOptions& options, Option file) {
     arguments.beginGroup("The truth");
     arguments
         .add("--truth", options.truth,
-             "write what was really sent to this file, as JSON with the names that monitor uses")
+             "write what was really sent to this file, as JSON with monitor's names")
         .excludes(file)
         .needs(arguments.option("--duration"))
         .form("FILE");

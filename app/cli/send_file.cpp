@@ -10,7 +10,7 @@
 namespace posewire::cli {
 namespace {
 
-/// Sends records when they are due, as long as nothing goes wrong.
+/// Sends records when they are due, until an error.
 class RecordSender {
 public:
     RecordSender(const SendOptions& options, std::vector<SendLine>& lines)
@@ -42,7 +42,7 @@ public:
         note(m_round.sendUntil(due + 1));
     }
 
-    /// The recording has ended for good.
+    /// The recording will not be repeated.
     void finish() {
         if (m_failure.empty()) {
             note(m_round.sendRest());
@@ -89,7 +89,7 @@ ExitStatus conclude(const std::string& path, const RecordSender& sender, Console
         return ExitStatus::Unusable;
     }
     if (sender.datagrams() == 0) {
-        console.complain(path + ": has no datagrams; is it a recording of MXTP?");
+        console.complain(path + ": no datagrams found; is it a recording of MXTP?");
         return ExitStatus::Faults;
     }
     if (sender.skipped() != 0) {

@@ -27,7 +27,7 @@ net::NetResult<void> SendLine::send(const performer::Sending& sending) {
             return sent;
         }
         if (!m_keepsTruth || sender.sender.sent() == before) {
-            continue; // what the system did not take was not sent
+            continue; // what the system refused was not sent
         }
         if (sender.isTcp) {
             sender.streamed.add(sending);
@@ -65,7 +65,7 @@ void SendRound::collect(const Take& take) {
 
 net::NetResult<void> SendRound::sendCollected() {
     for (Leaving& leaving : m_leaving) {
-        // On a busy computer it leaves later than planned; whether it is late counts from when it left.
+        // A busy computer sends later than planned; lateness counts from when it was sent.
         leaving.sending.dueNs += m_schedule.waitUntil(leaving.sending.dueNs);
         if (auto sent = m_lines[leaving.line].send(leaving.sending); !sent) {
             return sent;

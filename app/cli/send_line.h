@@ -12,7 +12,7 @@
 
 namespace posewire::cli {
 
-/// One sender with the faults of its way, a socket for each target, and book of what went through each.
+/// One sender with its network faults, a socket for each target, and a record of what went through each.
 class SendLine {
 public:
     struct Sender {
@@ -30,7 +30,7 @@ public:
     [[nodiscard]] const performer::Faults& faults() const { return m_faults; }
     /// To all targets.
     net::NetResult<void> send(const performer::Sending& sending);
-    /// Waits until everything is handed over.
+    /// Waits until everything has been handed to the network.
     net::NetResult<void> finish();
 
     [[nodiscard]] const std::vector<Sender>& senders() const { return m_senders; }
@@ -44,13 +44,13 @@ private:
     bool m_keepsTruth;
 };
 
-/// Sends what the lines have to give, at its time.
+/// Sends what the lines have due, on time.
 class SendRound {
 public:
     SendRound(std::vector<SendLine>& lines, net::SendSchedule& schedule)
         : m_lines(lines), m_schedule(schedule) {}
 
-    /// All that is due before this time after the start. Fails with what ended a connection.
+    /// All that is due before this time after the start. The error is why a connection ended.
     net::NetResult<void> sendUntil(std::int64_t untilNs);
     /// The rest.
     net::NetResult<void> sendRest();

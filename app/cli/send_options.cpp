@@ -19,7 +19,7 @@ tl::expected<std::vector<std::uint8_t>, Complaint> typesOf(std::string_view list
         if (!isNumber || wire::findType(type) == nullptr) {
             return tl::unexpected(
                 "--types: \"" + std::string(word) +
-                "\" is no message type; name some of 01 to 05, 10 to 13 and 20 to 25, or all");
+                "\" is not a message type; choose from 01 to 05, 10 to 13 and 20 to 25, or all");
         }
         types.push_back(type);
         list.remove_prefix(std::min(list.size(), word.size() + 1));

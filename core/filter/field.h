@@ -60,18 +60,18 @@ using ReadPacket = bool (*)(Subject& subject, std::size_t index, Value& value);
 /// Where a field of the payload stands: null where it does not.
 using Places = std::array<std::array<ReadItem, kLists>, kShapes>;
 
-/// A field as people know it. Several tables may have one of the same name and kind; it means all of them.
+/// A field by its name. Several layouts may have one of the same name and kind; the name means all of them.
 struct FieldInfo {
     std::string name;      ///< "position"
     std::string qualifier; ///< the list it is in, "header", or empty
     Kind kind = Kind::Number;
     std::size_t components = 1;
     bool isFloat = false;                ///< constants are rounded to 32 bits to compare with it
-    bool isTrueByValue = false;          ///< standing alone it means "not zero" instead of "there is one"
-    bool isDecoded = false;              ///< a packet field that is compared by what decoding found
+    bool isTrueByValue = false;          ///< alone it means "not zero" rather than "present"
+    bool isDecoded = false;              ///< a packet field that needs the decoded datagram
     std::string unit;                    ///< where types differ: "cm (01), m (02)"
-    std::string text;                    ///< likewise
-    std::vector<std::string_view> words; ///< the values that it can have, where they are words
+    std::string text;                    ///< the same
+    std::vector<std::string_view> words; ///< its possible values, if they are words
     std::vector<std::uint8_t> types;     ///< message types that have it, in order; empty for packet fields
     ReadPacket readPacket = nullptr;     ///< of a packet field
     Places places{};                     ///< of a field of the payload
@@ -88,8 +88,8 @@ struct FieldInfo {
 /// Those that the layouts of core/wire declare, found by walking them.
 [[nodiscard]] std::vector<FieldInfo> wireFields();
 
-/// What the name of a segment stands for: its id of the body, from 1, or a number of a prop or finger;
-/// nothing where it is no name. Case does not count.
+/// The number that a segment's name means: its body id, from 1, or the number of a prop or finger;
+/// empty if it is not a name. Ignores case.
 [[nodiscard]] std::optional<double> segmentNumber(std::string_view name);
 /// All names, in the order of their numbers, from 1.
 [[nodiscard]] std::span<const std::string_view> segmentNames();

@@ -39,7 +39,8 @@ void collect(std::string_view name, std::optional<std::string_view> component, F
         const auto names = componentNames(field.components);
         const auto found = std::find(names.begin(), names.end(), *component);
         if (found != names.end()) {
-            // Vectors and quaternions count their components differently: those of one length go together.
+            // Vectors and quaternions number their components differently, so only fields of one length
+            // combine.
             const auto place = static_cast<std::size_t>(found - names.begin());
             if (match.fields.empty() || match.fields.front()->components == field.components) {
                 match.fields.push_back(&field);

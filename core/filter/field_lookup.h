@@ -5,7 +5,7 @@
 
 namespace posewire::filter {
 
-/// What a name in a filter may mean: fields of that name, and which of their numbers.
+/// What a name in a filter may mean: fields of that name, and one of their components.
 struct FieldMatch {
     std::vector<const FieldInfo*> fields; ///< those of the packet first
     bool hasComponent = false;
@@ -15,21 +15,21 @@ struct FieldMatch {
 };
 
 /// Understands "sample", "position.z", "segments.position.z", "header.sample", "tag", "tag.name". No fields
-/// (and no tag) where nothing has that name.
+/// (and no tag) if nothing has that name.
 [[nodiscard]] FieldMatch findFields(std::string_view name);
 
-/// The numbers of a vector, as they are asked for: "x", "y" …; empty beyond its end.
+/// The names of a vector's components: "x", "y" …; empty beyond its end.
 [[nodiscard]] std::string_view componentName(std::size_t components, std::size_t component);
 
-/// The name that `field` is asked for by: the qualifier only where another field has the name too.
+/// The name to use for `field`: with its qualifier only if another field shares the name.
 [[nodiscard]] std::string askedName(const FieldInfo& field);
 
-/// The name of a field that is nearest to one that does not exist; empty where none is near.
+/// The field name closest to one that does not exist; empty if none is close.
 [[nodiscard]] std::string nearestField(std::string_view name);
-/// The nearest of some words.
+/// The closest of some words.
 [[nodiscard]] std::string nearestOf(std::string_view word, std::span<const std::string_view> words);
 
-/// Number that a word of a filter spells: decimal, 0x…, with a sign, inf; nothing where it is none.
+/// The number that a word spells: decimal, 0x…, with a sign, inf; empty if it is not a number.
 [[nodiscard]] std::optional<double> numberOf(std::string_view word);
 
 } // namespace posewire::filter

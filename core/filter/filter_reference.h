@@ -5,8 +5,8 @@
 
 namespace posewire::filter {
 
-/// The language of the display filter on one page, in Markdown; the tables of fields are written from those
-/// that decode the datagrams.
+/// The language of the display filter on one page, in Markdown; its field tables come from the layouts that
+/// decode the datagrams.
 [[nodiscard]] std::string filterReference();
 
 } // namespace posewire::filter

@@ -43,13 +43,13 @@ bool isDigit(char character) {
     return character >= '0' && character <= '9';
 }
 
-/// Letters, digits, and all of UTF-8 beyond ASCII.
+/// Letters, digits, and all UTF-8 beyond ASCII.
 bool isPlain(char character) {
     return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') ||
            isDigit(character) || character == '_' || static_cast<unsigned char>(character) >= 0x80;
 }
 
-/// Bytes of the word that begins here; 0 where none does.
+/// Bytes of the word that begins here; 0 if none does.
 std::size_t wordLength(std::string_view text) {
     std::size_t at = 0;
     const bool hasSign = text.size() > 1 && (text[0] == '-' || text[0] == '+') &&
@@ -59,7 +59,7 @@ std::size_t wordLength(std::string_view text) {
     while (at < text.size()) {
         const char character = text[at];
         const char next = at + 1 < text.size() ? text[at + 1] : ' ';
-        // A word may end with a dot while it is written; two dots are a range.
+        // A word may end with a dot while it is being typed; two dots are a range.
         const bool isJoint = (isPlain(next) && (character == '.' || (character == ':' && at != start))) ||
                              (character == '.' && next != '.' && at != start && text[at - 1] != '.');
         const bool isExponent = (character == '-' || character == '+') && at > start && isDigit(next) &&
@@ -73,7 +73,7 @@ std::size_t wordLength(std::string_view text) {
     return at == start ? 0 : at;
 }
 
-/// The text up to and with its closing quote; Unfinished where there is none.
+/// The text up to and including its closing quote; Unfinished if there is none.
 Token quotedToken(std::string_view text, std::size_t offset) {
     for (std::size_t at = offset + 1; at < text.size(); ++at) {
         if (text[at] == '\\') {

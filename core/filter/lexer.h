@@ -11,7 +11,7 @@ namespace posewire::filter {
 
 enum class TokenKind : std::uint8_t {
     End,
-    Word,   ///< a name, a number, or anything else that runs together: 0x1f, LeftHand, 192.168.1.20:4001
+    Word,   ///< a name, a number, or any other word: 0x1f, LeftHand, 192.168.1.20:4001
     Quoted, ///< text in double quotes
     Open,
     Close,
@@ -32,7 +32,7 @@ enum class TokenKind : std::uint8_t {
     Contains,
     Matches,
     Unfinished, ///< text without a closing quote
-    Unknown,    ///< a character that means nothing here
+    Unknown,    ///< a character without a meaning here
 };
 
 /// A piece of a filter's text; the place is in bytes.
@@ -45,10 +45,10 @@ struct Token {
     [[nodiscard]] std::string_view in(std::string_view text) const { return text.substr(offset, length); }
 };
 
-/// Splits a text; the last token is End. Never fails: what means nothing is Unknown.
+/// Splits a text; the last token is End. Never fails: meaningless characters become Unknown.
 [[nodiscard]] std::vector<Token> tokens(std::string_view text);
 
-/// What stands between the quotes of a Quoted token, with \" and \\ resolved.
+/// The text between the quotes of a Quoted token, with \" and \\ resolved.
 [[nodiscard]] std::string unquoted(std::string_view quoted);
 
 /// The text in quotes.

@@ -10,7 +10,7 @@ using Failure = tl::unexpected<FilterError>;
 using Parsed = tl::expected<std::uint32_t, FilterError>;
 using Join = Program::Join;
 
-/// The operator that a token stands for; nothing where it is none.
+/// The operator that a token spells; empty if it is none.
 std::optional<Operator> operatorOf(TokenKind kind) {
     switch (kind) {
     case TokenKind::Equal:
@@ -59,7 +59,7 @@ private:
         m_at += isIt ? 1 : 0;
         return isIt;
     }
-    /// What stands here, and what should.
+    /// What is here, and what was expected.
     [[nodiscard]] FilterError unexpected(std::string_view wanted) const {
         const Token& token = here();
         std::string text = "Expected " + std::string(wanted) + " here.";
@@ -95,8 +95,7 @@ private:
 
     Parsed one(std::size_t depth) {
         if (depth > Filter::kDeepest) {
-            return Failure(
-                FilterError{here().offset, here().length, "Too many parentheses within each other."});
+            return Failure(FilterError{here().offset, here().length, "Parentheses are nested too deeply."});
         }
         if (take(TokenKind::Not)) {
             auto operand = one(depth + 1);
@@ -190,8 +189,9 @@ private:
                                          : Failure(unexpected("`,` or `}`"));
     }
 
-    /// Puts conditions on items under AnyItem: those that && joins speak of one item together, and so does an
-    /// || among them; an && in parentheses, and what is negated, speaks of an item of its own.
+    /// Puts conditions on items under AnyItem: those joined by && are about one and the same item, and so is
+    /// an
+    /// || among them; an && in parentheses, or a negation, is about an item of its own.
     std::uint32_t withItems(std::uint32_t index) {
         Program::Node node = m_program.nodes[index];
         const bool isAnd = node.join == Join::And;

@@ -7,7 +7,7 @@
 
 namespace posewire::filter {
 
-/// What a filter was compiled to: a tree of nodes.
+/// A compiled filter: a tree of nodes.
 struct Program {
     enum class Join : std::uint8_t {
         Condition,
@@ -20,7 +20,7 @@ struct Program {
         Join join = Join::Condition;
         std::uint32_t condition = 0;
         std::vector<std::uint32_t> children;
-        bool isOfItems = false; ///< nothing but conditions on items below, and no Not
+        bool isOfItems = false; ///< only conditions on items below, and no Not
     };
 
     std::vector<Condition> conditions;

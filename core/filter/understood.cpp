@@ -32,7 +32,7 @@ std::optional<double> typeNumber(const Constant& constant) {
     return numberOf(constant.text);
 }
 
-/// The number that a constant means to a field; nothing where it fits no such field.
+/// The number that a constant means for a field; empty if it does not fit.
 std::optional<double> numberFor(const FieldInfo& field, const Constant& constant) {
     switch (field.kind) {
     case Kind::Number:
@@ -92,7 +92,7 @@ bool ordersOnly(Operator op) {
     return op >= Operator::Less && op <= Operator::GreaterEqual;
 }
 
-/// Whether a field can be asked this.
+/// Whether the operator suits the field.
 bool suits(const FieldInfo& field, bool hasComponent, const WrittenCondition& written) {
     if (written.op == Operator::IsThere) {
         return true;
@@ -119,7 +119,7 @@ bool suits(const FieldInfo& field, bool hasComponent, const WrittenCondition& wr
     return !needsText(written.op) && (field.kind != Kind::Vector || hasComponent) && fit;
 }
 
-/// Why none of the fields suits; judged by the first of them.
+/// Why none of the fields suits, judged by the first.
 FilterError complaint(const FieldMatch& match, const WrittenCondition& written) {
     const FieldInfo& field = *match.fields.front();
     const std::string name(written.fieldName);
@@ -135,11 +135,11 @@ FilterError complaint(const FieldMatch& match, const WrittenCondition& written) 
     const Token& op = written.operatorToken;
     if (needsText(written.op)) {
         return {op.offset, op.length,
-                "`" + name + "` is no text: compare it with ==, !=, <, <=, > or >=, or use `in`."};
+                "`" + name + "` is not text: compare it with ==, !=, <, <=, > or >=, or use `in`."};
     }
     if (isTextKind(field.kind) && ordersOnly(written.op)) {
         return {op.offset, op.length,
-                "`" + name + "` is text: it can be asked for with ==, !=, `in`, `contains` and `matches`."};
+                "`" + name + "` is text: compare it with ==, !=, `in`, `contains` or `matches`."};
     }
     for (const auto& pair : written.constants) {
         for (const Constant* constant : {&pair.first, &pair.second}) {
@@ -174,7 +174,7 @@ tl::expected<void, FilterError> setTexts(const WrittenCondition& written, Test& 
         const auto pattern = std::make_shared<const re2::RE2>(test.texts.front(), options);
         if (!pattern->ok()) {
             return failure(written.constants.front().first.token,
-                           "This is no regular expression that can be used: " + pattern->error() + ".");
+                           "This regular expression cannot be used: " + pattern->error() + ".");
         }
         test.pattern = pattern;
     }
@@ -205,7 +205,7 @@ tl::expected<void, FilterError> setNumbers(const FieldInfo& field, const Written
     return {};
 }
 
-/// A bare number, which text is rarely meant by.
+/// A bare number, which is rarely meant as text.
 bool isNumber(const WrittenCondition& written) {
     return !written.constants.empty() && !written.constants.front().first.isQuoted &&
            numberOf(written.constants.front().first.text).has_value();
@@ -239,8 +239,7 @@ tl::expected<Condition, FilterError> tagCondition(const FieldMatch& match, const
     condition.tag = match.tag;
     condition.test.op = written.op;
     if (ordersOnly(written.op)) {
-        return failure(written.operatorToken,
-                       "Tags are text: ask with ==, !=, `in`, `contains` and `matches`.");
+        return failure(written.operatorToken, "Tags are text: use ==, !=, `in`, `contains` or `matches`.");
     }
     if (written.op != Operator::IsThere) {
         if (auto set = setTexts(written, condition.test); !set) {
@@ -250,7 +249,7 @@ tl::expected<Condition, FilterError> tagCondition(const FieldMatch& match, const
     return condition;
 }
 
-/// A flag alone, and a number whose absence is 0, mean that they are not 0.
+/// A flag alone, or a number that is 0 when absent, means "not 0".
 void setTruth(const FieldInfo& field, Condition& condition) {
     if (condition.test.op == Operator::IsThere && (field.kind == Kind::Flag || field.isTrueByValue)) {
         condition.test.op = Operator::NotEqual;

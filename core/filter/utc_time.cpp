@@ -7,7 +7,7 @@
 namespace posewire::filter {
 namespace {
 
-/// Takes a number of that many digits, after `before` where that is not 0.
+/// Reads a number of that many digits, after `before` unless that is 0.
 bool take(std::string_view& text, char before, std::size_t digits, int& value) {
     const std::size_t skipped = before != 0 ? 1 : 0;
     if (text.size() < skipped + digits || (before != 0 && text.front() != before)) {

@@ -76,7 +76,7 @@ TEST(EncodeCommand, LeavesOutWhatStandsForNoDatagram) {
     const ProgramRun run = thereAndBack("garbage" + one);
     EXPECT_EQ(run.status, 1);
     EXPECT_TRUE(run.out == one);
-    EXPECT_THAT(run.err, HasSubstr("1 lines stand for no datagram"));
+    EXPECT_THAT(run.err, HasSubstr("1 line holds no datagram (an error, or skipped bytes) and is left out"));
 }
 
 } // namespace

@@ -126,7 +126,7 @@ TEST(SendCommand, SaysWhatIsWrongWithAFileWithoutDatagrams) {
     const ProgramRun run =
         runProgram({"send", "--to", "127.0.0.1:9", "--file", fileWith("nothing of the kind")});
     EXPECT_EQ(run.status, 1);
-    EXPECT_THAT(run.err, testing::HasSubstr("has no datagrams"));
+    EXPECT_THAT(run.err, testing::HasSubstr("no datagrams found"));
 }
 
 TEST(SendCommand, WritesTheTruthAboutEveryDatagramThatLeft) {

@@ -37,7 +37,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"type == pose", "pose", "a message type such as 02"},
         Wrong{"segment == LeftHandd", "LeftHandd", "did you mean `LeftHand`?"},
         Wrong{"sample == \"five\"", "\"five\"", "a number"},
-        Wrong{"sample contains \"5\"", "contains", "is no text"}, Wrong{"source > 5", ">", "is text"},
+        Wrong{"sample contains \"5\"", "contains", "is not text"}, Wrong{"source > 5", ">", "is text"},
         Wrong{"source == \"1", "\"1", "closing quote"}, Wrong{"type = 2", "=", "Compare with `==`."},
         Wrong{"gap & duplicate", "&", "`&&`"}, Wrong{"(type == 2", "", "`)`"},
         Wrong{"type == 2)", ")", "`&&` or `||`"}, Wrong{"type == 2 type == 3", "type", "`&&` or `||`"},
