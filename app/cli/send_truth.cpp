@@ -2,53 +2,65 @@
 #include "app/cli/send_truth.h"
 
 #include "app/cli/output.h"
+#include "core/export/json_value.h"
 #include "core/wire/type_table.h"
 
-#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 namespace posewire::cli {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using exporting::JsonValue;
 
-Json jsonOf(std::uint8_t type, const performer::StreamFigures& figures) {
+JsonValue jsonOf(std::uint8_t type, const performer::StreamFigures& figures) {
     const auto digits = wire::typeDigits(type);
-    Json json{{"type", std::string(digits.begin(), digits.end())}, {"datagrams", figures.datagrams}};
+    JsonValue json{{"type", std::string(digits.begin(), digits.end())}, {"datagrams", figures.datagrams}};
     if (wire::isSampled(type)) {
-        json["samples"] = figures.samples;
-        json["lost"] = figures.lost;
-        json["duplicates"] = figures.duplicates;
-        json["reordered"] = figures.reordered;
-        json["late"] = figures.late;
+        json.add("samples", figures.samples);
+        json.add("lost", figures.lost);
+        json.add("duplicates", figures.duplicates);
+        json.add("reordered", figures.reordered);
+        json.add("late", figures.late);
     }
-    json["incomplete"] = figures.incomplete;
+    json.add("incomplete", figures.incomplete);
     if (wire::isSampled(type)) {
-        json["restarts"] = figures.restarts;
-        json["step"] = figures.step;
-        json["firstSample"] = figures.firstSample;
-        json["lastSample"] = figures.lastSample;
+        json.add("restarts", figures.restarts);
+        json.add("step", figures.step);
+        json.add("firstSample", figures.firstSample);
+        json.add("lastSample", figures.lastSample);
     }
     return json;
 }
 
-Json jsonOf(const performer::FaultTally& tally) {
+JsonValue jsonOf(const performer::FaultTally& tally) {
     return {{"offered", tally.offered},     {"dropped", tally.dropped},     {"duplicated", tally.duplicated},
             {"reordered", tally.reordered}, {"corrupted", tally.corrupted}, {"truncated", tally.truncated},
             {"withheld", tally.withheld}};
 }
 
-Json charactersOf(const performer::Truth& truth) {
-    Json characters = Json::array();
-    for (const auto& [key, stream] : truth.streams()) {
-        if (characters.empty() || characters.back()["id"] != key.character) {
-            characters.push_back({{"id", key.character}, {"streams", Json::array()}});
+/// The streams of a truth are in the order of their characters.
+JsonValue::List charactersOf(const performer::Truth& truth) {
+    JsonValue::List characters;
+    JsonValue::List streams;
+    std::optional<std::uint8_t> character;
+    const auto finish = [&] {
+        if (character) {
+            characters.push_back({{"id", *character}, {"streams", std::exchange(streams, {})}});
         }
-        characters.back()["streams"].push_back(jsonOf(key.type, stream.figures()));
+    };
+    for (const auto& [key, stream] : truth.streams()) {
+        if (character != key.character) {
+            finish();
+            character = key.character;
+        }
+        streams.push_back(jsonOf(key.type, stream.figures()));
     }
+    finish();
     return characters;
 }
 
-Json jsonOf(const SendLine::Sender& sender, const performer::FaultTally& tally) {
+JsonValue jsonOf(const SendLine::Sender& sender, const performer::FaultTally& tally) {
     const performer::Truth& truth = sender.isTcp ? sender.streamed.truth() : sender.datagrams;
     const performer::SenderFigures& figures = truth.sender();
     return {{"address", sender.address},
@@ -66,20 +78,21 @@ Json jsonOf(const SendLine::Sender& sender, const performer::FaultTally& tally) 
 
 tl::expected<void, std::string> writeTruth(const std::string& path, const std::vector<SendLine>& lines,
                                            double durationSeconds) {
-    Json senders = Json::array();
+    JsonValue::List senders;
     std::uint64_t foreign = 0;
     for (const SendLine& line : lines) {
         for (const SendLine::Sender& sender : line.senders()) {
             senders.push_back(jsonOf(sender, line.faults().tally()));
-            foreign += senders.back()["foreignDatagrams"].get<std::uint64_t>();
+            foreign += (sender.isTcp ? sender.streamed.truth() : sender.datagrams).sender().foreign;
         }
     }
-    const Json report{{"durationS", durationSeconds}, {"foreignDatagrams", foreign}, {"sources", senders}};
+    const JsonValue report{
+        {"durationS", durationSeconds}, {"foreignDatagrams", foreign}, {"sources", std::move(senders)}};
     auto file = Output::open(path);
     if (!file) {
         return tl::unexpected(file.error());
     }
-    file->write(report.dump(2) + "\n");
+    file->write(report.text(2) + "\n");
     return file->finish();
 }
 

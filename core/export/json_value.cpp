@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/json_value.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace posewire::exporting {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json jsonOf(const JsonValue& value);
+
+struct ToJson {
+    Json operator()(std::monostate) const { return nullptr; }
+    Json operator()(const JsonValue::List& values) const {
+        Json list = Json::array();
+        for (const JsonValue& value : values) {
+            list.push_back(jsonOf(value));
+        }
+        return list;
+    }
+    Json operator()(const JsonValue::Object& members) const {
+        Json object = Json::object();
+        for (const auto& [key, value] : members) {
+            object[key] = jsonOf(value);
+        }
+        return object;
+    }
+    Json operator()(const auto& scalar) const { return scalar; }
+};
+
+Json jsonOf(const JsonValue& value) {
+    return std::visit(ToJson{}, value.value());
+}
+
+/// The double with the same shortest decimal digits as `value`.
+double sameDigits(float value) {
+    std::array<char, 32> digits{};
+    const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    double number = std::numeric_limits<double>::quiet_NaN();
+    std::from_chars(digits.data(), end, number);
+    return number;
+}
+
+} // namespace
+
+JsonValue::JsonValue(float value) : m_value(std::isfinite(value) ? sameDigits(value) : double{value}) {}
+
+void JsonValue::add(std::string key, JsonValue value) {
+    if (std::holds_alternative<std::monostate>(m_value)) {
+        m_value = Object{};
+    }
+    std::get<Object>(m_value).emplace_back(std::move(key), std::move(value));
+}
+
+std::string JsonValue::text(int indent) const {
+    return jsonOf(*this).dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace posewire::exporting
