@@ -16,7 +16,7 @@ constexpr std::int64_t kClearlyLateNs = 110'000'000;
 /// A jump back by more than the first or forward by more than the second may be a restart (RFC 3550 A.1).
 constexpr std::int64_t kMostBack = 100;
 constexpr std::int64_t kMostForward = 3000;
-/// A stream goes on by so many samples between two that are far behind.
+/// A stream advances by this many samples between two that are far behind.
 constexpr std::uint64_t kAdvancesBetween = 4;
 constexpr std::uint64_t kSettled = 16;
 constexpr std::size_t kRecent = 4096;

@@ -32,7 +32,7 @@ public:
     Delivery(double periodNs, QuietTimes quiet);
 
     void push(Sending sending);
-    /// Comes out after so many more have been pushed or noted.
+    /// Comes out after `count` more have been pushed or noted.
     void pushAfter(Sending sending, std::uint64_t count);
     /// One more datagram of this sender has passed at this time.
     void notePassed(std::int64_t timeNs);

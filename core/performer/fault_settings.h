@@ -7,7 +7,7 @@
 
 namespace posewire::performer {
 
-/// Loss in two states (Gilbert 1960, Elliott 1963): a good one and a bad one, tossed anew for each datagram.
+/// Loss in two states (Gilbert 1960, Elliott 1963): a good one and a bad one, drawn for each datagram.
 struct GilbertElliott {
     double toBad = 0.0;        ///< p: chance to go from good to bad
     double toGood = 1.0;       ///< r: chance to come back
@@ -36,12 +36,12 @@ struct FaultSettings {
         double atSeconds = 0.0;
         std::uint32_t firstSample = 1;
     };
-    std::optional<Restart> restart; ///< the sample counter begins anew
+    std::optional<Restart> restart; ///< the sample counter restarts
     struct Pause {
         double atSeconds = 0.0;
         double seconds = 0.0;
     };
-    std::optional<Pause> pause; ///< nothing is sent; the capture and its counter go on
+    std::optional<Pause> pause; ///< nothing is sent; the capture and its counter run on
     struct Reduction {
         double atSeconds = 0.0;
         std::uint32_t step = 2;

@@ -18,7 +18,7 @@ constexpr double kNsPerMs = 1e6;
 constexpr double kQuietSamples = 16.0;
 /// Restarts further away than this leave no doubt where a straggler belongs.
 constexpr std::int64_t kFarRestart = 20'000;
-/// Parts of character information further apart would not be told from those of its next repetition.
+/// Parts of character information further apart could not be distinguished from its next repetition.
 constexpr double kTogetherMs = 60.0;
 /// Of the sample counter in the header (§2.4.1.2).
 constexpr std::size_t kCounterOffset = 6;
@@ -104,7 +104,6 @@ void Faults::offer(std::vector<std::byte> datagram, std::int64_t dueNs) {
     m_delivery.takeUntil(dueNs, m_ready);
     const auto header = wire::decodeHeader(datagram);
     Sending sending{std::move(datagram), dueNs, {}, header.has_value()};
-    sending.origin.momentNs = dueNs;
     if (header) {
         sending.origin.sample = header->sampleCounter;
         sending.origin.type = header->type();

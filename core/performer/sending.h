@@ -12,10 +12,9 @@ struct Origin {
     std::uint32_t sample = 0; ///< counter as sent, after restarts
     std::uint8_t type = 0;
     std::uint8_t character = 0;
-    std::uint32_t epoch = 0;   ///< how often the counter has been restarted
-    std::uint32_t regime = 0;  ///< how often the rate has changed
-    std::uint32_t step = 1;    ///< samples from one that is sent to the next
-    std::int64_t momentNs = 0; ///< nanoseconds after the start; the same for all parts of a message
+    std::uint32_t epoch = 0;  ///< how often the counter has restarted
+    std::uint32_t regime = 0; ///< how often the rate has changed
+    std::uint32_t step = 1;   ///< samples from one that is sent to the next
 };
 
 /// A datagram on its way.

@@ -13,6 +13,9 @@ namespace {
 constexpr std::int64_t kMostBack = 100;
 constexpr std::int64_t kMostForward = 3000;
 
+/// Parts of a message that is sent again and again come within this time.
+constexpr std::int64_t kTogetherNs = 250'000'000;
+
 std::int64_t distance(std::uint32_t to, std::uint32_t from) {
     return static_cast<std::int32_t>(to - from);
 }
@@ -66,16 +69,19 @@ void StreamTruth::add(const wire::Header& header, const Sending& sending) {
     if (wire::isSampled(header.type())) {
         addSample(header, sending);
     } else {
-        addMessage(header, sending.origin);
+        addMessage(header, sending.dueNs);
     }
 }
 
-void StreamTruth::addMessage(const wire::Header& header, const Origin& origin) {
-    auto found = std::ranges::find(m_messages, origin.momentNs, &std::pair<std::int64_t, Parts>::first);
-    if (found == m_messages.end()) {
-        found = m_messages.insert(found, {origin.momentNs, Parts{}});
+/// What a receiver takes for one message: indices that do not repeat, close together.
+void StreamTruth::addMessage(const wire::Header& header, std::int64_t timeNs) {
+    if (timeNs - m_messageNs <= kTogetherNs && m_message.add(header)) {
+        return;
     }
-    found->second.add(header);
+    m_incomplete += m_message.isTouched() && !m_message.isComplete() ? 1 : 0;
+    m_message = {};
+    m_messageNs = timeNs;
+    m_message.add(header);
 }
 
 void StreamTruth::addSample(const wire::Header& header, const Sending& sending) {
@@ -125,6 +131,7 @@ StreamTruth::Run& StreamTruth::beginRun(const wire::Header& header, const Origin
     run.epoch = origin.epoch;
     run.regime = origin.regime;
     run.step = origin.step;
+    run.restarts = m_figures.restarts;
     run.first = run.last = run.base = header.sampleCounter;
     return run;
 }
@@ -132,7 +139,8 @@ StreamTruth::Run& StreamTruth::beginRun(const wire::Header& header, const Origin
 void StreamTruth::addTo(Run& run, const wire::Header& header, std::int64_t timeNs) {
     const std::int64_t place = run.place(header.sampleCounter);
     if (!run.at(place).add(header)) {
-        ++m_figures.duplicates;
+        // A restart forgets the counters of before.
+        m_figures.duplicates += run.restarts == m_figures.restarts ? 1 : 0;
         return;
     }
     run.first = std::min(run.first, place);
@@ -152,9 +160,7 @@ void StreamTruth::addTo(Run& run, const wire::Header& header, std::int64_t timeN
 
 StreamFigures StreamTruth::figures() const {
     StreamFigures figures = m_figures;
-    for (const auto& message : m_messages) {
-        figures.incomplete += message.second.isComplete() ? 0 : 1;
-    }
+    figures.incomplete = m_incomplete + (m_message.isTouched() && !m_message.isComplete() ? 1 : 0);
     for (const Run& run : m_runs) {
         std::uint64_t touched = 0;
         for (const Parts& parts : run.samples) {

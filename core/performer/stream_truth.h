@@ -60,7 +60,8 @@ private:
         std::uint32_t epoch = 0;
         std::uint32_t regime = 0;
         std::uint32_t step = 1;
-        std::int64_t first = 0; ///< counters without wrap-around
+        std::uint64_t restarts = 0; ///< before it
+        std::int64_t first = 0;     ///< counters without wrap-around
         std::int64_t last = 0;
         std::int64_t base = 0; ///< of samples.front()
         std::deque<Parts> samples;
@@ -70,7 +71,7 @@ private:
         Parts& at(std::int64_t position);
     };
 
-    void addMessage(const wire::Header& header, const Origin& origin);
+    void addMessage(const wire::Header& header, std::int64_t timeNs);
     void addSample(const wire::Header& header, const Sending& sending);
     /// Null where the counter is damaged so that it can belong to nothing.
     Run* runOf(const wire::Header& header, const Origin& origin);
@@ -79,7 +80,9 @@ private:
 
     StreamFigures m_figures; ///< those that are counted as they come
     std::vector<Run> m_runs;
-    std::deque<std::pair<std::int64_t, Parts>> m_messages; ///< by their moments
+    Parts m_message;                ///< the newest one of types 10 to 13
+    std::int64_t m_messageNs = 0;   ///< when it began
+    std::uint64_t m_incomplete = 0; ///< messages before it
 };
 
 } // namespace posewire::performer

@@ -9,7 +9,7 @@
 namespace posewire::performer {
 
 /// The same as Truth for a byte stream such as TCP, in which a damaged datagram can take the next with it:
-/// where datagrams begin and end, the framer tells.
+/// the framer finds where datagrams begin and end.
 class StreamedTruth {
 public:
     void add(const Sending& sending);

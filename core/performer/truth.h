@@ -20,8 +20,8 @@ struct SenderFigures {
     friend bool operator==(const SenderFigures&, const SenderFigures&) = default;
 };
 
-/// Keeps book of everything that one socket really sends, in the order of sending. Whether damaged bytes are
-/// a datagram still, and which, the codec tells.
+/// Keeps book of everything that one socket really sends, in the order of sending. The codec decides
+/// whether damaged bytes are still a datagram, and which.
 class Truth {
 public:
     struct StreamKey {

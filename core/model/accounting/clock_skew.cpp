@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kLeastPartNs = 250'000'000;
 constexpr std::int64_t kMostParts = 128;
-/// Fewer parts than these tell no skew.
+/// Fewer parts than these show no skew.
 constexpr std::size_t kLeastParts = 8;
 constexpr double kSecondsPerNs = 1e-9;
 

@@ -6,7 +6,7 @@
 
 namespace posewire::model {
 
-/// How much faster the sender's clock goes than ours, and what that made; both 0 where it cannot be told.
+/// How much faster the sender's clock goes than ours, and what that made; both 0 where it is not known.
 struct ClockSkew {
     double skewPpm = 0;
     double driftMs = 0;

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/loss_bursts.h"
 
-#include <algorithm>
-
 namespace posewire::model {
 
 std::optional<LossBursts::Burst> LossBursts::add(std::uint64_t lostBefore, std::int64_t stampNs) {
     std::optional<Burst> over;
     if (lostBefore != 0) {
-        m_longestGap = std::max(m_longestGap, lostBefore);
         if (m_receivedSince >= kGmin) {
             over = endRun();
         }

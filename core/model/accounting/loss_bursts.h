@@ -26,12 +26,9 @@ public:
     /// Nothing is counted as lost from here to the next sample, which begins a run.
     std::optional<Burst> endRun();
 
-    [[nodiscard]] std::uint64_t longestGap() const { return m_longestGap; }
-
 private:
     Burst m_cluster; ///< losses with fewer than kGmin samples received in a row between them
     std::uint64_t m_receivedSince = 0; ///< since the newest loss
-    std::uint64_t m_longestGap = 0;
 };
 
 } // namespace posewire::model

@@ -2,6 +2,7 @@
 #include "core/model/accounting/message_rounds.h"
 
 #include <bit>
+#include <cstdlib>
 
 namespace posewire::model {
 
@@ -11,25 +12,21 @@ bool MessageRounds::isWhole() const {
 }
 
 bool MessageRounds::add(std::int64_t stampNs, std::uint8_t datagram, bool isLast) {
-    const std::int64_t sinceNs = stampNs - m_newestNs;
-    const bool isTogether = m_isOpen && sinceNs < kTogetherNs && sinceNs > -kTogetherNs;
-    std::uint64_t& half = m_arrived[datagram >> 6 & 1];
+    const std::size_t half = datagram >> 6 & 1;
     const std::uint64_t bit = std::uint64_t{1} << (datagram & 63);
-    if (isTogether && (half & bit) != 0) {
-        return true;
-    }
-    const bool wasIncomplete = isTogether && !isWhole();
-    if (!isTogether) {
+    const bool isRepeated = (m_arrived[half] & bit) != 0;
+    const bool isBegin = !isOpen() || isRepeated || std::abs(stampNs - m_firstNs) > kTogetherNs;
+    if (isBegin) {
         m_arrived = {};
         m_last = -1;
-        m_isOpen = true;
+        m_firstNs = stampNs;
+    } else {
+        m_incomplete -= isWhole() ? 0 : 1;
     }
-    m_newestNs = stampNs;
-    half |= bit;
+    m_arrived[half] |= bit;
     m_last = isLast ? datagram : m_last;
-    m_incomplete -= wasIncomplete ? 1 : 0;
     m_incomplete += isWhole() ? 0 : 1;
-    return false;
+    return isBegin;
 }
 
 } // namespace posewire::model

@@ -24,7 +24,7 @@ enum class PacketKind : std::uint8_t {
     Skipped,   ///< bytes of a byte stream that belong to no datagram
 };
 
-/// What can be told about a packet without its bytes at hand: enough to list it, to colour it and to find
+/// What is known about a packet without its bytes at hand: enough to list it, to colour it and to find
 /// problems among millions. How it relates to the packets of its stream before it is what the accounting of
 /// the stream says: known when it came, or a few packets later where its sample counter was unexpected.
 struct PacketDigest {
@@ -35,7 +35,7 @@ struct PacketDigest {
     std::uint8_t character = 0;    ///< likewise
     bool isDuplicate : 1 = false;  ///< the same sample and datagram counter came before
     bool isReordered : 1 = false;  ///< its sample counter is below the highest one seen (RFC 4737 §3)
-    bool isRestart : 1 = false;    ///< the sender's counter has begun anew
+    bool isRestart : 1 = false;    ///< the sender's counter restarted
     bool hasNotices : 1 = false;   ///< odd but readable
     bool isTruncated : 1 = false;  ///< longer than what could be received
     bool followsDrops : 1 = false; ///< this computer dropped datagrams of its socket just before it
@@ -48,14 +48,14 @@ struct PacketDigest {
 };
 static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the log");
 
-/// What a packet tells by itself. `datagram` is what it was decoded to, null where that failed.
+/// What a packet shows by itself. `datagram` is what it was decoded to, null where that failed.
 [[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
 
 /// Puts in what the accounting of its stream says.
 void applyVerdict(const Verdict& verdict, PacketDigest& digest);
 
 /// Adds the packet of a digest to the accounting of its stream and puts in what that says now. One that must
-/// wait for a verdict seems to begin anew where the doubt began with it; the verdicts on those before it are
+/// wait for a verdict counts as a restart where the doubt began with it; the verdicts on those before it are
 /// among those returned.
 std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
                                      StreamAccounting& accounting, PacketDigest& digest);

@@ -7,20 +7,23 @@
 namespace posewire::model {
 namespace {
 
-// So many advances of the expected place end the doubt about what came from elsewhere.
+// After this many advances of the expected place, what came from elsewhere was no restart.
 constexpr std::size_t kAdvances = 3;
-// So many that agree on a new place, where nothing can have come late from there.
+// RFC 3550 appendix A.1 takes two successive numbers for a restart. They are enough where nothing can have
+// come late from the new place.
 constexpr std::size_t kAgreeing = 2;
-// So many, and close together, where they may be late arrivals.
+// Where they may have come late, a burst of late arrivals looks the same: more must agree, closely. Networks
+// that reorder hold back a few datagrams in a row, so eight are a choice on the safe side.
 constexpr std::size_t kAgreeingClosely = 8;
-// So many, whatever they look like.
+// This many in a row settle it however far apart they are: half a second at 60 Hz without any sign of the
+// expected place.
 constexpr std::size_t kAgreeingAnyhow = 32;
 
 std::int32_t away(std::uint32_t sample, std::uint32_t from) {
     return static_cast<std::int32_t>(sample - from);
 }
 
-/// Whether datagrams from there may have been on the way for long.
+/// Whether datagrams with these counters may have been on their way for long.
 bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, std::int64_t stampNs) {
     constexpr std::int32_t kBefore = 4'096;
     constexpr std::int32_t kNear = 100;
@@ -41,7 +44,7 @@ bool isMissing(const SampleSequence& sequence, const SampleLedger::Datagram& dat
     return !place.isThere || !sequence.window().contains(place.index, datagram.index);
 }
 
-/// Losses of more in a row are counted too, but only once what comes next agrees.
+/// How far ahead a counter is taken for loss at once; further ahead, only if the next datagrams agree.
 std::int32_t forwardLimit(const SampleLedger& ledger, const SampleLedger::Datagram& datagram) {
     constexpr std::uint32_t kSteps = 100;
     constexpr std::uint32_t kStepsInDoubt = 8;
@@ -88,9 +91,11 @@ void Probation::takeUnexpected(const Waiting& waiting, std::size_t near, const S
             std::move(scan.groups.begin() + 1, scan.groups.end(), scan.groups.begin());
             for (std::uint8_t& label : scan.labels) {
                 // The first group is given up; its members are of none from now on.
-                label = label >= kGroups ? label
-                        : label == 0     ? kNoGroup
-                                         : static_cast<std::uint8_t>(label - 1);
+                if (label == 0) {
+                    label = kNoGroup;
+                } else if (label < kGroups) {
+                    --label;
+                }
             }
             --near;
         } else {
@@ -126,9 +131,9 @@ void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
         const bool isExplained = distance != INT32_MAX;
         for (std::size_t g = 0; g < scan.groupCount; ++g) {
             const std::int32_t from = away(sample, scan.groups[g].highest);
-            // What came late is behind what is expected, what follows a long loss is ahead.
+            // Late arrivals are behind the expected place, what follows a long loss is ahead of it.
             const bool isOneSide = (away(scan.groups[g].highest, scan.highest) > 0) == (fromExpected > 0);
-            // What the expected place can explain is no sign of another one that it has refuted.
+            // A group that an advance has emptied does not take what the expected place explains.
             const bool isRefuted = isExplained && scan.groups[g].count == 0;
             if (isOneSide && !isRefuted && from >= -kMostBack && from <= reach && std::abs(from) < distance) {
                 near = g;
@@ -173,12 +178,15 @@ void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decisio
         decision.decided = count;
         bool isFirst = true;
         for (std::size_t i = 0; i < count; ++i) {
-            const bool isWinner = winner != kExpected && found.labels[i] == winner;
-            decision.places[i] = found.labels[i] == kExpected ? Place::Expected
-                                 : !isWinner                  ? Place::Alone
-                                 : isFirst                    ? begun
-                                                              : Place::Begun;
-            isFirst = isFirst && !isWinner;
+            const std::uint8_t label = found.labels[i];
+            if (label == kExpected) {
+                decision.places[i] = Place::Expected;
+            } else if (label != winner) {
+                decision.places[i] = Place::Alone;
+            } else {
+                decision.places[i] = isFirst ? begun : Place::Begun;
+                isFirst = false;
+            }
         }
     };
     if (found.newest != kExpected) {

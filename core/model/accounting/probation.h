@@ -9,9 +9,9 @@
 
 namespace posewire::model {
 
-/// Decides what a datagram with an unexpected sample counter means: that the counter began anew, that many
-/// samples are lost, that it came late, or that it is corrupt. That is told by those that come after it, so
-/// all wait here until it is clear; at most kMost.
+/// Decides what a datagram with an unexpected sample counter means: the counter restarted, many samples are
+/// lost, it came late, or it is corrupt. Only the datagrams that follow it can tell these apart, so it waits
+/// here, together with them, until it is clear; at most kMost wait.
 class Probation {
 public:
     static constexpr std::size_t kMost = 128;
@@ -29,11 +29,11 @@ public:
     enum class Place : std::uint8_t { Expected, Alone, Begun, Restarted };
     /// What is to be done with those that wait, the oldest first.
     struct Decision {
-        std::size_t decided = 0; ///< so many; 0 while nothing is clear
+        std::size_t decided = 0; ///< how many of them; 0 while nothing is clear
         std::array<Place, kMost> places{};
     };
 
-    /// Whether a counter is near enough to what was expected to be counted at once.
+    /// Whether a counter is so near to the expected one that it is counted at once.
     [[nodiscard]] static bool isExpected(const SampleLedger& ledger, const SampleLedger::Datagram& datagram);
 
     [[nodiscard]] bool empty() const { return m_waiting.empty(); }
@@ -41,17 +41,17 @@ public:
     void add(const Waiting& waiting);
     void drop(std::size_t decided);
 
-    /// `isEnd`: nothing more comes; it is decided as far as it is likely.
+    /// `isEnd`: nothing follows, so what is most likely is decided.
     void decide(const SampleLedger& ledger, bool isEnd, Decision& decision) const;
 
 private:
     /// Datagrams that agree with each other on another place than the expected one.
     struct Group {
         std::uint32_t highest = 0;
-        std::uint32_t low = 0; ///< of those since the expected place was last heard of
+        std::uint32_t low = 0; ///< of those since the expected place last advanced
         std::uint32_t high = 0;
         std::size_t count = 0;   ///< likewise, without repeats
-        std::size_t filling = 0; ///< of these, those that are missing in the expected place
+        std::size_t filling = 0; ///< of these, those that the expected place lacks
     };
     static constexpr std::size_t kGroups = 4;
     static constexpr std::uint8_t kExpected = 0xff;

@@ -37,8 +37,13 @@ Placement SampleLedger::place(const Datagram& datagram, CountHistory* history) {
 }
 
 Placement SampleLedger::placeBefore(const Datagram& datagram, CountHistory* history) {
-    return m_before.empty() ? Placement{}
-                            : count(m_before.place(datagram, history), datagram.stampNs, history);
+    if (m_before.empty()) {
+        return {};
+    }
+    const Placement placement = m_before.place(datagram, history);
+    // Which counters came before a restart is forgotten: the same one after it is no duplicate.
+    return placement.kind == Placement::Kind::Duplicate ? Placement{}
+                                                        : count(placement, datagram.stampNs, history);
 }
 
 Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* history) {
@@ -90,10 +95,10 @@ StreamCounts SampleLedger::counts() const {
     }
     if (!m_present.empty()) {
         counts.step = m_present.step();
-        const bool isBeforeFirst = counts.restarts == 1 && !m_before.empty();
-        counts.firstSample = counts.restarts == 0 ? m_present.first()
-                             : isBeforeFirst      ? m_before.first()
-                                                  : m_firstSample;
+        counts.firstSample = counts.restarts == 0 ? m_present.first() : m_firstSample;
+        if (counts.restarts == 1 && !m_before.empty()) {
+            counts.firstSample = m_before.first();
+        }
         counts.lastSample = m_present.highest();
     }
     return counts;

@@ -11,7 +11,7 @@ namespace posewire::model {
 /// the newest restart, and stragglers of the one before it.
 class SampleLedger {
 public:
-    /// So long after a restart a straggler of the sequence before is known.
+    /// For this long after a restart, a straggler of the sequence before it still counts there.
     static constexpr std::int64_t kStragglingNs = 10'000'000'000;
 
     using Datagram = SampleSequence::Datagram;
@@ -21,11 +21,11 @@ public:
 
     /// In the present sequence.
     Placement place(const Datagram& datagram, CountHistory* history);
-    /// In the sequence before the restart; nothing is counted where there is none.
+    /// In the sequence before the restart, where one of its samples was still missing.
     Placement placeBefore(const Datagram& datagram, CountHistory* history);
-    /// One that came alone from far away: where it is missing or known, else nowhere.
+    /// One that came alone from far away: near a sequence it counts there, else nowhere.
     Placement placeAlone(const Datagram& datagram, CountHistory* history);
-    /// The counter began anew; the next datagram placed is the first of a sequence.
+    /// The counter restarted: the next datagram placed is the first of a sequence.
     void restart(std::int64_t stampNs, CountHistory* history);
 
     [[nodiscard]] const SampleSequence& present() const { return m_present; }

@@ -12,42 +12,26 @@ std::uint32_t lostWithin(std::int64_t difference, std::uint32_t step) {
     return step == 0 || difference <= step ? 0 : static_cast<std::uint32_t>(difference / step - 1);
 }
 
-/// Differences between successive samples at the end of a window, oldest first.
+/// The newest differences between successive samples of a window, oldest first.
 struct NewestDifferences {
     std::array<std::uint32_t, kStepHistory> values{};
     std::size_t size = 0;
     [[nodiscard]] std::span<const std::uint32_t> all() const { return {values.data(), size}; }
 };
 
+/// Those behind the entry `first`, which is one of the last kStepHistory + 1.
 NewestDifferences differencesFrom(const SampleWindow& window, std::size_t first) {
     NewestDifferences result;
-    const std::size_t from =
-        std::max(first + 1, window.size() > kStepHistory ? window.size() - kStepHistory : 0);
-    for (std::size_t i = from; i < window.size(); ++i) {
+    for (std::size_t i = first + 1; i < window.size(); ++i) {
         result.values[result.size++] = window[i].sample - window[i - 1].sample;
     }
     return result;
 }
 
-/// The difference at which spacing that was regular became irregular, or the other way round.
-std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint32_t before,
-                          std::uint32_t after) {
-    const std::uint32_t step = after == 0 ? before : after;
-    std::ptrdiff_t best = PTRDIFF_MIN;
-    std::ptrdiff_t score = 0;
-    std::size_t place = 0;
-    for (std::size_t i = 0; i < differences.size(); ++i) {
-        const bool isEqual = differences[i] == step;
-        score += isEqual == (after == 0) ? 1 : -1;
-        if (score > best) {
-            best = score;
-            place = i;
-        }
-    }
-    return std::min(place + 1, differences.size() - 1);
-}
+/// Fewer differences than these are no spacing of their own: they are loss, or too few to know better.
+constexpr std::size_t kLeastOfRun = 8;
 
-void tellHistory(const std::optional<LossBursts::Burst>& burst, CountHistory* history) {
+void noteBurst(const std::optional<LossBursts::Burst>& burst, CountHistory* history) {
     if (burst && history != nullptr) {
         CountHistory::Change change;
         change.bursts = 1;
@@ -152,15 +136,17 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
         return placement;
     }
     const bool isHighest = index + 1 == m_window.size();
-    placement.kind = !isFirst    ? Placement::Kind::Part
-                     : isHighest ? Placement::Kind::Advance
-                                 : Placement::Kind::Filled;
+    placement.kind = isHighest ? Placement::Kind::Advance : Placement::Kind::Filled;
+    if (!isFirst) {
+        placement.kind = Placement::Kind::Part;
+    }
     const std::int64_t dueNs = dueStamp(index);
     if (!isHighest) {
         placement.isReordered = true;
         placement.lateNs = datagram.stampNs - dueStamp(index + 1);
     }
     const bool isCompleting = mark == SampleWindow::Mark::Completing;
+    placement.isCompleting = isCompleting;
     if (!isFirst && !isCompleting) {
         return placement;
     }
@@ -199,8 +185,10 @@ Placement SampleSequence::advance(const Datagram& datagram, CountHistory* histor
     Placement placement = mark(datagram, m_window.size() - 1, history, difference == step);
     placement.gap = lostWithin(difference, step);
     placement.sampleBefore = before;
-    if (placement.gap != 0 && history != nullptr) {
-        history->addGap(datagram.stampNs, placement.gap);
+    const bool isIrregular = step == 0 && m_window.size() > kStepDifferences;
+    const std::uint32_t shown = isIrregular ? difference : placement.gap;
+    if (shown != 0 && history != nullptr) {
+        history->addGap(datagram.stampNs, shown);
     }
     if (difference != step) {
         reconsiderStep(history);
@@ -245,11 +233,15 @@ std::size_t SampleSequence::firstOfRun(const Run& run, std::size_t most) const {
 }
 
 void SampleSequence::reconsiderStep(CountHistory* history) {
-    const std::size_t first = firstOfRun(newestRun(), kStepHistory + 1);
+    const std::size_t first = m_window.size() > kStepHistory + 1 ? m_window.size() - kStepHistory - 1 : 0;
     const NewestDifferences differences = differencesFrom(m_window, first);
+    const std::uint32_t step = nextStep(differences.all(), newestRun().step);
+    if (step == newestRun().step) {
+        return;
+    }
     const std::int64_t totalBefore = lostNow();
     const LostByEntry before = lostAfter(first);
-    changeStep(first, differences.all());
+    changeStep(step);
     std::int64_t rest = lostNow() - totalBefore;
     if (history == nullptr || rest == 0) {
         return;
@@ -270,34 +262,54 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
     }
 }
 
-/// `differences` are those behind the entry `first`, which is in the newest run.
-void SampleSequence::changeStep(std::size_t first, std::span<const std::uint32_t> differences) {
-    Run& run = newestRun();
-    if (const auto change = findStepChange(differences, run.step)) {
-        splitRun(first + change->place + 1, change->step);
-        return;
-    }
-    const bool isYoung =
-        differences.size() <= kStepDifferences && position(m_window[first].sample) == run.first;
-    if (isYoung && differences.size() > kStepDifferences / 4) {
-        // A step that changed before it could be told from loss.
-        const std::uint32_t step = mostFrequent(differences.first(kStepDifferences / 8));
-        if (const auto change = step == run.step ? std::nullopt : findStepChange(differences, step)) {
-            run.step = step;
-            splitRun(first + change->place + 1, change->step);
+/// Gives the newest run another step: the whole run where that explains it, else from the place of the
+/// change on.
+void SampleSequence::changeStep(std::uint32_t step) {
+    if (isTransitionTo(step)) {
+        joinNewestRuns();
+        if (newestRun().step == step) {
             return;
         }
     }
-    const std::uint32_t step = findStep(differences);
-    if (isYoung) {
-        run.step = step;
-    } else if (step != run.step && !stillHolds(differences, run.step)) {
-        constexpr std::size_t kLasting = 32;
-        const std::size_t place = placeOfChange(differences, run.step, step);
-        if (place + kLasting < differences.size()) {
-            splitRun(first + place + 1, step);
-        }
+    const std::size_t first = firstOfRun(newestRun(), kStepHistory + 1);
+    const NewestDifferences differences = differencesFrom(m_window, first);
+    const std::size_t place = placeOfChange(differences.all(), newestRun().step, step);
+    const auto front = differences.all().first(place);
+    const bool isAllSeen = position(m_window[first].sample) == newestRun().first;
+    if (isAllSeen && (front.size() < kLeastOfRun || (step != 0 && holdsStep(front, step)))) {
+        newestRun().step = step;
+        return;
     }
+    splitRun(first + place + 1, step);
+    Run& old = m_runs[m_runCount - 2];
+    old.step = isAllSeen ? findStep(front) : old.step;
+}
+
+/// Whether the newest run is irregular only because one step went over to another, or lost much for a while.
+bool SampleSequence::isTransitionTo(std::uint32_t step) const {
+    if (newestRun().step != 0 || step == 0 || m_runCount == 1 || m_runs[m_runCount - 2].step == 0) {
+        return false;
+    }
+    const Run& before = m_runs[m_runCount - 2];
+    const std::size_t first = firstOfRun(before, kStepHistory + 1);
+    const std::size_t begin = firstOfRun(newestRun(), kStepHistory + 1) - first;
+    const NewestDifferences differences = differencesFrom(m_window, first);
+    if (begin == 0) {
+        return false;
+    }
+    const std::size_t place = before.step == step
+                                  ? begin + placeOfChange(differences.all().subspan(begin), 0, step)
+                                  : placeOfChange(differences.all(), before.step, step);
+    return place < begin + kLeastOfRun ||
+           holdsStep(differences.all().subspan(begin, place - begin), before.step);
+}
+
+void SampleSequence::joinNewestRuns() {
+    const Run joined = newestRun();
+    --m_runCount;
+    newestRun().last = joined.last;
+    newestRun().samples += joined.samples;
+    newestRun().incomplete += joined.incomplete;
 }
 
 SampleSequence::LostByEntry SampleSequence::lostAfter(std::size_t first) const {
@@ -341,22 +353,31 @@ std::uint64_t SampleSequence::lostBefore(std::size_t index, const Run*& run) con
     return run == nullptr || from < run->first ? 0 : lostWithin(to - from, run->step);
 }
 
-/// Tells the history of bursts among all but the newest samples.
+/// Adds to the history the bursts among all but the newest samples.
 void SampleSequence::settle(std::size_t most, CountHistory* history) {
     const Run* run = nullptr;
     for (; m_settled + most < m_window.size(); ++m_settled) {
         const std::uint64_t lost = m_settled == 0 ? 0 : lostBefore(m_settled, run);
-        tellHistory(m_bursts.add(lost, dueStamp(m_settled)), history);
+        m_longestGap = std::max(m_longestGap, m_settled == 0 ? 0 : gapBefore(m_settled, lost, run));
+        noteBurst(m_bursts.add(lost, dueStamp(m_settled)), history);
     }
 }
 
+/// What counts as the gap between the entry at an index of a run and the one before it.
+std::uint64_t SampleSequence::gapBefore(std::size_t index, std::uint64_t lost, const Run* run) const {
+    const bool isIrregular =
+        run != nullptr && run->step == 0 && position(m_window[index - 1].sample) >= run->first;
+    return isIrregular ? m_window[index].sample - m_window[index - 1].sample : lost;
+}
+
 std::uint64_t SampleSequence::longestGap() const {
-    LossBursts bursts = m_bursts;
+    std::uint64_t longest = m_longestGap;
     const Run* run = nullptr;
-    for (std::size_t i = m_settled; i < m_window.size(); ++i) {
-        bursts.add(i == 0 ? 0 : lostBefore(i, run), 0);
+    for (std::size_t i = std::max<std::size_t>(m_settled, 1); i < m_window.size(); ++i) {
+        const std::uint64_t lost = lostBefore(i, run);
+        longest = std::max(longest, gapBefore(i, lost, run));
     }
-    return bursts.longestGap();
+    return longest;
 }
 
 void SampleSequence::addNewestBursts(const TimeRange& range, BurstCounts& into) const {
@@ -392,13 +413,14 @@ std::uint32_t SampleSequence::missingBetween(std::uint32_t from, std::uint32_t t
 
 void SampleSequence::clear(CountHistory* history) {
     settle(0, history);
-    tellHistory(m_bursts.endRun(), history);
+    noteBurst(m_bursts.endRun(), history);
     m_window.clear();
     m_runCount = 0;
     m_past = {};
     m_hasPast = false;
     m_pastLost = 0;
     m_bursts = {};
+    m_longestGap = 0;
     m_settled = 0;
 }
 

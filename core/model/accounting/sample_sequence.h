@@ -19,17 +19,18 @@ struct Placement {
         Filled,    ///< the first of a sample that seemed lost
         Part,      ///< a further one of a sample
         Duplicate, ///< it came before
-        Outside,   ///< so long ago that nothing is known of it any more
+        Outside,   ///< too old: it has been forgotten
     };
     Kind kind = Kind::Outside;
     bool isReordered = false;
+    bool isCompleting = false;      ///< it is the last datagram that its sample lacked
     std::int64_t lateNs = 0;        ///< of a reordered one: since the first arrival above it (RFC 4737 §4.3)
     std::uint32_t gap = 0;          ///< samples missing just before an advance, as far as the step is known
     std::uint32_t sampleBefore = 0; ///< the highest before an advance with a gap
 };
 
 /// The samples of a stream between two restarts. It is cut into runs of one step each; per run, always,
-/// (last - first) / step + 1 = samples + incomplete + lost. What it told before is corrected by what comes.
+/// (last - first) / step + 1 = samples + incomplete + lost. Later samples correct what was counted before.
 class SampleSequence {
 public:
     struct Datagram {
@@ -39,8 +40,8 @@ public:
         bool isLast = false;
     };
 
-    /// Counts in what belongs to samples; changes are told to `history` at the time when the samples were
-    /// due, unless it is null.
+    /// Counts a datagram. Changes are added to `history` at the time when the samples were due, unless it is
+    /// null.
     Placement place(const Datagram& datagram, CountHistory* history);
 
     struct Totals {
@@ -58,11 +59,12 @@ public:
     /// Samples between two counters, both exclusive, of which nothing has come.
     [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
 
+    /// Most samples lost in a row; while irregular, the longest difference of counters.
     [[nodiscard]] std::uint64_t longestGap() const;
     /// Adds the bursts that the history does not know yet, those that ended in a range of time.
     void addNewestBursts(const TimeRange& range, BurstCounts& into) const;
 
-    /// Nothing of it will come any more: tells the history of the newest bursts and begins anew.
+    /// Nothing of it will come any more: adds the newest bursts to the history and forgets everything.
     void clear(CountHistory* history);
 
 private:
@@ -75,7 +77,7 @@ private:
         [[nodiscard]] std::int64_t lost() const;
     };
     static constexpr std::size_t kRuns = 8;
-    /// So far behind the highest, losses are taken for settled.
+    /// This many entries behind the highest, losses are taken for settled.
     static constexpr std::size_t kSettling = 512;
 
     [[nodiscard]] Run& newestRun() { return m_runs[m_runCount - 1]; }
@@ -92,10 +94,13 @@ private:
     /// What seems lost before each of the newest entries.
     using LostByEntry = std::array<std::int64_t, 128>;
     [[nodiscard]] LostByEntry lostAfter(std::size_t first) const;
-    void changeStep(std::size_t first, std::span<const std::uint32_t> differences);
+    void changeStep(std::uint32_t step);
+    [[nodiscard]] bool isTransitionTo(std::uint32_t step) const;
+    void joinNewestRuns();
     void splitRun(std::size_t firstEntry, std::uint32_t step);
     [[nodiscard]] std::size_t firstOfRun(const Run& run, std::size_t most) const;
     [[nodiscard]] std::uint64_t lostBefore(std::size_t index, const Run*& run) const;
+    [[nodiscard]] std::uint64_t gapBefore(std::size_t index, std::uint64_t lost, const Run* run) const;
     [[nodiscard]] std::int64_t lostNow() const;
     void settle(std::size_t most, CountHistory* history);
 
@@ -108,7 +113,8 @@ private:
     Run m_past; ///< sums of runs before those kept
     std::int64_t m_pastLost = 0;
     LossBursts m_bursts;
-    std::size_t m_settled = 0; ///< entries at the front of the window that m_bursts has seen
+    std::uint64_t m_longestGap = 0; ///< of what m_bursts has seen
+    std::size_t m_settled = 0;      ///< entries at the front of the window that m_bursts has seen
 };
 
 } // namespace posewire::model

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/sample_window.h"
 
-#include <bit>
+#include <algorithm>
 
 namespace posewire::model {
 namespace {
@@ -99,12 +99,12 @@ bool SampleWindow::contains(std::size_t index, std::uint8_t datagram) const {
 }
 
 bool SampleWindow::isWhole(const Mask& mask, std::uint8_t last) {
+    const auto isFull = [](std::uint64_t bits, int count) {
+        const auto all = count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
+        return (bits & all) == all;
+    };
     const int count = last + 1;
-    const auto low = count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-    const auto high = count <= 64    ? 0
-                      : count >= 128 ? ~std::uint64_t{0}
-                                     : (std::uint64_t{1} << (count - 64)) - 1;
-    return (mask[0] & low) == low && (mask[1] & high) == high;
+    return isFull(mask[0], count) && isFull(mask[1], std::max(0, count - 64));
 }
 
 std::uint16_t SampleWindow::takeMask() {

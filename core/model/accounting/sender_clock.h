@@ -16,7 +16,7 @@ public:
     };
     /// The first datagram of a sample, in the order of arrival.
     void add(const Sample& sample);
-    /// The counter began anew: what comes has nothing to do with what came, except for the jitter.
+    /// The counter restarted: nothing from before applies any more, except the jitter.
     void restart();
 
     [[nodiscard]] double jitterMs() const { return m_jitterMs; }

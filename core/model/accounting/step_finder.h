@@ -3,39 +3,33 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 
 namespace posewire::model {
 
-/// So many of the newest differences between successive sample counters decide about a step.
+/// A step is judged by this many of the newest differences between successive sample counters.
 inline constexpr std::size_t kStepDifferences = 64;
-/// So far back a change of step is looked for.
+/// A change of step is looked for among this many.
 inline constexpr std::size_t kStepHistory = 128;
 
 /// The sender's own spacing of sample counters, since a stream may be sent at a fraction of the capture rate:
-/// the most frequent of the differences, provided at least 90 % of them are multiples of it. Loss makes
-/// multiples, never fractions. Where that one is none, one that is nearly as frequent will do: the first
-/// samples of a stream that loses some, and a stream that loses every second one for a while. 0 where there
-/// is none. At most kStepDifferences differences are looked at, the newest.
+/// the most frequent of the newest kStepDifferences, the smallest of equally frequent ones, where it is at
+/// least 40 % of them and at least 90 % of them are multiples of it. Loss makes multiples, never fractions.
+/// 0 where there is none: the stream is irregular.
 [[nodiscard]] std::uint32_t findStep(std::span<const std::uint32_t> differences);
 
-/// A lasting change of step.
-struct StepChange {
-    std::size_t place = 0;  ///< of the difference that belongs to neither
-    std::uint32_t step = 0; ///< after it
-};
+/// Whether a step that was found stays the step: at least 60 % of the newest kStepDifferences are multiples
+/// of it, and at least 20 % are equal to it.
+[[nodiscard]] bool holdsStep(std::span<const std::uint32_t> differences, std::uint32_t step);
 
-/// Whether a step that held until now is not yet disproved: nearly all newest differences are multiples of it
-/// and it is still among the frequent ones.
-[[nodiscard]] bool stillHolds(std::span<const std::uint32_t> differences, std::uint32_t step);
+/// The step after another difference. `held` is the one until now, 0 where there was none. It is held on to
+/// once kStepDifferences differences are known; until then every difference decides afresh.
+[[nodiscard]] std::uint32_t nextStep(std::span<const std::uint32_t> differences, std::uint32_t held);
 
-/// Looks for a lasting change from `step` to another one among the newest kStepHistory differences. The place
-/// is the one that leaves most differences equal to the old step before it and to the new one behind it.
-[[nodiscard]] std::optional<StepChange> findStepChange(std::span<const std::uint32_t> differences,
-                                                       std::uint32_t step);
-
-/// The most frequent one; of equally frequent ones the smallest.
-[[nodiscard]] std::uint32_t mostFrequent(std::span<const std::uint32_t> differences);
+/// Where the spacing changed from one step to another; 0 stands for irregular spacing. The place is the
+/// difference that makes those before it and those behind it the most likely, and itself may belong to
+/// neither.
+[[nodiscard]] std::size_t placeOfChange(std::span<const std::uint32_t> differences, std::uint32_t before,
+                                        std::uint32_t after);
 
 } // namespace posewire::model

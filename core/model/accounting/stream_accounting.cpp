@@ -37,13 +37,17 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
         return m_verdicts;
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
-    m_rounds.add(packet.stampNs, header.datagramIndex(), header.isLast());
+    const bool isPartial = m_rounds.isPartial();
+    const bool isBegin = m_rounds.add(packet.stampNs, header.datagramIndex(), header.isLast());
     change.incomplete = static_cast<std::int32_t>(m_rounds.incomplete() - incomplete);
     m_history.add(packet.stampNs, change);
     Verdict verdict;
     verdict.packet = packet.number;
     verdict.stampNs = packet.stampNs;
     verdict.sample = header.sampleCounter;
+    verdict.packetBefore = m_messagePacket;
+    verdict.isAfterPartial = isBegin && isPartial;
+    m_messagePacket = isBegin ? packet.number : m_messagePacket;
     m_verdicts.push_back(verdict);
     return m_verdicts;
 }
@@ -66,7 +70,7 @@ void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
     }
 }
 
-/// `isMoved`: the counter began anew among those that waited, so that what was expected before is now past.
+/// `isMoved`: the counter restarted among those that waited, so that what was expected before is now past.
 Placement StreamAccounting::carryOut(const Probation::Waiting& datagram, Probation::Place place, bool isMoved,
                                      SampleLedger& ledger, CountHistory* history) {
     switch (place) {
@@ -102,6 +106,7 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
     verdict.isReordered = placement.isReordered;
     verdict.isLate = placement.isReordered && placement.lateNs > m_ledger.lateAfterNs();
     verdict.isRestart = place == Probation::Place::Restarted;
+    verdict.isCompleting = placement.isCompleting;
     verdict.isStray = placement.kind == Placement::Kind::Outside;
     verdict.isFirstOfSample =
         placement.kind == Placement::Kind::Advance || placement.kind == Placement::Kind::Filled;
@@ -211,9 +216,14 @@ std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from
 }
 
 bool StreamAccounting::isIncomplete(std::uint32_t sample) const {
-    const SampleWindow& window = m_ledger.present().window();
-    const auto place = window.find(sample);
-    return place.isThere && !window[place.index].isComplete;
+    for (const SampleSequence* sequence : {&m_ledger.present(), &m_ledger.before()}) {
+        const SampleWindow& window = sequence->window();
+        const auto place = window.find(sample);
+        if (place.isThere) {
+            return !window[place.index].isComplete;
+        }
+    }
+    return false;
 }
 
 std::uint32_t StreamAccounting::missingBetween(std::uint32_t from, std::uint32_t to) const {

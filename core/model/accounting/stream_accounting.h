@@ -26,7 +26,7 @@ struct Verdict {
     std::uint32_t sample = 0;
     std::uint32_t timeCode = 0; ///< ms
     std::uint32_t gap = 0;      ///< samples missing just before it
-    // Of the highest sample before it, where there is a gap:
+    // Of the highest sample before it, where there is a gap; the packet also of a message left incomplete:
     std::uint32_t sampleBefore = 0;
     std::uint32_t timeCodeBefore = 0;
     std::uint64_t packetBefore = 0;
@@ -34,17 +34,19 @@ struct Verdict {
     bool isDuplicate = false;
     bool isReordered = false;
     bool isLate = false;
-    bool isRestart = false; ///< the first after the sender's counter began anew
+    bool isRestart = false; ///< the first after the sender's counter restarted
     bool isStray = false;   ///< belongs to no sample: its counter is corrupt, or it is very old
     bool isFirstOfSample = false;
+    bool isCompleting = false;   ///< the last datagram that its sample lacked
+    bool isAfterPartial = false; ///< types 10 to 13: begins a message, and the one before was left incomplete
 };
 
 /// Counts exactly what came and what did not come of one stream. Follows the log: figures are of what was
 /// added, never of a clock. O(1) for each datagram, no allocation once its bounded memory (at most about 0.5
 /// MB) has grown to what the stream needs.
 ///
-/// Whether a step changed, the counter began anew or a datagram was only late is known only after the fact:
-/// figures are always those of the best present knowledge, and right in hindsight.
+/// Whether a step changed, the counter restarted or a datagram was only late is known only after the fact:
+/// figures always reflect what is known at the time, and are right in hindsight.
 class StreamAccounting {
 public:
     explicit StreamAccounting(std::uint8_t type = 2) : m_countsSamples(countsSamples(type)) {}
@@ -86,11 +88,11 @@ public:
     /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
     [[nodiscard]] std::optional<std::uint32_t> arrivedBetween(std::uint32_t from, std::uint32_t to,
                                                               const TimeRange& when) const;
-    /// Whether some but not all datagrams of a sample came.
+    /// Whether some but not all datagrams of a sample came. After a restart, samples of before are known for
+    /// a while.
     [[nodiscard]] bool isIncomplete(std::uint32_t sample) const;
 
-    /// Samples between two counters, both exclusive, that are still missing. After a restart, those of before
-    /// are known for a while.
+    /// Samples between two counters, both exclusive, that are still missing; likewise.
     [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
 
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
@@ -123,6 +125,7 @@ private:
     SampleLedger m_ledger;
     Probation m_probation;
     MessageRounds m_rounds;
+    std::uint64_t m_messagePacket = 0; ///< the first of the newest message
     SenderClock m_clock;
     CountHistory m_history;
     std::vector<Verdict> m_verdicts;

@@ -23,7 +23,8 @@ struct StreamCounts {
     std::uint64_t incomplete =
         0; ///< sample counters, or messages, of which some but not all datagrams arrived
     std::uint64_t restarts = 0;
-    std::uint64_t longestGapSamples = 0; ///< most samples lost in a row
+    /// Most samples lost in a row; of an irregular stream the longest difference of sample counters.
+    std::uint64_t longestGapSamples = 0;
     std::uint32_t step = 0;        ///< of the newest run; 0 where there is none: irregular, or one sample
     std::uint32_t firstSample = 0; ///< as on the wire
     std::uint32_t lastSample = 0;  ///< the highest of the newest run, as on the wire
@@ -71,7 +72,7 @@ struct ClockFigures {
     bool isFromTimeCode = false; ///< else the sample counter times its own period is the sender's clock
     double jitterMs = 0;         ///< RFC 3550 §6.4.1
     /// How much faster the sender's clock goes than ours, in parts per million, and what that made since the
-    /// first sample; both 0 where only the sample counter tells the sender's time, and in the first seconds.
+    /// first sample; both 0 where only the sample counter shows the sender's time, and in the first seconds.
     double skewPpm = 0;
     double driftMs = 0;
 };

@@ -20,6 +20,7 @@ from dataclasses import dataclass, replace
 ITEM_SIZES = {"01": 28, "02": 32, "03": 16, "05": 32, "20": 20, "21": 40, "22": 44, "23": 68}
 ITEM_COUNTS = {"01": 23, "02": 23, "03": 64, "05": 23, "20": 28, "21": 23, "22": 23, "23": 17}
 SAMPLED = ["01", "02", "03", "05", "20", "21", "22", "23", "24", "25"]
+TOGETHER = 0.250
 LATE, DOUBT_FROM, DOUBT_TO = 0.050, 0.030, 0.085
 FIRST_STAMP = 1_700_000_000 * 10**9
 
@@ -302,17 +303,24 @@ def stream_truth(kind, datagrams, runs):
     figures = {"type": kind, "datagrams": len(datagrams)}
     good = [datagram for datagram in datagrams if datagram.state == "good"]
     if kind not in SAMPLED:
-        messages = defaultdict(set)
+        # A message is what comes within a quarter of a second without an index that repeats.
+        messages, began = [], 0.0
         for datagram in good:
-            messages[datagram.message].add(datagram.part)
+            if not messages or datagram.part in messages[-1] or datagram.time - began > TOGETHER:
+                messages.append(set())
+                began = datagram.time
+            messages[-1].add(datagram.part)
         whole = 1 if kind == "12" else 4
-        figures["incomplete"] = sum(len(parts) != whole for parts in messages.values())
+        figures["incomplete"] = sum(len(parts) != whole for parts in messages)
         return figures
     arrivals, ends = defaultdict(set), {}
-    firsts = 0
+    duplicates, newest = 0, 0
+    sequences = sequence_of(runs)
     for datagram in good:
         key = (datagram.run, datagram.sample)
-        firsts += datagram.part not in arrivals[key]
+        newest = max(newest, sequences[datagram.run])
+        # A restart forgets the counters of before.
+        duplicates += datagram.part in arrivals[key] and sequences[datagram.run] == newest
         arrivals[key].add(datagram.part)
         if datagram.last:
             ends[key] = datagram.part
@@ -325,8 +333,7 @@ def stream_truth(kind, datagrams, runs):
             offsets = [distance(sample, counters[0]) for sample in counters]
             lost += (max(offsets) - min(offsets)) // run.step + 1 - len(counters)
             places[number] = [(counters[0] + end) & 0xFFFFFFFF for end in (min(offsets), max(offsets))]
-    sequences = sequence_of(runs)
-    figures |= {"samples": samples, "lost": lost, "duplicates": len(good) - firsts, "reordered": len(behind),
+    figures |= {"samples": samples, "lost": lost, "duplicates": duplicates, "reordered": len(behind),
                 "late": sum(seconds > LATE for seconds in behind), "incomplete": len(arrivals) - samples,
                 "restarts": len({sequences[number] for number in places}) - 1, "step": runs[max(places)].step,
                 "firstSample": places[min(places)][0], "lastSample": places[max(places)][1]}

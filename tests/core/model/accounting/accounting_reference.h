@@ -62,7 +62,7 @@ inline StreamCounts referenceCounts(const std::vector<SentDatagram>& arrivals,
         present.insert(place);
         Sample& sample = found[static_cast<std::size_t>(datagram.run)].samples[position];
         if (!sample.parts.insert(datagram.index).second) {
-            ++counts.duplicates;
+            counts.duplicates += place == *present.rbegin() ? 1 : 0; // a restart forgets what was before it
             continue;
         }
         sample.last = datagram.isLast ? datagram.index : sample.last;

@@ -78,6 +78,122 @@ TEST_F(Accounting, CountsNothingAsLostInAnIrregularStream) {
     EXPECT_EQ(stream.counts().step, 0U);
     EXPECT_EQ(stream.counts().lost, 0U);
     EXPECT_EQ(stream.counts().samples, 300U);
+    EXPECT_EQ(stream.counts().longestGapSamples, 4U);
+    EXPECT_EQ(stream.countsBetween(0, 100 * kSecond).longestGapSamples, 4U);
+}
+
+TEST_F(Accounting, TakesAStepForOneWhereNineTenthsAreMultiplesOfIt) {
+    // 58 of 64 differences are multiples of 2, then 57.
+    constexpr std::uint32_t odd[] = {3, 1, 5, 3, 1, 5, 3};
+    std::uint32_t sample = 100;
+    const auto sendPattern = [&](std::uint32_t fractions) {
+        for (std::uint32_t i = 0; i < 64; ++i) {
+            send(sample += i < fractions ? odd[i] : 2 + i % 2 * 2);
+        }
+    };
+    send(sample);
+    sendPattern(6);
+    EXPECT_EQ(stream.counts().step, 2U);
+    stream = StreamAccounting();
+    sample = 100;
+    send(sample);
+    sendPattern(7);
+    EXPECT_EQ(stream.counts().step, 0U);
+}
+
+TEST_F(Accounting, TakesADifferenceForNoStepThatIsRarerThanTwoFifths) {
+    // All are multiples of 1, which is the most frequent with 25 and 26 of 64.
+    for (const std::uint32_t ones : {25U, 26U}) {
+        stream = StreamAccounting();
+        std::uint32_t sample = 100;
+        send(sample);
+        for (std::uint32_t i = 0; i < 64; ++i) {
+            send(sample += i < ones ? 1 : 2 + i % 3);
+        }
+        EXPECT_EQ(stream.counts().step, ones == 26 ? 1U : 0U) << ones;
+    }
+}
+
+TEST_F(Accounting, HoldsAStepWhileThreeFifthsAreMultiplesOfIt) {
+    sendSteady(0, 400, 2);
+    std::uint32_t sample = 400;
+    for (std::uint32_t i = 0; i < 25; ++i) { // 39 of 64 are multiples of 2
+        send(sample += 3);
+    }
+    EXPECT_EQ(stream.counts().step, 2U);
+    send(sample += 3);
+    EXPECT_EQ(stream.counts().step, 0U);
+}
+
+TEST_F(Accounting, HoldsAStepWhileOneFifthIsEqualToIt) {
+    sendSteady(1, 200);
+    std::uint32_t sample = 200;
+    for (std::uint32_t i = 0; i < 51; ++i) { // 13 of 64 are 1
+        send(sample += 2);
+    }
+    EXPECT_EQ(stream.counts().step, 1U);
+    EXPECT_EQ(stream.counts().lost, 51U);
+    send(sample += 2);
+    EXPECT_EQ(stream.counts().step, 0U);
+    EXPECT_EQ(stream.counts().lost, 0U);
+    for (std::uint32_t i = 0; i < 6; ++i) { // nine tenths are multiples of 2
+        send(sample += 2);
+    }
+    EXPECT_EQ(stream.counts().step, 2U);
+    EXPECT_EQ(stream.counts().lost, 0U);
+    EXPECT_EQ(stream.counts().longestGapSamples, 0U);
+}
+
+TEST_F(Accounting, CountsNoLossWhileAStreamIsIrregular) {
+    sendSteady(1, 200);
+    send(203); // two are lost before
+    sendSteady(204, 300);
+    std::uint32_t sample = 300;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        send(sample += 2 + i * 7 % 3);
+    }
+    EXPECT_EQ(stream.counts().step, 0U);
+    EXPECT_EQ(stream.counts().lost, 2U);
+    EXPECT_EQ(stream.counts().longestGapSamples, 4U);
+    sendSteady(sample + 1, sample + 150);
+    EXPECT_EQ(stream.counts().step, 1U);
+    EXPECT_EQ(stream.counts().lost, 2U);
+    send(sample + 156);
+    EXPECT_EQ(stream.counts().lost, 7U);
+    EXPECT_EQ(stream.countsBetween(0, 100 * kSecond).lost, 7U);
+}
+
+TEST_F(Accounting, CountsTheFirstSamplesInHindsight) {
+    sendAll({10, 13, 15, 16, 17, 18, 19, 20});
+    EXPECT_EQ(stream.counts().step, 1U);
+    EXPECT_EQ(stream.counts().lost, 3U);
+}
+
+TEST_F(Accounting, CountsNoLossInAShortIrregularStretchEither) {
+    for (const std::uint32_t rarity : {4U, 10U}) {
+        stream = StreamAccounting();
+        sendSteady(1, 200);
+        std::uint32_t sample = 200;
+        for (std::uint32_t i = 0; i < 60; ++i) {
+            send(sample += i % rarity == 0 ? 1 : 2 + i % 3);
+        }
+        const std::uint32_t received = 260;
+        EXPECT_EQ(stream.counts().step, rarity == 4 ? 1U : 0U);
+        sendSteady(sample + 1, sample + 200);
+        EXPECT_EQ(stream.counts().step, 1U);
+        EXPECT_EQ(stream.counts().lost, rarity == 4 ? sample - received : 0U);
+    }
+}
+
+TEST_F(Accounting, ForgetsCountersOfBeforeARestart) {
+    sendSteady(90'000, 90'200);
+    sendSteady(1, 20);
+    sendAll({90'150, 21, 90'151, 22, 23, 24});
+    EXPECT_EQ(stream.counts().duplicates, 0U);
+    EXPECT_EQ(stream.counts().samples, 201U + 24U);
+    sendSteady(90'000, 90'010); // and once more
+    EXPECT_EQ(stream.counts().restarts, 2U);
+    EXPECT_EQ(stream.counts().duplicates, 0U);
 }
 
 TEST_F(Accounting, FindsADecimatedStreamIrregular) {
@@ -324,14 +440,36 @@ TEST(MessagesSentAgain, CountOnlyDatagramsAndIncompleteOnes) {
          std::initializer_list<std::uint8_t>{0x00, 0x00, 0x82}) { // one twice, one lost
         send(counter);
     }
-    EXPECT_EQ(stream.counts().incomplete, 1U);
+    EXPECT_EQ(stream.counts().incomplete, 2U); // the repeated index began a message
     stampNs += kSecond;
     for (const std::uint8_t counter : std::initializer_list<std::uint8_t>{0x01, 0x82}) {
         send(counter);
     }
-    EXPECT_EQ(stream.counts().incomplete, 2U);
+    EXPECT_EQ(stream.counts().incomplete, 3U);
     EXPECT_EQ(stream.counts().datagrams, 8U);
     EXPECT_EQ(stream.counts().samples + stream.counts().duplicates + stream.counts().lost, 0U);
+}
+
+TEST(MessagesSentAgain, BelongTogetherWithinAQuarterOfASecond) {
+    StreamAccounting stream(13);
+    const auto send = [&](std::int64_t stampMs, std::uint8_t datagramCounter) {
+        wire::Header header;
+        header.datagramCounter = datagramCounter;
+        stream.add(stampMs * kMillisecond, 500, header);
+        return stream.counts().incomplete;
+    };
+    send(1'000, 0x00);
+    send(1'150, 0x01);
+    EXPECT_EQ(send(1'250, 0x82), 0U);
+    send(2'000, 0x00);
+    send(2'150, 0x01);
+    EXPECT_EQ(send(2'251, 0x82), 2U); // too late for the first
+    // The next message begins at once where an index comes again.
+    send(3'000, 0x00);
+    send(3'001, 0x82);
+    send(3'002, 0x00);
+    send(3'003, 0x01);
+    EXPECT_EQ(send(3'004, 0x82), 3U);
 }
 
 TEST_F(Accounting, GivesTheSameFiguresForARangeOfTime) {
