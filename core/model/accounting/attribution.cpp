@@ -13,7 +13,7 @@ constexpr std::size_t kMostDamages = 1'024;
 constexpr std::size_t kMostSilences = 64;
 // A sender with more streams than these is no performance.
 constexpr std::size_t kMostStreams = 64;
-// So many gaps back, late arrivals are looked for.
+// Late arrivals are looked for among this many gaps, or incomplete samples.
 constexpr std::size_t kMostBack = 1'024;
 constexpr std::int64_t kNsPerMs = 1'000'000;
 
@@ -55,7 +55,8 @@ std::string_view nameOf(LossCause cause) {
 
 std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
     auto result = attributed;
-    const std::uint64_t lost = accounting.counts().lost;
+    const StreamCounts counts = accounting.counts();
+    const std::uint64_t lost = counts.lost + counts.incomplete;
     const std::uint64_t known = result[0] + result[1] + result[2];
     result[static_cast<std::size_t>(LossCause::Unknown)] = lost > known ? lost - known : 0;
     return result;
@@ -84,7 +85,7 @@ std::string Gap::evidenceText() const {
     case Evidence::None:
         break;
     }
-    return isJudged ? "Nothing was dropped here, and nothing else of the source tells where " +
+    return isJudged ? "Nothing was dropped here, and nothing else of the source shows where " +
                           plural(lost, "sample", "samples") + " went in " + std::to_string(lastedMs) + " ms."
                     : "Late arrivals are still waited for.";
 }
@@ -98,6 +99,7 @@ void Attribution::addStream(std::size_t stream, const log::SenderInfo& info) {
         sender.streams.push_back(stream);
     }
     m_steps.resize(std::max(m_steps.size(), stream + 1));
+    m_openPartials.resize(m_steps.size());
 }
 
 std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
@@ -113,6 +115,7 @@ std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uin
         }
         m_due.pop_front();
     }
+    judgePartials(packet);
     if (packet.kernelDropsBefore != 0) {
         m_drops.push_back({packet.number, packet.kernelDropsBefore, localPort});
         keepNewest(m_drops, kMostDrops);
@@ -141,6 +144,7 @@ void Attribution::takeMalformed(const log::Packet& packet, const wire::Header& h
 
 void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
     const std::uint32_t step = m_streams[stream].accounting.step();
+    takePartial(stream, verdict);
     if (verdict.gap != 0) {
         Gap gap;
         gap.stream = m_streams[stream].key;
@@ -166,6 +170,70 @@ void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
         m_steps[stream] = step;
         recheck(stream);
     }
+}
+
+/// Notes what lacks a part, and what does not any more.
+void Attribution::takePartial(std::size_t stream, const Verdict& verdict) {
+    if (verdict.isAfterPartial) {
+        const LossCause cause = causeOfPartial(m_streams[stream].key, verdict.packetBefore, verdict.packet);
+        ++m_streams[stream].attributed[static_cast<std::size_t>(cause)];
+        ++m_version;
+    }
+    std::uint64_t& open = m_openPartials[stream];
+    if (verdict.isFirstOfSample && !verdict.isReordered && open > m_firstPartial) {
+        m_partials[open - m_firstPartial - 1].nextPacket = verdict.packet;
+        open = 0;
+    }
+    if (verdict.isFirstOfSample && !verdict.isCompleting) {
+        m_partials.push_back({stream, verdict.sample, verdict.stampNs, verdict.packet});
+        open = verdict.isReordered ? open : m_firstPartial + m_partials.size();
+    } else if (verdict.isReordered && verdict.isCompleting) {
+        complete(stream, verdict.sample);
+    }
+}
+
+void Attribution::judgePartials(const log::Packet& packet) {
+    for (; !m_partials.empty() && packet.stampNs - m_partials.front().stampNs >= kPatienceNs;
+         m_partials.pop_front(), ++m_firstPartial) {
+        Partial& partial = m_partials.front();
+        Stream& stream = m_streams[partial.stream];
+        if (!stream.accounting.isIncomplete(partial.sample)) {
+            continue;
+        }
+        const std::uint64_t to = partial.nextPacket != 0 ? partial.nextPacket : packet.number;
+        partial.cause = causeOfPartial(stream.key, partial.packet, to);
+        ++stream.attributed[static_cast<std::size_t>(partial.cause)];
+        ++m_version;
+        m_judgedPartials.push_back(partial);
+        keepNewest(m_judgedPartials, kMostBack);
+    }
+}
+
+/// The missing part of a sample came after all.
+void Attribution::complete(std::size_t stream, std::uint32_t sample) {
+    const auto found = std::ranges::find_if(m_judgedPartials, [&](const Partial& partial) {
+        return partial.stream == stream && partial.sample == sample;
+    });
+    if (found != m_judgedPartials.end()) {
+        --m_streams[stream].attributed[static_cast<std::size_t>(found->cause)];
+        ++m_version;
+        m_judgedPartials.erase(found);
+    }
+}
+
+/// Whose loss the rest of a sample or message is, of which some came from a packet on.
+LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
+                                      std::uint64_t toPacket) const {
+    const auto found = m_senders.find(static_cast<std::uint32_t>(stream.sender));
+    if (found == m_senders.end()) {
+        return LossCause::Unknown;
+    }
+    // What was dropped just before the first part counts too: it may have been another part.
+    const std::uint64_t before = fromPacket == 0 ? 0 : fromPacket - 1;
+    if (dropsBetween(before, toPacket, found->second.localPort) != 0) {
+        return LossCause::ThisComputer;
+    }
+    return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
 }
 
 const Gap* Attribution::endedBy(std::uint64_t packet) const {
@@ -231,7 +299,8 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
         gap.evidence = evidence;
         gap.figure = figure;
     };
-    if (const std::uint64_t drops = dropsWithin(gap, sender.localPort); drops != 0) {
+    if (const std::uint64_t drops = dropsBetween(gap.fromPacket, gap.toPacket, sender.localPort);
+        drops != 0) {
         return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, drops);
     }
     if (sender.transport == log::Transport::Tcp) {
@@ -261,10 +330,11 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
     }
 }
 
-std::uint64_t Attribution::dropsWithin(const Gap& gap, std::uint16_t localPort) const {
+std::uint64_t Attribution::dropsBetween(std::uint64_t fromPacket, std::uint64_t toPacket,
+                                        std::uint16_t localPort) const {
     std::uint64_t drops = 0;
-    for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > gap.fromPacket; ++drop) {
-        drops += drop->packet <= gap.toPacket && drop->localPort == localPort ? drop->count : 0;
+    for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > fromPacket; ++drop) {
+        drops += drop->packet <= toPacket && drop->localPort == localPort ? drop->count : 0;
     }
     return drops;
 }

@@ -46,9 +46,9 @@ struct Gap {
     [[nodiscard]] std::string evidenceText() const;
 };
 
-/// Finds whose loss each gap was, from the log alone: deterministic whoever reads it in whatever portions.
-/// Judged some time of the log after the gap, since late arrivals may fill it, and corrected if they still
-/// do.
+/// Finds whose loss each gap and each incomplete sample was, from the log alone: the answer is the same in
+/// whatever portions it is read. Judged some time of the log later, since late arrivals may still fill it,
+/// and corrected where they come even later.
 class Attribution {
 public:
     static constexpr std::int64_t kPatienceNs = 150'000'000;
@@ -88,6 +88,15 @@ private:
         std::int64_t lastStampNs = 0;
         std::deque<std::pair<std::int64_t, std::int64_t>> silences; ///< from, to
     };
+    /// A sample of which only a part has come yet.
+    struct Partial {
+        std::size_t stream = 0;
+        std::uint32_t sample = 0;
+        std::int64_t stampNs = 0;
+        std::uint64_t packet = 0;     ///< the first that came of it
+        std::uint64_t nextPacket = 0; ///< the first of the next sample of the stream; 0 until that comes
+        LossCause cause = LossCause::Unknown;
+    };
     struct Drop {
         std::uint64_t packet = 0;
         std::uint32_t count = 0;
@@ -105,11 +114,18 @@ private:
     };
 
     void judge(std::uint64_t number, std::size_t stream);
+    void judgePartials(const log::Packet& packet);
+    void takePartial(std::size_t stream, const Verdict& verdict);
+    void complete(std::size_t stream, std::uint32_t sample);
+    [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
+                                           std::uint64_t toPacket) const;
     void recount(Gap& gap, std::size_t stream);
     void recheck(std::size_t stream);
     void fill(std::size_t stream, std::uint32_t sample);
     void findCause(Gap& gap, const Stream& stream) const;
-    [[nodiscard]] std::uint64_t dropsWithin(const Gap& gap, std::uint16_t localPort) const;
+    /// Datagrams that this computer dropped of a port behind one packet, up to another.
+    [[nodiscard]] std::uint64_t dropsBetween(std::uint64_t fromPacket, std::uint64_t toPacket,
+                                             std::uint16_t localPort) const;
     [[nodiscard]] const Damage* damageWithin(const Gap& gap) const;
     [[nodiscard]] bool hasPaused(const Gap& gap, const Sender& sender) const;
     [[nodiscard]] Gap* find(std::uint64_t number) {
@@ -124,6 +140,11 @@ private:
     std::uint64_t m_version = 0;
     std::deque<Place> m_due; ///< yet to be judged, oldest first
     std::vector<Gap> m_judged;
+    std::deque<Partial> m_partials; ///< yet to be judged, oldest first
+    std::uint64_t m_firstPartial = 0;
+    /// By stream: one past the number of the partial that its next sample ends, if it is still there.
+    std::vector<std::uint64_t> m_openPartials;
+    std::deque<Partial> m_judgedPartials; ///< the newest ones
     std::deque<Drop> m_drops;
     std::deque<Damage> m_damages;
 };

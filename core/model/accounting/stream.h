@@ -11,17 +11,17 @@
 
 namespace posewire::model {
 
-/// One message type of one character on the air.
+/// One message type of one character of one sender.
 struct Stream {
     explicit Stream(const log::StreamKey& streamKey) : key(streamKey), accounting(streamKey.type) {}
 
     log::StreamKey key;
     StreamStatistics statistics; ///< how fast it is now
     StreamAccounting accounting; ///< what came and what did not
-    /// Of the samples lost, those whose loss was attributed, by LossCause; all others are Unknown.
+    /// Samples lost or incomplete whose cause was found, by LossCause; all others are Unknown.
     std::array<std::uint64_t, kLossCauses> attributed{};
 
-    /// All lost samples by LossCause.
+    /// All samples lost and incomplete by LossCause.
     [[nodiscard]] std::array<std::uint64_t, kLossCauses> lostByCause() const;
 };
 

@@ -98,6 +98,69 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereOnlyAPartOfANeighbourCame) {
     EXPECT_EQ(onlyGap().cause, LossCause::Network);
 }
 
+TEST_F(AttributionTest, CountsIncompleteSamplesByCauseToo) {
+    frames(1, 50);
+    put(51, {.datagramCounter = 0x00}); // its second part does not come
+    m_at += 4 * kMillisecond;
+    frames(52, 120);
+    put(121, {.datagramCounter = 0x00});
+    m_at += 4 * kMillisecond;
+    put(122, {.drops = 1});
+    m_at += 4 * kMillisecond;
+    frames(123, 200);
+    put(201, {.datagramCounter = 0x00}); // its second part comes late
+    m_at += 4 * kMillisecond;
+    frames(202, 260);
+    follow();
+    const Stream& stream = m_session.streams().front();
+    EXPECT_EQ(stream.accounting.counts().incomplete, 3U);
+    EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{1, 2, 0, 0}));
+    put(201, {.datagramCounter = 0x81});
+    m_at += 4 * kMillisecond;
+    frames(261, 262);
+    follow();
+    EXPECT_EQ(stream.accounting.counts().incomplete, 2U);
+    EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{1, 1, 0, 0}));
+}
+
+TEST_F(AttributionTest, BlamesTheSenderForWhatIsIncompleteOnTcp) {
+    frames(1, 50, {.transport = log::Transport::Tcp});
+    put(51, {.transport = log::Transport::Tcp, .datagramCounter = 0x00});
+    m_at += 4 * kMillisecond;
+    frames(52, 120, {.transport = log::Transport::Tcp});
+    follow();
+    EXPECT_EQ(m_session.streams().front().lostByCause(), (std::array<std::uint64_t, 4>{0, 0, 1, 0}));
+}
+
+TEST_F(AttributionTest, CountsIncompleteMessagesByCauseToo) {
+    const auto sendMetadata = [this](std::uint8_t datagramCounter) {
+        wire::MetaData message;
+        message.text = "name:Jonas\n";
+        send(message, 0, m_at += 4 * kMillisecond, datagramCounter);
+    };
+    sendMetadata(0x00);
+    m_at += kSecond;
+    sendMetadata(0x80);
+    follow();
+    const Stream& stream = m_session.streams().front();
+    EXPECT_EQ(stream.accounting.counts().incomplete, 1U);
+    EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{0, 1, 0, 0}));
+}
+
+TEST_F(AttributionTest, TakesAStreamThatEndsForNoLoss) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4 * kMillisecond) {
+        put(sample, {});
+        if (sample <= 100) {
+            put(sample, {.type = 24});
+        }
+    }
+    follow();
+    EXPECT_TRUE(m_session.gaps().empty());
+    for (const Stream& stream : m_session.streams()) {
+        EXPECT_EQ(stream.accounting.counts().lost, 0U);
+    }
+}
+
 TEST_F(AttributionTest, BlamesTheSenderOnTcp) {
     frames(1, 50, {.transport = log::Transport::Tcp});
     frames(52, 120, {.transport = log::Transport::Tcp});
