@@ -11,8 +11,6 @@
 namespace posewire::log {
 namespace {
 
-constexpr std::uint16_t kDefaultPort = 9763;
-
 /// The header of a TCP segment (RFC 9293 section 3.1).
 struct TcpHeader {
     std::uint16_t sourcePort = 0;
@@ -87,9 +85,15 @@ void Reassembly::addPacket(const WholePacket& whole) {
 
 void Reassembly::addUdp(const WholePacket& whole) {
     const auto payload = udpPayloadOf(whole.packet, whole.bytes);
-    if (payload && wire::startsWithMagic(payload->bytes)) {
-        m_visit(recordOf(whole, *payload));
+    if (!payload) {
+        return;
     }
+    if (wire::startsWithMagic(payload->bytes)) {
+        m_ports.insert(payload->targetPort);
+    } else if (!m_ports.contains(payload->targetPort)) {
+        return;
+    }
+    m_visit(recordOf(whole, *payload));
 }
 
 void Reassembly::addTcp(const WholePacket& whole) {

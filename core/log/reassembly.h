@@ -5,10 +5,11 @@
 #include "core/log/tcp_stream.h"
 
 #include <memory>
+#include <set>
 
 namespace posewire::log {
 
-/// A captured frame and where it stands in the file.
+/// A captured frame and where it is in the file.
 struct CapturedFrame {
     std::uint32_t linkType = 0;
     std::span<const std::byte> bytes;
@@ -16,12 +17,14 @@ struct CapturedFrame {
     std::optional<std::int64_t> stampNs;
 };
 
-/// Finds MXTP datagrams in captured frames: one to a UDP packet, which IP may have sent in fragments, or back
-/// to back on TCP. A UDP packet counts if it begins with "MXTP"; a TCP stream if it goes to port 9763 or one
-/// of its segments begins a datagram. Memory is bounded: by IpFragments, and by kMostStreams.
+/// Finds what a listener for MXTP would have received in captured frames: one datagram to a UDP packet, which
+/// IP may have sent in fragments, or back to back on TCP. A UDP packet counts if it begins with "MXTP"; any
+/// other one is foreign if it goes to port 9763 or to one that has carried MXTP, and else none of ours. A TCP
+/// stream counts if it goes to port 9763 or one of its segments begins a datagram. Memory is bounded: by
+/// IpFragments, and by kMostStreams.
 class Reassembly {
 public:
-    /// So many TCP streams are followed at a time; the one that was silent longest is ended first.
+    /// At most this many TCP streams are followed at a time; the one that was silent longest is ended first.
     static constexpr std::size_t kMostStreams = 64;
 
     explicit Reassembly(const FileVisitor& visit) : m_visit(visit) {}
@@ -33,6 +36,7 @@ public:
     void finish();
 
 private:
+    static constexpr std::uint16_t kDefaultPort = 9763;
     /// One direction of a connection.
     struct Direction {
         IpAddress sender;
@@ -54,6 +58,7 @@ private:
     const FileVisitor& m_visit;
     IpFragments m_fragments;
     std::map<Direction, Followed> m_streams;
+    std::set<std::uint16_t> m_ports{kDefaultPort}; ///< UDP ports where other datagrams are foreign
     std::uint64_t m_uses = 0;
 };
 

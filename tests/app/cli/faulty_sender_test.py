@@ -25,7 +25,8 @@ def monitor(cli, path):
 def disagreements(truth, report):
     """Yields what the truth says that the report does not."""
     source = report["sources"][0] if len(report["sources"]) == 1 else {"characters": []}
-    # What does not begin as a datagram of ours is other people's traffic in a capture, and not read from there.
+    if truth["foreignDatagrams"] != report["foreignDatagrams"]:
+        yield f"foreign: sent {truth['foreignDatagrams']}, counted {report['foreignDatagrams']}"
     for name in ("malformed", "datagrams"):
         if truth[name] != source.get(name):
             yield f"{name}: sent {truth[name]}, counted {source.get(name)}"
@@ -49,7 +50,7 @@ def main():
             sender = FaultySender(seed, seconds)
             write_capture(path, sender.sent)
             truth = sender.truth()
-            figures += 2 + sum(len(s) - 1 for c in truth["characters"] for s in c["streams"])
+            figures += 3 + sum(len(s) - 1 for c in truth["characters"] for s in c["streams"])
             for disagreement in disagreements(truth, monitor(cli, path)):
                 faults += 1
                 print(f"seed {seed}: {disagreement}")

@@ -111,7 +111,7 @@ TEST(CaptureFile, ReadsSimplePacketsWithoutAStamp) {
 }
 
 TEST(CaptureFile, PassesOverWhatIsNotMxtp) {
-    const ByteVector other = ethernet(ipv4(udp(textBytes("who is there?"))));
+    const ByteVector other = ethernet(ipv4(udp(textBytes("who is there?"), 5353, 5353)));
     const ByteVector tcp = ethernet(ipv4(udp(poseDatagram(1)), 0, 6));
     const ByteVector arp = ethernet(textBytes("anything"), 0x0806);
     const ByteVector tiny = textBytes("x");

@@ -151,6 +151,21 @@ TEST(Reassembly, KeepsFragmentsOfPacketsApartAndTakesRepeatedOnesOnce) {
     EXPECT_EQ(capture.datagrams(), (std::vector{first, second}));
 }
 
+TEST(Reassembly, TakesForForeignWhatGoesWhereMxtpGoes) {
+    const ByteVector pose = poseDatagram(7, 2);
+    const ByteVector other = textBytes("{\"type\":\"transport\"}");
+    Capture capture;
+    capture.add(ipv4(udp(other, 5353, 5353))); // nobody's
+    capture.add(ipv4(udp(other, 50'000, 9763)));
+    capture.add(ipv4(udp(other, 50'000, 9999))); // nothing has come there yet
+    capture.add(ipv4(udp(pose, 40'001, 9999)));
+    capture.add(ipv4(udp(other, 50'000, 9999)));
+    capture.add(ipv4(udp(other, 9999, 40'001))); // an answer
+    capture.add(ipv4(udp({}, 40'001, 9999)));
+    EXPECT_EQ(capture.datagrams(), (std::vector{other, pose, other, ByteVector{}}));
+    EXPECT_EQ(capture.seen()[2].address, "10.0.0.2:50000");
+}
+
 TEST(Reassembly, PutsIpv6FragmentsTogether) {
     const ByteVector pose = poseDatagram(7, 67);
     const ByteVector content = udp(pose);
