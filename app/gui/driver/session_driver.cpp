@@ -80,8 +80,7 @@ void SessionDriver::measureHealth() {
 QString SessionDriver::openFile(const QString& path) {
     const QString problem = m_receiving.openFile(path);
     if (problem.isEmpty()) {
-        while (m_session.follow(m_clock.wallNs(), kPacketsPerTick)) {
-        }
+        m_session.followFile();
         setPaused(false);
         setPaused(true);
     }

@@ -15,7 +15,7 @@ constexpr std::int64_t kCheckNs = 100'000'000;
 constexpr std::int64_t kWatchNs = 500'000'000;
 constexpr std::int64_t kJumpMs = 500;
 constexpr std::size_t kMostSenders = 4'096;
-/// So many samples lost in a row are a burst.
+/// This many samples lost in a row are a burst.
 constexpr std::uint32_t kBurstSamples = 10;
 
 } // namespace
@@ -121,17 +121,17 @@ void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& ver
     if (!verdict.isRestart) {
         return;
     }
-    // All streams of a character begin anew together, each by a verdict of its own.
+    // All streams of a character restart together, each with a verdict of its own.
     std::int64_t& restartNs = m_persons[{stream.sender, stream.character}].restartNs;
-    const bool isTold = restartNs != 0 && std::abs(verdict.stampNs - restartNs) < kSecondNs;
-    if (!isTold) {
+    const bool isReported = restartNs != 0 && std::abs(verdict.stampNs - restartNs) < kSecondNs;
+    if (!isReported) {
         restartNs = verdict.stampNs;
         m_events.report(eventOf(EventKind::Restart, stream, verdict));
     }
 }
 
-/// A time code that moves otherwise than our clock, though the counter goes on. What came out of order says
-/// nothing of it.
+/// A time code that moves differently from our clock while the counter runs on. What came out of order says
+/// nothing about it.
 void EventFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
     Person& person = m_persons[{stream.sender, stream.character}];
     const bool isFirst = person.stampNs == 0;
@@ -186,6 +186,15 @@ void EventFollower::advance(std::int64_t stampNs) {
     }
 }
 
+void EventFollower::endFile() {
+    for (auto& [id, sender] : m_senders) {
+        sender.lastSampledNs = 0;
+    }
+    for (auto& [key, person] : m_persons) {
+        person.lastSampledNs = 0;
+    }
+}
+
 void EventFollower::check(std::int64_t stampNs) {
     m_events.advance(stampNs);
     for (auto& [id, sender] : m_senders) {
@@ -201,7 +210,7 @@ void EventFollower::check(std::int64_t stampNs) {
     }
     for (auto& [key, person] : m_persons) {
         const auto sender = m_senders.find(key.sender);
-        const bool isSilent = stampNs - person.lastSampledNs > kSilentNs;
+        const bool isSilent = person.lastSampledNs != 0 && stampNs - person.lastSampledNs > kSilentNs;
         if (isSilent && !person.isStale && sender != m_senders.end() && !sender->second.isDown) {
             person.isStale = true;
             Event event;
@@ -222,7 +231,7 @@ std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key,
         return event->sender != key.sender || event->character.value_or(key.character) != key.character ||
                event->severity() == EventSeverity::Info;
     });
-    // What happened tells more than the limit that it broke.
+    // What happened says more than the limit that it broke.
     const auto rank = [](const Event* event) {
         return std::tuple(event->severity(), event->group() != EventGroup::Limit, event->number);
     };

@@ -31,8 +31,11 @@ public:
     void takeGap(const Gap& gap);
     void takeChange(EventKind kind, const CharacterKey& key, const log::Packet& packet, std::string detail);
 
-    /// Time goes on without packets: only what is silent is told then.
+    /// Time passes without packets: reports only who is silent.
     void advance(std::int64_t stampNs);
+
+    /// What came so far is a file, which has ended: nobody in it is expected to send on.
+    void endFile();
 
     /// What goes on, or went on at a time of the past, and concerns the character or its sender, worst first,
     /// limits last of their like; no notes.
@@ -50,7 +53,7 @@ private:
         std::int64_t lastSampledNs = 0;
         std::uint64_t lastPacket = 0;
         bool isStale = false;
-        std::int64_t restartNs = 0; ///< when its counter last began anew
+        std::int64_t restartNs = 0; ///< when its counter last restarted
         // Of the newest sample, for jumps of the time code:
         std::uint32_t sample = 0;
         std::uint32_t timeCode = 0;

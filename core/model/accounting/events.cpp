@@ -9,32 +9,43 @@ namespace posewire::model {
 namespace {
 
 struct KindFacts {
+    EventKind kind;
     std::string_view name;
     EventSeverity severity;
     EventGroup group;
-    bool lasts; ///< goes on until it is ended, else until it has been quiet
+    bool lasts; ///< until it is ended, else until it has been quiet
 };
 
-constexpr std::array<KindFacts, 18> kKinds{{
-    {"source up", EventSeverity::Info, EventGroup::Sender, false},
-    {"source down", EventSeverity::Error, EventGroup::Sender, true},
-    {"gap", EventSeverity::Warning, EventGroup::Loss, false},
-    {"burst", EventSeverity::Error, EventGroup::Loss, false},
-    {"restart", EventSeverity::Info, EventGroup::Sender, false},
-    {"malformed", EventSeverity::Error, EventGroup::Content, false},
-    {"foreign", EventSeverity::Warning, EventGroup::Content, false},
-    {"dropped here", EventSeverity::Error, EventGroup::Loss, false},
-    {"metadata change", EventSeverity::Info, EventGroup::Content, false},
-    {"scale change", EventSeverity::Info, EventGroup::Content, false},
-    {"time code jump", EventSeverity::Warning, EventGroup::Content, false},
-    {"character conflict", EventSeverity::Error, EventGroup::Sender, false},
-    {"stale", EventSeverity::Warning, EventGroup::Sender, true},
-    {"loss limit", EventSeverity::Warning, EventGroup::Limit, true},
-    {"jitter limit", EventSeverity::Warning, EventGroup::Limit, true},
-    {"gap limit", EventSeverity::Warning, EventGroup::Limit, true},
-    {"age limit", EventSeverity::Error, EventGroup::Limit, true},
-    {"rate limit", EventSeverity::Warning, EventGroup::Limit, true},
+constexpr std::array<KindFacts, kEventKinds> kKinds{{
+    {EventKind::SenderUp, "source up", EventSeverity::Info, EventGroup::Sender, false},
+    {EventKind::SenderDown, "source down", EventSeverity::Error, EventGroup::Sender, true},
+    {EventKind::Gap, "gap", EventSeverity::Warning, EventGroup::Loss, false},
+    {EventKind::Burst, "burst", EventSeverity::Error, EventGroup::Loss, false},
+    {EventKind::Restart, "restart", EventSeverity::Info, EventGroup::Sender, false},
+    {EventKind::Malformed, "malformed", EventSeverity::Error, EventGroup::Content, false},
+    {EventKind::Foreign, "foreign", EventSeverity::Warning, EventGroup::Content, false},
+    {EventKind::Dropped, "dropped here", EventSeverity::Error, EventGroup::Loss, false},
+    {EventKind::MetadataChange, "metadata change", EventSeverity::Info, EventGroup::Content, false},
+    {EventKind::ScaleChange, "scale change", EventSeverity::Info, EventGroup::Content, false},
+    {EventKind::TimeCodeJump, "time code jump", EventSeverity::Warning, EventGroup::Content, false},
+    {EventKind::CharacterConflict, "character conflict", EventSeverity::Error, EventGroup::Sender, false},
+    {EventKind::Stale, "stale", EventSeverity::Warning, EventGroup::Sender, true},
+    {EventKind::LossLimit, "loss limit", EventSeverity::Warning, EventGroup::Limit, true},
+    {EventKind::JitterLimit, "jitter limit", EventSeverity::Warning, EventGroup::Limit, true},
+    {EventKind::GapLimit, "gap limit", EventSeverity::Warning, EventGroup::Limit, true},
+    {EventKind::AgeLimit, "age limit", EventSeverity::Error, EventGroup::Limit, true},
+    {EventKind::RateLimit, "rate limit", EventSeverity::Warning, EventGroup::Limit, true},
 }};
+
+constexpr bool rowsFollowTheEnum() {
+    for (std::size_t i = 0; i < kKinds.size(); ++i) {
+        if (kKinds[i].kind != static_cast<EventKind>(i)) {
+            return false;
+        }
+    }
+    return true;
+}
+static_assert(rowsFollowTheEnum());
 
 const KindFacts& factsOf(EventKind kind) {
     return kKinds[static_cast<std::size_t>(kind)];
@@ -86,14 +97,14 @@ std::string_view nameOf(EventKind kind) {
 std::string Event::text() const {
     switch (kind) {
     case EventKind::SenderUp:
-        return "A source began to send.";
+        return "A source started sending.";
     case EventKind::SenderDown:
-        return "Nothing has come for more than 1 s.";
+        return "No data for 1 s.";
     case EventKind::Gap:
     case EventKind::Burst:
         return lossText(*this);
     case EventKind::Restart:
-        return "The sample counter began anew.";
+        return "The sample counter restarted.";
     case EventKind::Malformed:
         return counted(count, "datagram", "datagrams") + " could not be decoded.";
     case EventKind::Foreign:
@@ -109,7 +120,7 @@ std::string Event::text() const {
     case EventKind::CharacterConflict:
         return "Two sources send character " + std::to_string(character.value_or(0)) + " at the same time.";
     case EventKind::Stale:
-        return "No pose has come for more than 1 s while the source sends.";
+        return "No pose for 1 s, though the source sends.";
     case EventKind::LossLimit:
         return limitText(*this, "Loss", "%", 2);
     case EventKind::JitterLimit:
@@ -212,7 +223,7 @@ void Events::advance(std::int64_t stampNs) {
     });
 }
 
-/// Makes room: the oldest that has ended goes, or the oldest where all go on.
+/// Makes room: the oldest that has ended goes, or the oldest of all where none has.
 void Events::forget() {
     if (m_events.size() <= kMost) {
         return;

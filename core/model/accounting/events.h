@@ -4,6 +4,7 @@
 #include "core/model/accounting/loss_cause.h"
 #include "core/model/keys.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -33,6 +34,7 @@ enum class EventKind : std::uint8_t {
     AgeLimit,
     RateLimit,
 };
+inline constexpr std::size_t kEventKinds = 18;
 
 enum class EventSeverity : std::uint8_t { Info, Warning, Error };
 
@@ -43,7 +45,7 @@ enum class EventGroup : std::uint8_t { Sender, Loss, Content, Limit };
 /// "source up", "gap" and so on.
 [[nodiscard]] std::string_view nameOf(EventKind kind);
 
-/// Something that happened or goes on: one for an episode, however often it happens in it.
+/// Something that happened or lasts: one for an episode, however often it happens in it.
 struct Event {
     std::uint64_t number = 0; ///< counted from the beginning of the session
     EventKind kind = EventKind::SenderUp;
@@ -60,7 +62,7 @@ struct Event {
     double limit = 0;          ///< limits: what must not be exceeded
     std::optional<LossCause> cause{};
     std::string detail{};  ///< content: what changed; Gap and Burst: evidence of the newest
-    bool isCurrent = true; ///< goes on, or may
+    bool isCurrent = true; ///< lasts, or may
 
     [[nodiscard]] EventSeverity severity() const { return severityOf(kind); }
     [[nodiscard]] EventGroup group() const { return groupOf(kind); }
@@ -80,14 +82,14 @@ public:
     /// Grows whenever an event comes or changes.
     [[nodiscard]] std::uint64_t version() const { return m_version; }
 
-    /// Those that go on, in the order in which they began.
+    /// Those that last, in the order in which they began.
     [[nodiscard]] std::vector<const Event*> current() const;
-    /// Those that went on at a time of the past, in the same order, with all that is known of them now.
+    /// Those that lasted at a time in the past, in the same order, with all that is known of them now.
     [[nodiscard]] std::vector<const Event*> currentAt(std::int64_t stampNs) const;
     /// Null where there is none of that number, or none any more.
     [[nodiscard]] const Event* find(std::uint64_t number) const;
 
-    /// Something happened: a new event, or one more of an episode that goes on (same kind, sender, character,
+    /// Something happened: a new event, or once more in an episode that lasts (same kind, sender, character,
     /// type and cause).
     void report(const Event& event);
     /// An episode is over.
@@ -103,7 +105,7 @@ private:
     void forget();
 
     std::deque<Event> m_events;
-    std::vector<std::uint64_t> m_current; ///< numbers of those that go on
+    std::vector<std::uint64_t> m_current; ///< numbers of those that last
     std::uint64_t m_next = 0;
     std::uint64_t m_version = 0;
 };

@@ -61,6 +61,16 @@ bool Ingest::follow(std::int64_t nowNs, std::size_t most) {
     return to > from;
 }
 
+void Ingest::followFile() {
+    // However new its packets are, they are no reason to take it for live.
+    const std::int64_t nowNs = m_nowNs;
+    while (follow(0, 200'000)) {
+    }
+    m_nowNs = nowNs;
+    m_isLive = false;
+    m_follower.endFile();
+}
+
 void Ingest::take(const log::Packet& packet) {
     if (m_digests.end() == 0) {
         m_firstStampNs = packet.stampNs;

@@ -32,6 +32,8 @@ public:
 
     /// Reads at most `most` new packets; true if there were any.
     bool follow(std::int64_t nowNs, std::size_t most);
+    /// Reads all new packets as those of a file that has ended: nobody in it is expected to send on.
+    void followFile();
 
     void setThresholds(const Thresholds& thresholds) { m_follower.setThresholds(thresholds); }
     void setOverride(log::SenderId sender, const SenderOverride& overrides);

@@ -15,6 +15,8 @@ public:
     /// Reads at most `most` new packets; true if there were any. `nowNs` (wall clock) is what ages are
     /// measured against.
     bool follow(std::int64_t nowNs, std::size_t most = 200'000) { return m_ingest.follow(nowNs, most); }
+    /// Reads all new packets as those of a file that has ended: nobody in it is expected to send on.
+    void followFile() { m_ingest.followFile(); }
 
     /// Holds for what comes from now on.
     void setThresholds(const Thresholds& thresholds) { m_ingest.setThresholds(thresholds); }

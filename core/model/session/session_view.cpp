@@ -183,10 +183,10 @@ Condition SessionView::conditionOf(const CharacterKey& key) const {
     }
     const double age = ageSeconds(key);
     if (age >= Condition::kStaleS) {
-        return {Condition::Level::Error, "Nothing has come for more than 1 s.", {}};
+        return {Condition::Level::Error, "No data for 1 s.", {}};
     }
     if (age >= Condition::kSilentS) {
-        return {Condition::Level::Warning, "Nothing has come for more than a quarter of a second.", {}};
+        return {Condition::Level::Warning, "No data for 0.25 s.", {}};
     }
     const Sender* sender = find(key.sender);
     const auto contradictions = sender != nullptr ? sender->contradictions() : std::vector<Contradiction>();

@@ -159,6 +159,28 @@ TEST_F(SessionDriverTest, AFileIsOpenedWhileThePortGoesOnReceiving) {
     EXPECT_EQ(driver.session().senders().size(), 2U);
 }
 
+TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
+    QTemporaryDir folder;
+    const QString path = folder.filePath("take.bin");
+    {
+        QFile file(path);
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        for (const wire::Datagram& datagram : performer.frame(0)) {
+            const auto bytes = *wire::encode(datagram);
+            file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
+        }
+    }
+    log::ManualClock manual(1'700'000'000'000'000'000);
+    SessionDriver opened{manual};
+    ASSERT_EQ(opened.openFile(path), "");
+    ASSERT_EQ(opened.session().characters().size(), 1U);
+    manual.advance(5'000'000'000);
+    opened.tick();
+    for (const model::Event& event : opened.session().events().all()) {
+        EXPECT_NE(event.severity(), model::EventSeverity::Error) << event.text();
+    }
+}
+
 TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
     using Kind = InputAddress::Kind;
     driver.receiving().addPort({"127.0.0.1", 0, Kind::TcpListen});

@@ -148,7 +148,7 @@ TEST_F(EventModelTest, WhatHasNoPacketLeadsToTheOneBefore) {
     ASSERT_GE(row, 0);
     const model::Event& event = *m_model.event(m_model.index(row, 0));
     EXPECT_EQ(eventPacket(m_stage.session, event), m_stage.session.end() - 1);
-    EXPECT_TRUE(m_model.index(row, EventModel::kText).data().toString().startsWith("Nothing has come"));
+    EXPECT_TRUE(m_model.index(row, EventModel::kText).data().toString().startsWith("No data for 1 s"));
 }
 
 } // namespace

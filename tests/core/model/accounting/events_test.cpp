@@ -48,6 +48,22 @@ TEST_F(EventsTest, TellThatASenderComesAndGoes) {
     EXPECT_FALSE(down[0].isCurrent);
 }
 
+TEST_F(EventsTest, SayNothingOfSilenceAfterTheEndOfAFile) {
+    poses(1, 100);
+    m_session.followFile();
+    m_session.follow(m_at + 3 * kSecond);
+    EXPECT_TRUE(of(EventKind::SenderDown).empty());
+    // Nor where another sender is live.
+    pose(1, "127.0.0.1:40002");
+    m_session.follow(m_at);
+    m_session.follow(m_at + 3 * kSecond);
+    const auto down = of(EventKind::SenderDown);
+    ASSERT_EQ(down.size(), 1U);
+    EXPECT_EQ(down[0].sender, sender("127.0.0.1:40002"));
+    EXPECT_TRUE(of(EventKind::Stale).empty());
+    EXPECT_EQ(down[0].text(), "No data for 1 s.");
+}
+
 TEST_F(EventsTest, JudgeACharacterWhereTheCursorStands) {
     poses(1, 300);
     poses(311, 400); // ten lost
