@@ -12,8 +12,12 @@
 namespace posewire::exporting {
 namespace {
 
-/// Stamps before this are counted from the beginning of a file that has none.
-constexpr std::int64_t kFirstRealStampNs = 86'400'000'000'000;
+/// A raw file has no stamps: time codes have taken their place.
+bool hasStamps(const model::Session& session) {
+    return std::ranges::none_of(session.senders(), [](const model::Sender& sender) {
+        return sender.info.transport == log::Transport::File;
+    });
+}
 
 std::vector<StreamFigures> allFigures(const model::SessionView& session, const TimeRange& range) {
     std::vector<StreamFigures> all;
@@ -30,16 +34,16 @@ std::string fact(std::string_view name, const std::string& html) {
     return "<dt>" + escaped(name) + "</dt><dd>" + html + "</dd>\n";
 }
 
-std::string timeFacts(const ReportSteps& steps) {
+std::string timeFacts(const model::Session& session, const ReportSteps& steps) {
     if (steps.count == 0) {
         return fact("Time", "nothing was received");
     }
     const std::string duration = fact("Duration", fixed(steps.durationS(), 3) + " s");
-    return steps.fromNs < kFirstRealStampNs
-               ? fact("Time",
-                      "not known: the file has no stamps; time codes of the sender took their place") +
-                     duration
-               : fact("From", utcText(steps.fromNs)) + fact("To", utcText(steps.toNs)) + duration;
+    if (!hasStamps(session)) {
+        return fact("Time", "not known: the file has no stamps; time codes of the sender took their place") +
+               duration;
+    }
+    return fact("From", utcText(steps.fromNs)) + fact("To", utcText(steps.toNs)) + duration;
 }
 
 std::string verdictList(const std::vector<Finding>& findings) {
@@ -107,7 +111,7 @@ std::string streamReport(const model::SessionView& session, const StreamReportOp
            "<title>Stream report</title>\n<style>" +
            std::string(reportStyle()) + "</style>\n</head>\n<body>\n<h1>Stream report</h1>\n" +
            verdictList(verdictOn(session, figures, options)) +
-           "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(steps) +
+           "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(session, steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
            senderSection(session, figures, steps) + gapSection(session, steps) +
            eventSection(session, steps) + settingsSection(options) + "</body>\n</html>\n";

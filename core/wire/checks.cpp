@@ -152,7 +152,8 @@ void checkTags(Datagram& datagram, const MetaData& message) {
         unknown.add(!isKnownTag(tag.name), start + place);
     }
     report(datagram, NoticeCode::UnknownTag, unknown);
-    report(datagram, NoticeCode::LineWithoutTag, {list.strayLines, static_cast<std::uint32_t>(start)});
+    report(datagram, NoticeCode::LineWithoutTag,
+           {list.strayLines, static_cast<std::uint32_t>(start + list.firstStray)});
 }
 
 bool isTimeCode(std::string_view text) {
@@ -162,7 +163,7 @@ bool isTimeCode(std::string_view text) {
             return false;
         }
     }
-    return true;
+    return text.substr(0, 2) < "24" && text[3] < '6' && text[6] < '6';
 }
 
 void checkTimeCode(Datagram& datagram, const TimeCode& message) {

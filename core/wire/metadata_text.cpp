@@ -8,11 +8,14 @@ namespace posewire::wire {
 
 TagList parseTags(std::string_view text) {
     TagList list;
+    const char* const begin = text.data();
     while (!text.empty()) {
         const std::size_t end = text.find('\n');
         const std::string_view line = text.substr(0, end);
         const std::size_t colon = line.find(':');
         if (colon == std::string_view::npos || end == std::string_view::npos) {
+            list.firstStray =
+                list.strayLines == 0 ? static_cast<std::size_t>(line.data() - begin) : list.firstStray;
             ++list.strayLines;
         }
         if (colon != std::string_view::npos) {

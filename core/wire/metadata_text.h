@@ -21,6 +21,7 @@ struct Tag {
 struct TagList {
     std::vector<Tag> tags;
     unsigned strayLines = 0;
+    std::size_t firstStray = 0; ///< where the first of those begins in the text
 };
 [[nodiscard]] TagList parseTags(std::string_view text);
 

@@ -11,7 +11,7 @@ struct NoticeRow {
     NoticeCode code;
     std::string_view name;
     std::string_view text;
-    std::string_view counted; ///< what the count counts; empty where it is always one
+    std::string_view counted; ///< what the count counts, in the plural; empty where it is always one
 };
 
 constexpr std::array<NoticeRow, kNoticeCodeCount> kNotices{{
@@ -53,7 +53,9 @@ std::string noticeText(const Notice& notice) {
     std::string text(row.text);
     text += " (byte " + std::to_string(notice.offset);
     if (!row.counted.empty()) {
-        text += ", " + std::to_string(notice.count) + ' ' + std::string(row.counted);
+        const std::size_t plural = notice.count == 1 ? 1 : 0; // the s
+        text += ", " + std::to_string(notice.count) + ' ' +
+                std::string(row.counted.substr(0, row.counted.size() - plural));
     }
     return text + ')';
 }

@@ -632,19 +632,22 @@ end
 
 -- Lines of a type 12 text: each with its place in the text and, if it has a colon, its tag; counts stray lines.
 local function tags_of(text)
-  local tags, stray, at = {}, 0, 1
+  local tags, stray, stray_at, at = {}, 0, 0, 1
   while at <= #text do
     local newline = text:find("\n", at, true)
     local stop = (newline or #text + 1) - 1
     local line = text:sub(at, stop)
     local colon = line:find(":", 1, true)
-    if not colon or not newline then stray = stray + 1 end
+    if not colon or not newline then
+      if stray == 0 then stray_at = at - 1 end
+      stray = stray + 1
+    end
     if colon then
       tags[#tags + 1] = { place = at - 1, size = stop - at + 1, name = line:sub(1, colon - 1), colon = colon }
     end
     at = stop + 2
   end
-  return tags, stray
+  return tags, stray, stray_at
 end
 
 -- ---------------------------------------------------------------------------------------------------------------
@@ -938,19 +941,20 @@ function Checks:check_header(header)
 end
 
 function Checks:check_tags(text, start)
-  local tags, stray = tags_of(text)
+  local tags, stray, stray_at = tags_of(text)
   for _, tag in ipairs(tags) do
     if not known_tags[tag.name] then self:tally("unknownTag", start + tag.place, 1) end
   end
   if self.unknownTag then self:notice("unknownTag", self.unknownTag.offset, self.unknownTag.count) end
-  if stray > 0 then self:notice("lineWithoutTag", start, stray) end
+  if stray > 0 then self:notice("lineWithoutTag", start + stray_at, stray) end
 end
 
 function Checks:check_time_code(values)
   if values.length and values.length ~= 12 then
     self:notice("lengthDisagrees", header_size, 1)
   end
-  if not values.timeCode:find("^%d%d:%d%d:%d%d%.%d%d%d$") then
+  local hours = values.timeCode:match("^(%d%d):[0-5]%d:[0-5]%d%.%d%d%d$")
+  if not hours or tonumber(hours) > 23 then
     self:notice("notATimeCode", header_size + (values.length and 4 or 0), 1)
   end
 end
@@ -1436,6 +1440,7 @@ local function dissect_datagram(tvb, root)
   else
     for _, notice in ipairs(checks.notices) do
       local text = string.format(notice_texts[notice.code], notice.offset, notice.count)
+      if notice.count == 1 then text = text:gsub(", 1 (%a+)s%)$", ", 1 %1)") end
       add_remark(tree, tvb, own.notice, own.notice_offset, notice_experts, notice.code, notice.offset, text)
     end
   end

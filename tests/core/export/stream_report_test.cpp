@@ -65,6 +65,14 @@ protected:
     static constexpr std::int64_t kStart = 1'700'000'000 * kSecond;
 };
 
+TEST_F(StreamReportTest, TakesStampsOf1970ForStamps) {
+    for (std::uint32_t sample = 0; sample < 10; ++sample) {
+        send(standingAt(0), sample, sample * kSecond / 240);
+    }
+    follow();
+    EXPECT_THAT(report(), HasSubstr("1970-01-01 00:00:00.000 UTC"));
+}
+
 TEST_F(StreamReportTest, SaysInWordsThatAllIsWell) {
     stream(480);
     const std::string html = report();

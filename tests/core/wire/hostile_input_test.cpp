@@ -89,6 +89,10 @@ TEST(HostileInput, GivesNoticesForOddValues) {
               (std::vector{Notice{NoticeCode::NotFinite, 24, 1}}));
     EXPECT_EQ(decode(withWord("25_time_code_counted", 28, 0x61616161U))->notices,
               (std::vector{Notice{NoticeCode::NotATimeCode, 28, 1}}));
+    for (const std::uint32_t digits : {0x32343a30U, 0x30303a36U, 0x39393a39U}) { // 24:0, 00:6, 99:9
+        EXPECT_EQ(decode(withWord("25_time_code_counted", 28, digits))->notices,
+                  (std::vector{Notice{NoticeCode::NotATimeCode, 28, 1}}));
+    }
 }
 
 TEST(HostileInput, RefusesToWriteWhatDoesNotFit) {

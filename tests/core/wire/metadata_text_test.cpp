@@ -28,6 +28,18 @@ TEST(MetadataText, CountsLinesThatAreNoTags) {
     EXPECT_EQ(unfinished.tags.size(), 2U);
 }
 
+TEST(MetadataText, GivesANoticeWithThePlaceOfALineWithoutATag) {
+    Datagram datagram;
+    datagram.body = MetaData{true, "name:x\nno colon\ncolor:e9\n\n"};
+    completeHeader(datagram, HeaderEra::Counted);
+    const auto decoded = decode(*encode(datagram));
+    ASSERT_TRUE(decoded);
+    EXPECT_EQ(decoded->notices, (std::vector{Notice{NoticeCode::LineWithoutTag, 24 + 4 + 7, 2}}));
+    EXPECT_EQ(noticeText(decoded->notices[0]), "line that is not \"tag:value\" (byte 35, 2 lines)");
+    EXPECT_EQ(noticeText({NoticeCode::LineWithoutTag, 28, 1}),
+              "line that is not \"tag:value\" (byte 28, 1 line)");
+}
+
 TEST(MetadataText, IsJoinedToTheTextItWasSplitFrom) {
     const std::string text = "name:J\u00f6rg: take 2\nxmid:\ncolor:e96417\n";
     EXPECT_EQ(joinTags(parseTags(text).tags), text);
