@@ -52,7 +52,7 @@ Command addMonitorCommand(CommandLine& program) {
     addPlaces(arguments, *options);
     arguments
         .add("--duration", options->durationSeconds,
-             "stop after so many seconds; 0: when interrupted, or at the end of FILE")
+             "stop after this many seconds; 0: when interrupted, or at the end of FILE")
         .form("SECONDS")
         .notNegative()
         .showDefault();

@@ -19,8 +19,8 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
 };
 
-/// A file that is written anew. Fails where it cannot be; later failures, such as a full disk, come from
-/// write() and flush().
+/// A file that is written from the start. Fails where it cannot be; later failures, such as a full disk, come
+/// from write() and flush().
 tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string& path);
 
 } // namespace posewire::log

@@ -21,7 +21,7 @@ class ByteSource {
 public:
     virtual ~ByteSource() = default;
 
-    /// Fills the front of `into` and tells how much; 0 only at the end.
+    /// Fills the front of `into` and returns how much; 0 only at the end.
     virtual tl::expected<std::size_t, FileError> read(std::span<std::byte> into) = 0;
 
     /// For messages: the name of the file, "standard input".

@@ -26,7 +26,7 @@ public:
 
     bool bigEndian = false;
 
-    /// So many bytes, valid until the next call; fewer only at the end of the file.
+    /// `size` bytes, valid until the next call; fewer only at the end of the file.
     tl::expected<std::span<const std::byte>, FileError> take(std::size_t size) {
         m_offset += m_bytes.size();
         m_bytes.resize(size);
@@ -77,7 +77,7 @@ tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic,
     reader.bigEndian = magic == 0xa1b2c3d4U || magic == 0xa1b23c4dU;
     const bool hasNanoseconds = magic == 0xa1b23c4dU || magic == 0x4d3cb2a1U;
     const std::uint32_t linkType =
-        reader.read32(header->data() + 16) & 0x0fffffffU; // the top bits tell of checksums
+        reader.read32(header->data() + 16) & 0x0fffffffU; // the top bits are about checksums
     while (true) {
         const auto record = reader.take(16);
         if (!record) {
@@ -204,7 +204,7 @@ private:
         return readBody(number, m_reader.read32(length->data()), 8);
     }
 
-    /// A new section: byte order and interfaces begin anew.
+    /// A new section: byte order and interfaces are its own.
     More readSectionHeader() {
         const auto start = m_reader.take(8);
         if (!start || start->size() < 8) {

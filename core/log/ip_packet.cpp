@@ -25,7 +25,7 @@ struct Network {
     std::size_t offset;
 };
 
-/// Follows an EtherType that stands at `place`, over VLAN tags.
+/// Follows the EtherType at `place`, over VLAN tags.
 std::optional<Network> afterEtherType(Frame frame, std::size_t place) {
     while (frame.size() >= place + 2) {
         const std::uint16_t type = wordAt(frame, place);
@@ -43,7 +43,7 @@ std::optional<Network> afterEtherType(Frame frame, std::size_t place) {
 /// LINKTYPE_ values as registered for pcap and pcapng.
 std::optional<Network> networkOf(std::uint32_t linkType, Frame frame) {
     switch (linkType) {
-    case 0:   // BSD loopback: an address family of four bytes; the version of IP tells the rest
+    case 0:   // BSD loopback: an address family of four bytes; the version of IP says the rest
     case 108: // OpenBSD loopback
         return Network{4};
     case 1: // Ethernet

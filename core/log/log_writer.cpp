@@ -50,7 +50,7 @@ std::span<const LogWriter::Lane> LogWriter::lanes() {
             ++i;
             continue;
         }
-        // The chunk has no block left: this lane goes on in what the last one has.
+        // The chunk has no block left: this lane takes over what the last one has.
         m_lanes[i].bytes = m_lanes[--m_laneCount].bytes;
     }
     if (m_laneCount < kFewestLanes || m_chunk->room() < m_laneCount * sizeof(Record)) {

@@ -18,8 +18,8 @@ namespace posewire::log {
 /// append() and publish(). No lock and no allocation per packet.
 class LogWriter {
 public:
-    /// Few: the kernel writes to so many places in turn, and more of them than the processor follows cost
-    /// more than the system calls they save.
+    /// Few: the kernel writes to that many places in turn, and more than the processor can prefetch cost more
+    /// than the system calls they save.
     static constexpr std::size_t kLaneLimit = 8;
     /// A lane has at least this much room; the largest legal datagram, 67 items of type 02, has 2,168 bytes.
     static constexpr std::size_t kLaneRoom = 2304;

@@ -26,9 +26,9 @@ struct PacketFlags {
     bool truncated = false;       ///< the datagram was longer than what could be received
     bool stampedByKernel = false; ///< the stamp is the kernel's, else it was taken when the packet was read
     bool skipped = false;         ///< bytes of a byte stream that belong to no datagram
-    /// Not a packet but the news of `kernelDropsBefore`, which no packet came to tell: without bytes, and
-    /// `skipped`, so that whoever passes over what is no datagram passes over it. Its sender is the one last
-    /// heard.
+    /// Not a packet: it only records `kernelDropsBefore` where no packet followed that could carry it. It has
+    /// no bytes and is `skipped`, so that readers that ignore what is no datagram ignore it too. Its sender
+    /// is the last one that was received.
     bool isDropRecord = false;
 
     friend bool operator==(const PacketFlags&, const PacketFlags&) = default;
@@ -39,15 +39,15 @@ struct Arrival {
     std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
     SenderId sender{};
     /// Datagrams that this computer lost for want of room (SO_RXQ_OVFL of the socket, or the receiver's
-    /// queue) on the socket of this packet since the packet before it from that socket. It is kept in the log
-    /// so that a replay tells the same story.
+    /// queue) on the socket of this packet since the packet before it from that socket. Kept in the log so
+    /// that a replay shows the same drops.
     std::uint32_t kernelDropsBefore = 0;
     PacketFlags flags{};
 };
 
-/// A view of one packet of the log. `bytes` stays valid as long as the LogReader that gave it says.
+/// A view of one packet of the log. How long `bytes` stays valid, the LogReader that gave it says.
 struct Packet {
-    std::uint64_t number = 0; ///< position in the log: grows for ever, without gaps, in the order of arrival
+    std::uint64_t number = 0; ///< position in the log: always grows, without gaps, in the order of arrival
     std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
     SenderId sender{};
     std::uint32_t kernelDropsBefore = 0; ///< see Arrival

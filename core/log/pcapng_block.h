@@ -47,7 +47,7 @@ public:
     PcapngBlock(std::vector<std::byte>& buffer, PcapngBlockType type);
 
     void number(std::uint64_t value, std::size_t size);
-    /// A stamp, or any number of 64 bits of which the upper half stands first.
+    /// A stamp, or any number of 64 bits of which the upper half comes first.
     void halves(std::uint64_t value);
     /// Followed by what is missing to a multiple of four bytes.
     void padded(std::span<const std::byte> bytes);

@@ -20,7 +20,7 @@ struct RecordingInfo {
 
 /// Writes packets as pcapng (draft-ietf-opsawg-pcapng): a section header, one interface with nanosecond
 /// stamps, an enhanced packet block for each packet, interface statistics at the end. Each packet gets IP and
-/// UDP headers that are made up from its sender; what they cannot tell (TCP, a file name, flags) is said in a
+/// UDP headers that are made up from its sender; what they cannot hold (TCP, a file name, flags) is in a
 /// comment, see RecordedOrigin. readFile() gives back the same packets: bytes, stamps from 1970 on, senders,
 /// kernel drops, flags, comments. `sink` must outlive the writer. After a failure nothing more is written.
 class PcapngWriter {

@@ -9,12 +9,12 @@
 
 namespace posewire::log {
 
-/// What a recording says about a packet besides what its IP and UDP headers can. It stands in the first
+/// What a recording says about a packet besides what its IP and UDP headers can. It is in the first
 /// comment of the packet, in words: "Posewire: TCP; stamped on reading; from [fe80::1%eth0]:40001".
 struct RecordedOrigin {
     Transport transport = Transport::Udp;
     PacketFlags flags{.stampedByKernel = true};
-    std::optional<std::string> address{}; ///< nothing where the headers tell it
+    std::optional<std::string> address{}; ///< nothing where the headers have it
 
     friend bool operator==(const RecordedOrigin&, const RecordedOrigin&) = default;
 };

@@ -29,7 +29,7 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return m_writer.bytes(); }
 
     /// Packets that the log had dropped before they could be written: the disk was too slow. The recording
-    /// tells of them as dropped by this computer.
+    /// shows them as dropped by this computer.
     [[nodiscard]] std::uint64_t missed() const { return m_missed; }
 
 private:

@@ -17,8 +17,7 @@ constexpr std::size_t kMark = 6; ///< "MXTP" and two digits
 constexpr std::size_t kEnough = wire::kMaxDatagramSize + kMark;
 static_assert(kEnough <= TcpFramer::kMostKept && TcpFramer::kLongestSkip + kMark <= TcpFramer::kMostKept);
 
-/// Where the first mark at or after `from` stands. Without `isAtEnd` this may be one that the bytes end
-/// amidst.
+/// The place of the first mark at or after `from`. Without `isAtEnd` the bytes may end within it.
 std::size_t findMark(Bytes bytes, std::size_t from, bool isAtEnd) {
     while (from < bytes.size()) {
         const void* found = std::memchr(bytes.data() + from, 'M', bytes.size() - from);

@@ -21,7 +21,7 @@ namespace posewire::log {
 class TcpFramer {
 public:
     enum class Kind : std::uint8_t {
-        Datagram, ///< begins with a header; what it is worth, the decoder tells
+        Datagram, ///< begins with a header; whether it is sound, only decoding shows
         Skipped,  ///< belongs to no datagram; a long run comes in pieces of kLongestSkip
     };
     struct Piece {
@@ -61,7 +61,7 @@ private:
     bool isTrusted(std::span<const std::byte> datagram);
 
     std::vector<std::byte> m_kept;
-    std::size_t m_ruledOut = 0; ///< so many of them from the front are known to begin no datagram
+    std::size_t m_ruledOut = 0; ///< this many bytes from the front are known to begin no datagram
     std::size_t m_need = 0;     ///< nothing can be decided before this many are there
     std::uint64_t m_offset = 0; ///< in the stream, of the first byte not yet given out
     std::uint64_t m_skippedBytes = 0;

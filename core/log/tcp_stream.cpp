@@ -56,7 +56,7 @@ void TcpStream::restart(std::uint32_t firstSequence, const FileVisitor& visit) {
     m_expected = firstSequence;
 }
 
-/// Hands on what is new of a segment that begins where the stream goes on, or before.
+/// Hands on what is new of a segment that begins at the expected byte or before it.
 void TcpStream::append(const TcpSegment& segment, const FileVisitor& visit) {
     const std::size_t known = m_expected - segment.sequence;
     if (known >= segment.bytes.size()) {

@@ -18,11 +18,11 @@ struct TcpSegment {
 };
 
 /// One direction of a captured TCP connection: puts segments in order, leaves out what came before, cuts the
-/// bytes into datagrams. What the capture has missed is waited for in vain for a while and then passed over:
-/// the datagram that it tears comes out cut off, and the bytes up to the next one as skipped.
+/// bytes into datagrams. What the capture has missed is waited for and then passed over: the datagram that it
+/// was part of comes out cut off, and the bytes up to the next one as skipped.
 class TcpStream {
 public:
-    /// So much may wait for a missing segment, and so long.
+    /// How much may wait for a missing segment, and how long.
     static constexpr std::size_t kMostWaiting = std::size_t{256} << 10;
     static constexpr std::int64_t kLongestWaitNs = 1'000'000'000;
 
@@ -32,7 +32,7 @@ public:
     /// them.
     void add(const TcpSegment& segment, const FileVisitor& visit);
 
-    /// The connection has ended, or begins anew with another sequence number.
+    /// The connection has ended, or starts again with another sequence number.
     void finish(const FileVisitor& visit);
     void restart(std::uint32_t firstSequence, const FileVisitor& visit);
 
@@ -62,7 +62,7 @@ private:
     std::uint64_t m_expectedPosition = 0;       ///< the same, without wrapping around
     std::map<std::uint64_t, Waiting> m_waiting; ///< by position
     std::size_t m_waitingSize = 0;
-    std::deque<Place> m_places; ///< where the bytes stand that the framer may still give out
+    std::deque<Place> m_places; ///< where in the file the bytes are that the framer may still give out
     std::uint64_t m_given = 0;
     std::optional<std::int64_t> m_lastStampNs;
 };
