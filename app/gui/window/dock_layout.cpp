@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -134,8 +135,19 @@ tl::expected<DockLayout, QString> findLayout(const QString& nameOrFile) {
     });
 }
 
-void applyLayout(const DockLayout& layout, QMainWindow& window) {
+QStringList unknownDocks(const DockLayout& layout, const QStringList& docks) {
+    QStringList unknown;
+    for (const DockLayout::Place& place : layout.places) {
+        std::ranges::copy_if(place.docks, std::back_inserter(unknown),
+                             [&](const QString& dock) { return !docks.contains(dock); });
+    }
+    return unknown;
+}
+
+QStringList applyLayout(const DockLayout& layout, QMainWindow& window) {
+    QStringList names;
     for (QDockWidget* dock : window.findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
+        names += dock->objectName();
         dock->setFloating(false);
         window.removeDockWidget(dock);
     }
@@ -151,6 +163,7 @@ void applyLayout(const DockLayout& layout, QMainWindow& window) {
         }
         sizeArea(layout, area, window, docks);
     }
+    return unknownDocks(layout, names);
 }
 
 } // namespace posewire::gui

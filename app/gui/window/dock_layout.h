@@ -13,7 +13,7 @@
 
 namespace posewire::gui {
 
-/// Which docks stand where. Docks that are not named are closed.
+/// Where each dock goes. Docks that are not named are closed.
 struct DockLayout {
     /// One place in an area, from top to bottom (at the bottom: from left to right); several docks are tabs.
     struct Place {
@@ -36,8 +36,11 @@ struct DockLayout {
 /// A layout that ships, whatever the case of its name, or a file.
 [[nodiscard]] tl::expected<DockLayout, QString> findLayout(const QString& nameOrFile);
 
-/// Puts the window's docks, known by their object names, where the layout says. Names of docks that this
-/// program does not have are left out.
-void applyLayout(const DockLayout& layout, QMainWindow& window);
+/// The docks of a layout that are not among `docks`, in the order of the layout.
+[[nodiscard]] QStringList unknownDocks(const DockLayout& layout, const QStringList& docks);
+
+/// Puts the window's docks, known by their object names, where the layout says. The answer is the names in
+/// the layout that no dock of the window has; they are skipped.
+QStringList applyLayout(const DockLayout& layout, QMainWindow& window);
 
 } // namespace posewire::gui

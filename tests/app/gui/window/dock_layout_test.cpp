@@ -5,22 +5,34 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 namespace posewire::gui {
 namespace {
 
-TEST(DockLayout, EveryShippedLayoutPlacesDocksThatExist) {
+QStringList docksOfTheProgram() {
+    QStringList docks;
+    for (const PanelInfo& info : panelTable()) {
+        docks += info.id;
+    }
+    return docks;
+}
+
+TEST(DockLayout, EveryShippedLayoutNamesOnlyDocksThatExist) {
     for (const QString& name : layoutNames()) {
         const auto layout = findLayout(name);
         ASSERT_TRUE(layout) << layout.error().toStdString();
         EXPECT_EQ(layout->name, name);
-        const bool hasDock = std::ranges::any_of(layout->places, [](const DockLayout::Place& place) {
-            return std::ranges::any_of(panelTable(),
-                                       [&](const PanelInfo& info) { return place.docks.contains(info.id); });
-        });
-        EXPECT_TRUE(hasDock) << name.toStdString();
+        EXPECT_TRUE(unknownDocks(*layout, docksOfTheProgram()).isEmpty())
+            << name.toStdString() << ": "
+            << unknownDocks(*layout, docksOfTheProgram()).join(", ").toStdString();
     }
+}
+
+TEST(DockLayout, NamesTheDocksThatTheProgramDoesNotHave) {
+    const auto layout = parseLayout(R"({"name": "Mine", "areas": {
+        "left": {"places": [{"docks": ["characters", "charts"]}]},
+        "bottom": {"places": [{"docks": ["eventz"]}]}}})");
+    ASSERT_TRUE(layout);
+    EXPECT_EQ(unknownDocks(*layout, docksOfTheProgram()), QStringList({"charts", "eventz"}));
 }
 
 TEST(DockLayout, NamesAreFoundWhateverTheirCase) {
