@@ -27,7 +27,8 @@ MAY_INCLUDE = [
     ("app/cli", ["core", "app/net"]),
     ("app/gui/theme", []),
     ("app/gui/models", ["core", "app/gui/*", "app/gui/theme"]),
-    ("app/gui/panels", ["core", "app/gui/*", "app/gui/theme", "app/gui/models"]),
+    ("app/gui/plots", ["app/gui/theme"]),
+    ("app/gui/panels", ["core", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/plots"]),
     ("app/gui/driver", ["core", "app/net", "app/gui/*"]),
     ("app/gui/viewport", ["core", "render", "app/net", "app/gui/*", "app/gui/theme", "app/gui/models"]),
     ("app/gui/inputs", ["core", "app/net", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/panels", "app/gui/driver"]),
@@ -38,6 +39,7 @@ FORBIDDEN = [
     ("core", r"<Q[A-Z]|<Qt|<epoxy|<GL/|<glm|<sys/socket|<netinet|<iostream|<cstdio>", "Qt, OpenGL, sockets or printing"),
     ("render", r"<Q[A-Z]|<Qt|<Eigen|<sys/socket", "Qt, Eigen or sockets"),
     ("app", r"<epoxy|<GL/", "OpenGL entry points"),
+    ("app/gui/panels", r"<qcustomplot", "the plotting library: app/gui/plots does"),
     ("app/cli", r"<QWidget|<QApplication|<QtWidgets|<sys/socket", "widgets or sockets"),
     ("app/gui", r"<sys/socket|<netinet|<QUdpSocket|<QTcpS", "sockets"),
 ]

@@ -19,7 +19,7 @@ TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidg
       m_table(new TableView(tr("Trackers"), this)),
       m_detail(new QWidget(this)),
       m_factTable(new TableView(tr("Selected tracker"), this)),
-      m_plots(new TrackerPlots(this)) {
+      m_plots(makeTrackerPlot(this)) {
     layOut();
     m_table->setModel(&m_trackers);
     const QString number = QStringLiteral("99.99");
@@ -73,7 +73,7 @@ void TrackersPanel::refresh() {
     }
     m_detail->setVisible(hasTracker);
     if (m_detail->isVisible()) {
-        m_plots->show(m_trackers.history());
+        plotHistory(*m_plots, m_trackers.history());
     }
     followSelection();
     m_isFollowing = false;

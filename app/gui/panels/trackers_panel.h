@@ -39,7 +39,7 @@ private:
     TableView* m_table;
     QWidget* m_detail;
     TableView* m_factTable;
-    TrackerPlots* m_plots;
+    TimePlot* m_plots;
     bool m_isFollowing = false;
     bool m_isDivided = false; ///< from then on the operator's division counts
 };

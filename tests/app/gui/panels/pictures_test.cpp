@@ -2,6 +2,7 @@
 // Photographs every dock, empty and busy, in both themes and at two scales, into the folder `pictures` of the
 // build, for people to look at; checks what a machine can.
 #include "app/gui/panel.h"
+#include "app/gui/plots/time_plot.h"
 #include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -86,7 +87,7 @@ protected:
         std::vector<std::unique_ptr<Panel>> panels;
         for (const PanelInfo& info : panelTable()) {
             panels.emplace_back(info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
-            const bool isTall = QString(info.id) == "trackers";
+            const bool isTall = panels.back()->findChild<TimePlot*>() != nullptr;
             panels.back()->resize(info.area == Qt::LeftDockWidgetArea ? 330 : 390, isTall ? 640 : 300);
             panels.back()->show();
         }

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/theme/theme.h"
+
+#include <QWidget>
+
+#include <memory>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace posewire::gui {
+
+/// Curves over the last seconds before a moment: charts one below the other with one time axis that ends at
+/// 0. Colours follow the theme. Where samples are missing, curves break and the gap is hatched, or marked at
+/// the bottom of the first chart where it is too short for that.
+///
+/// Make the charts and curves first, then give each its points and call replot() whenever they change.
+class TimePlot final : public QWidget {
+    Q_OBJECT
+
+public:
+    struct Point {
+        double time;  ///< s, 0 or less
+        double value; ///< NaN breaks the curve
+    };
+    using Gap = std::pair<double, double>; ///< from, to (s)
+
+    /// `name` is what screen readers call the plot.
+    TimePlot(const QString& name, double secondsShown, QWidget* parent = nullptr);
+    ~TimePlot() override;
+
+    /// Adds a chart below those there are and returns its number. `share` is its part of the height, against
+    /// the other charts; the value axis always spans at least `leastRange`.
+    int addChart(const QString& title, int share, double leastRange);
+    /// Adds a curve to a chart, in a colour of the theme, and returns its number.
+    int addCurve(int chart, QColor Theme::*colour);
+
+    /// Points in order of time.
+    void setCurve(int curve, std::span<const Point> points);
+    void setGaps(std::span<const Gap> gaps);
+    /// Fits the value axes and paints.
+    void replot();
+
+    /// The values that the axis of a chart spans, as of the last replot().
+    [[nodiscard]] std::pair<double, double> valueRange(int chart) const;
+
+    [[nodiscard]] QSize minimumSizeHint() const override;
+    [[nodiscard]] QSize sizeHint() const override;
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    struct Parts; ///< what the plotting library draws
+
+    void applyColours();
+    void paintSoon();
+    void hatch(std::span<const Gap> gaps);
+
+    std::unique_ptr<Parts> m_parts;
+};
+
+} // namespace posewire::gui
