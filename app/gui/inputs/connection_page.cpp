@@ -99,7 +99,7 @@ FindingView::FindingView(QWidget* parent)
     grid->addWidget(m_remedy, 1, 1);
 }
 
-void FindingView::show(Health level, const QString& text, const QString& remedy) {
+void FindingView::setFinding(Health level, const QString& text, const QString& remedy) {
     m_level = level;
     setTextOf(*m_symbol, level == Health::Unknown ? QStringLiteral("ⓘ") : healthSymbol(level));
     setTextOf(*m_text, text);
@@ -169,7 +169,7 @@ void ConnectionPage::refresh(const ReceivingState& receiving) {
             m_views[i]->setVisible(false);
             continue;
         }
-        m_views[i]->show(entries[i].level, entries[i].text, entries[i].remedy);
+        m_views[i]->setFinding(entries[i].level, entries[i].text, entries[i].remedy);
         m_shown += entries[i].text + QLatin1Char('\n') + entries[i].remedy + QStringLiteral("\n\n");
     }
 }

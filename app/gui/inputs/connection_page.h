@@ -20,7 +20,7 @@ class FindingView final : public QWidget {
 public:
     explicit FindingView(QWidget* parent = nullptr);
 
-    void show(Health level, const QString& text, const QString& remedy);
+    void setFinding(Health level, const QString& text, const QString& remedy);
 
 protected:
     void changeEvent(QEvent* event) override;

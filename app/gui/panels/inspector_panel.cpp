@@ -173,7 +173,7 @@ void InspectorPanel::refresh() {
                        m_document->sender() != packet->sender ||
                        m_document->unit() != unitOf(m_view, *packet);
     if (isNew) {
-        show(*packet);
+        inspect(*packet);
     }
     // Some of it is known only once later packets are there.
     if (QStringList sequence = sequenceFindings(m_view, packet->number); sequence != m_sequence) {
@@ -195,7 +195,7 @@ void InspectorPanel::showEmpty() {
     }
 }
 
-void InspectorPanel::show(const log::Packet& packet) {
+void InspectorPanel::inspect(const log::Packet& packet) {
     m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet));
     m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;

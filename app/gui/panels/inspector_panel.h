@@ -45,7 +45,7 @@ private:
     void connectParts();
     void fillCompareMenu();
 
-    void show(const log::Packet& packet);
+    void inspect(const log::Packet& packet);
     void showComparison();
     [[nodiscard]] QString comparisonText() const;
     void showEmpty();

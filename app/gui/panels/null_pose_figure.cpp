@@ -104,7 +104,7 @@ NullPoseFigure::NullPoseFigure(const NullPoseReading& reading, QWidget* parent)
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 
-void NullPoseFigure::show(int segment, int point) {
+void NullPoseFigure::mark(int segment, int point) {
     m_segment = segment;
     m_point = point;
     setAccessibleDescription(nameOf({segment, point}));

@@ -20,7 +20,7 @@ public:
 
     /// The reading has changed, or what is selected: a place in the list of segments and one in that of
     /// points, −1 for none.
-    void show(int segment, int point);
+    void mark(int segment, int point);
 
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;

@@ -21,7 +21,7 @@ NullPoseNotices::NullPoseNotices(QWidget* parent) : QTextBrowser(parent) {
             [this](const QUrl& url) { emit segmentPicked(url.path().toInt()); });
 }
 
-void NullPoseNotices::show(const std::vector<model::NullPoseFinding>& findings) {
+void NullPoseNotices::setFindings(const std::vector<model::NullPoseFinding>& findings) {
     m_findings = findings;
     setVisible(!m_findings.empty());
     write();

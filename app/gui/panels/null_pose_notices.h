@@ -17,7 +17,7 @@ class NullPoseNotices final : public QTextBrowser {
 public:
     explicit NullPoseNotices(QWidget* parent = nullptr);
 
-    void show(const std::vector<model::NullPoseFinding>& findings);
+    void setFindings(const std::vector<model::NullPoseFinding>& findings);
 
     /// Pixels that the text needs, but not more than `most`.
     void fitHeight(int most);

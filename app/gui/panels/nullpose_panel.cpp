@@ -183,7 +183,7 @@ void NullPosePanel::refresh() {
               static_cast<NullPoseTable*>(&m_lengths), static_cast<NullPoseTable*>(&m_scale)}) {
             table->refresh();
         }
-        m_notices->show(m_reading.findings());
+        m_notices->setFindings(m_reading.findings());
         m_noticeLine->setVisible(!m_reading.findings().empty());
         showContent();
     }
@@ -237,7 +237,7 @@ void NullPosePanel::followSelection() {
     }
     setCurrentRow(*m_segmentTable, place);
     setCurrentRow(*m_pointTable, m_point);
-    m_figure->show(place, m_point);
+    m_figure->mark(place, m_point);
 }
 
 void NullPosePanel::selectPlace(int place) {
@@ -249,7 +249,7 @@ void NullPosePanel::selectPlace(int place) {
     model::Selection selection = selectionOf(m_view, *key);
     selection.segment = m_reading.segmentAt(place);
     m_commands.select(selection);
-    m_figure->show(place, -1);
+    m_figure->mark(place, -1);
 }
 
 void NullPosePanel::selectPoint(int point) {
@@ -265,7 +265,7 @@ void NullPosePanel::selectPoint(int point) {
     m_isFollowing = true;
     setCurrentRow(*m_pointTable, point);
     m_isFollowing = false;
-    m_figure->show(m_reading.selectedPlace(), point);
+    m_figure->mark(m_reading.selectedPlace(), point);
 }
 
 /// High docks show the figure above the tables; in low ones it is a tab.
