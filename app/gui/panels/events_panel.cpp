@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/events_panel.h"
 
+#include "app/gui/file_filters.h"
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/event_bar.h"
 #include "app/gui/panels/line.h"
 #include "app/gui/panels/table_view.h"
-#include "core/export/event_sheet.h"
 
 #include <QEvent>
 #include <QFileDialog>
@@ -183,12 +183,11 @@ void EventsPanel::placeChip() {
 void EventsPanel::showEmptyState() {
     const bool isAll = m_view.events().all().empty();
     const EventModel::Filter& filter = m_events.filter();
-    m_table->setEmptyText(isAll
-                              ? tr("Nothing has happened yet.\nGaps and whose they were, restarts, malformed "
-                                   "data, changes and exceeded limits are listed here.")
+    m_table->setEmptyText(isAll ? tr("Nothing has happened yet.\nGaps and their causes, restarts, malformed "
+                                     "data, changes and exceeded limits are listed here.")
                           : filter.onlyCurrent && m_events.counts().current == 0
-                              ? tr("Nothing goes on. What happened before is under History.")
-                              : tr("No event is of the chosen kind."));
+                              ? tr("Nothing is going on now. Earlier events are under History.")
+                              : tr("No event matches the filter."));
 }
 
 void EventsPanel::jump(const QModelIndex& index) {
@@ -212,17 +211,17 @@ void EventsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     connect(menu.addAction(tr("Mark all as seen")), &QAction::triggered, this, &EventsPanel::markSeen);
     connect(menu.addAction(tr("Export…")), &QAction::triggered, this, &EventsPanel::exportFile);
     menu.addSeparator();
-    connect(menu.addAction(tr("Copy all as CSV")), &QAction::triggered, this, [this] {
-        m_commands.copyText(QString::fromStdString(exporting::eventsCsv(m_view, m_events.listed())));
-    });
-    connect(menu.addAction(tr("Copy all as JSON")), &QAction::triggered, this, [this] {
-        m_commands.copyText(QString::fromStdString(exporting::eventsJson(m_view, m_events.listed())));
-    });
+    for (const auto& format : exporting::formats<exporting::EventSheet>()) {
+        const QString text = tr("Copy all as %1").arg(QLatin1String(format.title));
+        connect(menu.addAction(text), &QAction::triggered, this, [this, write = format.write] {
+            m_commands.copyText(QString::fromStdString(write({m_view, m_events.listed()})));
+        });
+    }
 }
 
 void EventsPanel::exportFile() {
     const QString path = QFileDialog::getSaveFileName(this, tr("Export events"), QStringLiteral("events.csv"),
-                                                      tr("Comma-separated values (*.csv);;JSON (*.json)"));
+                                                      fileFilters<exporting::EventSheet>());
     if (!path.isEmpty()) {
         const QString problem = save(path);
         say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
@@ -230,10 +229,8 @@ void EventsPanel::exportFile() {
 }
 
 QString EventsPanel::save(const QString& path) {
-    const auto events = m_events.listed();
-    const std::string text = path.endsWith(QLatin1String(".json"), Qt::CaseInsensitive)
-                                 ? exporting::eventsJson(m_view, events)
-                                 : exporting::eventsCsv(m_view, events);
+    const auto& format = exporting::formatFor<exporting::EventSheet>(path.toStdString());
+    const std::string text = format.write({m_view, m_events.listed()});
     QSaveFile file(path);
     const bool isWritten =
         file.open(QIODevice::WriteOnly) &&

@@ -33,7 +33,7 @@ public:
 
     /// Selects the packet of an event and shows it in the dock of packets, among its like.
     void jump(const QModelIndex& index);
-    /// Saves the listed events, as JSON where the name ends so, else as CSV. The answer is what went wrong,
+    /// Saves the listed events in the format that the name's suffix says. The answer is what went wrong,
     /// empty for nothing.
     [[nodiscard]] QString save(const QString& path);
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }

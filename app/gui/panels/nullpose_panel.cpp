@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/nullpose_panel.h"
 
+#include "app/gui/file_filters.h"
 #include "app/gui/models/null_pose_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/line.h"
-#include "core/export/null_pose_sheet.h"
 
 #include <QFileDialog>
 #include <QHBoxLayout>
@@ -123,13 +123,17 @@ void NullPosePanel::makeButtons() {
     m_export->setToolTip(tr("Save or copy what was sent, as CSV or JSON"));
     m_export->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(m_export);
-    menu->addAction(tr("Save as &CSV…"), this, [this] { chooseFile(QStringLiteral("csv")); });
-    menu->addAction(tr("Save as &JSON…"), this, [this] { chooseFile(QStringLiteral("json")); });
+    for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
+        menu->addAction(tr("Save as &%1…").arg(QLatin1String(format.title)), this,
+                        [this, &format] { chooseFile(format); });
+    }
     menu->addSeparator();
-    menu->addAction(tr("Copy as C&SV"), this, [this] { m_commands.copyText(QString::fromStdString(csv())); });
-    menu->addAction(tr("Copy as J&SON"), this,
-                    [this] { m_commands.copyText(QString::fromStdString(json())); });
-    menu->addAction(tr("Copy what contradicts itself"), this,
+    for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
+        menu->addAction(tr("Copy as %1").arg(QLatin1String(format.title)), this, [this, &format] {
+            m_commands.copyText(QString::fromStdString(format.write(sheet())));
+        });
+    }
+    menu->addAction(tr("Copy the contradictions"), this,
                     [this] { m_commands.copyText(findingsText(m_reading.findings())); });
     m_export->setMenu(menu);
     for (QToolButton* button : {m_ghost, m_export}) {
@@ -216,14 +220,13 @@ void NullPosePanel::showContent() {
 
 QString NullPosePanel::emptyText() const {
     if (!m_reading.character()) {
-        return tr(
-            "No character on the air.\nThe null pose is a T-pose that tells how large a performer's segments "
-            "are. It is sent as type 13.");
+        return tr("No character on the air.\nThe null pose is a T-pose that gives the size of a performer's "
+                  "segments. It is sent as type 13.");
     }
     return tr(
-        "No null pose received.\nIt is a T-pose that tells how large the segments are, sent as type 13 "
-        "(scale information).\n"
-        "In MVN: Options > Preferences > Network Streamer.\nUntil it comes, a body of 1.75 m is drawn.");
+        "No null pose received.\nIt is a T-pose that gives the size of the segments, sent as type 13 (scale "
+        "information).\n"
+        "In MVN: Options > Preferences > Network Streamer.\nUntil it arrives, a body of 1.75 m is drawn.");
 }
 
 void NullPosePanel::followSelection() {
@@ -309,38 +312,26 @@ QString NullPosePanel::summary() const {
     return findings.empty() ? name : name + QStringLiteral(" · ") + QString::fromStdString(findings);
 }
 
-namespace {
-
-exporting::NullPoseSheet sheetOf(const NullPoseReading& reading) {
-    return {reading.character() ? reading.view().displayName(*reading.character()) : std::string(),
-            reading.pose(), reading.scale(), reading.props()};
-}
-
-} // namespace
-
-std::string NullPosePanel::csv() const {
-    return exporting::nullPoseCsv(sheetOf(m_reading));
-}
-
-std::string NullPosePanel::json() const {
-    return exporting::nullPoseJson(sheetOf(m_reading));
+exporting::NullPoseSheet NullPosePanel::sheet() const {
+    return {m_reading.character() ? m_view.displayName(*m_reading.character()) : std::string(),
+            m_reading.pose(), m_reading.scale(), m_reading.props()};
 }
 
 QString NullPosePanel::save(const QString& path) const {
-    const bool isJson = path.endsWith(QStringLiteral(".json"), Qt::CaseInsensitive);
+    const SheetFormat& format = exporting::formatFor<exporting::NullPoseSheet>(path.toStdString());
     QSaveFile file(path);
     if (!file.open(QIODevice::WriteOnly)) {
         return file.errorString();
     }
-    file.write(QByteArray::fromStdString(isJson ? json() : csv()));
+    file.write(QByteArray::fromStdString(format.write(sheet())));
     return file.commit() ? QString() : file.errorString();
 }
 
-void NullPosePanel::chooseFile(const QString& suffix) {
+void NullPosePanel::chooseFile(const SheetFormat& format) {
     const QString name = m_reading.character() ? characterName(m_view, *m_reading.character()) : QString();
     const QString path = QFileDialog::getSaveFileName(
-        this, tr("Save null pose"), QStringLiteral("%1 null pose.%2").arg(name, suffix),
-        suffix == QStringLiteral("json") ? tr("JSON (*.json)") : tr("CSV (*.csv)"));
+        this, tr("Save null pose"), QStringLiteral("%1 null pose.%2").arg(name, QLatin1String(format.suffix)),
+        fileFilter(format));
     const QString problem = path.isEmpty() ? QString() : save(path);
     if (!problem.isEmpty()) {
         QMessageBox::warning(this, tr("Save null pose"),

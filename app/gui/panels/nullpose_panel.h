@@ -7,13 +7,12 @@
 #include "app/gui/panels/null_pose_figure.h"
 #include "app/gui/panels/null_pose_notices.h"
 #include "app/gui/panels/table_view.h"
+#include "core/export/formats.h"
 
 #include <QLabel>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QToolButton>
-
-#include <string>
 
 namespace posewire::gui {
 
@@ -28,16 +27,16 @@ public:
     void refresh() override;
     [[nodiscard]] QString summary() const override;
 
-    /// Writes what is shown to a file: CSV, or JSON where the name ends with .json. The answer is what went
+    /// Writes what is shown to a file, in the format that the name's suffix says. The answer is what went
     /// wrong, empty for nothing.
     [[nodiscard]] QString save(const QString& path) const;
-    [[nodiscard]] std::string csv() const;
-    [[nodiscard]] std::string json() const;
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
+    using SheetFormat = exporting::Format<exporting::NullPoseSheet>;
+
     void makeTables();
     void makeButtons();
     void layOut();
@@ -45,7 +44,8 @@ private:
     void followSelection();
     void selectPlace(int place);
     void selectPoint(int point);
-    void chooseFile(const QString& suffix);
+    void chooseFile(const SheetFormat& format);
+    [[nodiscard]] exporting::NullPoseSheet sheet() const;
     void showContent();
     [[nodiscard]] QString emptyText() const;
 

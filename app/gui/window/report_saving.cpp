@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/report_saving.h"
 
+#include "app/gui/file_filters.h"
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
-#include "core/export/stream_report.h"
 
 #include <QApplication>
 #include <QDateTime>
@@ -59,8 +59,8 @@ std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& s
 }
 
 bool wantsToOpen(const QString& path, QWidget* parent) {
-    QMessageBox question(QMessageBox::NoIcon, tr("Save stream report"), tr("The report is in %1.").arg(path),
-                         QMessageBox::Close, parent);
+    QMessageBox question(QMessageBox::NoIcon, tr("Save stream report"),
+                         tr("The report was saved as %1.").arg(path), QMessageBox::Close, parent);
     question.setTextFormat(Qt::PlainText);
     const auto* open = question.addButton(tr("&Open it"), QMessageBox::AcceptRole);
     question.exec();
@@ -71,7 +71,8 @@ bool wantsToOpen(const QString& path, QWidget* parent) {
 
 QString writeStreamReport(model::SessionView& session, const std::optional<model::TimeRange>& range,
                           const QString& path) {
-    const std::string text = exporting::streamReport(session, optionsFor(session, range));
+    const auto& format = exporting::formatFor<exporting::ReportSheet>(path.toStdString());
+    const std::string text = format.write({session, optionsFor(session, range)});
     QSaveFile file(path);
     const auto size = static_cast<qint64>(text.size());
     const bool isWritten =
@@ -81,7 +82,7 @@ QString writeStreamReport(model::SessionView& session, const std::optional<model
 
 QString saveStreamReport(model::SessionView& session, QWidget* parent) {
     if (session.streams().empty()) {
-        return tr("There is nothing to report on: no stream has come yet.");
+        return tr("There is nothing to report on: no stream has arrived yet.");
     }
     const auto range = askForRange(session, parent);
     if (!range) {
@@ -89,8 +90,9 @@ QString saveStreamReport(model::SessionView& session, QWidget* parent) {
     }
     const QString name =
         QDateTime::currentDateTime().toString(QStringLiteral("'stream-report-'yyyyMMdd-HHmm"));
-    const QString path = QFileDialog::getSaveFileName(
-        parent, tr("Save stream report"), name + QStringLiteral(".html"), tr("Web pages (*.html)"));
+    const QString path =
+        QFileDialog::getSaveFileName(parent, tr("Save stream report"), name + QStringLiteral(".html"),
+                                     fileFilters<exporting::ReportSheet>());
     if (path.isEmpty()) {
         return {};
     }
@@ -101,7 +103,7 @@ QString saveStreamReport(model::SessionView& session, QWidget* parent) {
         return problem;
     }
     if (wantsToOpen(path, parent) && !QDesktopServices::openUrl(QUrl::fromLocalFile(path))) {
-        return tr("No program of this computer opens %1").arg(path);
+        return tr("No program on this computer opens %1").arg(path);
     }
     return tr("Saved %1").arg(path);
 }

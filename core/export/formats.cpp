@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/formats.h"
+
+#include "core/export/event_sheet.h"
+
+#include <algorithm>
+
+namespace posewire::exporting {
+
+namespace {
+
+constexpr const char* kCsv = "Comma-separated values";
+
+constexpr Format<EventSheet> kEvents[] = {
+    {"CSV", kCsv, "csv", [](const EventSheet& sheet) { return eventsCsv(sheet.session, sheet.events); }},
+    {"JSON", "JSON", "json", [](const EventSheet& sheet) { return eventsJson(sheet.session, sheet.events); }},
+};
+
+constexpr Format<NullPoseSheet> kNullPose[] = {
+    {"CSV", kCsv, "csv", nullPoseCsv},
+    {"JSON", "JSON", "json", nullPoseJson},
+};
+
+constexpr Format<ReportSheet> kReport[] = {
+    {"HTML", "Web pages", "html",
+     [](const ReportSheet& sheet) { return streamReport(sheet.session, sheet.options); }},
+};
+
+} // namespace
+
+template <>
+std::span<const Format<EventSheet>> formats() {
+    return kEvents;
+}
+
+template <>
+std::span<const Format<NullPoseSheet>> formats() {
+    return kNullPose;
+}
+
+template <>
+std::span<const Format<ReportSheet>> formats() {
+    return kReport;
+}
+
+bool hasSuffix(std::string_view name, std::string_view suffix) {
+    const auto isSame = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+    const std::size_t dot = name.rfind('.');
+    return dot != std::string_view::npos && std::ranges::equal(name.substr(dot + 1), suffix, isSame);
+}
+
+} // namespace posewire::exporting
