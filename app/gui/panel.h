@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/action.h"
 #include "app/gui/commands.h"
 #include "app/gui/program_view.h"
 #include "core/model/session/session_view.h"
@@ -19,16 +20,19 @@ class Panel : public QWidget {
 public:
     using QWidget::QWidget;
 
+    /// What the menus of the window do here; a panel that has entries there hides this by a table of its own.
+    [[nodiscard]] static std::span<const ActionInfo> actionTable() { return {}; }
+
     /// The view has moved; called at most once per display tick (at most ten times a second for tables), and
     /// only while visible.
     virtual void refresh() = 0;
 
-    /// What stands at the right of the dock's title, such as "2 of 2 live"; empty for nothing.
+    /// Shown at the right of the dock's title, such as "2 of 2 live"; empty for nothing.
     [[nodiscard]] virtual QString summary() const { return {}; }
 
     /// What the operator set here and wants to find again in the next run; empty for nothing.
     [[nodiscard]] virtual QJsonObject state() const { return {}; }
-    /// Takes such a state; what it does not understand it leaves.
+    /// Takes such a state; ignores what it does not understand.
     virtual void restoreState(const QJsonObject& /*state*/) {}
 };
 
@@ -38,6 +42,7 @@ struct PanelInfo {
     const char* title; ///< translated in context "Panel"
     Qt::DockWidgetArea area;
     Panel* (*make)(model::SessionView& view, Commands& commands, const ProgramView& program, QWidget* parent);
+    std::span<const ActionInfo> (*actions)();
 };
 
 [[nodiscard]] std::span<const PanelInfo> panelTable();

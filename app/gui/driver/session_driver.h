@@ -25,6 +25,7 @@ public:
     ~SessionDriver() override;
 
     [[nodiscard]] model::SessionView& session() { return m_session; }
+    [[nodiscard]] const model::SessionView& session() const { return m_session; }
     [[nodiscard]] Receiving& receiving() { return m_receiving; }
 
     /// Begins to tick.

@@ -72,6 +72,14 @@ EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* 
     showEmptyState();
 }
 
+std::span<const ActionInfo> EventsPanel::actionTable() {
+    static constexpr ActionInfo kActions[] = {
+        {"exportEvents", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "Export &events…"),
+         "", ActionsOf<EventsPanel>::call<&EventsPanel::exportFile>},
+    };
+    return kActions;
+}
+
 void EventsPanel::layOut() {
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins({});

@@ -17,14 +17,15 @@ namespace posewire::gui {
 class EventBar;
 class TableView;
 
-/// Dock `events`: what happened and what goes on, whose it was, and the way to the packets that show it.
-///
-/// The slots are what the menus of the window do here, by name.
+/// Dock `events`: what happened and what is still going on, who caused it, and the way to the packets that
+/// show it.
 class EventsPanel : public Panel {
     Q_OBJECT
 
 public:
     EventsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;
@@ -40,7 +41,6 @@ public:
     /// What was said last below the list.
     [[nodiscard]] QString message() const;
 
-public slots:
     void exportFile();
     void markSeen();
     void newest();

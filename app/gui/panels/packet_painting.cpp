@@ -2,11 +2,11 @@
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/roles.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/balanced_text.h"
 #include "app/gui/theme/theme.h"
 
-#include <QHeaderView>
 #include <QPaintEvent>
 #include <QPainter>
 

@@ -5,10 +5,10 @@
 #include "app/gui/models/roles.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/panels/fitting_header.h"
 #include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
-#include <QHeaderView>
 #include <QKeyEvent>
 #include <QPainter>
 #include <QPushButton>
@@ -27,9 +27,7 @@ QFont packetFont() {
 }
 
 PacketView::PacketView(const QString& name, QWidget* parent)
-    : QAbstractItemView(parent),
-      m_header(new QHeaderView(Qt::Horizontal, this)),
-      m_newest(new QPushButton(this)) {
+    : QAbstractItemView(parent), m_header(new FittingHeader(this)), m_newest(new QPushButton(this)) {
     setAccessibleName(name);
     setFrameShape(QFrame::NoFrame);
     setSelectionMode(ExtendedSelection);
@@ -39,18 +37,10 @@ PacketView::PacketView(const QString& name, QWidget* parent)
     setVerticalScrollMode(ScrollPerItem);
     setHorizontalScrollMode(ScrollPerPixel);
     setCornerWidget(new QWidget(this));
-    m_header->setStretchLastSection(false);
-    m_header->setMinimumSectionSize(0);
-    m_header->setHighlightSections(false);
-    m_header->setTextElideMode(Qt::ElideRight);
-    m_header->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     m_newest->setObjectName(QStringLiteral("newestPacket"));
     m_newest->setFocusPolicy(Qt::NoFocus); // the End key does the same
     m_newest->hide();
     connect(m_newest, &QPushButton::clicked, this, &PacketView::newestRequested);
-    m_header->setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(m_header, &QWidget::customContextMenuRequested, this,
-            [this](const QPoint& at) { showHeaderMenu(m_header->mapToGlobal(at)); });
     connect(m_header, &QHeaderView::sectionResized, this, [this] {
         updateGeometries();
         viewport()->update();
@@ -70,7 +60,7 @@ void PacketView::setModel(QAbstractItemModel* model) {
     connect(model, &QAbstractItemModel::rowsRemoved, this,
             [this](const QModelIndex&, int first, int last) { onRowsRemoved(first, last - first + 1); });
     connect(model, &QAbstractItemModel::modelReset, this, &PacketView::onReset);
-    fitColumns();
+    m_header->fit(viewport()->width());
 }
 
 void PacketView::setEmptyText(const QString& text) {
@@ -302,11 +292,11 @@ QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*
         break;
     case MoveLeft:
     case MovePrevious:
-        column = columnBeside(column, -1);
+        column = m_header->columnBeside(column, -1);
         break;
     case MoveRight:
     case MoveNext:
-        column = columnBeside(column, 1);
+        column = m_header->columnBeside(column, 1);
         break;
     }
     return model()->index(std::clamp(row, 0, rows - 1), column);
@@ -364,14 +354,14 @@ void PacketView::scrollContentsBy(int dx, int /*dy*/) {
 
 void PacketView::resizeEvent(QResizeEvent* event) {
     QAbstractItemView::resizeEvent(event);
-    fitColumns();
+    m_header->fit(viewport()->width());
     updateGeometries();
 }
 
 void PacketView::changeEvent(QEvent* event) {
     QAbstractItemView::changeEvent(event);
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
-        fitColumns();
+        m_header->fit(viewport()->width());
         updateGeometries();
     }
 }

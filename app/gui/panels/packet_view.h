@@ -2,14 +2,14 @@
 #pragma once
 
 #include <QAbstractItemView>
-#include <QList>
 
 #include <vector>
 
-class QHeaderView;
 class QPushButton;
 
 namespace posewire::gui {
+
+class FittingHeader;
 
 /// Of the rows: of equal width, and a little smaller than the window's.
 [[nodiscard]] QFont packetFont();
@@ -23,18 +23,8 @@ public:
     /// `name` is what screen readers call the table.
     explicit PacketView(const QString& name, QWidget* parent = nullptr);
 
-    /// One sample for each column, as long as its content may become; an empty one takes the room left.
-    void setColumnSamples(std::vector<QString> samples);
     /// What to do where the table is empty.
     void setEmptyText(const QString& text);
-    /// Columns that say nothing are left out altogether.
-    void setColumnUseful(int column, bool isUseful);
-    /// Where not all columns fit, these give way to the one that takes the room left, the first one first;
-    /// as long as the operator has not chosen columns by the menu of the header.
-    void setGivingWay(std::vector<int> columns);
-    /// The columns that the operator chose; empty for as many as fit.
-    [[nodiscard]] const QList<int>& chosenColumns() const { return m_chosen; }
-    void setChosenColumns(const QList<int>& columns);
     [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
 
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
@@ -47,7 +37,7 @@ public:
     /// Whether the whole row is in sight.
     [[nodiscard]] bool isShown(const QModelIndex& index) const;
     [[nodiscard]] int rowHeight() const;
-    [[nodiscard]] QHeaderView* header() const { return m_header; }
+    [[nodiscard]] FittingHeader& header() const { return *m_header; }
     /// Rows that are selected, in order, at most `most`.
     [[nodiscard]] std::vector<int> selectedRows(std::size_t most) const;
 
@@ -86,28 +76,16 @@ private:
     void onRowsRemoved(int first, int count);
     void onReset();
     void fitScrollBars();
-    void fitColumns();
-    [[nodiscard]] std::vector<bool> shownColumns(int open) const;
-    /// The next column that is shown; the same one at the end.
-    [[nodiscard]] int columnBeside(int column, int direction) const;
-    void showHeaderMenu(const QPoint& at);
-    [[nodiscard]] int leastOpenWidth() const;
     void placeButton();
     void noteFollowing(bool isFollowing);
     [[nodiscard]] int topRow() const;
     [[nodiscard]] int wholeRows() const;
-    [[nodiscard]] int sampleWidth(int column) const;
     void paintRow(QPainter& painter, int row, const QRect& rect) const;
     void paintCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) const;
 
-    QHeaderView* m_header;
+    FittingHeader* m_header;
     QPushButton* m_newest;
-    std::vector<QString> m_samples;
-    std::vector<int> m_givingWay;
-    QList<int> m_useless;
-    QList<int> m_chosen;
     QString m_emptyText;
-    bool m_isFitting = false; ///< columns
     bool m_isFollowing = true;
     bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls
     bool m_isCatchingUp = false;

@@ -4,6 +4,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/find_bar.h"
+#include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/line.h"
 #include "app/gui/panels/packet_view.h"
 
@@ -20,7 +21,6 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kMessageMs = 6000;
-constexpr int kSearchPollMs = 20;
 
 } // namespace
 
@@ -33,24 +33,37 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
       m_find(new FindBar(this)),
       m_list(new PacketView(tr("Packets"), this)),
       m_clear(new QPushButton(tr("Clear the filter"), m_list)),
-      m_message(new QLabel(this)) {
+      m_message(new QLabel(this)),
+      m_selected(listing()),
+      m_navigation(listing()),
+      m_finder(listing(), m_navigation, *m_find) {
     layOut();
     m_list->setModel(&m_packets);
-    m_list->setGivingWay({PacketModel::kPart, PacketModel::kSize, PacketModel::kDelta, PacketModel::kTime});
+    m_list->header().setGivingWay(
+        {PacketModel::kPart, PacketModel::kSize, PacketModel::kDelta, PacketModel::kTime});
     m_clear->setObjectName(QStringLiteral("clearFilter"));
     m_clear->hide();
+    m_message->setObjectName(QStringLiteral("message"));
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
     m_message->hide();
     m_messageTimer.setSingleShot(true);
     m_messageTimer.setInterval(kMessageMs);
-    m_searchTimer.setInterval(kSearchPollMs);
     fitColumns();
     connectParts();
     showEmptyState();
 }
 
 PacketsPanel::~PacketsPanel() = default;
+
+PacketListing PacketsPanel::listing() {
+    return {m_view,
+            m_commands,
+            m_packets,
+            *m_list,
+            [this] { refresh(); },
+            [this](const QString& text) { say(text); }};
+}
 
 void PacketsPanel::layOut() {
     auto* column = new QVBoxLayout(this);
@@ -66,8 +79,9 @@ void PacketsPanel::layOut() {
 void PacketsPanel::connectParts() {
     connect(m_list->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &PacketsPanel::selectRow);
-    connect(m_list, &PacketView::newestRequested, this, &PacketsPanel::newestPacket);
-    connect(m_list, &PacketView::copyRequested, this, &PacketsPanel::copyRows);
+    connect(m_list, &PacketView::newestRequested, this, [this] { m_navigation.goToNewest(); });
+    connect(m_list, &PacketView::copyRequested, this,
+            [this] { m_selected.copyRows(SelectedPackets::RowFormat::Text); });
     connect(m_list, &PacketView::menuRequested, this, &PacketsPanel::showMenu);
     connect(m_filter, &FilterBar::applied, this, [this](const QString& text) {
         m_commands.setDisplayFilter(text);
@@ -76,15 +90,15 @@ void PacketsPanel::connectParts() {
     connect(m_filter, &FilterBar::cancelRequested, this, &PacketsPanel::cancelFilter);
     connect(m_filter, &FilterBar::left, this, [this] { m_list->setFocus(); });
     connect(m_clear, &QPushButton::clicked, this, &PacketsPanel::clearFilter);
-    connect(m_find, &FindBar::findRequested, this, &PacketsPanel::search);
+    connect(m_find, &FindBar::findRequested, this,
+            [this](bool isForward) { m_finder.find(isForward ? Direction::Forward : Direction::Backward); });
     connect(m_find, &FindBar::closed, this, [this] { m_list->setFocus(); });
     connect(&m_messageTimer, &QTimer::timeout, m_message, &QWidget::hide);
-    connect(&m_searchTimer, &QTimer::timeout, this, &PacketsPanel::takeSearchResult);
 }
 
 void PacketsPanel::fitColumns() {
     const bool isSinceFirst = m_packets.timeMode() == PacketModel::TimeMode::SinceFirst;
-    m_list->setColumnSamples(
+    m_list->header().setSamples(
         {QStringLiteral("9 999 999"),
          isSinceFirst ? QStringLiteral("9999.9999") : QStringLiteral("2026-11-21 10:42:17.508123"),
          QStringLiteral("9999.99"), QStringLiteral("192.168.10.21:52011"),
@@ -109,7 +123,7 @@ void PacketsPanel::refresh() {
     }
     m_packets.refresh();
     // Where everything comes from one sender its address says nothing, and the note has the room.
-    m_list->setColumnUseful(PacketModel::kSender, m_view.senders().size() > 1);
+    m_list->header().setUseful(PacketModel::kSender, m_view.senders().size() > 1);
     followSelection();
     followCursor();
     showEmptyState();
@@ -161,7 +175,7 @@ void PacketsPanel::cancelFilter() {
     if (m_run) {
         m_run->cancel();
         m_filter->endProgress();
-        say(tr("Filtering was cancelled: only what was found so far is listed."));
+        say(tr("Filtering was cancelled: the list holds what was found until then."));
         refresh();
     }
 }
@@ -173,7 +187,7 @@ void PacketsPanel::clearFilter() {
 }
 
 void PacketsPanel::followSelection() {
-    const auto packet = selected();
+    const auto packet = m_view.selection().packet;
     const int row = packet ? m_packets.rowOf(*packet) : -1;
     if (row == m_list->currentIndex().row()) {
         return;
@@ -198,8 +212,7 @@ void PacketsPanel::showEmptyState() {
     const bool isEmpty = m_packets.rowCount() == 0;
     const bool isFilteredOut = isEmpty && m_packets.isFiltered() && m_view.end() != m_view.begin();
     m_list->setEmptyText(
-        !isFilteredOut ? tr("No packets yet. Every packet that arrives is listed here, whether it can be "
-                            "read or not.")
+        !isFilteredOut ? tr("No packets yet. Every packet that arrives is listed here, readable or not.")
         : m_filter->isBusy() ? tr("Filtering …")
                              : tr("No packet matches the filter\n\n"));
     m_clear->setVisible(isFilteredOut && !m_filter->isBusy());
@@ -209,10 +222,6 @@ void PacketsPanel::showEmptyState() {
         m_clear->move(area.center().x() - m_clear->width() / 2,
                       area.center().y() + fontMetrics().height() / 4);
     }
-}
-
-std::optional<std::uint64_t> PacketsPanel::selected() const {
-    return m_view.selection().packet;
 }
 
 QString PacketsPanel::summary() const {
@@ -241,26 +250,13 @@ QString PacketsPanel::message() const {
     return m_message->isHidden() ? QString() : m_message->text();
 }
 
-void PacketsPanel::setTimes(PacketModel::TimeMode time, PacketModel::DeltaMode delta) {
-    m_packets.setTimeMode(time);
-    m_packets.setDeltaMode(delta);
+void PacketsPanel::setTimeMode(PacketModel::TimeMode mode) {
+    m_packets.setTimeMode(mode);
     fitColumns();
 }
 
-void PacketsPanel::timeSinceFirst() {
-    setTimes(PacketModel::TimeMode::SinceFirst, m_packets.deltaMode());
-}
-
-void PacketsPanel::timeOfDay() {
-    setTimes(PacketModel::TimeMode::TimeOfDay, m_packets.deltaMode());
-}
-
-void PacketsPanel::deltaInStream() {
-    setTimes(m_packets.timeMode(), PacketModel::DeltaMode::Stream);
-}
-
-void PacketsPanel::deltaToRowAbove() {
-    setTimes(m_packets.timeMode(), PacketModel::DeltaMode::RowAbove);
+void PacketsPanel::setDeltaMode(PacketModel::DeltaMode mode) {
+    m_packets.setDeltaMode(mode);
 }
 
 QJsonObject PacketsPanel::state() const {
@@ -271,9 +267,9 @@ QJsonObject PacketsPanel::state() const {
     if (m_packets.deltaMode() == PacketModel::DeltaMode::RowAbove) {
         state["delta"] = QStringLiteral("row");
     }
-    if (!m_list->chosenColumns().isEmpty()) {
+    if (!m_list->header().chosen().isEmpty()) {
         QJsonArray columns;
-        for (const int column : m_list->chosenColumns()) {
+        for (const int column : m_list->header().chosen()) {
             columns.append(column);
         }
         state["columns"] = columns;
@@ -287,11 +283,11 @@ void PacketsPanel::restoreState(const QJsonObject& state) {
     for (const QJsonValue& column : state["columns"].toArray()) {
         columns.append(column.toInt());
     }
-    m_list->setChosenColumns(columns);
-    setTimes(state["time"].toString() == QLatin1String("day") ? PacketModel::TimeMode::TimeOfDay
-                                                              : PacketModel::TimeMode::SinceFirst,
-             state["delta"].toString() == QLatin1String("row") ? PacketModel::DeltaMode::RowAbove
-                                                               : PacketModel::DeltaMode::Stream);
+    m_list->header().setChosen(columns);
+    setTimeMode(state["time"].toString() == QLatin1String("day") ? PacketModel::TimeMode::TimeOfDay
+                                                                 : PacketModel::TimeMode::SinceFirst);
+    setDeltaMode(state["delta"].toString() == QLatin1String("row") ? PacketModel::DeltaMode::RowAbove
+                                                                   : PacketModel::DeltaMode::Stream);
 }
 
 } // namespace posewire::gui

@@ -11,7 +11,6 @@
 #include "app/gui/panels/timecode_panel.h"
 #include "app/gui/panels/trackers_panel.h"
 
-#include <array>
 #include <type_traits>
 
 namespace posewire::gui {
@@ -27,17 +26,26 @@ Panel* make(model::SessionView& view, Commands& commands, const ProgramView& pro
     }
 }
 
-constexpr std::array<PanelInfo, 9> kPanels{{
-    {"characters", QT_TRANSLATE_NOOP("Panel", "Characters"), Qt::LeftDockWidgetArea, make<CharactersPanel>},
-    {"metadata", QT_TRANSLATE_NOOP("Panel", "Metadata"), Qt::LeftDockWidgetArea, make<MetadataPanel>},
-    {"timecode", QT_TRANSLATE_NOOP("Panel", "Time code"), Qt::LeftDockWidgetArea, make<TimecodePanel>},
-    {"statistics", QT_TRANSLATE_NOOP("Panel", "Statistics"), Qt::RightDockWidgetArea, make<StatisticsPanel>},
-    {"inspector", QT_TRANSLATE_NOOP("Panel", "Inspector"), Qt::RightDockWidgetArea, make<InspectorPanel>},
-    {"trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), Qt::RightDockWidgetArea, make<TrackersPanel>},
-    {"packets", QT_TRANSLATE_NOOP("Panel", "Packets"), Qt::BottomDockWidgetArea, make<PacketsPanel>},
-    {"nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), Qt::RightDockWidgetArea, make<NullPosePanel>},
-    {"events", QT_TRANSLATE_NOOP("Panel", "Events"), Qt::BottomDockWidgetArea, make<EventsPanel>},
-}};
+template <class T>
+constexpr PanelInfo dock(const char* id, const char* title, Qt::DockWidgetArea area) {
+    return {id, title, area, make<T>, &T::actionTable};
+}
+
+constexpr auto kLeft = Qt::LeftDockWidgetArea;
+constexpr auto kRight = Qt::RightDockWidgetArea;
+constexpr auto kBottom = Qt::BottomDockWidgetArea;
+
+constexpr PanelInfo kPanels[] = {
+    dock<CharactersPanel>("characters", QT_TRANSLATE_NOOP("Panel", "Characters"), kLeft),
+    dock<MetadataPanel>("metadata", QT_TRANSLATE_NOOP("Panel", "Metadata"), kLeft),
+    dock<TimecodePanel>("timecode", QT_TRANSLATE_NOOP("Panel", "Time code"), kLeft),
+    dock<StatisticsPanel>("statistics", QT_TRANSLATE_NOOP("Panel", "Statistics"), kRight),
+    dock<InspectorPanel>("inspector", QT_TRANSLATE_NOOP("Panel", "Inspector"), kRight),
+    dock<TrackersPanel>("trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), kRight),
+    dock<PacketsPanel>("packets", QT_TRANSLATE_NOOP("Panel", "Packets"), kBottom),
+    dock<NullPosePanel>("nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), kRight),
+    dock<EventsPanel>("events", QT_TRANSLATE_NOOP("Panel", "Events"), kBottom),
+};
 
 } // namespace
 

@@ -1,25 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/actions.h"
 
+#include "app/gui/window/dock_layout.h"
 #include "app/gui/window/main_window.h"
 
 #include <QCoreApplication>
+
+#include <string_view>
 
 namespace posewire::gui {
 
 namespace {
 
 using Window = MainWindow;
+using Do = ActionsOf<MainWindow>;
 
-constexpr auto kCheckable = true;
 constexpr int kDemoCharacters = 2;
 
+bool isDemoOn(const Window& window) {
+    return window.driver().isDemoRunning();
+}
+
 void toggleDemo(Window& window) {
-    window.driver().setDemo(window.driver().isDemoRunning() ? 0 : kDemoCharacters);
+    window.driver().setDemo(isDemoOn(window) ? 0 : kDemoCharacters);
+}
+
+bool isPaused(const Window& window) {
+    return window.driver().isPaused();
 }
 
 void togglePaused(Window& window) {
-    window.driver().setPaused(!window.driver().isPaused());
+    window.driver().setPaused(!isPaused(window));
+}
+
+void backToLive(Window& window) {
+    window.driver().setPaused(false);
 }
 
 void nextAxes(Window& window) {
@@ -29,14 +44,30 @@ void nextAxes(Window& window) {
                                                            : AxesMode::All);
 }
 
+bool isGhostOn(const Window& window) {
+    return window.driver().session().isGhostShown();
+}
+
 void toggleGhost(Window& window) {
-    window.driver().setGhostVisible(!window.driver().session().isGhostShown());
+    window.driver().setGhostVisible(!isGhostOn(window));
+}
+
+bool isOrthographic(const Window& window) {
+    return window.viewport().projection() == render::Projection::Orthographic;
 }
 
 void toggleOrthographic(Window& window) {
-    const bool isPerspective = window.viewport().projection() == render::Projection::Perspective;
-    window.viewport().setProjection(isPerspective ? render::Projection::Orthographic
-                                                  : render::Projection::Perspective);
+    window.viewport().setProjection(isOrthographic(window) ? render::Projection::Perspective
+                                                           : render::Projection::Orthographic);
+}
+
+void frameAll(Window& window) {
+    window.viewport().frameAll();
+}
+
+template <std::size_t index>
+void useShippedLayout(Window& window) {
+    window.useLayout(layoutNames()[index]);
 }
 
 template <render::StandardView view>
@@ -53,195 +84,133 @@ void selectCharacter(Window& window) {
     }
 }
 
-constexpr ActionInfo kLine{"", "", "", "", false, nullptr};
-constexpr ActionInfo lineIn(const char* menu) {
-    ActionInfo line = kLine;
-    line.menu = menu;
-    return line;
+/// Where the entries of panels go in a menu and in its submenus.
+constexpr const char* kPanels = "panels"; ///< an id
+constexpr ActionInfo panelsIn(const char* menu) {
+    return {kPanels, menu, "", ""};
 }
 
 const ActionInfo kActions[] = {
-    {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O", false,
-     [](Window& w) { w.openFile(); }},
-    {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S", false,
-     [](Window& w) { w.saveScreenshot(); }},
-    {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", false,
-     [](Window& w) { w.saveReport(); }},
-    {"exportEvents", "&File", QT_TRANSLATE_NOOP("Action", "Export &events…"), "", false,
-     [](Window& w) { w.inDock("events", "exportFile"); }},
+    {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
+     Do::call<&Window::openFile>},
+    {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
+     Do::call<&Window::saveScreenshot>},
+    {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "",
+     Do::call<&Window::saveReport>},
+    panelsIn("&File"),
     lineIn("&File"),
-    {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", false, [](Window& w) { w.close(); }},
+    {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", Do::call<&Window::close>},
 
-    {"mark", QT_TRANSLATE_NOOP("Action", "&Edit"), QT_TRANSLATE_NOOP("Action", "&Mark packet"), "Ctrl+M",
-     false, [](Window& w) { w.inDock("packets", "toggleMark"); }},
-    {"comment", "&Edit", QT_TRANSLATE_NOOP("Action", "&Comment on packet…"), "Ctrl+Alt+C", false,
-     [](Window& w) { w.inDock("packets", "editComment"); }},
-    lineIn("&Edit"),
-    {"copyRows", QT_TRANSLATE_NOOP("Action", "&Edit/Co&py packets"),
-     QT_TRANSLATE_NOOP("Action", "&Rows as text"), "", false,
-     [](Window& w) { w.inDock("packets", "copyRows"); }},
-    {"copyCsv", "&Edit/Co&py packets", QT_TRANSLATE_NOOP("Action", "Rows as C&SV"), "", false,
-     [](Window& w) { w.inDock("packets", "copyCsv"); }},
-    {"copyCell", "&Edit/Co&py packets", QT_TRANSLATE_NOOP("Action", "Ce&ll"), "", false,
-     [](Window& w) { w.inDock("packets", "copyCell"); }},
-    lineIn("&Edit/Co&py packets"),
-    {"copyBytesText", "&Edit/Co&py packets", QT_TRANSLATE_NOOP("Action", "Bytes as &hexadecimal text"),
-     "Ctrl+Shift+C", false, [](Window& w) { w.inDock("packets", "copyBytesText"); }},
-    {"copyBytesRaw", "&Edit/Co&py packets", QT_TRANSLATE_NOOP("Action", "Bytes as ra&w hexadecimal"), "",
-     false, [](Window& w) { w.inDock("packets", "copyBytesRaw"); }},
-    {"copyBytesCArray", "&Edit/Co&py packets", QT_TRANSLATE_NOOP("Action", "Bytes as C &array"), "", false,
-     [](Window& w) { w.inDock("packets", "copyBytesCArray"); }},
-    {"copyBytesJson", "&Edit/Co&py packets", QT_TRANSLATE_NOOP("Action", "Packets as &JSON"), "", false,
-     [](Window& w) { w.inDock("packets", "copyBytesJson"); }},
-    lineIn("&Edit"),
-    {"filter", "&Edit", QT_TRANSLATE_NOOP("Action", "&Filter packets"), "Ctrl+L", false,
-     [](Window& w) { w.inDock("packets", "focusFilter"); }},
-    {"filterByCell", QT_TRANSLATE_NOOP("Action", "&Edit/&Apply cell as filter"),
-     QT_TRANSLATE_NOOP("Action", "&Only this"), "Ctrl+Shift+L", false,
-     [](Window& w) { w.inDock("packets", "filterByCell"); }},
-    {"filterAndCell", "&Edit/&Apply cell as filter", QT_TRANSLATE_NOOP("Action", "… &and"), "", false,
-     [](Window& w) { w.inDock("packets", "filterAndCell"); }},
-    {"filterOrCell", "&Edit/&Apply cell as filter", QT_TRANSLATE_NOOP("Action", "… o&r"), "", false,
-     [](Window& w) { w.inDock("packets", "filterOrCell"); }},
-    {"filterNotCell", "&Edit/&Apply cell as filter", QT_TRANSLATE_NOOP("Action", "… and &not"), "", false,
-     [](Window& w) { w.inDock("packets", "filterNotCell"); }},
-    lineIn("&Edit"),
-    {"find", "&Edit", QT_TRANSLATE_NOOP("Action", "Find &bytes or text…"), "Ctrl+F", false,
-     [](Window& w) { w.inDock("packets", "find"); }},
-    {"findNext", "&Edit", QT_TRANSLATE_NOOP("Action", "Find ne&xt"), "F3", false,
-     [](Window& w) { w.inDock("packets", "findNext"); }},
-    {"findPrevious", "&Edit", QT_TRANSLATE_NOOP("Action", "Find pre&vious"), "Shift+F3", false,
-     [](Window& w) { w.inDock("packets", "findPrevious"); }},
+    panelsIn(QT_TRANSLATE_NOOP("Action", "&Edit")),
 
     {"inputs", QT_TRANSLATE_NOOP("Action", "&Input"), QT_TRANSLATE_NOOP("Action", "&Inputs…"), "Ctrl+U",
-     false, [](Window& w) { w.openInputs(InputsDialog::Page::Inputs); }},
-    {"demo", "&Input", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", kCheckable, toggleDemo},
+     Do::call<&Window::openInputs, InputsDialog::Page::Inputs>},
+    {"demo", "&Input", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", Do::call<toggleDemo>,
+     Do::is<isDemoOn>},
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
-     false, [](Window& w) { w.resetLayout(); }},
-    {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "", false, [](Window& w) { w.dockAll(); }},
-    {"nextDock", "&View", QT_TRANSLATE_NOOP("Action", "&Next dock"), "F6", false,
-     [](Window& w) { w.nextDock(); }},
+     Do::call<&Window::resetLayout>},
+    {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "", Do::call<&Window::dockAll>},
+    {"nextDock", "&View", QT_TRANSLATE_NOOP("Action", "&Next dock"), "F6", Do::call<&Window::nextDock>},
     lineIn("&View"),
     {"layoutCheck", QT_TRANSLATE_NOOP("Action", "&View/&Layout"), QT_TRANSLATE_NOOP("Action", "&Check"),
-     "Ctrl+1", false, [](Window& w) { w.useLayout("Check"); }},
-    {"layoutDebug", "&View/&Layout", QT_TRANSLATE_NOOP("Action", "&Debug"), "Ctrl+2", false,
-     [](Window& w) { w.useLayout("Debug"); }},
-    {"layoutInspect", "&View/&Layout", QT_TRANSLATE_NOOP("Action", "&Inspect"), "Ctrl+3", false,
-     [](Window& w) { w.useLayout("Inspect"); }},
+     "Ctrl+1", Do::call<useShippedLayout<0>>},
+    {"layoutDebug", "&View/&Layout", QT_TRANSLATE_NOOP("Action", "&Debug"), "Ctrl+2",
+     Do::call<useShippedLayout<1>>},
+    {"layoutInspect", "&View/&Layout", QT_TRANSLATE_NOOP("Action", "&Inspect"), "Ctrl+3",
+     Do::call<useShippedLayout<2>>},
     {"themeSystem", QT_TRANSLATE_NOOP("Action", "&View/&Theme"),
-     QT_TRANSLATE_NOOP("Action", "As the &desktop"), "", kCheckable,
-     [](Window& w) { w.useTheme(ThemeChoice::System); }},
-    {"themeDark", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "Dar&k"), "", kCheckable,
-     [](Window& w) { w.useTheme(ThemeChoice::Dark); }},
-    {"themeLight", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "&Light"), "", kCheckable,
-     [](Window& w) { w.useTheme(ThemeChoice::Light); }},
+     QT_TRANSLATE_NOOP("Action", "As the &desktop"), "", Do::call<&Window::useTheme, ThemeChoice::System>,
+     Do::is<&Window::themeChoice, ThemeChoice::System>},
+    {"themeDark", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "Dar&k"), "",
+     Do::call<&Window::useTheme, ThemeChoice::Dark>, Do::is<&Window::themeChoice, ThemeChoice::Dark>},
+    {"themeLight", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "&Light"), "",
+     Do::call<&Window::useTheme, ThemeChoice::Light>, Do::is<&Window::themeChoice, ThemeChoice::Light>},
     {"viewFront", QT_TRANSLATE_NOOP("Action", "&View/&Camera"), QT_TRANSLATE_NOOP("Action", "&Front"),
-     "Alt+1", false, face<render::StandardView::Front>},
-    {"viewBack", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Back"), "Alt+2", false,
-     face<render::StandardView::Back>},
-    {"viewLeft", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Left side"), "Alt+3", false,
-     face<render::StandardView::Left>},
-    {"viewRight", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Right side"), "Alt+4", false,
-     face<render::StandardView::Right>},
-    {"viewTop", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Top"), "Alt+5", false,
-     face<render::StandardView::Top>},
-    {"viewThreeQuarter", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6", false,
-     face<render::StandardView::ThreeQuarter>},
+     "Alt+1", Do::call<face<render::StandardView::Front>>},
+    {"viewBack", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Back"), "Alt+2",
+     Do::call<face<render::StandardView::Back>>},
+    {"viewLeft", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Left side"), "Alt+3",
+     Do::call<face<render::StandardView::Left>>},
+    {"viewRight", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Right side"), "Alt+4",
+     Do::call<face<render::StandardView::Right>>},
+    {"viewTop", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Top"), "Alt+5",
+     Do::call<face<render::StandardView::Top>>},
+    {"viewThreeQuarter", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6",
+     Do::call<face<render::StandardView::ThreeQuarter>>},
     lineIn("&View/&Camera"),
-    {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O", kCheckable,
-     toggleOrthographic},
-    {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F", false,
-     [](Window& w) { w.viewport().frameAll(); }},
-    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", false, nextAxes},
-    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", kCheckable,
-     toggleGhost},
+    {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O",
+     Do::call<toggleOrthographic>, Do::is<isOrthographic>},
+    {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F", Do::call<frameAll>},
+    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
+    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", Do::call<toggleGhost>,
+     Do::is<isGhostOn>},
     {"select1", QT_TRANSLATE_NOOP("Action", "&View/&Select character"), QT_TRANSLATE_NOOP("Action", "First"),
-     "1", false, selectCharacter<0>},
-    {"select2", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Second"), "2", false,
-     selectCharacter<1>},
-    {"select3", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Third"), "3", false,
-     selectCharacter<2>},
-    {"select4", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Fourth"), "4", false,
-     selectCharacter<3>},
-    {"select5", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Fifth"), "5", false,
-     selectCharacter<4>},
-    {"select6", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Sixth"), "6", false,
-     selectCharacter<5>},
-    {"select7", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Seventh"), "7", false,
-     selectCharacter<6>},
-    {"select8", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Eighth"), "8", false,
-     selectCharacter<7>},
-    {"select9", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Ninth"), "9", false,
-     selectCharacter<8>},
-    {"timeSinceFirst", QT_TRANSLATE_NOOP("Action", "&View/&Packet times"),
-     QT_TRANSLATE_NOOP("Action", "Since the &first packet"), "", kCheckable,
-     [](Window& w) { w.inDock("packets", "timeSinceFirst"); },
-     [](Window& w) { return !w.ofDock("packets", "isTimeOfDay").toBool(); }},
-    {"timeOfDay", "&View/&Packet times", QT_TRANSLATE_NOOP("Action", "Date and time of &day"), "", kCheckable,
-     [](Window& w) { w.inDock("packets", "timeOfDay"); },
-     [](Window& w) { return w.ofDock("packets", "isTimeOfDay").toBool(); }},
-    {"deltaInStream", "&View/&Packet times",
-     QT_TRANSLATE_NOOP("Action", "Δ to the packet before in its &stream"), "", kCheckable,
-     [](Window& w) { w.inDock("packets", "deltaInStream"); },
-     [](Window& w) { return !w.ofDock("packets", "isDeltaToRowAbove").toBool(); }},
-    {"deltaToRowAbove", "&View/&Packet times", QT_TRANSLATE_NOOP("Action", "Δ to the row &above"), "",
-     kCheckable, [](Window& w) { w.inDock("packets", "deltaToRowAbove"); },
-     [](Window& w) { return w.ofDock("packets", "isDeltaToRowAbove").toBool(); }},
+     "1", Do::call<selectCharacter<0>>},
+    {"select2", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Second"), "2",
+     Do::call<selectCharacter<1>>},
+    {"select3", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Third"), "3",
+     Do::call<selectCharacter<2>>},
+    {"select4", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Fourth"), "4",
+     Do::call<selectCharacter<3>>},
+    {"select5", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Fifth"), "5",
+     Do::call<selectCharacter<4>>},
+    {"select6", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Sixth"), "6",
+     Do::call<selectCharacter<5>>},
+    {"select7", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Seventh"), "7",
+     Do::call<selectCharacter<6>>},
+    {"select8", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Eighth"), "8",
+     Do::call<selectCharacter<7>>},
+    {"select9", "&View/&Select character", QT_TRANSLATE_NOOP("Action", "Ninth"), "9",
+     Do::call<selectCharacter<8>>},
+    panelsIn("&View"),
     lineIn("&View"),
-    {"fullScreen", "&View", QT_TRANSLATE_NOOP("Action", "F&ull screen"), "F11", kCheckable,
-     [](Window& w) { w.toggleFullScreen(); }},
+    {"fullScreen", "&View", QT_TRANSLATE_NOOP("Action", "F&ull screen"), "F11",
+     Do::call<&Window::toggleFullScreen>, Do::is<&Window::isFullScreen>},
 
-    {"goToPacket", QT_TRANSLATE_NOOP("Action", "&Go"), QT_TRANSLATE_NOOP("Action", "&Go to packet…"), "G",
-     false, [](Window& w) { w.inDock("packets", "goToPacket"); }},
-    lineIn("&Go"),
-    {"nextProblem", "&Go", QT_TRANSLATE_NOOP("Action", "&Next problem"), "N", false,
-     [](Window& w) { w.inDock("packets", "nextProblem"); }},
-    {"previousProblem", "&Go", QT_TRANSLATE_NOOP("Action", "&Previous problem"), "Shift+N", false,
-     [](Window& w) { w.inDock("packets", "previousProblem"); }},
-    lineIn("&Go"),
-    {"nextOfStream", "&Go", QT_TRANSLATE_NOOP("Action", "Next packet of the &stream"), "Ctrl+.", false,
-     [](Window& w) { w.inDock("packets", "nextOfStream"); }},
-    {"previousOfStream", "&Go", QT_TRANSLATE_NOOP("Action", "Previous packet of the s&tream"), "Ctrl+,",
-     false, [](Window& w) { w.inDock("packets", "previousOfStream"); }},
-    lineIn("&Go"),
-    {"nextMark", "&Go", QT_TRANSLATE_NOOP("Action", "Next &mark"), "Ctrl+Shift+N", false,
-     [](Window& w) { w.inDock("packets", "nextMark"); }},
-    {"previousMark", "&Go", QT_TRANSLATE_NOOP("Action", "Previous m&ark"), "Ctrl+Shift+B", false,
-     [](Window& w) { w.inDock("packets", "previousMark"); }},
-    lineIn("&Go"),
-    {"firstPacket", "&Go", QT_TRANSLATE_NOOP("Action", "&First packet"), "Ctrl+Home", false,
-     [](Window& w) { w.inDock("packets", "firstPacket"); }},
-    {"newestPacket", "&Go", QT_TRANSLATE_NOOP("Action", "Ne&west packet, and follow"), "Ctrl+End", false,
-     [](Window& w) { w.inDock("packets", "newestPacket"); }},
+    panelsIn(QT_TRANSLATE_NOOP("Action", "&Go")),
 
     {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Pause"), "Space",
-     kCheckable, togglePaused},
-    {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End", false,
-     [](Window& w) { w.driver().setPaused(false); }},
+     Do::call<togglePaused>, Do::is<isPaused>},
+    {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End", Do::call<backToLive>},
 
-    {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R", false,
-     [](Window& w) { w.openInputs(InputsDialog::Page::Relay); }},
+    {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R",
+     Do::call<&Window::openInputs, InputsDialog::Page::Relay>},
     {"thresholds", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Thresholds…"),
-     "Ctrl+T", false, [](Window& w) { w.editThresholds(); }},
+     "Ctrl+T", Do::call<&Window::editThresholds>},
     {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),
-     QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", false, [](Window& w) { w.copyDiagnostics(); }},
+     QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", Do::call<&Window::copyDiagnostics>},
+
+    panelsIn("T&ools"),
 
     {"connectionHelp", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Connection help"),
-     "Shift+F1", false, [](Window& w) { w.openInputs(InputsDialog::Page::Help); }},
+     "Shift+F1", Do::call<&Window::openInputs, InputsDialog::Page::Help>},
     {"shortcuts", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Keyboard shortcuts"),
-     "F1", false, [](Window& w) { w.showShortcuts(); }},
-    {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "", false,
-     [](Window& w) { w.showReference(); }},
+     "F1", Do::call<&Window::showShortcuts>},
+    {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "",
+     Do::call<&Window::showReference>},
     lineIn("&Help"),
-    {"about", "&Help", QT_TRANSLATE_NOOP("Action", "&About Posewire"), "", false,
-     [](Window& w) { w.showAbout(); }},
+    {"about", "&Help", QT_TRANSLATE_NOOP("Action", "&About Posewire"), "", Do::call<&Window::showAbout>},
 };
 
 } // namespace
 
-std::span<const ActionInfo> actionTable() {
-    return kActions;
+std::vector<MenuEntry> menuEntries() {
+    std::vector<MenuEntry> entries;
+    for (const ActionInfo& info : kActions) {
+        if (std::string_view(info.id) != kPanels) {
+            entries.push_back({&info, nullptr});
+            continue;
+        }
+        for (const PanelInfo& panel : panelTable()) {
+            for (const ActionInfo& action : panel.actions()) {
+                if (std::string_view(action.menu).starts_with(info.menu)) {
+                    entries.push_back({&action, &panel});
+                }
+            }
+        }
+    }
+    return entries;
 }
 
 } // namespace posewire::gui

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <span>
+#include "app/gui/panel.h"
+
+#include <vector>
 
 namespace posewire::gui {
 
-class MainWindow;
-
-/// One entry of a menu. To add one: a row in actions.cpp.
-struct ActionInfo {
-    const char* id;       ///< object name, fixed for scripts; empty for a line between entries
-    const char* menu;     ///< "File", "View/Theme"; translated in context "Action", as `text`
-    const char* text;     ///< with the letter to press after &
-    const char* shortcut; ///< portable text, empty for none
-    bool isCheckable = false;
-    void (*run)(MainWindow& window) = nullptr;
-    bool (*isOn)(MainWindow& window) = nullptr; ///< asked when its menu opens, where it is known elsewhere
+/// An entry of the window's menus and who carries it out.
+struct MenuEntry {
+    const ActionInfo* action;
+    const PanelInfo* panel; ///< null for the window itself
 };
 
-[[nodiscard]] std::span<const ActionInfo> actionTable();
+/// All entries in the order of the menus. The window's own are in actions.cpp, which also says where in each
+/// menu those of the panels go.
+[[nodiscard]] std::vector<MenuEntry> menuEntries();
 
 } // namespace posewire::gui

@@ -88,7 +88,8 @@ void showText(const QString& title, const QString& markdown, QWidget* parent) {
 
 QString shortcutsText() {
     QString text = QCoreApplication::translate("Dialogs", "| Key | Menu | What it does |\n|---|---|---|\n");
-    for (const ActionInfo& info : actionTable()) {
+    for (const MenuEntry& entry : menuEntries()) {
+        const ActionInfo& info = *entry.action;
         const QKeySequence keys(QLatin1String(info.shortcut), QKeySequence::PortableText);
         if (!keys.isEmpty()) {
             text += QStringLiteral("| %1 | %2 | %3 |\n")

@@ -14,7 +14,7 @@ void styleTables(QTextDocument& document);
 /// A window with text to read, in Markdown; deletes itself when closed.
 void showText(const QString& title, const QString& markdown, QWidget* parent);
 
-/// All keys of actionTable(), in Markdown.
+/// All keys of the menus, in Markdown.
 [[nodiscard]] QString shortcutsText();
 [[nodiscard]] QString aboutText();
 

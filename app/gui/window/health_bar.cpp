@@ -68,9 +68,10 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     m_entriesLayout->setSizeConstraint(QLayout::SetNoConstraint);
     m_entriesLayout->addWidget(m_more);
     m_entriesLayout->addStretch(1);
-    m_more->setToolTip(tr("More characters than there is room for: the characters dock lists them all"));
+    m_more->setToolTip(tr("More characters than fit here; the Characters dock lists them all."));
     row->addWidget(m_entriesArea, 1);
     row->addWidget(m_message, 1);
+    m_message->setObjectName(QStringLiteral("message"));
     m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     m_message->setVisible(false);
     m_messageTimer.setSingleShot(true);
@@ -78,9 +79,9 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     for (ColourText* text : {m_rate, m_history, m_dropped}) {
         row->addWidget(text);
     }
-    m_dropped->setToolTip(tr("Datagrams that this computer received but had no buffer room for."));
-    m_history->setToolTip(
-        tr("How far back the packets kept in memory reach, and how much memory they may take."));
+    m_dropped->setToolTip(
+        tr("Datagrams that reached this computer and were dropped because its receive buffer was full."));
+    m_history->setToolTip(tr("How far back the packets in memory go, and how much memory they may use."));
 }
 
 void HealthBar::say(const QString& text) {
@@ -142,7 +143,7 @@ void HealthBar::fitEntries() {
 void HealthBar::addEntry() {
     auto* entry = new ColourText(ColourText::Look::Plain, this);
     entry->setClickable(true);
-    entry->setToolTip(tr("Select this character and say how it does"));
+    entry->setToolTip(tr("Select this character and show how it is doing"));
     const std::size_t index = m_entries.size();
     connect(entry, &ColourText::clicked, this, [this, index] { explain(index); });
     m_entriesLayout->insertWidget(static_cast<int>(index), entry);

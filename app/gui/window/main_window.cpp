@@ -20,6 +20,8 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
 #include <QScreen>
 #include <QStatusBar>
 #include <QToolBar>
@@ -41,7 +43,8 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     : m_driver(driver),
       m_file(file),
       m_settings(settings),
-      m_viewport(new ViewportWidget(driver.session(), driver, this)) {
+      m_viewport(new ViewportWidget(driver.session(), driver, this)),
+      m_menus(*this, *menuBar()) {
     setWindowTitle(QStringLiteral("Posewire"));
     setDockOptions(AllowNestedDocks | AllowTabbedDocks | AnimatedDocks);
     setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
@@ -49,7 +52,6 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     setCentralWidget(m_viewport);
     new ViewportButtons(m_viewport);
-    m_actions = makeMenus(*this, *menuBar());
     makeBars();
     makeDocks();
     listDocks();
@@ -73,7 +75,8 @@ void MainWindow::makeBars() {
     menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
 
     m_transport = new TransportBar(
-        m_driver.session(), {m_actions["pause"], m_actions["live"], m_actions["inputs"], m_actions["relay"]},
+        m_driver.session(),
+        {m_menus.action("pause"), m_menus.action("live"), m_menus.action("inputs"), m_menus.action("relay")},
         this);
     auto* bar = new QToolBar(tr("Transport"), this);
     bar->setObjectName(QStringLiteral("transportBar"));
@@ -101,7 +104,7 @@ void MainWindow::makeDocks() {
         addDockWidget(info.area, dock);
         dock->hide(); // the layout says which ones show; all of them would make the window wider than asked
                       // for
-        m_docks.push_back({dock, title, panel});
+        m_docks.push_back({&info, dock, title, panel});
         connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool isVisible) {
             if (isVisible) {
                 panel->refresh();
@@ -126,13 +129,12 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
     connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
-    connect(&m_driver, &SessionDriver::ghostChanged, m_actions["ghost"], &QAction::setChecked);
     connect(&m_driver, &SessionDriver::dockRequested, this, &MainWindow::showDock);
-    connect(&m_driver, &SessionDriver::pausedChanged, m_actions["pause"], &QAction::setChecked);
-    connect(&m_driver, &SessionDriver::demoChanged, m_actions["demo"], &QAction::setChecked);
-    connect(m_viewport, &ViewportWidget::optionsChanged, this, [this] {
-        m_actions["orthographic"]->setChecked(m_viewport->projection() == render::Projection::Orthographic);
-    });
+    const auto showStates = [this] { m_menus.showStates(); };
+    connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);
+    connect(&m_driver, &SessionDriver::pausedChanged, this, showStates);
+    connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
+    connect(m_viewport, &ViewportWidget::optionsChanged, this, showStates);
     showReceiving();
 }
 
@@ -148,9 +150,6 @@ void MainWindow::restore() {
         setWindowState(windowState() | Qt::WindowMaximized);
     }
     m_layoutButton->setText(tr("Layout: %1 ▾").arg(m_settings.layout));
-    m_actions[QStringLiteral("theme") +
-              themeName(m_settings.theme).replace(0, 1, themeName(m_settings.theme).at(0).toUpper())]
-        ->setChecked(true);
 }
 
 /// Sizes of docks only hold once the window has its own.
@@ -297,7 +296,9 @@ void MainWindow::useLayout(const QString& nameOrFile) {
         say(layout.error());
         return;
     }
-    applyLayout(*layout, *this);
+    if (const QStringList unknown = applyLayout(*layout, *this); !unknown.isEmpty()) {
+        say(tr("Layout %1: there is no dock named %2").arg(layout->name, unknown.join(tr(" or "))));
+    }
     m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
     m_layoutButton->setText(tr("Layout: %1 ▾").arg(layout->name));
     refreshPanels();
@@ -340,37 +341,33 @@ void MainWindow::nextDock() {
     (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
 }
 
-const MainWindow::Dock* MainWindow::find(const char* dock) const {
-    const auto found = std::ranges::find_if(
-        m_docks, [dock](const Dock& each) { return each.dock->objectName() == QLatin1String(dock); });
-    return found == m_docks.end() ? nullptr : &*found;
-}
-
 void MainWindow::showDock(const QString& dock) {
-    if (const Dock* found = find(dock.toLatin1().constData())) {
+    const auto found =
+        std::ranges::find(m_docks, dock, [](const Dock& each) { return each.dock->objectName(); });
+    if (found != m_docks.end()) {
         found->dock->show();
         found->dock->raise();
     }
 }
 
-bool MainWindow::inDock(const char* dock, const char* slot) {
-    const Dock* found = find(dock);
-    if (found == nullptr) {
-        return false;
-    }
-    found->dock->show();
-    found->dock->raise();
-    return QMetaObject::invokeMethod(found->panel, slot, Qt::DirectConnection);
+const QWidget& MainWindow::ownerOf(const MenuEntry& entry) const {
+    const auto found = std::ranges::find(m_docks, entry.panel, &Dock::info);
+    return found == m_docks.end() ? static_cast<const QWidget&>(*this) : *found->panel;
 }
 
-QVariant MainWindow::ofDock(const char* dock, const char* property) const {
-    const Dock* found = find(dock);
-    return found == nullptr ? QVariant() : found->panel->property(property);
+void MainWindow::carryOut(const MenuEntry& entry) {
+    if (entry.panel != nullptr) {
+        showDock(QLatin1String(entry.panel->id));
+    }
+    entry.action->run(const_cast<QWidget&>(ownerOf(entry)));
+}
+
+bool MainWindow::isOn(const MenuEntry& entry) const {
+    return entry.action->isOn(ownerOf(entry));
 }
 
 void MainWindow::toggleFullScreen() {
     setWindowState(windowState() ^ Qt::WindowFullScreen);
-    m_actions["fullScreen"]->setChecked(isFullScreen());
 }
 
 void MainWindow::copyDiagnostics() {

@@ -9,7 +9,6 @@
 #include "app/gui/window/settings.h"
 
 #include <QMainWindow>
-#include <QVariant>
 
 #include <vector>
 
@@ -31,7 +30,13 @@ public:
     MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings);
 
     [[nodiscard]] SessionDriver& driver() { return m_driver; }
+    [[nodiscard]] const SessionDriver& driver() const { return m_driver; }
     [[nodiscard]] ViewportWidget& viewport() { return *m_viewport; }
+    [[nodiscard]] const ViewportWidget& viewport() const { return *m_viewport; }
+
+    /// Does what an entry of the menus says; where a panel does it, its dock is brought to the front first.
+    void carryOut(const MenuEntry& entry);
+    [[nodiscard]] bool isOn(const MenuEntry& entry) const;
 
     // What the actions do.
     void openFile();
@@ -40,17 +45,14 @@ public:
     void editThresholds();
     void openInputs(InputsDialog::Page page);
     void useTheme(ThemeChoice choice);
+    [[nodiscard]] ThemeChoice themeChoice() const { return m_settings.theme; }
     /// Name of a layout that ships, or a file.
     void useLayout(const QString& nameOrFile);
     void resetLayout() { useLayout(m_settings.layout); }
     /// Brings every floating dock back into the window, and the window back onto a screen.
     void dockAll();
     void nextDock();
-    /// Shows a dock before the others and has its panel do what a slot of that name does. False where there
-    /// is no such dock or slot.
-    bool inDock(const char* dock, const char* slot);
-    /// A property of a dock's panel; invalid where there is no such dock or property.
-    [[nodiscard]] QVariant ofDock(const char* dock, const char* property) const;
+    /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
     void toggleFullScreen();
     void copyDiagnostics();
@@ -70,6 +72,7 @@ protected:
 
 private:
     struct Dock {
+        const PanelInfo* info;
         QDockWidget* dock;
         DockTitle* title;
         Panel* panel;
@@ -77,7 +80,8 @@ private:
         [[nodiscard]] bool isInSight() const;
     };
 
-    [[nodiscard]] const Dock* find(const char* dock) const;
+    /// Who carries an entry out: the panel, or the window itself.
+    [[nodiscard]] const QWidget& ownerOf(const MenuEntry& entry) const;
     void makeDocks();
     void makeBars();
     void listDocks();
@@ -95,7 +99,7 @@ private:
     HealthBar* m_health = nullptr;
     InputsDialog* m_inputs = nullptr; ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
-    ActionMap m_actions;
+    Menus m_menus;
     AlertSounds m_sounds;
     std::vector<Dock> m_docks;
     bool m_isRestored = false;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/menus.h"
 
-#include "app/gui/window/actions.h"
 #include "app/gui/window/main_window.h"
 
-#include <QActionGroup>
+#include <QAction>
 #include <QCoreApplication>
+#include <QMenu>
+#include <QMenuBar>
 
 namespace posewire::gui {
 
@@ -23,21 +24,6 @@ QMenu* childMenu(Parent& parent, const QString& name) {
     return menu;
 }
 
-QAction* makeAction(const ActionInfo& info, QMenu& menu, MainWindow& window) {
-    auto* action = new QAction(QCoreApplication::translate("Action", info.text), &window);
-    action->setObjectName(QLatin1String(info.id));
-    action->setShortcut(QKeySequence(QLatin1String(info.shortcut), QKeySequence::PortableText));
-    action->setCheckable(info.isCheckable);
-    QObject::connect(action, &QAction::triggered, &window, [run = info.run, &window] { run(window); });
-    if (info.isOn != nullptr) {
-        QObject::connect(&menu, &QMenu::aboutToShow, action,
-                         [action, isOn = info.isOn, &window] { action->setChecked(isOn(window)); });
-    }
-    // Also reachable while the menu bar is hidden.
-    window.addAction(action);
-    return action;
-}
-
 } // namespace
 
 QMenu* menuAt(QMenuBar& bar, const QString& path) {
@@ -49,23 +35,42 @@ QMenu* menuAt(QMenuBar& bar, const QString& path) {
     return menu;
 }
 
-ActionMap makeMenus(MainWindow& window, QMenuBar& bar) {
-    ActionMap actions;
-    for (const ActionInfo& info : actionTable()) {
-        QMenu* menu = menuAt(bar, QString::fromUtf8(info.menu));
-        if (info.run == nullptr) {
+Menus::Menus(MainWindow& window, QMenuBar& bar) : m_window(window), m_entries(menuEntries()) {
+    for (const MenuEntry& entry : m_entries) {
+        QMenu* menu = menuAt(bar, QString::fromUtf8(entry.action->menu));
+        if (entry.action->run == nullptr) {
             menu->addSeparator();
             continue;
         }
-        QAction* action = makeAction(info, *menu, window);
-        menu->addAction(action);
-        actions.insert(QLatin1String(info.id), action);
+        if (menu->isEmpty()) {
+            QObject::connect(menu, &QMenu::aboutToShow, &window, [this] { showStates(); });
+        }
+        menu->addAction(makeAction(entry));
     }
-    auto* themes = new QActionGroup(&window);
-    for (const char* id : {"themeSystem", "themeDark", "themeLight"}) {
-        themes->addAction(actions[QLatin1String(id)]);
+}
+
+QAction* Menus::makeAction(const MenuEntry& entry) {
+    const ActionInfo& info = *entry.action;
+    auto* action = new QAction(QCoreApplication::translate("Action", info.text), &m_window);
+    action->setObjectName(QLatin1String(info.id));
+    action->setShortcut(QKeySequence(QLatin1String(info.shortcut), QKeySequence::PortableText));
+    action->setCheckable(info.isOn != nullptr);
+    QObject::connect(action, &QAction::triggered, &m_window, [this, entry] {
+        m_window.carryOut(entry);
+        showStates();
+    });
+    // Also reachable while the menu bar is hidden.
+    m_window.addAction(action);
+    m_actions.insert(action->objectName(), action);
+    return action;
+}
+
+void Menus::showStates() {
+    for (const MenuEntry& entry : m_entries) {
+        if (entry.action->isOn != nullptr) {
+            m_actions[QLatin1String(entry.action->id)]->setChecked(m_window.isOn(entry));
+        }
     }
-    return actions;
 }
 
 } // namespace posewire::gui

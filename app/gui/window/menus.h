@@ -1,21 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QAction>
+#include "app/gui/window/actions.h"
+
 #include <QMap>
-#include <QMenu>
-#include <QMenuBar>
 #include <QString>
+
+class QAction;
+class QMenu;
+class QMenuBar;
 
 namespace posewire::gui {
 
 class MainWindow;
 
-/// Every entry of actionTable() by its id.
-using ActionMap = QMap<QString, QAction*>;
+/// The menus of a window, with an action for each of menuEntries().
+class Menus {
+public:
+    Menus(MainWindow& window, QMenuBar& bar);
 
-/// Builds the menus of a window from the table.
-[[nodiscard]] ActionMap makeMenus(MainWindow& window, QMenuBar& bar);
+    /// Null where no entry has this id.
+    [[nodiscard]] QAction* action(const QString& id) const { return m_actions.value(id); }
+    /// Checks the entries as what they stand for is now; a menu that opens does so by itself.
+    void showStates();
+
+private:
+    QAction* makeAction(const MenuEntry& entry);
+
+    MainWindow& m_window;
+    std::vector<MenuEntry> m_entries;
+    QMap<QString, QAction*> m_actions;
+};
 
 /// The menu at a path as in ActionInfo, new if need be.
 [[nodiscard]] QMenu* menuAt(QMenuBar& bar, const QString& path);

@@ -3,8 +3,10 @@
 
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/find_bar.h"
+#include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
 #include "tests/app/gui/models/stage.h"
+#include "tests/app/gui/panels/trigger.h"
 
 #include <QApplication>
 #include <QContextMenuEvent>
@@ -44,6 +46,7 @@ protected:
         }
         refresh();
     }
+    void trigger(std::string_view id) { gui::trigger(m_panel, id); }
     [[nodiscard]] PacketView& list() { return *m_panel.findChild<PacketView*>(); }
     [[nodiscard]] FilterBar& bar() { return *m_panel.findChild<FilterBar*>(); }
     [[nodiscard]] std::optional<std::uint64_t> selected() const { return m_stage.session.selection().packet; }
@@ -183,8 +186,8 @@ TEST_F(PacketsPanelTest, ShippedFiltersAreRight) {
 
 TEST_F(PacketsPanelTest, KeepsFiltersAndTimesFromOneRunToTheNext) {
     bar().setSaved({{"Mine", "size > 100"}});
-    m_panel.timeOfDay();
-    m_panel.deltaToRowAbove();
+    trigger("timeOfDay");
+    trigger("deltaToRowAbove");
     PacketsPanel next(m_stage.session, m_stage.commands, nullptr);
     next.restoreState(m_panel.state());
     EXPECT_EQ(next.findChild<FilterBar*>()->saved(), bar().saved());
@@ -197,35 +200,35 @@ TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
     poses(104, 200); // packet 100 follows a gap
     m_stage.sendMetadata("name:Mira\n", Stage::kStart + 3 * Stage::kSecond);
     poses(200, 210);
-    m_panel.nextProblem();
+    trigger("nextProblem");
     EXPECT_EQ(selected(), 100U);
-    m_panel.nextProblem();
+    trigger("nextProblem");
     EXPECT_EQ(selected(), 100U);
     EXPECT_TRUE(m_panel.message().contains("No problem after")) << m_panel.message().toStdString();
-    EXPECT_EQ(m_panel.goTo("195"), "");
-    m_panel.nextOfStream();
+    EXPECT_EQ(m_panel.navigation().goTo("195"), "");
+    trigger("nextOfStream");
     EXPECT_EQ(selected(), 197U); // 196 is the metadata
-    m_panel.toggleMark();
+    trigger("mark");
     EXPECT_TRUE(m_stage.session.annotations().marks.contains(197));
-    m_panel.previousProblem();
+    trigger("previousProblem");
     EXPECT_EQ(selected(), 100U);
-    m_panel.nextMark();
+    trigger("nextMark");
     EXPECT_EQ(selected(), 197U);
-    EXPECT_NE(m_panel.goTo("9999"), "");
-    m_panel.firstPacket();
+    EXPECT_NE(m_panel.navigation().goTo("9999"), "");
+    trigger("firstPacket");
     EXPECT_EQ(selected(), 0U);
 }
 
 TEST_F(PacketsPanelTest, KeepsRoomForNotesWhereNotAllColumnsFit) {
     poses(0, 10);
-    const auto isShown = [&](int column) { return !list().header()->isSectionHidden(column); };
+    const auto isShown = [&](int column) { return !list().header().isSectionHidden(column); };
     m_panel.resize(1400, 300);
     EXPECT_TRUE(isShown(PacketModel::kPart) && isShown(PacketModel::kSize));
     m_panel.resize(560, 300);
     EXPECT_FALSE(isShown(PacketModel::kPart));
     EXPECT_TRUE(isShown(PacketModel::kNote) && isShown(PacketModel::kSample));
     EXPECT_EQ(list().horizontalScrollBar()->maximum(), 0);
-    list().setChosenColumns({PacketModel::kNumber, PacketModel::kPart});
+    list().header().setChosen({PacketModel::kNumber, PacketModel::kPart});
     EXPECT_TRUE(isShown(PacketModel::kPart));
     EXPECT_FALSE(isShown(PacketModel::kSample));
     list().setCurrentIndex(m_panel.packets().index(3, PacketModel::kNumber));
@@ -255,7 +258,7 @@ TEST_F(PacketsPanelTest, MessagesKeepTheSelectedRowInSight) {
     m_stage.commands.selectPacket(199);
     refresh();
     ASSERT_TRUE(list().isShown(list().currentIndex()));
-    m_panel.nextProblem();
+    trigger("nextProblem");
     EXPECT_FALSE(m_panel.message().isEmpty());
     EXPECT_TRUE(list().isShown(list().currentIndex()));
 }
@@ -265,20 +268,26 @@ TEST_F(PacketsPanelTest, GoesToProblemsThatTheFilterShows) {
     poses(104, 150); // packet 100 follows a gap
     poses(160, 200); // and packet 146
     filterBy("sample > 120");
-    m_panel.nextProblem();
+    trigger("nextProblem");
     EXPECT_EQ(selected(), 146U);
-    m_panel.nextProblem();
+    trigger("nextProblem");
     EXPECT_TRUE(m_panel.message().contains("No problem after")) << m_panel.message().toStdString();
-    m_panel.previousProblem();
+    trigger("previousProblem");
     EXPECT_EQ(selected(), 146U) << "packet 100 is not listed";
 }
 
 TEST_F(PacketsPanelTest, FiltersByTheCellUnderTheCursor) {
     poses(0, 100);
     list().setCurrentIndex(m_panel.packets().index(50, PacketModel::kSample));
-    m_panel.filterByCell();
+    trigger("filterByCell");
     EXPECT_EQ(m_stage.session.displayFilter(), "sample == 50");
-    m_panel.copyRows();
+    list().setCurrentIndex(m_panel.packets().index(0, PacketModel::kSize));
+    trigger("filterAndCell");
+    EXPECT_EQ(m_stage.session.displayFilter(), "(sample == 50) && size == 56");
+    trigger("filterOrCell");
+    trigger("filterNotCell");
+    EXPECT_EQ(m_stage.session.displayFilter(),
+              "(((sample == 50) && size == 56) || size == 56) && !(size == 56)");
 }
 
 TEST_F(PacketsPanelTest, FindsTextInThePackets) {
@@ -286,22 +295,78 @@ TEST_F(PacketsPanelTest, FindsTextInThePackets) {
     m_stage.sendMetadata("name:Mira Lindqvist\n", Stage::kStart + 3 * Stage::kSecond);
     refresh();
     auto* find = m_panel.findChild<FindBar*>();
-    m_panel.find();
+    trigger("find");
     EXPECT_TRUE(find->isVisible());
     find->setText("lindqvist");
-    m_panel.findNext();
+    trigger("findNext");
     EXPECT_TRUE(QTest::qWaitFor([&] { return selected() == 100U; }));
     find->setText("nobody");
-    m_panel.findNext();
-    EXPECT_TRUE(QTest::qWaitFor([&] { return find->said().contains("nowhere"); }));
+    trigger("findNext");
+    EXPECT_TRUE(QTest::qWaitFor([&] { return find->said().contains("Not found"); }));
 }
 
-TEST_F(PacketsPanelTest, CopiesBytesOfTheSelectedPacket) {
+TEST_F(PacketsPanelTest, CopiesTheSelectedPacketInEachFormat) {
     poses(0, 10);
-    list().setCurrentIndex(m_panel.packets().index(3, 0));
-    m_panel.copyBytesRaw();
-    EXPECT_TRUE(m_stage.commands.copied.startsWith("4d58545030320000"))
-        << m_stage.commands.copied.toStdString();
+    list().setCurrentIndex(m_panel.packets().index(3, PacketModel::kSample));
+    const auto copied = [&](std::string_view id) {
+        m_stage.commands.copied.clear();
+        trigger(id);
+        return m_stage.commands.copied;
+    };
+    EXPECT_EQ(copied("copyCell"), "3");
+    EXPECT_TRUE(copied("copyRows").contains(QLatin1Char('\t')));
+    EXPECT_TRUE(copied("copyCsv").contains(QLatin1Char(',')));
+    EXPECT_TRUE(copied("copyBytesRaw").startsWith("4d58545030320000"));
+    EXPECT_TRUE(copied("copyBytesText").contains("4d 58 54 50"));
+    EXPECT_TRUE(copied("copyBytesCArray").contains("0x4d, 0x58"));
+    EXPECT_TRUE(copied("copyBytesJson").startsWith("{"));
+    EXPECT_EQ(m_panel.message(), "Packets copied: 1");
+}
+
+TEST_F(PacketsPanelTest, GoesThroughStreamsAndMarksInBothDirections) {
+    poses(0, 20);
+    EXPECT_EQ(m_panel.navigation().goTo("10"), "");
+    trigger("mark");
+    trigger("previousOfStream");
+    EXPECT_EQ(selected(), 9U);
+    trigger("nextOfStream");
+    trigger("nextOfStream");
+    EXPECT_EQ(selected(), 11U);
+    trigger("previousMark");
+    EXPECT_EQ(selected(), 10U);
+    trigger("newestPacket");
+    EXPECT_EQ(selected(), std::nullopt);
+    EXPECT_TRUE(list().isFollowing());
+}
+
+TEST_F(PacketsPanelTest, SaysWhyThereIsNothingToDo) {
+    for (const char* id : {"mark", "comment", "copyRows", "copyCell", "copyBytesText", "filterByCell"}) {
+        trigger(id);
+        EXPECT_EQ(m_panel.message(), "No packet is selected.") << id;
+    }
+}
+
+TEST_F(PacketsPanelTest, ChecksTheTimesThatItShows) {
+    const auto isOn = [&](std::string_view id) {
+        return std::ranges::find(PacketsPanel::actionTable(), id, &ActionInfo::id)->isOn(m_panel);
+    };
+    EXPECT_TRUE(isOn("timeSinceFirst") && isOn("deltaInStream"));
+    trigger("timeOfDay");
+    trigger("deltaToRowAbove");
+    EXPECT_TRUE(isOn("timeOfDay") && isOn("deltaToRowAbove"));
+    EXPECT_FALSE(isOn("timeSinceFirst") || isOn("deltaInStream"));
+    trigger("timeSinceFirst");
+    trigger("deltaInStream");
+    EXPECT_TRUE(isOn("timeSinceFirst") && isOn("deltaInStream"));
+}
+
+TEST_F(PacketsPanelTest, BringsTheKeyboardToTheFilterAndToTheFindBar) {
+    m_panel.activateWindow();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&m_panel));
+    trigger("filter");
+    EXPECT_TRUE(m_panel.findChild<QLineEdit*>("displayFilter")->hasFocus());
+    trigger("findPrevious");
+    EXPECT_TRUE(m_panel.findChild<FindBar*>()->isVisible()) << "there is nothing to look for yet";
 }
 
 } // namespace

@@ -13,6 +13,7 @@
 #include <QTest>
 
 #include <memory>
+#include <set>
 
 namespace posewire::gui {
 
@@ -45,17 +46,18 @@ protected:
     Stage m_stage;
 };
 
-TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnow) {
-    std::vector<std::string> ids;
+TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnowAndMakesEachOfThem) {
+    std::set<std::string> ids;
     for (const PanelInfo& info : panelTable()) {
-        ids.emplace_back(info.id);
+        EXPECT_TRUE(ids.insert(info.id).second) << info.id << " is there twice";
+        EXPECT_NE(std::string(info.title), "") << info.id;
         const std::unique_ptr<Panel> panel(
             info.make(m_stage.session, m_stage.commands, m_stage.program, nullptr));
         panel->refresh();
-        EXPECT_NE(std::string(info.title), "");
     }
-    EXPECT_THAT(ids, testing::ElementsAre("characters", "metadata", "timecode", "statistics", "inspector",
-                                          "trackers", "packets", "nullpose", "events"));
+    // Names of docks are for good; a new dock need not be here.
+    EXPECT_THAT(ids, testing::IsSupersetOf({"characters", "metadata", "timecode", "statistics", "inspector",
+                                            "trackers", "packets", "nullpose", "events"}));
 }
 
 TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {

@@ -1,13 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/main_window.h"
 
+#include "app/gui/panels/find_bar.h"
 #include "app/gui/theme/elided_label.h"
 #include "app/gui/window/actions.h"
 #include "app/gui/window/dock_layout.h"
 #include "app/gui/window/dock_title.h"
+#include "app/gui/window/health_bar.h"
+#include "app/gui/window/menus.h"
 #include "app/gui/window/transport_bar.h"
 
 #include <QDockWidget>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -35,6 +41,8 @@ protected:
     static QDockWidget* dock(MainWindow& window, const QString& name) {
         return window.findChild<QDockWidget*>(name);
     }
+
+    static QAction* action(MainWindow& window, const QString& id) { return window.findChild<QAction*>(id); }
 
     QTemporaryDir folder;
     SettingsFile file{folder.filePath("settings.json")};
@@ -123,8 +131,8 @@ TEST_F(MainWindowTest, MenuChecksTheTimesThatPacketsShow) {
         return ids;
     };
     EXPECT_EQ(checked(), QStringList({"timeSinceFirst", "deltaInStream"}));
-    window->inDock("packets", "timeOfDay");
-    window->inDock("packets", "deltaToRowAbove");
+    action(*window, "timeOfDay")->trigger();
+    action(*window, "deltaToRowAbove")->trigger();
     EXPECT_EQ(checked(), QStringList({"timeOfDay", "deltaToRowAbove"}));
 }
 
@@ -160,24 +168,87 @@ TEST_F(MainWindowTest, AnUnknownLayoutChangesNothing) {
     EXPECT_EQ(window->settings().layout, "Debug");
 }
 
-TEST_F(MainWindowTest, EveryEntryOfTheMenusDoesSomethingAndNoKeyIsUsedTwice) {
-    std::set<QString> ids;
+TEST_F(MainWindowTest, EveryEntryIsInItsMenuOnceAndNoKeyIsUsedTwice) {
     std::map<QString, QString> keys;
-    for (const ActionInfo& info : actionTable()) {
-        if (QString(info.id).isEmpty()) {
+    const auto window = makeWindow();
+    for (const auto& [info, panel] : menuEntries()) {
+        if (info->run == nullptr) {
             continue;
         }
-        EXPECT_NE(info.run, nullptr) << info.id;
-        EXPECT_TRUE(ids.insert(info.id).second) << info.id << " is there twice";
-        if (const QString key = info.shortcut; !key.isEmpty()) {
-            EXPECT_TRUE(keys.emplace(key, info.id).second) << info.id << " shares its key with another";
-            EXPECT_FALSE(QKeySequence(key, QKeySequence::PortableText).isEmpty()) << info.id;
+        EXPECT_EQ(window->findChildren<QAction*>(info->id).size(), 1) << info->id;
+        EXPECT_TRUE(menuAt(*window->menuBar(), info->menu)->actions().contains(action(*window, info->id)))
+            << info->id;
+        if (const QString key = info->shortcut; !key.isEmpty()) {
+            EXPECT_TRUE(keys.emplace(key, info->id).second) << info->id << " shares its key with another";
+            EXPECT_FALSE(QKeySequence(key, QKeySequence::PortableText).isEmpty()) << info->id;
         }
     }
-    const auto window = makeWindow();
-    for (const QString& id : ids) {
-        EXPECT_NE(window->findChild<QAction*>(id), nullptr) << id.toStdString();
+}
+
+TEST_F(MainWindowTest, MenusHoldEveryEntryOfEveryPanel) {
+    const auto entries = menuEntries();
+    for (const PanelInfo& panel : panelTable()) {
+        for (const ActionInfo& info : panel.actions()) {
+            EXPECT_EQ(std::ranges::count(entries, &info, &MenuEntry::action), 1) << info.menu << info.text;
+        }
     }
+}
+
+TEST_F(MainWindowTest, AnEntryOfAPanelBringsItsDockToTheFront) {
+    const auto window = makeWindow();
+    window->useLayout("Check");
+    ASSERT_TRUE(dock(*window, "packets")->isHidden());
+    action(*window, "nextProblem")->trigger();
+    EXPECT_FALSE(dock(*window, "packets")->isHidden());
+    const auto* message = dock(*window, "packets")->findChild<QLabel*>("message");
+    EXPECT_EQ(message->text(), "No problem after this packet.");
+}
+
+TEST_F(MainWindowTest, KeysReachThePanels) {
+    const auto window = makeWindow();
+    QTest::keyClick(window.get(), Qt::Key_F, Qt::ControlModifier);
+    EXPECT_TRUE(dock(*window, "packets")->findChild<FindBar*>()->isVisible());
+}
+
+TEST_F(MainWindowTest, EntriesOfTheWindowDoWhatTheySay) {
+    const auto window = makeWindow();
+    action(*window, "orthographic")->trigger();
+    EXPECT_EQ(window->viewport().projection(), render::Projection::Orthographic);
+    action(*window, "axes")->trigger();
+    EXPECT_EQ(window->viewport().axes(), AxesMode::Selected);
+    action(*window, "layoutInspect")->trigger();
+    EXPECT_EQ(window->settings().layout, "Inspect");
+    action(*window, "themeLight")->trigger();
+    EXPECT_EQ(window->settings().theme, ThemeChoice::Light);
+    EXPECT_TRUE(action(*window, "themeLight")->isChecked());
+    EXPECT_FALSE(action(*window, "themeSystem")->isChecked());
+    action(*window, "themeLight")->trigger();
+    EXPECT_TRUE(action(*window, "themeLight")->isChecked()) << "chosen again";
+    action(*window, "inputs")->trigger();
+    EXPECT_TRUE(window->findChild<InputsDialog*>()->isVisible());
+    action(*window, "themeSystem")->trigger();
+}
+
+TEST_F(MainWindowTest, EntriesShowWhatElsewhereSwitchedOn) {
+    const auto window = makeWindow();
+    driver.setPaused(true);
+    EXPECT_TRUE(action(*window, "pause")->isChecked());
+    driver.setGhostVisible(true);
+    EXPECT_TRUE(action(*window, "ghost")->isChecked());
+    window->viewport().setProjection(render::Projection::Orthographic);
+    EXPECT_TRUE(action(*window, "orthographic")->isChecked());
+}
+
+TEST_F(MainWindowTest, NamesTheDocksOfALayoutThatDoNotExist) {
+    const auto window = makeWindow();
+    const QString path = folder.filePath("mine.json");
+    QFile layout(path);
+    ASSERT_TRUE(layout.open(QIODevice::WriteOnly));
+    layout.write(R"({"name": "Mine", "areas": {"left": {"places": [{"docks": ["characters", "charts"]}]}}})");
+    layout.close();
+    window->useLayout(path);
+    EXPECT_FALSE(dock(*window, "characters")->isHidden());
+    EXPECT_TRUE(window->findChild<HealthBar*>()->findChild<QLabel*>("message")->text().contains("charts"));
 }
 
 TEST_F(MainWindowTest, SpacePausesAndEndGoesBackToLive) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which columns the list of packets has, and how wide they are.
+#include "app/gui/panels/fitting_header.h"
+
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/packet_view.h"
 
-#include <QHeaderView>
 #include <QMenu>
 #include <QScopedValueRollback>
 
@@ -11,60 +11,72 @@
 
 namespace posewire::gui {
 
-void PacketView::setColumnSamples(std::vector<QString> samples) {
-    m_samples = std::move(samples);
-    fitColumns();
+FittingHeader::FittingHeader(QWidget* table) : QHeaderView(Qt::Horizontal, table) {
+    setStretchLastSection(false);
+    setMinimumSectionSize(0);
+    setHighlightSections(false);
+    setTextElideMode(Qt::ElideRight);
+    setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+    setContextMenuPolicy(Qt::CustomContextMenu);
+    connect(this, &QWidget::customContextMenuRequested, this,
+            [this](const QPoint& at) { openMenu(mapToGlobal(at)); });
 }
 
-void PacketView::setColumnUseful(int column, bool isUseful) {
+void FittingHeader::setSamples(std::vector<QString> samples) {
+    m_samples = std::move(samples);
+    fit(m_width);
+}
+
+void FittingHeader::setUseful(int column, bool isUseful) {
     if (m_useless.contains(column) == isUseful) {
         isUseful ? static_cast<void>(m_useless.removeAll(column)) : m_useless.append(column);
-        fitColumns();
+        fit(m_width);
     }
 }
 
-void PacketView::setGivingWay(std::vector<int> columns) {
+void FittingHeader::setGivingWay(std::vector<int> columns) {
     m_givingWay = std::move(columns);
-    fitColumns();
+    fit(m_width);
 }
 
-void PacketView::setChosenColumns(const QList<int>& columns) {
+void FittingHeader::setChosen(const QList<int>& columns) {
     m_chosen = columns;
-    fitColumns();
+    fit(m_width);
 }
 
-int PacketView::sampleWidth(int column) const {
+int FittingHeader::sampleWidth(int column) const {
     const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    const int margins = 2 * CellDelegate::margin(fontMetrics()) + 2;
+    const int margins = 2 * CellDelegate::margin(parentWidget()->fontMetrics()) + 2;
     const int text =
         QFontMetrics(packetFont()).horizontalAdvance(m_samples[static_cast<std::size_t>(column)]);
-    return std::max(text + margins, fontMetrics().horizontalAdvance(title) + 14);
+    return std::max(text + margins, parentWidget()->fontMetrics().horizontalAdvance(title) + 14);
 }
 
-int PacketView::leastOpenWidth() const {
-    return fontMetrics().averageCharWidth() * 22;
+int FittingHeader::leastOpenWidth() const {
+    return parentWidget()->fontMetrics().averageCharWidth() * 22;
 }
 
-std::vector<bool> PacketView::shownColumns(int open) const {
+std::vector<bool> FittingHeader::shownColumns(int open) const {
     std::vector<bool> isShown(m_samples.size(), true);
-    int width = leastOpenWidth();
+    int needed = leastOpenWidth();
     for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
         const auto place = static_cast<std::size_t>(column);
         isShown[place] =
             column == open || (m_chosen.isEmpty() ? !m_useless.contains(column) : m_chosen.contains(column));
-        width += isShown[place] && column != open ? sampleWidth(column) : 0;
+        needed += isShown[place] && column != open ? sampleWidth(column) : 0;
     }
     for (const int column : m_givingWay) {
         const auto place = static_cast<std::size_t>(column);
-        if (m_chosen.isEmpty() && width > viewport()->width() && isShown[place]) {
+        if (m_chosen.isEmpty() && needed > m_width && isShown[place]) {
             isShown[place] = false;
-            width -= sampleWidth(column);
+            needed -= sampleWidth(column);
         }
     }
     return isShown;
 }
 
-void PacketView::fitColumns() {
+void FittingHeader::fit(int width) {
+    m_width = width;
     const auto empty = std::ranges::find(m_samples, QString());
     if (model() == nullptr || empty == m_samples.end() || m_isFitting) {
         return; // sections that change their size ask for this again
@@ -74,28 +86,27 @@ void PacketView::fitColumns() {
     const std::vector<bool> isShown = shownColumns(open);
     for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
         const bool isColumnShown = isShown[static_cast<std::size_t>(column)];
-        if (m_header->isSectionHidden(column) == isColumnShown) {
-            m_header->setSectionHidden(column, !isColumnShown);
+        if (isSectionHidden(column) == isColumnShown) {
+            setSectionHidden(column, !isColumnShown);
         }
         if (isColumnShown && column != open) {
-            m_header->resizeSection(column, sampleWidth(column));
+            resizeSection(column, sampleWidth(column));
         }
     }
-    const int others = m_header->length() - m_header->sectionSize(open);
-    m_header->resizeSection(open, std::max(leastOpenWidth(), viewport()->width() - others));
-    viewport()->update();
+    const int others = length() - sectionSize(open);
+    resizeSection(open, std::max(leastOpenWidth(), m_width - others));
 }
 
-int PacketView::columnBeside(int column, int direction) const {
-    for (int beside = column + direction; beside >= 0 && beside < m_header->count(); beside += direction) {
-        if (!m_header->isSectionHidden(beside)) {
+int FittingHeader::columnBeside(int column, int direction) const {
+    for (int beside = column + direction; beside >= 0 && beside < count(); beside += direction) {
+        if (!isSectionHidden(beside)) {
             return beside;
         }
     }
     return column;
 }
 
-void PacketView::showHeaderMenu(const QPoint& at) {
+void FittingHeader::openMenu(const QPoint& at) {
     QMenu menu(this);
     QAction* fitting = menu.addAction(tr("As many columns as fit"));
     fitting->setCheckable(true);
@@ -105,7 +116,7 @@ void PacketView::showHeaderMenu(const QPoint& at) {
     for (int column = 0; column < model()->columnCount(); ++column) {
         QAction* action = menu.addAction(model()->headerData(column, Qt::Horizontal).toString());
         action->setCheckable(true);
-        action->setChecked(!m_header->isSectionHidden(column));
+        action->setChecked(!isSectionHidden(column));
         action->setEnabled(!m_samples[static_cast<std::size_t>(column)].isEmpty());
         action->setData(column);
         if (action->isChecked()) {
@@ -122,7 +133,7 @@ void PacketView::showHeaderMenu(const QPoint& at) {
     } else if (!shown.removeOne(column)) {
         shown.append(column);
     }
-    setChosenColumns(shown);
+    setChosen(shown);
 }
 
 } // namespace posewire::gui
