@@ -22,12 +22,12 @@ struct Format {
 
 /// Events in the order given.
 struct EventSheet {
-    const model::Session& session;
+    const model::SessionView& session;
     std::span<const model::Event* const> events;
 };
 
 struct ReportSheet {
-    const model::Session& session;
+    const model::SessionView& session;
     StreamReportOptions options;
 };
 

@@ -40,12 +40,12 @@ void setTextOf(QLabel& label, const QString& text) {
 Entry allIsWell(const ReceivingState& receiving) {
     if (receiving.datagramsPerSecond <= 0) {
         return {Health::Unknown, ConnectionPage::tr("The inputs have just been opened."),
-                ConnectionPage::tr("If nothing arrives within two seconds, it will be said here why.")};
+                ConnectionPage::tr("If nothing arrives within two seconds, the reason will be shown here.")};
     }
     return {Health::Good,
-            ConnectionPage::tr("Datagrams arrive: %1 a second.")
+            ConnectionPage::tr("Datagrams are arriving: %1 per second.")
                 .arg(grouped(static_cast<std::uint64_t>(std::lround(receiving.datagramsPerSecond)))),
-            ConnectionPage::tr("Nothing is found to be wrong with the connection.")};
+            ConnectionPage::tr("No problem was found with the connection.")};
 }
 
 std::vector<Entry> entriesOf(const ReceivingState& receiving) {
@@ -144,7 +144,7 @@ ConnectionPage::ConnectionPage(QWidget* parent) : QWidget(parent) {
     area->setWidget(content);
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
-    auto* about = new QLabel(tr("What is found now, the surest first, and what to do about it."), this);
+    auto* about = new QLabel(tr("What was found, the most certain first, and what to do about it."), this);
     about->setForegroundRole(QPalette::PlaceholderText);
     auto* copy = new QPushButton(tr("&Copy all"), this);
     auto* row = new QHBoxLayout;

@@ -45,16 +45,16 @@ Read readGroups(InputAddress input, const QString& text) {
 QString explanation(Kind kind) {
     switch (kind) {
     case Kind::Udp:
-        return InputForm::tr("MVN sends to this computer. Leave the host empty to hear at every address it "
-                             "has; groups only where MVN sends to a multicast group.");
+        return InputForm::tr("MVN sends to this computer. Leave the host empty to listen on every address; "
+                             "add groups only if MVN sends to a multicast group.");
     case Kind::TcpListen:
-        return InputForm::tr("MVN connects to this computer: what it does when its protocol is TCP. Leave "
-                             "the host empty to listen at every address.");
+        return InputForm::tr("MVN connects to this computer, as it does when its protocol is TCP. Leave the "
+                             "host empty to listen on every address.");
     case Kind::TcpConnect:
         break;
     }
-    return InputForm::tr("This computer connects to a sender that listens, and tries again for as long as "
-                         "it does not answer. MVN itself does not listen.");
+    return InputForm::tr("This computer connects to a sender that listens, and keeps trying until it "
+                         "answers. MVN itself does not listen.");
 }
 
 } // namespace

@@ -36,8 +36,7 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
       m_submit(new QPushButton(this)),
       m_cancel(new QPushButton(tr("Cancel"), this)) {
     m_table->setModel(m_model);
-    m_table->setEmptyText(tr("Nothing is listened to. Add an input below: UDP port 9763 is where MVN sends "
-                             "unless told otherwise."));
+    m_table->setEmptyText(tr("There are no inputs. Add one below: by default MVN sends to UDP port 9763."));
     const QString address = QStringLiteral("this computer · every address");
     m_table->setColumnSamples({tr("TCP, connecting"), address, QStringLiteral("65535"), QString(),
                                QStringLiteral("10 000"), QStringLiteral("100 000 000"),

@@ -35,7 +35,7 @@ tl::expected<RelayChoice, QString> readRelay(const QString& text) {
     if (isBareAddress(trimmed)) {
         return trimmed.contains(QLatin1Char(':')) && QHostAddress(trimmed).isNull()
                    ? tl::expected<RelayChoice, QString>(
-                         tl::unexpected(RelayPage::tr("'%1' is no address.").arg(trimmed)))
+                         tl::unexpected(RelayPage::tr("'%1' is not an address.").arg(trimmed)))
                    : RelayChoice{trimmed};
     }
     const auto input = parseInputAddress(trimmed, InputAddress::Kind::TcpConnect);
@@ -56,7 +56,7 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
       m_add(new QPushButton(tr("&Add target"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)) {
     m_table->setModel(m_model);
-    m_table->setEmptyText(tr("Nothing is forwarded. Add the host of a program that needs the stream too."));
+    m_table->setEmptyText(tr("Nothing is forwarded. Add the host of another program that needs the stream."));
     m_table->setColumnSamples({QStringLiteral("☑ motion-capture.studio"), QStringLiteral("65535"), QString(),
                                QStringLiteral("100 000 000"), QStringLiteral("100 000"),
                                QStringLiteral("100 000")},
@@ -81,9 +81,8 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
 }
 
 void RelayPage::layOut() {
-    auto* about = new QLabel(tr("Every datagram that is received is forwarded by UDP, unchanged, to each "
-                                "target that is on. Receiving never waits for it. What comes from files is "
-                                "not forwarded."),
+    auto* about = new QLabel(tr("Every received datagram is forwarded by UDP, unchanged, to each target that "
+                                "is on. Receiving never waits for this. Files are not forwarded."),
                              this);
     about->setWordWrap(true);
     about->setForegroundRole(QPalette::PlaceholderText);
@@ -122,7 +121,7 @@ void RelayPage::submit() {
         return;
     }
     if (!m_relaying.add(*choice)) {
-        setProblem(tr("%1 is there already.").arg(displayText(*choice)));
+        setProblem(tr("%1 is already in the list.").arg(displayText(*choice)));
         return;
     }
     m_target->clear();

@@ -114,10 +114,10 @@ void SenderSettings::showFor(const InputAddress& input, const std::vector<net::L
     const bool isOutgoing = input.kind == InputAddress::Kind::TcpConnect;
     const auto hosts = isOutgoing ? std::vector<net::LocalAddress>{} : hostsFor(input, addresses);
     m_title->setText(isOutgoing
-                         ? tr("This input connects to %1, which has to listen there. Nothing is to be "
-                              "typed into MVN: it connects by itself, and needs an input that listens.")
+                         ? tr("This input connects to %1, which has to listen there. There is nothing to "
+                              "enter in MVN: it makes connections itself, and needs an input that listens.")
                                .arg(input.address)
-                         : tr("Type into MVN, in Options > Preferences > Network Streamer:"));
+                         : tr("Enter in MVN, under Options > Preferences > Network Streamer:"));
     for (QLabel* label : findChildren<QLabel*>(QString(), Qt::FindDirectChildrenOnly)) {
         label->setVisible(label == m_title || !isOutgoing);
     }

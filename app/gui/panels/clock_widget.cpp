@@ -28,7 +28,7 @@ int fittingPixelSize(QFont font, const QString& text, const QSizeF& size) {
 ClockWidget::ClockWidget(QWidget* parent) : QWidget(parent) {
     setAccessibleName(tr("Time code"));
     setFocusPolicy(Qt::StrongFocus);
-    setToolTip(tr("Double click or F: on the full screen"));
+    setToolTip(tr("Double-click or press F for full screen"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
 }
 

@@ -42,8 +42,8 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
       m_view(view),
       m_commands(commands),
       m_contradictions(new QLabel(this)),
-      m_revision(addButton(tr("Revision that this sender is taken to follow"), m_revisions)),
-      m_unit(addButton(tr("Unit that positions of types 02 and 05 are read in"), m_units)) {
+      m_revision(addButton(tr("Protocol revision assumed for this sender"), m_revisions)),
+      m_unit(addButton(tr("Unit assumed for positions of types 02 and 05"), m_units)) {
     const int margin = CellDelegate::margin(fontMetrics());
     m_contradictions->setWordWrap(true);
     m_contradictions->setContentsMargins(margin, margin / 2, margin, 0);

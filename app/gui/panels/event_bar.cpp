@@ -47,7 +47,7 @@ void EventBar::addCommands() {
     addGroups(*commands);
     connect(commands->addCommand(
                 QStringLiteral("markSeen"), tr("Mark seen"),
-                tr("All events up to now have been seen: they are dim, and no longer counted as new")),
+                tr("Mark all events so far as seen: they are dimmed and no longer counted as new")),
             &QAction::triggered, this, &EventBar::seenRequested);
     connect(commands->addCommand(QStringLiteral("exportEvents"), tr("Export…"),
                                  tr("Save the listed events as CSV or JSON")),
@@ -113,7 +113,7 @@ void EventBar::addGroups(CommandBar& commands) {
 void EventBar::addText() {
     m_text = new QLineEdit(this);
     m_text->setObjectName(QStringLiteral("eventText"));
-    m_text->setAccessibleName(tr("Text that events must have"));
+    m_text->setAccessibleName(tr("Text to filter events by"));
     m_text->setPlaceholderText(tr("Filter"));
     m_text->setClearButtonEnabled(true);
     m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 8);

@@ -182,7 +182,7 @@ void FilterBar::restyle() {
     const QString text = this->text();
     const char* state = text.isEmpty() ? "" : m_error ? "wrong" : text == m_appliedText ? "applied" : "right";
     m_line->setToolTip(m_error                 ? QString::fromStdString(m_error->text)
-                       : text == m_appliedText ? tr("Arrow down: filters used before")
+                       : text == m_appliedText ? tr("Arrow down: earlier filters")
                                                : tr("Press Enter to filter"));
     m_line->setFont(monospaceFont());
     const QColor border = m_error                 ? theme().error
@@ -273,7 +273,7 @@ void FilterBar::askAbout(std::size_t index, const QPoint& place) {
         showSaved();
     });
     menu.addSeparator();
-    menu.addAction(tr("Back to the filters that &ship"), this, [this] { setSaved(defaultFilters()); });
+    menu.addAction(tr("Restore the &default filters"), this, [this] { setSaved(defaultFilters()); });
     menu.exec(place);
 }
 

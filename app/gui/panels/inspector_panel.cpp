@@ -47,7 +47,7 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
       m_title(new ElidedLabel(Qt::AlignLeft, this)),
       m_previous(addButton(QStringLiteral("‹"), tr("Previous packet of this stream"))),
       m_next(addButton(QStringLiteral("›"), tr("Next packet of this stream"))),
-      m_hold(addButton(tr("Hold"), tr("Keep this packet while the stream runs on"))),
+      m_hold(addButton(tr("Hold"), tr("Keep showing this packet while the stream continues"))),
       m_compare(addButton(tr("Compare ▾"), tr("Compare with another packet of the same type"))),
       m_problems(new QLabel(this)),
       m_problemLine(new Line(this)),
@@ -188,7 +188,7 @@ void InspectorPanel::showEmpty() {
     if (!m_isShown) {
         m_title->setText({}, tr("No packet"));
         m_fields->setEmptyText(tr("No packet yet.\nEvery field and byte of the selected packet, or of the "
-                                  "newest one, shows here."));
+                                  "newest one, is shown here."));
         m_problems->hide();
         m_problemLine->hide();
         m_detail->clear();
@@ -275,7 +275,7 @@ QString InspectorPanel::comparisonText() const {
             .arg(grouped(other->number()), signedFixed(apartMs, 2), count);
     }
     return m_comparison == Comparison::Previous
-               ? tr("There is no packet of this stream before this one to compare with")
+               ? tr("No earlier packet of this stream to compare with")
                : tr("The reference is of another type or no longer in the history: only packets of one type "
                     "can be compared");
 }

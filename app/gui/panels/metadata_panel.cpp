@@ -22,8 +22,7 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
     m_table->setRootIsDecorated(true);
     m_table->setColumnSamples({QStringLiteral("name · 22 changes"), QString(), QStringLiteral("99 min")});
     m_table->setEmptyText(
-        tr("No character selected.\nMetadata (type 12) shows here as soon as a character is on "
-           "the air."));
+        tr("No character selected.\nMetadata (type 12) appears here as soon as a character arrives."));
     connect(m_table, &TableView::copyRequested, this,
             [&commands](const QString& text) { commands.copyText(text); });
 }

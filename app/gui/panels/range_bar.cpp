@@ -22,9 +22,9 @@ RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent
     row->setContentsMargins(margin, margin / 2, margin, margin / 2);
     row->setSpacing(margin / 2);
     row->addWidget(m_strip, 1);
-    addButton(tr("10 s"), tr("Figures of the newest ten seconds, moving on with time"), 10 * kSecondNs);
-    addButton(tr("1 min"), tr("Figures of the newest minute, moving on with time"), 60 * kSecondNs);
-    addButton(tr("All"), tr("Figures of all there was"), 0);
+    addButton(tr("10 s"), tr("Figures for the last ten seconds"), 10 * kSecondNs);
+    addButton(tr("1 min"), tr("Figures for the last minute"), 60 * kSecondNs);
+    addButton(tr("All"), tr("Figures for everything received"), 0);
 }
 
 void RangeBar::addButton(const QString& text, const QString& toolTip, std::int64_t lastNs) {

@@ -34,8 +34,8 @@ RangeStrip::RangeStrip(model::SessionView& view, Commands& commands, QWidget* pa
     setCursor(Qt::IBeamCursor);
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
     setAccessibleName(tr("Range of time"));
-    setAccessibleDescription(tr("Arrow keys move the range, with Shift its end, with Control ten times as "
-                                "far. Escape takes it away."));
+    setAccessibleDescription(tr("Arrow keys move the range; with Shift they move its end, with Control ten "
+                                "times as far. Escape clears it."));
 }
 
 void RangeStrip::refresh() {

@@ -71,7 +71,7 @@ EmptyState withoutPort(const ReceivingState& receiving) {
         state.level = Health::Unknown;
         state.title = receiving.file.isEmpty() ? tr("Nothing to listen to")
                                                : tr("No character in %1").arg(receiving.file);
-        state.lines += tr("Choose Sender > Senders, or File > Open.");
+        state.lines += tr("Choose Input > Inputs or File > Open.");
     }
     return state;
 }

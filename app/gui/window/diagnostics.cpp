@@ -31,7 +31,7 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
 
 void writeSenders(QTextStream& out, model::SessionView& session) {
     for (const model::Sender& sender : session.senders()) {
-        out << "source " << QString::fromStdString(sender.info.address) << ": " << sender.datagrams
+        out << "sender " << QString::fromStdString(sender.info.address) << ": " << sender.datagrams
             << " datagrams, " << sender.malformed << " malformed, " << sender.foreign << " foreign, "
             << sender.skippedBytes << " bytes skipped\n";
     }

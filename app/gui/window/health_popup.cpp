@@ -51,11 +51,11 @@ QString HealthPopup::lossText(model::SessionView& session, const model::Characte
     const std::int64_t now = session.cursorStampNs();
     const model::StreamCounts counts = session.countsOf(key, {now - kPastNs, now});
     if (counts.expected() == 0) {
-        return tr("No sample in the last 10 s.");
+        return tr("No samples in the last 10 s.");
     }
     const std::uint64_t lost = counts.lost + counts.incomplete;
     return lost == 0
-               ? tr("All %1 samples of the last 10 s came.").arg(grouped(counts.expected()))
+               ? tr("All %1 samples of the last 10 s arrived.").arg(grouped(counts.expected()))
                : tr("Lost %1 of %2 samples in the last 10 s.").arg(grouped(lost), grouped(counts.expected()));
 }
 

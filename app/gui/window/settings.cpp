@@ -99,7 +99,8 @@ Settings SettingsFile::read(QString* problem) {
     }
     const int schema = document.object()["schema"].toInt();
     if (schema != kSchema) {
-        *problem = setAside(tr("they are of version %1, this program knows %2").arg(schema).arg(kSchema));
+        *problem =
+            setAside(tr("their version is %1, this program reads version %2").arg(schema).arg(kSchema));
         return {};
     }
     return settingsOf(document.object());
@@ -118,7 +119,7 @@ QString SettingsFile::setAside(const QString& reason) const {
 
 QString SettingsFile::write(const Settings& settings) const {
     if (!QDir().mkpath(QFileInfo(m_path).absolutePath())) {
-        return tr("The folder of %1 cannot be made.").arg(m_path);
+        return tr("The folder of %1 cannot be created.").arg(m_path);
     }
     QSaveFile file(m_path);
     if (!file.open(QIODevice::WriteOnly)) {

@@ -51,7 +51,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
     m_add->setText(tr("Input"));
-    m_time->setAccessibleName(tr("Time of day of what is shown"));
+    m_time->setAccessibleName(tr("Time of day shown"));
     m_detail->setForegroundRole(QPalette::PlaceholderText);
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 6, 12, 7);
@@ -101,9 +101,9 @@ void TransportBar::showMode(Mode mode) {
     m_pause->setText(isPaused ? tr("Go live   Space") : tr("Pause   Space"));
     m_live->setText(isPaused ? tr("▮▮ PAUSED") : mode == Mode::Live ? tr("● LIVE") : tr("○ WAITING"));
     m_live->setToolTip(isPaused
-                           ? tr("The display stands still; receiving goes on. Click to follow again (End).")
+                           ? tr("The display is paused; receiving continues. Click to follow again (End).")
                        : mode == Mode::Live ? tr("The display follows the stream.")
-                                            : tr("The display follows the stream, but nothing arrives."));
+                                            : tr("The display follows the stream, but nothing is arriving."));
     m_live->setProperty("live", mode == Mode::Live);
     m_live->style()->unpolish(m_live);
     m_live->style()->polish(m_live);

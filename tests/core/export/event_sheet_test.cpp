@@ -46,7 +46,7 @@ TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
                                "2,3,network,yes,\"3 samples lost in 2 gaps, cause: network. "
                                "Other streams \"\"brought\"\" it, "));
     EXPECT_THAT(csv, HasSubstr("\r\n0,error,source,source down,,,,0.000000000,"));
-    EXPECT_THAT(csv, EndsWith("Nothing has come for more than 1 s.\r\n"));
+    EXPECT_THAT(csv, EndsWith("No data for 1 s.\r\n"));
 }
 
 TEST_F(EventSheetTest, WritesObjectsThatCanBeRead) {
