@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
+#include "core/export/protocol_reference.h"
 #include "core/filter/filter_reference.h"
-#include "core/wire/reference.h"
 
 #include <memory>
 
@@ -12,7 +12,8 @@ Command addReferenceCommand(CommandLine& program) {
     auto isFilterWanted = std::make_shared<bool>(false);
     arguments.flag("--filter", *isFilterWanted, "print the language of decode --filter instead");
     return {"reference", [isFilterWanted](Console& console) {
-                console.out.write(*isFilterWanted ? filter::filterReference() : wire::protocolReference());
+                console.out.write(*isFilterWanted ? filter::filterReference()
+                                                  : exporting::protocolReference());
                 return ExitStatus::Fine;
             }};
 }

@@ -11,21 +11,34 @@ namespace posewire::exporting {
 namespace {
 
 /// Adds the header's fields as far as they could be read.
-struct HeaderToJson {
+class HeaderToJson {
+public:
     static constexpr bool kListens = true;
-    Json& object;
+    explicit HeaderToJson(Json& to) : m_object(to) {}
 
     template <class Value>
     void field(const wire::About& about, std::size_t, std::size_t, const Value& value) {
-        if constexpr (std::is_same_v<Value, decltype(wire::Header::id)>) {
-            object["type"] = std::string(value.data() + 4, 2);
-        } else if (about.name == "datagramCounter") {
-            object["datagram"] = static_cast<std::uint64_t>(value & 0x7fU);
-            object["last"] = (value & 0x80U) != 0;
-        } else if (about.name != "reserved") {
-            object[std::string(about.name)] = jsonOf(value);
+        if (about.parts.empty() && about.unit != wire::Unit::Reserved) {
+            m_object[std::string(about.name)] = jsonOf(value);
+        }
+        for (const wire::FieldPart& part : about.parts) {
+            if (!part.key.empty()) {
+                m_object[std::string(part.key)] = partOf(part, value);
+            }
         }
     }
+
+private:
+    template <std::size_t N>
+    static Json partOf(const wire::FieldPart& part, const std::array<char, N>& characters) {
+        return jsonOf(std::string(characters.data() + part.offset, part.size));
+    }
+    static Json partOf(const wire::FieldPart& part, std::unsigned_integral auto value) {
+        const unsigned bits = value & part.bits;
+        return part.isFlag() ? Json(bits != 0) : jsonOf(bits);
+    }
+
+    Json& m_object;
 };
 
 void addHeader(Json& object, wire::Bytes bytes) {
@@ -34,7 +47,7 @@ void addHeader(Json& object, wire::Bytes bytes) {
     }
     wire::Header header;
     wire::Cursor cursor{bytes.first(std::min(bytes.size(), wire::kHeaderSize)), 0, 0, {}};
-    HeaderToJson visitor{object};
+    HeaderToJson visitor(object);
     wire::readLayout<wire::Header, wire::Form::Standard>(cursor, header, visitor);
 }
 

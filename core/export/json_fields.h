@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/wire/field.h"
-#include "core/wire/messages.h"
+#include "core/wire/message_layouts.h"
 #include "core/wire/metadata_text.h"
 #include "core/wire/utf8.h"
 
@@ -10,6 +9,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 /// JSON values from layouts and back: one overload for each kind of field. Used by core/export only.
 namespace posewire::exporting {
@@ -33,6 +33,11 @@ struct FieldFault {
         return false;
     }
 };
+
+/// The length of what follows it is not in JSON: it is known from that.
+inline bool isLength(const wire::About& about) {
+    return about.unit == wire::Unit::ByteCount;
+}
 
 // Values to JSON.
 
@@ -68,7 +73,7 @@ Json jsonOf(const std::array<char, N>& characters) {
     return jsonOf(std::string(characters.data(), N));
 }
 
-Json jsonOf(std::unsigned_integral auto value) {
+Json jsonOf(std::integral auto value) {
     return value;
 }
 
@@ -92,11 +97,21 @@ struct FieldsToJson {
 
     template <auto Member>
     void operator()(const wire::Field<Member>& field) const {
-        object[std::string(field.about.name)] = jsonOf(value.*Member);
+        if (!isLength(field.about)) {
+            object[std::string(field.about.name)] = jsonOf(value.*Member);
+        }
     }
     template <auto Member, wire::TextKind Kind>
     void operator()(const wire::Text<Member, Kind>& field) const {
-        object[std::string(field.about.name)] = jsonOf(value.*Member);
+        if (field.about.unit != wire::Unit::TagLines) {
+            object[std::string(field.about.name)] = jsonOf(value.*Member);
+            return;
+        }
+        Json tags = Json::array();
+        for (const wire::Tag& tag : wire::parseTags(value.*Member).tags) {
+            tags.push_back(Json::array({std::string(tag.name), std::string(tag.value)}));
+        }
+        object["tags"] = std::move(tags);
     }
     template <auto Member, wire::Form ItemForm>
     void operator()(const wire::Items<Member, ItemForm>& field) const {
@@ -105,16 +120,6 @@ struct FieldsToJson {
     template <auto Member, std::size_t Max>
     void operator()(const wire::CountedList<Member, Max>& field) const {
         object[std::string(field.about.name)] = listOf<wire::Form::Standard>(value.*Member);
-    }
-    /// The length before a time code is always the same.
-    void operator()(const wire::Field<&wire::TimeCode::length>&) const {}
-    template <wire::TextKind Kind>
-    void operator()(const wire::Text<&wire::MetaData::text, Kind>&) const {
-        Json tags = Json::array();
-        for (const wire::Tag& tag : wire::parseTags(value.text).tags) {
-            tags.push_back(Json::array({std::string(tag.name), std::string(tag.value)}));
-        }
-        object["tags"] = std::move(tags);
     }
 };
 
@@ -177,14 +182,18 @@ bool readJson(const Json& json, std::array<char, N>& characters, FieldFault& fau
     return true;
 }
 
-template <std::unsigned_integral Integer>
+template <std::integral Integer>
 bool readJson(const Json& json, Integer& value, FieldFault& fault) {
-    constexpr Integer most = std::numeric_limits<Integer>::max();
-    const auto* number = json.get_ptr<const std::uint64_t*>();
-    if (number == nullptr || *number > most) {
-        return fault.fail("needs a whole number from 0 to " + std::to_string(most));
+    using Limits = std::numeric_limits<Integer>;
+    const bool isNumber = json.is_number_integer();
+    const bool isBelow = isNumber && !json.is_number_unsigned();
+    const bool fits = isBelow ? std::cmp_greater_equal(json.get<std::int64_t>(), Limits::min())
+                              : isNumber && std::cmp_less_equal(json.get<std::uint64_t>(), Limits::max());
+    if (!fits) {
+        return fault.fail("needs a whole number from " + std::to_string(Limits::min()) + " to " +
+                          std::to_string(Limits::max()));
     }
-    value = static_cast<Integer>(*number);
+    value = json.get<Integer>();
     return true;
 }
 
@@ -217,11 +226,13 @@ struct FieldsFromJson {
 
     template <auto Member>
     bool operator()(const wire::Field<Member>& field) const {
-        return readMember(object, field.about.name, value.*Member, fault);
+        return isLength(field.about) || readMember(object, field.about.name, value.*Member, fault);
     }
     template <auto Member, wire::TextKind Kind>
     bool operator()(const wire::Text<Member, Kind>& field) const {
-        return readMember(object, field.about.name, value.*Member, fault);
+        return field.about.unit == wire::Unit::TagLines
+                   ? readTags(value.*Member)
+                   : readMember(object, field.about.name, value.*Member, fault);
     }
     template <auto Member, wire::Form ItemForm>
     bool operator()(const wire::Items<Member, ItemForm>& field) const {
@@ -230,11 +241,6 @@ struct FieldsFromJson {
     template <auto Member, std::size_t Max>
     bool operator()(const wire::CountedList<Member, Max>& field) const {
         return readList<wire::Form::Standard>(field.about.name, value.*Member);
-    }
-    bool operator()(const wire::Field<&wire::TimeCode::length>&) const { return true; }
-    template <wire::TextKind Kind>
-    bool operator()(const wire::Text<&wire::MetaData::text, Kind>&) const {
-        return readTags();
     }
 
 private:
@@ -252,7 +258,7 @@ private:
         }
         return true;
     }
-    bool readTags() const {
+    bool readTags(std::string& into) const {
         const auto tags = object.find("tags");
         bool isList = tags != object.end() && tags->is_array();
         std::string text;
@@ -263,7 +269,7 @@ private:
                 text += tag[0].get<std::string>() + ':' + tag[1].get<std::string>() + '\n';
             }
         }
-        value.text = std::move(text);
+        into = std::move(text);
         return isList || fault.fail("needs a list of [name, value] pairs") || fault.under("tags");
     }
 };

@@ -4,6 +4,10 @@
 #include "core/export/hexadecimal.h"
 #include "core/wire/codec.h"
 #include "core/wire/forms_of.h"
+#include "core/wire/schema.h"
+#include "core/wire/write.h"
+
+#include <algorithm>
 
 namespace posewire::exporting {
 namespace {
@@ -63,7 +67,7 @@ bool readHeader(const Json& object, wire::Header& header, FieldFault& fault) {
     return isRead;
 }
 
-/// Bytes of the payload as the object tells them: from the datagram's size, else from the header.
+/// Bytes of the payload according to the object: from the datagram's size, else from the header.
 std::optional<std::uint64_t> toldPayload(const Json& object) {
     const auto told = [&](const char* key) -> std::optional<std::uint64_t> {
         const auto found = object.find(key);
@@ -76,27 +80,38 @@ std::optional<std::uint64_t> toldPayload(const Json& object) {
                                               : told("payloadSize");
 }
 
-bool hasAll(const Json& object, std::initializer_list<const char*> keys) {
-    return std::all_of(keys.begin(), keys.end(), [&](const char* key) { return object.contains(key); });
+/// The first field that the standard form has and the other lacks; null where there is none.
+const wire::FieldRow* leftOut(std::span<const wire::FieldRow> standard,
+                              std::span<const wire::FieldRow> other) {
+    const auto found = std::ranges::find_if(standard, [&](const wire::FieldRow& row) {
+        return std::ranges::none_of(
+            other, [&](const wire::FieldRow& kept) { return kept.about.name == row.about.name; });
+    });
+    return found == standard.end() ? nullptr : &*found;
 }
 
-/// The form a body is in: by its keys, or for texts by their size. Older senders, which leave the payload
-/// size out, are taken at the word of the older specification: no length before a text.
-template <class T>
-wire::Form formOfBody(const Json& body, std::optional<std::uint64_t> payload) {
-    if constexpr (std::is_same_v<T, wire::TrackerKinematics>) {
-        const auto list = body.find("trackers");
-        const bool isShort = list != body.end() && list->is_array() && !list->empty() &&
-                             list->front().is_object() && !hasAll(list->front(), {"acceleration"});
-        return isShort ? wire::Form::Short : wire::Form::Standard;
-    } else if constexpr (std::is_same_v<T, wire::CentreOfMass>) {
-        return hasAll(body, {"velocity"}) ? wire::Form::Standard : wire::Form::Short;
-    } else if constexpr (std::is_same_v<T, wire::TimeCode>) {
-        const bool isBare = payload && (*payload == 0 || *payload == wire::kWireSize<T, wire::Form::Bare>);
-        return isBare ? wire::Form::Bare : wire::Form::Standard;
-    } else {
-        return wire::Form::Standard;
+/// True for a body that lacks what the short form leaves out, itself or in its first item.
+bool isShort(const Json& body, const wire::MessageRow& message) {
+    const auto standard = message.fields();
+    const auto other = message.forms.back().fields;
+    if (const wire::FieldRow* field = leftOut(standard, other)) {
+        return !body.contains(std::string(field->about.name));
     }
+    for (std::size_t i = 0; i < standard.size(); ++i) {
+        const wire::FieldRow* field = leftOut(standard[i].items, other[i].items);
+        const auto list = body.find(std::string(standard[i].about.name));
+        if (field != nullptr && list != body.end() && list->is_array() && !list->empty()) {
+            return list->front().is_object() && !list->front().contains(std::string(field->about.name));
+        }
+    }
+    return false;
+}
+
+/// Whether a text comes without the length before it, by its size. Older senders, which leave the payload
+/// size out, are taken at the word of the older specification: no length.
+template <class T>
+bool isBare(const T& message, std::optional<std::uint64_t> payload) {
+    return payload && (*payload == 0 || *payload == wire::writtenSize<T, wire::Form::Bare>(message));
 }
 
 bool readRaw(const Json& body, wire::RawBody& raw, FieldFault& fault) {
@@ -114,12 +129,15 @@ bool readRaw(const Json& body, wire::RawBody& raw, FieldFault& fault) {
 
 template <class T>
 bool readMessage(const Json& body, std::optional<std::uint64_t> payload, T& message, FieldFault& fault) {
-    const wire::Form form = formOfBody<T>(body, payload);
+    wire::Form form = wire::Form::Standard;
+    if constexpr (wire::kHasForm<T, wire::Form::Short>) {
+        form = isShort(body, *wire::findMessage(T::kType)) ? wire::Form::Short : form;
+    }
     wire::setForm(message, form);
     const bool isRead =
         wire::withForm<T>(form, [&]<wire::Form F>() { return readObject<T, F>(body, message, fault); });
-    if constexpr (std::is_same_v<T, wire::MetaData>) {
-        message.hasLengthPrefix = !payload || (*payload != 0 && *payload != message.text.size());
+    if constexpr (wire::kHasForm<T, wire::Form::Bare>) {
+        message.*wire::Layout<T, wire::Form::Bare>::isStandard = !isBare(message, payload);
     }
     return isRead;
 }

@@ -43,7 +43,7 @@ private:
 };
 
 /// A datagram's layout: which message in which form. Each has its own set of fields.
-inline constexpr std::size_t kShapes = std::variant_size_v<wire::Body> + 4;
+inline constexpr std::size_t kShapes = 2 * std::variant_size_v<wire::Body>;
 [[nodiscard]] std::size_t shapeOf(const wire::Datagram& datagram);
 
 /// Places of fields within a shape: the message itself, then its lists in wire order.

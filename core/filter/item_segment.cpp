@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/filter/item_segment.h"
 
-#include "core/filter/field.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/points.h"
 #include "core/model/body/segments.h"
@@ -42,12 +41,11 @@ std::optional<model::PointReference> pointBy(model::PointIdCoding coding, std::u
 
 } // namespace
 
-double pointSegment(std::span<const wire::Point> points, std::size_t item) {
+double pointSegment(std::uint32_t id, std::uint32_t firstId) {
     using enum model::PointIdCoding;
-    const std::uint32_t id = points[item].id;
     const auto by256 = pointBy(By256, id);
     const auto by100 = pointBy(By100, id);
-    const bool isOld = by256 && by100 ? !pointBy(By256, points.front().id) : by100.has_value();
+    const bool isOld = by256 && by100 ? !pointBy(By256, firstId) : by100.has_value();
     return isOld ? by100->segmentId : id >> 8;
 }
 
@@ -72,10 +70,18 @@ std::optional<double> segmentNumber(std::string_view name) {
                                 : std::optional(static_cast<double>(found - names.begin() + 1));
 }
 
-double namedSegment(std::uint32_t id, const ItemPlace& place) {
+double namedSegment(const ItemIds& ids, const ItemPlace& place) {
+    if (!ids.segment) {
+        return ids.name ? segmentNumber(*ids.name).value_or(0) : 0;
+    }
+    const std::uint32_t id = *ids.segment;
     const bool isOfBody = id >= 1 && id <= model::kBodySegmentCount;
-    if (place.isUnityOrder) {
+    if (ids.isUnityOrder) {
         return isOfBody ? model::unityOrder()[id - 1] + 1 : 0;
+    }
+    const bool isAfterFoot = place.item >= kLeftFootPlace && place.item < model::kBodySegmentCount;
+    if (place.hasFootOfE && isAfterFoot && id == place.item + 2) {
+        return static_cast<double>(place.item + 1);
     }
     if (isOfBody) {
         return id;
@@ -83,10 +89,6 @@ double namedSegment(std::uint32_t id, const ItemPlace& place) {
     const auto layout = model::segmentLayout(place.header, place.items);
     const auto at = model::placeOf(layout, static_cast<int>(place.item));
     return at && at->kind != model::SegmentKind::Body ? numberAt(*at) : 0;
-}
-
-double namedSegment(const wire::NullPoseSegment& segment, const ItemPlace&) {
-    return segmentNumber(segment.name).value_or(0);
 }
 
 } // namespace posewire::filter

@@ -1,52 +1,91 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/wire/header.h"
-#include "core/wire/messages.h"
+#include "core/filter/field.h"
+#include "core/model/body/segments.h"
+#include "core/wire/item_layouts.h"
 
-#include <span>
-
-/// Which segment an item of a message is about.
+/// Which segment an item of a message is about, by what its fields refer to.
 namespace posewire::filter {
 
-/// Where an item stands.
+/// The numbers of an item that have to do with segments.
+struct ItemIds {
+    std::optional<std::uint32_t> segment{}; ///< as on the wire; of a joint that of its child
+    std::optional<std::uint32_t> point{};
+    std::optional<std::string_view> name{}; ///< of an item without a number
+    bool isUnityOrder = false;
+};
+
+template <wire::Form F, class Item>
+ItemIds idsOf(const Item& item) {
+    ItemIds ids;
+    wire::forEachField<Item, F>([&]<class FieldType>(const FieldType& field) {
+        using enum wire::RefersTo;
+        using Member = wire::MemberValue<FieldType::kMember>;
+        if constexpr (std::is_unsigned_v<Member>) {
+            const std::uint32_t id = item.*FieldType::kMember;
+            switch (field.about.refersTo) {
+            case UnitySegment:
+                ids.isUnityOrder = true;
+                [[fallthrough]];
+            case Segment:
+            case Tracker:
+            case Prop:
+                ids.segment = id;
+                break;
+            case JointEnd:
+                ids.segment = id >> 8;
+                break;
+            case Point:
+                ids.point = id;
+                break;
+            default:
+                break;
+            }
+        } else if constexpr (std::is_same_v<Member, std::string>) {
+            ids.name = item.*FieldType::kMember;
+        }
+    });
+    return ids;
+}
+
+/// The numbers of the left foot and toe are 23 and 24 in revision E, one more than their places.
+inline constexpr std::size_t kLeftFootPlace = model::segment::kLeftFoot;
+
+/// Where an item is.
 struct ItemPlace {
     const wire::Header& header;
     std::size_t item;
     std::size_t items;
-    bool isUnityOrder; ///< type 05 numbers the segments in an order of its own
+    bool hasFootOfE; ///< the item at the place of the left foot has revision E's number of it
 };
-
-template <class Item>
-concept HasSegmentId = std::is_same_v<Item, wire::SegmentEuler> ||
-    std::is_same_v<Item, wire::SegmentQuaternion> || std::is_same_v<Item, wire::SegmentScale> ||
-    std::is_same_v<Item, wire::LinearSegment> || std::is_same_v<Item, wire::AngularSegment> ||
-    std::is_same_v<Item, wire::Tracker> || std::is_same_v<Item, wire::Prop>;
-
-/// The wire's own number; null-pose segments, which have no number, count from 1; a joint belongs to its
-/// child.
-template <HasSegmentId Item>
-double segmentId(const Item& item, std::size_t) {
-    return item.id;
-}
-inline double segmentId(const wire::Joint& joint, std::size_t) {
-    return joint.child >> 8;
-}
-inline double segmentId(const wire::NullPoseSegment&, std::size_t item) {
-    return static_cast<double>(item + 1);
-}
 
 /// Points are numbered 256 × segment + point, in revision E 100 × segment + point. The few ids that could be
 /// either are taken as the first point of the datagram is.
-[[nodiscard]] double pointSegment(std::span<const wire::Point> points, std::size_t item);
+[[nodiscard]] double pointSegment(std::uint32_t id, std::uint32_t firstId);
 
-/// The number that a name stands for (see segmentNumber), since the ids of props and fingers differ between
+/// The number that a name means (see segmentNumber), since the ids of props and fingers differ between
 /// revisions; 0 where the item has no name.
-double namedSegment(std::uint32_t id, const ItemPlace& place);
-double namedSegment(const wire::NullPoseSegment& segment, const ItemPlace& place);
-template <class Item>
-double namedSegment(const Item& item, const ItemPlace& place) {
-    return namedSegment(static_cast<std::uint32_t>(segmentId(item, place.item)), place);
+[[nodiscard]] double namedSegment(const ItemIds& ids, const ItemPlace& place);
+
+/// The wire's own number; items without one count from 1.
+template <wire::Form F, class Item>
+double segmentNumberOf(const std::vector<Item>& items, std::size_t item) {
+    const ItemIds ids = idsOf<F>(items[item]);
+    return ids.point     ? pointSegment(*ids.point, *idsOf<F>(items.front()).point)
+           : ids.segment ? *ids.segment
+                         : static_cast<double>(item + 1);
+}
+
+template <wire::Form F, class Item>
+double namedSegment(const wire::Header& header, const std::vector<Item>& items, std::size_t item) {
+    const ItemIds ids = idsOf<F>(items[item]);
+    if (ids.point) {
+        return segmentNumberOf<F>(items, item);
+    }
+    const bool hasFootOfE = items.size() > kLeftFootPlace && header.countedSegments() == 0 &&
+                            idsOf<F>(items[kLeftFootPlace]).segment == kLeftFootPlace + 2;
+    return namedSegment(ids, {header, item, items.size(), hasFootOfE});
 }
 
 } // namespace posewire::filter

@@ -2,7 +2,7 @@
 #include "core/filter/field.h"
 
 #include "core/filter/item_segment.h"
-#include "core/wire/form.h"
+#include "core/wire/forms_of.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -16,24 +16,26 @@ using wire::Form;
 
 constexpr std::size_t kBodies = std::variant_size_v<wire::Body>;
 
-/// The forms besides the standard one have numbers of their own, after all standard ones.
-template <class T>
-constexpr std::size_t otherShape() {
-    constexpr std::array<bool, 4> isThis{std::is_same_v<T, wire::MetaData>, std::is_same_v<T, wire::TimeCode>,
-                                         std::is_same_v<T, wire::TrackerKinematics>,
-                                         std::is_same_v<T, wire::CentreOfMass>};
-    return kBodies + static_cast<std::size_t>(std::find(isThis.begin(), isThis.end(), true) - isThis.begin());
+/// The place of a message among the alternatives of Body. Those in another form than the standard one come
+/// after all standard ones.
+template <class T, Form F>
+constexpr std::size_t shapeOf() {
+    std::size_t shape = 1;
+    bool isFound = false;
+    wire::Messages::forEach([&]<class Other>() {
+        isFound = isFound || std::is_same_v<Other, T>;
+        shape += isFound ? 0 : 1;
+    });
+    return F == Form::Standard ? shape : kBodies + shape;
 }
 
 template <class V>
-constexpr Kind kKindOf = std::is_arithmetic_v<V> ? Kind::Number : Kind::Text;
-template <std::size_t N>
-constexpr Kind kKindOf<std::array<float, N>> = Kind::Vector;
+constexpr bool kIsFloat = wire::kScalar<V> == wire::Scalar::Float32;
 
 template <class V>
-constexpr std::size_t kComponentsOf = 1;
-template <std::size_t N>
-constexpr std::size_t kComponentsOf<std::array<float, N>> = N;
+constexpr Kind kKindOf = std::is_arithmetic_v<V>     ? Kind::Number
+                         : wire::kComponents<V> != 1 ? Kind::Vector
+                                                     : Kind::Text;
 
 template <class V>
 Value valueOf(const V& value, std::size_t component) {
@@ -63,26 +65,14 @@ template <class T, auto List, auto Member>
 Value readListed(const Datagram& datagram, std::size_t item, std::size_t component) {
     return valueOf((bodyOf<T>(datagram).*List)[item].*Member, component);
 }
-template <auto List>
-constexpr bool kHasPoints = std::is_same_v<typename wire::MemberValue<List>::value_type, wire::Point>;
 
-template <class T, auto List>
+template <class T, Form ItemForm, auto List>
 Value readSegment(const Datagram& datagram, std::size_t item, std::size_t) {
-    if constexpr (kHasPoints<List>) {
-        return {pointSegment(bodyOf<T>(datagram).*List, item), {}};
-    } else {
-        return {segmentId((bodyOf<T>(datagram).*List)[item], item), {}};
-    }
+    return {segmentNumberOf<ItemForm>(bodyOf<T>(datagram).*List, item), {}};
 }
-template <class T, auto List>
+template <class T, Form ItemForm, auto List>
 Value readNamedSegment(const Datagram& datagram, std::size_t item, std::size_t) {
-    if constexpr (kHasPoints<List>) {
-        return {pointSegment(bodyOf<T>(datagram).*List, item), {}};
-    } else {
-        const ItemPlace place{datagram.header, item, (bodyOf<T>(datagram).*List).size(),
-                              std::is_same_v<T, wire::PoseUnity>};
-        return {namedSegment((bodyOf<T>(datagram).*List)[item], place), {}};
-    }
+    return {namedSegment<ItemForm>(datagram.header, bodyOf<T>(datagram).*List, item), {}};
 }
 template <auto Member>
 bool readHeader(Subject& subject, std::size_t index, Value& value) {
@@ -122,6 +112,7 @@ struct Reading {
     std::size_t components;
     ReadItem read;
     ReadItem readNamed = nullptr;
+    bool isFloat = false;
 };
 
 void add(Found& found, const Spot& spot, const wire::About& about, const Reading& reading) {
@@ -136,7 +127,7 @@ void add(Found& found, const Spot& spot, const wire::About& about, const Reading
         info.qualifier = spot.qualifier;
         info.kind = reading.kind;
         info.components = reading.components;
-        info.isFloat = reading.kind == Kind::Vector;
+        info.isFloat = reading.isFloat;
         field = found.fields.insert(field, std::move(info));
         found.said.emplace_back();
     }
@@ -172,10 +163,10 @@ private:
     void addMember(const wire::About& about) {
         using V = wire::MemberValue<Member>;
         constexpr ReadItem read = &readListed<T, List, Member>;
-        if (about.name == "segment") {
+        if (about.refersTo == wire::RefersTo::Carrier) {
             add(m_found, m_spot, about, {Kind::Segment, 1, read, read});
         } else {
-            add(m_found, m_spot, about, {kKindOf<V>, kComponentsOf<V>, read});
+            add(m_found, m_spot, about, {kKindOf<V>, wire::kComponents<V>, read, nullptr, kIsFloat<V>});
         }
     }
 
@@ -211,7 +202,8 @@ private:
     template <auto Member>
     void addOwn(const wire::About& about) {
         using V = wire::MemberValue<Member>;
-        add(m_found, m_spot, about, {kKindOf<V>, kComponentsOf<V>, &readOwn<T, Member>});
+        add(m_found, m_spot, about,
+            {kKindOf<V>, wire::kComponents<V>, &readOwn<T, Member>, nullptr, kIsFloat<V>});
     }
     template <auto List, Form ItemForm>
     void addList(const wire::About& about) {
@@ -228,12 +220,20 @@ private:
             return (bodyOf<T>(datagram).*List).size();
         };
         wire::forEachField<Item, ItemForm>(ItemWalker<T, List>(m_found, spot));
-        if constexpr (kHasPoints<List> || requires(const Item& item) { segmentId(item, 0); }) {
+        if (!namesItsSegment<Item, ItemForm>()) {
             constexpr wire::About segment{"segment", wire::Unit::Identifier,
                                           "the segment that the item is about, by id or name", ""};
             add(m_found, spot, segment,
-                {Kind::Segment, 1, &readSegment<T, List>, &readNamedSegment<T, List>});
+                {Kind::Segment, 1, &readSegment<T, ItemForm, List>, &readNamedSegment<T, ItemForm, List>});
         }
+    }
+    /// True for items with a field "segment" of their own.
+    template <class Item, Form F>
+    static constexpr bool namesItsSegment() {
+        bool names = false;
+        wire::forEachValue<Item, F>(
+            [&](const auto& field) { names = names || field.about.refersTo == wire::RefersTo::Carrier; });
+        return names;
     }
 
     Found& m_found;
@@ -262,15 +262,11 @@ private:
     Found& m_found;
 };
 
-template <std::size_t I>
+template <class T>
 void walkMessage(Found& found) {
-    using T = std::variant_alternative_t<I, wire::Body>;
-    wire::forEachField<T, Form::Standard>(MessageWalker<T>(found, I));
-    if constexpr (requires { wire::Layout<T, Form::Bare>::fields; }) {
-        wire::forEachField<T, Form::Bare>(MessageWalker<T>(found, otherShape<T>()));
-    }
-    if constexpr (requires { wire::Layout<T, Form::Short>::fields; }) {
-        wire::forEachField<T, Form::Short>(MessageWalker<T>(found, otherShape<T>()));
+    wire::forEachField<T, Form::Standard>(MessageWalker<T>(found, shapeOf<T, Form::Standard>()));
+    if constexpr (constexpr Form other = wire::kOtherForm<T>; other != Form::Standard) {
+        wire::forEachField<T, other>(MessageWalker<T>(found, shapeOf<T, other>()));
     }
 }
 
@@ -284,9 +280,9 @@ std::string together(const std::vector<std::string_view>& said, const std::vecto
         }
         std::string who;
         for (std::size_t j = i; j < said.size(); ++j) {
-            const auto digits = wire::typeDigits(types[j]);
-            who.append(said[j] == said[i] ? (who.empty() ? " (" : " ") : "");
-            who.append(digits.data(), said[j] == said[i] ? digits.size() : 0);
+            if (said[j] == said[i]) {
+                who += (who.empty() ? " (" : " ") + wire::typeDigits(types[j]);
+            }
         }
         const bool isAgreed =
             std::count(said.begin(), said.end(), said[i]) == static_cast<std::ptrdiff_t>(said.size());
@@ -298,10 +294,7 @@ std::string together(const std::vector<std::string_view>& said, const std::vecto
 Found walkAll() {
     Found found;
     wire::forEachField<wire::Header, Form::Standard>(HeaderWalker(found));
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-        (walkMessage<I + 1>(found), ...);
-    }
-    (std::make_index_sequence<kBodies - 1>{});
+    wire::Messages::forEach([&]<class T>() { walkMessage<T>(found); });
     for (std::size_t i = 0; i < found.fields.size(); ++i) {
         FieldInfo& field = found.fields[i];
         if (field.isOfItems()) {
@@ -320,22 +313,16 @@ const Found& walked() {
 } // namespace
 
 std::size_t shapeOf(const Datagram& datagram) {
-    const auto shapeFor = [&]<class T>(const T& value) {
-        return wire::formOf(value) == Form::Standard ? datagram.body.index() : otherShape<T>();
-    };
-    if (const auto* metaData = std::get_if<wire::MetaData>(&datagram.body)) {
-        return shapeFor(*metaData);
-    }
-    if (const auto* timeCode = std::get_if<wire::TimeCode>(&datagram.body)) {
-        return shapeFor(*timeCode);
-    }
-    if (const auto* trackers = std::get_if<wire::TrackerKinematics>(&datagram.body)) {
-        return shapeFor(*trackers);
-    }
-    if (const auto* centre = std::get_if<wire::CentreOfMass>(&datagram.body)) {
-        return shapeFor(*centre);
-    }
-    return datagram.body.index();
+    return std::visit(
+        [&]<class T>(const T& value) -> std::size_t {
+            if constexpr (std::is_same_v<T, wire::RawBody>) {
+                return 0;
+            } else {
+                const bool isStandard = wire::formOf(value) == Form::Standard;
+                return datagram.body.index() + (isStandard ? 0 : kBodies);
+            }
+        },
+        datagram.body);
 }
 
 std::size_t itemCount(const Datagram& datagram, std::size_t shape, std::size_t list) {

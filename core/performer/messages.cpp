@@ -14,15 +14,14 @@ using model::toFloats;
 
 /// One item for each segment, made by `make(id, state)`.
 template <typename Item, typename Make>
-std::vector<Item> perSegment(const Character& character, const CharacterMoment& moment,
-                             const MessageDialect& dialect, Make make) {
-    std::vector<Item> items;
-    items.reserve(moment.segments.size());
-    for (std::size_t place = 0; place < moment.segments.size(); ++place) {
+void perSegment(const Subject& subject, std::vector<Item>& items, Make make) {
+    const auto& states = subject.moment.segments;
+    items.reserve(states.size());
+    for (std::size_t place = 0; place < states.size(); ++place) {
+        const int position = static_cast<int>(place);
         items.push_back(
-            make(segmentId(character.layout(), static_cast<int>(place), dialect), moment.segments[place]));
+            make(segmentId(subject.character.layout(), position, subject.dialect), states[place]));
     }
-    return items;
 }
 
 std::array<Eigen::Quaterniond, model::kBodySegmentCount> bodyOrientations(const CharacterMoment& moment) {
@@ -46,126 +45,113 @@ std::uint32_t segmentId(const model::SegmentLayout& layout, int position, const 
     return static_cast<std::uint32_t>(isBody ? position + 1 : position - layout.body + dialect.firstPropId);
 }
 
-wire::PoseEuler poseEuler(const Character& character, const CharacterMoment& moment,
-                          const MessageDialect& dialect) {
+void perform(const Subject& subject, wire::PoseEuler& message) {
     const auto make = [](std::uint32_t id, const SegmentState& state) {
         const model::EulerItem item = model::eulerFromPose(state.pose);
         return wire::SegmentEuler{id, item.position, item.rotation};
     };
-    return {perSegment<wire::SegmentEuler>(character, moment, dialect, make)};
+    perSegment(subject, message.segments, make);
 }
 
-wire::PoseQuaternion poseQuaternion(const Character& character, const CharacterMoment& moment,
-                                    const MessageDialect& dialect) {
+void perform(const Subject& subject, wire::PoseQuaternion& message) {
     const auto make = [](std::uint32_t id, const SegmentState& state) {
         return wire::SegmentQuaternion{id, toFloats(state.pose.position), toFloats(state.pose.orientation)};
     };
-    return {perSegment<wire::SegmentQuaternion>(character, moment, dialect, make)};
+    perSegment(subject, message.segments, make);
 }
 
-wire::PointPositions pointPositions(const Character& character, const CharacterMoment& moment,
-                                    const MessageDialect& dialect) {
-    wire::PointPositions message;
+void perform(const Subject& subject, wire::PointPositions& message) {
     const auto points = model::anatomicalPoints();
     for (const int marker : model::markerPoints()) {
         const auto place = static_cast<std::size_t>(marker);
         const model::AnatomicalPoint& point = points[place];
-        const model::SegmentPose& segment = moment.segments[static_cast<std::size_t>(point.segment)].pose;
-        const Vector3d position = segment.position + segment.orientation * character.body().points[place];
-        message.points.push_back({model::encodePointId(dialect.pointIds, {point.segment + 1, point.localId}),
-                                  model::yUpFromPoint(position)});
+        const model::SegmentPose& segment =
+            subject.moment.segments[static_cast<std::size_t>(point.segment)].pose;
+        const Vector3d position =
+            segment.position + segment.orientation * subject.character.body().points[place];
+        message.points.push_back(
+            {model::encodePointId(subject.dialect.pointIds, {point.segment + 1, point.localId}),
+             model::yUpFromPoint(position)});
     }
-    return message;
 }
 
-wire::TagPositions tagPositions(double seconds) {
+void perform(const Subject& subject, wire::TagPositions& message) {
     constexpr double kRoundsPerSecond = 0.05;
     constexpr double kRadius = 2.5;
-    const double angle = 2.0 * std::numbers::pi * kRoundsPerSecond * seconds;
+    const double angle = 2.0 * std::numbers::pi * kRoundsPerSecond * subject.seconds;
     const Vector3d carried(kRadius * std::cos(angle), kRadius * std::sin(angle), 1.1);
     const Vector3d lying(1.8, -1.2, 0.02);
-    return {{{101, model::yUpFromPoint(carried)}, {102, model::yUpFromPoint(lying)}}};
+    message.points = {{101, model::yUpFromPoint(carried)}, {102, model::yUpFromPoint(lying)}};
 }
 
-wire::PoseUnity poseUnity(const CharacterMoment& moment) {
-    wire::PoseUnity message;
+void perform(const Subject& subject, wire::PoseUnity& message) {
+    const auto& segments = subject.moment.segments;
     const auto& order = model::unityOrder();
     for (std::size_t place = 0; place < order.size(); ++place) {
         const auto index = static_cast<std::size_t>(order[place]);
         const int parent = model::bodySegments()[index].parent;
-        const model::SegmentPose& world = moment.segments[index].pose;
+        const model::SegmentPose& world = segments[index].pose;
         const model::QuaternionItem item = model::unityFromPose(
-            parent < 0 ? world
-                       : model::relativeTo(moment.segments[static_cast<std::size_t>(parent)].pose, world));
+            parent < 0 ? world : model::relativeTo(segments[static_cast<std::size_t>(parent)].pose, world));
         message.segments.push_back({static_cast<std::uint32_t>(place + 1), item.position, item.orientation});
     }
-    return message;
 }
 
-wire::JointAngles jointAngles(const CharacterMoment& moment) {
-    const auto orientations = bodyOrientations(moment);
+void perform(const Subject& subject, wire::JointAngles& message) {
+    const auto orientations = bodyOrientations(subject.moment);
     std::array<Vector3d, model::kJointCount> angles;
     model::JointAnglesJob{orientations, angles}.run();
-    wire::JointAngles message;
     for (std::size_t row = 0; row < angles.size(); ++row) {
         const model::JointDefinition& joint = model::jointDefinitions()[row];
         message.joints.push_back({model::encodePointId(model::PointIdCoding::By256, joint.parent),
                                   model::encodePointId(model::PointIdCoding::By256, joint.child),
                                   toFloats(Vector3d(angles[row] * model::kDegreesPerRadian))});
     }
-    return message;
 }
 
-wire::LinearKinematics linearKinematics(const Character& character, const CharacterMoment& moment,
-                                        const MessageDialect& dialect) {
+void perform(const Subject& subject, wire::LinearKinematics& message) {
     const auto make = [](std::uint32_t id, const SegmentState& state) {
         return wire::LinearSegment{id, toFloats(state.pose.position), toFloats(state.velocity),
                                    toFloats(state.acceleration)};
     };
-    return {perSegment<wire::LinearSegment>(character, moment, dialect, make)};
+    perSegment(subject, message.segments, make);
 }
 
-wire::AngularKinematics angularKinematics(const Character& character, const CharacterMoment& moment,
-                                          const MessageDialect& dialect) {
+void perform(const Subject& subject, wire::AngularKinematics& message) {
     const auto make = [](std::uint32_t id, const SegmentState& state) {
         return wire::AngularSegment{id, toFloats(state.pose.orientation), toFloats(state.angularVelocity),
                                     toFloats(state.angularAcceleration)};
     };
-    return {perSegment<wire::AngularSegment>(character, moment, dialect, make)};
+    perSegment(subject, message.segments, make);
 }
 
-wire::TrackerKinematics trackerKinematics(const CharacterMoment& moment) {
-    wire::TrackerKinematics message;
-    for (const TrackerReading& reading : moment.trackers) {
+void perform(const Subject& subject, wire::TrackerKinematics& message) {
+    for (const TrackerReading& reading : subject.moment.trackers) {
         message.trackers.push_back({static_cast<std::uint32_t>(reading.segment + 1),
                                     toFloats(reading.orientation), toFloats(reading.freeAcceleration),
                                     toFloats(reading.acceleration), toFloats(reading.angularVelocity),
                                     toFloats(reading.magneticField)});
     }
-    return message;
 }
 
-wire::CentreOfMass centreOfMassMessage(const CharacterMoment& moment, const MessageDialect& dialect) {
-    wire::CentreOfMass message;
-    message.position = toFloats(moment.centreOfMass.position);
-    message.hasDerivatives = dialect.sendsMassDerivatives;
+void perform(const Subject& subject, wire::CentreOfMass& message) {
+    const auto& centre = subject.moment.centreOfMass;
+    message.position = toFloats(centre.position);
+    message.hasDerivatives = subject.dialect.sendsMassDerivatives;
     if (message.hasDerivatives) {
-        message.velocity = toFloats(moment.centreOfMass.velocity);
-        message.acceleration = toFloats(moment.centreOfMass.acceleration);
+        message.velocity = toFloats(centre.velocity);
+        message.acceleration = toFloats(centre.acceleration);
     }
-    return message;
 }
 
-wire::TimeCode timeCode(std::uint64_t timeOfDayMs, const MessageDialect& dialect) {
+void perform(const Subject& subject, wire::TimeCode& message) {
     constexpr std::uint64_t kMsPerDay = 86'400'000;
-    const std::uint64_t ms = timeOfDayMs % kMsPerDay;
-    wire::TimeCode message;
+    const std::uint64_t ms = subject.timeOfDayMs % kMsPerDay;
     putDigits(ms / 3'600'000, 0, 2, message.text);
     putDigits(ms / 60'000 % 60, 3, 2, message.text);
     putDigits(ms / 1000 % 60, 6, 2, message.text);
     putDigits(ms % 1000, 9, 3, message.text);
-    message.hasLengthPrefix = dialect.prefixesTimeCode;
-    return message;
+    message.hasLengthPrefix = subject.dialect.prefixesTimeCode;
 }
 
 } // namespace posewire::performer

@@ -22,25 +22,30 @@ struct MessageDialect {
     bool sendsRealTags = true;        ///< the tags of type 12 that are in no specification but on the wire
 };
 
-wire::PoseEuler poseEuler(const Character& character, const CharacterMoment& moment,
-                          const MessageDialect& dialect);
-wire::PoseQuaternion poseQuaternion(const Character& character, const CharacterMoment& moment,
-                                    const MessageDialect& dialect);
+/// What the messages of one frame are about.
+struct Subject {
+    const Character& character;
+    const CharacterMoment& moment;
+    const MessageDialect& dialect;
+    double seconds = 0;            ///< since the first frame
+    std::uint64_t timeOfDayMs = 0; ///< since midnight; wraps after a day
+};
+
+/// Writes what a performer sends in every frame, one for each message type of wire::Messages that counts
+/// frames.
+void perform(const Subject& subject, wire::PoseEuler& message);
+void perform(const Subject& subject, wire::PoseQuaternion& message);
 /// The 64 markers.
-wire::PointPositions pointPositions(const Character& character, const CharacterMoment& moment,
-                                    const MessageDialect& dialect);
+void perform(const Subject& subject, wire::PointPositions& message);
 /// Two tags off the body: one carried across the floor, one lying still.
-wire::TagPositions tagPositions(double seconds);
-wire::PoseUnity poseUnity(const CharacterMoment& moment);
-wire::JointAngles jointAngles(const CharacterMoment& moment);
-wire::LinearKinematics linearKinematics(const Character& character, const CharacterMoment& moment,
-                                        const MessageDialect& dialect);
-wire::AngularKinematics angularKinematics(const Character& character, const CharacterMoment& moment,
-                                          const MessageDialect& dialect);
-wire::TrackerKinematics trackerKinematics(const CharacterMoment& moment);
-wire::CentreOfMass centreOfMassMessage(const CharacterMoment& moment, const MessageDialect& dialect);
-/// `timeOfDayMs` since midnight; wraps after a day.
-wire::TimeCode timeCode(std::uint64_t timeOfDayMs, const MessageDialect& dialect);
+void perform(const Subject& subject, wire::TagPositions& message);
+void perform(const Subject& subject, wire::PoseUnity& message);
+void perform(const Subject& subject, wire::JointAngles& message);
+void perform(const Subject& subject, wire::LinearKinematics& message);
+void perform(const Subject& subject, wire::AngularKinematics& message);
+void perform(const Subject& subject, wire::TrackerKinematics& message);
+void perform(const Subject& subject, wire::CentreOfMass& message);
+void perform(const Subject& subject, wire::TimeCode& message);
 
 /// How the body differs from the reference body (revision E).
 wire::ScaleInformation scaleInformation(const Character& character);

@@ -2,11 +2,12 @@
 #include "core/performer/performer.h"
 
 #include "core/performer/messages.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
+#include <type_traits>
 
 namespace posewire::performer {
 namespace {
@@ -14,25 +15,24 @@ namespace {
 constexpr double kMetaDataPeriod = 1.0; // s
 constexpr double kScalePeriod = 5.0;
 
-constexpr std::array<std::uint8_t, 7> kTypesOfE{1, 2, 3, 4, 10, 11, 12};
-constexpr std::array<std::uint8_t, 12> kTypesOfLater{1, 2, 3, 5, 12, 13, 20, 21, 22, 23, 24, 25};
-/// Deprecated, but still numbered: sent by later revisions if asked for by number.
-constexpr std::array<std::uint8_t, 3> kDeprecatedTypes{4, 10, 11};
-
-/// Those that every frame carries, in sending order.
-constexpr std::array<std::uint8_t, 11> kFrameTypes{1, 2, 3, 4, 5, 20, 21, 22, 23, 24, 25};
-
-std::span<const std::uint8_t> tableOf(Revision revision) {
-    return revision == Revision::E ? std::span<const std::uint8_t>(kTypesOfE)
-                                   : std::span<const std::uint8_t>(kTypesOfLater);
-}
+/// Information about a character, sent now and then. Of all others each frame has a message.
+template <class T>
+constexpr bool kIsInformation =
+    std::is_same_v<T, wire::ScaleInformation> || std::is_same_v<T, wire::PropInformation> ||
+    std::is_same_v<T, wire::MetaData> || std::is_same_v<T, wire::NullPose>;
 
 bool has(std::span<const std::uint8_t> types, std::uint8_t type) {
     return std::ranges::find(types, type) != types.end();
 }
 
+bool isOfE(const wire::TypeInfo& info) {
+    return info.firstRevision() == 'E';
+}
+
+/// What a revision deprecates is still numbered: it is sent if asked for by number.
 bool isAllowed(Revision revision, std::uint8_t type) {
-    return has(tableOf(revision), type) || (revision != Revision::E && has(kDeprecatedTypes, type));
+    const wire::TypeInfo* info = wire::findType(type);
+    return info != nullptr && (revision != Revision::E || isOfE(*info));
 }
 
 MessageDialect dialectOf(Revision revision) {
@@ -87,8 +87,13 @@ void fillHeader(const Character& character, Revision revision, wire::Datagram& d
 } // namespace
 
 std::vector<std::uint8_t> typesOf(Revision revision) {
-    const auto types = tableOf(revision);
-    return {types.begin(), types.end()};
+    std::vector<std::uint8_t> types;
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        if (revision == Revision::E ? isOfE(info) : !(isOfE(info) && info.isInOneRevision())) {
+            types.push_back(info.type);
+        }
+    }
+    return types;
 }
 
 std::optional<std::string> findProblem(const PerformerSettings& settings) {
@@ -160,41 +165,19 @@ void Performer::addInformation(const Character& character, std::vector<wire::Dat
 void Performer::addFrameTypes(Character& character, std::uint64_t index,
                               std::vector<wire::Datagram>& into) const {
     const MessageDialect dialect = dialectOf(m_settings.revision);
-    const CharacterMoment& moment = character.at(index);
-    const auto body = [&](std::uint8_t type) -> wire::Body {
-        switch (type) {
-        case 1:
-            return poseEuler(character, moment, dialect);
-        case 2:
-            return poseQuaternion(character, moment, dialect);
-        case 3:
-            return pointPositions(character, moment, dialect);
-        case 4:
-            return tagPositions(static_cast<double>(index) / m_settings.rateHz);
-        case 5:
-            return poseUnity(moment);
-        case 20:
-            return jointAngles(moment);
-        case 21:
-            return linearKinematics(character, moment, dialect);
-        case 22:
-            return angularKinematics(character, moment, dialect);
-        case 23:
-            return trackerKinematics(moment);
-        case 24:
-            return centreOfMassMessage(moment, dialect);
-        default:
-            return timeCode(timeOfDayMs(m_settings, index), dialect);
+    const Subject subject{character, character.at(index), dialect,
+                          static_cast<double>(index) / m_settings.rateHz, timeOfDayMs(m_settings, index)};
+    wire::Messages::forEach([&]<class T>() {
+        if constexpr (!kIsInformation<T>) {
+            if (sends(T::kType)) {
+                T message;
+                perform(subject, message);
+                add(character, std::move(message), into);
+                into.back().header.sampleCounter = m_settings.firstSample + static_cast<std::uint32_t>(index);
+                into.back().header.timeCode = static_cast<std::uint32_t>(subject.timeOfDayMs);
+            }
         }
-    };
-    for (const std::uint8_t type : kFrameTypes) {
-        if (!sends(type)) {
-            continue;
-        }
-        add(character, body(type), into);
-        into.back().header.sampleCounter = m_settings.firstSample + static_cast<std::uint32_t>(index);
-        into.back().header.timeCode = static_cast<std::uint32_t>(timeOfDayMs(m_settings, index));
-    }
+    });
 }
 
 std::vector<wire::Datagram> Performer::characterInformation() const {

@@ -43,11 +43,14 @@ inline void loadValue(const std::byte* from, std::uint32_t& value) {
 inline void loadValue(const std::byte* from, std::int32_t& value) {
     value = static_cast<std::int32_t>(load32(from));
 }
+inline void loadValue(const std::byte* from, float& value) {
+    value = std::bit_cast<float>(load32(from));
+}
 
 template <std::size_t N>
 void loadValue(const std::byte* from, std::array<float, N>& values) {
     for (std::size_t i = 0; i < N; ++i) {
-        values[i] = std::bit_cast<float>(load32(from + 4 * i));
+        loadValue(from + 4 * i, values[i]);
     }
 }
 
@@ -68,11 +71,14 @@ inline void storeValue(std::byte* to, std::uint32_t value) {
 inline void storeValue(std::byte* to, std::int32_t value) {
     store32(to, static_cast<std::uint32_t>(value));
 }
+inline void storeValue(std::byte* to, float value) {
+    store32(to, std::bit_cast<std::uint32_t>(value));
+}
 
 template <std::size_t N>
 void storeValue(std::byte* to, const std::array<float, N>& values) {
     for (std::size_t i = 0; i < N; ++i) {
-        store32(to + 4 * i, std::bit_cast<std::uint32_t>(values[i]));
+        storeValue(to + 4 * i, values[i]);
     }
 }
 

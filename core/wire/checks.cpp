@@ -2,8 +2,9 @@
 #include "core/wire/checks.h"
 
 #include "core/wire/byte_order.h"
-#include "core/wire/form.h"
+#include "core/wire/forms_of.h"
 #include "core/wire/metadata_text.h"
+#include "core/wire/schema.h"
 
 #include <cmath>
 
@@ -34,11 +35,14 @@ bool isNotFinite(std::uint32_t bits) {
     return (bits & 0x7f800000U) == 0x7f800000U;
 }
 
+unsigned nonFinite(float value) {
+    return isNotFinite(std::bit_cast<std::uint32_t>(value)) ? 1 : 0;
+}
 template <std::size_t N>
 unsigned nonFinite(const std::array<float, N>& values) {
     unsigned count = 0;
     for (const float value : values) {
-        count += isNotFinite(std::bit_cast<std::uint32_t>(value));
+        count += nonFinite(value);
     }
     return count;
 }
@@ -47,12 +51,9 @@ float squaredNorm(const Quat& q) {
     return (q[0] * q[0] + q[1] * q[1]) + (q[2] * q[2] + q[3] * q[3]);
 }
 
-template <class Item>
-concept HasId = requires(const Item& item) {
-    item.id;
-};
-template <class Item>
-constexpr bool kHasSegmentId = HasId<Item> && !std::is_same_v<Item, Point> && !std::is_same_v<Item, Prop>;
+constexpr bool namesSegment(RefersTo what) {
+    return what == RefersTo::Segment || what == RefersTo::UnitySegment || what == RefersTo::Tracker;
+}
 
 /// Finds out what is odd in items of which something is.
 struct ItemChecks {
@@ -64,68 +65,56 @@ struct ItemChecks {
     void check(const Item& item, std::size_t offset) {
         unsigned bad = 0;
         bool isOffUnit = false;
-        forEachField<Item, F>([&](const auto& field) { checkField(item, field, bad, isOffUnit); });
+        forEachValue<Item, F>([&]<auto Member>(const Field<Member>& field) {
+            using Value = MemberValue<Member>;
+            if constexpr (std::is_same_v<Value, Quat>) {
+                isOffUnit = isOffUnit || !(std::abs(squaredNorm(item.*Member) - 1.0F) <= kNormTolerance);
+            }
+            if constexpr (kScalar<Value> == Scalar::Float32) {
+                bad += nonFinite(item.*Member);
+            } else if constexpr (std::is_unsigned_v<Value>) {
+                segment.add(namesSegment(field.about.refersTo) && item.*Member - 1U >= kMaxSegments, offset);
+            }
+        });
         if (bad != 0) {
             infinite.first = infinite.count == 0 ? static_cast<std::uint32_t>(offset) : infinite.first;
             infinite.count += bad;
         }
         quaternion.add(isOffUnit && bad == 0, offset);
-        if constexpr (kHasSegmentId<Item>) {
-            segment.add(item.id - 1U >= kMaxSegments, offset);
-        }
     }
-
-private:
-    template <class Item, auto Member>
-    static void checkField(const Item& item, const Field<Member>&, unsigned& bad, bool& isOffUnit) {
-        using Value = MemberValue<Member>;
-        if constexpr (std::is_same_v<Value, Vec3> || std::is_same_v<Value, Mat3>) {
-            bad += nonFinite(item.*Member);
-        } else if constexpr (std::is_same_v<Value, Quat>) {
-            const Quat& q = item.*Member;
-            bad += nonFinite(q);
-            isOffUnit = isOffUnit || !(std::abs(squaredNorm(q) - 1.0F) <= kNormTolerance);
-        }
-    }
-    template <class Item, auto Member, TextKind Kind>
-    static void checkField(const Item&, const Text<Member, Kind>&, unsigned&, bool&) {}
 };
 
 /// Zero for finite numbers, NaN where there is anything else.
+float zeroIfFinite(float value) {
+    return value * 0.0F;
+}
 template <std::size_t N>
 float zeroIfFinite(const std::array<float, N>& values) {
     float sum = 0.0F;
     for (const float value : values) {
-        sum += value * 0.0F;
+        sum += zeroIfFinite(value);
     }
     return sum;
 }
 
-/// Tells as cheaply as possible that nothing in an item is odd; NaN fails every comparison.
+/// Finds out as cheaply as possible that nothing in an item is odd; NaN fails every comparison.
 struct Soundness {
     float zero = 0.0F;
     bool isSound = true;
 
     template <class Item, Form F>
     void look(const Item& item) {
-        forEachField<Item, F>([&](const auto& field) { lookAt(item, field); });
-        if constexpr (kHasSegmentId<Item>) {
-            isSound &= item.id - 1U < kMaxSegments;
-        }
+        forEachValue<Item, F>([&]<auto Member>(const Field<Member>& field) {
+            using Value = MemberValue<Member>;
+            if constexpr (std::is_same_v<Value, Quat>) {
+                isSound &= std::abs(squaredNorm(item.*Member) - 1.0F) <= kNormTolerance;
+            } else if constexpr (kScalar<Value> == Scalar::Float32) {
+                zero += zeroIfFinite(item.*Member);
+            } else if constexpr (std::is_unsigned_v<Value>) {
+                isSound &= !namesSegment(field.about.refersTo) || item.*Member - 1U < kMaxSegments;
+            }
+        });
     }
-
-private:
-    template <class Item, auto Member>
-    void lookAt(const Item& item, const Field<Member>&) {
-        using Value = MemberValue<Member>;
-        if constexpr (std::is_same_v<Value, Vec3> || std::is_same_v<Value, Mat3>) {
-            zero += zeroIfFinite(item.*Member);
-        } else if constexpr (std::is_same_v<Value, Quat>) {
-            isSound &= std::abs(squaredNorm(item.*Member) - 1.0F) <= kNormTolerance;
-        }
-    }
-    template <class Item, auto Member, TextKind Kind>
-    void lookAt(const Item&, const Text<Member, Kind>&) {}
 };
 
 template <Form F, class Item>
@@ -143,12 +132,11 @@ void checkItems(ItemChecks& checks, const std::vector<Item>& items, std::size_t 
     }
 }
 
-void checkTags(Datagram& datagram, const MetaData& message) {
-    const std::size_t start = kHeaderSize + (message.hasLengthPrefix ? 4 : 0);
-    const TagList list = parseTags(message.text);
+void checkTags(Datagram& datagram, std::string_view text, std::size_t start) {
+    const TagList list = parseTags(text);
     Tally unknown;
     for (const Tag& tag : list.tags) {
-        const auto place = static_cast<std::size_t>(tag.name.data() - message.text.data());
+        const auto place = static_cast<std::size_t>(tag.name.data() - text.data());
         unknown.add(!isKnownTag(tag.name), start + place);
     }
     report(datagram, NoticeCode::UnknownTag, unknown);
@@ -156,7 +144,8 @@ void checkTags(Datagram& datagram, const MetaData& message) {
            {list.strayLines, static_cast<std::uint32_t>(start + list.firstStray)});
 }
 
-bool isTimeCode(std::string_view text) {
+/// A time of day in "HH:MM:SS.mmm".
+bool isTimeOfDay(std::string_view text) {
     constexpr std::string_view pattern = "00:00:00.000";
     for (std::size_t i = 0; i < pattern.size(); ++i) {
         if (pattern[i] == '0' ? (text[i] < '0' || text[i] > '9') : text[i] != pattern[i]) {
@@ -166,58 +155,57 @@ bool isTimeCode(std::string_view text) {
     return text.substr(0, 2) < "24" && text[3] < '6' && text[6] < '6';
 }
 
-void checkTimeCode(Datagram& datagram, const TimeCode& message) {
-    if (message.hasLengthPrefix && message.length != 12) {
-        datagram.notices.push_back({NoticeCode::LengthDisagrees, kHeaderSize, 1});
-    }
-    if (!isTimeCode(message.view())) {
-        const std::uint32_t offset = kHeaderSize + (message.hasLengthPrefix ? 4U : 0U);
-        datagram.notices.push_back({NoticeCode::NotATimeCode, offset, 1});
-    }
-}
-
-struct BodyChecks {
+/// Checks the fields of a message that are no numbers, in wire order.
+template <class T>
+struct TextChecks {
     Datagram& datagram;
-    ItemChecks items;
+    const T& message;
+    std::size_t offset = kHeaderSize;
+    std::size_t length = 0;       ///< that a length just before the field announces
+    std::size_t lengthOffset = 0; ///< 0 for none
 
-    void operator()(const RawBody&) {}
-    void operator()(const MetaData& message) { checkTags(datagram, message); }
-    void operator()(const TimeCode& message) { checkTimeCode(datagram, message); }
-    void operator()(const CentreOfMass& message) {
-        const unsigned bad =
-            nonFinite(message.position) + nonFinite(message.velocity) + nonFinite(message.acceleration);
-        items.infinite = {bad, kHeaderSize};
+    template <auto Member>
+    void operator()(const Field<Member>& field) {
+        using Value = MemberValue<Member>;
+        if constexpr (kScalar<Value> == Scalar::Characters) {
+            if (lengthOffset != 0 && length != sizeof(Value)) {
+                notice(NoticeCode::LengthDisagrees, lengthOffset);
+            }
+            const std::string_view text((message.*Member).data(), sizeof(Value));
+            if (field.about.unit == Unit::TimeOfDay && !isTimeOfDay(text)) {
+                notice(NoticeCode::NotATimeCode, offset);
+            }
+        } else if constexpr (std::is_integral_v<Value>) {
+            lengthOffset = field.about.unit == Unit::ByteCount ? offset : 0;
+            length = static_cast<std::size_t>(message.*Member);
+        }
+        offset += sizeof(Value);
     }
-    void operator()(const NullPose& message) {
-        checkItems<Form::Standard>(items, message.segments, kHeaderSize);
-        checkItems<Form::Standard>(items, message.points, kHeaderSize);
-    }
-    void operator()(const TrackerKinematics& message) {
-        if (message.hasInertialData) {
-            checkItems<Form::Standard>(items, message.trackers, kHeaderSize);
-        } else {
-            checkItems<Form::Short>(items, message.trackers, kHeaderSize);
+    template <auto Member, TextKind Kind>
+    void operator()(const Text<Member, Kind>& field) {
+        if (field.about.unit == Unit::TagLines) {
+            checkTags(datagram, message.*Member, offset + (Kind == TextKind::Prefixed ? 4 : 0));
         }
     }
-    void operator()(const PropInformation& message) {
-        checkItems<Form::Standard>(items, message.props, kHeaderSize);
+    void operator()(const auto&) {}
+
+private:
+    void notice(NoticeCode code, std::size_t at) {
+        datagram.notices.push_back({code, static_cast<std::uint32_t>(at), 1});
     }
-    void operator()(const PointPositions& message) {
-        checkItems<Form::Standard>(items, message.points, kHeaderSize);
-    }
-    void operator()(const TagPositions& message) {
-        checkItems<Form::Standard>(items, message.points, kHeaderSize);
-    }
-    void operator()(const JointAngles& message) {
-        checkItems<Form::Standard>(items, message.joints, kHeaderSize);
-    }
-    void operator()(const auto& message) { checkItems<Form::Standard>(items, message.segments, kHeaderSize); }
 };
 
-/// Counts of segments say something about segment messages only; others need not fill them in.
-bool carriesSegments(std::uint8_t type) {
-    return type == PoseEuler::kType || type == PoseQuaternion::kType || type == LinearKinematics::kType ||
-           type == AngularKinematics::kType;
+template <class T, Form F>
+void checkMessage(Datagram& datagram, ItemChecks& checks, const T& message) {
+    TextChecks<T> texts{datagram, message};
+    forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
+        if constexpr (requires { FieldType::kItemForm; }) {
+            checkItems<FieldType::kItemForm>(checks, message.*FieldType::kMember, texts.offset);
+        } else {
+            texts(field);
+        }
+    });
+    checks.check<T, F>(message, kHeaderSize);
 }
 
 void checkHeader(Datagram& datagram) {
@@ -226,8 +214,8 @@ void checkHeader(Datagram& datagram) {
         datagram.notices.push_back({NoticeCode::ReservedUsed, 20, 1});
     }
     const bool isWhole = header.datagramCounter == 0x80;
-    if (isWhole && carriesSegments(header.type()) && header.countedSegments() != 0 &&
-        header.countedSegments() != header.items) {
+    if (isWhole && header.countedSegments() != 0 && header.countedSegments() != header.items &&
+        countsSegments(header.type())) {
         datagram.notices.push_back({NoticeCode::CountDisagrees, 11, 1});
     }
 }
@@ -241,11 +229,18 @@ void checkValues(Bytes bytes, Datagram& datagram) {
         datagram.notices.push_back({NoticeCode::SizeDisagrees, static_cast<std::uint32_t>(announced),
                                     static_cast<std::uint32_t>(bytes.size() - announced)});
     }
-    BodyChecks checks{datagram, {}};
-    std::visit(checks, datagram.body);
-    report(datagram, NoticeCode::NotFinite, checks.items.infinite);
-    report(datagram, NoticeCode::NotUnitQuaternion, checks.items.quaternion);
-    report(datagram, NoticeCode::SegmentOutOfRange, checks.items.segment);
+    ItemChecks checks;
+    std::visit(
+        [&]<class T>(const T& message) {
+            if constexpr (!std::is_same_v<T, RawBody>) {
+                withForm<T>(formOf(message),
+                            [&]<Form F>() { checkMessage<T, F>(datagram, checks, message); });
+            }
+        },
+        datagram.body);
+    report(datagram, NoticeCode::NotFinite, checks.infinite);
+    report(datagram, NoticeCode::NotUnitQuaternion, checks.quaternion);
+    report(datagram, NoticeCode::SegmentOutOfRange, checks.segment);
 }
 
 } // namespace posewire::wire

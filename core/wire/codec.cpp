@@ -3,6 +3,7 @@
 
 #include "core/wire/checks.h"
 #include "core/wire/forms_of.h"
+#include "core/wire/message_parts.h"
 #include "core/wire/payload.h"
 #include "core/wire/write.h"
 
@@ -15,20 +16,6 @@ struct Sizes {
     std::size_t operator()(const T& value) const {
         return withForm<T>(formOf(value), [&]<Form F>() { return writtenSize<T, F>(value); });
     }
-};
-
-struct ItemCounts {
-    std::size_t operator()(const MetaData&) const { return 1; }
-    std::size_t operator()(const PropInformation& value) const { return value.props.size(); }
-    std::size_t operator()(const PointPositions& value) const { return value.points.size(); }
-    std::size_t operator()(const TagPositions& value) const { return value.points.size(); }
-    std::size_t operator()(const JointAngles& value) const { return value.joints.size(); }
-    std::size_t operator()(const TrackerKinematics& value) const { return value.trackers.size(); }
-    std::size_t operator()(const CentreOfMass&) const { return 1; }
-    std::size_t operator()(const TimeCode&) const { return 1; }
-    std::size_t operator()(const NullPose&) const { return 0; }
-    std::size_t operator()(const RawBody&) const { return 0; }
-    std::size_t operator()(const auto& value) const { return value.segments.size(); }
 };
 
 void writeBody(std::byte* to, const Body& body) {
@@ -45,18 +32,39 @@ void writeBody(std::byte* to, const Body& body) {
 
 /// Every length prefix fits, since the whole datagram does; what is left to check is that no list outgrows
 /// its maximum and no zero-terminated string has a zero inside.
-bool fitsItsCounts(const Body& body) {
-    if (const auto* pose = std::get_if<NullPose>(&body)) {
-        return pose->segments.size() <= kMaxNullPoseSegments && pose->points.size() <= kMaxNullPosePoints;
-    }
-    if (const auto* message = std::get_if<PropInformation>(&body)) {
-        for (const Prop& prop : message->props) {
-            if (prop.name.find('\0') != std::string::npos) {
-                return false;
+template <class T, Form F>
+bool fitsItsCounts(const T& value) {
+    bool fits = true;
+    forEachField<T, F>([&]<class FieldType>(const FieldType&) {
+        const auto& member = value.*FieldType::kMember;
+        if constexpr (requires { FieldType::kItemForm; }) {
+            using Item = typename MemberValue<FieldType::kMember>::value_type;
+            std::size_t most = kMaxItems;
+            if constexpr (requires { FieldType::kMax; }) {
+                most = FieldType::kMax;
             }
+            fits = fits && member.size() <= most;
+            for (const Item& item : member) {
+                fits = fits && fitsItsCounts<Item, FieldType::kItemForm>(item);
+            }
+        } else if constexpr (requires { FieldType::kKind; }) {
+            const bool endsAtZero = FieldType::kKind == TextKind::ZeroTerminated;
+            fits = fits && (!endsAtZero || member.find('\0') == std::string::npos);
         }
-    }
-    return std::visit(ItemCounts{}, body) <= kMaxItems;
+    });
+    return fits;
+}
+
+bool fitsItsCounts(const Body& body) {
+    return std::visit(
+        []<class T>(const T& value) {
+            if constexpr (std::is_same_v<T, RawBody>) {
+                return true;
+            } else {
+                return withForm<T>(formOf(value), [&]<Form F>() { return fitsItsCounts<T, F>(value); });
+            }
+        },
+        body);
 }
 
 } // namespace
@@ -114,7 +122,7 @@ void completeHeader(Datagram& datagram, HeaderEra era) {
             }
         },
         datagram.body);
-    header.items = static_cast<std::uint8_t>(std::visit(ItemCounts{}, datagram.body));
+    header.items = static_cast<std::uint8_t>(announcedItems(datagram.body));
     if (era == HeaderEra::Counted) {
         header.payloadSize = static_cast<std::uint16_t>(payloadSize(datagram.body));
     } else {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/extent.h"
 
-#include "core/wire/form.h"
+#include "core/wire/forms_of.h"
 #include "core/wire/walk.h"
 
 #include <initializer_list>
@@ -44,6 +44,18 @@ Extent firstThatFits(Bytes bytes, bool isAtEnd, std::initializer_list<std::size_
     return kUnknown;
 }
 
+/// The longest list that a message may have with a count of its own.
+template <class T>
+constexpr std::size_t longestList() {
+    std::size_t most = 0;
+    forEachList<T, Form::Standard>([&]<Form ItemForm, class FieldType>(const FieldType&) {
+        if constexpr (requires { FieldType::kMax; }) {
+            most = std::max(most, FieldType::kMax);
+        }
+    });
+    return most;
+}
+
 /// Walks a payload whose size only its content tells; a fault for want of bytes means that more must come.
 template <class T>
 Extent walked(Bytes bytes, const Header& header, bool isAtEnd) {
@@ -55,14 +67,15 @@ Extent walked(Bytes bytes, const Header& header, bool isAtEnd) {
     }
     const bool isHopeless =
         cursor.error.code == ErrorCode::BadSequence ||
-        (cursor.error.code == ErrorCode::CountTooLarge && cursor.error.need > kMaxNullPosePoints);
+        (cursor.error.code == ErrorCode::CountTooLarge && cursor.error.need > longestList<T>());
     if (isHopeless || isAtEnd || bytes.size() >= kMaxDatagramSize) {
         return kUnknown;
     }
     return kNeedMore;
 }
 
-Extent metaDataExtent(Bytes bytes, bool isAtEnd) {
+/// A text that may lack the length before it; without it nothing says where it ends.
+Extent textExtent(Bytes bytes, bool isAtEnd) {
     if (bytes.size() < kHeaderSize + 4) {
         return isAtEnd ? kUnknown : kNeedMore;
     }
@@ -71,50 +84,23 @@ Extent metaDataExtent(Bytes bytes, bool isAtEnd) {
     return isPrefixed ? known(kHeaderSize + 4 + static_cast<std::size_t>(length)) : kUnknown;
 }
 
-template <class Item>
-Extent ofItems(const Header& header) {
-    return known(kHeaderSize + header.items * kWireSize<Item>);
+template <class T>
+Extent extentOf(Bytes bytes, const Header& header, bool isAtEnd) {
+    if constexpr (!kIsSized<T>) {
+        return kHasForm<T, Form::Bare> ? textExtent(bytes, isAtEnd) : walked<T>(bytes, header, isAtEnd);
+    } else if constexpr (kOtherForm<T> != Form::Standard) {
+        return firstThatFits(bytes, isAtEnd,
+                             {kHeaderSize + sizeWith<T, kOtherForm<T>>(header.items),
+                              kHeaderSize + sizeWith<T, Form::Standard>(header.items)});
+    } else {
+        return known(kHeaderSize + sizeWith<T, Form::Standard>(header.items));
+    }
 }
 
 Extent computed(Bytes bytes, const Header& header, bool isAtEnd) {
-    switch (header.type()) {
-    case PoseEuler::kType:
-        return ofItems<SegmentEuler>(header);
-    case PoseQuaternion::kType:
-    case PoseUnity::kType:
-        return ofItems<SegmentQuaternion>(header);
-    case PointPositions::kType:
-    case TagPositions::kType:
-        return ofItems<Point>(header);
-    case ScaleInformation::kType:
-        return ofItems<SegmentScale>(header);
-    case PropInformation::kType:
-        return walked<PropInformation>(bytes, header, isAtEnd);
-    case MetaData::kType:
-        return metaDataExtent(bytes, isAtEnd);
-    case NullPose::kType:
-        return walked<NullPose>(bytes, header, isAtEnd);
-    case JointAngles::kType:
-        return ofItems<Joint>(header);
-    case LinearKinematics::kType:
-        return ofItems<LinearSegment>(header);
-    case AngularKinematics::kType:
-        return ofItems<AngularSegment>(header);
-    case TrackerKinematics::kType:
-        return firstThatFits(bytes, isAtEnd,
-                             {kHeaderSize + header.items * kWireSize<Tracker, Form::Short>,
-                              kHeaderSize + header.items * kWireSize<Tracker>});
-    case CentreOfMass::kType:
-        return firstThatFits(
-            bytes, isAtEnd,
-            {kHeaderSize + kWireSize<CentreOfMass, Form::Short>, kHeaderSize + kWireSize<CentreOfMass>});
-    case TimeCode::kType:
-        return firstThatFits(
-            bytes, isAtEnd,
-            {kHeaderSize + kWireSize<TimeCode, Form::Bare>, kHeaderSize + kWireSize<TimeCode>});
-    default:
-        return kUnknown;
-    }
+    Extent extent = kUnknown;
+    Messages::with(header.type(), [&]<class T>() { extent = extentOf<T>(bytes, header, isAtEnd); });
+    return extent;
 }
 
 } // namespace

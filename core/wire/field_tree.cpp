@@ -43,19 +43,6 @@ std::string hexadecimal(std::uint32_t value) {
     return "0x" + std::string(buffer.data(), end);
 }
 
-/// Names of the components of a vector, by how many it has.
-template <std::size_t N>
-std::string componentName(std::size_t index) {
-    if constexpr (N == 3) {
-        return std::string(1, "xyz"[index]);
-    } else if constexpr (N == 4) {
-        constexpr std::array<const char*, 4> names{"re", "i", "j", "k"};
-        return names[index];
-    } else {
-        return std::to_string(index / 3 + 1) + ',' + std::to_string(index % 3 + 1);
-    }
-}
-
 /// Writes every field down.
 template <bool kTellsCuts>
 class TreeWriter {
@@ -68,17 +55,21 @@ public:
     template <class Value>
     void field(const About& about, std::size_t offset, std::size_t size, const Value& value) {
         FieldNode& node = add(std::string(about.name), about, offset, size);
-        if constexpr (std::is_same_v<Value, std::uint32_t>) {
-            node.value = about.unit == Unit::Flags ? hexadecimal(value) : shown(value);
+        node.scalar = kScalar<Value>;
+        if constexpr (std::is_integral_v<Value>) {
+            const bool isFlags = about.unit == Unit::Flags;
+            node.value = isFlags ? hexadecimal(static_cast<std::uint32_t>(value)) : shown(value);
         } else {
             node.value = shown(value);
         }
-        if constexpr (std::is_integral_v<Value>) {
+        if constexpr (std::is_arithmetic_v<Value>) {
             node.number = static_cast<double>(value);
         }
         if (m_hasParts) {
-            const auto self = static_cast<std::int32_t>(m_tree.nodes.size()) - 1;
-            m_parents.push_back(self);
+            m_parents.push_back(static_cast<std::int32_t>(m_tree.nodes.size()) - 1);
+            for (const FieldPart& declared : about.parts) {
+                addPart(declared, about, offset, value);
+            }
             divide(about, offset, size, value);
             m_parents.pop_back();
         }
@@ -86,6 +77,7 @@ public:
     void count(const About& about, std::size_t offset, std::size_t count) {
         FieldNode& node = add(std::string(about.name) + " count",
                               {"", Unit::Count, "number of items that follow", about.section}, offset, 4);
+        node.scalar = Scalar::Uint32;
         node.value = std::to_string(count);
         node.number = static_cast<double>(count);
     }
@@ -110,18 +102,19 @@ public:
     }
     void beginList(const About& about, std::size_t offset, std::size_t count) {
         m_section = about.section;
+        m_about = about.refersTo;
         beginGroup(std::string(about.name), about, offset);
         m_tree.nodes.back().index = static_cast<std::uint32_t>(count);
     }
     void endList(std::size_t offset) { endGroup(offset); }
     void beginItem(std::size_t index, std::size_t offset) {
-        beginGroup(std::to_string(index + 1), {"", Unit::None, "", m_section}, offset);
+        beginGroup(std::to_string(index + 1), {"", Unit::None, "", m_section, m_about}, offset);
         m_tree.nodes.back().kind = NodeKind::Item;
         m_tree.nodes.back().index = static_cast<std::uint32_t>(index);
     }
     void endItem(std::size_t offset) { endGroup(offset); }
     void rest(std::size_t offset, std::size_t size) {
-        FieldNode& node = add("bytes", {"", Unit::None, "no field stands on these bytes", ""}, offset, size);
+        FieldNode& node = add("bytes", {"", Unit::None, "no field has these bytes", ""}, offset, size);
         node.value = std::to_string(size);
         node.kind = NodeKind::Unread;
     }
@@ -148,35 +141,28 @@ private:
         node.kind = NodeKind::Part;
         return node;
     }
+    template <class Value>
+    void addPart(const FieldPart& declared, const About& about, std::size_t offset, const Value& value) {
+        FieldNode& node = part(std::string(declared.name), {"", declared.unit, declared.text, about.section},
+                               offset + declared.offset, declared.size);
+        if constexpr (kScalar<Value> == Scalar::Characters) {
+            node.scalar = Scalar::Characters;
+            node.value = std::string(value.data() + declared.offset, declared.size);
+        } else if constexpr (std::is_unsigned_v<Value>) {
+            const auto bits = static_cast<unsigned>(value) & declared.bits;
+            node.scalar = kScalar<Value>;
+            node.value = !declared.isFlag() ? std::to_string(bits) : bits != 0 ? "yes" : "no";
+            node.number = declared.isFlag() ? node.number : bits;
+        }
+    }
     template <std::size_t N>
     void divide(const About& about, std::size_t offset, std::size_t, const std::array<float, N>& values) {
         m_tree.nodes.back().components = N;
         for (std::size_t i = 0; i < N; ++i) {
-            FieldNode& node = part(componentName<N>(i), about, offset + 4 * i, 4);
+            FieldNode& node = part(std::string(componentNames(N)[i]), about, offset + 4 * i, 4);
+            node.scalar = Scalar::Float32;
             node.value = shown(values[i]);
             node.number = values[i];
-        }
-    }
-    template <std::size_t N>
-    void divide(const About& about, std::size_t offset, std::size_t, const std::array<char, N>& text) {
-        if constexpr (N == 6) {
-            part("magic", {"", Unit::None, "every datagram begins with MXTP", about.section}, offset, 4)
-                .value = std::string(text.data(), 4);
-            FieldNode& type =
-                part("type", {"", Unit::Identifier, "message type", about.section}, offset + 4, 2);
-            type.value = std::string(text.data() + 4, 2);
-        }
-    }
-    void divide(const About& about, std::size_t offset, std::size_t, std::uint8_t value) {
-        if (about.name == "datagramCounter") {
-            FieldNode& index =
-                part("index",
-                     {"", Unit::Count, "place among the datagrams of the sample, bits 0 to 6", about.section},
-                     offset, 1);
-            index.value = std::to_string(value & 0x7f);
-            index.number = value & 0x7f;
-            part("last", {"", Unit::None, "the last datagram of its sample, bit 7", about.section}, offset, 1)
-                .value = (value & 0x80) != 0 ? "yes" : "no";
         }
     }
     void divide(const About& about, std::size_t offset, std::size_t size, const std::string& text) {
@@ -184,11 +170,12 @@ private:
         if (size == text.size() + 4) {
             FieldNode& length =
                 part("length", {"", Unit::ByteCount, "bytes of the text that follow", about.section}, at, 4);
+            length.scalar = Scalar::Int32;
             length.value = std::to_string(text.size());
             length.number = static_cast<double>(text.size());
             at += 4;
         }
-        if (about.name != "text") {
+        if (about.unit != Unit::TagLines) {
             return;
         }
         for (std::size_t begin = 0; begin < text.size();) {
@@ -202,7 +189,7 @@ private:
             begin = end;
         }
     }
-    void divide(const About&, std::size_t, std::size_t, std::integral auto) {}
+    void divide(const About&, std::size_t, std::size_t, const auto&) {}
 
     FieldNode& add(std::string name, const About& about, std::size_t offset, std::size_t size) {
         const std::int32_t parent = m_parents.empty() ? -1 : m_parents.back();
@@ -213,6 +200,7 @@ private:
         node.length = static_cast<std::uint32_t>(size);
         node.parent = parent;
         node.unit = about.unit;
+        node.refersTo = about.refersTo;
         node.text = about.text;
         node.section = about.section;
         return node;
@@ -220,8 +208,9 @@ private:
 
     FieldTree& m_tree;
     std::vector<std::int32_t> m_parents;
-    std::string_view m_section;
-    std::size_t m_end = 0; ///< one past the last byte that has a node
+    std::string_view m_section;           ///< of the list that is being read
+    RefersTo m_about = RefersTo::Nothing; ///< of that list
+    std::size_t m_end = 0;                ///< one past the last byte that has a node
     bool m_hasParts;
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/wire/codec.h"
+#include "core/wire/field.h"
 
 #include <limits>
 #include <optional>
@@ -14,10 +15,10 @@ enum class NodeKind : std::uint8_t {
     Item,
     Part,   ///< a component of a vector, a length, bits: inside a Field
     Cut,    ///< the field for which the bytes did not suffice
-    Unread, ///< bytes after a fault, or bytes that no field stands on
+    Unread, ///< bytes after a fault, or bytes of no field
 };
 
-/// One row of the inspector: a field, a list or an item, with the bytes it stands on.
+/// One row of the inspector: a field, a list or an item, with its bytes.
 struct FieldNode {
     std::string name;
     std::string value; ///< the wire's own value as text; empty for lists and items
@@ -26,8 +27,10 @@ struct FieldNode {
     std::int32_t parent = -1; ///< index of the parent in FieldTree::nodes, -1 at the top
     Unit unit = Unit::None;
     NodeKind kind = NodeKind::Field;
-    std::uint8_t components = 0; ///< of a vector: so many parts follow, with FieldDetail::Parts
-    std::uint32_t index = 0;     ///< of an item in its list, from 0; of a list: how many are announced
+    RefersTo refersTo = RefersTo::Nothing; ///< as declared; of an item what its list is about
+    Scalar scalar = Scalar::Text;          ///< what the bytes of a value or of its part are
+    std::uint8_t components = 0;           ///< of a vector: how many parts follow, with FieldDetail::Parts
+    std::uint32_t index = 0; ///< of an item in its list, from 0; of a list: how many are announced
     double number = std::numeric_limits<double>::quiet_NaN(); ///< of one numeric value
     std::string_view text;                                    ///< one line of documentation
     std::string_view section;                                 ///< of the specification

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/header.h"
 
+#include "core/wire/message_layouts.h"
 #include "core/wire/walk.h"
 
 namespace posewire::wire {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/wire/error.h"
-#include "core/wire/field.h"
+#include "core/wire/types.h"
 
 namespace posewire::wire {
 
@@ -39,34 +39,6 @@ struct Header {
 
     friend bool operator==(const Header&, const Header&) = default;
 };
-
-template <>
-struct Layout<Header> {
-    static constexpr auto fields = std::tuple{
-        Field<&Header::id>{{"id", Unit::None, "\"MXTP\" and the message type as two digits", "2.4.1.1"}},
-        Field<&Header::sampleCounter>{
-            {"sample", Unit::Count, "counts sampled frames; shared by all types of a frame", "2.4.1.2"}},
-        Field<&Header::datagramCounter>{{"datagramCounter", Unit::None,
-                                         "index of the datagram in its sample; bit 7 marks the last",
-                                         "2.4.1.3"}},
-        Field<&Header::items>{{"items", Unit::Count, "segments or points in this datagram", "2.4.1.4"}},
-        Field<&Header::timeCode>{
-            {"timeCode", Unit::Milliseconds,
-             "clock of the sender: since the start of a recording, or time of day when live", "2.4.1.5"}},
-        Field<&Header::character>{
-            {"character", Unit::Identifier, "which character the data belong to, from 0", "2.4.1.6"}},
-        Field<&Header::bodySegments>{
-            {"bodySegments", Unit::Count, "body segments; reserved and 0 before MVN 2019", "2.4.1.7"}},
-        Field<&Header::props>{{"props", Unit::Count, "props; reserved and 0 before MVN 2019", "2.4.1.7"}},
-        Field<&Header::fingerSegments>{{"fingerSegments", Unit::Count,
-                                        "finger segments of both hands; reserved and 0 before MVN 2019",
-                                        "2.4.1.7"}},
-        Field<&Header::reserved>{{"reserved", Unit::None, "reserved, 0", "2.4.1.7"}},
-        Field<&Header::payloadSize>{{"payloadSize", Unit::ByteCount,
-                                     "bytes after the header; reserved and 0 for older senders", "2.4.1.7"}},
-    };
-};
-static_assert(kWireSize<Header> == kHeaderSize);
 
 /// True where the bytes begin with "MXTP": what does not is foreign.
 [[nodiscard]] bool startsWithMagic(Bytes bytes);

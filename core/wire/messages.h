@@ -3,10 +3,11 @@
 
 #include "core/wire/items.h"
 
+#include <string_view>
 #include <variant>
+#include <vector>
 
-/// One struct for each message type, with its layout. To add a type: a struct and its layout here, and one
-/// row in type_table.cpp.
+/// One struct for each message type, as plain values; core/wire/message_layouts.h has their layouts.
 namespace posewire::wire {
 
 struct PoseEuler {
@@ -118,122 +119,35 @@ struct RawBody {
     friend bool operator==(const RawBody&, const RawBody&) = default;
 };
 
-using Body = std::variant<RawBody, PoseEuler, PoseQuaternion, PointPositions, TagPositions, PoseUnity,
-                          ScaleInformation, PropInformation, MetaData, NullPose, JointAngles,
-                          LinearKinematics, AngularKinematics, TrackerKinematics, CentreOfMass, TimeCode>;
+// A build may know further types: `, Type …` with structs declared before this header. tests/extension does.
+#ifndef POSEWIRE_FURTHER_MESSAGES
+#define POSEWIRE_FURTHER_MESSAGES
+#endif
+
+/// The list of all message types; whatever concerns each of them goes through it.
+template <class... Message>
+struct MessageList {
+    using Body = std::variant<RawBody, Message...>;
+
+    /// Calls f.template operator()<Message>() for each, in order.
+    template <class Function>
+    static constexpr void forEach(Function&& f) {
+        (f.template operator()<Message>(), ...);
+    }
+    /// Calls f.template operator()<Message>() for the message of that type; false where it is not known.
+    template <class Function>
+    static constexpr bool with(std::uint8_t type, Function&& f) {
+        return ((Message::kType == type && (f.template operator()<Message>(), true)) || ...);
+    }
+};
+using Messages =
+    MessageList<PoseEuler, PoseQuaternion, PointPositions, TagPositions, PoseUnity, ScaleInformation,
+                PropInformation, MetaData, NullPose, JointAngles, LinearKinematics, AngularKinematics,
+                TrackerKinematics, CentreOfMass, TimeCode POSEWIRE_FURTHER_MESSAGES>;
+using Body = Messages::Body;
 
 /// The most items that the lists of a scale message may have; real ones have up to 67 and about 127.
 inline constexpr std::size_t kMaxNullPoseSegments = 255;
 inline constexpr std::size_t kMaxNullPosePoints = 4096;
-
-template <>
-struct Layout<PoseEuler> {
-    static constexpr auto fields =
-        std::tuple{Items<&PoseEuler::segments>{{"segments", Unit::None, "body, then props", "2.5.1"}}};
-};
-template <>
-struct Layout<PoseQuaternion> {
-    static constexpr auto fields = std::tuple{Items<&PoseQuaternion::segments>{
-        {"segments", Unit::None, "body, props, left hand, right hand", "2.5.2"}}};
-};
-template <>
-struct Layout<PointPositions> {
-    static constexpr auto fields =
-        std::tuple{Items<&PointPositions::points>{{"points", Unit::None, "markers, then tags", "2.5.3"}}};
-};
-template <>
-struct Layout<TagPositions> {
-    static constexpr auto fields = std::tuple{
-        Items<&TagPositions::points>{{"points", Unit::None, "tags that no character has", "E 2.5"}}};
-};
-template <>
-struct Layout<PoseUnity> {
-    static constexpr auto fields = std::tuple{Items<&PoseUnity::segments, Form::Unity>{
-        {"segments", Unit::None, "23 segments in the Unity3D order", "2.5.5"}}};
-};
-template <>
-struct Layout<ScaleInformation> {
-    static constexpr auto fields = std::tuple{Items<&ScaleInformation::segments>{
-        {"segments", Unit::None, "scale of each segment of the mesh", "E 2.6"}}};
-};
-template <>
-struct Layout<PropInformation> {
-    static constexpr auto fields = std::tuple{
-        Items<&PropInformation::props>{{"props", Unit::None, "the props in use; none when empty", "E 2.6"}}};
-};
-template <>
-struct Layout<MetaData> {
-    static constexpr auto fields = std::tuple{
-        Text<&MetaData::text, TextKind::Prefixed>{{"text", Unit::None, "one \"tag:value\" a line", "2.6.3"}}};
-};
-template <>
-struct Layout<MetaData, Form::Bare> {
-    static constexpr auto fields = std::tuple{
-        Text<&MetaData::text, TextKind::ToEnd>{{"text", Unit::None, "one \"tag:value\" a line", "E 2.6"}}};
-};
-template <>
-struct Layout<NullPose> {
-    static constexpr auto fields = std::tuple{
-        CountedList<&NullPose::segments, kMaxNullPoseSegments>{
-            {"segments", Unit::None, "null pose: a T-pose with all orientations identity", "2.6.4"}},
-        CountedList<&NullPose::points, kMaxNullPosePoints>{
-            {"points", Unit::None, "points to scale a mesh by", "2.6.4"}},
-    };
-};
-template <>
-struct Layout<JointAngles> {
-    static constexpr auto fields = std::tuple{Items<&JointAngles::joints>{
-        {"joints", Unit::None, "22 joints, then up to 6 ergonomic angles", "2.7.1"}}};
-};
-template <>
-struct Layout<LinearKinematics> {
-    static constexpr auto fields = std::tuple{Items<&LinearKinematics::segments>{
-        {"segments", Unit::None, "body, props, left hand, right hand", "2.7.2"}}};
-};
-template <>
-struct Layout<AngularKinematics> {
-    static constexpr auto fields = std::tuple{Items<&AngularKinematics::segments>{
-        {"segments", Unit::None, "body, props, left hand, right hand", "2.7.3"}}};
-};
-template <>
-struct Layout<TrackerKinematics> {
-    static constexpr auto fields = std::tuple{Items<&TrackerKinematics::trackers>{
-        {"trackers", Unit::None, "segments with a tracker, 68 bytes each", "2.7.4"}}};
-};
-template <>
-struct Layout<TrackerKinematics, Form::Short> {
-    static constexpr auto fields = std::tuple{Items<&TrackerKinematics::trackers, Form::Short>{
-        {"trackers", Unit::None, "segments with a tracker, 44 bytes each", "N 2.7.4"}}};
-};
-template <>
-struct Layout<CentreOfMass> {
-    static constexpr auto fields = std::tuple{
-        Field<&CentreOfMass::position>{{"position", Unit::Metres, "global, Z-up", "2.7.5"}},
-        Field<&CentreOfMass::velocity>{{"velocity", Unit::MetresPerSecond, "global, Z-up", "real senders"}},
-        Field<&CentreOfMass::acceleration>{
-            {"acceleration", Unit::MetresPerSecondSquared, "global, Z-up", "real senders"}},
-    };
-};
-static_assert(kWireSize<CentreOfMass> == 36);
-template <>
-struct Layout<CentreOfMass, Form::Short> {
-    static constexpr auto fields =
-        std::tuple{Field<&CentreOfMass::position>{{"position", Unit::Metres, "global, Z-up", "2.7.5"}}};
-};
-static_assert(kWireSize<CentreOfMass, Form::Short> == 12);
-template <>
-struct Layout<TimeCode> {
-    static constexpr auto fields = std::tuple{
-        Field<&TimeCode::length>{{"length", Unit::ByteCount, "length of the string, 12", "2.5.12"}},
-        Field<&TimeCode::text>{{"timeCode", Unit::None, "HH:MM:SS.mmm", "2.7.6"}},
-    };
-};
-static_assert(kWireSize<TimeCode> == 16);
-template <>
-struct Layout<TimeCode, Form::Bare> {
-    static constexpr auto fields =
-        std::tuple{Field<&TimeCode::text>{{"timeCode", Unit::None, "HH:MM:SS.mmm", "2.7.6"}}};
-};
-static_assert(kWireSize<TimeCode, Form::Bare> == 12);
 
 } // namespace posewire::wire

@@ -1,39 +1,134 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/type_table.h"
 
+#include "core/wire/messages.h"
+
+#include <array>
+
 namespace posewire::wire {
+
+template <>
+constexpr TypeInfo kRow<PoseEuler>{
+    PoseEuler::kType,
+    "Pose, Euler",
+    Frame::YUp,
+    "E–N",
+    "2.5.1",
+    "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it.",
+    true};
+template <>
+constexpr TypeInfo kRow<PoseQuaternion>{PoseQuaternion::kType,
+                                        "Pose, quaternion",
+                                        Frame::ZUp,
+                                        "E–N",
+                                        "2.5.2",
+                                        "Metres on the wire, although the text says centimetres.",
+                                        true};
+template <>
+constexpr TypeInfo kRow<PointPositions>{
+    PointPositions::kType,
+    "Point positions",
+    Frame::YUp,
+    "E–N",
+    "2.5.3",
+    "Point IDs are 256 × segment + point, in older revisions 100 × segment + point.",
+    true};
+template <>
+constexpr TypeInfo kRow<TagPositions>{
+    TagPositions::kType,
+    "Tag positions",
+    Frame::YUp,
+    "E",
+    "E 2.5",
+    "Deprecated since J. Newer programs use the number for a layout that is not published.",
+    true};
+template <>
+constexpr TypeInfo kRow<PoseUnity>{
+    PoseUnity::kType,
+    "Pose, Unity3D",
+    Frame::Unity,
+    "F–N",
+    "2.5.5",
+    "The pelvis is global, all others are relative to their parents, in an order of their own.",
+    true};
+template <>
+constexpr TypeInfo kRow<ScaleInformation>{
+    ScaleInformation::kType, "Scale (deprecated)", Frame::ZUp, "E", "E 2.6", "Replaced by type 13.", false};
+template <>
+constexpr TypeInfo kRow<PropInformation>{PropInformation::kType,
+                                         "Props (deprecated)",
+                                         Frame::None,
+                                         "E",
+                                         "E 2.6",
+                                         "Names end with a zero byte. Replaced by type 13.",
+                                         false};
+template <>
+constexpr TypeInfo kRow<MetaData>{
+    MetaData::kType,
+    "Metadata",
+    Frame::None,
+    "E–N",
+    "2.6.3",
+    "Real senders put a length before the text; revision E has the bare text. The tags count and timeOffset "
+    "are not documented.",
+    false};
+template <>
+constexpr TypeInfo kRow<NullPose>{
+    NullPose::kType,
+    "Null pose",
+    Frame::ZUp,
+    "J–N",
+    "2.6.4",
+    "Comes in several datagrams with sample counter 0: segments first, then points. Metres.",
+    false};
+template <>
+constexpr TypeInfo kRow<JointAngles>{
+    JointAngles::kType,
+    "Joint angles",
+    Frame::Isb,
+    "J–N",
+    "2.7.1",
+    "Six ergonomic angles may follow the 22 joints; two of them have the same pair of IDs.",
+    true};
+template <>
+constexpr TypeInfo kRow<LinearKinematics>{
+    LinearKinematics::kType, "Linear kinematics", Frame::ZUp, "J–N", "2.7.2", "", true};
+template <>
+constexpr TypeInfo kRow<AngularKinematics>{
+    AngularKinematics::kType, "Angular kinematics", Frame::ZUp, "J–N", "2.7.3", "Radians per second.", true};
+template <>
+constexpr TypeInfo kRow<TrackerKinematics>{
+    TrackerKinematics::kType,
+    "Trackers",
+    Frame::ZUp,
+    "J–N",
+    "2.7.4",
+    "68 bytes an item on the wire; 44 in the text since M. The payload size tells.",
+    true};
+template <>
+constexpr TypeInfo kRow<CentreOfMass>{CentreOfMass::kType,
+                                      "Centre of mass",
+                                      Frame::ZUp,
+                                      "J–N",
+                                      "2.7.5",
+                                      "Recent senders add velocity and acceleration (36 bytes).",
+                                      true};
+template <>
+constexpr TypeInfo kRow<TimeCode>{TimeCode::kType,
+                                  "Time code",
+                                  Frame::None,
+                                  "J–N",
+                                  "2.7.6",
+                                  "Real senders put the length 12 before the text.",
+                                  true};
+
 namespace {
 
-constexpr std::array<TypeInfo, 15> kTypes{{
-    {1, "Pose, Euler", "Y-up, right-handed", "E–N", "2.5.1",
-     "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it.", true},
-    {2, "Pose, quaternion", "Z-up, right-handed", "E–N", "2.5.2",
-     "Metres on the wire, although the text says centimetres.", true},
-    {3, "Point positions", "Y-up, right-handed", "E–N", "2.5.3",
-     "Point IDs are 256 × segment + point, in older revisions 100 × segment + point.", true},
-    {4, "Tag positions", "Y-up, right-handed", "E", "E 2.5",
-     "Deprecated since J. Newer programs use the number for a layout that is not published.", true},
-    {5, "Pose, Unity3D", "Y-up, left-handed", "F–N", "2.5.5",
-     "The pelvis is global, all others are relative to their parents, in an order of their own.", true},
-    {10, "Scale (deprecated)", "Z-up, right-handed", "E", "E 2.6", "Replaced by type 13.", false},
-    {11, "Props (deprecated)", "", "E", "E 2.6", "Names end with a zero byte. Replaced by type 13.", false},
-    {12, "Metadata", "", "E–N", "2.6.3",
-     "Real senders put a length before the text; revision E has the bare text. The tags count and timeOffset "
-     "are "
-     "not documented.",
-     false},
-    {13, "Null pose", "Z-up, right-handed", "J–N", "2.6.4",
-     "Comes in several datagrams with sample counter 0: segments first, then points. Metres.", false},
-    {20, "Joint angles", "ISB axes", "J–N", "2.7.1",
-     "Six ergonomic angles may follow the 22 joints; two of them have the same pair of IDs.", true},
-    {21, "Linear kinematics", "Z-up, right-handed", "J–N", "2.7.2", "", true},
-    {22, "Angular kinematics", "Z-up, right-handed", "J–N", "2.7.3", "Radians per second.", true},
-    {23, "Trackers", "Z-up, right-handed", "J–N", "2.7.4",
-     "68 bytes an item on the wire; 44 in the text since M. The payload size tells.", true},
-    {24, "Centre of mass", "Z-up, right-handed", "J–N", "2.7.5",
-     "Recent senders add velocity and acceleration (36 bytes).", true},
-    {25, "Time code", "", "J–N", "2.7.6", "Real senders put the length 12 before the text.", true},
-}};
+template <class... Message>
+constexpr auto rowsOf(MessageList<Message...>) {
+    return std::array{kRow<Message>...};
+}
+constexpr auto kTypes = rowsOf(Messages{});
 
 } // namespace
 
@@ -50,15 +145,19 @@ const TypeInfo* findType(std::uint8_t type) {
     return nullptr;
 }
 
-std::array<char, 2> typeDigits(std::uint8_t type) {
+std::string_view frameName(Frame frame) {
+    constexpr std::array<std::string_view, 5> names{"", "Z-up, right-handed", "Y-up, right-handed",
+                                                    "Y-up, left-handed", "ISB axes"};
+    return names[static_cast<std::size_t>(frame)];
+}
+
+std::string typeDigits(std::uint8_t type) {
     return {static_cast<char>('0' + type / 10 % 10), static_cast<char>('0' + type % 10)};
 }
 
 std::string typeTitle(std::uint8_t type) {
     const TypeInfo* row = findType(type);
-    const auto digits = typeDigits(type);
-    return std::string(digits.data(), digits.size()) + ' ' +
-           std::string(row != nullptr ? row->name : "unknown type");
+    return typeDigits(type) + ' ' + std::string(row != nullptr ? row->name : "unknown type");
 }
 
 bool isSampled(std::uint8_t type) {

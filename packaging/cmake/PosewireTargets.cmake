@@ -53,7 +53,7 @@ function(posewire_precompile kind)
 endfunction()
 
 function(posewire_use_precompiled target kind)
-  if(POSEWIRE_PRECOMPILED AND kind)
+  if(POSEWIRE_PRECOMPILED AND kind AND NOT kind STREQUAL "none")
     target_precompile_headers(${target} REUSE_FROM precompiled_${kind})
     target_compile_options(${target} PRIVATE -Winvalid-pch)
   endif()

@@ -4,18 +4,21 @@
 #include "core/model/body/joint_angles.h"
 #include "core/model/body/points.h"
 #include "core/model/body/segments.h"
-#include "core/wire/header.h"
+#include "core/wire/error.h"
 #include "core/wire/messages.h"
 #include "core/wire/metadata_text.h"
 #include "core/wire/notice.h"
+#include "core/wire/schema.h"
 #include "core/wire/type_table.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace posewire::wireshark {
 namespace {
 
-using wire::Form;
+using wire::FieldRow;
+using wire::RefersTo;
 
 std::string quoted(std::string_view text) {
     std::string out = "\"";
@@ -39,116 +42,83 @@ std::string singular(std::string_view list) {
     return std::string(list.substr(0, list.size() - (list.ends_with('s') ? 1 : 0)));
 }
 
-template <class Value>
-constexpr std::string_view kindOf() {
-    if constexpr (std::is_same_v<Value, std::uint8_t>) {
-        return "uint8";
-    } else if constexpr (std::is_same_v<Value, std::uint16_t>) {
-        return "uint16";
-    } else if constexpr (std::is_same_v<Value, std::uint32_t>) {
-        return "uint32";
-    } else if constexpr (std::is_same_v<Value, std::int32_t>) {
-        return "int32";
-    } else if constexpr (std::is_same_v<typename Value::value_type, char>) {
-        return "characters";
-    } else {
-        return "floats";
-    }
-}
-
-template <class Value>
-constexpr std::string_view partsOf() {
-    if constexpr (std::is_same_v<Value, wire::Vec3>) {
-        return R"({ "x", "y", "z" })";
-    } else if constexpr (std::is_same_v<Value, wire::Quat>) {
-        return R"({ "re", "i", "j", "k" })";
-    } else if constexpr (std::is_same_v<Value, wire::Mat3>) {
-        return R"({ "m11", "m12", "m13", "m21", "m22", "m23", "m31", "m32", "m33" })";
-    } else {
-        return "";
-    }
-}
-
-constexpr std::string_view kindOf(wire::TextKind kind) {
-    switch (kind) {
-    case wire::TextKind::Prefixed:
-        return "prefixed_text";
-    case wire::TextKind::ZeroTerminated:
-        return "zero_text";
-    case wire::TextKind::ToEnd:
-        return "rest_text";
+std::string_view kindOf(const FieldRow& row) {
+    switch (row.kind) {
+    case FieldRow::Kind::Value:
+        return row.scalar == wire::Scalar::Float32 ? "floats" : wire::scalarName(row.scalar);
+    case FieldRow::Kind::Text:
+        return row.textKind == wire::TextKind::Prefixed         ? "prefixed_text"
+               : row.textKind == wire::TextKind::ZeroTerminated ? "zero_text"
+                                                                : "rest_text";
+    case FieldRow::Kind::Items:
+        return "items";
+    case FieldRow::Kind::CountedItems:
+        return "counted_items";
     }
     return "";
 }
 
+/// The components of a vector as names of fields: "x", "re", "m11"; a single float is a vector of one.
+std::string partsOf(const FieldRow& row) {
+    if (row.scalar == wire::Scalar::Float32 && row.components == 1) {
+        return quoted("value");
+    }
+    std::string parts;
+    for (const std::string_view declared : wire::componentNames(row.components)) {
+        std::string name(declared);
+        const bool isMatrix = std::erase(name, ',') != 0;
+        parts += (parts.empty() ? "" : ", ") + quoted(isMatrix ? 'm' + name : name);
+    }
+    return parts;
+}
+
 /// What the numbers of a field stand for; empty where they stand for themselves.
-template <auto Member, Form F>
-constexpr std::string_view namesOf() {
-    using Owner = typename wire::MemberOf<decltype(Member)>::Owner;
-    if constexpr (std::is_same_v<Owner, wire::Prop> || !std::is_integral_v<wire::MemberValue<Member>>) {
-        return "";
-    } else if constexpr (std::is_same_v<Owner, wire::Joint>) {
+std::string_view namesOf(RefersTo what) {
+    switch (what) {
+    case RefersTo::JointEnd:
         return "joint_end";
-    } else if constexpr (std::is_same_v<Owner, wire::NullPosePoint>) {
-        return sizeof(wire::MemberValue<Member>) == 2 ? "segment" : "";
-    } else if constexpr (std::is_same_v<Owner, wire::Point>) {
+    case RefersTo::Point:
         return "point";
-    } else if constexpr (requires(Owner owner) { owner.id; } && !std::is_same_v<Owner, wire::Header>) {
-        return F == Form::Unity ? "unity_segment" : "segment";
-    } else {
+    case RefersTo::UnitySegment:
+        return "unity_segment";
+    case RefersTo::Segment:
+    case RefersTo::Tracker:
+    case RefersTo::Carrier:
+        return "segment";
+    default:
         return "";
     }
 }
 
 bool isHeaderField(std::string_view name) {
-    bool found = false;
-    wire::forEachField<wire::Header, Form::Standard>(
-        [&](const auto& field) { found = found || field.about.name == name; });
-    return found;
+    return std::ranges::any_of(wire::headerRows(),
+                               [&](const FieldRow& row) { return row.about.name == name; });
 }
 
 /// Writes a layout as a list of fields. `prefix` is what their filter names begin with.
-template <class T, Form F>
 class LayoutWriter {
 public:
-    LayoutWriter(std::string& out, std::string prefix, std::string indent)
-        : m_out(out), m_prefix(std::move(prefix)), m_indent(std::move(indent)) {}
+    LayoutWriter(std::string& out, std::string prefix, std::string indent, bool isHeader = false)
+        : m_out(out), m_prefix(std::move(prefix)), m_indent(std::move(indent)), m_isHeader(isHeader) {}
 
-    template <auto Member>
-    void operator()(const wire::Field<Member>& field) {
-        using Value = wire::MemberValue<Member>;
-        begin(field.about, kindOf<Value>());
-        m_out += entry("size", sizeof(Value));
-        if constexpr (!partsOf<Value>().empty()) {
-            m_out.append("parts = ").append(partsOf<Value>()).append(", ");
+    void write(std::span<const FieldRow> rows) {
+        for (const FieldRow& row : rows) {
+            m_out += m_indent + "{ " + entry("name", row.about.name) +
+                     entry("filter", filterOf(row.about.name)) + entry("kind", kindOf(row));
+            if (row.isList()) {
+                list(row);
+            } else if (row.kind == FieldRow::Kind::Value) {
+                value(row);
+            }
+            end(row.about);
         }
-        m_out += field.about.unit == wire::Unit::Flags ? "hexadecimal = true, " : "";
-        nameIds<Member>(field.about.name);
-        end(field.about);
-    }
-    template <auto Member, wire::TextKind Kind>
-    void operator()(const wire::Text<Member, Kind>& field) {
-        begin(field.about, kindOf(Kind));
-        end(field.about);
-    }
-    template <auto Member, Form ItemForm>
-    void operator()(const wire::Items<Member, ItemForm>& field) {
-        list<typename wire::MemberValue<Member>::value_type, ItemForm>(field.about, 0);
-    }
-    template <auto Member, std::size_t Max>
-    void operator()(const wire::CountedList<Member, Max>& field) {
-        list<typename wire::MemberValue<Member>::value_type, Form::Standard>(field.about, Max);
     }
 
 private:
     /// A name that the header has too gets the payload's own prefix.
     std::string filterOf(std::string_view name) const {
-        const bool isTaken = !std::is_same_v<T, wire::Header> && m_prefix == "mxtp" && isHeaderField(name);
+        const bool isTaken = !m_isHeader && m_prefix == "mxtp" && isHeaderField(name);
         return m_prefix + (isTaken ? ".body." : ".") + std::string(name);
-    }
-    void begin(const wire::About& about, std::string_view kind) {
-        m_out += m_indent + "{ " + entry("name", about.name) + entry("filter", filterOf(about.name)) +
-                 entry("kind", kind);
     }
     void end(const wire::About& about) {
         m_out += entry("unit", wire::unitSymbol(about.unit));
@@ -156,68 +126,58 @@ private:
         m_out.resize(m_out.size() - 2);
         m_out += " },\n";
     }
-    template <auto Member>
-    void nameIds(std::string_view name) {
-        constexpr std::string_view names = namesOf<Member, F>();
-        if constexpr (!names.empty() && !std::is_same_v<T, wire::NullPosePoint>) {
-            m_out += entry("names", names);
-            m_out += std::is_same_v<T, wire::Joint> ? "" : entry("name_filter", m_prefix + ".name");
-            m_out += names.find("segment") != std::string_view::npos ? "checked = true, " : "";
-        } else if constexpr (!names.empty()) {
-            if (name == "segment") {
-                m_out += entry("names", names) + entry("name_filter", m_prefix + ".segment.name");
-            }
+    void value(const FieldRow& row) {
+        m_out += entry("size", row.size);
+        const std::string parts = partsOf(row);
+        m_out += parts.empty() ? "" : "parts = { " + parts + " }, ";
+        m_out += row.about.unit == wire::Unit::Flags ? "hexadecimal = true, " : "";
+        const RefersTo what = row.about.refersTo;
+        const std::string_view names = namesOf(what);
+        if (names.empty()) {
+            return;
         }
+        const bool isOfItem = what != RefersTo::Carrier;
+        m_out += entry("names", names);
+        if (what != RefersTo::JointEnd) {
+            m_out += entry("name_filter", (isOfItem ? m_prefix : filterOf(row.about.name)) + ".name");
+        }
+        m_out += isOfItem && names.ends_with("segment") ? "checked = true, " : "";
     }
-    template <class Item, Form ItemForm>
-    void list(const wire::About& about, std::size_t max) {
-        const std::string item = singular(about.name);
-        begin(about, max == 0 ? "items" : "counted_items");
+    void list(const FieldRow& row) {
+        const std::string item = singular(row.about.name);
         m_out += entry("item", item) + entry("item_filter", m_prefix + '.' + item);
-        m_out += max == 0 ? "" : entry("max", max) + entry("least", wire::kWireSize<Item>);
-        m_out += wire::kIsFixed<Item, ItemForm> ? entry("size", wire::kWireSize<Item, ItemForm>) : "";
-        if constexpr (std::is_same_v<Item, wire::Joint>) {
+        m_out += row.max == 0 ? "" : entry("max", row.max) + entry("least", row.least);
+        m_out += row.size == 0 ? "" : entry("size", row.size);
+        if (row.about.refersTo == RefersTo::Joint) {
             m_out += "places = joint_names, " + entry("name_filter", m_prefix + '.' + item + ".name");
         }
         m_out += "\n" + m_indent + "  fields = {\n";
-        wire::forEachField<Item, ItemForm>(
-            LayoutWriter<Item, ItemForm>(m_out, m_prefix + '.' + item, m_indent + "    "));
+        LayoutWriter(m_out, m_prefix + '.' + item, m_indent + "    ").write(row.items);
         m_out += m_indent + "  }, ";
-        end(about);
     }
 
     std::string& m_out;
     std::string m_prefix;
     std::string m_indent;
+    bool m_isHeader;
 };
 
-template <class T, Form F>
-void writeForm(std::string& out, std::string_view name) {
-    out.append("    ").append(name).append(" = {\n");
-    wire::forEachField<T, F>(LayoutWriter<T, F>(out, "mxtp", "      "));
-    out += "    },\n";
+std::string_view formName(wire::Form form) {
+    return form == wire::Form::Bare ? "bare" : form == wire::Form::Short ? "short" : "standard";
 }
 
-/// Types whose items are the segments that the header counts.
-template <class T>
-inline constexpr bool kHasSegments =
-    std::is_same_v<T, wire::PoseEuler> || std::is_same_v<T, wire::PoseQuaternion> ||
-    std::is_same_v<T, wire::LinearKinematics> || std::is_same_v<T, wire::AngularKinematics>;
-
-template <class T>
-void writeMessage(std::string& out) {
-    const wire::TypeInfo& info = *wire::findType(T::kType);
+void writeMessage(std::string& out, const wire::MessageRow& message) {
+    const wire::TypeInfo& info = *wire::findType(message.type);
+    const std::string_view frame = wire::frameName(info.frame);
     out += "-- Section " + std::string(info.section) + ", revisions " + std::string(info.revisions);
-    out.append(info.frame.empty() ? "" : ", ").append(info.frame).append(".\n");
-    out += "messages[" + std::to_string(T::kType) + "] = {\n  " + entry("title", info.name);
-    out += kHasSegments<T> ? "has_segments = true,\n" : "\n";
+    out.append(frame.empty() ? "" : ", ").append(frame).append(".\n");
+    out += "messages[" + std::to_string(message.type) + "] = {\n  " + entry("title", info.name);
+    out += wire::countsSegments(message.type) ? "has_segments = true,\n" : "\n";
     out += "  forms = {\n";
-    writeForm<T, Form::Standard>(out, "standard");
-    if constexpr (requires { wire::Layout<T, Form::Bare>::fields; }) {
-        writeForm<T, Form::Bare>(out, "bare");
-    }
-    if constexpr (requires { wire::Layout<T, Form::Short>::fields; }) {
-        writeForm<T, Form::Short>(out, "short");
+    for (const wire::FormRow& form : message.forms) {
+        out.append("    ").append(formName(form.form)).append(" = {\n");
+        LayoutWriter(out, "mxtp", "      ").write(form.fields);
+        out += "    },\n";
     }
     out += "  },\n}\n";
 }
@@ -315,13 +275,11 @@ std::string dissectorTables() {
     writeTexts(out);
     writeNames(out);
     out += "\nlocal header_layout = {\n";
-    wire::forEachField<wire::Header, Form::Standard>(
-        LayoutWriter<wire::Header, Form::Standard>(out, "mxtp", "  "));
+    LayoutWriter(out, "mxtp", "  ", true).write(wire::headerRows());
     out += "}\n\nlocal messages = {}\n";
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-        (writeMessage<std::variant_alternative_t<I + 1, wire::Body>>(out), ...);
+    for (const wire::MessageRow& message : wire::messageRows()) {
+        writeMessage(out, message);
     }
-    (std::make_index_sequence<std::variant_size_v<wire::Body> - 1>{});
     return out;
 }
 

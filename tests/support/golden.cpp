@@ -11,18 +11,6 @@
 namespace posewire::test {
 namespace {
 
-std::vector<std::byte> readHexadecimal(const std::filesystem::path& path) {
-    std::vector<std::byte> bytes;
-    std::ifstream file(path);
-    for (std::string line; std::getline(file, line);) {
-        std::istringstream words(line.substr(0, line.find('#')));
-        for (std::string word; words >> word;) {
-            bytes.push_back(static_cast<std::byte>(std::stoi(word, nullptr, 16)));
-        }
-    }
-    return bytes;
-}
-
 std::vector<Golden> readGoldens() {
     std::vector<Golden> all;
     for (const auto& entry : std::filesystem::directory_iterator(sourcePath("tests/golden"))) {
@@ -35,6 +23,18 @@ std::vector<Golden> readGoldens() {
 }
 
 } // namespace
+
+std::vector<std::byte> readHexadecimal(const std::filesystem::path& path) {
+    std::vector<std::byte> bytes;
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) {
+        std::istringstream words(line.substr(0, line.find('#')));
+        for (std::string word; words >> word;) {
+            bytes.push_back(static_cast<std::byte>(std::stoi(word, nullptr, 16)));
+        }
+    }
+    return bytes;
+}
 
 const std::vector<Golden>& goldens() {
     static const std::vector<Golden> all = readGoldens();

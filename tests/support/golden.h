@@ -18,6 +18,9 @@ struct Golden {
 [[nodiscard]] const std::vector<Golden>& goldens();
 [[nodiscard]] const Golden& golden(const std::string& name);
 
+/// The bytes of such a file anywhere.
+[[nodiscard]] std::vector<std::byte> readHexadecimal(const std::filesystem::path& path);
+
 /// A recorded datagram, "mxtp02.bin"; empty where the recordings are not at hand.
 [[nodiscard]] std::vector<std::byte> capture(const std::string& file);
 

@@ -14,6 +14,7 @@ namespace {
 
 using wire::FieldNode;
 using wire::NodeKind;
+using wire::RefersTo;
 
 constexpr std::int32_t kNone = -1;
 
@@ -79,14 +80,13 @@ void FieldDocument::readContext() {
     std::vector<std::uint32_t> ids;
     std::size_t items = 0;
     for (const std::int32_t top : children(kNone)) {
-        if (node(top).kind != NodeKind::Group || node(top).name == "header") {
+        if (node(top).kind != NodeKind::Group || isInHeader(top)) {
             continue;
         }
         items = std::max<std::size_t>(items, node(top).index);
         for (const std::int32_t item : children(top)) {
-            const std::int32_t id = node(top).name == "points" ? child(item, "id") : kNone;
-            if (id >= 0) {
-                ids.push_back(static_cast<std::uint32_t>(node(id).number));
+            if (const auto id = numberOf(item, RefersTo::Point)) {
+                ids.push_back(*id);
             }
         }
     }
@@ -96,21 +96,33 @@ void FieldDocument::readContext() {
     }
 }
 
+bool FieldDocument::isInHeader(std::int32_t node) const {
+    while (this->node(node).parent >= 0) {
+        node = this->node(node).parent;
+    }
+    return this->node(node).kind == NodeKind::Group && this->node(node).offset == 0;
+}
+
+std::optional<std::uint32_t> FieldDocument::numberOf(std::int32_t item, RefersTo what) const {
+    for (const std::int32_t child : children(item)) {
+        const FieldNode& field = this->node(child);
+        if (field.refersTo == what && std::isfinite(field.number)) {
+            return static_cast<std::uint32_t>(field.number);
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<model::PointReference> FieldDocument::pointOf(std::uint32_t id) const {
+    return model::knownPoint(m_coding, id);
+}
+
 std::span<const std::int32_t> FieldDocument::children(std::int32_t node) const {
     if (m_firstChild.empty()) {
         return {};
     }
     const std::uint32_t first = m_firstChild[at(node + 1)];
     return {m_children.data() + first, m_firstChild[at(node + 2)] - first};
-}
-
-std::int32_t FieldDocument::child(std::int32_t node, std::string_view name) const {
-    for (const std::int32_t child : children(node)) {
-        if (this->node(child).name == name) {
-            return child;
-        }
-    }
-    return kNone;
 }
 
 std::int32_t FieldDocument::itemOf(std::int32_t node) const {
@@ -154,33 +166,28 @@ int FieldDocument::segmentOf(std::int32_t node) const {
         return -1;
     }
     const auto index = static_cast<int>(this->node(item).index);
-    const auto numberOf = [&](std::string_view name) {
-        const std::int32_t field = child(item, name);
-        return field < 0 || !std::isfinite(this->node(field).number)
-                   ? 0
-                   : static_cast<int>(std::min(this->node(field).number, 1e9));
+    const auto carrier = [&](RefersTo what) {
+        return static_cast<int>(std::min(numberOf(item, what).value_or(0), 1'000'000U)) - 1;
     };
-    const bool isPoint = this->node(this->node(item).parent).name == "points";
-    switch (type()) {
-    case wire::PoseUnity::kType:
+    switch (this->node(item).refersTo) {
+    case RefersTo::Segment:
+        return index;
+    case RefersTo::UnitySegment:
         return index < model::kBodySegmentCount ? model::unityOrder()[static_cast<std::size_t>(index)] : -1;
-    case wire::PointPositions::kType: {
-        const auto point = model::decodePointId(m_coding, static_cast<std::uint32_t>(numberOf("id")));
-        return point ? point->segmentId - 1 : -1;
-    }
-    case wire::TagPositions::kType:
-        return -1;
-    case wire::NullPose::kType:
-        return isPoint ? numberOf("segment") - 1 : index;
-    case wire::JointAngles::kType:
+    case RefersTo::Joint:
         return index < model::kJointCount
                    ? model::jointDefinitions()[static_cast<std::size_t>(index)].childSegment()
                    : -1;
-    case wire::TrackerKinematics::kType:
-    case wire::PropInformation::kType:
-        return numberOf("id") - 1;
+    case RefersTo::Point: {
+        const auto id = numberOf(item, RefersTo::Point);
+        const auto point = id ? pointOf(*id) : std::nullopt;
+        return point ? point->segmentId - 1 : carrier(RefersTo::Carrier);
+    }
+    case RefersTo::Tracker:
+    case RefersTo::Prop:
+        return carrier(this->node(item).refersTo);
     default:
-        return index;
+        return -1;
     }
 }
 
@@ -241,7 +248,10 @@ bool FieldDocument::isAffected(wire::NoticeCode code, std::int32_t index) const 
         return !(std::abs(squared - 1) <= 0.02);
     }
     case wire::NoticeCode::SegmentOutOfRange:
-        return candidate.name == "id" && (candidate.number < 1 || candidate.number > wire::kMaxSegments);
+        return candidate.kind == NodeKind::Field &&
+               (candidate.refersTo == RefersTo::Segment || candidate.refersTo == RefersTo::UnitySegment ||
+                candidate.refersTo == RefersTo::Tracker) &&
+               (candidate.number < 1 || candidate.number > wire::kMaxSegments);
     default:
         return false;
     }

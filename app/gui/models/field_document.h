@@ -10,6 +10,7 @@
 
 #include <QString>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,7 +43,6 @@ public:
     [[nodiscard]] std::uint8_t type() const { return m_header.type(); }
     [[nodiscard]] const wire::Header& header() const { return m_header; }
     [[nodiscard]] model::LengthUnit unit() const { return m_unit; }
-    [[nodiscard]] model::PointIdCoding coding() const { return m_coding; }
     [[nodiscard]] const std::vector<std::byte>& bytes() const { return m_bytes; }
     [[nodiscard]] const wire::FieldTree& tree() const { return m_tree; }
     [[nodiscard]] const std::vector<FieldProblem>& problems() const { return m_problems; }
@@ -53,14 +53,18 @@ public:
     [[nodiscard]] std::int32_t count() const { return static_cast<std::int32_t>(m_tree.nodes.size()); }
     /// Of -1: those at the top.
     [[nodiscard]] std::span<const std::int32_t> children(std::int32_t node) const;
-    /// The child of that name; -1 where there is none.
-    [[nodiscard]] std::int32_t child(std::int32_t node, std::string_view name) const;
     /// The item that a node belongs to (or is); -1 where it is in none.
     [[nodiscard]] std::int32_t itemOf(std::int32_t node) const;
     /// The innermost node on a byte; of those that share it (bits) the whole.
     [[nodiscard]] std::int32_t nodeAt(std::uint32_t offset) const;
     /// The node of that path; -1 where there is none.
     [[nodiscard]] std::int32_t find(const std::string& path) const;
+
+    [[nodiscard]] bool isInHeader(std::int32_t node) const;
+    /// The number of the item's field that refers to `what`; nothing where there is none or it is cut off.
+    [[nodiscard]] std::optional<std::uint32_t> numberOf(std::int32_t item, wire::RefersTo what) const;
+    /// The point that an id of this datagram names; nothing for tags.
+    [[nodiscard]] std::optional<model::PointReference> pointOf(std::uint32_t id) const;
 
     /// Position in a pose datagram of the segment that a node is about, -1 where it is about none.
     [[nodiscard]] int segmentOf(std::int32_t node) const;

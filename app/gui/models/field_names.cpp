@@ -12,6 +12,7 @@ namespace posewire::gui {
 namespace {
 
 using wire::FieldNode;
+using wire::RefersTo;
 
 QString tr(const char* text) {
     return QCoreApplication::translate("FieldNames", text);
@@ -25,25 +26,26 @@ QString withName(const QString& id, std::string_view name) {
     return name.empty() ? id : id + QStringLiteral(" · ") + textOf(name);
 }
 
-/// The number of a field of an item; nothing where it was cut off.
-std::optional<std::uint32_t> numberOf(const FieldDocument& document, std::int32_t item,
-                                      std::string_view name) {
-    const std::int32_t field = document.child(item, name);
-    if (field < 0 || !std::isfinite(document.node(field).number)) {
-        return std::nullopt;
+/// The number that an item is known by; its place where it has none.
+std::uint32_t idOf(const FieldDocument& document, std::int32_t item) {
+    for (const std::int32_t child : document.children(item)) {
+        const FieldNode& field = document.node(child);
+        if (field.refersTo != RefersTo::Nothing && std::isfinite(field.number)) {
+            return static_cast<std::uint32_t>(field.number);
+        }
     }
-    return static_cast<std::uint32_t>(document.node(field).number);
+    return document.node(item).index + 1;
 }
 
+/// The name that is sent with an item.
 std::string_view textField(const FieldDocument& document, std::int32_t item) {
-    const std::int32_t name = document.child(item, "name");
-    return name < 0 ? std::string_view() : std::string_view(document.node(name).value);
-}
-
-/// Name of the segment that stands at a position of a pose datagram.
-std::string_view nameAt(const FieldDocument& document, int position) {
-    const bool isPose = document.type() != wire::NullPose::kType;
-    return model::segmentName(isPose ? document.layout() : model::SegmentLayout{}, position);
+    for (const std::int32_t child : document.children(item)) {
+        const FieldNode& field = document.node(child);
+        if (field.kind == wire::NodeKind::Field && field.scalar == wire::Scalar::Text) {
+            return field.value;
+        }
+    }
+    return {};
 }
 
 QString pointText(const model::PointReference& point) {
@@ -61,19 +63,16 @@ QString jointTitle(std::uint32_t index) {
                       isKnown ? model::jointDefinitions()[index].name : std::string_view()));
 }
 
-QString pointTitle(const FieldDocument& document, std::int32_t item, std::uint32_t index) {
-    if (document.type() == wire::NullPose::kType) {
-        const auto segment = numberOf(document, item, "segment");
-        const auto point = numberOf(document, item, "point");
-        const QString id = segment && point ? QStringLiteral("%1.%2").arg(*segment).arg(*point)
-                                            : tr("no. %1").arg(index + 1);
-        return tr("Point %1").arg(withName(id, textField(document, item)));
+QString pointTitle(const FieldDocument& document, std::int32_t item) {
+    if (const auto id = document.numberOf(item, RefersTo::Point)) {
+        const auto point = document.pointOf(*id);
+        return point ? pointText(*point) : QString::number(*id);
     }
-    const auto id = numberOf(document, item, "id");
-    const auto point = id ? model::decodePointId(document.coding(), *id) : std::nullopt;
-    return tr("Point %1")
-        .arg(point && document.type() != wire::TagPositions::kType ? pointText(*point)
-                                                                   : QString::number(id.value_or(index + 1)));
+    const auto segment = document.numberOf(item, RefersTo::Carrier);
+    const auto local = document.numberOf(item, RefersTo::LocalPoint);
+    const QString id = segment && local ? QStringLiteral("%1.%2").arg(*segment).arg(*local)
+                                        : tr("no. %1").arg(document.node(item).index + 1);
+    return withName(id, textField(document, item));
 }
 
 } // namespace
@@ -95,24 +94,28 @@ QString spacedName(std::string_view name) {
 
 QString itemTitle(const FieldDocument& document, std::int32_t item) {
     const FieldNode& node = document.node(item);
-    const std::string& list = document.node(node.parent).name;
     const int segment = document.segmentOf(item);
-    const auto id = numberOf(document, item, "id").value_or(node.index + 1);
-    if (list == "joints") {
+    const QString id = QString::number(idOf(document, item));
+    switch (node.refersTo) {
+    case RefersTo::Joint:
         return jointTitle(node.index);
+    case RefersTo::Point:
+        return tr("Point %1").arg(pointTitle(document, item));
+    case RefersTo::Tag:
+        return tr("Point %1").arg(id);
+    case RefersTo::Prop:
+        return tr("Prop %1").arg(withName(id, textField(document, item)));
+    case RefersTo::Tracker:
+        return tr("Tracker %1").arg(withName(id, model::segmentName({}, segment)));
+    case RefersTo::Segment:
+    case RefersTo::UnitySegment: {
+        const std::string_view sent = textField(document, item);
+        const auto& layout = document.layout();
+        return tr("Segment %1").arg(withName(id, sent.empty() ? model::segmentName(layout, segment) : sent));
     }
-    if (list == "points") {
-        return pointTitle(document, item, node.index);
+    default:
+        return tr("No. %1").arg(id);
     }
-    if (list == "props") {
-        return tr("Prop %1").arg(withName(QString::number(id), textField(document, item)));
-    }
-    if (list == "trackers") {
-        return tr("Tracker %1").arg(withName(QString::number(id), model::segmentName({}, segment)));
-    }
-    const std::string_view sent = textField(document, item);
-    return tr("Segment %1")
-        .arg(withName(QString::number(id), sent.empty() ? nameAt(document, segment) : sent));
 }
 
 QString identifierText(const FieldDocument& document, std::int32_t index) {
@@ -123,20 +126,23 @@ QString identifierText(const FieldDocument& document, std::int32_t index) {
     if (item < 0) {
         return plain;
     }
-    const std::string& list = document.node(document.node(item).parent).name;
-    if (node.name == "parent" || node.name == "child") {
-        const auto point = model::decodePointId(model::PointIdCoding::By256, id);
-        return point ? pointText(*point) : plain;
+    switch (node.refersTo) {
+    case RefersTo::JointEnd:
+        return pointText(*model::decodePointId(model::PointIdCoding::By256, id));
+    case RefersTo::Point: {
+        const auto point = document.pointOf(id);
+        return point && document.node(item).refersTo != RefersTo::Tag ? pointText(*point) : plain;
     }
-    if (list == "points" && node.name == "id") {
-        const auto point = model::decodePointId(document.coding(), id);
-        return point && document.type() != wire::TagPositions::kType ? pointText(*point) : plain;
-    }
-    if (node.name == "point") {
+    case RefersTo::Carrier:
+        return withName(plain, model::segmentName({}, static_cast<int>(id) - 1));
+    case RefersTo::Segment:
+    case RefersTo::UnitySegment:
+    case RefersTo::Tracker:
+    case RefersTo::Prop:
+        return withName(plain, model::segmentName(document.layout(), document.segmentOf(item)));
+    default:
         return plain;
     }
-    const int segment = node.name == "segment" ? static_cast<int>(id) - 1 : document.segmentOf(item);
-    return withName(plain, nameAt(document, segment));
 }
 
 } // namespace posewire::gui

@@ -25,16 +25,13 @@ QString textOf(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
-bool isYUp(std::uint8_t type) {
-    return type == wire::PoseEuler::kType || type == wire::PointPositions::kType ||
-           type == wire::TagPositions::kType;
-}
-
 /// The wire's vector in the frame above the wire, without a change of unit.
-Eigen::Vector3d zUpOf(std::uint8_t type, const Eigen::Vector3d& wire) {
-    return isYUp(type)                      ? model::zUpFromYUp(wire)
-           : type == wire::PoseUnity::kType ? model::zUpFromUnity(wire)
-                                            : wire;
+Eigen::Vector3d zUpOf(std::uint8_t type, const Eigen::Vector3d& sent) {
+    const wire::TypeInfo* info = wire::findType(type);
+    const wire::Frame frame = info != nullptr ? info->frame : wire::Frame::None;
+    return frame == wire::Frame::YUp     ? model::zUpFromYUp(sent)
+           : frame == wire::Frame::Unity ? model::zUpFromUnity(sent)
+                                         : sent;
 }
 
 struct Scale {
@@ -48,9 +45,10 @@ Scale scaleOf(const FieldDocument& document, const FieldNode& node) {
     switch (node.unit) {
     case Unit::Metres:
     case Unit::Centimetres:
-        return {model::metresPer(document.type() == wire::NullPose::kType ? model::LengthUnit::Metre
-                                                                          : document.unit()),
-                "m", 4};
+        // Null poses come in metres whatever the sender's poses come in.
+        return {
+            model::metresPer(wire::isSampled(document.type()) ? document.unit() : model::LengthUnit::Metre),
+            "m", 4};
     case Unit::Degrees:
         return {1, "°", 2};
     case Unit::RadiansPerSecond:
@@ -142,30 +140,23 @@ QString flagsText(double number) {
     return set.isEmpty() ? tr("no bit set") : tr("bits %1").arg(set.join(QLatin1Char(' ')));
 }
 
-QString headerText(const FieldDocument& document, const FieldNode& node) {
-    if (node.name == "id") {
-        return documentTitle(document);
-    }
-    if (node.name == "type") {
-        return textOf(wire::typeTitle(document.type()));
-    }
-    if (node.name == "datagramCounter") {
-        return datagramCounterText(document.header().datagramCounter);
-    }
-    if (node.name == "payloadSize" && node.number == 0) {
-        return tr("not sent");
-    }
-    if (node.name == "character") {
+QString headerText(const FieldDocument& document, std::int32_t index) {
+    const FieldNode& node = document.node(index);
+    if (node.refersTo == wire::RefersTo::Character) {
         return tr("character %1").arg(node.number);
     }
-    return {};
-}
-
-bool isInHeader(const FieldDocument& document, std::int32_t node) {
-    while (document.node(node).parent >= 0) {
-        node = document.node(node).parent;
+    if (node.unit == Unit::ByteCount && node.number == 0) {
+        return tr("not sent");
     }
-    return document.node(node).name == "header";
+    if (node.kind == NodeKind::Part) {
+        return node.unit == Unit::Identifier ? textOf(wire::typeTitle(document.type())) : QString();
+    }
+    if (node.kind == NodeKind::Field && !document.children(index).empty()) {
+        return node.scalar == wire::Scalar::Characters
+                   ? documentTitle(document)
+                   : datagramCounterText(document.header().datagramCounter);
+    }
+    return {};
 }
 
 QString printable(const std::string& value) {
@@ -199,7 +190,7 @@ QStringList documentLines(const FieldDocument& document) {
         tr("%1 · sample %2 · %3")
             .arg(size, grouped(header.sampleCounter), datagramCounterText(header.datagramCounter))};
     if (const wire::TypeInfo* type = wire::findType(document.type())) {
-        QStringList about{textOf(type->frame), textOf(type->remark)};
+        QStringList about{textOf(wire::frameName(type->frame)), textOf(type->remark)};
         about.removeAll(QString());
         lines += about.join(QStringLiteral(" · "));
         lines += tr("Revisions %1 · § %2").arg(textOf(type->revisions), textOf(type->section));
@@ -218,7 +209,7 @@ QString fieldTitle(const FieldDocument& document, std::int32_t index) {
                : document.hasHeader()                         ? tr("Unread")
                                                               : tr("Bytes");
     case NodeKind::Part:
-        return document.node(node.parent).name == "text" ? textOf(node.name) : spacedName(node.name);
+        return document.node(node.parent).unit == Unit::TagLines ? textOf(node.name) : spacedName(node.name);
     default:
         return spacedName(node.name);
     }
@@ -246,8 +237,8 @@ QString convertedValue(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
     switch (node.kind) {
     case NodeKind::Group:
-        return node.name == "header" ? tr("%1 bytes").arg(node.length)
-                                     : tr("%1 × · %2 bytes").arg(node.index).arg(grouped(node.length));
+        return document.isInHeader(index) ? tr("%1 bytes").arg(node.length)
+                                          : tr("%1 × · %2 bytes").arg(node.index).arg(grouped(node.length));
     case NodeKind::Item:
         return tr("%1 bytes").arg(node.length);
     case NodeKind::Cut:
@@ -267,7 +258,7 @@ QString convertedValue(const FieldDocument& document, std::int32_t index) {
     if (node.kind == NodeKind::Part && document.node(node.parent).components != 0) {
         return componentText(document, index);
     }
-    if (const QString text = isInHeader(document, index) ? headerText(document, node) : QString();
+    if (const QString text = document.isInHeader(index) ? headerText(document, index) : QString();
         !text.isEmpty()) {
         return text;
     }
@@ -303,13 +294,11 @@ QString fieldSection(const FieldDocument& document, std::int32_t index) {
 
 QString fieldPlace(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
-    const bool isPart = node.kind == NodeKind::Part && document.node(node.parent).components != 0;
-    const QString kind = node.components != 0 ? tr("%1 × float32").arg(node.components)
-                         : isPart             ? QStringLiteral("float32")
-                         : std::isfinite(node.number) && node.length == 1 ? QStringLiteral("uint8")
-                         : std::isfinite(node.number) && node.length == 2 ? QStringLiteral("uint16")
-                         : std::isfinite(node.number) && node.length == 4 ? QStringLiteral("uint32")
-                                                                          : tr("%1 bytes").arg(node.length);
+    const bool isNumber = node.scalar != wire::Scalar::Text && node.scalar != wire::Scalar::Characters;
+    const QString scalar = textOf(wire::scalarName(node.scalar));
+    const QString kind = !isNumber              ? tr("%1 bytes").arg(node.length)
+                         : node.components != 0 ? tr("%1 × %2").arg(node.components).arg(scalar)
+                                                : scalar;
     return node.length == 1 ? tr("%1 at byte %2").arg(kind).arg(node.offset)
                             : tr("%1 at bytes %2–%3")
                                   .arg(kind)

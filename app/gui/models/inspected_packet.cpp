@@ -4,17 +4,12 @@
 #include "app/gui/models/shown_character.h"
 #include "core/model/session/message.h"
 #include "core/wire/messages.h"
+#include "core/wire/schema.h"
 #include "core/wire/type_table.h"
-
-#include <array>
 
 namespace posewire::gui {
 
 namespace {
-
-constexpr std::array<std::uint8_t, 5> kSegmentTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType,
-                                                    wire::PoseUnity::kType, wire::LinearKinematics::kType,
-                                                    wire::AngularKinematics::kType};
 
 std::optional<std::uint64_t> newestOf(model::SessionView& view, const model::CharacterKey& key,
                                       std::uint8_t type) {
@@ -29,8 +24,13 @@ std::optional<std::uint64_t> newestOf(model::SessionView& view, const model::Cha
             return found;
         }
     }
-    for (const std::uint8_t type : kSegmentTypes) {
-        if (const auto found = newestOf(view, key, type)) {
+    if (const auto found = newestOf(view, key, wire::PoseQuaternion::kType)) {
+        return found;
+    }
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        const auto found =
+            info.isSampled && wire::listsSegments(info.type) ? newestOf(view, key, info.type) : std::nullopt;
+        if (found) {
             return found;
         }
     }

@@ -13,7 +13,7 @@
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/thresholds_dialog.h"
 #include "app/gui/window/transport_bar.h"
-#include "core/wire/reference.h"
+#include "core/export/protocol_reference.h"
 
 #include <QApplication>
 #include <QCloseEvent>
@@ -381,7 +381,7 @@ void MainWindow::showShortcuts() {
 }
 
 void MainWindow::showReference() {
-    const QString text = QString::fromStdString(wire::protocolReference());
+    const QString text = QString::fromStdString(exporting::protocolReference());
     (new ReferenceWindow(tr("Protocol reference"), text, this))->show();
 }
 

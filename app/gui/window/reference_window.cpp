@@ -3,7 +3,7 @@
 
 #include "app/gui/theme/theme.h"
 #include "app/gui/window/dialogs.h"
-#include "core/wire/reference_overview.h"
+#include "core/export/reference_overview.h"
 
 #include <QAbstractTextDocumentLayout>
 #include <QEvent>
@@ -110,7 +110,7 @@ void ReferenceWindow::readHeadings() {
         if (level == 0) {
             continue;
         }
-        m_places.insert(QString::fromStdString(wire::headingAnchor(block.text().toStdString())),
+        m_places.insert(QString::fromStdString(exporting::headingAnchor(block.text().toStdString())),
                         block.position());
         if (level == kDeepestListed) {
             auto* item = new QListWidgetItem(block.text(), m_contents);

@@ -202,19 +202,22 @@ std::optional<PointReference> decodePointId(PointIdCoding coding, std::uint32_t 
     return PointReference{static_cast<int>(id / factor), static_cast<int>(id % factor)};
 }
 
+std::optional<PointReference> knownPoint(PointIdCoding coding, std::uint32_t id) {
+    const auto reference = decodePointId(coding, id);
+    return reference && namesKnownPoint(*reference, coding) ? reference : std::nullopt;
+}
+
 PointIdCoding detectPointIdCoding(std::span<const std::uint32_t> ids) {
-    if (ids.empty()) {
-        return PointIdCoding::Unknown;
-    }
-    for (const PointIdCoding coding : {PointIdCoding::By256, PointIdCoding::By100}) {
-        const auto isKnown = [coding](std::uint32_t id) {
-            return namesKnownPoint(*decodePointId(coding, id), coding);
-        };
-        if (std::ranges::all_of(ids, isKnown)) {
-            return coding;
-        }
-    }
-    return PointIdCoding::Unknown;
+    const auto leadingRun = [&](PointIdCoding coding) {
+        const auto end =
+            std::ranges::find_if(ids, [coding](std::uint32_t id) { return !knownPoint(coding, id); });
+        return end - ids.begin();
+    };
+    const auto by256 = leadingRun(PointIdCoding::By256);
+    const auto by100 = leadingRun(PointIdCoding::By100);
+    return by256 == 0 && by100 == 0 ? PointIdCoding::Unknown
+           : by256 >= by100         ? PointIdCoding::By256
+                                    : PointIdCoding::By100;
 }
 
 } // namespace posewire::model

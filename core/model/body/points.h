@@ -53,9 +53,13 @@ std::uint32_t encodePointId(PointIdCoding coding, PointReference reference);
 /// Empty for PointIdCoding::Unknown.
 std::optional<PointReference> decodePointId(PointIdCoding coding, std::uint32_t id);
 
-/// A single ID is ambiguous (513 is 2.1 or 5.13), a whole datagram is not: 256 if every ID then names a
-/// segment 1–67 and a point that this segment has (at most 14 where the segment is not of the body); else 100
-/// if every ID then names a segment 1–28 and a point up to 14; else unknown. An empty datagram is unknown.
+/// The same, but empty also where the segment (1–67, 1–28 in By100) has no such point (at most 14 where it is
+/// not of the body).
+std::optional<PointReference> knownPoint(PointIdCoding coding, std::uint32_t id);
+
+/// A single ID is ambiguous (513 is 2.1 or 5.13), a whole datagram is not: the coding in which more points
+/// from the first on are known, 256 where both know as many. Tags follow the points, with numbers of their
+/// own. Unknown where neither coding knows the first.
 PointIdCoding detectPointIdCoding(std::span<const std::uint32_t> ids);
 
 } // namespace posewire::model

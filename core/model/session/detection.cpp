@@ -28,14 +28,16 @@ double reachOf(const std::vector<Item>& segments) {
     return reach;
 }
 
-bool isSinceJ(std::uint8_t type) {
-    return type == wire::NullPose::kType ||
-           (type >= wire::JointAngles::kType && type <= wire::TimeCode::kType);
+bool isSinceJ(const wire::TypeInfo* info) {
+    return info != nullptr && info->firstRevision() >= 'J';
+}
+
+bool isOfEAlone(const wire::TypeInfo* info) {
+    return info != nullptr && info->firstRevision() == 'E' && info->isInOneRevision();
 }
 
 std::string typeText(std::uint8_t type) {
-    const auto digits = wire::typeDigits(type);
-    return "type " + std::string(digits.data(), digits.size());
+    return "type " + wire::typeDigits(type);
 }
 
 std::string declaredText(Revision revision) {
@@ -65,25 +67,26 @@ std::string_view unitName(LengthUnit unit) {
 /// Evidence only ever grows: header counts outweigh message types, and those that only E has outweigh common
 /// ones.
 void Detector::addHeader(const wire::Header& header) {
-    const auto conclude = [&](Revision revision, const char* evidence) {
-        if (m_revision < revision) {
-            m_revision = revision;
-            m_revisionEvidence = evidence;
-        }
-    };
     const std::uint8_t type = header.type();
     const bool isCounted = header.bodySegments != 0 || header.payloadSize != 0;
     noteHeaderForm(type, isCounted ? kCounted : kReserved);
-    if (!m_typeSinceJ && isSinceJ(type)) {
+    const wire::TypeInfo* info = wire::findType(type);
+    if (!m_typeSinceJ && isSinceJ(info)) {
         m_typeSinceJ = type;
     }
-    if (isCounted) {
+    if (isCounted && m_revision < Revision::N) {
         conclude(Revision::N, "counts in its header");
-    } else if (type == wire::NullPose::kType || type >= wire::JointAngles::kType) {
-        conclude(Revision::JOrK, "type 13 or 20 to 25 with a reserved header");
-    } else if (type == wire::ScaleInformation::kType || type == wire::PropInformation::kType ||
-               type == wire::TagPositions::kType) {
-        conclude(Revision::E, "deprecated types 04, 10 or 11 on the air");
+    } else if (!isCounted && isSinceJ(info) && m_revision < Revision::JOrK) {
+        conclude(Revision::JOrK, typeText(type) + " with a reserved header");
+    } else if (!isCounted && isOfEAlone(info) && m_revision < Revision::E) {
+        conclude(Revision::E, "deprecated " + typeText(type) + " on the air");
+    }
+}
+
+void Detector::conclude(Revision revision, std::string evidence) {
+    if (m_revision < revision) {
+        m_revision = revision;
+        m_revisionEvidence = std::move(evidence);
     }
 }
 

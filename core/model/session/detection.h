@@ -86,6 +86,7 @@ private:
     /// In what headers a type has come.
     enum HeaderForm : std::uint8_t { kReserved = 1, kCounted = 2, kBoth = 3 };
 
+    void conclude(Revision revision, std::string evidence);
     void noteHeaderForm(std::uint8_t type, HeaderForm form);
     [[nodiscard]] std::optional<Contradiction> againstRevision(Revision declared) const;
 

@@ -3,8 +3,8 @@
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/session/ingest.h"
-#include "core/model/session/message_parts.h"
 #include "core/model/session/session_view.h"
+#include "core/wire/message_parts.h"
 
 #include <algorithm>
 

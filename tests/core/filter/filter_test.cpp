@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace posewire::filter::test {
 namespace {
@@ -22,6 +23,34 @@ TEST(Filter, TakesATypeAsDigitsNumberOrName) {
     for (const char* text : {"type == 03", "type in {1, 3, 10..25}", "type != 02", "!(type == 2)"}) {
         EXPECT_FALSE(matches(packet, text)) << text;
     }
+}
+
+wire::Datagram poseOf(std::vector<std::uint32_t> ids, wire::HeaderEra era) {
+    wire::PoseQuaternion body;
+    for (const std::uint32_t id : ids) {
+        body.segments.push_back({id, {static_cast<float>(id), 0, 0}, {1, 0, 0, 0}});
+    }
+    wire::Datagram datagram;
+    datagram.body = std::move(body);
+    datagram.header.bodySegments = 23;
+    completeHeader(datagram, era);
+    return datagram;
+}
+
+TEST(Filter, KnowsTheFootAndToeOfRevisionEByTheirPrintedNumbers) {
+    std::vector<std::uint32_t> ids(21);
+    std::iota(ids.begin(), ids.end(), 1U);
+    std::vector<std::uint32_t> later = ids;
+    ids.insert(ids.end(), {23, 24, 25});
+    later.insert(later.end(), {22, 23, 24});
+    const Case printed(poseOf(ids, wire::HeaderEra::Reserved));
+    EXPECT_TRUE(matches(printed, "segment == LeftFoot and not segment == 22"));
+    EXPECT_TRUE(matches(printed, "segment == LeftToe"));
+    EXPECT_TRUE(matches(printed, "segment == Prop1"));
+    EXPECT_TRUE(matches(printed, "segment == LeftFoot && position.x == 23"));
+    const Case usual(poseOf(later, wire::HeaderEra::Reserved));
+    EXPECT_TRUE(matches(usual, "segment == LeftFoot && segment == 22"));
+    EXPECT_TRUE(matches(usual, "segment == Prop1"));
 }
 
 TEST(Filter, ReadsTheFieldsOfTheHeader) {

@@ -95,6 +95,34 @@ TEST(HostileInput, GivesNoticesForOddValues) {
     }
 }
 
+TEST(HostileInput, ReadsABareTextThatBeginsWithAnyCharacter) {
+    for (const std::string text : {"\u00e9t\u00e9:1\n", "\U0001f600:2\n", "name:A\n"}) {
+        Datagram datagram;
+        datagram.body = MetaData{false, text};
+        completeHeader(datagram, HeaderEra::Reserved);
+        const auto decoded = decode(encode(datagram).value());
+        ASSERT_TRUE(decoded) << text;
+        EXPECT_TRUE(decoded->body == datagram.body) << text;
+    }
+}
+
+TEST(HostileInput, NoticesATimeOfDayThatNoClockShows) {
+    const auto noticesOf = [](std::string_view text) {
+        Datagram datagram;
+        TimeCode message;
+        std::copy(text.begin(), text.end(), message.text.begin());
+        datagram.body = message;
+        completeHeader(datagram, HeaderEra::Counted);
+        return decode(encode(datagram).value())->notices;
+    };
+    for (const char* text : {"99:99:99.999", "24:00:00.000", "12:60:00.000", "12:00:61.000"}) {
+        EXPECT_EQ(noticesOf(text), (std::vector{Notice{NoticeCode::NotATimeCode, 28, 1}})) << text;
+    }
+    for (const char* text : {"00:00:00.000", "23:59:59.999", "23:59:60.000"}) {
+        EXPECT_TRUE(noticesOf(text).empty()) << text;
+    }
+}
+
 TEST(HostileInput, RefusesToWriteWhatDoesNotFit) {
     Datagram datagram;
     datagram.body = PoseQuaternion{std::vector<SegmentQuaternion>(256)};

@@ -226,6 +226,24 @@ TEST(InspectedPacket, StepsWithinItsStream) {
 }
 
 /// Printed, not judged: machines differ.
+TEST(FieldText, ShowsTheTypeThatTheLayoutDeclares) {
+    const auto text = documentOf(encoded(wire::MetaData{true, "name:A\n"}));
+    EXPECT_EQ(fieldPlace(*text, nodeOf(*text, "text.length")), QStringLiteral("int32 at bytes 24–27"));
+    const auto time = documentOf(encoded(wire::TimeCode{}));
+    EXPECT_EQ(fieldPlace(*time, nodeOf(*time, "length")), QStringLiteral("int32 at bytes 24–27"));
+    EXPECT_EQ(fieldPlace(*time, nodeOf(*time, "header.payloadSize")),
+              QStringLiteral("uint16 at bytes 22–23"));
+    const auto pose = documentOf(poseBytes());
+    EXPECT_EQ(fieldPlace(*pose, nodeOf(*pose, "segments[0].position")),
+              QStringLiteral("3 × float32 at bytes 28–39"));
+}
+
+TEST(FieldText, NamesMarkersInFrontOfTags) {
+    const auto points = documentOf(encoded(wire::PointPositions{{{269, {}}, {513, {}}, {5001, {}}}}));
+    EXPECT_EQ(fieldTitle(*points, nodeOf(*points, "points[0]")), QStringLiteral("Point 1.13 · pSacrum"));
+    EXPECT_EQ(fieldTitle(*points, nodeOf(*points, "points[2]")), QStringLiteral("Point 5001"));
+}
+
 TEST(FieldDocument, PrintsHowLongTheLargestTake) {
     wire::PoseQuaternion gloves;
     gloves.segments.resize(67);

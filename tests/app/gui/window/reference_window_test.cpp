@@ -2,8 +2,8 @@
 #include "app/gui/window/reference_window.h"
 
 #include "app/gui/theme/theme.h"
-#include "core/wire/reference.h"
-#include "core/wire/reference_overview.h"
+#include "core/export/protocol_reference.h"
+#include "core/export/reference_overview.h"
 #include "core/wire/type_table.h"
 
 #include <QAbstractTextDocumentLayout>
@@ -25,7 +25,7 @@ protected:
     void SetUp() override {
         applyTheme(*qApp, ThemeChoice::Dark);
         m_window = new ReferenceWindow("Protocol reference",
-                                       QString::fromStdString(wire::protocolReference()), nullptr);
+                                       QString::fromStdString(exporting::protocolReference()), nullptr);
         m_window->show();
         QApplication::processEvents();
     }
@@ -45,7 +45,7 @@ TEST_F(ReferenceWindowTest, ListsEveryTypeInItsContents) {
 TEST_F(ReferenceWindowTest, FollowsTheLinksOfTheOverviewToTheSections) {
     for (const wire::TypeInfo& info : wire::typeTable()) {
         const std::string title = wire::typeTitle(info.type);
-        EXPECT_TRUE(m_window->goTo(QString::fromStdString(wire::headingAnchor(title)))) << title;
+        EXPECT_TRUE(m_window->goTo(QString::fromStdString(exporting::headingAnchor(title)))) << title;
     }
     EXPECT_FALSE(m_window->goTo("no-such-heading"));
     ASSERT_TRUE(m_window->goTo("13-null-pose"));

@@ -86,6 +86,15 @@ TEST(Points, TellsTheCodingOfAWholeDatagram) {
     EXPECT_EQ(detectPointIdCoding(tags), PointIdCoding::Unknown);
 }
 
+TEST(Points, FindsTheCodingByThePointsInFrontOfTags) {
+    const std::vector<std::uint32_t> withTags{269, 513, 1025, 5001, 5002};
+    EXPECT_EQ(detectPointIdCoding(withTags), PointIdCoding::By256);
+    const std::vector<std::uint32_t> older{113, 201, 401, 70001};
+    EXPECT_EQ(detectPointIdCoding(older), PointIdCoding::By100);
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 269), (PointReference{1, 13}));
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 5001), std::nullopt);
+}
+
 TEST(Points, PrefersTheCodingOfLaterRevisionsForAnAmbiguousId) {
     const std::vector<std::uint32_t> one{513};
     EXPECT_EQ(detectPointIdCoding(one), PointIdCoding::By256);

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/reference.h"
+#include "core/export/protocol_reference.h"
 
-#include "core/wire/codec.h"
-#include "core/wire/reference_overview.h"
+#include "core/export/reference_overview.h"
 #include "core/wire/type_table.h"
 
 #include <gmock/gmock.h>
 
-namespace posewire::wire {
+namespace posewire::exporting {
 namespace {
 
 using testing::HasSubstr;
+using wire::TypeInfo;
+using wire::typeTable;
+using wire::typeTitle;
 
 std::string sectionOf(std::uint8_t type) {
     const std::string reference = protocolReference();
@@ -84,4 +86,4 @@ TEST(ProtocolReference, TellsWhatDiffersBetweenRevisions) {
 }
 
 } // namespace
-} // namespace posewire::wire
+} // namespace posewire::exporting

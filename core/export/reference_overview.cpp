@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/reference_overview.h"
+#include "core/export/reference_overview.h"
 
-#include "core/wire/messages.h"
+#include "core/wire/schema.h"
 #include "core/wire/type_table.h"
 
 #include <array>
-#include <utility>
 
-namespace posewire::wire {
+namespace posewire::exporting {
 namespace {
 
 constexpr std::array<RevisionDifference, 16> kDifferences{{
@@ -35,44 +34,34 @@ constexpr std::array<RevisionDifference, 16> kDifferences{{
     {"type 25", "–", "12 characters", "the length 12 as int32, then 12 characters"},
 }};
 
-/// Bytes of an item of a message that is one list, or of a message of fixed size; "" where they vary.
-template <class T, Form F>
-std::string itemSize() {
-    if constexpr (kIsFixed<T, F>) {
-        return std::to_string(kWireSize<T, F>) + " in all";
-    } else {
-        std::string size;
-        const auto add = [&]<auto Member, Form ItemForm>(const Items<Member, ItemForm>&) {
-            using Item = typename MemberValue<Member>::value_type;
-            size = kIsFixed<Item, ItemForm> ? std::to_string(kWireSize<Item, ItemForm>) : std::string();
-        };
-        forEachField<T, F>([&](const auto& field) {
-            if constexpr (requires { add(field); }) {
-                add(field);
-            }
-        });
-        return size;
+/// Bytes of an item of a message that is one list, or of a message of fixed size; empty where they vary.
+std::string itemSize(const wire::FormRow& form) {
+    if (form.size != 0) {
+        return std::to_string(form.size) + " in all";
     }
+    std::string size;
+    for (const wire::FieldRow& row : form.fields) {
+        if (row.kind == wire::FieldRow::Kind::Items) {
+            size = row.size != 0 ? std::to_string(row.size) : std::string();
+        }
+    }
+    return size;
 }
 
-template <class T>
-std::string itemSizes() {
-    std::string sizes = itemSize<T, Form::Standard>();
-    if constexpr (requires { Layout<T, Form::Short>::fields; }) {
-        sizes += " or " + itemSize<T, Form::Short>();
-    }
-    if constexpr (kIsFixed<T> && requires { Layout<T, Form::Bare>::fields; }) {
-        sizes += " or " + itemSize<T, Form::Bare>();
+std::string itemSizes(const wire::MessageRow& message) {
+    std::string sizes;
+    for (const wire::FormRow& form : message.forms) {
+        const std::string size = itemSize(form);
+        sizes += (sizes.empty() || size.empty() ? "" : " or ") + size;
     }
     return sizes.empty() ? "varies" : sizes;
 }
 
-template <class T>
-void writeRow(std::string& out) {
-    const TypeInfo& info = *findType(T::kType);
-    const std::string title = typeTitle(T::kType);
-    out += "| [" + title + "](#" + headingAnchor(title) + ") | " + itemSizes<T>() + " | ";
-    out.append(info.frame.empty() ? "–" : info.frame).append(" | ");
+void writeRow(std::string& out, const wire::MessageRow& message) {
+    const wire::TypeInfo& info = *wire::findType(message.type);
+    const std::string title = wire::typeTitle(message.type);
+    out += "| [" + title + "](#" + headingAnchor(title) + ") | " + itemSizes(message) + " | ";
+    out.append(info.frame == wire::Frame::None ? "–" : wire::frameName(info.frame)).append(" | ");
     out.append(info.isSampled ? "yes" : "no").append(" | ");
     out.append(info.revisions).append(" | ").append(info.section).append(" |\n");
 }
@@ -103,10 +92,9 @@ std::string referenceOverview() {
                       "others are sent now and then.\n\n"
                       "| type | bytes an item | frame | sampled | revisions | section |\n"
                       "|---|---|---|---|---|---|\n";
-    [&]<std::size_t... I>(std::index_sequence<I...>) {
-        (writeRow<std::variant_alternative_t<I + 1, Body>>(out), ...);
+    for (const wire::MessageRow& message : wire::messageRows()) {
+        writeRow(out, message);
     }
-    (std::make_index_sequence<std::variant_size_v<Body> - 1>{});
     out += "\n## What differs between revisions\n\nRevision E is of 2012, J of 2015, K of 2017; L, M and N "
            "are of 2018. Where a later sender does otherwise than its text, the last column says what it "
            "does.\n\n| | E | J and K | L to N |\n|---|---|---|---|\n";
@@ -117,4 +105,4 @@ std::string referenceOverview() {
     return out;
 }
 
-} // namespace posewire::wire
+} // namespace posewire::exporting

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace posewire::wire {
+namespace posewire::exporting {
 
 /// One thing in which the revisions of the specification, or senders, differ.
 struct RevisionDifference {
@@ -25,4 +25,4 @@ struct RevisionDifference {
 /// have it.
 [[nodiscard]] std::string headingAnchor(std::string_view title);
 
-} // namespace posewire::wire
+} // namespace posewire::exporting

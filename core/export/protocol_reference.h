@@ -3,10 +3,10 @@
 
 #include <string>
 
-namespace posewire::wire {
+namespace posewire::exporting {
 
 /// The protocol reference in Markdown: the header and every message type with each field's offset, size,
 /// unit, meaning and specification section, written from the layouts.
 [[nodiscard]] std::string protocolReference();
 
-} // namespace posewire::wire
+} // namespace posewire::exporting
