@@ -2,7 +2,7 @@
 #include "app/cli/live_table.h"
 
 #include "core/export/html.h"
-#include "core/export/stream_figures.h"
+#include "core/export/session_reading.h"
 #include "core/wire/type_table.h"
 #include "core/wire/utf8.h"
 
@@ -26,17 +26,19 @@ using exporting::grouped;
 constexpr std::size_t kNameWidth = 34;
 
 struct Column {
+    model::Figure figure;
     std::string_view title;
     std::size_t width;
+    int decimals;
 };
-constexpr std::array<Column, 8> kColumns{{{"Hz", 9},
-                                          {"lost", 9},
-                                          {"loss %", 8},
-                                          {"duplicates", 12},
-                                          {"reordered", 11},
-                                          {"late", 7},
-                                          {"jitter ms", 10},
-                                          {"gap ms", 9}}};
+constexpr std::array<Column, 8> kColumns{{{model::Figure::RateWhole, "Hz", 9, 1},
+                                          {model::Figure::Missing, "lost", 9, 0},
+                                          {model::Figure::LossShare, "loss %", 8, 3},
+                                          {model::Figure::Duplicates, "duplicates", 12, 0},
+                                          {model::Figure::Reordered, "reordered", 11, 0},
+                                          {model::Figure::Late, "late", 7, 0},
+                                          {model::Figure::Jitter, "jitter ms", 10, 3},
+                                          {model::Figure::SpacingMost, "gap ms", 9, 1}}};
 
 bool isContinuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U;
@@ -46,7 +48,7 @@ std::size_t widthOf(std::string_view text) {
     return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, isContinuation));
 }
 
-/// At most so many characters.
+/// At most `most` characters.
 std::string_view cut(std::string_view text, std::size_t most) {
     std::size_t at = 0;
     for (std::size_t count = 0; at < text.size(); ++at) {
@@ -67,32 +69,26 @@ std::string right(const std::string& text, std::size_t width) {
     return std::string(width - std::min(width, widthOf(text)), ' ') + text;
 }
 
-std::string row(std::string_view name, const std::array<std::string, kColumns.size()>& cells) {
+/// A line with a cell for each column.
+template <class Cell>
+std::string row(std::string_view name, Cell cell) {
     std::string line = left(name, kNameWidth);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        line += right(cells[i], kColumns[i].width);
+    for (const Column& column : kColumns) {
+        line += right(cell(column), column.width);
     }
     return line;
 }
 
 std::string heading() {
-    std::array<std::string, kColumns.size()> titles;
-    std::ranges::transform(kColumns, titles.begin(),
-                           [](const Column& column) { return std::string(column.title); });
-    return row("", titles);
+    return row("", [](const Column& column) { return std::string(column.title); });
 }
 
 std::string streamLine(const model::SessionView& session, const model::Stream& stream) {
-    const exporting::StreamFigures figures = exporting::figuresOf(session, stream);
-    const model::StreamCounts& counts = figures.counts;
-    const std::string name = "    " + wire::typeTitle(stream.key.type);
-    if (!wire::isSampled(stream.key.type)) {
-        return row(name, {fixed(figures.rateHz, 1), "", "", "", "", "", "", ""});
-    }
-    return row(name,
-               {fixed(figures.rateHz, 1), grouped(counts.lost + counts.incomplete),
-                fixed(100 * counts.lossRatio(), 3), grouped(counts.duplicates), grouped(counts.reordered),
-                grouped(counts.late), fixed(figures.clock.jitterMs, 3), fixed(figures.arrivals.mostMs, 1)});
+    const model::StreamFigures figures = exporting::figuresOf(session, stream);
+    return row("    " + wire::typeTitle(stream.key.type), [&](const Column& column) {
+        return figures.has(column.figure) ? exporting::figureText(figures, column.figure, column.decimals)
+                                          : std::string();
+    });
 }
 
 std::string summaryLine(const model::SessionView& session, double elapsedS) {
@@ -109,18 +105,6 @@ std::string summaryLine(const model::SessionView& session, double elapsedS) {
     return fixed(elapsedS, 1) + " s   " + grouped(datagrams) + " datagrams   malformed " +
            grouped(malformed) + "   not MXTP " + grouped(foreign) + "   dropped by this computer " +
            grouped(dropped);
-}
-
-std::vector<const model::Stream*> streamsOf(const model::SessionView& session,
-                                            const model::CharacterKey& key) {
-    std::vector<const model::Stream*> streams;
-    for (const model::Stream& stream : session.streams()) {
-        if (stream.key.sender == key.sender && stream.key.character == key.character) {
-            streams.push_back(&stream);
-        }
-    }
-    std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
-    return streams;
 }
 
 } // namespace
@@ -153,7 +137,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, double ela
     }
     lines.push_back(heading());
     for (const model::Sender& sender : session.senders()) {
-        if (sender.foreign == sender.datagrams && sender.skippedBytes == 0) {
+        if (!exporting::hasSentMxtp(sender)) {
             continue;
         }
         lines.push_back(printable(sender.info.address) + " (" +
@@ -164,7 +148,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, double ela
             }
             lines.push_back("  " + printable(session.displayName(character.key)) + " (" +
                             std::to_string(character.key.character) + ")");
-            for (const model::Stream* stream : streamsOf(session, character.key)) {
+            for (const model::Stream* stream : exporting::streamsByType(session, character.key)) {
                 lines.push_back(streamLine(session, *stream));
             }
         }

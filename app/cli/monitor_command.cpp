@@ -32,15 +32,12 @@ void addPlaces(Arguments arguments, MonitorOptions& options) {
 }
 
 void addLimits(Arguments arguments, Limits& limits) {
-    const auto add = [&](const std::string& name, std::optional<double>& limit, const std::string& what) {
-        arguments.add(name, limit, what)
-            .form(name == "--max-loss" ? "PERCENT" : "MS")
+    for (std::size_t i = 0; i < kLimits.size(); ++i) {
+        arguments.add("--max-" + std::string(kLimits[i].name), limits.most[i], std::string(kLimits[i].help))
+            .form(unitOf(kLimits[i]) == " %" ? "PERCENT" : "MS")
             .notNegative()
             .group("Limits (of each stream; where one is exceeded the exit status is 1)");
-    };
-    add("--max-loss", limits.lossPercent, "samples lost or incomplete");
-    add("--max-jitter", limits.jitterMs, "jitter as in RFC 3550");
-    add("--max-gap", limits.gapMs, "time between successive samples");
+    }
 }
 
 } // namespace

@@ -2,19 +2,13 @@
 #include "app/cli/monitor_limits.h"
 
 #include "core/export/html.h"
+#include "core/export/session_reading.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
 
 namespace posewire::cli {
 namespace {
-
-struct Judged {
-    std::string what;
-    std::string unit;
-    double value = 0;
-    std::optional<double> limit;
-};
 
 std::string placeOf(const model::SessionView& session, const log::StreamKey& key) {
     const model::Sender* sender = session.find(key.sender);
@@ -23,6 +17,14 @@ std::string placeOf(const model::SessionView& session, const log::StreamKey& key
 }
 
 } // namespace
+
+bool Limits::isAny() const {
+    return std::ranges::any_of(most, [](const auto& limit) { return limit.has_value(); });
+}
+
+std::string unitOf(const Limit& limit) {
+    return std::string(" ") + model::rowOf(limit.figure).style.unit;
+}
 
 std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits) {
     std::vector<std::string> lines;
@@ -34,16 +36,13 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
         if (!wire::isSampled(stream.key.type)) {
             continue; // sent again now and then: its gaps mean nothing
         }
-        const exporting::StreamFigures figures = exporting::figuresOf(session, stream);
-        const std::initializer_list<Judged> judged{
-            {"loss", " %", 100 * figures.counts.lossRatio(), limits.lossPercent},
-            {"jitter", " ms", figures.clock.jitterMs, limits.jitterMs},
-            {"gap", " ms", figures.arrivals.mostMs, limits.gapMs}};
-        for (const Judged& one : judged) {
-            if (one.limit && one.value > *one.limit) {
-                lines.push_back(placeOf(session, stream.key) + ": " + one.what + ' ' +
-                                exporting::fixed(one.value, 3) + one.unit + " is above the limit of " +
-                                exporting::fixed(*one.limit, 3) + one.unit);
+        const model::StreamFigures figures = exporting::figuresOf(session, stream);
+        for (std::size_t i = 0; i < kLimits.size(); ++i) {
+            const double value = figures[kLimits[i].figure];
+            if (limits.most[i] && value > *limits.most[i]) {
+                lines.push_back(placeOf(session, stream.key) + ": " + std::string(kLimits[i].name) + ' ' +
+                                exporting::fixed(value, 3) + unitOf(kLimits[i]) + " is above the limit of " +
+                                exporting::fixed(*limits.most[i], 3) + unitOf(kLimits[i]));
             }
         }
     }

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/export/stream_figures.h"
+#include "core/model/accounting/stream_figures.h"
+#include "core/model/session/session_view.h"
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace posewire::cli {
 
-/// What a stream may have at most; nothing: anything.
+/// A figure that may be limited: `--max-NAME`.
+struct Limit {
+    std::string_view name;
+    model::Figure figure;
+    std::string_view help;
+};
+inline constexpr std::array<Limit, 3> kLimits{
+    {{"loss", model::Figure::LossShare, "samples lost or incomplete"},
+     {"jitter", model::Figure::Jitter, "jitter as in RFC 3550"},
+     {"gap", model::Figure::SpacingMost, "time between successive samples"}}};
+
+/// " %" or " ms", as it follows a number.
+[[nodiscard]] std::string unitOf(const Limit& limit);
+
+/// The most that a stream may have of each of kLimits; nothing: anything.
 struct Limits {
-    std::optional<double> lossPercent; ///< samples lost or incomplete, of those expected
-    std::optional<double> jitterMs;    ///< RFC 3550, at the end
-    std::optional<double> gapMs;       ///< longest time between the arrivals of successive samples
-    [[nodiscard]] bool isAny() const { return lossPercent || jitterMs || gapMs; }
+    std::array<std::optional<double>, kLimits.size()> most;
+    [[nodiscard]] bool isAny() const;
 };
 
 /// One line for each limit that a stream exceeds; one if nothing was received although there are limits.

@@ -6,6 +6,7 @@
 #include <QString>
 #include <QSysInfo>
 
+#include <cctype>
 #include <cmath>
 
 namespace posewire::cli {
@@ -13,11 +14,12 @@ namespace {
 
 constexpr std::string_view kApplication = "Posewire " POSEWIRE_VERSION;
 
-exporting::TimeRange rangeOf(const MonitorOptions& options, std::int64_t firstNs) {
-    const auto stampAt = [&](const std::optional<double>& seconds) {
-        return seconds ? std::optional(firstNs + std::llround(*seconds * 1e9)) : std::nullopt;
-    };
-    return {stampAt(options.fromSeconds), stampAt(options.toSeconds)};
+std::optional<model::TimeRange> rangeOf(const MonitorOptions& options, std::int64_t firstNs) {
+    const auto stampAt = [&](double seconds) { return firstNs + std::llround(seconds * 1e9); };
+    model::TimeRange range = model::kAllTime;
+    range.fromNs = options.fromSeconds ? stampAt(*options.fromSeconds) : range.fromNs;
+    range.toNs = options.toSeconds ? stampAt(*options.toSeconds) : range.toNs;
+    return range == model::kAllTime ? std::nullopt : std::optional(range);
 }
 
 std::string limitText(const std::optional<double>& limit, const std::string& unit) {
@@ -68,10 +70,11 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     options.application = kApplication;
     options.exceeded = facts.exceeded;
     options.range = rangeOf(m_options, m_session.firstStampNs());
-    const Limits& limits = m_options.limits;
-    options.settings = {{"Loss", limitText(limits.lossPercent, " %")},
-                        {"Jitter", limitText(limits.jitterMs, " ms")},
-                        {"Gap", limitText(limits.gapMs, " ms")}};
+    for (std::size_t i = 0; i < kLimits.size(); ++i) {
+        std::string name(kLimits[i].name);
+        name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
+        options.settings.emplace_back(name, limitText(m_options.limits.most[i], unitOf(kLimits[i])));
+    }
     if (facts.receiveBufferBytes != 0) {
         options.settings.emplace_back("Receive buffer", std::to_string(facts.receiveBufferBytes) + " bytes");
     }

@@ -13,7 +13,7 @@ namespace {
 
 using exporting::JsonValue;
 
-JsonValue jsonOf(std::uint8_t type, const performer::StreamFigures& figures) {
+JsonValue jsonOf(std::uint8_t type, const performer::SentFigures& figures) {
     const auto digits = wire::typeDigits(type);
     JsonValue json{{"type", std::string(digits.begin(), digits.end())}, {"datagrams", figures.datagrams}};
     if (wire::isSampled(type)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/monitor_report.h"
 
+#include "core/export/session_reading.h"
 #include "core/wire/type_table.h"
 
 #include <nlohmann/json.hpp>
@@ -13,67 +14,38 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double value, double perUnit) {
+double rounded(double value, int decimals) {
+    const double perUnit = std::pow(10.0, decimals);
     return std::isfinite(value) ? std::round(value * perUnit) / perUnit : 0.0;
 }
 
-std::string digits(std::uint8_t type) {
-    const auto characters = wire::typeDigits(type);
-    return {characters.begin(), characters.end()};
+Json valueJson(const model::StreamFigures& figures, const model::FigureRow& row) {
+    const bool isWhole =
+        row.style.form == model::FigureForm::Count || row.style.form == model::FigureForm::Counter;
+    return isWhole ? Json(figures.count(row.figure))
+                   : Json(rounded(figures[row.figure], row.style.digits.json));
 }
 
-Json streamJson(const StreamFigures& figures) {
-    const model::StreamCounts& counts = figures.counts;
-    const auto& causes = figures.lostByCause;
-    return {{"type", digits(figures.key.type)},
-            {"datagrams", counts.datagrams},
-            {"samples", counts.samples},
-            {"lost", counts.lost},
-            {"duplicates", counts.duplicates},
-            {"reordered", counts.reordered},
-            {"late", counts.late},
-            {"incomplete", counts.incomplete},
-            {"restarts", counts.restarts},
-            {"step", counts.step},
-            {"rateHz", rounded(figures.rateHz, 1e3)},
-            {"jitterMs", rounded(figures.clock.jitterMs, 1e4)},
-            {"longestGapSamples", counts.longestGapSamples},
-            {"firstSample", counts.firstSample},
-            {"lastSample", counts.lastSample},
-            {"bytes", counts.bytes},
-            {"malformed", figures.malformed},
-            {"lossPercent", rounded(100 * counts.lossRatio(), 1e4)},
-            {"causes",
-             {{"thisComputer", causes[0]},
-              {"network", causes[1]},
-              {"sender", causes[2]},
-              {"unknown", causes[3]}}},
-            {"bursts", figures.pattern.bursts},
-            {"burstDensity", rounded(figures.pattern.burstDensity, 1e4)},
-            {"gapDensity", rounded(figures.pattern.gapDensity, 1e4)},
-            {"meanBurstSamples", rounded(figures.pattern.meanBurstSamples, 1e2)},
-            {"intervalMs",
-             {{"mean", rounded(figures.arrivals.meanMs, 1e4)},
-              {"least", rounded(figures.arrivals.leastMs, 1e4)},
-              {"most", rounded(figures.arrivals.mostMs, 1e4)},
-              {"deviation", rounded(figures.arrivals.deviationMs, 1e4)}}},
-            {"clock",
-             {{"from", figures.clock.isFromTimeCode ? "time code" : "sample counter"},
-              {"skewPpm", rounded(figures.clock.skewPpm, 1e2)},
-              {"driftMs", rounded(figures.clock.driftMs, 1e3)}}}};
-}
-
-/// By type, whatever came first.
-Json streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
-    std::vector<const model::Stream*> streams;
-    for (const model::Stream& stream : session.streams()) {
-        if (stream.key.sender == key.sender && stream.key.character == key.character) {
-            streams.push_back(&stream);
+Json streamJson(const model::StreamFigures& figures) {
+    const auto type = wire::typeDigits(figures.key().type);
+    Json json{{"type", std::string(type.begin(), type.end())}};
+    for (const model::FigureRow& row : model::figureTable()) {
+        if (row.key.empty()) {
+            continue;
         }
+        if (row.figure == model::Figure::Skew) {
+            json["clock"]["from"] = figures.isFromTimeCode() ? "time code" : "sample counter";
+        }
+        const std::size_t dot = row.key.find('.');
+        Json& object = dot == std::string_view::npos ? json : json[std::string(row.key.substr(0, dot))];
+        object[std::string(row.key.substr(dot + 1))] = valueJson(figures, row);
     }
-    std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
+    return json;
+}
+
+Json streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
     Json list = Json::array();
-    for (const model::Stream* stream : streams) {
+    for (const model::Stream* stream : streamsByType(session, key)) {
         list.push_back(streamJson(figuresOf(session, *stream)));
     }
     return list;
@@ -94,10 +66,6 @@ Json charactersJson(const model::SessionView& session, const model::Sender& send
                               {"streams", streamsJson(session, key)}});
     }
     return characters;
-}
-
-bool isMxtp(const model::Sender& sender) {
-    return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
 }
 
 Json senderJson(const model::SessionView& session, const model::Sender& sender) {
@@ -122,7 +90,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
     for (const model::Sender& sender : session.senders()) {
         kernelDropped += sender.kernelDrops;
         foreign += sender.foreign;
-        if (isMxtp(sender)) {
+        if (hasSentMxtp(sender)) {
             senders.push_back(senderJson(session, sender));
         }
         if (sender.foreign != 0) {
@@ -132,7 +100,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
         }
     }
     const Json report{
-        {"durationS", rounded(facts.durationS, 1e3)},
+        {"durationS", rounded(facts.durationS, 3)},
         {"local", {{"kernelDropped", kernelDropped}, {"receiveBufferBytes", facts.receiveBufferBytes}}},
         {"foreignDatagrams", foreign},
         {"sources", std::move(senders)},

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/stream_figures.h"
+#include "core/model/session/session_view.h"
 
 #include <string>
+#include <vector>
 
 namespace posewire::exporting {
 
-/// What a session cannot know of itself.
+/// What a session cannot know about itself.
 struct MonitorFacts {
     double durationS = 0;
     std::int64_t receiveBufferBytes = 0; ///< the smallest that a socket was granted; 0 without any

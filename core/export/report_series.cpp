@@ -14,13 +14,8 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<const model::Stream*> sampledStreams(const model::SessionView& session,
                                                  const model::CharacterKey& key) {
-    std::vector<const model::Stream*> streams;
-    for (const model::Stream& stream : session.streams()) {
-        if (stream.key.sender == key.sender && stream.key.character == key.character &&
-            model::countsSamples(stream.key.type)) {
-            streams.push_back(&stream);
-        }
-    }
+    std::vector<const model::Stream*> streams = streamsByType(session, key);
+    std::erase_if(streams, [](const auto* stream) { return !model::countsSamples(stream->key.type); });
     return streams;
 }
 
@@ -77,7 +72,8 @@ CharacterSeries seriesOf(const model::SessionView& session, const model::Charact
 
 } // namespace
 
-ReportSteps stepsOf(const model::SessionView& session, const TimeRange& range) {
+ReportSteps stepsOf(const model::SessionView& session, const std::optional<model::TimeRange>& range) {
+    const model::TimeRange part = range.value_or(model::kAllTime);
     ReportSteps steps;
     std::int64_t first = std::numeric_limits<std::int64_t>::max();
     std::int64_t last = std::numeric_limits<std::int64_t>::min();
@@ -87,8 +83,8 @@ ReportSteps stepsOf(const model::SessionView& session, const TimeRange& range) {
         last = std::max(last, stream.accounting.lastStampNs());
         resolution = std::max(resolution, stream.accounting.resolutionNs());
     }
-    steps.fromNs = std::max(first, range.fromNs.value_or(first));
-    steps.toNs = std::min(last, range.toNs.value_or(last));
+    steps.fromNs = std::max(first, part.fromNs);
+    steps.toNs = std::min(last, part.toNs);
     if (first > last || steps.fromNs > steps.toNs) {
         return {};
     }

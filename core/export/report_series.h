@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/stream_figures.h"
+#include "core/export/session_reading.h"
 #include "core/export/svg_plot.h"
 
 namespace posewire::exporting {
@@ -18,7 +18,8 @@ struct ReportSteps {
 };
 
 /// All streams of the session together, within the range.
-[[nodiscard]] ReportSteps stepsOf(const model::SessionView& session, const TimeRange& range);
+[[nodiscard]] ReportSteps stepsOf(const model::SessionView& session,
+                                  const std::optional<model::TimeRange>& range);
 
 /// Rate, loss and jitter over time; a curve for each character, of its fastest, all and its worst stream.
 [[nodiscard]] std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportSteps& steps);

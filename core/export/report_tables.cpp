@@ -28,111 +28,92 @@ std::string padded(std::int64_t number, std::size_t width) {
     return std::string(width - std::min(width, digits.size()), '0') + digits;
 }
 
-std::string alarming(std::uint64_t count) {
-    return count == 0 ? grouped(count) : "<span class=\"warning\">" + grouped(count) + "</span>";
+using enum model::Figure;
+
+constexpr std::array kRate{RateWhole, Datagrams, Samples, Lost, Incomplete, LossShare};
+constexpr std::array kOrder{Duplicates, Reordered, Late, Restarts};
+constexpr std::array kTiming{Jitter, SpacingMean, SpacingLeast, SpacingMost, SpacingDeviation,
+                             Skew,   Drift,       LongestGap,   Bursts,      BurstDensity,
+                             Step,   FirstSample, LastSample};
+
+void addColumns(std::vector<HtmlTable::Column>& columns, std::span<const model::Figure> figures) {
+    for (const model::Figure figure : figures) {
+        columns.push_back({model::rowOf(figure).title, true, model::rowOf(figure).help});
+    }
 }
 
 std::vector<HtmlTable::Column> deliveryColumns() {
-    return {{"What arrived", false, ""},
-            {"Over time", false, "samples a second"},
-            {"Hz", true, "samples a second between the first and the last"},
-            {"Datagrams", true, "well-formed, duplicates included"},
-            {"Samples", true, "all datagrams of the sample arrived"},
-            {"Lost", true, "expected, and nothing of them arrived"},
-            {"Incomplete", true, "some but not all datagrams of the sample arrived"},
-            {"Loss %", true, "lost and incomplete, of all expected"},
-            {"Over time", false, "percent lost"},
-            {"Duplicates", true, "the same sample and datagram counter came before"},
-            {"Reordered", true, "came after a later sample (RFC 4737)"},
-            {"Late", true, "reordered by more than 50 ms"},
-            {"Restarts", true, "times the sample counter began anew"}};
-}
-
-std::vector<std::string> deliveryCells(const StreamFigures& figures, const model::Stream& stream,
-                                       const ReportSteps& steps) {
-    const model::StreamCounts& counts = figures.counts;
-    const bool hasLoss = counts.lost + counts.incomplete != 0;
-    return {escaped(wire::typeTitle(figures.key.type)),
-            svgSparkline(rateSeries(stream, steps), 0),
-            fixed(figures.rateHz, 2),
-            grouped(counts.datagrams),
-            grouped(counts.samples),
-            alarming(counts.lost),
-            alarming(counts.incomplete),
-            hasLoss ? "<span class=\"warning\">" + fixed(100 * counts.lossRatio(), 3) + "</span>" : "0",
-            hasLoss ? svgSparkline(lossSeries(stream, steps), 1) : "",
-            alarming(counts.duplicates),
-            alarming(counts.reordered),
-            alarming(counts.late),
-            alarming(counts.restarts)};
-}
-
-/// Types 10 to 13 are sent again and again: only how often, and whether whole, says anything.
-std::vector<std::string> messageCells(const StreamFigures& figures) {
-    std::vector<std::string> cells(deliveryColumns().size());
-    cells[0] = escaped(wire::typeTitle(figures.key.type));
-    cells[2] = figures.rateHz > 0 ? fixed(figures.rateHz, 2) : "";
-    cells[3] = grouped(figures.counts.datagrams);
-    cells[6] = alarming(figures.counts.incomplete);
-    return cells;
+    std::vector<HtmlTable::Column> columns{{"What arrived", false, ""},
+                                           {"Over time", false, "samples per second"}};
+    addColumns(columns, kRate);
+    columns.push_back({"Over time", false, "percent lost"});
+    addColumns(columns, kOrder);
+    return columns;
 }
 
 std::vector<HtmlTable::Column> timingColumns() {
-    return {{"When it arrived", false, ""},
-            {"Jitter ms", true, "RFC 3550"},
-            {"Mean ms", true, "between the arrivals of successive samples"},
-            {"Least ms", true, "between the arrivals of successive samples"},
-            {"Most ms", true, "between the arrivals of successive samples"},
-            {"Deviation ms", true, "of the time between the arrivals of successive samples"},
-            {"Skew ppm", true, "how much faster the sender's clock goes than ours; needs time codes"},
-            {"Drift ms", true, "what that made since the first sample"},
-            {"Longest gap", true, "most samples lost in a row"},
-            {"Bursts", true, "of loss (RFC 3611): fewer than 16 samples between two losses"},
-            {"Burst %", true, "samples lost, of those in bursts"},
-            {"Step", true, "spacing of the sample counter; 0: irregular"},
-            {"First", true, "sample counter"},
-            {"Last", true, "sample counter"}};
+    std::vector<HtmlTable::Column> columns{{"When it arrived", false, ""}};
+    addColumns(columns, kTiming);
+    return columns;
 }
 
-std::vector<std::string> timingCells(const StreamFigures& figures) {
-    const model::StreamCounts& counts = figures.counts;
-    return {escaped(wire::typeTitle(figures.key.type)),
-            fixed(figures.clock.jitterMs, 3),
-            fixed(figures.arrivals.meanMs, 3),
-            fixed(figures.arrivals.leastMs, 3),
-            fixed(figures.arrivals.mostMs, 3),
-            fixed(figures.arrivals.deviationMs, 3),
-            figures.clock.isFromTimeCode ? fixed(figures.clock.skewPpm, 1) : "",
-            figures.clock.isFromTimeCode ? fixed(figures.clock.driftMs, 3) : "",
-            grouped(counts.longestGapSamples),
-            grouped(figures.pattern.bursts),
-            figures.pattern.bursts != 0 ? fixed(100 * figures.pattern.burstDensity, 1) : "",
-            grouped(counts.step),
-            std::to_string(counts.firstSample),
-            std::to_string(counts.lastSample)};
+/// Empty where a figure says nothing.
+std::string cellOf(const model::StreamFigures& figures, model::Figure figure) {
+    const model::FigureRow& row = model::rowOf(figure);
+    const double value = figures[figure];
+    const bool isOnlyWithLoss = figure == BurstDensity || (figure == RateWhole && !figures.isSampled());
+    const bool isOnlyWithTimeCode = row.style.form == model::FigureForm::Signed;
+    if (!figures.has(figure) || (isOnlyWithLoss && value == 0) ||
+        (isOnlyWithTimeCode && !figures.isFromTimeCode())) {
+        return {};
+    }
+    return figure == LossShare && value == 0 ? "0" : figureText(figures, figure, row.style.digits.report);
+}
+
+void addCells(std::vector<std::string>& cells, const model::StreamFigures& figures,
+              std::span<const model::Figure> shown) {
+    for (const model::Figure figure : shown) {
+        const std::string text = cellOf(figures, figure);
+        const bool isTrouble = !text.empty() && figures.trouble(figure) != model::FigureTrouble::None;
+        cells.push_back(isTrouble ? "<span class=\"warning\">" + text + "</span>" : text);
+    }
+}
+
+/// Types 10 to 13 are sent again and again: only how often, and whether whole, says anything.
+std::vector<std::string> deliveryCells(const model::StreamFigures& figures, const model::Stream& stream,
+                                       const ReportSteps& steps) {
+    const bool isSampled = figures.isSampled();
+    std::vector<std::string> cells{escaped(wire::typeTitle(stream.key.type)),
+                                   isSampled ? svgSparkline(rateSeries(stream, steps), 0) : ""};
+    addCells(cells, figures, kRate);
+    cells.push_back(isSampled && figures[Missing] > 0 ? svgSparkline(lossSeries(stream, steps), 1) : "");
+    addCells(cells, figures, kOrder);
+    return cells;
+}
+
+std::vector<std::string> timingCells(const model::StreamFigures& figures) {
+    std::vector<std::string> cells{escaped(wire::typeTitle(figures.key().type))};
+    for (const model::Figure figure : kTiming) {
+        cells.push_back(cellOf(figures, figure));
+    }
+    return cells;
 }
 
 } // namespace
 
 std::string streamTable(const model::SessionView& session, const model::CharacterKey& key,
-                        const std::vector<StreamFigures>& figures, const ReportSteps& steps) {
-    std::vector<const StreamFigures*> own;
-    for (const StreamFigures& one : figures) {
-        if (one.key.sender == key.sender && one.key.character == key.character) {
-            own.push_back(&one);
-        }
-    }
-    std::ranges::sort(own, {}, [](const StreamFigures* one) { return one->key.type; });
+                        const std::vector<model::StreamFigures>& figures, const ReportSteps& steps) {
     HtmlTable delivery(deliveryColumns());
     HtmlTable timing(timingColumns());
-    for (const StreamFigures* one : own) {
-        const model::Stream* stream = session.find(one->key);
-        if (stream == nullptr || !model::countsSamples(one->key.type)) {
-            delivery.add(messageCells(*one));
-            continue;
+    for (const model::Stream* stream : streamsByType(session, key)) {
+        const auto own = std::ranges::find(figures, stream->key, &model::StreamFigures::key);
+        if (own == figures.end()) {
+            continue; // nothing in the range
         }
-        delivery.add(deliveryCells(*one, *stream, steps));
-        timing.add(timingCells(*one));
+        delivery.add(deliveryCells(*own, *stream, steps));
+        if (own->isSampled()) {
+            timing.add(timingCells(*own));
+        }
     }
     return delivery.html() + (timing.isEmpty() ? "" : timing.html());
 }

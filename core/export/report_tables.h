@@ -9,9 +9,10 @@ namespace posewire::exporting {
 
 /// Every figure of the streams of one character; sparklines of rate and loss beside them.
 [[nodiscard]] std::string streamTable(const model::SessionView& session, const model::CharacterKey& key,
-                                      const std::vector<StreamFigures>& figures, const ReportSteps& steps);
+                                      const std::vector<model::StreamFigures>& figures,
+                                      const ReportSteps& steps);
 
-/// What a character said about itself; empty where it said nothing.
+/// The metadata of a character; empty where it sent none.
 [[nodiscard]] std::string metadataList(const model::SessionView& session, const model::CharacterKey& key);
 
 /// "2026-11-21 16:01:32.123 UTC".

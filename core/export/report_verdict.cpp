@@ -9,6 +9,8 @@
 namespace posewire::exporting {
 namespace {
 
+using enum model::Figure;
+
 /// From here on a loss is visible in most figures.
 constexpr double kMuchLoss = 0.01;
 
@@ -21,46 +23,31 @@ std::string percent(double ratio) {
     return fixed(value, value >= 10 ? 1 : value >= 0.1 ? 2 : 4) + " %";
 }
 
-struct Sums {
-    model::StreamCounts counts;
-    std::array<std::uint64_t, 4> lostByCause{};
-};
-
-Sums sumsOf(const std::vector<StreamFigures>& streams) {
-    Sums sums;
-    for (const StreamFigures& stream : streams) {
-        sums.counts += stream.counts;
-        for (std::size_t i = 0; i < sums.lostByCause.size(); ++i) {
-            sums.lostByCause[i] += stream.lostByCause[i];
-        }
-    }
-    return sums;
-}
-
-Finding lossFinding(const model::StreamCounts& counts) {
-    const std::uint64_t missing = counts.lost + counts.incomplete;
+Finding lossFinding(const model::StreamFigures& sum) {
+    const std::uint64_t missing = sum.count(Missing);
     if (missing == 0) {
-        return {ReportSeverity::Good, "Good: " + counted(counts.samples, "sample", "samples") +
+        return {ReportSeverity::Good, "Good: " + counted(sum.count(Samples), "sample", "samples") +
                                           " expected, every one of them received."};
     }
-    const double ratio = counts.lossRatio();
-    const std::string where = grouped(missing) + " of " + counted(counts.expected(), "sample", "samples") +
-                              " (" + percent(ratio) + ")";
+    const double ratio = sum[Missing] / sum.expected();
+    const std::string where = grouped(missing) + " of " +
+                              counted(sum.count(Samples) + missing, "sample", "samples") + " (" +
+                              percent(ratio) + ")";
     return ratio >= kMuchLoss
                ? Finding{ReportSeverity::Error, "Not good: " + where + " did not arrive whole."}
                : Finding{ReportSeverity::Warning, "Some loss: " + where + " did not arrive whole."};
 }
 
 /// Whose losses they were, most first.
-void addCauses(std::vector<Finding>& findings, const std::array<std::uint64_t, 4>& lostByCause) {
+void addCauses(std::vector<Finding>& findings, const model::StreamFigures& sum) {
     struct Share {
         std::uint64_t lost;
         std::string words;
     };
-    std::vector<Share> shares{{lostByCause[0], "in this computer, which did not fetch them in time"},
-                              {lostByCause[1], "on the network"},
-                              {lostByCause[2], "at the sender"},
-                              {lostByCause[3], "without evidence whose fault it was"}};
+    std::vector<Share> shares{{sum.count(LostHere), "in this computer, which did not fetch them in time"},
+                              {sum.count(LostOnNetwork), "on the network"},
+                              {sum.count(LostAtSender), "at the sender"},
+                              {sum.count(LostUnknown), "without evidence whose fault it was"}};
     std::ranges::stable_sort(shares, std::greater{}, &Share::lost);
     for (const Share& share : shares) {
         if (share.lost != 0) {
@@ -71,16 +58,16 @@ void addCauses(std::vector<Finding>& findings, const std::array<std::uint64_t, 4
     }
 }
 
-void addOrder(std::vector<Finding>& findings, const model::StreamCounts& counts) {
-    const auto add = [&](std::uint64_t count, const std::string& one, const std::string& many) {
-        if (count != 0) {
+void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
+    const auto add = [&](model::Figure figure, const std::string& one, const std::string& many) {
+        if (const std::uint64_t count = sum.count(figure); count != 0) {
             findings.push_back({ReportSeverity::Warning, counted(count, one, many)});
         }
     };
-    add(counts.duplicates, "datagram came more than once.", "datagrams came more than once.");
-    add(counts.reordered, "datagram came after a later one.", "datagrams came after later ones.");
-    add(counts.late, "of these was too late to be shown.", "of these were too late to be shown.");
-    add(counts.restarts, "time a sample counter began anew.", "times a sample counter began anew.");
+    add(Duplicates, "datagram came more than once.", "datagrams came more than once.");
+    add(Reordered, "datagram came after a later one.", "datagrams came after later ones.");
+    add(Late, "of these was too late to be shown.", "of these were too late to be shown.");
+    add(Restarts, "time a sample counter restarted.", "times a sample counter restarted.");
 }
 
 void addSenders(std::vector<Finding>& findings, const model::SessionView& session) {
@@ -123,16 +110,20 @@ std::string_view severityMark(ReportSeverity severity) {
     return marks[static_cast<std::size_t>(severity)];
 }
 
-std::vector<Finding> verdictOn(const model::SessionView& session, const std::vector<StreamFigures>& streams,
+std::vector<Finding> verdictOn(const model::SessionView& session,
+                               const std::vector<model::StreamFigures>& streams,
                                const StreamReportOptions& options) {
     std::vector<Finding> findings;
-    const Sums sums = sumsOf(streams);
-    if (sums.counts.datagrams == 0) {
+    model::StreamFigures sum;
+    for (const model::StreamFigures& stream : streams) {
+        sum.add(stream);
+    }
+    if (sum.count(Datagrams) == 0) {
         findings.push_back({ReportSeverity::Error, "No MXTP datagram was received."});
     } else {
-        findings.push_back(lossFinding(sums.counts));
-        addCauses(findings, sums.lostByCause);
-        addOrder(findings, sums.counts);
+        findings.push_back(lossFinding(sum));
+        addCauses(findings, sum);
+        addOrder(findings, sum);
     }
     addSenders(findings, session);
     for (const std::string& line : options.exceeded) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/export/stream_report.h"
+#include "core/model/accounting/stream_figures.h"
 
 namespace posewire::exporting {
 
@@ -18,9 +19,9 @@ struct Finding {
 /// ● ▲ ■
 [[nodiscard]] std::string_view severityMark(ReportSeverity severity);
 
-/// What all figures together mean: the first says it all, the others why.
+/// What all figures together mean: the first sums it up, the others say why.
 [[nodiscard]] std::vector<Finding> verdictOn(const model::SessionView& session,
-                                             const std::vector<StreamFigures>& streams,
+                                             const std::vector<model::StreamFigures>& streams,
                                              const StreamReportOptions& options);
 
 } // namespace posewire::exporting

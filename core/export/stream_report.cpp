@@ -19,11 +19,12 @@ bool hasStamps(const model::Session& session) {
     });
 }
 
-std::vector<StreamFigures> allFigures(const model::SessionView& session, const TimeRange& range) {
-    std::vector<StreamFigures> all;
+std::vector<model::StreamFigures> allFigures(const model::SessionView& session,
+                                             const std::optional<model::TimeRange>& range) {
+    std::vector<model::StreamFigures> all;
     for (const model::Stream& stream : session.streams()) {
-        const StreamFigures figures = figuresOf(session, stream, range);
-        if (figures.counts.datagrams != 0 || range.isWhole()) {
+        const model::StreamFigures figures = figuresOf(session, stream, range);
+        if (figures[model::Figure::Datagrams] > 0 || !range) {
             all.push_back(figures);
         }
     }
@@ -69,7 +70,7 @@ std::string plotSection(const model::SessionView& session, const ReportSteps& st
     return html + svgPlot(causePlot(session, steps)) + "</div>\n";
 }
 
-std::string senderSection(const model::SessionView& session, const std::vector<StreamFigures>& figures,
+std::string senderSection(const model::SessionView& session, const std::vector<model::StreamFigures>& figures,
                           const ReportSteps& steps) {
     std::string html;
     for (const model::Sender& sender : session.senders()) {
@@ -104,7 +105,7 @@ std::string settingsSection(const StreamReportOptions& options) {
 } // namespace
 
 std::string streamReport(const model::SessionView& session, const StreamReportOptions& options) {
-    const std::vector<StreamFigures> figures = allFigures(session, options.range);
+    const std::vector<model::StreamFigures> figures = allFigures(session, options.range);
     const ReportSteps steps = stepsOf(session, options.range);
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/stream_figures.h"
+#include "core/model/session/session_view.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,9 +11,9 @@
 namespace posewire::exporting {
 
 struct StreamReportOptions {
-    TimeRange range{};
-    std::string application{};           ///< name and version of who writes it
-    std::vector<std::string> exceeded{}; ///< one line for each limit that was not kept
+    std::optional<model::TimeRange> range{}; ///< all there is without one; either end may be open
+    std::string application{};               ///< name and version of who writes it
+    std::vector<std::string> exceeded{};     ///< one line for each limit that was not kept
     std::vector<std::pair<std::string, std::string>> settings{}; ///< what was set, in words
 };
 

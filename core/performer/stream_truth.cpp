@@ -158,8 +158,8 @@ void StreamTruth::addTo(Run& run, const wire::Header& header, std::int64_t timeN
     m_figures.late += timeNs - overtaking->second > kLateNs ? 1 : 0;
 }
 
-StreamFigures StreamTruth::figures() const {
-    StreamFigures figures = m_figures;
+SentFigures StreamTruth::figures() const {
+    SentFigures figures = m_figures;
     figures.incomplete = m_incomplete + (m_message.isTouched() && !m_message.isComplete() ? 1 : 0);
     for (const Run& run : m_runs) {
         std::uint64_t touched = 0;

@@ -15,7 +15,7 @@ namespace posewire::performer {
 
 /// What a receiver that misses nothing has to count about one stream: one type of one character of one
 /// sender. Types 10 to 13 have datagrams and incomplete alone.
-struct StreamFigures {
+struct SentFigures {
     std::uint64_t datagrams = 0;
     std::uint64_t samples = 0;
     std::uint64_t lost = 0;
@@ -28,7 +28,7 @@ struct StreamFigures {
     std::uint32_t firstSample = 0;
     std::uint32_t lastSample = 0;
 
-    friend bool operator==(const StreamFigures&, const StreamFigures&) = default;
+    friend bool operator==(const SentFigures&, const SentFigures&) = default;
 };
 
 /// Behind a later sample by more than this, a sample is late: the waiting time of the display.
@@ -42,7 +42,7 @@ public:
     /// A datagram that can be decoded, with the header that it has now.
     void add(const wire::Header& header, const Sending& sending);
 
-    [[nodiscard]] StreamFigures figures() const;
+    [[nodiscard]] SentFigures figures() const;
 
 private:
     /// The datagrams of a sample, or of a message outside sample accounting.
@@ -78,7 +78,7 @@ private:
     Run& beginRun(const wire::Header& header, const Origin& origin);
     void addTo(Run& run, const wire::Header& header, std::int64_t timeNs);
 
-    StreamFigures m_figures; ///< those that are counted as they come
+    SentFigures m_figures; ///< those that are counted as they come
     std::vector<Run> m_runs;
     Parts m_message;                ///< the newest one of types 10 to 13
     std::int64_t m_messageNs = 0;   ///< when it began

@@ -144,7 +144,7 @@ void checkTags(Datagram& datagram, std::string_view text, std::size_t start) {
            {list.strayLines, static_cast<std::uint32_t>(start + list.firstStray)});
 }
 
-/// A time of day in "HH:MM:SS.mmm".
+/// A time of day in "HH:MM:SS.mmm"; a leap second counts.
 bool isTimeOfDay(std::string_view text) {
     constexpr std::string_view pattern = "00:00:00.000";
     for (std::size_t i = 0; i < pattern.size(); ++i) {
@@ -152,7 +152,7 @@ bool isTimeOfDay(std::string_view text) {
             return false;
         }
     }
-    return text.substr(0, 2) < "24" && text[3] < '6' && text[6] < '6';
+    return text.substr(0, 2) <= "23" && text.substr(3, 2) <= "59" && text.substr(6, 2) <= "60";
 }
 
 /// Checks the fields of a message that are no numbers, in wire order.

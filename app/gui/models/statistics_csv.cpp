@@ -10,20 +10,7 @@ namespace posewire::gui {
 
 namespace {
 
-/// As a program reads it: digits without spaces, an ASCII minus, nothing where nothing is known.
-QString number(QString text) {
-    return text.remove(QChar(0x202f))
-        .replace(QChar(0x2212), QLatin1Char('-'))
-        .remove(QStringLiteral("–"))
-        .remove(QLatin1Char('+'));
-}
-
-bool isFigure(int column) {
-    return column != static_cast<int>(StatisticsColumn::Stream) &&
-           column != static_cast<int>(StatisticsColumn::Curve);
-}
-
-QString lineOf(model::SessionView& view, const model::Stream& stream, const StatisticsFigures& figures) {
+QString lineOf(model::SessionView& view, const model::Stream& stream, const model::StreamFigures& figures) {
     const model::CharacterKey key{stream.key.sender, stream.key.character};
     const model::Sender* sender = view.find(key.sender);
     const auto digits = wire::typeDigits(stream.key.type);
@@ -31,8 +18,8 @@ QString lineOf(model::SessionView& view, const model::Stream& stream, const Stat
                       QString::number(key.character), csvCell(characterName(view, key)),
                       QString::fromLatin1(digits.data(), 2)};
     for (int column = 0; column < kStatisticsColumns; ++column) {
-        if (isFigure(column)) {
-            cells += number(statisticsText(figures, static_cast<StatisticsColumn>(column)));
+        if (const auto figure = figureIn(column)) {
+            cells += statisticsNumber(figures, *figure);
         }
     }
     return cells.join(QLatin1Char(','));
@@ -43,7 +30,7 @@ QString lineOf(model::SessionView& view, const model::Stream& stream, const Stat
 QString StatisticsModel::csv() const {
     QStringList titles{tr("Sender"), tr("Character"), tr("Name"), tr("Type")};
     for (int column = 0; column < kStatisticsColumns; ++column) {
-        if (isFigure(column)) {
+        if (figureIn(column)) {
             titles += csvCell(headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
         }
     }

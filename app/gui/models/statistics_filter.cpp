@@ -11,39 +11,12 @@ namespace posewire::gui {
 
 namespace {
 
-using Column = StatisticsColumn;
-
 QString tr(const char* text) {
     return QCoreApplication::translate("StatisticsFilter", text);
 }
 
 QString condition(const char* field, const std::string& value) {
     return QString::fromStdString(filter::expressionFor(field, value));
-}
-
-/// What packets have at which the column counts one.
-const char* troubleCondition(Column column) {
-    switch (column) {
-    case Column::Lost:
-    case Column::LossShare:
-    case Column::LongestGap:
-    case Column::Bursts:
-    case Column::BurstLength:
-    case Column::BurstDensity:
-    case Column::GapDensity:
-        return "gap > 0";
-    case Column::Reordered:
-    case Column::Late:
-        return "reordered";
-    case Column::Duplicates:
-        return "duplicate";
-    case Column::Restarts:
-        return "restart";
-    case Column::Malformed:
-        return "malformed";
-    default:
-        return nullptr;
-    }
 }
 
 void addRow(model::SessionView& view, const StatisticsModel& model, const QModelIndex& index,
@@ -75,7 +48,8 @@ QString rangeFilter(model::SessionView& view, const model::TimeRange& range) {
 QString statisticsFilter(model::SessionView& view, const StatisticsModel& model, const QModelIndex& index) {
     QStringList conditions;
     addRow(view, model, index, conditions);
-    if (const char* trouble = troubleCondition(static_cast<Column>(index.column()))) {
+    const auto figure = figureIn(index.column());
+    if (const char* trouble = figure ? model::rowOf(*figure).condition : nullptr) {
         conditions += QLatin1String(trouble);
     }
     if (model.range()) {
@@ -84,23 +58,13 @@ QString statisticsFilter(model::SessionView& view, const StatisticsModel& model,
     return conditions.join(QStringLiteral(" && "));
 }
 
-QString statisticsFilterTitle(StatisticsColumn column) {
-    switch (column) {
-    case Column::Stream:
-        return tr("All packets");
-    case Column::Lost:
-        return tr("Packets after a gap");
-    case Column::Duplicates:
-        return tr("Duplicates");
-    case Column::Reordered:
-        return tr("Reordered packets");
-    case Column::Restarts:
-        return tr("Restarts");
-    case Column::Malformed:
-        return tr("Malformed packets");
-    default:
-        return {};
+QString statisticsFilterTitle(int column) {
+    const auto figure = figureIn(column);
+    if (!figure) {
+        return column == kNameColumn ? tr("All packets") : QString();
     }
+    const char* title = model::rowOf(*figure).packets;
+    return title == nullptr ? QString() : tr(title);
 }
 
 } // namespace posewire::gui

@@ -15,6 +15,6 @@ namespace posewire::gui {
 
 /// What the packets of such a filter are, in the words of a menu: "Packets after a gap"; empty for columns
 /// that count nothing that packets could show.
-[[nodiscard]] QString statisticsFilterTitle(StatisticsColumn column);
+[[nodiscard]] QString statisticsFilterTitle(int column);
 
 } // namespace posewire::gui

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/statistics_model.h"
 
+#include "app/gui/models/columns.h"
 #include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
@@ -14,15 +15,9 @@ namespace posewire::gui {
 
 namespace {
 
-using Column = StatisticsColumn;
-
 constexpr std::int64_t kSecondNs = 1'000'000'000;
 /// Shorter parts show the beat of samples and buckets, not the rate.
 constexpr std::int64_t kLeastPartNs = 500'000'000;
-
-Column columnOf(const QModelIndex& index) {
-    return static_cast<Column>(index.column());
-}
 
 } // namespace
 
@@ -49,36 +44,27 @@ StatisticsModel::Cached& StatisticsModel::cached(const QModelIndex& index) const
     return m_cache[node];
 }
 
-const StatisticsFigures& StatisticsModel::figures(const QModelIndex& index) const {
+const model::StreamFigures& StatisticsModel::figures(const QModelIndex& index) const {
     if (cached(index).turn != m_turn) {
         const model::Stream* shown = stream(index);
-        const StatisticsFigures made = shown != nullptr ? streamFigures(*shown) : sumOf(index);
+        const auto made = shown != nullptr ? model::figuresOf(*shown, m_range) : sumOf(index);
         cached(index).figures = made; // sums fill the cache of others: look again
         cached(index).turn = m_turn;
     }
     return cached(index).figures;
 }
 
-StatisticsFigures StatisticsModel::streamFigures(const model::Stream& stream) const {
-    StatisticsFigures figures;
-    figures.isSampled = model::countsSamples(stream.key.type);
-    figures.range = model::figuresOf(stream.accounting, m_range);
-    figures.rateHz = m_range ? figures.range.rate.meanHz : stream.statistics.rateHz();
-    return figures;
-}
-
-StatisticsFigures StatisticsModel::sumOf(const QModelIndex& index) const {
-    StatisticsFigures sum;
-    sum.isSum = true;
-    sum.isSampled = false;
+model::StreamFigures StatisticsModel::sumOf(const QModelIndex& index) const {
+    model::StreamFigures sum;
     const QModelIndex parent = index.siblingAtColumn(0); // only that has rows under it
     for (int row = 0; row < rowCount(parent); ++row) {
         sum.add(figures(this->index(row, 0, parent)));
     }
     if (nodeOf(index).kind == Kind::Sender) {
         const model::Sender& sender = view().senders()[nodeOf(index).entry]; // also those without a header
-        sum.range.malformed =
-            m_range ? sender.history.malformedBetween(m_range->fromNs, m_range->toNs) : sender.malformed;
+        sum.set(model::Figure::Malformed,
+                static_cast<double>(m_range ? sender.history.malformedBetween(m_range->fromNs, m_range->toNs)
+                                            : sender.malformed));
     }
     return sum;
 }
@@ -125,8 +111,7 @@ StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) cons
     }
     Curve made;
     const double seconds = static_cast<double>(parts.widthNs) * 1e-9;
-    // Fewer parts than points are drawn as steps, so that the curve always fills
-    // its room.
+    // Fewer parts than points are drawn as steps, so that the curve always fills its room.
     for (std::size_t point = 0; point < kCurvePoints && parts.count > 0; ++point) {
         const std::size_t part = point * parts.count / kCurvePoints;
         const bool isThere = parts.beginOf(part) >= first && parts.beginOf(part + 1) <= end;
@@ -145,14 +130,10 @@ QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
     if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
         return {};
     }
-    switch (columnOf(index)) {
-    case Column::Stream:
-        return nameData(index, role);
-    case Column::Curve:
-        return curveData(index, role);
-    default:
+    if (figureIn(index.column())) {
         return figureData(index, role);
     }
+    return index.column() == kNameColumn ? nameData(index, role) : curveData(index, role);
 }
 
 QVariant StatisticsModel::nameData(const QModelIndex& index, int role) const {
@@ -196,20 +177,19 @@ QVariant StatisticsModel::curveData(const QModelIndex& index, int role) const {
 }
 
 QVariant StatisticsModel::figureData(const QModelIndex& index, int role) const {
+    const model::Figure figure = *figureIn(index.column());
+    const Health health = statisticsHealth(figures(index), figure);
     switch (role) {
     case Qt::DisplayRole: {
-        const QString text = statisticsText(figures(index), columnOf(index));
-        const Health health =
-            text.isEmpty() ? Health::Unknown : statisticsHealth(figures(index), columnOf(index));
-        return health == Health::Unknown ? text : healthSymbol(health) + QLatin1Char(' ') + text;
+        const QString text = statisticsText(figures(index), figure);
+        return health == Health::Unknown || text.isEmpty() ? text
+                                                           : healthSymbol(health) + QLatin1Char(' ') + text;
     }
-    case Qt::ForegroundRole: {
-        const Health health = statisticsHealth(figures(index), columnOf(index));
+    case Qt::ForegroundRole:
         if (health == Health::Unknown) {
-            return isQuiet(figures(index), columnOf(index)) ? QVariant(theme().dim) : QVariant();
+            return isQuiet(figures(index), figure) ? QVariant(theme().dim) : QVariant();
         }
         return healthColour(health);
-    }
     case Qt::TextAlignmentRole:
         return numberAlignment();
     case Qt::ToolTipRole:
@@ -220,9 +200,7 @@ QVariant StatisticsModel::figureData(const QModelIndex& index, int role) const {
 }
 
 QVariant StatisticsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    return orientation == Qt::Horizontal
-               ? columnHeader(statisticsColumns(), kStatisticsContext, section, role)
-               : QVariant();
+    return orientation == Qt::Horizontal ? statisticsHeader(section, role) : QVariant();
 }
 
 } // namespace posewire::gui

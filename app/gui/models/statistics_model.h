@@ -12,16 +12,14 @@
 
 namespace posewire::gui {
 
-/// Every figure of every stream, with sums for each character and sender, over
-/// the range that is chosen. Over all there is they go on while the display is
-/// paused. Figures are made when they are asked for, once a refresh, and curves
-/// once a second.
+/// Every figure of every stream, with sums for each character and sender, over the range that is chosen.
+/// Without one they keep counting while the display is paused. Figures are made when they are asked for, once
+/// per refresh, and curves once per second.
 class StatisticsModel : public StreamTreeModel {
     Q_OBJECT
 
 public:
-    /// The curve of a row has so many points, and spans two minutes where no
-    /// range is chosen.
+    /// The points of a row's curve, and what it spans where no range is chosen: two minutes.
     static constexpr int kCurvePoints = 120;
     static constexpr std::int64_t kCurveNs = 120'000'000'000;
 
@@ -30,12 +28,11 @@ public:
     void refresh();
 
     /// Valid until the next refresh.
-    [[nodiscard]] const StatisticsFigures& figures(const QModelIndex& index) const;
+    [[nodiscard]] const model::StreamFigures& figures(const QModelIndex& index) const;
     /// The range of the figures; nothing for all.
     [[nodiscard]] const std::optional<model::TimeRange>& range() const { return m_range; }
 
-    /// A line for each stream, with titles (RFC 4180): sender, character, type,
-    /// and every figure.
+    /// A line for each stream, with titles (RFC 4180): sender, character, type, and every figure.
     [[nodiscard]] QString csv() const;
 
     [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
@@ -50,13 +47,12 @@ private:
     struct Cached {
         std::uint64_t turn = 0;      ///< of the figures
         std::uint64_t curveTurn = 0; ///< likewise
-        StatisticsFigures figures;
+        model::StreamFigures figures;
         Curve curve;
     };
 
     [[nodiscard]] Cached& cached(const QModelIndex& index) const;
-    [[nodiscard]] StatisticsFigures streamFigures(const model::Stream& stream) const;
-    [[nodiscard]] StatisticsFigures sumOf(const QModelIndex& index) const;
+    [[nodiscard]] model::StreamFigures sumOf(const QModelIndex& index) const;
     [[nodiscard]] const Curve& curve(const QModelIndex& index) const;
     [[nodiscard]] Curve makeCurve(const QModelIndex& index) const;
     void addStreams(const QModelIndex& index, std::vector<const model::Stream*>& streams) const;

@@ -79,12 +79,12 @@ void StatisticsPanel::setUpStreams() {
     m_table->setRootIsDecorated(true);
     std::vector<QString> samples;
     for (int column = 0; column < kStatisticsColumns; ++column) {
-        samples.push_back(statisticsSample(static_cast<StatisticsColumn>(column)));
+        samples.push_back(statisticsSample(column));
     }
     m_table->setColumnSamples(std::move(samples), QStringLiteral("    02 Pose, qu"));
-    m_table->setOptionalColumns(static_cast<int>(kFirstOptionalStatistic));
-    m_table->setEmptyText(tr("No stream on the air.\nRates, jitter and losses of "
-                             "every stream show here."));
+    m_table->setOptionalColumns(kFirstOptionalStatistic);
+    m_table->setEmptyText(
+        tr("No stream received yet.\nRates, jitter and losses of every stream appear here."));
     connect(&m_streams, &QAbstractItemModel::rowsInserted, this, &StatisticsPanel::expandNew);
     connect(m_table, &QAbstractItemView::clicked, this, &StatisticsPanel::select);
     connect(m_table, &QAbstractItemView::activated, this, &StatisticsPanel::showPackets);
@@ -101,8 +101,7 @@ void StatisticsPanel::setUpFacts() {
 
 void StatisticsPanel::expandNew(const QModelIndex& parent, int first, int last) {
     if (parent.isValid() && parent.parent().isValid()) {
-        return; // streams of a character: whether they show is up to the operator
-                // by now
+        return; // streams of a character: whether they show is up to the operator by now
     }
     for (int row = first; row <= last; ++row) {
         m_table->expandRecursively(m_streams.index(row, 0, parent));
@@ -160,8 +159,7 @@ void StatisticsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     if (index.isValid()) {
         QMenu* packets = menu.addMenu(tr("Show packets"));
         for (int column = 0; column < kStatisticsColumns; ++column) {
-            const auto kind = static_cast<StatisticsColumn>(column);
-            if (const QString title = statisticsFilterTitle(kind); !title.isEmpty()) {
+            if (const QString title = statisticsFilterTitle(column); !title.isEmpty()) {
                 const QPersistentModelIndex cell = index.siblingAtColumn(column);
                 QAction* action = packets->addAction(title);
                 connect(action, &QAction::triggered, this, [this, cell] { showPackets(cell); });

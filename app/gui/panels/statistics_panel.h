@@ -11,8 +11,8 @@ class QSplitter;
 
 namespace posewire::gui {
 
-/// Dock `statistics`: the range of time, figures of every stream in it, and
-/// below them those of this computer.
+/// Dock `statistics`: the range of time, figures of every stream in it, and below them those of this
+/// computer.
 class StatisticsPanel : public Panel {
     Q_OBJECT
 

@@ -1,23 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/alerts.h"
 
-#include <array>
+#include "core/model/accounting/threshold_table.h"
+
 #include <utility>
 
 namespace posewire::gui {
 
 namespace {
 
-using Limit = std::pair<const char*, double model::Thresholds::*>;
-
-constexpr std::array<Limit, 7> kLimits{{{"lossPercent", &model::Thresholds::lossPercent},
-                                        {"jitterMs", &model::Thresholds::jitterMs},
-                                        {"gapMs", &model::Thresholds::gapMs},
-                                        {"ageS", &model::Thresholds::ageS},
-                                        {"ratePercent", &model::Thresholds::ratePercent},
-                                        {"windowS", &model::Thresholds::windowS},
-                                        {"hysteresis", &model::Thresholds::hysteresis}}};
-constexpr double kMost = 1e6;
+QLatin1String keyOf(const model::ThresholdRow& row) {
+    return {row.key.data(), static_cast<qsizetype>(row.key.size())};
+}
 
 bool isWanted(const model::Event& event, const AlertChoices& choices) {
     return (choices.hasErrorSound && event.severity() == model::EventSeverity::Error) ||
@@ -28,8 +22,8 @@ bool isWanted(const model::Event& event, const AlertChoices& choices) {
 
 QJsonObject jsonOf(const AlertChoices& choices) {
     QJsonObject object;
-    for (const auto& [name, limit] : kLimits) {
-        object[QLatin1String(name)] = choices.thresholds.*limit;
+    for (const model::ThresholdRow& row : model::thresholdTable()) {
+        object[keyOf(row)] = choices.thresholds.*row.limit;
     }
     object["warningSound"] = choices.hasWarningSound;
     object["errorSound"] = choices.hasErrorSound;
@@ -38,18 +32,11 @@ QJsonObject jsonOf(const AlertChoices& choices) {
 
 AlertChoices alertChoicesOf(const QJsonObject& object) {
     AlertChoices choices;
-    for (const auto& [name, limit] : kLimits) {
-        const double value = object[QLatin1String(name)].toDouble(-1);
-        if (value >= 0 && value <= kMost) {
-            choices.thresholds.*limit = value;
+    for (const model::ThresholdRow& row : model::thresholdTable()) {
+        const double value = object[keyOf(row)].toDouble(-1);
+        if (value >= row.least && value <= row.most) {
+            choices.thresholds.*row.limit = value;
         }
-    }
-    const model::Thresholds shipped;
-    if (choices.thresholds.windowS < 1) {
-        choices.thresholds.windowS = shipped.windowS;
-    }
-    if (choices.thresholds.hysteresis > 1) {
-        choices.thresholds.hysteresis = shipped.hysteresis;
     }
     choices.hasWarningSound = object["warningSound"].toBool();
     choices.hasErrorSound = object["errorSound"].toBool();

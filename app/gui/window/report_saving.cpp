@@ -26,9 +26,7 @@ exporting::StreamReportOptions optionsFor(model::SessionView& session,
                                           const std::optional<model::TimeRange>& range) {
     exporting::StreamReportOptions options;
     options.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
-    if (range) {
-        options.range = {range->fromNs, range->toNs};
-    }
+    options.range = range;
     for (const model::Event& event : session.events().all()) {
         const bool isInside =
             !range || (event.firstStampNs < range->toNs && event.lastStampNs >= range->fromNs);

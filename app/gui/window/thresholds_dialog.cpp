@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/thresholds_dialog.h"
 
+#include "core/model/accounting/threshold_table.h"
+
 #include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
@@ -13,8 +15,6 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr double kPercent = 100;
-
 QLabel* dimLabel(const QString& text, QWidget* parent) {
     auto* label = new QLabel(text, parent);
     label->setForegroundRole(QPalette::PlaceholderText);
@@ -26,19 +26,14 @@ QLabel* dimLabel(const QString& text, QWidget* parent) {
 
 ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     : QDialog(parent),
+      m_explanation(dimLabel({}, this)),
       m_warningSound(new QCheckBox(tr("at a &warning"), this)),
       m_errorSound(new QCheckBox(tr("at an &error"), this)) {
     setWindowTitle(tr("Thresholds"));
-    using T = model::Thresholds;
     auto* form = new QFormLayout;
-    addLimit(*form, tr("&Loss above"), &T::lossPercent, tr(" %"),
-             tr("Of the samples that should have come; incomplete ones included"));
-    addLimit(*form, tr("&Jitter above"), &T::jitterMs, tr(" ms"), tr("As RFC 3550 computes it"));
-    addLimit(*form, tr("&Gap above"), &T::gapMs, tr(" ms"), tr("Longest time between two samples"));
-    addLimit(*form, tr("&Age above"), &T::ageS, tr(" s"), tr("Since the newest sample"));
-    addLimit(*form, tr("&Rate off by more than"), &T::ratePercent, tr(" %"),
-             tr("How far the rate is from what was usual"));
-    addTimes(*form);
+    for (const model::ThresholdRow& row : model::thresholdTable()) {
+        addLimit(*form, row);
+    }
     auto* sounds = new QVBoxLayout;
     sounds->addWidget(m_warningSound);
     sounds->addWidget(m_errorSound);
@@ -51,9 +46,10 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
             [this] { setChoices({}); });
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
-    column->addWidget(dimLabel(tr("A stream that exceeds one of these is an event, once for an episode, and "
-                                  "shows in the health of its character. They hold from now on."),
-                               this));
+    column->addWidget(
+        dimLabel(tr("A stream that exceeds one of these raises one event per episode, which also "
+                    "shows in the health of its character. Changes apply from now on."),
+                 this));
     column->addLayout(form);
     column->addWidget(m_explanation);
     column->addWidget(buttons);
@@ -61,42 +57,23 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     setMinimumWidth(fontMetrics().averageCharWidth() * 62);
 }
 
-void ThresholdsDialog::addLimit(QFormLayout& form, const QString& label, double model::Thresholds::*limit,
-                                const QString& unit, const QString& toolTip) {
+void ThresholdsDialog::addLimit(QFormLayout& form, const model::ThresholdRow& row) {
     auto* box = new QDoubleSpinBox(this);
-    box->setDecimals(1);
-    box->setRange(0, 100'000);
-    box->setSuffix(unit);
-    box->setSpecialValueText(tr("never an alert")); // at 0
+    box->setDecimals(row.shownPerUnit == 1 ? 1 : 0);
+    box->setRange(row.least * row.shownPerUnit, row.most * row.shownPerUnit);
+    box->setSuffix(tr(row.unit));
+    box->setSpecialValueText(row.least == 0 ? tr("never an alert") : QString()); // at the least
     box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-    box->setToolTip(toolTip);
-    form.addRow(label, box);
-    m_fields.push_back({limit, 1, box});
-}
-
-void ThresholdsDialog::addTimes(QFormLayout& form) {
-    using T = model::Thresholds;
-    addLimit(form, tr("&Over the last"), &T::windowS, tr(" s"),
-             tr("The past that loss, gap and rate are taken from"));
-    m_fields.back().box->setRange(1, 60);
-    m_fields.back().box->setSpecialValueText({});
-    addLimit(form, tr("Alert ends &below"), &T::hysteresis, tr(" % of its limit"),
-             tr("So that a figure that hovers about its limit alerts once"));
-    m_hysteresis = m_fields.back().box;
-    m_hysteresis->setRange(1, kPercent);
-    m_hysteresis->setDecimals(0);
-    m_hysteresis->setSpecialValueText({});
-    m_fields.back().perUnit = kPercent;
-    m_explanation = dimLabel({}, this);
-    for (const Field& field : m_fields) {
-        connect(field.box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);
-    }
+    box->setToolTip(tr(row.help));
+    form.addRow(tr(row.label), box);
+    m_fields.push_back({&row, box});
+    connect(box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);
 }
 
 void ThresholdsDialog::explainHysteresis() {
     const AlertChoices shown = choices();
     const double loss = shown.thresholds.lossPercent;
-    const QString share = QString::number(shown.thresholds.hysteresis * kPercent, 'f', 0);
+    const QString share = QString::number(shown.thresholds.hysteresis * 100, 'f', 0);
     m_explanation->setText(
         loss > 0 ? tr("Hysteresis: a loss alert begins above %1 % and ends below %2 %, so that a figure that "
                       "hovers about its limit alerts once.")
@@ -110,7 +87,7 @@ void ThresholdsDialog::explainHysteresis() {
 AlertChoices ThresholdsDialog::choices() const {
     AlertChoices choices;
     for (const Field& field : m_fields) {
-        choices.thresholds.*field.limit = field.box->value() / field.perUnit;
+        choices.thresholds.*field.row->limit = field.box->value() / field.row->shownPerUnit;
     }
     choices.hasWarningSound = m_warningSound->isChecked();
     choices.hasErrorSound = m_errorSound->isChecked();
@@ -119,7 +96,7 @@ AlertChoices ThresholdsDialog::choices() const {
 
 void ThresholdsDialog::setChoices(const AlertChoices& choices) {
     for (const Field& field : m_fields) {
-        field.box->setValue(choices.thresholds.*field.limit * field.perUnit);
+        field.box->setValue(choices.thresholds.*field.row->limit * field.row->shownPerUnit);
     }
     m_warningSound->setChecked(choices.hasWarningSound);
     m_errorSound->setChecked(choices.hasErrorSound);

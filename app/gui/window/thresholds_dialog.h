@@ -12,9 +12,13 @@ class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 
+namespace posewire::model {
+struct ThresholdRow;
+}
+
 namespace posewire::gui {
 
-/// What a stream must keep, and whether a sound says that it did not.
+/// The limits that streams must keep, and whether a sound announces that one was exceeded.
 class ThresholdsDialog final : public QDialog {
     Q_OBJECT
 
@@ -26,18 +30,14 @@ public:
 
 private:
     struct Field {
-        double model::Thresholds::*limit;
-        double perUnit; ///< of what is shown
+        const model::ThresholdRow* row;
         QDoubleSpinBox* box;
     };
-    void addLimit(QFormLayout& form, const QString& label, double model::Thresholds::*limit,
-                  const QString& unit, const QString& toolTip);
-    void addTimes(QFormLayout& form);
+    void addLimit(QFormLayout& form, const model::ThresholdRow& row);
     void explainHysteresis();
 
     std::vector<Field> m_fields;
-    QDoubleSpinBox* m_hysteresis = nullptr;
-    QLabel* m_explanation = nullptr;
+    QLabel* m_explanation;
     QCheckBox* m_warningSound;
     QCheckBox* m_errorSound;
 };

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/accounting/loss_cause.h"
 #include "core/model/accounting/stream_accounting.h"
 #include "core/model/accounting/time_range.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
 
 namespace posewire::model {
 
-/// Samples a second; of types without samples, datagrams a second. 0 before there are two.
+/// Samples per second; of types without samples, datagrams per second. 0 before there are two.
 struct RateFigures {
+    double nowHz = 0;   ///< over the newest 2 s; in a range the mean
+    double wholeHz = 0; ///< of samples that arrived whole
     double meanHz = 0;
     /// Of parts of the range, each at least a second long and on the air from its beginning to its end;
     /// without such a part all are as the mean, and the deviation 0.
@@ -30,12 +34,14 @@ struct RangeFigures {
     RateFigures rate;
     LossPattern pattern;
     std::uint64_t malformed = 0; ///< datagrams with a header of the stream that could not be decoded
+    std::array<std::uint64_t, kLossCauses> lostByCause{}; ///< samples, by LossCause
 };
 
-/// All there is where no range is given; everything but the rate. The cost does not depend on the range.
+/// What the accounting of a stream says, all there is where no range is given. Without rates the cost does
+/// not depend on the range.
 [[nodiscard]] RangeFigures countedFigures(const StreamAccounting& stream,
                                           const std::optional<TimeRange>& range);
-/// With the rate, for which the range must have ends.
+/// With all rates but those of now and of whole samples.
 [[nodiscard]] RangeFigures figuresOf(const StreamAccounting& stream, const std::optional<TimeRange>& range);
 
 /// What came and what did not in a part of a range.

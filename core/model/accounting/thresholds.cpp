@@ -1,10 +1,41 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/thresholds.h"
 
-#include <algorithm>
+#include "core/model/accounting/threshold_table.h"
+
+#include <array>
 #include <cmath>
 
 namespace posewire::model {
+namespace {
+
+constexpr double kMost = 100'000;
+constexpr double kPercent = 100;
+
+using T = Thresholds;
+
+constexpr std::array kRows{
+    ThresholdRow{&T::lossPercent, "lossPercent", "&Loss above", " %",
+                 "Of the samples that should have come; incomplete ones included", 0, kMost, 1,
+                 Figure::LossShare, EventKind::LossLimit},
+    ThresholdRow{&T::jitterMs, "jitterMs", "&Jitter above", " ms", "As RFC 3550 computes it", 0, kMost, 1,
+                 Figure::Jitter, EventKind::JitterLimit},
+    ThresholdRow{&T::gapMs, "gapMs", "&Gap above", " ms", "Longest time between two samples", 0, kMost, 1,
+                 Figure::SpacingMost, EventKind::GapLimit},
+    ThresholdRow{&T::ageS, "ageS", "&Age above", " s", "Since the newest sample", 0, kMost},
+    ThresholdRow{&T::ratePercent, "ratePercent", "&Rate off by more than", " %",
+                 "How far the rate is from what was usual", 0, kMost},
+    ThresholdRow{&T::windowS, "windowS", "&Over the last", " s",
+                 "The past that loss, gap and rate are taken from", 1, 60},
+    ThresholdRow{&T::hysteresis, "hysteresis", "Alert ends &below", " % of its limit",
+                 "So that a figure that hovers about its limit alerts once", 1 / kPercent, 1, kPercent},
+};
+
+} // namespace
+
+std::span<const ThresholdRow> thresholdTable() {
+    return kRows;
+}
 
 void ThresholdWatch::check(const std::deque<Stream>& streams, std::int64_t stampNs, Events& events) {
     m_habits.resize(streams.size());
@@ -21,25 +52,26 @@ void ThresholdWatch::check(const Stream& stream, Habit& habit, std::int64_t stam
     const std::int64_t fromNs = stampNs - windowNs;
     const double ageS = static_cast<double>(stampNs - accounting.lastStampNs()) * 1e-9;
     hold(stream, {EventKind::AgeLimit, ageS, m_thresholds.ageS}, stampNs, events);
-    const StreamCounts counts = accounting.countsBetween(fromNs, stampNs);
-    if (counts.samples == 0) {
+    const RangeFigures read = countedFigures(accounting, TimeRange{fromNs, stampNs});
+    if (read.counts.samples == 0) {
         return;
     }
-    const InterArrival arrivals = accounting.interArrivalBetween(fromNs, stampNs);
-    hold(stream, {EventKind::LossLimit, 100 * counts.lossRatio(), m_thresholds.lossPercent}, stampNs, events);
-    hold(stream, {EventKind::JitterLimit, accounting.jitterMsAt(stampNs), m_thresholds.jitterMs}, stampNs,
-         events);
-    hold(stream, {EventKind::GapLimit, arrivals.mostMs, m_thresholds.gapMs}, stampNs, events);
+    for (const ThresholdRow& row : kRows) {
+        if (row.figure) {
+            const double value = std::fmax(0, rowOf(*row.figure).read(read)); // 0 where it is not known
+            hold(stream, {row.alert, value, m_thresholds.*row.limit}, stampNs, events);
+        }
+    }
     const bool isWholeWindow = accounting.firstStampNs() <= fromNs && ageS < m_thresholds.windowS / 2;
     if (!isWholeWindow || m_thresholds.windowS <= 0) {
         return;
     }
-    const double rateHz = static_cast<double>(counts.samples) / m_thresholds.windowS;
+    const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
     if (habit.rateHz > 0) {
         const double offPercent = 100 * std::abs(rateHz - habit.rateHz) / habit.rateHz;
         hold(stream, {EventKind::RateLimit, offPercent, m_thresholds.ratePercent}, stampNs, events);
     }
-    // What lasts becomes usual: half of the way in about a minute of checks twice a second.
+    // What lasts becomes usual: half of the way in about a minute of two checks a second.
     constexpr double kShare = 1.0 / 180;
     habit.rateHz += habit.rateHz > 0 ? (rateHz - habit.rateHz) * kShare : rateHz;
 }

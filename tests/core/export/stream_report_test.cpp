@@ -121,10 +121,11 @@ TEST_F(StreamReportTest, SaysThatNothingCame) {
 
 TEST_F(StreamReportTest, IsAboutTheRangeThatWasAskedFor) {
     stream(960);
-    const std::string html = report({.range = {kStart + kSecond, kStart + 3 * kSecond}});
+    const std::string html = report({.range = model::TimeRange{kStart + kSecond, kStart + 3 * kSecond}});
     EXPECT_THAT(html, HasSubstr("Good: 480 samples"));
     EXPECT_THAT(html, HasSubstr("2023-11-14 22:13:21.000 UTC"));
-    EXPECT_THAT(report({.range = {kStart + 100 * kSecond, std::nullopt}}), HasSubstr("nothing was received"));
+    EXPECT_THAT(report({.range = model::TimeRange{kStart + 100 * kSecond, model::kAllTime.toNs}}),
+                HasSubstr("nothing was received"));
 }
 
 TEST_F(StreamReportTest, LetsNothingFromTheWireBecomeMarkup) {

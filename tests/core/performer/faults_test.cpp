@@ -32,10 +32,10 @@ std::vector<std::uint32_t> samplesOf(const std::vector<Sending>& sendings) {
     return samples;
 }
 
-StreamFigures figuresOf(const std::vector<Sending>& sendings, std::uint8_t type = 24) {
+SentFigures figuresOf(const std::vector<Sending>& sendings, std::uint8_t type = 24) {
     const Truth truth = truthOf(sendings);
     const auto found = truth.streams().find({0, type});
-    return found == truth.streams().end() ? StreamFigures{} : found->second.figures();
+    return found == truth.streams().end() ? SentFigures{} : found->second.figures();
 }
 
 TEST(Faults, LeaveEverythingAloneWithoutSettings) {
@@ -113,7 +113,7 @@ TEST(Faults, DuplicateAtOnceAndLater) {
     FaultSettings settings;
     settings.duplicate = 0.3;
     const auto sendings = performWithFaults(oneStream(), settings, 10.0);
-    const StreamFigures figures = figuresOf(sendings);
+    const SentFigures figures = figuresOf(sendings);
     EXPECT_EQ(figures.samples, 2400U);
     EXPECT_EQ(figures.datagrams, sendings.size());
     EXPECT_EQ(figures.duplicates, sendings.size() - 2400U);
@@ -136,7 +136,7 @@ TEST(Faults, ReorderByLittleByMuchAndByMoreThanAHundredSamples) {
     }
     EXPECT_GT(most, 100U);
     EXPECT_GT(few, 100U);
-    const StreamFigures figures = figuresOf(performWithFaults(oneStream(), settings, 20.0));
+    const SentFigures figures = figuresOf(performWithFaults(oneStream(), settings, 20.0));
     EXPECT_GT(figures.reordered, 200U);
     EXPECT_GT(figures.late, 50U);
     EXPECT_EQ(figures.restarts, 0U);
@@ -200,7 +200,7 @@ TEST(Faults, SplitEverySampleOfSeveralItems) {
     }
     const Truth truth = truthOf(sendings);
     for (const auto& [key, stream] : truth.streams()) {
-        const StreamFigures figures = stream.figures();
+        const SentFigures figures = stream.figures();
         if (wire::isSampled(key.type)) {
             EXPECT_EQ(figures.samples, 240U) << int(key.type);
             EXPECT_EQ(figures.datagrams > 480U, key.type != 24 && key.type != 25) << int(key.type);
@@ -215,7 +215,7 @@ TEST(Faults, CountSamplesWithMissingPartsAsIncomplete) {
     FaultSettings settings;
     settings.splits = true;
     settings.drop = 0.1;
-    const StreamFigures figures = figuresOf(performWithFaults(performance, settings, 10.0), 2);
+    const SentFigures figures = figuresOf(performWithFaults(performance, settings, 10.0), 2);
     EXPECT_GT(figures.incomplete, 300U);
     EXPECT_GT(figures.lost, 1U);
     EXPECT_EQ((figures.lastSample - figures.firstSample) + 1U,
@@ -245,7 +245,7 @@ TEST(Faults, RestartTheCounterWithoutLoss) {
     const auto samples = samplesOf(sendings);
     EXPECT_EQ(samples[479], 979U);
     EXPECT_EQ(samples[480], 7U);
-    const StreamFigures expected{
+    const SentFigures expected{
         .datagrams = 1200, .samples = 1200, .restarts = 1, .step = 1, .firstSample = 500, .lastSample = 726};
     EXPECT_EQ(figuresOf(sendings), expected);
 }
@@ -253,7 +253,7 @@ TEST(Faults, RestartTheCounterWithoutLoss) {
 TEST(Faults, TakeARestartByAFewSamplesForTheRepetitionThatItIs) {
     FaultSettings settings;
     settings.restart = FaultSettings::Restart{0.25, 1};
-    const StreamFigures expected{
+    const SentFigures expected{
         .datagrams = 240, .samples = 180, .duplicates = 60, .step = 1, .firstSample = 1, .lastSample = 180};
     EXPECT_EQ(figuresOf(performWithFaults(oneStream(), settings, 1.0)), expected);
 }
@@ -261,11 +261,11 @@ TEST(Faults, TakeARestartByAFewSamplesForTheRepetitionThatItIs) {
 TEST(Faults, PauseWhileTheCounterGoesOn) {
     FaultSettings settings;
     settings.pause = FaultSettings::Pause{1.0, 0.5};
-    const StreamFigures expected{
+    const SentFigures expected{
         .datagrams = 360, .samples = 360, .lost = 120, .step = 1, .firstSample = 1, .lastSample = 480};
     EXPECT_EQ(figuresOf(performWithFaults(oneStream(), settings, 2.0)), expected);
     settings.pause = FaultSettings::Pause{1.0, 20.0};
-    const StreamFigures restarted{
+    const SentFigures restarted{
         .datagrams = 480, .samples = 480, .restarts = 1, .step = 1, .firstSample = 1, .lastSample = 5280};
     EXPECT_EQ(figuresOf(performWithFaults(oneStream(), settings, 22.0)), restarted);
 }
@@ -274,7 +274,7 @@ TEST(Faults, ReduceTheRateWithoutLoss) {
     FaultSettings settings;
     settings.reduction = FaultSettings::Reduction{1.0, 4};
     const auto sendings = performWithFaults(oneStream(), settings, 2.0);
-    const StreamFigures expected{
+    const SentFigures expected{
         .datagrams = 300, .samples = 300, .step = 4, .firstSample = 1, .lastSample = 477};
     EXPECT_EQ(figuresOf(sendings), expected);
 }
@@ -284,7 +284,7 @@ TEST(Faults, CountThroughTheWrapAroundOfTheCounter) {
     performance.firstSample = 0xffffff00U;
     FaultSettings settings;
     settings.drop = 0.1;
-    const StreamFigures figures = figuresOf(performWithFaults(performance, settings, 4.0));
+    const SentFigures figures = figuresOf(performWithFaults(performance, settings, 4.0));
     EXPECT_EQ(figures.restarts, 0U);
     EXPECT_EQ(figures.samples + figures.lost, figures.lastSample - figures.firstSample + 1U);
     EXPECT_LT(figures.lastSample, 1000U);
@@ -295,7 +295,7 @@ TEST(Faults, LeaveMessagesOfCharacterInformationOutOfSampleAccounting) {
     performance.types = {12, 13};
     FaultSettings settings;
     settings.drop = 0.15;
-    const StreamFigures scale = figuresOf(performWithFaults(performance, settings, 60.0), 13);
+    const SentFigures scale = figuresOf(performWithFaults(performance, settings, 60.0), 13);
     EXPECT_GT(scale.incomplete, 3U);
     EXPECT_EQ(scale.samples + scale.lost + scale.duplicates + scale.step, 0U);
 }

@@ -14,7 +14,7 @@
 /// The sender knows what it sent; the accounting sees only what arrives. Both must say the same.
 namespace posewire::performer {
 
-std::ostream& operator<<(std::ostream& out, const StreamFigures& figures) {
+std::ostream& operator<<(std::ostream& out, const SentFigures& figures) {
     return out << "datagrams " << figures.datagrams << " samples " << figures.samples << " lost "
                << figures.lost << " duplicates " << figures.duplicates << " reordered " << figures.reordered
                << " late " << figures.late << " incomplete " << figures.incomplete << " restarts "
@@ -70,8 +70,8 @@ Received receiveAll(const std::vector<Sending>& sendings) {
     return received;
 }
 
-StreamFigures figuresOf(const model::StreamCounts& counts, std::uint8_t type) {
-    StreamFigures figures;
+SentFigures figuresOf(const model::StreamCounts& counts, std::uint8_t type) {
+    SentFigures figures;
     figures.datagrams = counts.datagrams;
     figures.incomplete = counts.incomplete;
     if (wire::isSampled(type)) {

@@ -19,7 +19,7 @@ namespace posewire::gui {
 
 namespace {
 
-using Column = StatisticsColumn;
+using Column = model::Figure;
 
 class StatisticsModelTest : public testing::Test {
 protected:
@@ -31,7 +31,7 @@ protected:
     QModelIndex character(int row = 0) const { return m_model.index(row, 0, sender()); }
     QModelIndex stream(int row = 0) const { return m_model.index(row, 0, character()); }
     static QModelIndex cell(const QModelIndex& row, Column column) {
-        return row.siblingAtColumn(static_cast<int>(column));
+        return row.siblingAtColumn(columnOf(column));
     }
     static QString text(const QModelIndex& row, Column column) { return cell(row, column).data().toString(); }
     static double number(const QModelIndex& row, Column column) {
@@ -123,8 +123,8 @@ TEST_F(StatisticsModelTest, MessagesWithoutSamplesHaveNoFiguresOfSamples) {
 
 TEST_F(StatisticsModelTest, CurveSpansTwoMinutesAndIsMarkedWhereSamplesWereLost) {
     performSeconds(20);
-    const auto rates = cell(stream(), Column::Curve).data(kSeriesRole).value<QList<float>>();
-    const auto marks = cell(stream(), Column::Curve).data(kMarksRole).value<QList<float>>();
+    const auto rates = stream().siblingAtColumn(kCurveColumn).data(kSeriesRole).value<QList<float>>();
+    const auto marks = stream().siblingAtColumn(kCurveColumn).data(kMarksRole).value<QList<float>>();
     ASSERT_EQ(rates.size(), StatisticsModel::kCurvePoints);
     ASSERT_EQ(marks.size(), StatisticsModel::kCurvePoints);
     EXPECT_TRUE(std::isnan(rates.first()));
@@ -171,7 +171,7 @@ TEST_F(StatisticsModelTest, ACellIsAFilterThatThePacketListUnderstands) {
               "type == 02 && character == 0 && source == \"192.168.10.21:52011\" && reordered && "
               "time >= 1.000 && time < 2.000");
     for (int column = 0; column < kStatisticsColumns; ++column) {
-        const QString text = filter(stream(), static_cast<Column>(column));
+        const QString text = statisticsFilter(m_stage.session, m_model, stream().siblingAtColumn(column));
         EXPECT_TRUE(filter::Filter::compile(text.toStdString()).has_value()) << text.toStdString();
     }
 }
@@ -187,6 +187,22 @@ TEST_F(StatisticsModelTest, CsvHasALineForEachStreamAndNumbersThatProgramsRead) 
     EXPECT_EQ(lines[1].count(QLatin1Char(',')), lines[0].count(QLatin1Char(',')));
     EXPECT_FALSE(m_model.csv().contains(QChar(0x202f)));
     EXPECT_TRUE(lines[1].contains(",1200,"));
+}
+
+TEST_F(StatisticsModelTest, CsvHasTheNumbersThemselvesNotWhatTheTableShows) {
+    for (std::uint32_t i = 0; i < 3000; ++i) { // a sender's clock that loses 2 ms a second
+        m_stage.send(smallPose(), i, i * 10 - i / 5, Stage::kStart + i * 10 * Stage::kMillisecond);
+    }
+    refresh();
+    const QStringList lines = m_model.csv().split(QStringLiteral("\r\n"));
+    const auto inCsv = [&](Column column) { // the name and the curve are not in it, four others are
+        return lines[1].split(QLatin1Char(','))[columnOf(column) + (columnOf(column) < kCurveColumn ? 3 : 2)];
+    };
+    EXPECT_EQ(inCsv(Column::Datagrams), "3000");
+    EXPECT_EQ(inCsv(Column::Datagrams).toDouble(), m_model.figures(stream())[Column::Datagrams]);
+    EXPECT_LT(inCsv(Column::Skew).toDouble(), -1000);
+    EXPECT_NEAR(inCsv(Column::Skew).toDouble(), m_model.figures(stream())[Column::Skew], 0.06);
+    EXPECT_TRUE(text(stream(), Column::Skew).startsWith(QChar(0x2212)));
 }
 
 TEST(ReceiverFacts, TellsWhatThisComputerDropped) {

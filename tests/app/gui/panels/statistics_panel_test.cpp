@@ -15,7 +15,7 @@
 namespace posewire::gui {
 namespace {
 
-using Column = StatisticsColumn;
+using Column = model::Figure;
 
 /// Remembers which dock was asked for.
 class DockCommands : public ImmediateCommands {
@@ -44,10 +44,11 @@ protected:
     }
     TableView& table() { return *m_panel->findChild<TableView*>("streams"); }
     RangeStrip& strip() { return *m_panel->findChild<RangeStrip*>(); }
-    QModelIndex stream(Column column) {
+    QModelIndex stream(int column) {
         const QAbstractItemModel& model = *table().model();
-        return model.index(0, static_cast<int>(column), model.index(0, 0, model.index(0, 0)));
+        return model.index(0, column, model.index(0, 0, model.index(0, 0)));
     }
+    QModelIndex stream(Column column) { return stream(columnOf(column)); }
     std::optional<model::TimeRange> range() const { return m_stage.session.range(); }
 
     Stage m_stage;
@@ -59,15 +60,15 @@ TEST_F(StatisticsPanelTest, ShowsAsManyColumnsAsFitOrThoseThatWereChosen) {
     perform(1);
     open(380);
     EXPECT_LE(table().header()->length(), table().viewport()->width());
-    EXPECT_FALSE(table().isColumnHidden(static_cast<int>(Column::Lost)));
-    EXPECT_TRUE(table().isColumnHidden(static_cast<int>(Column::Drift)));
+    EXPECT_FALSE(table().isColumnHidden(columnOf(Column::Lost)));
+    EXPECT_TRUE(table().isColumnHidden(columnOf(Column::Drift)));
     EXPECT_TRUE(m_panel->state().isEmpty());
     m_panel->resize(4000, 400);
-    EXPECT_FALSE(table().isColumnHidden(static_cast<int>(Column::Drift)));
-    m_panel->restoreState({{"columns", QJsonArray{0, static_cast<int>(Column::Drift)}}});
-    EXPECT_TRUE(table().isColumnHidden(static_cast<int>(Column::Rate)));
+    EXPECT_FALSE(table().isColumnHidden(columnOf(Column::Drift)));
+    m_panel->restoreState({{"columns", QJsonArray{0, columnOf(Column::Drift)}}});
+    EXPECT_TRUE(table().isColumnHidden(columnOf(Column::Rate)));
     m_panel->resize(380, 400);
-    EXPECT_FALSE(table().isColumnHidden(static_cast<int>(Column::Drift)));
+    EXPECT_FALSE(table().isColumnHidden(columnOf(Column::Drift)));
     EXPECT_EQ(m_panel->state()["columns"].toArray().size(), 2);
 }
 
@@ -79,7 +80,7 @@ TEST_F(StatisticsPanelTest, ACellJumpsToItsPacketsByDoubleClickAndByKey) {
     table().activated(stream(Column::Lost)); // what a double click is depends on the platform's style
     EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0 && gap > 0");
     EXPECT_EQ(m_commands.dock, "packets");
-    table().setCurrentIndex(stream(Column::Stream));
+    table().setCurrentIndex(stream(kNameColumn));
     table().setFocus();
     QTest::keyClick(&table(), Qt::Key_Return);
     EXPECT_EQ(m_stage.session.displayFilter(), "type == 02 && character == 0");
@@ -167,7 +168,7 @@ TEST_F(StatisticsPanelTest, MenuOffersThePacketsAndCsv) {
     perform(6);
     open();
     QMenu menu;
-    emit table().menuRequested(menu, stream(Column::Stream));
+    emit table().menuRequested(menu, stream(kNameColumn));
     ASSERT_EQ(menu.actions().size(), 4);
     QMenu* packets = menu.actions().front()->menu();
     ASSERT_NE(packets, nullptr);

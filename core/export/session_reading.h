@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/accounting/stream_figures.h"
+#include "core/model/session/session_view.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What reports and tables read from a session, in the form in which they write it.
+namespace posewire::exporting {
+
+/// With whose losses they were, also in a range.
+[[nodiscard]] model::StreamFigures figuresOf(const model::SessionView& session, const model::Stream& stream,
+                                             const std::optional<model::TimeRange>& range = {});
+
+/// The streams of a character by type, whichever came first.
+[[nodiscard]] std::vector<const model::Stream*> streamsByType(const model::SessionView& session,
+                                                              const model::CharacterKey& key);
+
+/// A figure as people read it: "12,345", "2.50". What is not known is 0.
+[[nodiscard]] std::string figureText(const model::StreamFigures& figures, model::Figure figure, int decimals);
+
+/// The name that was sent; empty where there was none.
+[[nodiscard]] std::string sentName(const model::SessionView& session, const model::CharacterKey& key);
+
+/// False where all that came from a sender was something else.
+[[nodiscard]] bool hasSentMxtp(const model::Sender& sender);
+
+/// "udp", "tcp", "file", "performer".
+[[nodiscard]] std::string_view transportName(log::Transport transport);
+
+} // namespace posewire::exporting

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/stream_index.h"
+#include "core/model/accounting/range_figures.h"
+#include "core/model/accounting/stream.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace posewire::model {
+
+/// Every figure of a stream. Those up to Drift are in `posewire-cli monitor --json`, in this order.
+enum class Figure : std::uint8_t {
+    Datagrams,
+    Samples,
+    Lost,
+    Duplicates,
+    Reordered,
+    Late,
+    Incomplete,
+    Restarts,
+    Step,
+    RateWhole,
+    Jitter,
+    LongestGap,
+    FirstSample,
+    LastSample,
+    Bytes,
+    Malformed,
+    LossShare,
+    LostHere,
+    LostOnNetwork,
+    LostAtSender,
+    LostUnknown,
+    Bursts,
+    BurstDensity,
+    GapDensity,
+    BurstLength,
+    SpacingMean,
+    SpacingLeast,
+    SpacingMost,
+    SpacingDeviation,
+    Skew,
+    Drift,
+    Missing,
+    Rate,
+    RateMean,
+    RateLeast,
+    RateMost,
+    RateDeviation,
+    DatagramRate,
+    Bandwidth,
+};
+inline constexpr std::size_t kFigures = static_cast<std::size_t>(Figure::Bandwidth) + 1;
+
+/// How a figure is written.
+enum class FigureForm : std::uint8_t {
+    Count,   ///< how many, a whole number
+    Counter, ///< a whole number that is none of things: its digits are not grouped
+    Number,  ///< with decimals
+    Signed,  ///< with decimals, and a plus where the sign matters to people
+    Share,   ///< a ratio, which people read as percent
+};
+
+/// What the figure of several streams is.
+enum class FigureSum : std::uint8_t {
+    None, ///< makes no sense of several
+    Sum,
+    Most, ///< that of the worst stream
+    Mean, ///< weighted by the samples expected
+};
+
+/// What a figure above zero means.
+enum class FigureTrouble : std::uint8_t { None, Odd, Warning, Error };
+
+/// What a figure says something of: only streams that count samples, or messages (types 10 to 13) as well.
+enum class FigureScope : std::uint8_t { Samples, Messages };
+
+/// Decimals: of JSON, of reports and of the window. A share counts as percent in the last two.
+struct FigureDigits {
+    int json = 0;
+    int report = 0;
+    int window = 0;
+};
+
+struct FigureStyle {
+    FigureForm form = FigureForm::Count;
+    const char* unit = "";
+    FigureDigits digits{};
+};
+
+struct FigureRow {
+    Figure figure;
+    /// The name in JSON, "lost"; a dot leads into an object, "clock.driftMs". Empty: not in JSON.
+    std::string_view key;
+    const char* title; ///< of a column, with the unit
+    FigureStyle style;
+    FigureSum sum;
+    FigureTrouble trouble;
+    double (*read)(const RangeFigures&); ///< NaN where it is not known
+    const char* help;                    ///< what it is, and who defined it
+    FigureScope scope = FigureScope::Samples;
+    const char* column = nullptr;    ///< a short title, where columns are narrow
+    const char* condition = nullptr; ///< display filter for the packets at which it counts
+    const char* packets = nullptr;   ///< what those are, in a menu
+
+    [[nodiscard]] const char* shortTitle() const { return column != nullptr ? column : title; }
+};
+
+/// All figures, in the order of the enum.
+[[nodiscard]] std::span<const FigureRow, kFigures> figureTable();
+[[nodiscard]] const FigureRow& rowOf(Figure figure);
+
+/// The figures of one stream, or a sum of several.
+class StreamFigures {
+public:
+    /// A sum of nothing yet.
+    StreamFigures();
+    StreamFigures(const log::StreamKey& key, const RangeFigures& read);
+
+    /// NaN where it is not known: times between samples before there are two, clock skew without time codes.
+    [[nodiscard]] double operator[](Figure figure) const {
+        return m_values[static_cast<std::size_t>(figure)];
+    }
+    /// 0 where it is not known.
+    [[nodiscard]] double orZero(Figure figure) const;
+    [[nodiscard]] std::uint64_t count(Figure figure) const {
+        return static_cast<std::uint64_t>(orZero(figure));
+    }
+    /// Whether it means anything here: messages without samples and sums lack some.
+    [[nodiscard]] bool has(Figure figure) const;
+    /// Whether it is one to look at.
+    [[nodiscard]] FigureTrouble trouble(Figure figure) const;
+
+    [[nodiscard]] const log::StreamKey& key() const { return m_key; } ///< of a stream
+    [[nodiscard]] bool isSampled() const { return m_isSampled; }
+    [[nodiscard]] bool isFromTimeCode() const; ///< else the sample counter is the sender's clock
+    /// Samples that should have come.
+    [[nodiscard]] double expected() const;
+
+    void add(const StreamFigures& other);
+    void set(Figure figure, double value) { m_values[static_cast<std::size_t>(figure)] = value; }
+
+private:
+    log::StreamKey m_key{};
+    bool m_isSum = false;
+    bool m_isSampled = false;
+    std::array<double, kFigures> m_values{};
+};
+
+/// Open ends of a range: before and after every stamp, and far enough from the bounds to be rounded.
+inline constexpr TimeRange kAllTime{INT64_MIN / 2, INT64_MAX / 2};
+
+/// All there is where no range is given; either end of the range may be that of kAllTime. In a range whose
+/// losses they were is not known here: all are unknown.
+[[nodiscard]] StreamFigures figuresOf(const Stream& stream, const std::optional<TimeRange>& range = {});
+
+} // namespace posewire::model

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/stream_figures.h"
+
+#include "core/model/accounting/threshold_table.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <string_view>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kStart = 1'700'000'000'000 * kMs;
+
+/// 100 samples a second, of which every `every`th does not come.
+Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std::uint32_t timeCodeStep = 0) {
+    Stream stream({log::SenderId{}, 0, type});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (i % every != every / 2) {
+            wire::Header header;
+            header.sampleCounter = i;
+            header.datagramCounter = 0x80;
+            header.timeCode = i * timeCodeStep;
+            stream.accounting.add(kStart + i * 10 * kMs, 760, header);
+            stream.statistics.add(kStart + i * 10 * kMs, 760, true);
+        }
+    }
+    return stream;
+}
+
+TEST(StreamFigures, AreNamedOnceAndExplained) {
+    std::set<std::string_view> keys;
+    for (const FigureRow& row : figureTable()) {
+        EXPECT_TRUE(row.key.empty() || keys.insert(row.key).second) << row.key;
+        EXPECT_GT(std::string_view(row.help).size(), 20U) << row.title;
+        EXPECT_EQ(row.key.empty(), row.figure > Figure::Drift) << row.title;
+        EXPECT_EQ(row.condition == nullptr && row.packets != nullptr, false) << row.title;
+    }
+}
+
+TEST(StreamFigures, AreReadFromTheAccounting) {
+    const Stream stream = streamOf(2, 1000, 50);
+    const StreamFigures figures = figuresOf(stream);
+    EXPECT_EQ(figures.count(Figure::Samples), 980U);
+    EXPECT_EQ(figures.count(Figure::Lost), 20U);
+    EXPECT_EQ(figures.count(Figure::LostUnknown), 20U);
+    EXPECT_DOUBLE_EQ(figures[Figure::LossShare], 2.0);
+    EXPECT_NEAR(figures[Figure::RateWhole], 98, 0.1);
+    EXPECT_NEAR(figures[Figure::SpacingMost], 20, 1e-6);
+    EXPECT_EQ(figures.trouble(Figure::Lost), FigureTrouble::Warning);
+    EXPECT_EQ(figures.trouble(Figure::Late), FigureTrouble::None);
+    const TimeRange second{kStart + 1000 * kMs, kStart + 2000 * kMs};
+    EXPECT_EQ(figuresOf(stream, second).count(Figure::Lost), 2U);
+    const TimeRange open{kStart + 5000 * kMs, kAllTime.toNs};
+    EXPECT_EQ(figuresOf(stream, open).count(Figure::Lost), 10U);
+    EXPECT_DOUBLE_EQ(figuresOf(stream, open)[Figure::Rate], figuresOf(stream, open)[Figure::RateMean]);
+}
+
+TEST(StreamFigures, OfSeveralStreamsAddUpAsTheTableSays) {
+    const StreamFigures a = figuresOf(streamOf(2, 1000, 50));
+    const StreamFigures b = figuresOf(streamOf(20, 400, 100));
+    StreamFigures sum;
+    sum.add(a);
+    sum.add(b);
+    for (const FigureRow& row : figureTable()) {
+        const double value = sum[row.figure];
+        switch (row.sum) {
+        case FigureSum::None:
+            EXPECT_FALSE(sum.has(row.figure)) << row.title;
+            break;
+        case FigureSum::Sum:
+            EXPECT_DOUBLE_EQ(value, a[row.figure] + b[row.figure]) << row.title;
+            break;
+        case FigureSum::Most:
+            EXPECT_DOUBLE_EQ(value, std::fmax(a[row.figure], b[row.figure])) << row.title;
+            break;
+        case FigureSum::Mean:
+            EXPECT_NEAR(value, 100.0 * 24 / 1400, 1e-9) << row.title;
+            break;
+        }
+    }
+}
+
+TEST(StreamFigures, OfMessagesAreDatagramsAndWhatIsIncomplete) {
+    const StreamFigures figures = figuresOf(streamOf(12, 100, 100));
+    EXPECT_TRUE(figures.has(Figure::Datagrams));
+    EXPECT_TRUE(figures.has(Figure::Incomplete));
+    EXPECT_FALSE(figures.has(Figure::Lost));
+    EXPECT_FALSE(figures.has(Figure::Jitter));
+}
+
+TEST(StreamFigures, AreUnknownWhereNothingIsMeasured) {
+    const StreamFigures figures = figuresOf(streamOf(2, 1, 2));
+    EXPECT_TRUE(std::isnan(figures[Figure::SpacingMost]));
+    EXPECT_EQ(figures.orZero(Figure::SpacingMost), 0);
+    EXPECT_TRUE(std::isnan(figures[Figure::Drift]));
+    EXPECT_FALSE(figures.isFromTimeCode());
+    EXPECT_TRUE(figuresOf(streamOf(2, 1000, 50, 10)).isFromTimeCode());
+}
+
+TEST(ThresholdTable, ListsEveryThresholdOnceWithItsDefaultInItsRange) {
+    const Thresholds shipped;
+    std::set<std::string_view> keys;
+    for (const ThresholdRow& row : thresholdTable()) {
+        EXPECT_TRUE(keys.insert(row.key).second);
+        EXPECT_GE(shipped.*row.limit, row.least) << row.key;
+        EXPECT_LE(shipped.*row.limit, row.most) << row.key;
+        EXPECT_NE(std::string(row.label).find('&'), std::string::npos) << row.key;
+    }
+    EXPECT_EQ(keys.size() * sizeof(double), sizeof(Thresholds));
+}
+
+} // namespace
+} // namespace posewire::model
