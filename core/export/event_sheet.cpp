@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/event_sheet.h"
 
+#include "core/export/csv.h"
 #include "core/wire/type_table.h"
 
 #include <nlohmann/json.hpp>
@@ -31,18 +32,6 @@ std::string secondsText(std::int64_t stampNs) {
     constexpr std::int64_t kSecondNs = 1'000'000'000;
     const std::string decimals = std::to_string(stampNs % kSecondNs);
     return std::to_string(stampNs / kSecondNs) + '.' + std::string(9 - decimals.size(), '0') + decimals;
-}
-
-/// Quoted where it must be.
-std::string cellText(const std::string& content) {
-    if (content.find_first_of(",\"\r\n") == std::string::npos) {
-        return content;
-    }
-    std::string text = "\"";
-    for (const char letter : content) {
-        text += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    }
-    return text + "\"";
 }
 
 Json objectOf(const model::SessionView& session, const Event& event) {
@@ -103,10 +92,7 @@ std::string eventsCsv(const model::SessionView& session, std::span<const Event* 
             event->cause ? std::string(model::nameOf(*event->cause)) : std::string(),
             event->isCurrent ? "yes" : "no",
             event->text()};
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-            text += (i == 0 ? "" : ",") + cellText(cells[i]);
-        }
-        text += "\r\n";
+        text += csvLine(cells);
     }
     return text;
 }

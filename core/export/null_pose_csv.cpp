@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/null_pose_sheet.h"
 
+#include "core/export/csv.h"
 #include "core/model/body/spaces.h"
 
 #include <array>
@@ -37,26 +38,13 @@ std::string flagsText(std::uint32_t flags) {
     return text;
 }
 
-/// Quoted where it must be.
-std::string nameText(const std::string& name) {
-    if (name.find_first_of(",\"\r\n") == std::string::npos) {
-        return name;
-    }
-    std::string text = "\"";
-    for (const char letter : name) {
-        text += letter == '"' ? std::string("\"\"") : std::string(1, letter);
-    }
-    return text + "\"";
-}
-
 /// A line whose cells are filled from the left; the rest is empty.
 class Row {
 public:
-    explicit Row(std::string_view kind) : m_text(kind) {}
+    explicit Row(std::string kind) { m_cells[0] = std::move(kind); }
 
-    Row& cell(const std::string& text) {
-        m_text += "," + text;
-        ++m_count;
+    Row& cell(std::string text) {
+        m_cells[++m_last] = std::move(text);
         return *this;
     }
     Row& empty() { return cell(""); }
@@ -66,25 +54,25 @@ public:
         }
         return *this;
     }
-    std::string line() && { return std::move(m_text) + std::string(kColumns - m_count, ',') + "\r\n"; }
+    [[nodiscard]] std::string line() const { return csvLine(m_cells); }
 
 private:
-    std::string m_text;
-    std::size_t m_count = 1;
+    std::array<std::string, kColumns> m_cells;
+    std::size_t m_last = 0;
 };
 
 void addPose(const model::NullPose& pose, std::string& text) {
     int id = 0;
     for (const auto& segment : pose.segments) {
         Row row("segment");
-        row.cell(std::to_string(++id)).empty().cell(nameText(segment.name)).empty();
-        text += std::move(row.cells(model::toFloats(segment.position))).line();
+        row.cell(std::to_string(++id)).empty().cell(segment.name).empty();
+        text += row.cells(model::toFloats(segment.position)).line();
     }
     for (const auto& point : pose.points) {
         Row row("point");
-        row.cell(std::to_string(point.segment)).cell(std::to_string(point.id)).cell(nameText(point.name));
+        row.cell(std::to_string(point.segment)).cell(std::to_string(point.id)).cell(point.name);
         row.cell(flagsText(point.flags));
-        text += std::move(row.cells(model::toFloats(point.position))).line();
+        text += row.cells(model::toFloats(point.position)).line();
     }
 }
 
@@ -99,13 +87,13 @@ std::string nullPoseCsv(const NullPoseSheet& sheet) {
         for (const wire::SegmentScale& segment : sheet.scale->segments) {
             Row row("scale");
             row.cell(std::to_string(segment.id)).empty().empty().empty();
-            text += std::move(row.cells(segment.offset).cells(segment.matrix)).line();
+            text += row.cells(segment.offset).cells(segment.matrix).line();
         }
     }
     if (sheet.props != nullptr) {
         for (const wire::Prop& prop : sheet.props->props) {
             Row row("prop");
-            text += std::move(row.cell(std::to_string(prop.id)).empty().cell(nameText(prop.name))).line();
+            text += row.cell(std::to_string(prop.id)).empty().cell(prop.name).line();
         }
     }
     return text;

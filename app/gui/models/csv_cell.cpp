@@ -5,7 +5,7 @@ namespace posewire::gui {
 
 QString csvCell(QString text) {
     if (!text.contains(QLatin1Char('"')) && !text.contains(QLatin1Char(',')) &&
-        !text.contains(QLatin1Char('\n'))) {
+        !text.contains(QLatin1Char('\n')) && !text.contains(QLatin1Char('\r'))) {
         return text;
     }
     text.replace(QLatin1String("\""), QLatin1String("\"\""));
