@@ -97,30 +97,8 @@ private:
     std::vector<Completion> m_then;
 };
 
-std::string_view kindName(const FieldInfo& field) {
-    switch (field.kind) {
-    case Kind::Number:
-        return "number";
-    case Kind::Text:
-        return "text";
-    case Kind::Vector:
-        return "vector";
-    case Kind::Flag:
-        return "true or false";
-    case Kind::Type:
-        return "message type";
-    case Kind::Segment:
-        return "segment";
-    case Kind::Transport:
-        return "word";
-    case Kind::Time:
-        return "UTC time";
-    }
-    return "";
-}
-
 std::string aboutField(const FieldInfo& field) {
-    std::string about(kindName(field));
+    std::string about(kindWords(field.kind).name);
     about.append(field.unit.empty() ? "" : ", ").append(field.unit).append(": ").append(field.text);
     for (std::size_t i = 0; i < field.types.size(); ++i) {
         const auto digits = wire::typeDigits(field.types[i]);
@@ -212,7 +190,7 @@ void offerValues(std::string_view name, Collector& into) {
         }
     }
     for (const std::string_view word : field.words) {
-        into.offer(word, std::string(kindName(field)));
+        into.offer(word, std::string(kindWords(field.kind).name));
     }
 }
 

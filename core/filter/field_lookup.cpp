@@ -147,4 +147,26 @@ std::optional<double> numberOf(std::string_view word) {
     return isNegative ? -value : value;
 }
 
+KindWords kindWords(Kind kind) {
+    switch (kind) {
+    case Kind::Text:
+        return {"text", "text"};
+    case Kind::Flag:
+        return {"true or false", "true or false"};
+    case Kind::Type:
+        return {"message type", "a message type such as 02"};
+    case Kind::Segment:
+        return {"segment", "a segment such as LeftHand or 15"};
+    case Kind::Transport:
+        return {"word", "one of udp, tcp, file and performer"};
+    case Kind::Time:
+        return {"UTC time", "a UTC time such as \"2026-01-31T12:00:00\""};
+    case Kind::Vector:
+        return {"vector", "a number"};
+    case Kind::Number:
+        break;
+    }
+    return {"number", "a number"};
+}
+
 } // namespace posewire::filter

@@ -29,6 +29,13 @@ struct FieldMatch {
 /// The closest of some words.
 [[nodiscard]] std::string nearestOf(std::string_view word, std::span<const std::string_view> words);
 
+/// What fields of a kind are called, and what can be compared with them, in words.
+struct KindWords {
+    std::string_view name;
+    std::string_view value;
+};
+[[nodiscard]] KindWords kindWords(Kind kind);
+
 /// The number that a word spells: decimal, 0x…, with a sign, inf; empty if it is not a number.
 [[nodiscard]] std::optional<double> numberOf(std::string_view word);
 

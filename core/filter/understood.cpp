@@ -63,27 +63,6 @@ bool isTextKind(Kind kind) {
     return kind == Kind::Text || kind == Kind::Transport;
 }
 
-std::string_view kindName(Kind kind) {
-    switch (kind) {
-    case Kind::Text:
-        return "text";
-    case Kind::Flag:
-        return "true or false";
-    case Kind::Type:
-        return "a message type such as 02";
-    case Kind::Segment:
-        return "a segment such as LeftHand or 15";
-    case Kind::Transport:
-        return "one of udp, tcp, file and performer";
-    case Kind::Time:
-        return "a UTC time such as \"2026-01-31T12:00:00\"";
-    case Kind::Number:
-    case Kind::Vector:
-        break;
-    }
-    return "a number";
-}
-
 bool needsText(Operator op) {
     return op == Operator::Contains || op == Operator::Matches;
 }
@@ -147,7 +126,7 @@ FilterError complaint(const FieldMatch& match, const WrittenCondition& written) 
                 const std::string near =
                     field.kind == Kind::Segment ? nearestOf(constant->text, segmentNames()) : std::string();
                 return {constant->token.offset, constant->token.length,
-                        "`" + name + "` is compared with " + std::string(kindName(field.kind)) +
+                        "`" + name + "` is compared with " + std::string(kindWords(field.kind).value) +
                             (near.empty() ? "." : "; did you mean `" + near + "`?")};
             }
         }
