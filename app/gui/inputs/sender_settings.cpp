@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/sender_settings.h"
 
+#include "app/gui/theme/dim_label.h"
 #include "app/gui/theme/theme.h"
 
 #include <QGridLayout>
@@ -17,12 +18,6 @@ namespace {
 /// More than so many are of no use to anybody.
 constexpr std::size_t kMostHosts = 4;
 constexpr int kFirstHostRow = 3;
-
-QLabel* dimLabel(const QString& text, QWidget* parent) {
-    auto* label = new QLabel(text, parent);
-    label->setForegroundRole(QPalette::PlaceholderText);
-    return label;
-}
 
 QLabel* valueLabel(QWidget* parent) {
     auto* label = new QLabel(parent);

@@ -7,16 +7,15 @@
 #include "app/gui/panels/event_bar.h"
 #include "app/gui/panels/line.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/saving.h"
 
 #include <QEvent>
 #include <QFileDialog>
 #include <QHeaderView>
 #include <QJsonArray>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QMenu>
 #include <QPushButton>
-#include <QSaveFile>
 #include <QScopedValueRollback>
 #include <QScrollBar>
 #include <QVBoxLayout>
@@ -59,7 +58,7 @@ EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* 
       m_bar(new EventBar(this)),
       m_table(new TableView(tr("Events"), this)),
       m_chip(new QPushButton(m_table)),
-      m_message(new QLabel(this)) {
+      m_message(new PassingMessage(kMessageMs, this)) {
     layOut();
     m_table->setModel(&m_events);
     m_table->setColumnSamples(
@@ -94,9 +93,6 @@ void EventsPanel::layOut() {
     m_chip->hide();
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
-    m_message->hide();
-    m_messageTimer.setSingleShot(true);
-    m_messageTimer.setInterval(kMessageMs);
 }
 
 void EventsPanel::connectParts() {
@@ -124,7 +120,6 @@ void EventsPanel::connectParts() {
     connect(&m_events, &QAbstractItemModel::rowsInserted, this,
             [this](const QModelIndex&, int first, int last) { m_missed += last - first + 1; });
     connect(m_chip, &QPushButton::clicked, this, &EventsPanel::newest);
-    connect(&m_messageTimer, &QTimer::timeout, m_message, &QWidget::hide);
     m_table->installEventFilter(this);
     m_table->header()->installEventFilter(this);
 }
@@ -201,7 +196,7 @@ void EventsPanel::showEmptyState() {
 void EventsPanel::jump(const QModelIndex& index) {
     const model::Event* event = m_events.event(index);
     if (event != nullptr && !showPacketsOf(m_view, m_commands, *event)) {
-        say(tr("The packets of this event are no longer in memory."));
+        m_message->say(tr("The packets of this event are no longer in memory."));
     }
 }
 
@@ -232,29 +227,13 @@ void EventsPanel::exportFile() {
                                                       fileFilters<exporting::EventSheet>());
     if (!path.isEmpty()) {
         const QString problem = save(path);
-        say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
+        m_message->say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
     }
 }
 
 QString EventsPanel::save(const QString& path) {
     const auto& format = exporting::formatFor<exporting::EventSheet>(path.toStdString());
-    const std::string text = format.write({m_view, m_events.listed()});
-    QSaveFile file(path);
-    const bool isWritten =
-        file.open(QIODevice::WriteOnly) &&
-        file.write(text.data(), static_cast<qint64>(text.size())) == static_cast<qint64>(text.size()) &&
-        file.commit();
-    return isWritten ? QString() : tr("%1 could not be written: %2").arg(path, file.errorString());
-}
-
-void EventsPanel::say(const QString& text) {
-    m_message->setText(text);
-    m_message->show();
-    m_messageTimer.start();
-}
-
-QString EventsPanel::message() const {
-    return m_message->isHidden() ? QString() : m_message->text();
+    return saveFile(path, format.write({m_view, m_events.listed()}));
 }
 
 QString EventsPanel::summary() const {

@@ -3,12 +3,10 @@
 
 #include "app/gui/models/event_model.h"
 #include "app/gui/panel.h"
-
-#include <QTimer>
+#include "app/gui/theme/passing_message.h"
 
 #include <optional>
 
-class QLabel;
 class QMenu;
 class QPushButton;
 
@@ -39,7 +37,7 @@ public:
     [[nodiscard]] QString save(const QString& path);
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
     /// What was said last below the list.
-    [[nodiscard]] QString message() const;
+    [[nodiscard]] QString message() const { return m_message->said(); }
 
     void exportFile();
     void markSeen();
@@ -56,7 +54,6 @@ private:
     void setFollowing(bool isFollowing);
     void placeChip();
     void keepCurrent();
-    void say(const QString& text);
     void showEmptyState();
 
     model::SessionView& m_view;
@@ -65,8 +62,7 @@ private:
     EventBar* m_bar;
     TableView* m_table;
     QPushButton* m_chip;
-    QLabel* m_message;
-    QTimer m_messageTimer;
+    PassingMessage* m_message;
     std::optional<std::uint64_t> m_currentEvent; ///< of the current row, kept while rows come and go
     int m_missed = 0;                            ///< came since following ended
     bool m_isFollowing = true;

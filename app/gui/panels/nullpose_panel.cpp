@@ -7,13 +7,13 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/line.h"
+#include "app/gui/saving.h"
 
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QMenu>
 #include <QMessageBox>
-#include <QSaveFile>
 #include <QVBoxLayout>
 
 namespace posewire::gui {
@@ -182,11 +182,10 @@ void NullPosePanel::refresh() {
     m_isFollowing = true;
     if (m_reading.refresh()) {
         m_point = -1;
-        for (NullPoseTable* table :
-             {static_cast<NullPoseTable*>(&m_segments), static_cast<NullPoseTable*>(&m_points),
-              static_cast<NullPoseTable*>(&m_lengths), static_cast<NullPoseTable*>(&m_scale)}) {
-            table->refresh();
-        }
+        m_segments.refresh();
+        m_points.refresh();
+        m_lengths.refresh();
+        m_scale.refresh();
         m_notices->setFindings(m_reading.findings());
         m_noticeLine->setVisible(!m_reading.findings().empty());
         showContent();
@@ -318,13 +317,7 @@ exporting::NullPoseSheet NullPosePanel::sheet() const {
 }
 
 QString NullPosePanel::save(const QString& path) const {
-    const SheetFormat& format = exporting::formatFor<exporting::NullPoseSheet>(path.toStdString());
-    QSaveFile file(path);
-    if (!file.open(QIODevice::WriteOnly)) {
-        return file.errorString();
-    }
-    file.write(QByteArray::fromStdString(format.write(sheet())));
-    return file.commit() ? QString() : file.errorString();
+    return saveFile(path, exporting::formatFor<exporting::NullPoseSheet>(path.toStdString()).write(sheet()));
 }
 
 void NullPosePanel::chooseFile(const SheetFormat& format) {
@@ -334,8 +327,7 @@ void NullPosePanel::chooseFile(const SheetFormat& format) {
         fileFilter(format));
     const QString problem = path.isEmpty() ? QString() : save(path);
     if (!problem.isEmpty()) {
-        QMessageBox::warning(this, tr("Save null pose"),
-                             tr("%1 could not be written: %2").arg(path, problem));
+        QMessageBox::warning(this, tr("Save null pose"), problem);
     }
 }
 

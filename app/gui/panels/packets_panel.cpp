@@ -9,7 +9,6 @@
 #include "app/gui/panels/packet_view.h"
 
 #include <QJsonArray>
-#include <QLabel>
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QVBoxLayout>
@@ -33,7 +32,7 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
       m_find(new FindBar(this)),
       m_list(new PacketView(tr("Packets"), this)),
       m_clear(new QPushButton(tr("Clear the filter"), m_list)),
-      m_message(new QLabel(this)),
+      m_message(new PassingMessage(kMessageMs, this)),
       m_selected(listing()),
       m_navigation(listing()),
       m_finder(listing(), m_navigation, *m_find) {
@@ -46,9 +45,6 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
     m_message->setObjectName(QStringLiteral("message"));
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
-    m_message->hide();
-    m_messageTimer.setSingleShot(true);
-    m_messageTimer.setInterval(kMessageMs);
     fitColumns();
     connectParts();
     showEmptyState();
@@ -93,7 +89,6 @@ void PacketsPanel::connectParts() {
     connect(m_find, &FindBar::findRequested, this,
             [this](bool isForward) { m_finder.find(isForward ? Direction::Forward : Direction::Backward); });
     connect(m_find, &FindBar::closed, this, [this] { m_list->setFocus(); });
-    connect(&m_messageTimer, &QTimer::timeout, m_message, &QWidget::hide);
 }
 
 void PacketsPanel::fitColumns() {
@@ -237,17 +232,11 @@ QString PacketsPanel::summary() const {
 
 void PacketsPanel::say(const QString& text) {
     const bool isSelectionSeen = m_list->isShown(m_list->currentIndex());
-    m_message->setText(text);
-    m_message->show();
-    m_messageTimer.start();
+    m_message->say(text);
     if (isSelectionSeen) {
         layout()->activate(); // the list is lower from here on
         m_list->scrollTo(m_list->currentIndex());
     }
-}
-
-QString PacketsPanel::message() const {
-    return m_message->isHidden() ? QString() : m_message->text();
 }
 
 void PacketsPanel::setTimeMode(PacketModel::TimeMode mode) {

@@ -5,13 +5,13 @@
 #include "app/gui/panel.h"
 #include "app/gui/panels/packet_finder.h"
 #include "app/gui/panels/selected_packets.h"
+#include "app/gui/theme/passing_message.h"
 
 #include <QTimer>
 
 #include <memory>
 #include <optional>
 
-class QLabel;
 class QPushButton;
 
 namespace posewire::gui {
@@ -41,7 +41,7 @@ public:
     void setDeltaMode(PacketModel::DeltaMode mode);
     [[nodiscard]] const PacketFilterRun* filterRun() const { return m_run.get(); }
     /// What was said last below the list, such as "No problem after this packet."; empty again after a while.
-    [[nodiscard]] QString message() const;
+    [[nodiscard]] QString message() const { return m_message->said(); }
 
 private:
     struct Actions;
@@ -72,8 +72,7 @@ private:
     FindBar* m_find;
     PacketView* m_list;
     QPushButton* m_clear;
-    QLabel* m_message;
-    QTimer m_messageTimer;
+    PassingMessage* m_message;
     SelectedPackets m_selected;
     PacketNavigation m_navigation;
     PacketFinder m_finder;

@@ -7,7 +7,6 @@
 #include "app/gui/window/health_popup.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 
 #include <algorithm>
 #include <limits>
@@ -15,6 +14,8 @@
 namespace posewire::gui {
 
 namespace {
+
+constexpr int kMessageMs = 12'000;
 
 QString perSecondText(double bytesPerSecond) {
     return HealthBar::tr("%1 MB/s").arg(fixed(bytesPerSecond / 1e6, 2));
@@ -52,7 +53,7 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
       m_entriesLayout(new QHBoxLayout),
       m_entriesArea(new QWidget(this)),
       m_more(new ColourText(ColourText::Look::Plain, m_entriesArea)),
-      m_message(new QLabel(this)),
+      m_message(new PassingMessage(kMessageMs, this)),
       m_rate(new ColourText(ColourText::Look::Plain, this)),
       m_history(new ColourText(ColourText::Look::Plain, this)),
       m_dropped(new ColourText(ColourText::Look::Plain, this)) {
@@ -73,23 +74,12 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     row->addWidget(m_message, 1);
     m_message->setObjectName(QStringLiteral("message"));
     m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_message->setVisible(false);
-    m_messageTimer.setSingleShot(true);
-    connect(&m_messageTimer, &QTimer::timeout, m_message, &QLabel::hide);
     for (ColourText* text : {m_rate, m_history, m_dropped}) {
         row->addWidget(text);
     }
     m_dropped->setToolTip(
         tr("Datagrams that reached this computer and were dropped because its receive buffer was full."));
     m_history->setToolTip(tr("How far back the packets in memory go, and how much memory they may use."));
-}
-
-void HealthBar::say(const QString& text) {
-    constexpr int kMessageMs = 12'000;
-    m_message->setText(text);
-    m_message->setToolTip(text);
-    m_message->setVisible(true);
-    m_messageTimer.start(kMessageMs);
 }
 
 void HealthBar::refresh(const ReceivingState& receiving) {

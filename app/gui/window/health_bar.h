@@ -3,15 +3,14 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/receiving_state.h"
+#include "app/gui/theme/passing_message.h"
 #include "core/model/session/session_view.h"
 
-#include <QTimer>
 #include <QWidget>
 
 #include <vector>
 
 class QHBoxLayout;
-class QLabel;
 
 namespace posewire::gui {
 
@@ -32,7 +31,7 @@ public:
     void explain(std::size_t entry);
 
     /// Shows a line for a while, beside the rest.
-    void say(const QString& text);
+    void say(const QString& text) { m_message->say(text); }
 
 private:
     void refreshCharacters();
@@ -46,8 +45,7 @@ private:
     std::vector<ColourText*> m_entries;       ///< as many as there ever were characters to show
     std::vector<model::CharacterKey> m_shown; ///< whom the first of them show, in the session's order
     ColourText* m_more;                       ///< how many there is no room for
-    QLabel* m_message;
-    QTimer m_messageTimer;
+    PassingMessage* m_message;
     ColourText* m_rate;
     ColourText* m_history;
     ColourText* m_dropped;

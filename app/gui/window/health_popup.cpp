@@ -3,6 +3,7 @@
 
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/dim_label.h"
 #include "app/gui/viewport/character_health.h"
 #include "app/gui/window/trouble_line.h"
 
@@ -22,13 +23,6 @@ namespace {
 constexpr std::int64_t kPastNs = 10'000'000'000;
 /// More would be a list: that is in the dock of events.
 constexpr std::size_t kMostLines = 6;
-
-QLabel* dimLabel(const QString& text, QWidget* parent) {
-    auto* label = new QLabel(text, parent);
-    label->setForegroundRole(QPalette::PlaceholderText);
-    label->setWordWrap(true);
-    return label;
-}
 
 } // namespace
 
@@ -75,7 +69,7 @@ void HealthPopup::addTitle(QVBoxLayout& column) {
     row->addWidget(title, 1);
     row->addWidget(words);
     column.addLayout(row);
-    column.addWidget(dimLabel(lossText(m_session, m_key), this));
+    column.addWidget(dimText(lossText(m_session, m_key), this));
 }
 
 void HealthPopup::addTroubles(QVBoxLayout& column) {
@@ -94,13 +88,13 @@ void HealthPopup::addTroubles(QVBoxLayout& column) {
         column.addWidget(line);
     }
     if (troubles.size() > kMostLines) {
-        column.addWidget(dimLabel(tr("and %1 more").arg(grouped(troubles.size() - kMostLines)), this));
+        column.addWidget(dimText(tr("and %1 more").arg(grouped(troubles.size() - kMostLines)), this));
     }
     const model::Condition condition = m_session.conditionOf(m_key);
     if (troubles.empty()) {
-        column.addWidget(dimLabel(condition.reason.empty() ? tr("Nothing is wrong.")
-                                                           : QString::fromStdString(condition.reason),
-                                  this));
+        column.addWidget(dimText(condition.reason.empty() ? tr("Nothing is wrong.")
+                                                          : QString::fromStdString(condition.reason),
+                                 this));
     }
 }
 

@@ -4,6 +4,7 @@
 #include "app/gui/file_filters.h"
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
+#include "app/gui/saving.h"
 
 #include <QApplication>
 #include <QDateTime>
@@ -11,7 +12,6 @@
 #include <QFileDialog>
 #include <QMessageBox>
 #include <QPushButton>
-#include <QSaveFile>
 #include <QUrl>
 
 namespace posewire::gui {
@@ -70,12 +70,7 @@ bool wantsToOpen(const QString& path, QWidget* parent) {
 QString writeStreamReport(model::SessionView& session, const std::optional<model::TimeRange>& range,
                           const QString& path) {
     const auto& format = exporting::formatFor<exporting::ReportSheet>(path.toStdString());
-    const std::string text = format.write({session, optionsFor(session, range)});
-    QSaveFile file(path);
-    const auto size = static_cast<qint64>(text.size());
-    const bool isWritten =
-        file.open(QIODevice::WriteOnly) && file.write(text.data(), size) == size && file.commit();
-    return isWritten ? QString() : tr("%1 could not be written: %2").arg(path, file.errorString());
+    return saveFile(path, format.write({session, optionsFor(session, range)}));
 }
 
 QString saveStreamReport(model::SessionView& session, QWidget* parent) {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/settings.h"
 
+#include "app/gui/saving.h"
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QJsonDocument>
 #include <QJsonObject>
-#include <QSaveFile>
 #include <QStandardPaths>
 
 namespace posewire::gui {
@@ -121,12 +122,7 @@ QString SettingsFile::write(const Settings& settings) const {
     if (!QDir().mkpath(QFileInfo(m_path).absolutePath())) {
         return tr("The folder of %1 cannot be created.").arg(m_path);
     }
-    QSaveFile file(m_path);
-    if (!file.open(QIODevice::WriteOnly)) {
-        return file.errorString();
-    }
-    file.write(QJsonDocument(objectOf(settings)).toJson());
-    return file.commit() ? QString() : file.errorString();
+    return saveFile(m_path, QJsonDocument(objectOf(settings)).toJson());
 }
 
 } // namespace posewire::gui

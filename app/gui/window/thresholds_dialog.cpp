@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/thresholds_dialog.h"
 
+#include "app/gui/theme/dim_label.h"
 #include "core/model/accounting/threshold_table.h"
 
 #include <QCheckBox>
@@ -15,18 +16,12 @@ namespace posewire::gui {
 
 namespace {
 
-QLabel* dimLabel(const QString& text, QWidget* parent) {
-    auto* label = new QLabel(text, parent);
-    label->setForegroundRole(QPalette::PlaceholderText);
-    label->setWordWrap(true);
-    return label;
-}
 
 } // namespace
 
 ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     : QDialog(parent),
-      m_explanation(dimLabel({}, this)),
+      m_explanation(dimText({}, this)),
       m_warningSound(new QCheckBox(tr("at a &warning"), this)),
       m_errorSound(new QCheckBox(tr("at an &error"), this)) {
     setWindowTitle(tr("Thresholds"));
@@ -46,10 +41,9 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
             [this] { setChoices({}); });
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
-    column->addWidget(
-        dimLabel(tr("A stream that exceeds one of these raises one event per episode, which also "
-                    "shows in the health of its character. Changes apply from now on."),
-                 this));
+    column->addWidget(dimText(tr("A stream that exceeds one of these raises one event per episode, which also "
+                                 "shows in the health of its character. Changes apply from now on."),
+                              this));
     column->addLayout(form);
     column->addWidget(m_explanation);
     column->addWidget(buttons);
