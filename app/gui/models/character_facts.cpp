@@ -2,10 +2,9 @@
 #include "app/gui/models/character_facts.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose.h"
-
-#include <QCoreApplication>
 
 namespace posewire::gui {
 
@@ -13,17 +12,9 @@ namespace {
 
 using Key = model::CharacterKey;
 
-QString tr(const char* text) {
-    return QCoreApplication::translate("CharacterFacts", text);
-}
-
 QString withEvidence(const QString& conclusion, const std::string& evidence) {
     return evidence.empty() ? conclusion
                             : conclusion + QStringLiteral(" · ") + QString::fromStdString(evidence);
-}
-
-QString textOf(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
 QString unitText(model::LengthUnit unit) {
@@ -37,12 +28,12 @@ PropertyValue revision(model::SessionView& view, const Key& key) {
     }
     const model::Detection& found = sender->detector.result();
     const QString detected =
-        withEvidence(textOf(model::revisionName(found.revision)), found.revisionEvidence);
+        withEvidence(fromUtf8(model::revisionName(found.revision)), found.revisionEvidence);
     const QString toolTip = tr("Revision of the specification that this sender follows · the evidence");
     if (!sender->overrides.revision) {
         return {detected, Health::Unknown, toolTip};
     }
-    return {tr("%1 · as you said").arg(textOf(model::revisionName(sender->revision()))), Health::Unknown,
+    return {tr("%1 · as you said").arg(fromUtf8(model::revisionName(sender->revision()))), Health::Unknown,
             toolTip + QLatin1Char('\n') + tr("Detected: %1").arg(detected)};
 }
 

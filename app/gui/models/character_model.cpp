@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/character_model.h"
 
-#include "app/gui/models/columns.h"
-#include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/session/message.h"
 #include "core/wire/type_table.h"
 
@@ -27,9 +26,9 @@ QString transportName(log::Transport transport) {
     case log::Transport::Tcp:
         return QStringLiteral("TCP");
     case log::Transport::File:
-        return CharacterModel::tr("file");
+        return tr("file");
     case log::Transport::Performer:
-        return CharacterModel::tr("demo");
+        return tr("demo");
     }
     return {};
 }
@@ -51,36 +50,23 @@ const model::Stream* leadingStream(model::SessionView& view, const model::Charac
     return fastest;
 }
 
-QVariant stateData(const State& state, int role) {
-    switch (role) {
-    case Qt::DisplayRole:
-        return state.display();
-    case Qt::ForegroundRole:
-        return healthColour(state.health);
-    case Qt::ToolTipRole:
-        return state.display(); // a narrow column cuts it
-    default:
-        return role == Qt::TextAlignmentRole ? numberAlignment() : QVariant();
-    }
-}
-
 } // namespace
 
 CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QObject* parent)
-    : StreamTreeModel(view, parent), m_view(view), m_commands(commands) {}
+    : StreamTreeModel(view, columns(*this), parent), m_commands(commands) {}
 
 void CharacterModel::refresh() {
     insertNew();
-    m_rates.resize(m_view.characters().size());
+    m_rates.resize(view().characters().size());
     readRates();
     announceChange();
 }
 
 void CharacterModel::readRates() {
     for (std::size_t i = 0; i < m_rates.size(); ++i) {
-        const model::CharacterKey& key = m_view.characters()[i].key;
-        const model::Stream* stream = leadingStream(m_view, key);
-        const auto* message = stream == nullptr ? nullptr : m_view.message(key, stream->key.type);
+        const model::CharacterKey& key = view().characters()[i].key;
+        const model::Stream* stream = leadingStream(view(), key);
+        const auto* message = stream == nullptr ? nullptr : view().message(key, stream->key.type);
         if (message != nullptr && message->packet != m_rates[i].packet) {
             m_rates[i].packet = message->packet;
             m_rates[i].rate.add(message->datagram.header.sampleCounter, message->datagram.header.timeCode);
@@ -89,7 +75,7 @@ void CharacterModel::readRates() {
 }
 
 std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) const {
-    const model::Character* character = m_view.find(characterOf(stream.key));
+    const model::Character* character = view().find(characterOf(stream.key));
     if (character == nullptr || character->ordinal >= m_rates.size() || stream.accounting.step() == 0 ||
         !wire::isSampled(stream.key.type)) {
         return std::nullopt;
@@ -98,107 +84,111 @@ std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) con
     return frameHz ? std::optional(*frameHz / stream.accounting.step()) : std::nullopt;
 }
 
-int CharacterModel::columnCount(const QModelIndex&) const {
-    return kColumnCount;
+std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel& model) {
+    const auto state = [&model](const StreamRow& row) { return model.stateOf(row); };
+    return {
+        {.title = tr("Character, stream"),
+         .text = [&model](const StreamRow& row) { return model.nameOf(row); },
+         .toolTip =
+             [&model](const StreamRow& row) {
+                 return row.kind == Kind::Character
+                            ? tr("Character ID %1. Check mark: shown in the viewport. Double click: frame in "
+                                 "the viewport.")
+                                  .arg(model.view().characters()[row.entry].key.character)
+                            : QString();
+             },
+         .more = [&model](const StreamRow& row, int role) { return model.marksOf(row, role); }},
+        {.title = tr("Hz"),
+         .isNumber = true,
+         .text = [&model](const StreamRow& row) { return model.rateOf(row); },
+         .colour =
+             [](const StreamRow& row) {
+                 return row.kind == Kind::Sender ? QVariant(theme().dim) : QVariant();
+             },
+         .toolTip = [&model](const StreamRow& row) { return model.rateHelp(row); }},
+        valueColumn(TableColumn<StreamRow>{.title = tr("Lost"),
+                                           .help = tr("Samples that did not come; or what is wrong"),
+                                           .isNumber = true},
+                    state),
+    };
 }
 
-QVariant CharacterModel::data(const QModelIndex& index, int role) const {
-    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
-        return {};
-    }
-    const Node& node = nodeOf(index);
-    switch (node.kind) {
+QString CharacterModel::nameOf(const StreamRow& row) const {
+    switch (row.kind) {
     case Kind::Sender:
-        return senderData(m_view.senders()[node.entry], index.column(), role);
+        return QString::fromStdString(view().senders()[row.entry].info.address);
     case Kind::Character:
-        return characterData(m_view.characters()[node.entry], index.column(), role);
+        return characterName(view(), view().characters()[row.entry].key);
     case Kind::Stream:
         break;
     }
-    return streamData(m_view.streams()[node.entry], index.column(), role);
+    return QString::fromStdString(wire::typeTitle(view().streams()[row.entry].key.type));
 }
 
-/// The state in full, and each contradiction in what the sender sends.
-QString CharacterModel::senderWords(const model::Sender& sender) const {
-    QStringList lines{senderState(m_view, sender).display()};
-    for (const model::Contradiction& one : sender.contradictions()) {
-        lines += healthSymbol(Health::Warning) + QLatin1Char(' ') + QString::fromStdString(one.text);
+QVariant CharacterModel::marksOf(const StreamRow& row, int role) const {
+    if (row.kind != Kind::Character) {
+        return {};
     }
-    lines.removeAll(QString());
-    return lines.join(QLatin1Char('\n'));
-}
-
-QVariant CharacterModel::senderData(const model::Sender& sender, int column, int role) const {
-    if (column == kState) {
-        return role == Qt::ToolTipRole ? senderWords(sender) : stateData(senderState(m_view, sender), role);
-    }
-    if (column == kName) {
-        return role == Qt::DisplayRole ? QString::fromStdString(sender.info.address) : QVariant();
-    }
+    const model::CharacterKey& key = view().characters()[row.entry].key;
     switch (role) {
-    case Qt::DisplayRole:
-        return transportName(sender.info.transport);
-    case Qt::ForegroundRole:
-        return theme().dim;
-    default:
-        return role == Qt::TextAlignmentRole ? numberAlignment() : QVariant();
-    }
-}
-
-QVariant CharacterModel::characterName(const model::Character& character, int role) const {
-    switch (role) {
-    case Qt::DisplayRole:
-        return gui::characterName(m_view, character.key);
     case kSuffixRole:
-        return QStringLiteral("· %1").arg(character.key.character);
+        return QStringLiteral("· %1").arg(key.character);
     case kDotRole:
-        return characterColour(m_view, character.key);
+        return characterColour(view(), key);
     case Qt::CheckStateRole:
-        return m_view.isHidden(character.key) ? Qt::Unchecked : Qt::Checked;
-    case Qt::ToolTipRole:
-        return tr("Character ID %1. Check mark: shown in the viewport. Double click: frame in the viewport.")
-            .arg(character.key.character);
+        return view().isHidden(key) ? Qt::Unchecked : Qt::Checked;
     default:
         return {};
     }
 }
 
-QVariant CharacterModel::characterData(const model::Character& character, int column, int role) const {
-    if (column == kName) {
-        return characterName(character, role);
+QString CharacterModel::rateOf(const StreamRow& row) const {
+    if (row.kind == Kind::Sender) {
+        return transportName(view().senders()[row.entry].info.transport);
     }
-    if (column == kState) {
-        return stateData(characterState(m_view, character), role);
+    if (row.kind == Kind::Character) {
+        const model::Stream* leading = leadingStream(view(), view().characters()[row.entry].key);
+        return leading == nullptr ? QString() : fixed(leading->statistics.rateHz(), 1);
     }
-    if (role == Qt::TextAlignmentRole) {
-        return numberAlignment();
-    }
-    const model::Stream* stream = leadingStream(m_view, character.key);
-    return stream != nullptr && role == Qt::DisplayRole ? fixed(stream->statistics.rateHz(), 1) : QVariant();
+    const model::Stream& stream = view().streams()[row.entry];
+    const auto nominal = nominalHz(stream);
+    const QString measured = fixed(stream.statistics.rateHz(), 1);
+    return nominal ? QStringLiteral("%1/%2").arg(QString::number(*nominal, 'g', 5), measured) : measured;
 }
 
-QVariant CharacterModel::streamData(const model::Stream& stream, int column, int role) const {
-    if (column == kState) {
-        return stateData(streamState(m_view, stream), role);
+QString CharacterModel::rateHelp(const StreamRow& row) const {
+    if (row.kind != Kind::Stream) {
+        return {};
     }
-    if (column == kName) {
-        return role == Qt::DisplayRole ? QString::fromStdString(wire::typeTitle(stream.key.type))
-                                       : QVariant();
+    return nominalHz(view().streams()[row.entry]) ? tr("Nominal rate, from the sender's time code and sample "
+                                                       "counter / measured by arrival at this "
+                                                       "computer")
+                                                  : tr("Measured by arrival at this computer");
+}
+
+/// The tooltip says it in full, since a narrow column cuts it; of senders with every contradiction in what
+/// they send.
+PropertyValue CharacterModel::stateOf(const StreamRow& row) const {
+    PropertyValue state;
+    QStringList lines;
+    switch (row.kind) {
+    case Kind::Sender:
+        state = senderState(view(), view().senders()[row.entry]);
+        for (const model::Contradiction& one : view().senders()[row.entry].contradictions()) {
+            lines += healthSymbol(Health::Warning) + QLatin1Char(' ') + QString::fromStdString(one.text);
+        }
+        break;
+    case Kind::Character:
+        state = characterState(view(), view().characters()[row.entry]);
+        break;
+    case Kind::Stream:
+        state = streamState(view(), view().streams()[row.entry]);
+        break;
     }
-    if (role == Qt::TextAlignmentRole) {
-        return numberAlignment();
-    }
-    const auto nominal = nominalHz(stream);
-    if (role == Qt::DisplayRole) {
-        const QString measured = fixed(stream.statistics.rateHz(), 1);
-        return nominal ? QStringLiteral("%1/%2").arg(QString::number(*nominal, 'g', 5), measured) : measured;
-    }
-    if (role == Qt::ToolTipRole) {
-        return nominal ? tr("Nominal rate, from the sender's time code and sample counter / measured by "
-                            "arrival at this computer")
-                       : tr("Measured by arrival at this computer");
-    }
-    return {};
+    lines.prepend(state.display());
+    lines.removeAll(QString());
+    state.toolTip = lines.join(QLatin1Char('\n'));
+    return state;
 }
 
 bool CharacterModel::setData(const QModelIndex& index, const QVariant& value, int role) {
@@ -206,7 +196,7 @@ bool CharacterModel::setData(const QModelIndex& index, const QVariant& value, in
         index.column() != kName || nodeOf(index).kind != Kind::Character) {
         return false;
     }
-    m_commands.setCharacterVisible(m_view.characters()[nodeOf(index).entry].key,
+    m_commands.setCharacterVisible(view().characters()[nodeOf(index).entry].key,
                                    value.toInt() == Qt::Checked);
     emit dataChanged(index, index, {Qt::CheckStateRole});
     return true;
@@ -218,29 +208,6 @@ Qt::ItemFlags CharacterModel::flags(const QModelIndex& index) const {
         flags |= Qt::ItemIsUserCheckable;
     }
     return flags;
-}
-
-QVariant CharacterModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation != Qt::Horizontal) {
-        return {};
-    }
-    if (role == Qt::TextAlignmentRole && section != kName) {
-        return numberAlignment();
-    }
-    if (role == Qt::ToolTipRole && section == kState) {
-        return tr("Samples that did not come; or what is wrong");
-    }
-    if (role != Qt::DisplayRole) {
-        return {};
-    }
-    switch (section) {
-    case kName:
-        return tr("Character, stream");
-    case kRate:
-        return tr("Hz");
-    default:
-        return tr("Lost");
-    }
 }
 
 } // namespace posewire::gui

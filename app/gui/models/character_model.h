@@ -12,8 +12,6 @@ namespace posewire::gui {
 
 /// Characters with their streams: rates, and what is wrong with them.
 class CharacterModel : public StreamTreeModel {
-    Q_OBJECT
-
 public:
     enum Column : int { kName, kRate, kState, kColumnCount };
 
@@ -24,22 +22,20 @@ public:
     /// Rate of a stream by the sender's own clock, where it can be told.
     [[nodiscard]] std::optional<double> nominalHz(const model::Stream& stream) const;
 
-    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
     bool setData(const QModelIndex& index, const QVariant& value, int role) override;
     [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
-    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
 private:
     void readRates();
 
-    [[nodiscard]] QString senderWords(const model::Sender& sender) const;
-    [[nodiscard]] QVariant senderData(const model::Sender& sender, int column, int role) const;
-    [[nodiscard]] QVariant characterData(const model::Character& character, int column, int role) const;
-    [[nodiscard]] QVariant characterName(const model::Character& character, int role) const;
-    [[nodiscard]] QVariant streamData(const model::Stream& stream, int column, int role) const;
+    /// Read the model only where a cell is asked for.
+    [[nodiscard]] static std::vector<TableColumn<StreamRow>> columns(const CharacterModel& model);
+    [[nodiscard]] QString nameOf(const StreamRow& row) const;
+    [[nodiscard]] QVariant marksOf(const StreamRow& row, int role) const;
+    [[nodiscard]] QString rateOf(const StreamRow& row) const;
+    [[nodiscard]] QString rateHelp(const StreamRow& row) const;
+    [[nodiscard]] PropertyValue stateOf(const StreamRow& row) const;
 
-    model::SessionView& m_view;
     Commands& m_commands;
     struct CharacterRate {
         NominalRate rate;

@@ -2,16 +2,11 @@
 #include "app/gui/models/clock_facts.h"
 
 #include "app/gui/models/text.h"
-
-#include <QCoreApplication>
+#include "app/gui/theme/words.h"
 
 namespace posewire::gui {
 
 namespace {
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("ClockFacts", text);
-}
 
 PropertyValue header(const ClockHistory& clock) {
     const auto milliseconds = clock.headerMs();

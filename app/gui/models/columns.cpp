@@ -3,10 +3,6 @@
 
 namespace posewire::gui {
 
-QVariant numberAlignment() {
-    return int{Qt::AlignRight | Qt::AlignVCenter};
-}
-
 QVariant columnHeader(std::span<const ColumnText> columns, const char* context, int section, int role) {
     if (section < 0 || static_cast<std::size_t>(section) >= columns.size()) {
         return {};

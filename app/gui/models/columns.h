@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/column.h"
+
 #include <QCoreApplication>
 #include <QVariant>
 
@@ -18,8 +20,5 @@ struct ColumnText {
 /// headerData() of a table whose columns are declared in a table of texts.
 [[nodiscard]] QVariant columnHeader(std::span<const ColumnText> columns, const char* context, int section,
                                     int role);
-
-/// For cells and headers of numbers: to the right, so that digits stand under digits.
-[[nodiscard]] QVariant numberAlignment();
 
 } // namespace posewire::gui

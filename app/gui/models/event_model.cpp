@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/event_model.h"
 
-#include "app/gui/models/columns.h"
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
-
-#include <QStringList>
+#include "app/gui/theme/words.h"
 
 #include <algorithm>
 
@@ -13,22 +11,78 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::array<ColumnText, EventModel::kColumnCount> kColumns{{
-    {QT_TRANSLATE_NOOP("EventModel", "Severity"), "", false},
-    {QT_TRANSLATE_NOOP("EventModel", "Time"), QT_TRANSLATE_NOOP("EventModel", "When it began"), true},
-    {QT_TRANSLATE_NOOP("EventModel", "Whose"),
-     QT_TRANSLATE_NOOP("EventModel", "Character and type, or the sender"), false},
-    {QT_TRANSLATE_NOOP("EventModel", "Text"), "", false},
-    {QT_TRANSLATE_NOOP("EventModel", "Count"),
-     QT_TRANSLATE_NOOP("EventModel", "How often it happened in this episode"), true},
-    {QT_TRANSLATE_NOOP("EventModel", "Event"), "", false},
-    {QT_TRANSLATE_NOOP("EventModel", "Group"), "", false},
-    {QT_TRANSLATE_NOOP("EventModel", "Lasted"),
-     QT_TRANSLATE_NOOP("EventModel", "From the first to the last of this episode"), true},
-}};
+using EventColumn = TableColumn<model::Event>;
 
-QString latin(std::string_view text) {
-    return QString::fromLatin1(text.data(), static_cast<qsizetype>(text.size()));
+QString lasted(const model::Event& event) {
+    return event.isCurrent ? tr("goes on")
+                           : duration(static_cast<double>(event.lastStampNs - event.firstStampNs) * 1e-9);
+}
+
+QString fromTo(const model::Event& event) {
+    return tr("From %1 to %2")
+        .arg(timeOfDay(event.firstStampNs),
+             event.isCurrent ? tr("now: it goes on, or may") : timeOfDay(event.lastStampNs));
+}
+
+EventColumn severityColumn() {
+    return {
+        .title = tr("Severity"),
+        .text =
+            [](const model::Event& event) {
+                return PropertyValue{severityWord(event.severity()), healthOf(event.severity())}.display();
+            },
+        .colour =
+            [](const model::Event& event) {
+                return QVariant(event.severity() == model::EventSeverity::Info
+                                    ? theme().dim
+                                    : healthColour(healthOf(event.severity())));
+            },
+        .sortKey = [](const model::Event& event) { return QVariant(static_cast<int>(event.severity())); },
+        .spoken = [](const model::Event& event) { return severityWord(event.severity()); }};
+}
+
+/// Reads the model only where a cell is asked for.
+std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel& events) {
+    const auto whose = [&view](const model::Event& event) { return whoseWords(view, event); };
+    const auto words = [](const model::Event& event) { return QString::fromStdString(event.text()); };
+    std::vector<EventColumn> columns{
+        severityColumn(),
+        {.title = tr("Time"),
+         .help = tr("When it began"),
+         .isNumber = true,
+         .text = [](const model::Event& event) { return timeOfDay(event.firstStampNs); },
+         .toolTip = fromTo,
+         .sortKey = [](const model::Event& event) { return QVariant::fromValue(event.firstStampNs); }},
+        {.title = tr("Whose"),
+         .help = tr("Character and type, or the sender"),
+         .text = whose,
+         .toolTip = whose},
+        {.title = tr("Text"), .text = words, .toolTip = words},
+        {.title = tr("Count"),
+         .help = tr("How often it happened in this episode"),
+         .isNumber = true,
+         .text = [](const model::Event& event) { return grouped(event.count); },
+         .sortKey = [](const model::Event& event) { return QVariant::fromValue(event.count); }},
+        {.title = tr("Event"),
+         .text = [](const model::Event& event) { return fromUtf8(nameOf(event.kind)); }},
+        {.title = tr("Group"), .text = [](const model::Event& event) { return groupWord(event.group()); }},
+        {.title = tr("Lasted"),
+         .help = tr("From the first to the last of this episode"),
+         .isNumber = true,
+         .text = lasted,
+         .sortKey =
+             [](const model::Event& event) {
+                 return QVariant::fromValue(event.lastStampNs - event.firstStampNs);
+             }},
+    };
+    for (EventColumn& column : columns) {
+        if (!column.colour) {
+            column.colour = [&events](const model::Event& event) {
+                return events.isSeen(event) ? QVariant(theme().dim) : QVariant();
+            };
+        }
+    }
+    return columns;
 }
 
 /// [first, end) of those in `from` that are not in `others`; both in the order of their numbers. `isWhole` is
@@ -61,7 +115,7 @@ Span missing(const Rows& from, const Rows& others) {
 } // namespace
 
 EventModel::EventModel(model::SessionView& view, QObject* parent)
-    : QAbstractTableModel(parent), m_view(view) {}
+    : ColumnModel(eventColumns(view, *this), parent), m_view(view) {}
 
 EventModel::Row EventModel::rowFor(const model::Event& event) {
     return {event.number, event.count, event.samples, event.lastStampNs, event.value, event.isCurrent};
@@ -77,7 +131,7 @@ bool EventModel::matches(const model::Event& event) const {
         return true;
     }
     return std::ranges::any_of(std::array{kText, kWho, kKind}, [&](int column) {
-        return text(event, column).contains(m_filter.text, Qt::CaseInsensitive);
+        return cell(event, column, Qt::DisplayRole).toString().contains(m_filter.text, Qt::CaseInsensitive);
     });
 }
 
@@ -129,7 +183,7 @@ void EventModel::showSame(std::vector<Row> rows) {
     const auto from = static_cast<int>(first - rows.begin());
     const auto to = static_cast<int>(rows.rend() - last) - 1;
     m_rows = std::move(rows);
-    emit dataChanged(index(from, 0), index(to, kColumnCount - 1));
+    announceChange(from, to);
 }
 
 void EventModel::setFilter(const Filter& filter) {
@@ -191,69 +245,9 @@ int EventModel::rowCount(const QModelIndex& parent) const {
     return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
 }
 
-int EventModel::columnCount(const QModelIndex& parent) const {
-    return parent.isValid() ? 0 : int{kColumnCount};
-}
-
-QString EventModel::text(const model::Event& event, int column) const {
-    switch (column) {
-    case kSeverity:
-        return healthSymbol(healthOf(event.severity())) + QLatin1Char(' ') + severityWord(event.severity());
-    case kTime:
-        return timeOfDay(event.firstStampNs);
-    case kWho:
-        return whoseWords(m_view, event);
-    case kText:
-        return QString::fromStdString(event.text());
-    case kCount:
-        return grouped(event.count);
-    case kKind:
-        return latin(model::nameOf(event.kind));
-    case kGroup:
-        return groupWord(event.group());
-    default:
-        return event.isCurrent ? tr("goes on")
-                               : duration(static_cast<double>(event.lastStampNs - event.firstStampNs) * 1e-9);
-    }
-}
-
-QString EventModel::toolTip(const model::Event& event, int column) const {
-    if (column == kTime) {
-        return tr("From %1 to %2")
-            .arg(timeOfDay(event.firstStampNs),
-                 event.isCurrent ? tr("now: it goes on, or may") : timeOfDay(event.lastStampNs));
-    }
-    return column == kText || column == kWho ? text(event, column) : QString();
-}
-
 QVariant EventModel::data(const QModelIndex& index, int role) const {
     const model::Event* shown = checkIndex(index, CheckIndexOption::IndexIsValid) ? event(index) : nullptr;
-    if (shown == nullptr) {
-        return {};
-    }
-    switch (role) {
-    case Qt::DisplayRole:
-        return text(*shown, index.column());
-    case Qt::ToolTipRole: {
-        const QString tip = toolTip(*shown, index.column());
-        return tip.isEmpty() ? QVariant() : tip;
-    }
-    case Qt::ForegroundRole:
-        if (index.column() == kSeverity) {
-            return shown->severity() == model::EventSeverity::Info
-                       ? theme().dim
-                       : healthColour(healthOf(shown->severity()));
-        }
-        return isSeen(*shown) ? QVariant(theme().dim) : QVariant();
-    case Qt::TextAlignmentRole:
-        return kColumns[static_cast<std::size_t>(index.column())].isNumber ? numberAlignment() : QVariant();
-    default:
-        return {};
-    }
-}
-
-QVariant EventModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    return orientation == Qt::Horizontal ? columnHeader(kColumns, "EventModel", section, role) : QVariant();
+    return shown == nullptr ? QVariant() : cell(*shown, index.column(), role);
 }
 
 } // namespace posewire::gui

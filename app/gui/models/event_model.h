@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/column.h"
 #include "core/model/session/session_view.h"
-
-#include <QAbstractTableModel>
 
 #include <array>
 #include <cstdint>
@@ -12,9 +11,7 @@
 namespace posewire::gui {
 
 /// The events of the session, or those that are asked for, in the order in which they began.
-class EventModel : public QAbstractTableModel {
-    Q_OBJECT
-
+class EventModel : public ColumnModel<model::Event> {
 public:
     enum Column : int { kSeverity, kTime, kWho, kText, kCount, kKind, kGroup, kLasted, kColumnCount };
 
@@ -54,10 +51,11 @@ public:
     [[nodiscard]] int rowOf(std::uint64_t number) const;
     [[nodiscard]] std::vector<const model::Event*> listed() const;
 
+    /// False until markSeen() has been called since it began.
+    [[nodiscard]] bool isSeen(const model::Event& event) const { return event.number < m_seenEnd; }
+
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
-    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
 private:
     /// An event as it was last shown.
@@ -75,9 +73,6 @@ private:
     [[nodiscard]] const model::Event* find(std::uint64_t number) const;
     void show(std::vector<Row> rows);
     void showSame(std::vector<Row> rows);
-    [[nodiscard]] bool isSeen(const model::Event& event) const { return event.number < m_seenEnd; }
-    [[nodiscard]] QString text(const model::Event& event, int column) const;
-    [[nodiscard]] QString toolTip(const model::Event& event, int column) const;
 
     model::SessionView& m_view;
     Filter m_filter;

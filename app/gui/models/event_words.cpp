@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/event_words.h"
 
+#include "app/gui/models/packet_target.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/statistics_filter.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/filter/expression_for.h"
 #include "core/wire/type_table.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include <algorithm>
@@ -17,10 +18,6 @@ namespace posewire::gui {
 namespace {
 
 using model::EventKind;
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("EventWords", text);
-}
 
 QString digitsOf(std::uint8_t type) {
     const auto digits = wire::typeDigits(type);
@@ -71,18 +68,8 @@ model::TimeRange rangeOf(model::SessionView& view, const model::Event& event) {
 
 /// The last packet that came before a moment.
 std::optional<std::uint64_t> packetBefore(model::SessionView& view, std::int64_t stampNs) {
-    std::uint64_t low = view.begin();
-    std::uint64_t high = view.end();
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low) / 2;
-        const auto packet = view.packet(middle);
-        if (packet && packet->stampNs < stampNs) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low == view.begin() ? std::nullopt : std::optional(low - 1);
+    const std::uint64_t first = packetFrom(view, stampNs);
+    return first == view.begin() ? std::nullopt : std::optional(first - 1);
 }
 
 } // namespace

@@ -2,8 +2,7 @@
 #include "app/gui/models/health_facts.h"
 
 #include "app/gui/models/text.h"
-
-#include <QCoreApplication>
+#include "app/gui/theme/words.h"
 
 namespace posewire::gui {
 
@@ -13,10 +12,6 @@ namespace {
 constexpr double kFullBuffer = 0.5;
 /// Of a core; more than this and the window lags behind.
 constexpr double kMuchFollowing = 0.5;
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("HealthFacts", text);
-}
 
 QString percent(const std::optional<double>& share, int decimals = 0) {
     return share ? fixed(*share * 100, decimals) + QStringLiteral(" %") : QStringLiteral("–");

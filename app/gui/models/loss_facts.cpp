@@ -2,9 +2,9 @@
 #include "app/gui/models/loss_facts.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/accounting/attribution.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include <algorithm>
@@ -16,10 +16,6 @@ namespace posewire::gui {
 namespace {
 
 using ByCause = std::array<std::uint64_t, model::kLossCauses>;
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("LossFacts", text);
-}
 
 std::uint64_t& at(ByCause& causes, model::LossCause cause) {
     return causes[static_cast<std::size_t>(cause)];

@@ -2,9 +2,9 @@
 #include "app/gui/models/metadata_model.h"
 
 #include "app/gui/models/character_facts.h"
-#include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 
 #include <algorithm>
 
@@ -18,12 +18,8 @@ QString textOf(const std::string& text) {
     return QString::fromStdString(text);
 }
 
-QVariant rightAligned() {
-    return QVariant::fromValue(Qt::AlignRight | Qt::AlignVCenter);
-}
-
 QString changesText(std::size_t changes) {
-    return changes == 1 ? MetadataModel::tr("· 1 change") : MetadataModel::tr("· %1 changes").arg(changes);
+    return changes == 1 ? tr("· 1 change") : tr("· %1 changes").arg(changes);
 }
 
 QVariant swatchOf(const std::string& tagName, const std::string& value) {
@@ -31,10 +27,99 @@ QVariant swatchOf(const std::string& tagName, const std::string& value) {
     return colour ? QVariant(QColor::fromRgbF(colour->red, colour->green, colour->blue)) : QVariant();
 }
 
+using MetadataColumn = TableColumn<MetadataRow>;
+
+QVariant dim(const MetadataRow&) {
+    return theme().dim;
+}
+
+QString suffixOf(const MetadataRow& row) {
+    const QString changes = row.changes == 0 ? QString() : changesText(row.changes);
+    if (row.tag->isKnown) {
+        return changes;
+    }
+    return changes.isEmpty() ? tr("· unknown") : tr("· unknown %1").arg(changes);
+}
+
+MetadataColumn nameColumn() {
+    return {.title = tr("Tag"),
+            .text =
+                [](const MetadataRow& row) {
+                    return row.fact != nullptr ? row.fact->label
+                           : row.isEarlier     ? tr("before")
+                                               : textOf(row.tag->name);
+                },
+            .colour = dim,
+            .toolTip =
+                [](const MetadataRow& row) {
+                    const bool isUnknown = row.tag != nullptr && !row.isEarlier && !row.tag->isKnown;
+                    return isUnknown
+                               ? tr("Neither in the specification nor known from real senders; kept and "
+                                    "shown as sent")
+                               : QString();
+                },
+            .more =
+                [](const MetadataRow& row, int role) {
+                    const bool isTag = row.tag != nullptr && !row.isEarlier;
+                    const QString suffix = isTag && role == kSuffixRole ? suffixOf(row) : QString();
+                    return suffix.isEmpty() ? QVariant() : suffix;
+                }};
+}
+
+PropertyValue shownValue(const MetadataRow& row) {
+    if (row.fact != nullptr) {
+        PropertyValue value = row.fact->read();
+        value.toolTip = value.toolTip.isEmpty() ? value.text : value.toolTip;
+        return value;
+    }
+    if (row.value == nullptr) {
+        return {tr("not sent yet")};
+    }
+    return {textOf(row.value->text), Health::Unknown,
+            row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(row.value->stampNs))};
+}
+
+MetadataColumn sentColumn(model::SessionView& view) {
+    return {.title = tr("Sent"),
+            .isNumber = true,
+            .text =
+                [&view](const MetadataRow& row) {
+                    if (row.fact != nullptr) {
+                        return QString();
+                    }
+                    const double age = static_cast<double>(view.cursorStampNs() - row.tag->lastSeenNs) * 1e-9;
+                    return row.isEarlier ? timeOfDay(row.value->stampNs) : duration(std::max(0.0, age));
+                },
+            .colour = dim,
+            .toolTip =
+                [](const MetadataRow& row) {
+                    return row.tag == nullptr || row.isEarlier
+                               ? QString()
+                               : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
+                                     .arg(timeOfDay(row.tag->lastSeenNs));
+                },
+            .more =
+                [](const MetadataRow& row, int role) {
+                    return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
+                }};
+}
+
+std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
+    MetadataColumn value = valueColumn(MetadataColumn{.title = tr("Value"), .isNumber = true}, shownValue);
+    value.colour = [](const MetadataRow& row) {
+        return row.isEarlier ? QVariant(theme().dim) : shownValue(row).colour();
+    };
+    value.more = [](const MetadataRow& row, int role) {
+        return role == kSwatchRole && row.value != nullptr ? swatchOf(row.tag->name, row.value->text)
+                                                           : QVariant();
+    };
+    return {nameColumn(), std::move(value), sentColumn(view)};
+}
+
 } // namespace
 
 MetadataModel::MetadataModel(model::SessionView& view, QObject* parent)
-    : QAbstractItemModel(parent), m_view(view), m_facts(characterFacts(m_view, m_key)) {}
+    : ColumnModel(metadataColumns(view), parent), m_view(view), m_facts(characterFacts(m_view, m_key)) {}
 
 void MetadataModel::refresh() {
     const auto key = shownCharacter(m_view);
@@ -43,9 +128,7 @@ void MetadataModel::refresh() {
     } else if (m_key && !insertTags()) {
         fitHistories();
     }
-    if (rowCount() > 0) {
-        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
-    }
+    announceChange(0, rowCount() - 1);
 }
 
 void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {
@@ -134,159 +217,26 @@ int MetadataModel::rowCount(const QModelIndex& parent) const {
     return hasHistory ? static_cast<int>(m_earlier[static_cast<std::size_t>(parent.row())]) : 0;
 }
 
-int MetadataModel::columnCount(const QModelIndex&) const {
-    return kColumnCount;
+MetadataRow MetadataModel::rowAt(const QModelIndex& index) const {
+    const bool isTop = index.internalId() == kTop;
+    const model::MetadataTag* found = tag(isTop ? index.row() : static_cast<int>(index.internalId()));
+    if (found == nullptr) {
+        return isTop ? MetadataRow{.fact = &m_facts[static_cast<std::size_t>(index.row()) - m_earlier.size()]}
+                     : MetadataRow{};
+    }
+    const std::size_t earlier = earlierValues(*found);
+    if (isTop) {
+        return {.tag = found, .value = found->at(newestVisiblePacket(m_view)), .changes = earlier};
+    }
+    const auto back = static_cast<std::size_t>(index.row());
+    return back < earlier
+               ? MetadataRow{.tag = found, .value = &found->values[earlier - 1 - back], .isEarlier = true}
+               : MetadataRow{};
 }
 
 QVariant MetadataModel::data(const QModelIndex& index, int role) const {
-    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
-        return {};
-    }
-    if (role == Qt::TextAlignmentRole) {
-        return index.column() == kName ? QVariant() : rightAligned();
-    }
-    if (index.internalId() != kTop) {
-        return historyData(index, role);
-    }
-    const model::MetadataTag* found = tag(index.row());
-    if (found == nullptr) {
-        return factData(m_facts[static_cast<std::size_t>(index.row()) - m_earlier.size()], index.column(),
-                        role);
-    }
-    switch (index.column()) {
-    case kName:
-        return tagName(*found, role);
-    case kValue:
-        return tagValue(*found, role);
-    default:
-        return tagSent(*found, role);
-    }
-}
-
-QVariant MetadataModel::nameSuffix(const model::MetadataTag& tag) const {
-    const std::size_t changes = earlierValues(tag);
-    if (!tag.isKnown) {
-        return changes == 0 ? tr("· unknown") : tr("· unknown %1").arg(changesText(changes));
-    }
-    return changes == 0 ? QVariant() : changesText(changes);
-}
-
-QVariant MetadataModel::tagName(const model::MetadataTag& tag, int role) const {
-    switch (role) {
-    case Qt::DisplayRole:
-        return textOf(tag.name);
-    case kSuffixRole:
-        return nameSuffix(tag);
-    case Qt::ForegroundRole:
-        return theme().dim;
-    case Qt::ToolTipRole:
-        return tag.isKnown ? QVariant()
-                           : tr("Neither in the specification nor known from real senders; "
-                                "kept and shown as sent");
-    default:
-        return {};
-    }
-}
-
-QVariant MetadataModel::tagValue(const model::MetadataTag& tag, int role) const {
-    const model::MetadataTag::Value* value = tag.at(newestVisiblePacket(m_view));
-    if (value == nullptr) {
-        return role == Qt::DisplayRole ? tr("not sent yet") : QVariant();
-    }
-    switch (role) {
-    case Qt::DisplayRole:
-        return textOf(value->text);
-    case kSwatchRole:
-        return swatchOf(tag.name, value->text);
-    case Qt::ToolTipRole:
-        return tr("First sent at %1").arg(timeOfDay(value->stampNs));
-    default:
-        return {};
-    }
-}
-
-QVariant MetadataModel::tagSent(const model::MetadataTag& tag, int role) const {
-    const double age = static_cast<double>(m_view.cursorStampNs() - tag.lastSeenNs) * 1e-9;
-    switch (role) {
-    case Qt::DisplayRole:
-        return duration(std::max(0.0, age));
-    case Qt::ForegroundRole:
-        return theme().dim;
-    case Qt::ToolTipRole:
-        return tr("Last sent at %1, changed or not. Earlier values stand below the tag.")
-            .arg(timeOfDay(tag.lastSeenNs));
-    default:
-        return {};
-    }
-}
-
-QVariant MetadataModel::historyData(const QModelIndex& index, int role) const {
-    const model::MetadataTag* found = tag(static_cast<int>(index.internalId()));
-    const std::size_t earlier = found == nullptr ? 0 : earlierValues(*found);
-    if (static_cast<std::size_t>(index.row()) >= earlier) {
-        return {};
-    }
-    const model::MetadataTag::Value& value =
-        found->values[earlier - 1 - static_cast<std::size_t>(index.row())];
-    if (role == Qt::ForegroundRole) {
-        return theme().dim;
-    }
-    if (role == kSwatchRole && index.column() == kValue) {
-        return swatchOf(found->name, value.text);
-    }
-    if (role != Qt::DisplayRole) {
-        return {};
-    }
-    switch (index.column()) {
-    case kName:
-        return tr("before");
-    case kValue:
-        return textOf(value.text);
-    default:
-        return timeOfDay(value.stampNs);
-    }
-}
-
-QVariant MetadataModel::factData(const Property& fact, int column, int role) const {
-    if (column == kName) {
-        return role == Qt::DisplayRole      ? QVariant(fact.label)
-               : role == Qt::ForegroundRole ? QVariant(theme().dim)
-                                            : QVariant();
-    }
-    if (column == kSent) {
-        return role == kSpanRole ? QVariant(true) : QVariant();
-    }
-    const PropertyValue value = fact.read();
-    switch (role) {
-    case Qt::DisplayRole:
-        return value.display();
-    case Qt::ForegroundRole:
-        return value.colour();
-    case Qt::ToolTipRole:
-        return value.toolTip.isEmpty() ? QVariant(value.text) : value.toolTip;
-    default:
-        return {};
-    }
-}
-
-QVariant MetadataModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation != Qt::Horizontal) {
-        return {};
-    }
-    if (role == Qt::TextAlignmentRole) {
-        return section == kName ? QVariant() : rightAligned();
-    }
-    if (role != Qt::DisplayRole) {
-        return {};
-    }
-    switch (section) {
-    case kName:
-        return tr("Tag");
-    case kValue:
-        return tr("Value");
-    default:
-        return tr("Sent");
-    }
+    const MetadataRow row = checkIndex(index, CheckIndexOption::IndexIsValid) ? rowAt(index) : MetadataRow{};
+    return row.tag != nullptr || row.fact != nullptr ? cell(row, index.column(), role) : QVariant();
 }
 
 } // namespace posewire::gui

@@ -4,18 +4,23 @@
 #include "app/gui/models/property_model.h"
 #include "core/model/session/session_view.h"
 
-#include <QAbstractItemModel>
-
 #include <optional>
 #include <vector>
 
 namespace posewire::gui {
 
+/// A tag with the value at the cursor (null before it was sent), an earlier value of one, or a fact.
+struct MetadataRow {
+    const model::MetadataTag* tag = nullptr;
+    const model::MetadataTag::Value* value = nullptr;
+    const Property* fact = nullptr;
+    std::size_t changes = 0; ///< of a tag, up to the cursor
+    bool isEarlier = false;
+};
+
 /// What is known about the shown character: every tag of its metadata with its earlier values as children,
 /// newest first, and below them what was concluded from headers and scale messages. Reads at the cursor.
-class MetadataModel : public QAbstractItemModel {
-    Q_OBJECT
-
+class MetadataModel : public ColumnModel<MetadataRow, QAbstractItemModel> {
 public:
     enum Column : int { kName, kValue, kSent, kColumnCount };
 
@@ -27,9 +32,7 @@ public:
     [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
     [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override;
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
-    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
 private:
     void changeCharacter(std::optional<model::CharacterKey> key);
@@ -37,12 +40,7 @@ private:
     void fitHistories();
     [[nodiscard]] std::size_t earlierValues(const model::MetadataTag& tag) const;
     [[nodiscard]] const model::MetadataTag* tag(int row) const;
-    [[nodiscard]] QVariant nameSuffix(const model::MetadataTag& tag) const;
-    [[nodiscard]] QVariant tagName(const model::MetadataTag& tag, int role) const;
-    [[nodiscard]] QVariant tagValue(const model::MetadataTag& tag, int role) const;
-    [[nodiscard]] QVariant tagSent(const model::MetadataTag& tag, int role) const;
-    [[nodiscard]] QVariant historyData(const QModelIndex& index, int role) const;
-    [[nodiscard]] QVariant factData(const Property& fact, int column, int role) const;
+    [[nodiscard]] MetadataRow rowAt(const QModelIndex& index) const;
 
     model::SessionView& m_view;
     std::optional<model::CharacterKey> m_key;

@@ -2,16 +2,11 @@
 #include "app/gui/models/null_pose_facts.h"
 
 #include "app/gui/models/text.h"
-
-#include <QCoreApplication>
+#include "app/gui/theme/words.h"
 
 namespace posewire::gui {
 
 namespace {
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("NullPoseFacts", text);
-}
 
 PropertyValue none() {
     return {QStringLiteral("–")};

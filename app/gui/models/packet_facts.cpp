@@ -2,11 +2,11 @@
 #include "app/gui/models/packet_facts.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/accounting/attribution.h"
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
-#include <QCoreApplication>
 #include <QStringList>
 
 #include <algorithm>
@@ -14,10 +14,6 @@
 namespace posewire::gui {
 
 namespace {
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("PacketFacts", text);
-}
 
 const QString& dot() {
     static const QString text = QStringLiteral(" · ");

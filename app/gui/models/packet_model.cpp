@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_model.h"
 
-#include "app/gui/models/columns.h"
-#include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/wire/type_table.h"
 
 #include <QDateTime>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 
 namespace posewire::gui {
@@ -24,38 +22,128 @@ constexpr double kSecondsPerNs = 1e-9;
 /// What the rows of a table can count.
 constexpr std::uint64_t kMostRows = std::numeric_limits<int>::max() - 1;
 
-constexpr std::array<ColumnText, PacketModel::kColumnCount> kColumns{{
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "No."),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Number in the order of arrival, from 0")},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Time s"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "When it arrived; the context menu has other ways")},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Δ ms"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Since the packet before it in its stream")},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Sender"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Address and port of the sender"), false},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Type"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Message type"), false},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Char"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Character ID and name"), false},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Sample"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Sample counter")},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Part"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel",
-                       "Which of the datagrams of its sample, and of how many")},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Size"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Bytes of the datagram, header included")},
-    {QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "Note"),
-     QT_TRANSLATE_NOOP("posewire::gui::PacketModel", "What is odd about it, and comments"), false},
-}};
-
 bool describesBody(std::uint8_t type) {
     return type >= 10 && type <= 13;
+}
+
+using PacketColumn = TableColumn<PacketFacts>;
+
+bool isStrange(const PacketFacts& facts) {
+    return facts.digest.kind == model::PacketKind::Foreign || facts.digest.kind == model::PacketKind::Skipped;
+}
+
+QVariant warningWhere(bool isOdd) {
+    return isOdd ? QVariant(theme().warning) : QVariant();
+}
+
+QVariant dimWhereStrange(const PacketFacts& facts) {
+    return isStrange(facts) ? QVariant(theme().dim) : QVariant();
+}
+
+QVariant typeColour(const PacketFacts& facts) {
+    if (packetHealth(facts) == Health::Error) {
+        return healthColour(Health::Error);
+    }
+    return isStrange(facts)                   ? QVariant(theme().dim)
+           : describesBody(facts.digest.type) ? QVariant(theme().accent)
+                                              : QVariant();
+}
+
+PacketColumn numberColumn(const QString& title, const QString& help,
+                          std::uint64_t (*number)(const PacketFacts&)) {
+    return {.title = title,
+            .help = help,
+            .isNumber = true,
+            .text = [number](const PacketFacts& facts) { return grouped(number(facts)); },
+            .sortKey = [number](const PacketFacts& facts) { return QVariant::fromValue(number(facts)); }};
+}
+
+PacketColumn characterColumn(std::function<QVariant(const PacketFacts&, int)> mark) {
+    return {.title = tr("Char"),
+            .help = tr("Character ID and name"),
+            .text =
+                [](const PacketFacts& facts) {
+                    return facts.header ? QString::number(facts.header->character) : QString();
+                },
+            .more = std::move(mark)};
+}
+
+PacketColumn sampleColumn() {
+    return {.title = tr("Sample"),
+            .help = tr("Sample counter"),
+            .isNumber = true,
+            .text =
+                [](const PacketFacts& facts) {
+                    return facts.header ? grouped(facts.header->sampleCounter) : QString();
+                },
+            .colour =
+                [](const PacketFacts& facts) {
+                    const model::PacketDigest& digest = facts.digest;
+                    return warningWhere(digest.isDuplicate || digest.isReordered || digest.isRestart);
+                }};
 }
 
 } // namespace
 
 PacketModel::PacketModel(model::SessionView& view, QObject* parent)
-    : QAbstractTableModel(parent), m_view(view) {}
+    : ColumnModel(columns(*this), parent), m_view(view) {}
+
+std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
+    const auto sender = [&model](const PacketFacts& facts) { return model.senderText(facts); };
+    const auto note = [&model](const PacketFacts& facts) { return packetNote(model.m_view, facts); };
+    std::vector<PacketColumn> columns{
+        numberColumn(tr("No."), tr("Number in the order of arrival, from 0"),
+                     [](const PacketFacts& facts) { return facts.number; }),
+        {.title = tr("Time s"),
+         .help = tr("When it arrived; the context menu has other ways"),
+         .isNumber = true,
+         .text = [&model](const PacketFacts& facts) { return model.timeText(facts); },
+         .sortKey = [](const PacketFacts& facts) { return QVariant::fromValue(facts.stampNs); }},
+        {.title = tr("Δ ms"),
+         .help = tr("Since the packet before it in its stream"),
+         .isNumber = true,
+         .text = [&model](const PacketFacts& facts) { return fixed(model.deltaMs(facts), 2); },
+         .colour =
+             [](const PacketFacts& facts) {
+                 return warningWhere(facts.digest.gap != 0 || facts.digest.followsDrops);
+             },
+         .sortKey = [&model](const PacketFacts& facts) { return QVariant(model.deltaMs(facts)); }},
+        {.title = tr("Sender"),
+         .help = tr("Address and port of the sender"),
+         .text = sender,
+         .toolTip = sender},
+        {.title = tr("Type"),
+         .help = tr("Message type"),
+         .text = packetType,
+         .colour = typeColour,
+         .toolTip = packetType},
+        characterColumn(
+            [&model](const PacketFacts& facts, int role) { return model.characterMark(facts, role); }),
+        sampleColumn(),
+        {.title = tr("Part"),
+         .help = tr("Which of the datagrams of its sample, and of how many"),
+         .isNumber = true,
+         .text = [&model](const PacketFacts& facts) { return packetPart(model.m_view, facts); }},
+        numberColumn(tr("Size"), tr("Bytes of the datagram, header included"),
+                     [](const PacketFacts& facts) { return std::uint64_t{facts.size}; }),
+        {.title = tr("Note"),
+         .help = tr("What is odd about it, and comments"),
+         .text = note,
+         .colour =
+             [](const PacketFacts& facts) {
+                 const Health health = packetHealth(facts);
+                 return QVariant(health == Health::Unknown ? theme().dim : healthColour(health));
+             },
+         .toolTip = note},
+    };
+    columns[kSize].colour = [](const PacketFacts& facts) {
+        return packetHealth(facts) == Health::Error ? QVariant(theme().error) : QVariant();
+    };
+    for (const Column column : {kNumber, kTime, kSender, kCharacter, kPart}) {
+        columns[column].colour = dimWhereStrange;
+    }
+    return columns;
+}
 
 void PacketModel::refresh() {
     m_facts.reset();
@@ -218,10 +306,6 @@ int PacketModel::rowCount(const QModelIndex& parent) const {
     return m_isFiltered ? static_cast<int>(m_matchRows) : static_cast<int>(m_end - m_begin);
 }
 
-int PacketModel::columnCount(const QModelIndex& parent) const {
-    return parent.isValid() ? 0 : static_cast<int>(kColumnCount);
-}
-
 const PacketFacts* PacketModel::facts(int row) const {
     const std::uint64_t number = packetAt(row);
     if (!m_facts || m_facts->number != number) {
@@ -241,69 +325,27 @@ QString PacketModel::timeText(const PacketFacts& facts) const {
            QStringLiteral("%1").arg(microseconds, 3, 10, QLatin1Char('0'));
 }
 
-double PacketModel::deltaMs(const PacketFacts& facts, int row) const {
+double PacketModel::deltaMs(const PacketFacts& facts) const {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     if (m_deltaMode == DeltaMode::Stream) {
         return facts.digest.deltaS < 0 ? kNone : static_cast<double>(facts.digest.deltaS) * kMsPerSecond;
     }
+    const int row = rowOf(facts.number);
     const auto above = row > 0 ? m_view.packet(packetAt(row - 1)) : std::nullopt;
     return above ? static_cast<double>(facts.stampNs - above->stampNs) / kNsPerMs : kNone;
 }
 
-QString PacketModel::text(const PacketFacts& facts, int row, int column) const {
-    switch (column) {
-    case kNumber:
-        return grouped(facts.number);
-    case kTime:
-        return timeText(facts);
-    case kDelta:
-        return fixed(deltaMs(facts, row), 2);
-    case kSender: {
-        const log::SenderInfo* info = m_view.log().senders().find(facts.sender);
-        return info != nullptr ? QString::fromStdString(info->address) : QString();
-    }
-    case kType:
-        return packetType(facts);
-    case kCharacter:
-        return facts.header ? QString::number(facts.header->character) : QString();
-    case kSample:
-        return facts.header ? grouped(facts.header->sampleCounter) : QString();
-    case kPart:
-        return packetPart(m_view, facts);
-    case kSize:
-        return grouped(facts.size);
-    case kNote:
-        return packetNote(m_view, facts);
-    default:
-        return {};
-    }
+QString PacketModel::senderText(const PacketFacts& facts) const {
+    const log::SenderInfo* info = m_view.log().senders().find(facts.sender);
+    return info != nullptr ? QString::fromStdString(info->address) : QString();
 }
 
-QVariant PacketModel::colour(const PacketFacts& facts, int column) const {
-    const Health health = packetHealth(facts);
-    const model::PacketDigest& digest = facts.digest;
-    const bool isStrange =
-        digest.kind == model::PacketKind::Foreign || digest.kind == model::PacketKind::Skipped;
-    switch (column) {
-    case kNote:
-        return health == Health::Unknown ? theme().dim : healthColour(health);
-    case kType:
-        if (health == Health::Error) {
-            return healthColour(health);
-        }
-        return isStrange                    ? QVariant(theme().dim)
-               : describesBody(digest.type) ? QVariant(theme().accent)
-                                            : QVariant();
-    case kDelta:
-        return digest.gap != 0 || digest.followsDrops ? QVariant(theme().warning) : QVariant();
-    case kSample:
-        return digest.isDuplicate || digest.isReordered || digest.isRestart ? QVariant(theme().warning)
-                                                                            : QVariant();
-    case kSize:
-        return health == Health::Error ? QVariant(theme().error) : QVariant();
-    default:
-        return isStrange ? QVariant(theme().dim) : QVariant();
+QVariant PacketModel::characterMark(const PacketFacts& facts, int role) const {
+    const model::CharacterKey key{facts.sender, facts.digest.character};
+    if ((role != kDotRole && role != kSuffixRole) || !facts.header || m_view.find(key) == nullptr) {
+        return {};
     }
+    return role == kDotRole ? QVariant(characterColour(m_view, key)) : characterName(m_view, key);
 }
 
 QVariant PacketModel::data(const QModelIndex& index, int role) const {
@@ -311,10 +353,6 @@ QVariant PacketModel::data(const QModelIndex& index, int role) const {
         return {};
     }
     const int row = index.row();
-    const int column = index.column();
-    if (role == Qt::TextAlignmentRole) {
-        return kColumns[static_cast<std::size_t>(column)].isNumber ? numberAlignment() : QVariant();
-    }
     if (role == kStripeRole) {
         return (m_removed + static_cast<std::uint64_t>(row)) % 2 != 0;
     }
@@ -322,45 +360,26 @@ QVariant PacketModel::data(const QModelIndex& index, int role) const {
         return m_view.cursor().mode == model::Cursor::Mode::Paused &&
                row + 1 == rowFrom(m_view.cursor().packet + 1);
     }
-    const PacketFacts* shown = facts(row);
-    if (shown == nullptr) {
-        return role == Qt::DisplayRole && column == kNumber ? QVariant(grouped(packetAt(row))) : QVariant();
+    if (role == Qt::TextAlignmentRole) {
+        return headerData(index.column(), Qt::Horizontal, role); // no packet has to be read for that
     }
-    const bool hasCharacter = column == kCharacter && shown->header.has_value();
-    const model::CharacterKey key{shown->sender, shown->digest.character};
-    switch (role) {
-    case Qt::DisplayRole:
-        return text(*shown, row, column);
-    case Qt::ToolTipRole:
-        return column == kNote || column == kType || column == kSender ? text(*shown, row, column)
-                                                                       : QVariant();
-    case Qt::ForegroundRole:
-        return colour(*shown, column);
-    case kDotRole:
-        return hasCharacter && m_view.find(key) != nullptr ? QVariant(characterColour(m_view, key))
-                                                           : QVariant();
-    case kSuffixRole:
-        return hasCharacter && m_view.find(key) != nullptr ? QVariant(characterName(m_view, key))
-                                                           : QVariant();
-    default:
-        return {};
+    if (const PacketFacts* shown = facts(row)) {
+        return cell(*shown, index.column(), role);
     }
+    return role == Qt::DisplayRole && index.column() == kNumber ? grouped(packetAt(row)) : QVariant();
 }
 
 QVariant PacketModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation != Qt::Horizontal) {
-        return {};
-    }
-    if (role == Qt::DisplayRole && section == kTime && m_timeMode == TimeMode::TimeOfDay) {
+    if (orientation == Qt::Horizontal && section == kTime && role == Qt::DisplayRole &&
+        m_timeMode == TimeMode::TimeOfDay) {
         return tr("Date and time");
     }
-    if (role == Qt::ToolTipRole && section == kDelta && m_deltaMode == DeltaMode::RowAbove) {
-        return tr("Since the row above");
+    if (orientation == Qt::Horizontal && section == kDelta && m_deltaMode == DeltaMode::RowAbove) {
+        if (role == Qt::DisplayRole || role == Qt::ToolTipRole) {
+            return role == Qt::DisplayRole ? tr("Δ row ms") : tr("Since the row above");
+        }
     }
-    if (role == Qt::DisplayRole && section == kDelta && m_deltaMode == DeltaMode::RowAbove) {
-        return tr("Δ row ms");
-    }
-    return columnHeader(kColumns, "posewire::gui::PacketModel", section, role);
+    return ColumnModel::headerData(section, orientation, role);
 }
 
 } // namespace posewire::gui

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/column.h"
 #include "app/gui/models/packet_facts.h"
-
-#include <QAbstractTableModel>
 
 #include <deque>
 #include <optional>
@@ -18,9 +17,7 @@ inline constexpr int kStripeRole = Qt::UserRole + 21;
 
 /// The packets of the log, or those that a filter lets through, in the order of arrival. Without a filter a
 /// row is a number and takes no memory; texts are made when they are asked for.
-class PacketModel : public QAbstractTableModel {
-    Q_OBJECT
-
+class PacketModel : public ColumnModel<PacketFacts> {
 public:
     enum Column : int {
         kNumber,
@@ -73,18 +70,19 @@ public:
     [[nodiscard]] model::SessionView& view() const { return m_view; }
 
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
     [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
 private:
     const PacketFacts* facts(int row) const;
     void removeDropped();
     void insertNew();
-    [[nodiscard]] QString text(const PacketFacts& facts, int row, int column) const;
+    /// Read the model only where a cell is asked for.
+    [[nodiscard]] static std::vector<TableColumn<PacketFacts>> columns(const PacketModel& model);
     [[nodiscard]] QString timeText(const PacketFacts& facts) const;
-    [[nodiscard]] double deltaMs(const PacketFacts& facts, int row) const;
-    [[nodiscard]] QVariant colour(const PacketFacts& facts, int column) const;
+    [[nodiscard]] double deltaMs(const PacketFacts& facts) const;
+    [[nodiscard]] QString senderText(const PacketFacts& facts) const;
+    [[nodiscard]] QVariant characterMark(const PacketFacts& facts, int role) const;
 
     model::SessionView& m_view;
     bool m_isFiltered = false;

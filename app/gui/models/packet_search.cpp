@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_search.h"
 
+#include "app/gui/theme/words.h"
 #include "core/export/hexadecimal.h"
 #include "core/log/log_reader.h"
 
-#include <QCoreApplication>
 #include <QRegularExpression>
 
 #include <algorithm>
@@ -15,10 +15,6 @@ namespace {
 
 /// So many packets are looked at before what the log has dropped is let go.
 constexpr std::uint64_t kPacketsAtATime = 8192;
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("PacketSearch", text);
-}
 
 std::byte folded(std::byte byte) {
     const auto value = std::to_integer<unsigned char>(byte);

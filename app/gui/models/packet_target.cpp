@@ -2,8 +2,8 @@
 #include "app/gui/models/packet_target.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 
-#include <QCoreApplication>
 #include <QDateTime>
 #include <QRegularExpression>
 
@@ -18,10 +18,6 @@ using Target = tl::expected<std::uint64_t, QString>;
 constexpr double kNsPerSecond = 1e9;
 constexpr std::int64_t kNsPerMs = 1'000'000;
 constexpr double kMostSeconds = 1e9;
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("PacketTarget", text);
-}
 
 Target atStamp(model::SessionView& view, std::int64_t stampNs, const QString& text) {
     const std::uint64_t number = packetFrom(view, stampNs);

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_text.h"
 
-#include "app/gui/models/csv_cell.h"
 #include "app/gui/models/packet_model.h"
-#include "app/gui/models/roles.h"
+#include "core/export/csv.h"
 #include "core/export/hexadecimal.h"
 #include "core/export/json.h"
 #include "core/filter/expression_for.h"
 #include "core/wire/type_table.h"
-
-#include <QStringList>
 
 #include <algorithm>
 
@@ -57,13 +54,6 @@ QString json(model::SessionView& view, const log::Packet& packet) {
     const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
                                                     : exporting::datagramJson(place, packet.bytes);
     return QString::fromStdString(object) + QLatin1Char('\n');
-}
-
-QString cell(const PacketModel& model, int row, int column) {
-    const QModelIndex index = model.index(row, column);
-    const QString suffix = index.data(kSuffixRole).toString();
-    const QString text = index.data(Qt::DisplayRole).toString();
-    return suffix.isEmpty() ? text : text + QLatin1Char(' ') + suffix;
 }
 
 QString expression(const char* field, const QString& value) {
@@ -129,7 +119,7 @@ QString packetRowsText(const PacketModel& model, std::span<const int> rows) {
     QString text;
     for (const int row : rows) {
         for (int column = 0; column < model.columnCount(); ++column) {
-            text += (column == 0 ? QString() : QStringLiteral("\t")) + cell(model, row, column);
+            text += (column == 0 ? QString() : QStringLiteral("\t")) + cellText(model.index(row, column));
         }
         text += QLatin1Char('\n');
     }
@@ -137,23 +127,24 @@ QString packetRowsText(const PacketModel& model, std::span<const int> rows) {
 }
 
 QString packetRowsCsv(const PacketModel& model, std::span<const int> rows) {
-    QStringList titles;
+    std::vector<std::string> cells;
     for (int column = 0; column < model.columnCount(); ++column) {
-        titles += csvCell(model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+        cells.push_back(model.headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().toStdString());
     }
-    QString text = titles.join(QLatin1Char(',')) + QStringLiteral("\r\n");
+    std::string text = exporting::csvLine(cells);
     for (const int row : rows) {
-        QStringList cells;
+        cells.clear();
         for (int column = 0; column < model.columnCount(); ++column) {
-            QString content = cell(model, row, column);
-            if (model.index(row, column).data(Qt::TextAlignmentRole).isValid()) {
+            const QModelIndex index = model.index(row, column);
+            QString content = cellText(index);
+            if (index.data(Qt::TextAlignmentRole).isValid()) {
                 content.remove(QChar(0x202f)).replace(QChar(0x2212), QLatin1Char('-'));
             }
-            cells += csvCell(content);
+            cells.push_back(content.toStdString());
         }
-        text += cells.join(QLatin1Char(',')) + QStringLiteral("\r\n");
+        text += exporting::csvLine(cells);
     }
-    return text;
+    return QString::fromStdString(text);
 }
 
 QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column) {

@@ -2,16 +2,11 @@
 #include "app/gui/models/receiver_facts.h"
 
 #include "app/gui/models/text.h"
-
-#include <QCoreApplication>
+#include "app/gui/theme/words.h"
 
 namespace posewire::gui {
 
 namespace {
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("ReceiverFacts", text);
-}
 
 std::uint64_t sum(model::SessionView& view, std::uint64_t model::Sender::*count) {
     std::uint64_t total = 0;

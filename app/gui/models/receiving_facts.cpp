@@ -2,8 +2,8 @@
 #include "app/gui/models/receiving_facts.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 
-#include <QCoreApplication>
 #include <QLocale>
 
 namespace posewire::gui {
@@ -13,10 +13,6 @@ namespace {
 /// At the design load, 9,600 datagrams a second, this much lasts for 50 ms without the receiving thread.
 constexpr std::int64_t kSmallBuffer = std::int64_t{1} << 20;
 constexpr std::int64_t kLongDelayNs = 100'000'000;
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("ReceivingFacts", text);
-}
 
 PropertyValue buffer(const ReceivingState& state) {
     if (state.receiveBufferBytes == 0) {

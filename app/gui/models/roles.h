@@ -14,5 +14,7 @@ inline constexpr int kSpanRole = Qt::UserRole + 5;
 inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it
 /// QList<float>: where the curve is to be marked, as many as it has values; 0 for no mark.
 inline constexpr int kMarksRole = Qt::UserRole + 6;
+/// What orders rows by this column: a number where the text is one, else the text.
+inline constexpr int kSortRole = Qt::UserRole + 7;
 
 } // namespace posewire::gui

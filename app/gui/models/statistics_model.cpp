@@ -21,7 +21,8 @@ constexpr std::int64_t kLeastPartNs = 500'000'000;
 
 } // namespace
 
-StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent) : StreamTreeModel(view, parent) {}
+StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent)
+    : StreamTreeModel(view, {}, parent) {}
 
 void StatisticsModel::refresh() {
     ++m_turn;

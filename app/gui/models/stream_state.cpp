@@ -3,9 +3,8 @@
 
 #include "app/gui/models/event_words.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/wire/type_table.h"
-
-#include <QCoreApplication>
 
 #include <algorithm>
 
@@ -13,20 +12,16 @@ namespace posewire::gui {
 
 namespace {
 
-QString tr(const char* text) {
-    return QCoreApplication::translate("StreamState", text);
+PropertyValue silent(double age) {
+    return {tr("silent %1").arg(duration(age)), Health::Warning};
 }
 
-State silent(double age) {
-    return {Health::Warning, tr("silent %1").arg(duration(age))};
-}
-
-State stale(double age) {
-    return {Health::Error, tr("stale %1").arg(duration(age))};
+PropertyValue stale(double age) {
+    return {tr("stale %1").arg(duration(age)), Health::Error};
 }
 
 /// Slow streams are given the time of two and a half samples before they are silent.
-State ageState(double age, double rateHz) {
+PropertyValue ageState(double age, double rateHz) {
     const double patience = rateHz > 0 ? 2.5 / rateHz : 0.0;
     if (age >= std::max(kStaleAge, patience)) {
         return stale(age);
@@ -37,16 +32,16 @@ State ageState(double age, double rateHz) {
     return {};
 }
 
-State countState(std::uint64_t malformed, std::uint64_t lost) {
+PropertyValue countState(std::uint64_t malformed, std::uint64_t lost) {
     if (malformed != 0) {
-        return {Health::Error, tr("%1 malformed").arg(grouped(malformed))};
+        return {tr("%1 malformed").arg(grouped(malformed)), Health::Error};
     }
-    return {lost == 0 ? Health::Good : Health::Warning, grouped(lost)};
+    return {grouped(lost), lost == 0 ? Health::Good : Health::Warning};
 }
 
 /// Another sender has taken over: nothing is wrong, and nothing more will come.
-State ended() {
-    return {Health::Unknown, tr("ended")};
+PropertyValue ended() {
+    return {tr("ended"), Health::Unknown};
 }
 
 /// What is missing of one sample is missing in each of its types: the worst stream counts.
@@ -86,20 +81,16 @@ double ageOf(model::SessionView& view, std::int64_t stampNs) {
 
 } // namespace
 
-QString State::display() const {
-    return health == Health::Unknown ? text : healthSymbol(health) + QLatin1Char(' ') + text;
-}
-
 double streamAge(model::SessionView& view, const model::Stream& stream) {
     return ageOf(view, stream.accounting.lastStampNs());
 }
 
-State streamState(model::SessionView& view, const model::Stream& stream) {
+PropertyValue streamState(model::SessionView& view, const model::Stream& stream) {
     if (view.isSuperseded({stream.key.sender, stream.key.character})) {
         return ended();
     }
     if (wire::isSampled(stream.key.type)) {
-        const State age = ageState(streamAge(view, stream), stream.statistics.rateHz());
+        const PropertyValue age = ageState(streamAge(view, stream), stream.statistics.rateHz());
         if (age.health != Health::Unknown) {
             return age;
         }
@@ -107,44 +98,44 @@ State streamState(model::SessionView& view, const model::Stream& stream) {
     return countState(stream.accounting.malformed(), stream.accounting.counts().lost);
 }
 
-State characterState(model::SessionView& view, const model::Character& character) {
+PropertyValue characterState(model::SessionView& view, const model::Character& character) {
     if (view.isSuperseded(character.key)) {
         return ended();
     }
     const model::Condition condition = view.conditionOf(character.key);
     if (condition.level == model::Condition::Level::Good) {
-        return {Health::Good, grouped(lostOf(view, character.key))};
+        return {grouped(lostOf(view, character.key)), Health::Good};
     }
     const Health health = condition.level == model::Condition::Level::Error ? Health::Error : Health::Warning;
     const double age = view.ageSeconds(character.key);
     if (age >= kSilentAge) {
-        return {health, (age >= kStaleAge ? tr("stale %1") : tr("silent %1")).arg(duration(age))};
+        return {(age >= kStaleAge ? tr("stale %1") : tr("silent %1")).arg(duration(age)), health};
     }
     if (const model::Event* event = condition.event ? view.events().find(*condition.event) : nullptr) {
-        return {health, briefWords(*event)};
+        return {briefWords(*event), health};
     }
-    return {health, contradictionOf(view, character.key)};
+    return {contradictionOf(view, character.key), health};
 }
 
-State senderState(model::SessionView& view, const model::Sender& sender) {
+PropertyValue senderState(model::SessionView& view, const model::Sender& sender) {
     if (hasEnded(view, sender)) {
         return ended();
     }
-    const State age = ageState(ageOf(view, sender.lastStampNs), 0.0);
+    const PropertyValue age = ageState(ageOf(view, sender.lastStampNs), 0.0);
     if (age.health != Health::Unknown) {
         return age;
     }
     if (sender.kernelDrops != 0) {
-        return {Health::Error, tr("%1 dropped here").arg(grouped(sender.kernelDrops))};
+        return {tr("%1 dropped here").arg(grouped(sender.kernelDrops)), Health::Error};
     }
     if (sender.malformed != 0) {
-        return {Health::Error, tr("%1 malformed").arg(grouped(sender.malformed))};
+        return {tr("%1 malformed").arg(grouped(sender.malformed)), Health::Error};
     }
     if (sender.foreign != 0) {
-        return {Health::Warning, tr("%1 foreign").arg(grouped(sender.foreign))};
+        return {tr("%1 foreign").arg(grouped(sender.foreign)), Health::Warning};
     }
     if (const auto found = sender.contradictions(); !found.empty()) {
-        return {Health::Warning, QString::fromStdString(found.front().brief)};
+        return {QString::fromStdString(found.front().brief), Health::Warning};
     }
     return {};
 }

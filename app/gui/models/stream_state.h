@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/theme/theme.h"
+#include "app/gui/models/property_value.h"
 #include "core/model/session/session_view.h"
-
-#include <QString>
 
 namespace posewire::gui {
 
@@ -12,25 +10,16 @@ namespace posewire::gui {
 inline constexpr double kSilentAge = model::Condition::kSilentS;
 inline constexpr double kStaleAge = model::Condition::kStaleS;
 
-/// Whether a stream, character or sender is well, in one cell: shape, colour and text.
-struct State {
-    Health health = Health::Unknown;
-    QString text;
-
-    /// "▲ 31", or the text alone where health is unknown.
-    [[nodiscard]] QString display() const;
-};
-
 /// Seconds since the newest datagram of a stream; at least 0, also when the cursor lies before it.
 [[nodiscard]] double streamAge(model::SessionView& view, const model::Stream& stream);
 
-/// Age first, then malformed datagrams, then lost samples. Types that are sent now and then (12, 13) never
-/// get stale.
-[[nodiscard]] State streamState(model::SessionView& view, const model::Stream& stream);
+/// Whether a stream is well: age first, then malformed datagrams, then lost samples. Types that are sent now
+/// and then (12, 13) never get stale.
+[[nodiscard]] PropertyValue streamState(model::SessionView& view, const model::Stream& stream);
 /// The session's own judgement (SessionView::conditionOf) in a few words; what was lost in all where it is
 /// good.
-[[nodiscard]] State characterState(model::SessionView& view, const model::Character& character);
-[[nodiscard]] State senderState(model::SessionView& view, const model::Sender& sender);
+[[nodiscard]] PropertyValue characterState(model::SessionView& view, const model::Character& character);
+[[nodiscard]] PropertyValue senderState(model::SessionView& view, const model::Sender& sender);
 
 /// True while data keep coming: no older than kStaleAge.
 [[nodiscard]] bool isLive(model::SessionView& view, const model::Character& character);

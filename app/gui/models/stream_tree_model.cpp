@@ -15,8 +15,9 @@ model::CharacterKey characterOf(const log::StreamKey& key) {
 
 } // namespace
 
-StreamTreeModel::StreamTreeModel(model::SessionView& view, QObject* parent)
-    : QAbstractItemModel(parent), m_view(view) {}
+StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
+                                 QObject* parent)
+    : ColumnModel(std::move(columns), parent), m_view(view) {}
 
 void StreamTreeModel::insertNew() {
     m_senderNodes.resize(m_view.senders().size(), kNone);
@@ -24,12 +25,6 @@ void StreamTreeModel::insertNew() {
     m_streamNodes.resize(m_view.streams().size(), kNone);
     if (!insertSenders() && !insertCharacters()) {
         insertStreams();
-    }
-}
-
-void StreamTreeModel::announceChange() {
-    if (!m_roots.empty()) {
-        emit dataChanged(index(0, 0), index(static_cast<int>(m_roots.size()) - 1, columnCount() - 1));
     }
 }
 
@@ -190,6 +185,11 @@ int StreamTreeModel::rowCount(const QModelIndex& parent) const {
         return static_cast<int>(m_roots.size());
     }
     return parent.column() == 0 ? static_cast<int>(nodeOf(parent).children.size()) : 0;
+}
+
+QVariant StreamTreeModel::data(const QModelIndex& index, int role) const {
+    return checkIndex(index, CheckIndexOption::IndexIsValid) ? cell(nodeOf(index), index.column(), role)
+                                                             : QVariant();
 }
 
 } // namespace posewire::gui

@@ -1,24 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/column.h"
 #include "core/model/session/session_view.h"
-
-#include <QAbstractItemModel>
 
 #include <optional>
 #include <vector>
 
 namespace posewire::gui {
 
+/// A row of a table of senders, characters and streams.
+struct StreamRow {
+    enum class Kind : std::uint8_t { Sender, Character, Stream };
+    Kind kind;
+    std::size_t entry; ///< in the session's list of its kind
+    int parent;        ///< node, -1 for senders
+    int row;
+    std::vector<int> children;
+};
+
 /// The rows of tables that show sender > character > stream, each in the order of first appearance, so that
-/// rows never jump. What stands in them is up to whoever derives from this.
-class StreamTreeModel : public QAbstractItemModel {
-    Q_OBJECT
-
+/// rows never jump. What they say is up to the columns.
+class StreamTreeModel : public ColumnModel<StreamRow, QAbstractItemModel> {
 public:
-    explicit StreamTreeModel(model::SessionView& view, QObject* parent = nullptr);
+    StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
+                    QObject* parent = nullptr);
 
-    /// What a row stands for; nothing above its own level is filled in for senders.
+    /// What a row is about; nothing above its own level is filled in for senders.
     [[nodiscard]] std::optional<model::CharacterKey> character(const QModelIndex& index) const;
     [[nodiscard]] std::optional<log::SenderId> sender(const QModelIndex& index) const;
     /// Null where the row is not one of a stream.
@@ -29,23 +37,17 @@ public:
     [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
     [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override;
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
 protected:
-    enum class Kind : std::uint8_t { Sender, Character, Stream };
-    struct Node {
-        Kind kind;
-        std::size_t entry; ///< in the session's list of its kind
-        int parent;        ///< node, -1 for senders
-        int row;
-        std::vector<int> children;
-    };
+    using Kind = StreamRow::Kind;
+    using Node = StreamRow;
 
     /// Announces at most one insertion: what appears under several parents at once arrives over the next
     /// calls.
     void insertNew();
-    /// Announces that anything may have changed, once, for the senders; views repaint what stands under them
-    /// too.
-    void announceChange();
+    /// Announces that anything may have changed, once, for the senders; views repaint what is under them too.
+    void announceChange() { ColumnModel::announceChange(0, rowCount() - 1); }
     [[nodiscard]] const Node& nodeOf(const QModelIndex& index) const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }
 

@@ -17,6 +17,10 @@ QString padded(std::int64_t value, int digits) {
 
 } // namespace
 
+QString fromUtf8(std::string_view text) {
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
 QString grouped(std::uint64_t value) {
     QString digits = QString::number(value);
     for (auto at = digits.size() - 3; at > 0; at -= 3) {

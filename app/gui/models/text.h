@@ -4,9 +4,13 @@
 #include <QString>
 
 #include <cstdint>
+#include <string_view>
 
 /// How figures are written everywhere in the window: fixed decimals, a true minus, thousands set apart.
 namespace posewire::gui {
+
+/// UTF-8 of the core as a text of the window.
+[[nodiscard]] QString fromUtf8(std::string_view text);
 
 /// 153402 as "153 402", with narrow no-break spaces.
 [[nodiscard]] QString grouped(std::uint64_t value);

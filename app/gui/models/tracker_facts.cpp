@@ -2,19 +2,14 @@
 #include "app/gui/models/tracker_model.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/body/spaces.h"
-
-#include <QCoreApplication>
 
 #include <span>
 
 namespace posewire::gui {
 
 namespace {
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("TrackerFacts", text);
-}
 
 /// Components in columns of equal width, so that they do not dance.
 QString components(std::span<const float> values, int decimals) {

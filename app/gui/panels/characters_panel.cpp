@@ -27,7 +27,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
     m_table->setColumnSamples({QString(), QStringLiteral("240/239.9"), QStringLiteral("▲ silent 0.9 s")},
                               QStringLiteral("    02 Pose, qu"));
     showEmptyState();
-    connect(&m_model, &QAbstractItemModel::rowsInserted, this, &CharactersPanel::expandNew);
+    m_table->expandNew();
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &CharactersPanel::select);
     connect(m_table, &QAbstractItemView::doubleClicked, this, &CharactersPanel::frame);
@@ -64,15 +64,6 @@ QString CharactersPanel::summary() const {
     const auto live = std::ranges::count_if(
         characters, [this](const model::Character* character) { return isLive(m_view, *character); });
     return tr("%1 of %2 live").arg(live).arg(characters.size());
-}
-
-void CharactersPanel::expandNew(const QModelIndex& parent, int first, int last) {
-    if (parent.isValid() && parent.parent().isValid()) {
-        return; // streams of a character: whether they show is up to the operator by now
-    }
-    for (int row = first; row <= last; ++row) {
-        m_table->expandRecursively(m_model.index(row, 0, parent));
-    }
 }
 
 void CharactersPanel::followSelection() {

@@ -20,7 +20,6 @@ public:
 
 private:
     void showEmptyState();
-    void expandNew(const QModelIndex& parent, int first, int last);
     void followSelection();
     void select(const QModelIndex& index);
     void frame(const QModelIndex& index);

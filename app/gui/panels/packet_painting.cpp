@@ -4,7 +4,7 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
-#include "app/gui/theme/balanced_text.h"
+#include "app/gui/panels/table_view.h"
 #include "app/gui/theme/theme.h"
 
 #include <QPaintEvent>
@@ -39,14 +39,12 @@ QString fitting(const QFontMetrics& metrics, const QString& text, int width) {
 } // namespace
 
 void PacketView::paintEvent(QPaintEvent* event) {
-    QPainter painter(viewport());
     const int rows = model() == nullptr ? 0 : model()->rowCount();
     if (rows == 0) {
-        painter.setPen(theme().dim);
-        const int space = 2 * CellDelegate::margin(fontMetrics());
-        drawBalanced(painter, viewport()->rect().adjusted(space, space, -space, -space), m_emptyText);
+        drawEmptyText(*viewport(), m_emptyText);
         return;
     }
+    QPainter painter(viewport());
     painter.setFont(packetFont());
     const int height = rowHeight();
     const int first = topRow() + event->rect().top() / height;

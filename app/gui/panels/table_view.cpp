@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/table_view.h"
 
-#include "app/gui/models/roles.h"
+#include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/balanced_text.h"
 #include "app/gui/theme/theme.h"
@@ -15,6 +15,13 @@
 #include <algorithm>
 
 namespace posewire::gui {
+
+void drawEmptyText(QWidget& view, const QString& text) {
+    QPainter painter(&view);
+    painter.setPen(theme().dim);
+    const int space = 2 * CellDelegate::margin(view.fontMetrics());
+    drawBalanced(painter, view.rect().adjusted(space, space, -space, -space), text);
+}
 
 TableView::TableView(const QString& name, QWidget* parent) : QTreeView(parent) {
     setAccessibleName(name);
@@ -41,6 +48,15 @@ void TableView::setColumnSamples(std::vector<QString> samples, const QString& le
     m_samples = std::move(samples);
     m_leastOpen = leastOpen.isEmpty() ? QStringLiteral("12345678") : leastOpen;
     fitColumns();
+}
+
+void TableView::expandNew() {
+    connect(model(), &QAbstractItemModel::rowsInserted, this,
+            [this](const QModelIndex& parent, int first, int last) {
+                for (int row = first; row <= last && !parent.parent().isValid(); ++row) {
+                    expandRecursively(model()->index(row, 0, parent));
+                }
+            });
 }
 
 void TableView::setEmptyText(const QString& text) {
@@ -175,16 +191,7 @@ void TableView::paintEvent(QPaintEvent* event) {
     if (m_emptyText.isEmpty() || model() == nullptr || model()->rowCount() != 0) {
         return;
     }
-    QPainter painter(viewport());
-    painter.setPen(theme().dim);
-    const int space = 2 * CellDelegate::margin(fontMetrics());
-    drawBalanced(painter, viewport()->rect().adjusted(space, space, -space, -space), m_emptyText);
-}
-
-QString TableView::cellText(const QModelIndex& index) const {
-    const QString text = index.data(Qt::DisplayRole).toString();
-    const QString suffix = index.data(kSuffixRole).toString();
-    return suffix.isEmpty() ? text : text + QLatin1Char(' ') + suffix;
+    drawEmptyText(*viewport(), m_emptyText);
 }
 
 QString TableView::rowText(const QModelIndex& index) const {

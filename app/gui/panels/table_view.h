@@ -10,6 +10,9 @@ class QMenu;
 
 namespace posewire::gui {
 
+/// What to do where a list is empty, in the middle of its viewport.
+void drawEmptyText(QWidget& view, const QString& text);
+
 /// The one way in which docks show a model: rows of the theme's height, cells by CellDelegate, columns as
 /// wide as a sample of what may stand in them, a sentence where there are no rows, copying by keyboard and
 /// menu.
@@ -32,6 +35,10 @@ public:
     [[nodiscard]] QJsonArray chosenColumns() const;
     void setChosenColumns(const QJsonArray& columns);
 
+    /// From now on, opens what is inserted on the first two levels of a tree, with all under it. What comes
+    /// below those is left as it is: whether it shows is up to the operator by then.
+    void expandNew();
+
     /// What to do where the table is empty.
     void setEmptyText(const QString& text);
     [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
@@ -40,13 +47,12 @@ public:
     [[nodiscard]] int heightForRows(int rows) const;
 
     /// Rows as lines, cells set apart by tabs: what the copy commands give.
-    [[nodiscard]] QString cellText(const QModelIndex& index) const;
     [[nodiscard]] QString rowText(const QModelIndex& index) const;
     [[nodiscard]] QString allText() const;
 
 signals:
     void copyRequested(const QString& text);
-    /// The menu of a row, or of none, is about to be shown; what is added to it stands first.
+    /// The menu of a row, or of none, is about to be shown; what is added to it comes first.
     void menuRequested(QMenu& menu, const QModelIndex& index);
 
 protected:

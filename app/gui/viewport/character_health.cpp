@@ -37,7 +37,7 @@ double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& k
 CharacterHealth characterHealth(model::SessionView& session, const model::CharacterKey& key) {
     const double age = shownAgeSeconds(session, key);
     const model::Character* character = session.find(key);
-    const State state = character == nullptr ? State{} : characterState(session, *character);
+    const PropertyValue state = character == nullptr ? PropertyValue{} : characterState(session, *character);
     if (state.health != Health::Good) {
         return {state.health, state.text, age};
     }
