@@ -14,10 +14,7 @@
 
 namespace posewire::gui {
 
-namespace {
-
-
-} // namespace
+namespace {} // namespace
 
 ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     : QDialog(parent),
@@ -41,9 +38,10 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
             [this] { setChoices({}); });
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
-    column->addWidget(dimText(tr("A stream that exceeds one of these raises one event per episode, which also "
-                                 "shows in the health of its character. Changes apply from now on."),
-                              this));
+    column->addWidget(
+        dimText(tr("A stream that exceeds one of these raises one event per episode, which also "
+                   "shows in the health of its character. Changes apply from now on."),
+                this));
     column->addLayout(form);
     column->addWidget(m_explanation);
     column->addWidget(buttons);
