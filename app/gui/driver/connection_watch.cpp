@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/connection_watch.h"
 
+#include "core/log/time.h"
+
 #include <algorithm>
 #include <cstdlib>
 
@@ -8,8 +10,8 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kExamineNs = 250'000'000;
-constexpr std::int64_t kAskNs = 3'000'000'000;
+constexpr std::int64_t kExamineNs = 250 * log::kMillisecondNs;
+constexpr std::int64_t kAskNs = 3 * log::kSecondNs;
 
 net::InputKind kindOf(InputAddress::Kind kind) {
     switch (kind) {

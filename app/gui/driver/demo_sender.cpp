@@ -3,6 +3,7 @@
 
 #include "app/net/datagram_sender.h"
 #include "app/net/send_schedule.h"
+#include "core/log/time.h"
 #include "core/performer/performer.h"
 #include "core/wire/codec.h"
 
@@ -14,8 +15,7 @@ namespace {
 
 /// A sender that fell behind (a sleeping computer) goes on from now instead of flooding the receiver with the
 /// past.
-constexpr std::int64_t kGreatestLagNs = 250'000'000;
-constexpr double kNsPerSecond = 1e9;
+constexpr std::int64_t kGreatestLagNs = 250 * log::kMillisecondNs;
 
 } // namespace
 
@@ -37,7 +37,7 @@ void DemoSender::run(int characters, std::uint16_t port) {
     performer::Performer performer(settings);
     const log::SystemClock clock;
     net::SendSchedule schedule(clock);
-    const auto periodNs = static_cast<std::int64_t>(kNsPerSecond / settings.rateHz);
+    const auto periodNs = static_cast<std::int64_t>(static_cast<double>(log::kSecondNs) / settings.rateHz);
     std::vector<wire::Datagram> datagrams;
     std::vector<std::byte> bytes;
     std::int64_t skippedNs = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/health_meter.h"
 
+#include "core/log/time.h"
+
 #include <utility>
 
 namespace posewire::gui {
@@ -23,13 +25,13 @@ void HealthMeter::add(const Reading& reading) {
     if (followed != 0) {
         m_health.followUsPerPacket = static_cast<double>(followNs) * 1e-3 / static_cast<double>(followed);
     }
-    const double seconds = before ? static_cast<double>(reading.monotonicNs - before->monotonicNs) * 1e-9 : 0;
+    const double seconds = before ? log::secondsOf(reading.monotonicNs - before->monotonicNs) : 0;
     if (seconds <= 0) {
         return;
     }
     m_health.receiverShare = shareOf(before->receiverCpuS, reading.receiverCpuS, seconds);
     m_health.processShare = shareOf(before->processCpuS, reading.processCpuS, seconds);
-    m_health.followShare = static_cast<double>(followNs) * 1e-9 / seconds;
+    m_health.followShare = log::secondsOf(followNs) / seconds;
     m_health.framesPerSecond = static_cast<double>(reading.frames - before->frames) / seconds;
 }
 

@@ -2,6 +2,7 @@
 #include "app/gui/driver/raw_file_import.h"
 
 #include "core/log/raw_file.h"
+#include "core/log/time.h"
 #include "core/wire/header.h"
 
 #include <QCoreApplication>
@@ -13,9 +14,8 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kNsPerMs = 1'000'000;
 /// Longer jumps of the time code are taken for a new beginning.
-constexpr std::int64_t kGreatestStepNs = 10'000 * kNsPerMs;
+constexpr std::int64_t kGreatestStepNs = 10 * log::kSecondNs;
 
 /// Time within a raw file, told by its time codes, from 0.
 class TimeCodeStamps {
@@ -24,7 +24,8 @@ public:
         const auto header = wire::decodeHeader(record.bytes);
         if (!record.isSkipped && header) {
             const std::int64_t step =
-                m_timeCode ? (static_cast<std::int64_t>(header->timeCode) - *m_timeCode) * kNsPerMs : 0;
+                m_timeCode ? (static_cast<std::int64_t>(header->timeCode) - *m_timeCode) * log::kMillisecondNs
+                           : 0;
             m_stampNs += step > 0 && step <= kGreatestStepNs ? step : 0;
             m_timeCode = header->timeCode;
         }

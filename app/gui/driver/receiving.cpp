@@ -2,6 +2,7 @@
 #include "app/gui/driver/receiving.h"
 
 #include "app/gui/driver/raw_file_import.h"
+#include "core/log/time.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
@@ -14,7 +15,7 @@ namespace {
 
 using Kind = InputAddress::Kind;
 
-constexpr std::int64_t kRateWindowNs = 1'000'000'000;
+constexpr std::int64_t kRateWindowNs = log::kSecondNs;
 
 net::Endpoint endpointOf(const InputAddress& port) {
     return {port.address.toStdString(), port.port};
@@ -158,7 +159,7 @@ void Receiving::measure(std::int64_t nowNs) {
     m_state.longestDelayNs = figures.longestDelayNs;
     const Totals totals{nowNs, figures.datagrams, figures.bytes};
     const Totals& before = oldest(m_totals, totals);
-    const double seconds = static_cast<double>(nowNs - before.stampNs) * 1e-9;
+    const double seconds = log::secondsOf(nowNs - before.stampNs);
     if (seconds > 0) {
         m_state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
         m_state.bytesPerSecond = static_cast<double>(totals.bytes - before.bytes) / seconds;
@@ -184,7 +185,7 @@ void Receiving::measurePorts(std::int64_t nowNs) {
         }
         const Totals totals{nowNs, state.status.datagrams, state.status.bytes};
         const Totals& before = oldest(m_portTotals[*state.id], totals);
-        const double seconds = static_cast<double>(nowNs - before.stampNs) * 1e-9;
+        const double seconds = log::secondsOf(nowNs - before.stampNs);
         if (seconds > 0) {
             state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
         }

@@ -2,6 +2,7 @@
 #include "app/gui/driver/session_driver.h"
 
 #include "app/gui/driver/process_figures.h"
+#include "core/log/time.h"
 
 #include <QClipboard>
 #include <QGuiApplication>
@@ -14,9 +15,8 @@ namespace {
 
 constexpr int kTickMs = 16;
 constexpr int kSlowestTickMs = 200;
-constexpr std::int64_t kTableTickNs = 100'000'000;
-constexpr std::int64_t kRetryNs = 2'000'000'000;
-constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr std::int64_t kTableTickNs = 100 * log::kMillisecondNs;
+constexpr std::int64_t kRetryNs = 2 * log::kSecondNs;
 /// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake.
 constexpr std::size_t kPacketsPerTick = 50'000;
 
@@ -31,7 +31,7 @@ SessionDriver::SessionDriver(const log::Clock& clock, QObject* parent)
         tick();
         // A tick that takes long is followed by a rest as long: the window never takes more than half a
         // processor.
-        const auto tookMs = static_cast<int>((m_clock.monotonicNs() - begin) / kNsPerMs);
+        const auto tookMs = static_cast<int>((m_clock.monotonicNs() - begin) / log::kMillisecondNs);
         m_timer.start(std::clamp(std::max(kTickMs - tookMs, tookMs), 1, kSlowestTickMs));
     });
 }

@@ -2,6 +2,7 @@
 #include "app/gui/viewport/character_health.h"
 
 #include "app/gui/models/stream_state.h"
+#include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 
 #include <QCoreApplication>
@@ -31,7 +32,7 @@ double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& k
     if (pose == nullptr) {
         return session.ageSeconds(key);
     }
-    return std::max(0.0, static_cast<double>(session.cursorStampNs() - pose->stampNs) * 1e-9);
+    return std::max(0.0, log::secondsOf(session.cursorStampNs() - pose->stampNs));
 }
 
 CharacterHealth characterHealth(model::SessionView& session, const model::CharacterKey& key) {

@@ -6,6 +6,7 @@
 #include "app/gui/viewport/opengl_probe.h"
 #include "app/gui/viewport/software_presenter.h"
 #include "app/gui/viewport/viewport_overlay.h"
+#include "core/log/time.h"
 
 #include <QApplication>
 #include <QMouseEvent>
@@ -103,7 +104,7 @@ void ViewportWidget::drawNext() {
 }
 
 void ViewportWidget::followCharacters(SceneFrame& frame) {
-    const double seconds = static_cast<double>(m_session.nowNs() - m_followedNs) * 1e-9;
+    const double seconds = log::secondsOf(m_session.nowNs() - m_followedNs);
     m_followedNs = m_session.nowNs();
     m_motion.follow(boxesOf(frame), aspect(), seconds);
 }
@@ -147,7 +148,7 @@ void ViewportWidget::updateOverlay() {
 }
 
 bool ViewportWidget::isSettled() const {
-    constexpr std::int64_t kFreshNs = 250'000'000;
+    constexpr std::int64_t kFreshNs = 250 * log::kMillisecondNs;
     const bool isIdle = !m_isOutdated && m_drawing == nullptr;
     return m_shown != nullptr && (isIdle || m_session.nowNs() - m_shown->builtNs < kFreshNs);
 }

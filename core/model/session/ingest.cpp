@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/ingest.h"
 
+#include "core/log/time.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace {
 constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
 constexpr std::size_t kMostCharacters = 1024;
 /// Packets that are not older than this when they are followed are live: silence after them is silence.
-constexpr std::int64_t kLiveNs = 10'000'000'000;
+constexpr std::int64_t kLiveNs = 10 * log::kSecondNs;
 
 std::string_view hostOf(const log::SenderInfo& info) {
     return std::string_view(info.address).substr(0, info.address.rfind(':'));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/null_pose_evidence.h"
 
+#include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/message.h"
 #include "core/model/session/session_view.h"
@@ -28,8 +29,7 @@ NullPoseEvidence nullPoseEvidence(const SessionView& session, const CharacterKey
     if (const CharacterPose* pose = session.pose(key)) {
         evidence.layout = pose->layout;
         if (const Stream* stream = session.find(log::StreamKey{key.sender, key.character, pose->type})) {
-            evidence.poseSeconds =
-                static_cast<double>(pose->stampNs - stream->accounting.firstStampNs()) * 1e-9;
+            evidence.poseSeconds = log::secondsOf(pose->stampNs - stream->accounting.firstStampNs());
         }
     }
     return evidence;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
@@ -12,7 +13,7 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kPoseTieNs = 250'000'000;
+constexpr std::int64_t kPoseTieNs = 250 * log::kMillisecondNs;
 constexpr std::array<std::uint8_t, 3> kPoseTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType,
                                                  wire::PoseUnity::kType};
 

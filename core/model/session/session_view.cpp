@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/session_view.h"
 
+#include "core/log/time.h"
 #include "core/model/session/ingest.h"
 
 #include <algorithm>
@@ -269,7 +270,7 @@ double SessionView::ageSeconds(const CharacterKey& key) const {
             newest = count != 0 ? std::max(newest, (*list)[count - 1].stampNs) : newest;
         }
     }
-    return std::max(0.0, static_cast<double>(cursorStampNs() - newest) * 1e-9);
+    return std::max(0.0, log::secondsOf(cursorStampNs() - newest));
 }
 
 } // namespace posewire::model
