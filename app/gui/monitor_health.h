@@ -6,8 +6,8 @@
 
 namespace posewire::gui {
 
-/// How this program itself fares, measured a few times a second; nothing where this system does not tell.
-/// Shares of a processor are of one core: 1.5 is one and a half.
+/// How this program itself is doing, measured a few times a second; nothing where the system does not report
+/// it. Shares of a processor are of one core: 1.5 is one and a half.
 struct MonitorHealth {
     std::optional<double> bufferFill{};    ///< share of the fullest receive buffer, the most since before
     std::optional<double> receiverShare{}; ///< of a core, by the receiving thread

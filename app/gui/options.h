@@ -31,7 +31,7 @@ struct InputAddress {
     friend bool operator==(const InputAddress&, const InputAddress&) = default;
 };
 
-/// "9763", "127.0.0.1:9763", "[::1]:9763"; the error tells what is wrong, and begins with the option's name.
+/// "9763", "127.0.0.1:9763", "[::1]:9763"; the error says what is wrong, and begins with the option's name.
 [[nodiscard]] tl::expected<InputAddress, QString>
 parseInputAddress(const QString& text, InputAddress::Kind kind = InputAddress::Kind::Udp);
 

@@ -13,7 +13,7 @@ class ConnectionPage;
 class RelayPage;
 class InputsPage;
 
-/// All about what comes in and goes on: inputs, relay, connection help. Stays open beside the window and
+/// What is received and passed on: inputs, relay, connection help. Stays open beside the window and
 /// shows what happens.
 class InputsDialog final : public QDialog {
     Q_OBJECT

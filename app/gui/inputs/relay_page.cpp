@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kTableRows = 6;
 
-/// "::1" has colons of its own: the port of an IPv6 address stands after brackets.
+/// "::1" has colons of its own: the port of an IPv6 address follows brackets.
 bool isBareAddress(const QString& text) {
     return text.count(QLatin1Char(':')) != 1 && !text.startsWith(QLatin1Char('['));
 }

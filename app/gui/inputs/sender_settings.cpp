@@ -15,7 +15,7 @@ namespace posewire::gui {
 
 namespace {
 
-/// More than so many are of no use to anybody.
+/// More addresses than this help nobody.
 constexpr std::size_t kMostHosts = 4;
 constexpr int kFirstHostRow = 3;
 

@@ -19,7 +19,7 @@ struct ByteRange {
 };
 
 /// The bytes of a packet in hexadecimal and as characters, as many in a row as there is room for. What is
-/// wrong is boxed or underlined, what no field stands on is dim.
+/// wrong is boxed or underlined, what belongs to no field is dim.
 class ByteView : public QAbstractScrollArea {
     Q_OBJECT
 

@@ -136,7 +136,7 @@ void CellDelegate::paintSeries(QPainter& painter, const QRectF& rect, const QLis
     }
     const float spread = std::max(most - least, std::max(kLeastSpread * most, 1e-6F));
     const float bottom = (most + least - spread) / 2;
-    // The newest value stands at the right edge; a short history leaves the left empty.
+    // The newest value is at the right edge; a short history leaves the left empty.
     const double step = rect.width() / (kPlaces - 1);
     QPainterPath path;
     bool isDown = false;
@@ -179,7 +179,7 @@ void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionVi
         painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
         return;
     }
-    // A short suffix, such as an ID, is what tells equal names apart: the text gives way. A long one gives
+    // A short suffix, such as an ID, distinguishes equal names: the text gives way. A long one gives
     // way itself.
     const int suffixWidth = suffix.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + suffix);
     const int reserved = suffixWidth <= rect.width() / 4 ? suffixWidth : 0;

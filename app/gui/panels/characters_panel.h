@@ -29,7 +29,7 @@ private:
     const ProgramView& m_program;
     CharacterModel m_model;
     TableView* m_table;
-    model::Selection m_followed; ///< the selection that the table stands at
+    model::Selection m_followed; ///< the selection that the table shows
     bool m_isFollowing = false;
 };
 

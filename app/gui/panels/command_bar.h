@@ -5,7 +5,7 @@
 
 namespace posewire::gui {
 
-/// Framed buttons that give way to what stands beside them: where there is no room they go into a menu.
+/// Framed buttons that give way to their neighbours: where there is no room they go into a menu.
 class CommandBar final : public QToolBar {
     Q_OBJECT
 

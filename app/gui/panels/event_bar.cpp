@@ -71,7 +71,8 @@ QToolButton* EventBar::addButton(const QString& name, const QString& text, const
 }
 
 void EventBar::addViews() {
-    m_current = addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what goes on, or may"));
+    m_current = addButton(QStringLiteral("currentEvents"), tr("Current"),
+                          tr("Only what is still going on, or may be"));
     m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
     auto* group = new QButtonGroup(this);
     for (QToolButton* button : {m_current, m_history}) {

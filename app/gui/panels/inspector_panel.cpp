@@ -306,7 +306,7 @@ void InspectorPanel::describeProblems() {
     m_problemLine->setVisible(!lines.isEmpty());
 }
 
-/// While no field is selected, its room tells of the packet as a whole.
+/// While no field is selected, its room describes the packet as a whole.
 void InspectorPanel::describePacket() {
     if (!m_isShown) {
         m_detail->clear();

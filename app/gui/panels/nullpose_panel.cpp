@@ -20,7 +20,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kRoomyLines = 30; ///< so high that figure and tables stand one below the other
+constexpr int kRoomyLines = 30; ///< high enough for the figure above the tables
 constexpr double kNoticeShare = 0.3;
 
 void setCurrentRow(TableView& table, int row) {
@@ -201,7 +201,7 @@ void NullPosePanel::refresh() {
     m_isFollowing = false;
 }
 
-/// Tabs and sides that have nothing to show stand back.
+/// Hides tabs and parts that have nothing to show.
 void NullPosePanel::showContent() {
     const bool hasPose = m_reading.pose() != nullptr;
     m_overview->setVisible(!m_reading.isEmpty());

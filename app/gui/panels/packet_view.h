@@ -28,7 +28,7 @@ public:
     [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
 
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
-    /// To the last row, and on with it from now on; or no longer, where it stands.
+    /// Goes to the last row and stays with it as rows come; or stops where it is.
     void setFollowing(bool isFollowing);
     /// While rows come that a filter found among what was there before: they are not new.
     void setCatchingUp(bool isCatchingUp) { m_isCatchingUp = isCatchingUp; }
@@ -45,7 +45,7 @@ public:
     [[nodiscard]] QRect visualRect(const QModelIndex& index) const override;
     void scrollTo(const QModelIndex& index, ScrollHint hint = EnsureVisible) override;
     [[nodiscard]] QModelIndex indexAt(const QPoint& point) const override;
-    /// Rows are told apart with the pointer and the arrows, not by typing.
+    /// Does nothing: rows are found with the pointer and the arrows, not by typing.
     void keyboardSearch(const QString& search) override;
 
 signals:

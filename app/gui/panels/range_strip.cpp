@@ -84,7 +84,7 @@ void RangeStrip::paintEvent(QPaintEvent*) {
 void RangeStrip::paintRate(QPainter& painter) const {
     const model::RangeParts& parts = m_overview.parts();
     const auto& counted = m_overview.counted();
-    // The last part goes on: it would always look like a loss.
+    // The last part is still being filled: it would always look like a loss.
     const std::size_t count = parts.beginOf(parts.count) > m_overview.span().toNs && parts.count > 1
                                   ? parts.count - 1
                                   : parts.count;

@@ -21,7 +21,7 @@ public:
 
     void refresh();
 
-    /// Pixels from the left at which a stamp stands, and back.
+    /// Pixels from the left for a stamp, and back.
     [[nodiscard]] double placeOf(std::int64_t stampNs) const;
     [[nodiscard]] std::int64_t stampAt(double place) const;
 

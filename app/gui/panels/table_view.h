@@ -14,7 +14,7 @@ namespace posewire::gui {
 void drawEmptyText(QWidget& view, const QString& text);
 
 /// The one way in which docks show a model: rows of the theme's height, cells by CellDelegate, columns as
-/// wide as a sample of what may stand in them, a sentence where there are no rows, copying by keyboard and
+/// wide as a sample of their content, a sentence where there are no rows, copying by keyboard and
 /// menu.
 class TableView : public QTreeView {
     Q_OBJECT

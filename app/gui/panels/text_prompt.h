@@ -10,7 +10,7 @@ class QLineEdit;
 
 namespace posewire::gui {
 
-/// Asks for one line of text and tells inside what is wrong with it.
+/// Asks for one line of text and shows what is wrong with it.
 class TextPrompt final : public QDialog {
     Q_OBJECT
 

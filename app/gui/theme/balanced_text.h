@@ -9,7 +9,7 @@
 namespace posewire::gui {
 
 /// The least width at which `text` takes no more lines than at `most`: its lines are then about equally long,
-/// and no word stands alone in the last one. Pixels.
+/// and no word is left alone in the last one. Pixels.
 [[nodiscard]] qreal balancedWidth(const QFontMetricsF& metrics, const QString& text, qreal most);
 
 /// Draws `text` in the middle of `room`, in balanced lines, with the painter's font and pen.

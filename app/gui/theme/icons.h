@@ -8,7 +8,7 @@
 namespace posewire::gui {
 
 /// An icon of resources/icons by its file name without ending, in the theme's text colour (or `colour`),
-/// sharp at any pixel ratio. Made anew when the theme changes: ask again then. Null where there is no such
+/// sharp at any pixel ratio. Made again when the theme changes: ask again then. Null where there is no such
 /// icon.
 [[nodiscard]] QIcon themedIcon(const QString& name, const QColor& colour = {});
 

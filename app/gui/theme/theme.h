@@ -21,7 +21,9 @@ struct Theme {
 
 enum class ThemeChoice { System, Dark, Light };
 
-/// The theme in use.
+/// The theme in use: that of the last applyTheme(), the dark one before. There is one for the whole
+/// application, as there is one palette and one style sheet, so it is not passed around. Only for the
+/// window's thread. What keeps a colour asks again on QEvent::PaletteChange or StyleChange.
 [[nodiscard]] const Theme& theme();
 
 /// A colour between two, by channels: 0 is the first, 1 the second.

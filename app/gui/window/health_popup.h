@@ -11,8 +11,8 @@ class QVBoxLayout;
 
 namespace posewire::gui {
 
-/// Says of one character why it is as it is: figures of the last seconds, and what goes on. Each line leads
-/// to its packets. Deletes itself when it is closed: by a click elsewhere or Escape.
+/// Says of one character why it is as it is: figures of the last seconds, and what is going on. Each line
+/// leads to its packets. Deletes itself when it is closed: by a click elsewhere or Escape.
 class HealthPopup final : public QFrame {
     Q_OBJECT
 

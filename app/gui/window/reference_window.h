@@ -25,7 +25,7 @@ public:
 
     /// Shows a heading by its anchor, as in the links of the text; false where there is none.
     bool goTo(const QString& anchor);
-    /// Selects the next place, or the one before, where the text of the search stands; begins again at the
+    /// Selects the next place, or the previous one, that contains the search text; begins again at the
     /// other end.
     bool find(bool isBackward);
 
@@ -43,7 +43,7 @@ private:
     QListWidget* m_contents;
     QLineEdit* m_search;
     QLabel* m_found;
-    QHash<QString, int> m_places; ///< where in the text a heading stands, by its anchor
+    QHash<QString, int> m_places; ///< where in the text each heading is, by its anchor
 };
 
 } // namespace posewire::gui

@@ -23,7 +23,7 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `pause` stops and goes on, `live` goes to the end, `inputs` is for one more input, `relay` tells
+    /// `pause` stops and continues, `live` goes to the end, `inputs` is for one more input, `relay` tells
     /// about forwarding.
     struct Actions {
         QAction* pause;
