@@ -2,8 +2,8 @@
 #include "app/gui/panels/statistics_panel.h"
 
 #include "app/gui/models/health_facts.h"
+#include "app/gui/models/log_facts.h"
 #include "app/gui/models/loss_facts.h"
-#include "app/gui/models/receiver_facts.h"
 #include "app/gui/models/receiving_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/statistics_filter.h"
@@ -22,9 +22,8 @@ constexpr int kFactsShown = 4;
 
 std::vector<Property> computerFacts(model::SessionView& view, const ProgramView& program) {
     std::vector<Property> facts = lossFacts(view);
-    for (auto& more :
-         {healthFacts(view, [&program] { return program.monitorHealth(); }),
-          receivingFacts([&program] { return program.receivingState(); }), receiverFacts(view)}) {
+    for (auto& more : {healthFacts(view, [&program] { return program.monitorHealth(); }),
+                       receivingFacts([&program] { return program.receivingState(); }), logFacts(view)}) {
         facts.insert(facts.end(), more.begin(), more.end());
     }
     return facts;

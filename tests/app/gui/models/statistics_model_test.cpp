@@ -2,8 +2,8 @@
 #include "app/gui/models/statistics_model.h"
 
 #include "app/gui/models/health_facts.h"
+#include "app/gui/models/log_facts.h"
 #include "app/gui/models/loss_facts.h"
-#include "app/gui/models/receiver_facts.h"
 #include "app/gui/models/roles.h"
 #include "app/gui/models/statistics_filter.h"
 #include "core/filter/filter.h"
@@ -207,7 +207,7 @@ TEST_F(StatisticsModelTest, CsvHasTheNumbersThemselvesNotWhatTheTableShows) {
 
 TEST(ReceiverFacts, TellsWhatThisComputerDropped) {
     Stage stage;
-    PropertyModel facts(receiverFacts(stage.session));
+    PropertyModel facts(logFacts(stage.session));
     QAbstractItemModelTester tester(&facts, QAbstractItemModelTester::FailureReportingMode::Fatal);
     EXPECT_EQ(facts.index(2, 0).data().toString(), "Dropped here");
     EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("● 0"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/receiver_facts.h"
+#include "app/gui/models/log_facts.h"
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
@@ -49,7 +49,7 @@ PropertyValue foreign(model::SessionView& view) {
 
 } // namespace
 
-std::vector<Property> receiverFacts(model::SessionView& view) {
+std::vector<Property> logFacts(model::SessionView& view) {
     const auto row = [&view](const QString& label, PropertyValue (*read)(model::SessionView&)) {
         return Property{label, [&view, read] { return read(view); }};
     };

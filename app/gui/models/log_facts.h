@@ -10,6 +10,6 @@ namespace posewire::gui {
 
 /// What the log keeps and what did not come into it: memory, packets, datagrams dropped here, malformed and
 /// foreign ones.
-[[nodiscard]] std::vector<Property> receiverFacts(model::SessionView& view);
+[[nodiscard]] std::vector<Property> logFacts(model::SessionView& view);
 
 } // namespace posewire::gui
