@@ -23,11 +23,6 @@ std::string addressOf(const model::SessionView& session, const Event& event) {
     return sender == nullptr ? std::string() : sender->info.address;
 }
 
-std::string digitsOf(std::uint8_t type) {
-    const auto digits = wire::typeDigits(type);
-    return {digits.begin(), digits.end()};
-}
-
 std::string secondsText(std::int64_t stampNs) {
     constexpr std::int64_t kSecondNs = 1'000'000'000;
     const std::string decimals = std::to_string(stampNs % kSecondNs);
@@ -44,7 +39,7 @@ Json objectOf(const model::SessionView& session, const Event& event) {
         object["character"] = *event.character;
     }
     if (event.type) {
-        object["type"] = digitsOf(*event.type);
+        object["type"] = wire::typeDigits(*event.type);
     }
     object["fromNs"] = event.firstStampNs;
     object["toNs"] = event.lastStampNs;
@@ -82,7 +77,7 @@ std::string eventsCsv(const model::SessionView& session, std::span<const Event* 
             std::string(model::nameOf(event->kind)),
             addressOf(session, *event),
             event->character ? std::to_string(*event->character) : std::string(),
-            event->type ? digitsOf(*event->type) : std::string(),
+            event->type ? wire::typeDigits(*event->type) : std::string(),
             secondsText(event->firstStampNs),
             secondsText(event->lastStampNs),
             std::to_string(event->firstPacket),

@@ -3,8 +3,11 @@
 
 #include "core/export/reference_overview.h"
 #include "core/export/reference_tables.h"
+#include "core/wire/metadata_text.h"
 #include "core/wire/schema.h"
 #include "core/wire/type_table.h"
+
+#include <algorithm>
 
 namespace posewire::exporting {
 namespace {
@@ -72,6 +75,11 @@ void writeForm(std::string& out, const wire::FormRow& form) {
     }
 }
 
+bool hasTags(const wire::MessageRow& message) {
+    return std::ranges::any_of(message.fields(),
+                               [](const FieldRow& row) { return row.about.unit == wire::Unit::TagLines; });
+}
+
 void writeMessage(std::string& out, const wire::MessageRow& message) {
     const wire::TypeInfo& info = *wire::findType(message.type);
     const std::string_view frame = wire::frameName(info.frame);
@@ -81,6 +89,13 @@ void writeMessage(std::string& out, const wire::MessageRow& message) {
     out.append(info.remark.empty() ? "" : " ").append(info.remark).append("\n\n");
     for (const wire::FormRow& form : message.forms) {
         writeForm(out, form);
+    }
+    if (hasTags(message)) {
+        out += "\nKnown tags:";
+        for (const std::string_view tag : wire::knownTags()) {
+            out.append(" `").append(tag).append("`");
+        }
+        out += ". A value may contain colons: the first one of a line ends the tag.\n";
     }
 }
 
@@ -95,6 +110,11 @@ std::string protocolReference() {
     out += referenceOverview();
     out += "\n## Header\n\nBytes 17 to 23 are reserved and zero in revisions E to K.\n\n";
     writeTable(out, wire::headerRows());
+    out +=
+        "\nThe datagram counter of a sample in three datagrams is 0, 1 and 0x82; of one in a single datagram "
+        "0x80. The sample counter may skip: a stream sent at half the rate of capture counts 2, 4, 6. "
+        "Quaternions "
+        "are re, i, j, k of unit length; q and −q are the same orientation, and senders may use either.\n";
     for (const wire::MessageRow& message : wire::messageRows()) {
         writeMessage(out, message);
     }

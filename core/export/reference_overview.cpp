@@ -9,7 +9,7 @@
 namespace posewire::exporting {
 namespace {
 
-constexpr std::array<RevisionDifference, 16> kDifferences{{
+constexpr std::array<RevisionDifference, 18> kDifferences{{
     {"header, bytes 17 to 23", "reserved, zero", "reserved, zero",
      "counts of body segments, props and fingers; bytes 20 and 21 reserved; payload size"},
     {"name of byte 16", "avatar ID", "character ID", "character ID"},
@@ -18,6 +18,8 @@ constexpr std::array<RevisionDifference, 16> kDifferences{{
     {"point IDs (types 03, 20)", "100 × segment + point", "256 × segment + point (type 03: both are written)",
      "256 × segment + point (type 03: both are written)"},
     {"IDs of the left foot and toe", "23 and 24 in the table", "22 and 23", "22 and 23"},
+    {"tags worn by a character", "in unused places of props: position, no rotation", "–", "–"},
+    {"sections of header bytes 17 to 23", "–", "2.4.1.7", "N: 2.4.1.7 to 2.4.1.9"},
     {"IDs of props", "24 to 30 in type 11", "25 to 28 in the table",
      "24 to 27 on the wire: go by their place after the body"},
     {"fingers", "–", "–", "20 segments of the left hand, then 20 of the right, after the props"},
@@ -95,6 +97,13 @@ std::string referenceOverview() {
     for (const wire::MessageRow& message : wire::messageRows()) {
         writeRow(out, message);
     }
+    out +=
+        "\n## Transport\n\nUDP, or TCP since revision H; port 9763 unless set otherwise. Over UDP the sender "
+        "sends to the receiver's address, a datagram in each packet. Over TCP the sender connects and the "
+        "receiver "
+        "listens; datagrams follow each other without a length in front: each is 24 bytes and the header's "
+        "payload "
+        "size long, and where that is 0, as its type and number of items say.\n";
     out += "\n## What differs between revisions\n\nRevision E is of 2012, J of 2015, K of 2017; L, M and N "
            "are of 2018. Where a later sender does otherwise than its text, the last column says what it "
            "does.\n\n| | E | J and K | L to N |\n|---|---|---|---|\n";

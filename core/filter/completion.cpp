@@ -101,8 +101,7 @@ std::string aboutField(const FieldInfo& field) {
     std::string about(kindWords(field.kind).name);
     about.append(field.unit.empty() ? "" : ", ").append(field.unit).append(": ").append(field.text);
     for (std::size_t i = 0; i < field.types.size(); ++i) {
-        const auto digits = wire::typeDigits(field.types[i]);
-        about.append(i == 0 ? " (" : " ").append(digits.data(), digits.size());
+        about.append(i == 0 ? " (" : " ").append(wire::typeDigits(field.types[i]));
     }
     return about + (field.types.empty() ? "" : ")");
 }
@@ -165,8 +164,7 @@ void offerOperators(std::string_view name, Collector& into) {
 
 void offerTypes(Collector& into) {
     for (const wire::TypeInfo& info : wire::typeTable()) {
-        const auto digits = wire::typeDigits(info.type);
-        into.offer({digits.data(), digits.size()}, std::string(info.name));
+        into.offer(wire::typeDigits(info.type), std::string(info.name));
     }
 }
 

@@ -84,8 +84,7 @@ std::string_view kindOf(const FieldInfo& field) {
 std::string typesOf(const FieldInfo& field) {
     std::string text;
     for (const std::uint8_t type : field.types) {
-        const auto digits = wire::typeDigits(type);
-        text.append(text.empty() ? "" : " ").append(digits.data(), digits.size());
+        text.append(text.empty() ? "" : " ").append(wire::typeDigits(type));
     }
     return text;
 }

@@ -8,40 +8,43 @@
 namespace posewire::wire {
 
 template <>
-constexpr TypeInfo kRow<PoseEuler>{
-    PoseEuler::kType,
-    "Pose, Euler",
-    Frame::YUp,
-    "E–N",
-    "2.5.1",
-    "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it.",
-    true};
+constexpr TypeInfo kRow<PoseEuler>{PoseEuler::kType,
+                                   "Pose, Euler",
+                                   Frame::YUp,
+                                   "E–N",
+                                   "2.5.1",
+                                   "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · "
+                                   "(y, z, x) of it. Since N the fingers "
+                                   "of both hands follow body and props.",
+                                   true};
 template <>
 constexpr TypeInfo kRow<PoseQuaternion>{PoseQuaternion::kType,
                                         "Pose, quaternion",
                                         Frame::ZUp,
                                         "E–N",
                                         "2.5.2",
-                                        "Metres on the wire, although the text says centimetres.",
+                                        "Metres on the wire, although the text says centimetres. The text "
+                                        "also allows Y-up; no sender is known to use it.",
                                         true};
 template <>
-constexpr TypeInfo kRow<PointPositions>{
-    PointPositions::kType,
-    "Point positions",
-    Frame::YUp,
-    "E–N",
-    "2.5.3",
-    "Point IDs are 256 × segment + point, in older revisions 100 × segment + point.",
-    true};
+constexpr TypeInfo kRow<PointPositions>{PointPositions::kType,
+                                        "Point positions",
+                                        Frame::YUp,
+                                        "E–N",
+                                        "2.5.3",
+                                        "Point IDs are 256 × segment + point, in older revisions 100 × "
+                                        "segment + point. The text says 38 to 46 points; "
+                                        "the usual set has 64.",
+                                        true};
 template <>
-constexpr TypeInfo kRow<TagPositions>{
-    TagPositions::kType,
-    "Tag positions",
-    Frame::YUp,
-    "E",
-    "E 2.5",
-    "Deprecated since J. Newer programs use the number for a layout that is not published.",
-    true};
+constexpr TypeInfo kRow<TagPositions>{TagPositions::kType,
+                                      "Tag positions",
+                                      Frame::YUp,
+                                      "E",
+                                      "E 2.5",
+                                      "Only tags that were updated are sent. Deprecated since J. Newer "
+                                      "programs use the number for a layout that is not published.",
+                                      true};
 template <>
 constexpr TypeInfo kRow<PoseUnity>{
     PoseUnity::kType,
@@ -49,7 +52,9 @@ constexpr TypeInfo kRow<PoseUnity>{
     Frame::Unity,
     "F–N",
     "2.5.5",
-    "The pelvis is global, all others are relative to their parents, in an order of their own.",
+    "The pelvis is global, all others are relative to their parents, in an order of their own. "
+    "N says of props both that they are global and that they are not supported: here they are neither named "
+    "nor drawn.",
     true};
 template <>
 constexpr TypeInfo kRow<ScaleInformation>{
@@ -82,14 +87,16 @@ constexpr TypeInfo kRow<NullPose>{
     "Comes in several datagrams with sample counter 0: segments first, then points. Metres.",
     false};
 template <>
-constexpr TypeInfo kRow<JointAngles>{
-    JointAngles::kType,
-    "Joint angles",
-    Frame::Isb,
-    "J–N",
-    "2.7.1",
-    "Six ergonomic angles may follow the 22 joints; two of them have the same pair of IDs.",
-    true};
+constexpr TypeInfo kRow<JointAngles>{JointAngles::kType,
+                                     "Joint angles",
+                                     Frame::Isb,
+                                     "J–N",
+                                     "2.7.1",
+                                     "22 joints in the text; real senders add 4 or 6 ergonomic angles (26 or "
+                                     "28 items), two of which have the same "
+                                     "pair of IDs. Angles are about the ISB axes of the joint, although the "
+                                     "text names the axes of the segment.",
+                                     true};
 template <>
 constexpr TypeInfo kRow<LinearKinematics>{
     LinearKinematics::kType, "Linear kinematics", Frame::ZUp, "J–N", "2.7.2", "", true};

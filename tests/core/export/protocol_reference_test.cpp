@@ -85,5 +85,18 @@ TEST(ProtocolReference, TellsWhatDiffersBetweenRevisions) {
     }
 }
 
+TEST(ProtocolReference, ExplainsTransportCountersAndTags) {
+    EXPECT_THAT(part("Transport"), testing::AllOf(HasSubstr("9763"), HasSubstr("the sender connects")));
+    EXPECT_THAT(part("Header"), testing::AllOf(HasSubstr("0, 1 and 0x82"), HasSubstr("q and −q")));
+    EXPECT_THAT(sectionOf(12), HasSubstr("Known tags: `name` `xmid` `color`"));
+}
+
+TEST(ProtocolReference, ListsWhatTheIdentifiersStandFor) {
+    EXPECT_THAT(part("Segments"), HasSubstr("| 22 | LeftFoot | LeftLowerLeg | 8 |"));
+    EXPECT_THAT(part("Fingers"), HasSubstr("| 24 | 44 | Carpus | hand |"));
+    EXPECT_THAT(part("Points"), HasSubstr("| Pelvis | 13 | pSacrum | yes |"));
+    EXPECT_THAT(part("Joints"), HasSubstr("| 1 | jL5S1 | 1.2 (258) | 2.1 (513) |"));
+}
+
 } // namespace
 } // namespace posewire::exporting
