@@ -9,11 +9,13 @@
 #include "core/export/report_tables.h"
 #include "core/export/report_verdict.h"
 
+#include <algorithm>
+
 namespace posewire::exporting {
 namespace {
 
 /// A raw file has no stamps: time codes have taken their place.
-bool hasStamps(const model::Session& session) {
+bool hasStamps(const model::SessionView& session) {
     return std::ranges::none_of(session.senders(), [](const model::Sender& sender) {
         return sender.info.transport == log::Transport::File;
     });
@@ -35,7 +37,7 @@ std::string fact(std::string_view name, const std::string& html) {
     return "<dt>" + escaped(name) + "</dt><dd>" + html + "</dd>\n";
 }
 
-std::string timeFacts(const model::Session& session, const ReportSteps& steps) {
+std::string timeFacts(const model::SessionView& session, const ReportSteps& steps) {
     if (steps.count == 0) {
         return fact("Time", "nothing was received");
     }

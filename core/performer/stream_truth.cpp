@@ -75,10 +75,11 @@ void StreamTruth::add(const wire::Header& header, const Sending& sending) {
 
 /// What a receiver takes for one message: indices that do not repeat, close together.
 void StreamTruth::addMessage(const wire::Header& header, std::int64_t timeNs) {
-    if (timeNs - m_messageNs <= kTogetherNs && m_message.add(header)) {
+    const bool isOpen = m_message.isTouched();
+    if (isOpen && timeNs - m_messageNs <= kTogetherNs && m_message.add(header)) {
         return;
     }
-    m_incomplete += m_message.isTouched() && !m_message.isComplete() ? 1 : 0;
+    m_incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
     m_message = {};
     m_messageNs = timeNs;
     m_message.add(header);

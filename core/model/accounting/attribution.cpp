@@ -187,7 +187,7 @@ void Attribution::takePartial(std::size_t stream, const Verdict& verdict) {
     if (verdict.isFirstOfSample && !verdict.isCompleting) {
         m_partials.push_back({stream, verdict.sample, verdict.stampNs, verdict.packet});
         open = verdict.isReordered ? open : m_firstPartial + m_partials.size();
-    } else if (verdict.isReordered && verdict.isCompleting) {
+    } else if (verdict.isCompleting && !verdict.isFirstOfSample) {
         complete(stream, verdict.sample);
     }
 }
