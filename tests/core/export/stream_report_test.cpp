@@ -2,6 +2,7 @@
 #include "core/export/stream_report.h"
 
 #include "core/export/monitor_report.h"
+#include "core/model/accounting/stream_figures.h"
 #include "tests/core/model/session/session_fixture.h"
 
 #include <nlohmann/json.hpp>
