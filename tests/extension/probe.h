@@ -34,7 +34,7 @@ struct Layout<ProbeReading> {
             {"id", Unit::Identifier, "segment that carries the probe", "P 1.2", RefersTo::Segment}},
         Field<&ProbeReading::temperature>{{"temperature", Unit::ArbitraryUnits, "of the air", "P 1.2"}},
         Field<&ProbeReading::wind>{{"wind", Unit::MetresPerSecond, "global, Z-up", "P 1.2"}},
-        Field<&ProbeReading::level>{{"level", Unit::Count, "above or below the last", "P 1.2"}},
+        Field<&ProbeReading::level>{{"level", Unit::None, "above or below the last", "P 1.2"}},
     };
 };
 static_assert(kWireSize<ProbeReading> == 24);
