@@ -35,8 +35,8 @@ static_assert(kWireSize<SegmentQuaternion> == 32);
 template <>
 struct Layout<SegmentQuaternion, Form::Unity> {
     static constexpr auto fields = std::tuple{
-        Field<&SegmentQuaternion::id>{
-            {"id", Unit::Identifier, "segment in the Unity3D order, 1-based", "2.5.9", RefersTo::UnitySegment}},
+        Field<&SegmentQuaternion::id>{{"id", Unit::Identifier, "segment in the Unity3D order, 1-based",
+                                       "2.5.9", RefersTo::UnitySegment}},
         Field<&SegmentQuaternion::position>{
             {"position", Unit::Metres, "pelvis global, others relative; Y-up left-handed", "2.5.5"}},
         Field<&SegmentQuaternion::orientation>{
