@@ -289,7 +289,8 @@ StreamFigures figuresOf(const Stream& stream, const std::optional<TimeRange>& ra
     read.rate.nowHz = range ? read.rate.meanHz : stream.statistics.rateHz();
     read.rate.wholeHz = wholeRate(stream, read.counts, range);
     if (range) {
-        read.lostByCause[static_cast<std::size_t>(LossCause::Unknown)] = read.counts.lost;
+        read.lostByCause[static_cast<std::size_t>(LossCause::Unknown)] =
+            read.counts.lost + read.counts.incomplete;
     } else {
         read.lostByCause = stream.lostByCause();
     }

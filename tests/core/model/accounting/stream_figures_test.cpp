@@ -60,6 +60,22 @@ TEST(StreamFigures, AreReadFromTheAccounting) {
     EXPECT_DOUBLE_EQ(figuresOf(stream, open)[Figure::Rate], figuresOf(stream, open)[Figure::RateMean]);
 }
 
+TEST(StreamFigures, HaveACauseForAllThatIsMissingAlsoInARange) {
+    Stream stream = streamOf(2, 1000, 50);
+    wire::Header part;
+    part.sampleCounter = 1000;
+    part.datagramCounter = 0; // the first of several, and the only one that comes
+    stream.accounting.add(kStart + 10'000 * kMs, 760, part);
+    const auto causes = [&](const std::optional<TimeRange>& range) {
+        const StreamFigures figures = figuresOf(stream, range);
+        EXPECT_EQ(figures.count(Figure::Incomplete), 1U);
+        return figures[Figure::LostHere] + figures[Figure::LostOnNetwork] + figures[Figure::LostAtSender] +
+               figures[Figure::LostUnknown] - figures[Figure::Missing];
+    };
+    EXPECT_EQ(causes({}), 0);
+    EXPECT_EQ(causes(TimeRange{kStart + 5000 * kMs, kAllTime.toNs}), 0);
+}
+
 TEST(StreamFigures, OfSeveralStreamsAddUpAsTheTableSays) {
     const StreamFigures a = figuresOf(streamOf(2, 1000, 50));
     const StreamFigures b = figuresOf(streamOf(20, 400, 100));
