@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/event_sheet.h"
+#include "core/model/session/session.h"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/formats.h"
+#include "core/model/session/session.h"
 
 #include "core/export/event_sheet.h"
 #include "core/log/packet_log.h"

@@ -89,7 +89,7 @@ TEST_F(LivePicture, TwoPerformersSentOverUdpAreSeenInTheirColours) {
 }
 
 TEST_F(LivePicture, RecordedDatagramsSentOneByOneShowThePersonInOrange) {
-    const QString folder = QString::fromStdString(test::capturesFolder().string() + "/");
+    const QString folder = QString::fromStdString(posewire::test::capturesFolder().string() + "/");
     if (!QFile::exists(folder + "mxtp02.bin")) {
         GTEST_SKIP() << "no recorded datagrams at " << folder.toStdString()
                      << ": the captured person is not shown";
