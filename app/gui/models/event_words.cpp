@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/event_words.h"
 
-#include "app/gui/models/packet_target.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/statistics_filter.h"
 #include "app/gui/models/text.h"
@@ -68,7 +67,7 @@ model::TimeRange rangeOf(model::SessionView& view, const model::Event& event) {
 
 /// The last packet that came before a moment.
 std::optional<std::uint64_t> packetBefore(model::SessionView& view, std::int64_t stampNs) {
-    const std::uint64_t first = packetFrom(view, stampNs);
+    const std::uint64_t first = view.packetFrom(stampNs);
     return first == view.begin() ? std::nullopt : std::optional(first - 1);
 }
 

@@ -20,7 +20,7 @@ constexpr std::int64_t kNsPerMs = 1'000'000;
 constexpr double kMostSeconds = 1e9;
 
 Target atStamp(model::SessionView& view, std::int64_t stampNs, const QString& text) {
-    const std::uint64_t number = packetFrom(view, stampNs);
+    const std::uint64_t number = view.packetFrom(stampNs);
     if (number == view.end()) {
         return tl::unexpected(tr("No packet has come at %1 or later.").arg(text));
     }
@@ -59,21 +59,6 @@ Target relative(model::SessionView& view, const QString& digits, bool isForward)
 }
 
 } // namespace
-
-std::uint64_t packetFrom(model::SessionView& view, std::int64_t stampNs) {
-    std::uint64_t low = view.begin();
-    std::uint64_t high = view.end();
-    while (low < high) {
-        const std::uint64_t middle = low + (high - low) / 2;
-        const auto packet = view.packet(middle);
-        if (!packet || packet->stampNs < stampNs) {
-            low = middle + 1;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
 
 tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, const QString& text) {
     static const QRegularExpression spaces(QStringLiteral("\\s"));

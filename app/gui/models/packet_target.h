@@ -18,7 +18,4 @@ namespace posewire::gui {
 [[nodiscard]] tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view,
                                                                 const QString& text);
 
-/// The first packet from a stamp on; SessionView::end() where there is none. Stamps are taken to grow.
-[[nodiscard]] std::uint64_t packetFrom(model::SessionView& view, std::int64_t stampNs);
-
 } // namespace posewire::gui

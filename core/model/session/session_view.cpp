@@ -130,19 +130,24 @@ StreamCounts SessionView::countsBetween(const TimeRange& range) const {
     return sumOf([](const log::StreamKey&) { return true; }, within(range));
 }
 
-std::uint64_t SessionView::packetAt(std::int64_t stampNs) const {
+std::uint64_t SessionView::packetFrom(std::int64_t stampNs) const {
     std::uint64_t first = begin();
     std::uint64_t last = end();
     while (first < last) {
         const std::uint64_t middle = first + (last - first) / 2;
         const auto packet = this->packet(middle);
-        if (packet && packet->stampNs > stampNs) {
+        if (packet && packet->stampNs >= stampNs) {
             last = middle;
         } else {
             first = middle + 1;
         }
     }
-    return std::max(begin(), first == 0 ? 0 : first - 1);
+    return first;
+}
+
+std::uint64_t SessionView::packetAt(std::int64_t stampNs) const {
+    const std::uint64_t after = packetFrom(stampNs + 1);
+    return after == begin() ? after : after - 1;
 }
 
 std::optional<TimeRange> SessionView::range() const {

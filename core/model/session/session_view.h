@@ -76,6 +76,8 @@ public:
     [[nodiscard]] const log::PacketLog& log() const;
     /// Nothing where the log has dropped it. The bytes are valid until the session follows the log again.
     [[nodiscard]] std::optional<log::Packet> packet(std::uint64_t number) const;
+    /// The first packet from a stamp on; end() where there is none. Stamps are taken to grow.
+    [[nodiscard]] std::uint64_t packetFrom(std::int64_t stampNs) const;
     /// The newest packet that had been received by then; the oldest there is where all came later.
     [[nodiscard]] std::uint64_t packetAt(std::int64_t stampNs) const;
 

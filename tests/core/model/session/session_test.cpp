@@ -225,6 +225,10 @@ TEST_F(SessionTest, FindsThePacketOfATime) {
     EXPECT_EQ(m_session.packetAt(kSecond + 95 * kMillisecond), 9U);
     EXPECT_EQ(m_session.packetAt(kSecond + 100 * kMillisecond), 10U);
     EXPECT_EQ(m_session.packetAt(100 * kSecond), 99U);
+    EXPECT_EQ(m_session.packetFrom(0), 0U);
+    EXPECT_EQ(m_session.packetFrom(kSecond + 95 * kMillisecond), 10U);
+    EXPECT_EQ(m_session.packetFrom(kSecond + 100 * kMillisecond), 10U);
+    EXPECT_EQ(m_session.packetFrom(100 * kSecond), 100U);
 }
 
 TEST_F(SessionTest, TellsTheAgeOfACharacterAgainstTheGivenTime) {
