@@ -90,7 +90,7 @@ void Reassembly::addUdp(const WholePacket& whole) {
     }
     if (wire::startsWithMagic(payload->bytes)) {
         m_ports.insert(payload->targetPort);
-    } else if (payload->bytes.empty() || !m_ports.contains(payload->targetPort)) {
+    } else if (!m_ports.contains(payload->targetPort)) {
         return;
     }
     m_visit(recordOf(whole, *payload));

@@ -146,15 +146,14 @@ protected:
         const int after = static_cast<int>(rows.size());
         if (after > before) {
             this->beginInsertRows({}, before, after - 1);
-            m_rows = std::move(rows);
+            m_rows.insert(m_rows.end(), rows.begin() + before, rows.end());
             this->endInsertRows();
         } else if (after < before) {
             this->beginRemoveRows({}, after, before - 1);
-            m_rows = std::move(rows);
+            m_rows.erase(m_rows.begin() + after, m_rows.end());
             this->endRemoveRows();
-        } else {
-            m_rows = std::move(rows);
         }
+        m_rows = std::move(rows);
         this->announceChange(0, after - 1);
     }
 

@@ -74,7 +74,7 @@ TEST_F(ConnectionHelpTest, WaitsBeforeItComplains) {
 TEST_F(ConnectionHelpTest, OneTransportAloneMayBeTheWrongOne) {
     facts.inputs = {input(InputKind::Udp)};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::OtherTransport));
-    EXPECT_THAT(connectionHelp(facts)[1].text, HasSubstr("uses TCP would not be noticed"));
+    EXPECT_THAT(connectionHelp(facts)[1].text, HasSubstr("uses TCP would go unnoticed"));
     facts.inputs = {input(InputKind::TcpListener)};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives, Kind::OtherTransport));
     EXPECT_THAT(connectionHelp(facts)[0].remedy, HasSubstr("protocol TCP"));

@@ -160,8 +160,9 @@ TEST(CaptureFile, SurvivesDamageAnywhere) {
             damaged[4 + random() % (damaged.size() - 4)] = static_cast<std::byte>(random());
         }
         MemorySource source(damaged);
-        static_cast<void>(
-            readCaptureFile(source, [](const FileRecord& record) { EXPECT_FALSE(record.bytes.empty()); }));
+        static_cast<void>(readCaptureFile(source, [&](const FileRecord& record) {
+            EXPECT_LE(record.offset + record.bytes.size(), damaged.size());
+        }));
     }
 }
 

@@ -107,7 +107,7 @@ TEST_F(HealthBarTest, SaysWhyAndEachLineLeadsToItsPackets) {
 TEST_F(HealthBarTest, SaysThatAllCameWhereItIsGood) {
     perform(0, 240);
     EXPECT_EQ(HealthPopup::lossText(m_stage.session, m_stage.key()),
-              QStringLiteral("All 240 samples of the last 10 s came."));
+              QStringLiteral("All 240 samples of the last 10 s arrived."));
     HealthPopup* popup = open();
     ASSERT_NE(popup, nullptr);
     EXPECT_TRUE(popup->findChildren<TroubleLine*>().empty());
