@@ -97,7 +97,7 @@ std::string_view nameOf(EventKind kind) {
 std::string Event::text() const {
     switch (kind) {
     case EventKind::SenderUp:
-        return "A source started sending.";
+        return "A sender started sending.";
     case EventKind::SenderDown:
         return "No data for 1 s.";
     case EventKind::Gap:

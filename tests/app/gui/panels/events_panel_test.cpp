@@ -109,7 +109,7 @@ TEST_F(EventsPanelTest, FollowsTheNewestUntilARowIsSelected) {
 
 TEST_F(EventsPanelTest, ButtonsFilterAndAreRemembered) {
     button("notes")->click();
-    EXPECT_FALSE(rowWith(QStringLiteral("A source began")).isValid());
+    EXPECT_FALSE(rowWith(QStringLiteral("A sender started")).isValid());
     EXPECT_TRUE(rowWith(QStringLiteral("samples lost")).isValid());
     EventsPanel again(m_stage.session, m_commands, nullptr);
     again.restoreState(m_panel.state());
