@@ -4,7 +4,6 @@
 #include "app/cli/send_truth.h"
 #include "core/performer/motion.h"
 
-#include <CLI/CLI.hpp>
 #include <QCoreApplication>
 
 namespace posewire::cli {

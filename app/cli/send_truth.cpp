@@ -17,18 +17,18 @@ JsonValue jsonOf(std::uint8_t type, const performer::SentFigures& figures) {
     const auto digits = wire::typeDigits(type);
     JsonValue json{{"type", std::string(digits.begin(), digits.end())}, {"datagrams", figures.datagrams}};
     if (wire::isSampled(type)) {
-        json.add("samples", figures.samples);
-        json.add("lost", figures.lost);
-        json.add("duplicates", figures.duplicates);
-        json.add("reordered", figures.reordered);
-        json.add("late", figures.late);
+        json["samples"] = figures.samples;
+        json["lost"] = figures.lost;
+        json["duplicates"] = figures.duplicates;
+        json["reordered"] = figures.reordered;
+        json["late"] = figures.late;
     }
-    json.add("incomplete", figures.incomplete);
+    json["incomplete"] = figures.incomplete;
     if (wire::isSampled(type)) {
-        json.add("restarts", figures.restarts);
-        json.add("step", figures.step);
-        json.add("firstSample", figures.firstSample);
-        json.add("lastSample", figures.lastSample);
+        json["restarts"] = figures.restarts;
+        json["step"] = figures.step;
+        json["firstSample"] = figures.firstSample;
+        json["lastSample"] = figures.lastSample;
     }
     return json;
 }

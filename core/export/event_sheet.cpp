@@ -2,16 +2,14 @@
 #include "core/export/event_sheet.h"
 
 #include "core/export/csv.h"
+#include "core/export/json_value.h"
 #include "core/wire/type_table.h"
-
-#include <nlohmann/json.hpp>
 
 #include <array>
 
 namespace posewire::exporting {
 namespace {
 
-using Json = nlohmann::ordered_json;
 using model::Event;
 
 constexpr std::string_view kHeader =
@@ -29,12 +27,12 @@ std::string secondsText(std::int64_t stampNs) {
     return std::to_string(stampNs / kSecondNs) + '.' + std::string(9 - decimals.size(), '0') + decimals;
 }
 
-Json objectOf(const model::SessionView& session, const Event& event) {
-    Json object{{"number", event.number},
-                {"severity", nameOf(event.severity())},
-                {"group", nameOf(event.group())},
-                {"event", model::nameOf(event.kind)},
-                {"source", addressOf(session, event)}};
+JsonValue objectOf(const model::SessionView& session, const Event& event) {
+    JsonValue object{{"number", event.number},
+                     {"severity", nameOf(event.severity())},
+                     {"group", nameOf(event.group())},
+                     {"event", model::nameOf(event.kind)},
+                     {"source", addressOf(session, event)}};
     if (event.character) {
         object["character"] = *event.character;
     }
@@ -95,9 +93,7 @@ std::string eventsCsv(const model::SessionView& session, std::span<const Event* 
 std::string eventsJson(const model::SessionView& session, std::span<const Event* const> events) {
     std::string text = "[";
     for (std::size_t i = 0; i < events.size(); ++i) {
-        // What a sender put into a name may be no UTF-8.
-        text += (i == 0 ? "\n" : ",\n") +
-                objectOf(session, *events[i]).dump(-1, ' ', false, Json::error_handler_t::replace);
+        text += (i == 0 ? "\n" : ",\n") + objectOf(session, *events[i]).text();
     }
     return text + "\n]\n";
 }

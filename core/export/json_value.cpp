@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -51,11 +52,14 @@ double sameDigits(float value) {
 
 JsonValue::JsonValue(float value) : m_value(std::isfinite(value) ? sameDigits(value) : double{value}) {}
 
-void JsonValue::add(std::string key, JsonValue value) {
+JsonValue& JsonValue::operator[](std::string_view key) {
     if (std::holds_alternative<std::monostate>(m_value)) {
         m_value = Object{};
     }
-    std::get<Object>(m_value).emplace_back(std::move(key), std::move(value));
+    auto& members = std::get<Object>(m_value);
+    const auto found = std::ranges::find(members, key, &Member::first);
+    return found != members.end() ? found->second
+                                  : members.emplace_back(std::string(key), JsonValue()).second;
 }
 
 std::string JsonValue::text(int indent) const {

@@ -36,10 +36,10 @@ public:
     /// An object.
     JsonValue(std::initializer_list<Member> members) : m_value(Object(members)) {}
 
-    /// To an object, or to null, which becomes one.
-    void add(std::string key, JsonValue value);
+    /// The member of that name of an object, added where there is none; null becomes an object.
+    JsonValue& operator[](std::string_view key);
 
-    /// One line, or indented by so many spaces for each level.
+    /// One line, or indented by this many spaces per level.
     [[nodiscard]] std::string text(int indent = -1) const;
 
     [[nodiscard]] const auto& value() const { return m_value; }

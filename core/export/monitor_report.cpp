@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/monitor_report.h"
 
+#include "core/export/json_value.h"
 #include "core/export/session_reading.h"
 #include "core/wire/type_table.h"
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,23 +11,21 @@
 namespace posewire::exporting {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 double rounded(double value, int decimals) {
     const double perUnit = std::pow(10.0, decimals);
     return std::isfinite(value) ? std::round(value * perUnit) / perUnit : 0.0;
 }
 
-Json valueJson(const model::StreamFigures& figures, const model::FigureRow& row) {
+JsonValue valueJson(const model::StreamFigures& figures, const model::FigureRow& row) {
     const bool isWhole =
         row.style.form == model::FigureForm::Count || row.style.form == model::FigureForm::Counter;
-    return isWhole ? Json(figures.count(row.figure))
-                   : Json(rounded(figures[row.figure], row.style.digits.json));
+    return isWhole ? JsonValue(figures.count(row.figure))
+                   : JsonValue(rounded(figures[row.figure], row.style.digits.json));
 }
 
-Json streamJson(const model::StreamFigures& figures) {
+JsonValue streamJson(const model::StreamFigures& figures) {
     const auto type = wire::typeDigits(figures.key().type);
-    Json json{{"type", std::string(type.begin(), type.end())}};
+    JsonValue json{{"type", std::string(type.begin(), type.end())}};
     for (const model::FigureRow& row : model::figureTable()) {
         if (row.key.empty()) {
             continue;
@@ -37,21 +34,21 @@ Json streamJson(const model::StreamFigures& figures) {
             json["clock"]["from"] = figures.isFromTimeCode() ? "time code" : "sample counter";
         }
         const std::size_t dot = row.key.find('.');
-        Json& object = dot == std::string_view::npos ? json : json[std::string(row.key.substr(0, dot))];
-        object[std::string(row.key.substr(dot + 1))] = valueJson(figures, row);
+        JsonValue& object = dot == std::string_view::npos ? json : json[row.key.substr(0, dot)];
+        object[row.key.substr(dot + 1)] = valueJson(figures, row);
     }
     return json;
 }
 
-Json streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
-    Json list = Json::array();
+JsonValue streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
+    JsonValue::List list;
     for (const model::Stream* stream : streamsByType(session, key)) {
         list.push_back(streamJson(figuresOf(session, *stream)));
     }
     return list;
 }
 
-Json charactersJson(const model::SessionView& session, const model::Sender& sender) {
+JsonValue charactersJson(const model::SessionView& session, const model::Sender& sender) {
     std::vector<model::CharacterKey> keys;
     for (const model::Character& character : session.characters()) {
         if (character.key.sender == sender.id) {
@@ -59,7 +56,7 @@ Json charactersJson(const model::SessionView& session, const model::Sender& send
         }
     }
     std::ranges::sort(keys);
-    Json characters = Json::array();
+    JsonValue::List characters;
     for (const model::CharacterKey& key : keys) {
         characters.push_back({{"id", key.character},
                               {"name", sentName(session, key)},
@@ -68,7 +65,7 @@ Json charactersJson(const model::SessionView& session, const model::Sender& send
     return characters;
 }
 
-Json senderJson(const model::SessionView& session, const model::Sender& sender) {
+JsonValue senderJson(const model::SessionView& session, const model::Sender& sender) {
     return {{"address", sender.info.address},
             {"transport", transportName(sender.info.transport)},
             {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
@@ -85,8 +82,8 @@ Json senderJson(const model::SessionView& session, const model::Sender& sender) 
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
     std::uint64_t kernelDropped = 0;
     std::uint64_t foreign = 0;
-    Json senders = Json::array();
-    Json foreignSenders = Json::array();
+    JsonValue::List senders;
+    JsonValue::List foreignSenders;
     for (const model::Sender& sender : session.senders()) {
         kernelDropped += sender.kernelDrops;
         foreign += sender.foreign;
@@ -99,15 +96,14 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                       {"firstBytes", sender.foreignText()}});
         }
     }
-    const Json report{
-        {"durationS", rounded(facts.durationS, 3)},
-        {"local", {{"kernelDropped", kernelDropped}, {"receiveBufferBytes", facts.receiveBufferBytes}}},
-        {"foreignDatagrams", foreign},
-        {"sources", std::move(senders)},
-        {"foreignSources", std::move(foreignSenders)},
-        {"exceeded", facts.exceeded}};
-    // Names come from the wire and may hold anything.
-    return report.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const JsonValue report{{"durationS", rounded(facts.durationS, 3)},
+                           {"local", JsonValue{{"kernelDropped", kernelDropped},
+                                               {"receiveBufferBytes", facts.receiveBufferBytes}}},
+                           {"foreignDatagrams", foreign},
+                           {"sources", std::move(senders)},
+                           {"foreignSources", std::move(foreignSenders)},
+                           {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())}};
+    return report.text();
 }
 
 } // namespace posewire::exporting

@@ -186,7 +186,7 @@ constexpr void forEachList(Function&& f) {
 namespace detail {
 
 template <class V>
-constexpr Scalar scalarOf(const V&) {
+constexpr Scalar scalarOf(std::type_identity<V>) {
     if constexpr (std::same_as<V, std::uint8_t>) {
         return Scalar::Uint8;
     } else if constexpr (std::same_as<V, std::uint16_t>) {
@@ -203,11 +203,11 @@ constexpr Scalar scalarOf(const V&) {
     }
 }
 template <std::size_t N>
-constexpr Scalar scalarOf(const std::array<float, N>&) {
+constexpr Scalar scalarOf(std::type_identity<std::array<float, N>>) {
     return Scalar::Float32;
 }
 template <std::size_t N>
-constexpr Scalar scalarOf(const std::array<char, N>&) {
+constexpr Scalar scalarOf(std::type_identity<std::array<char, N>>) {
     return Scalar::Characters;
 }
 
@@ -274,7 +274,7 @@ inline constexpr std::size_t kWireSize = detail::minimumSize<T, F>();
 
 /// What the type of a member is on the wire, and how many of it there are (3 for Vec3).
 template <class V>
-inline constexpr Scalar kScalar = detail::scalarOf(V{});
+inline constexpr Scalar kScalar = detail::scalarOf(std::type_identity<V>{});
 template <class V>
 inline constexpr std::uint8_t kComponents = detail::kComponents<V>;
 

@@ -10,11 +10,12 @@ namespace {
 
 TEST(JsonValue, WritesEveryKindInTheOrderOfItsKeys) {
     JsonValue value{{"zero", 0}, {"large", std::uint64_t{18446744073709551615U}}, {"half", 0.5}};
-    value.add("text", "a\"b");
-    value.add("yes", true);
-    value.add("none", {});
-    value.add("list", JsonValue::List{1, "two", JsonValue{{"three", 3}}});
-    EXPECT_EQ(value.text(), R"({"zero":0,"large":18446744073709551615,"half":0.5,"text":"a\"b","yes":true,)"
+    value["text"] = "a\"b";
+    value["yes"] = true;
+    value["none"] = JsonValue();
+    value["list"] = JsonValue::List{1, "two", JsonValue{{"three", 3}}};
+    value["half"] = 0.25; // keeps its place
+    EXPECT_EQ(value.text(), R"({"zero":0,"large":18446744073709551615,"half":0.25,"text":"a\"b","yes":true,)"
                             R"("none":null,"list":[1,"two",{"three":3}]})");
 }
 
