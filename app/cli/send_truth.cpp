@@ -14,8 +14,7 @@ namespace {
 using exporting::JsonValue;
 
 JsonValue jsonOf(std::uint8_t type, const performer::SentFigures& figures) {
-    const auto digits = wire::typeDigits(type);
-    JsonValue json{{"type", std::string(digits.begin(), digits.end())}, {"datagrams", figures.datagrams}};
+    JsonValue json{{"type", wire::typeDigits(type)}, {"datagrams", figures.datagrams}};
     if (wire::isSampled(type)) {
         json["samples"] = figures.samples;
         json["lost"] = figures.lost;

@@ -24,8 +24,7 @@ JsonValue valueJson(const model::StreamFigures& figures, const model::FigureRow&
 }
 
 JsonValue streamJson(const model::StreamFigures& figures) {
-    const auto type = wire::typeDigits(figures.key().type);
-    JsonValue json{{"type", std::string(type.begin(), type.end())}};
+    JsonValue json{{"type", wire::typeDigits(figures.key().type)}};
     for (const model::FigureRow& row : model::figureTable()) {
         if (row.key.empty()) {
             continue;

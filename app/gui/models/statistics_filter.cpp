@@ -25,8 +25,7 @@ void addRow(model::SessionView& view, const StatisticsModel& model, const QModel
     const auto character = model.character(index);
     const model::Sender* found = sender ? view.find(*sender) : nullptr;
     if (const model::Stream* stream = model.stream(index)) {
-        const auto digits = wire::typeDigits(stream->key.type);
-        conditions += condition("type", std::string(digits.data(), 2));
+        conditions += condition("type", wire::typeDigits(stream->key.type));
     }
     if (character) {
         conditions += condition("character", std::to_string(character->character));
