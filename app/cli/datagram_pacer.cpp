@@ -7,35 +7,35 @@
 
 namespace posewire::cli {
 
-std::int64_t DatagramPacer::due(wire::Bytes datagram, std::optional<std::int64_t> stampNs) {
-    m_nowNs += step(datagram, stampNs) / m_speed;
-    return static_cast<std::int64_t>(m_nowNs);
+log::Duration DatagramPacer::due(wire::Bytes datagram, std::optional<log::Stamp> stamp) {
+    m_now += step(datagram, stamp) / m_speed;
+    return std::chrono::duration_cast<log::Duration>(m_now);
 }
 
 void DatagramPacer::beginAgain() {
-    m_nowNs += m_periodNs / m_speed;
-    m_stampNs.reset();
+    m_now += m_period / m_speed;
+    m_stamp.reset();
     m_previous.reset();
 }
 
-double DatagramPacer::step(wire::Bytes datagram, std::optional<std::int64_t> stampNs) {
-    if (stampNs) {
-        const std::int64_t before = m_stampNs.value_or(*stampNs);
-        m_stampNs = stampNs;
-        return static_cast<double>(std::max<std::int64_t>(*stampNs - before, 0));
+DatagramPacer::Nanoseconds DatagramPacer::step(wire::Bytes datagram, std::optional<log::Stamp> stamp) {
+    if (stamp) {
+        const log::Stamp before = m_stamp.value_or(*stamp);
+        m_stamp = stamp;
+        return std::max(*stamp - before, log::Duration::zero());
     }
     const auto header = wire::decodeHeader(datagram);
-    return header && wire::isSampled(header->type()) ? stepByHeader(*header) : 0.0;
+    return header && wire::isSampled(header->type()) ? stepByHeader(*header) : Nanoseconds::zero();
 }
 
-double DatagramPacer::stepByHeader(const wire::Header& header) {
-    constexpr std::uint32_t longestPauseMs = 2000;
+DatagramPacer::Nanoseconds DatagramPacer::stepByHeader(const wire::Header& header) {
+    constexpr std::chrono::seconds longestPause(2);
     const auto before = std::exchange(m_previous, header);
     if (!before || before->sampleCounter == header.sampleCounter) {
-        return 0.0;
+        return Nanoseconds::zero();
     }
-    const std::uint32_t elapsedMs = header.timeCode - before->timeCode;
-    return elapsedMs != 0 && elapsedMs <= longestPauseMs ? elapsedMs * 1e6 : m_periodNs;
+    const std::chrono::milliseconds elapsed(header.timeCode - before->timeCode); // modulo 2³²
+    return elapsed != elapsed.zero() && elapsed <= longestPause ? elapsed : m_period;
 }
 
 } // namespace posewire::cli

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/log/time.h"
 #include "core/wire/header.h"
 
-#include <cstdint>
+#include <chrono>
 #include <optional>
 
 namespace posewire::cli {
@@ -12,22 +13,26 @@ namespace posewire::cli {
 /// where those freeze or jump, one period per sample.
 class DatagramPacer {
 public:
-    DatagramPacer(double periodSeconds, double speed) : m_periodNs(periodSeconds * 1e9), m_speed(speed) {}
+    DatagramPacer(double periodSeconds, double speed)
+        : m_period(std::chrono::duration<double>(periodSeconds)), m_speed(speed) {}
 
-    /// Nanoseconds after the start at which this datagram, the next of the recording, is due.
-    std::int64_t due(wire::Bytes datagram, std::optional<std::int64_t> stampNs);
+    /// How long after the start this datagram, the next of the recording, is due.
+    log::Duration due(wire::Bytes datagram, std::optional<log::Stamp> stamp);
 
     /// The recording begins again, one period after its last datagram.
     void beginAgain();
 
 private:
-    [[nodiscard]] double step(wire::Bytes datagram, std::optional<std::int64_t> stampNs);
-    [[nodiscard]] double stepByHeader(const wire::Header& header);
+    /// Fractions count: rounded steps would add up to drift.
+    using Nanoseconds = std::chrono::duration<double, std::nano>;
 
-    double m_periodNs;
+    [[nodiscard]] Nanoseconds step(wire::Bytes datagram, std::optional<log::Stamp> stamp);
+    [[nodiscard]] Nanoseconds stepByHeader(const wire::Header& header);
+
+    Nanoseconds m_period;
     double m_speed;
-    double m_nowNs = 0.0;
-    std::optional<std::int64_t> m_stampNs;
+    Nanoseconds m_now{};
+    std::optional<log::Stamp> m_stamp;
     std::optional<wire::Header> m_previous;
 };
 

@@ -91,7 +91,7 @@ private:
     }
     exporting::DatagramPlace placeOf(const log::FileRecord& record) {
         ++m_datagrams;
-        return {m_index++, record.offset, record.stampNs,
+        return {m_index++, record.offset, record.stamp,
                 record.sender ? std::optional(record.sender->address) : std::nullopt};
     }
     static std::string listed(const exporting::DatagramPlace& place, const log::FileRecord& record) {

@@ -6,7 +6,6 @@
 #include "core/log/recorder.h"
 
 #include <filesystem>
-#include <limits>
 
 namespace posewire::cli {
 namespace {
@@ -19,26 +18,26 @@ public:
         : m_run(run),
           m_recorder(recorder),
           m_name(std::filesystem::path(options.file).filename().string()),
-          m_longestNs(options.durationSeconds > 0 ? static_cast<std::int64_t>(options.durationSeconds * 1e9)
-                                                  : std::numeric_limits<std::int64_t>::max()) {}
+          m_longest(options.durationSeconds > 0 ? log::durationOf(options.durationSeconds)
+                                                : log::Duration::max()) {}
 
     void operator()(const log::FileRecord& record) {
         if (m_isDone) {
             return;
         }
-        const std::int64_t stampNs =
-            record.stampNs ? *record.stampNs : m_pacer.due(record.bytes, std::nullopt);
-        m_firstNs = m_hasBegun ? m_firstNs : stampNs;
+        const log::Stamp stamp =
+            record.stamp ? *record.stamp : log::Stamp(m_pacer.due(record.bytes, std::nullopt));
+        m_first = m_hasBegun ? m_first : stamp;
         m_hasBegun = true;
-        m_isDone = stampNs - m_firstNs > m_longestNs || m_run.isOver() || !m_recorded;
+        m_isDone = stamp - m_first > m_longest || m_run.isOver() || !m_recorded;
         if (m_isDone) {
             return;
         }
-        m_lastNs = std::max(m_lastNs, stampNs);
+        m_last = std::max(m_last, stamp);
         auto& log = m_run.log();
         const log::SenderId sender =
             log.senders().intern(record.sender.value_or(log::SenderInfo{m_name, log::Transport::File, 0}));
-        log.writer().append(record.bytes, log::arrivalOf(record, sender, stampNs));
+        log.writer().append(record.bytes, log::arrivalOf(record, sender, stamp));
         constexpr std::size_t batch = 4096;
         if (++m_waiting == batch) {
             flush();
@@ -49,25 +48,25 @@ public:
     void flush() {
         m_waiting = 0;
         m_run.log().writer().publish();
-        m_run.follow(m_lastNs);
+        m_run.follow(m_last);
         if (m_recorder != nullptr && m_recorded) {
             m_recorded = m_recorder->follow();
         }
         m_run.show(durationS());
     }
 
-    [[nodiscard]] double durationS() const { return static_cast<double>(m_lastNs - m_firstNs) * 1e-9; }
+    [[nodiscard]] double durationS() const { return log::secondsOf(m_last - m_first); }
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
 
 private:
     MonitorRun& m_run;
     log::Recorder* m_recorder;
     const std::string m_name;
-    const std::int64_t m_longestNs;
+    const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
-    std::int64_t m_firstNs = 0;
-    std::int64_t m_lastNs = 0;
+    log::Stamp m_first{};
+    log::Stamp m_last{};
     bool m_hasBegun = false;
     bool m_isDone = false;
     log::Recorder::Result m_recorded;

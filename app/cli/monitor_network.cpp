@@ -75,7 +75,7 @@ double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& rec
         const duration<double> elapsed = steady_clock::now() - start;
         const duration<double> left{options.durationSeconds - elapsed.count()};
         const bool hasEnd = options.durationSeconds > 0;
-        run.follow(clock.wallNs());
+        run.follow(clock.wall());
         run.show(elapsed.count());
         recording.look();
         if (run.isOver() || (hasEnd && left.count() <= 0)) {
@@ -121,7 +121,7 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     facts.durationS = watch(options, run, recordingWatch);
     facts.receiveBufferBytes = receiver->totals().receiveBufferBytes;
     receiver.reset(); // what is in the sockets still comes into the log
-    run.follow(clock.wallNs());
+    run.follow(clock.wall());
     return run.conclude(facts, recordingWatch.stop());
 }
 

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::string_view kApplication = "Posewire " POSEWIRE_VERSION;
 
-std::optional<model::TimeRange> rangeOf(const MonitorOptions& options, std::int64_t firstNs) {
-    const auto stampAt = [&](double seconds) { return firstNs + std::llround(seconds * 1e9); };
+std::optional<model::TimeRange> rangeOf(const MonitorOptions& options, log::Stamp first) {
+    const auto stampAt = [&](double seconds) { return first + log::Duration(std::llround(seconds * 1e9)); };
     model::TimeRange range = model::kAllTime;
-    range.fromNs = options.fromSeconds ? stampAt(*options.fromSeconds) : range.fromNs;
-    range.toNs = options.toSeconds ? stampAt(*options.toSeconds) : range.toNs;
+    range.from = options.fromSeconds ? stampAt(*options.fromSeconds) : range.from;
+    range.to = options.toSeconds ? stampAt(*options.toSeconds) : range.to;
     return range == model::kAllTime ? std::nullopt : std::optional(range);
 }
 
@@ -32,8 +32,8 @@ std::string limitText(const std::optional<double>& limit, const std::string& uni
 MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
     : m_options(options), m_console(console), m_nextShow(std::chrono::steady_clock::now()) {}
 
-void MonitorRun::follow(std::int64_t nowNs) {
-    while (m_session.follow(nowNs)) {
+void MonitorRun::follow(log::Stamp now) {
+    while (m_session.follow(now)) {
     }
 }
 
@@ -69,7 +69,7 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     exporting::StreamReportOptions options;
     options.application = kApplication;
     options.exceeded = facts.exceeded;
-    options.range = rangeOf(m_options, m_session.firstStampNs());
+    options.range = rangeOf(m_options, m_session.firstStamp());
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
         std::string name(kLimits[i].name);
         name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));

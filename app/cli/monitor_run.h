@@ -7,6 +7,7 @@
 #include "core/export/monitor_report.h"
 #include "core/log/packet_log.h"
 #include "core/log/pcapng_writer.h"
+#include "core/log/time.h"
 #include "core/model/session/session.h"
 
 #include <chrono>
@@ -23,7 +24,7 @@ public:
     [[nodiscard]] const model::SessionView& session() const { return m_session; }
 
     /// Takes in everything that is in the log.
-    void follow(std::int64_t nowNs);
+    void follow(log::Stamp now);
 
     /// Shows the table if it is time to.
     void show(double elapsedS);

@@ -19,17 +19,17 @@ bool RecordFilter::matches(const log::FileRecord& record, std::uint64_t index) {
     log::Packet packet;
     packet.number = index;
     packet.bytes = record.bytes;
-    packet.stampNs = record.stampNs.value_or(0);
-    packet.flags = log::arrivalOf(record, {}, 0).flags;
+    packet.stamp = record.stamp.value_or(log::Stamp());
+    packet.flags = log::arrivalOf(record, {}, {}).flags;
     packet.kernelDropsBefore = record.kernelDropsBefore;
     packet.sender = m_senders.intern(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
-    m_firstStampNs = m_firstStampNs.value_or(packet.stampNs);
+    m_firstStamp = m_firstStamp.value_or(packet.stamp);
     const auto decoded =
         record.isSkipped ? tl::unexpected(wire::WireError{}) : wire::decodeInto(record.bytes, m_datagram);
     const wire::Datagram* datagram = decoded ? &m_datagram : nullptr;
     const model::PacketDigest digest = m_digester.add(packet, datagram);
     return m_filter.matches({packet, digest, datagram,
-                             record.sender ? m_senders.find(packet.sender) : nullptr, *m_firstStampNs,
+                             record.sender ? m_senders.find(packet.sender) : nullptr, *m_firstStamp,
                              decoded ? nullptr : &decoded.error()});
 }
 

@@ -4,6 +4,7 @@
 #include "core/filter/filter.h"
 #include "core/log/raw_file.h"
 #include "core/log/sender_table.h"
+#include "core/log/time.h"
 
 #include <optional>
 #include <string>
@@ -23,7 +24,7 @@ private:
     model::PacketDigester m_digester;
     log::SenderTable m_senders;
     wire::Datagram m_datagram;
-    std::optional<std::int64_t> m_firstStampNs;
+    std::optional<log::Stamp> m_firstStamp;
 };
 
 /// Why a filter was rejected, in three lines: the reason, the filter, and a caret under the place.

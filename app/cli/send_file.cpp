@@ -5,8 +5,6 @@
 #include "app/net/send_schedule.h"
 #include "core/log/raw_file.h"
 
-#include <limits>
-
 namespace posewire::cli {
 namespace {
 
@@ -18,8 +16,8 @@ public:
           m_schedule(m_clock),
           m_round(lines, m_schedule),
           m_pacer(1.0 / options.performer.rateHz, options.speed),
-          m_endNs(options.durationSeconds > 0.0 ? static_cast<std::int64_t>(options.durationSeconds * 1e9)
-                                                : std::numeric_limits<std::int64_t>::max()) {}
+          m_end(options.durationSeconds > 0.0 ? log::durationOf(options.durationSeconds)
+                                              : log::Duration::max()) {}
 
     void operator()(const log::FileRecord& record) {
         if (m_isDone) {
@@ -29,8 +27,8 @@ public:
             m_skipped += record.bytes.size();
             return;
         }
-        const std::int64_t due = m_pacer.due(record.bytes, record.stampNs);
-        m_isDone = due >= m_endNs;
+        const log::Duration due = m_pacer.due(record.bytes, record.stamp);
+        m_isDone = due >= m_end;
         if (m_isDone) {
             return;
         }
@@ -39,7 +37,7 @@ public:
         for (SendLine& line : m_lines) {
             line.faults().offer({record.bytes.begin(), record.bytes.end()}, due);
         }
-        note(m_round.sendUntil(due + 1));
+        note(m_round.sendUntil(due + log::Duration(1)));
     }
 
     /// The recording will not be repeated.
@@ -68,7 +66,7 @@ private:
     net::SendSchedule m_schedule;
     SendRound m_round;
     DatagramPacer m_pacer;
-    std::int64_t m_endNs;
+    log::Duration m_end;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_skipped = 0;
     std::string m_failure;

@@ -59,14 +59,14 @@ void SendRound::collect(const Take& take) {
         }
     }
     if (m_lines.size() > 1) {
-        std::ranges::stable_sort(m_leaving, {}, [](const Leaving& leaving) { return leaving.sending.dueNs; });
+        std::ranges::stable_sort(m_leaving, {}, [](const Leaving& leaving) { return leaving.sending.due; });
     }
 }
 
 net::NetResult<void> SendRound::sendCollected() {
     for (Leaving& leaving : m_leaving) {
         // A busy computer sends later than planned; lateness counts from when it was sent.
-        leaving.sending.dueNs += m_schedule.waitUntil(leaving.sending.dueNs);
+        leaving.sending.due += m_schedule.waitUntil(leaving.sending.due);
         if (auto sent = m_lines[leaving.line].send(leaving.sending); !sent) {
             return sent;
         }
@@ -74,8 +74,8 @@ net::NetResult<void> SendRound::sendCollected() {
     return {};
 }
 
-net::NetResult<void> SendRound::sendUntil(std::int64_t untilNs) {
-    collect([&](performer::Faults& faults) { faults.takeUntil(untilNs, m_taken); });
+net::NetResult<void> SendRound::sendUntil(log::Duration until) {
+    collect([&](performer::Faults& faults) { faults.takeUntil(until, m_taken); });
     return sendCollected();
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/net/datagram_sender.h"
 #include "app/net/send_schedule.h"
+#include "core/log/time.h"
 #include "core/performer/faults.h"
 #include "core/performer/streamed_truth.h"
 
@@ -51,7 +52,7 @@ public:
         : m_lines(lines), m_schedule(schedule) {}
 
     /// All that is due before this time after the start. The error is why a connection ended.
-    net::NetResult<void> sendUntil(std::int64_t untilNs);
+    net::NetResult<void> sendUntil(log::Duration until);
     /// The rest.
     net::NetResult<void> sendRest();
 

@@ -20,11 +20,11 @@ std::vector<performer::Performer> performersOf(const performer::PerformerSetting
     return performers;
 }
 
-void offer(const std::vector<wire::Datagram>& frame, std::int64_t dueNs, performer::Faults& faults) {
+void offer(const std::vector<wire::Datagram>& frame, log::Duration due, performer::Faults& faults) {
     for (const wire::Datagram& datagram : frame) {
         // The performer makes nothing that does not fit.
         if (auto bytes = wire::encode(datagram)) {
-            faults.offer(std::move(*bytes), dueNs);
+            faults.offer(std::move(*bytes), due);
         }
     }
 }
@@ -38,8 +38,8 @@ ExitStatus sendPerformance(const SendOptions& options, const performer::Performe
     const log::SystemClock clock;
     net::SendSchedule schedule(clock);
     SendRound round(lines, schedule);
-    const auto dueNs = [&](std::uint64_t index) {
-        return static_cast<std::int64_t>(static_cast<double>(index) * 1e9 / settings.rateHz);
+    const auto due = [&](std::uint64_t index) {
+        return log::Duration(static_cast<std::int64_t>(static_cast<double>(index) * 1e9 / settings.rateHz));
     };
     const double frames = options.durationSeconds > 0.0
                               ? std::round(options.durationSeconds * settings.rateHz)
@@ -48,9 +48,9 @@ ExitStatus sendPerformance(const SendOptions& options, const performer::Performe
     for (std::uint64_t index = 0; sent && static_cast<double>(index) < frames; ++index) {
         for (std::size_t line = 0; line < lines.size(); ++line) {
             performers[line].frameInto(index, frame);
-            offer(frame, dueNs(index), lines[line].faults());
+            offer(frame, due(index), lines[line].faults());
         }
-        sent = round.sendUntil(dueNs(index + 1));
+        sent = round.sendUntil(due(index + 1));
     }
     if (sent) {
         sent = round.sendRest();

@@ -6,6 +6,7 @@
 #include "app/net/connection_help.h"
 #include "app/net/input.h"
 #include "app/net/local_addresses.h"
+#include "core/log/time.h"
 
 #include <QString>
 
@@ -41,7 +42,7 @@ struct ReceivingState {
     QString file;                        ///< shown instead of ports, or beside them
     std::uint64_t kernelDropped = 0;     ///< in this computer, by the kernel or by the queue of the receiver
     std::int64_t receiveBufferBytes = 0; ///< the smallest that a UDP port was granted; 0 without one
-    std::int64_t longestDelayNs = 0; ///< the longest time the receiving thread did not look at its sockets
+    log::Duration longestDelay{}; ///< the longest time the receiving thread did not look at its sockets
     double datagramsPerSecond = 0;
     double bytesPerSecond = 0;
     std::vector<RelayState> relays{};

@@ -12,7 +12,7 @@ namespace {
 using Kind = Finding::Kind;
 using Findings = std::vector<Finding>;
 
-constexpr std::int64_t kSilenceNs = 2'000'000'000;
+constexpr log::Duration kSilence = std::chrono::seconds(2);
 constexpr std::string_view kWhereInMvn = "In MVN: Options > Preferences > Network Streamer";
 
 const char* protocolOf(InputKind kind) {
@@ -23,8 +23,8 @@ bool has(const ConnectionFacts& facts, InputKind kind) {
     return std::ranges::any_of(facts.inputs, [kind](const InputStatus& input) { return input.kind == kind; });
 }
 
-std::string secondsText(std::int64_t nanoseconds) {
-    return std::to_string(nanoseconds / 1'000'000'000) + " s";
+std::string secondsText(log::Duration duration) {
+    return std::to_string(duration / std::chrono::seconds(1)) + " s";
 }
 
 /// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)".
@@ -100,11 +100,11 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
                                 "listen but connects: for MVN, listen on a TCP port here"});
         }
         for (const Peer& peer : input.peers) {
-            if (peer.bytes == 0 && facts.nowNs - peer.connectedNs >= kSilenceNs) {
+            if (peer.bytes == 0 && facts.now - peer.connected >= kSilence) {
                 findings.push_back(
                     {Kind::SilentPeer,
                      peer.address + " is connected by TCP and has sent nothing for " +
-                         secondsText(facts.nowNs - peer.connectedNs),
+                         secondsText(facts.now - peer.connected),
                      std::string(kWhereInMvn) +
                          ", switch on datagrams to send, and press play or switch on Send Paused"});
             } else if (peer.datagrams == 0 && peer.skippedBytes != 0) {
@@ -120,12 +120,12 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
 
 void findSilence(const ConnectionFacts& facts, Findings& findings) {
     const bool listens = has(facts, InputKind::Udp) || has(facts, InputKind::TcpListener);
-    if (!listens || facts.silenceNs < kSilenceNs) {
+    if (!listens || facts.silence < kSilence) {
         return;
     }
     if (facts.mxtpDatagrams != 0) {
         findings.push_back(
-            {Kind::WentSilent, "no data for " + secondsText(facts.silenceNs),
+            {Kind::WentSilent, "no data for " + secondsText(facts.silence),
              "check that MVN is playing and streaming: while paused it sends only with Send Paused on"});
         return;
     }
@@ -142,7 +142,7 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
 void findTransport(const ConnectionFacts& facts, Findings& findings) {
     const bool hasUdp = has(facts, InputKind::Udp);
     const bool hasTcp = has(facts, InputKind::TcpListener);
-    if (facts.mxtpDatagrams != 0 || facts.silenceNs < kSilenceNs || hasUdp == hasTcp) {
+    if (facts.mxtpDatagrams != 0 || facts.silence < kSilence || hasUdp == hasTcp) {
         return;
     }
     const char* other = hasUdp ? "TCP" : "UDP";
@@ -154,7 +154,7 @@ void findTransport(const ConnectionFacts& facts, Findings& findings) {
 }
 
 void findFirewall(const ConnectionFacts& facts, Findings& findings) {
-    if (!facts.firewall || facts.mxtpDatagrams != 0 || facts.silenceNs < kSilenceNs || facts.inputs.empty()) {
+    if (!facts.firewall || facts.mxtpDatagrams != 0 || facts.silence < kSilence || facts.inputs.empty()) {
         return;
     }
     const InputStatus& input = facts.inputs.front();

@@ -5,6 +5,7 @@
 #include "app/net/input.h"
 #include "app/net/local_addresses.h"
 #include "app/net/net_error.h"
+#include "core/log/time.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -33,11 +34,11 @@ struct ConnectionFacts {
     std::vector<InputStatus> inputs;
     std::vector<FailedInput> failed;
     std::uint64_t mxtpDatagrams = 0; ///< received in total, malformed ones included
-    std::int64_t silenceNs = 0;      ///< since the newest of them, or since the inputs were opened
+    log::Duration silence{};         ///< since the newest of them, or since the inputs were opened
     std::vector<ForeignSender> foreign;
     std::vector<LocalAddress> addresses; ///< see reachable()
     std::optional<Firewall> firewall;
-    std::int64_t nowNs = 0; ///< since 1970-01-01 UTC
+    log::Stamp now{};
 };
 
 /// Something that is, or may be, wrong.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/net/endpoint.h"
+#include "core/log/time.h"
 
 #include <atomic>
 #include <cstdint>
@@ -44,8 +45,8 @@ struct InputCounters {
 
 /// The other end of a TCP connection.
 struct Peer {
-    std::string address;          ///< "10.0.0.5:50123"
-    std::int64_t connectedNs = 0; ///< since 1970-01-01 UTC
+    std::string address; ///< "10.0.0.5:50123"
+    log::Stamp connected{};
     std::uint64_t datagrams = 0;
     std::uint64_t bytes = 0;
     std::uint64_t skippedBytes = 0;

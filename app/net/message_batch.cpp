@@ -44,7 +44,8 @@ Received MessageBatch::received(std::size_t index) const {
         if (control.cmsg_level == SOL_SOCKET && control.cmsg_type == SO_TIMESTAMPNS) {
             timespec stamp{};
             std::memcpy(&stamp, data, sizeof stamp);
-            received.stampNs = std::int64_t{stamp.tv_sec} * 1'000'000'000 + stamp.tv_nsec;
+            received.stamp =
+                log::Stamp(std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec));
         } else if (control.cmsg_level == SOL_SOCKET && control.cmsg_type == SO_RXQ_OVFL) {
             std::memcpy(&received.drops, data, sizeof received.drops);
         }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/log_writer.h"
+#include "core/log/time.h"
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -16,7 +17,7 @@ namespace posewire::net {
 /// What the kernel reports about one datagram besides its bytes.
 struct Received {
     std::size_t size = 0;
-    std::int64_t stampNs = 0; ///< the kernel's, since 1970-01-01 UTC; 0 if it gave none
+    log::Stamp stamp{}; ///< the kernel's; log::Stamp() if it gave none
     std::uint32_t drops =
         0; ///< datagrams the socket had dropped when this one was queued, modulo 2³²; 0 where none
     bool isTruncated = false;

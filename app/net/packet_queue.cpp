@@ -18,7 +18,7 @@ bool PacketQueue::push(std::span<const std::byte> bytes, const log::SenderInfo& 
     {
         const std::lock_guard lock(m_mutex);
         if (!hasRoomFor(bytes.size())) {
-            remember(sender, arrival.stampNs);
+            remember(sender, arrival.stamp);
             return false;
         }
         isFirst = place(bytes, sender, arrival);
@@ -71,16 +71,16 @@ bool PacketQueue::place(std::span<const std::byte> bytes, const log::SenderInfo&
     return m_entries.size() == 1;
 }
 
-void PacketQueue::remember(const log::SenderInfo& sender, std::int64_t stampNs) {
+void PacketQueue::remember(const log::SenderInfo& sender, log::Stamp stamp) {
     m_refused.fetch_add(1, std::memory_order_relaxed);
     const auto known = std::ranges::find(m_losses, sender, &Loss::sender);
     if (known != m_losses.end() || m_losses.size() == kMostLosses) {
         Loss& loss = known != m_losses.end() ? *known : m_losses.back();
         ++loss.count;
-        loss.stampNs = stampNs;
+        loss.stamp = stamp;
         return;
     }
-    m_losses.push_back({sender, stampNs, 1});
+    m_losses.push_back({sender, stamp, 1});
 }
 
 std::size_t PacketQueue::moveTo(log::PacketLog& log) {
@@ -116,7 +116,7 @@ std::size_t PacketQueue::moveTo(log::PacketLog& log) {
 void PacketQueue::appendLosses(log::PacketLog& log) {
     for (const Loss& loss : m_takenLosses) {
         log::Arrival arrival;
-        arrival.stampNs = loss.stampNs;
+        arrival.stamp = loss.stamp;
         arrival.sender = log.senders().intern(loss.sender);
         arrival.kernelDropsBefore = loss.count;
         arrival.flags.skipped = true;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet_log.h"
+#include "core/log/time.h"
 
 #include <atomic>
 #include <condition_variable>
@@ -52,13 +53,13 @@ private:
     };
     struct Loss {
         log::SenderInfo sender;
-        std::int64_t stampNs;
+        log::Stamp stamp;
         std::uint32_t count;
     };
 
     [[nodiscard]] bool hasRoomFor(std::size_t bytes) const;
     bool place(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
-    void remember(const log::SenderInfo& sender, std::int64_t stampNs);
+    void remember(const log::SenderInfo& sender, log::Stamp stamp);
     void appendLosses(log::PacketLog& log);
 
     const std::function<void()> m_onFilled;

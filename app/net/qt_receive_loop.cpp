@@ -131,7 +131,7 @@ bool QtReceiveLoop::takeOne(Socket& socket) {
         return false;
     }
     log::Arrival arrival;
-    arrival.stampNs = m_context.clock.wallNs();
+    arrival.stamp = m_context.clock.wall();
     arrival.sender = senderOf(socket, address, port);
     if (isSmall) {
         writer.commit(0, static_cast<std::size_t>(size), arrival);

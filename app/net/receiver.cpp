@@ -124,7 +124,7 @@ ReceiveTotals Receiver::totals() const {
     totals.bytes = m_counters.bytes + m_tcpTotals.bytes;
     totals.kernelDropped = m_counters.kernelDropped;
     totals.queueDropped = m_queue.refused();
-    totals.longestDelayNs = m_counters.longestDelayNs;
+    totals.longestDelay = m_counters.longestDelay;
     const std::lock_guard lock(m_mutex);
     for (const auto& input : m_inputs) {
         const std::int64_t granted = input->counters().receiveBufferBytes;

@@ -7,6 +7,7 @@
 #include "app/net/packet_queue.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
+#include "core/log/time.h"
 
 #include <atomic>
 #include <chrono>
@@ -48,7 +49,7 @@ struct ReceiveCounters {
         0; ///< datagrams lost on this computer because the buffer was full
     /// Largest fill in thousandths since it was last read; -1 before the first look.
     std::atomic<std::int32_t> bufferFill = -1;
-    std::atomic<std::int64_t> longestDelayNs = 0; ///< the longest time between two looks at the sockets
+    std::atomic<log::Duration> longestDelay{}; ///< the longest time between two looks at the sockets
 };
 
 /// Over all inputs since the receiver was created, removed ones included.
@@ -58,7 +59,7 @@ struct ReceiveTotals {
     std::uint64_t kernelDropped = 0;     ///< see ReceiveCounters
     std::uint64_t queueDropped = 0;      ///< refused by submit() because the queue was full
     std::int64_t receiveBufferBytes = 0; ///< the smallest granted to an open UDP input; 0 if none is open
-    std::int64_t longestDelayNs = 0;
+    log::Duration longestDelay{};
 };
 
 /// The one thread that writes a PacketLog for as long as the program runs. It receives UDP datagrams straight

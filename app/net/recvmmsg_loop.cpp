@@ -95,14 +95,14 @@ private:
 
     ReceiveContext m_context;
     Descriptor m_wake;
-    std::chrono::nanoseconds m_longestNap;
-    std::chrono::nanoseconds m_nap;
+    log::Duration m_longestNap;
+    log::Duration m_nap;
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
     std::vector<std::unique_ptr<Socket>> m_sockets;
     int m_idleNaps = 0;
     bool m_isDelayed = false; ///< the sockets waited longer than usual
     int m_roundsSinceDropCheck = 0;
-    std::int64_t m_lookedNs = 0; ///< when the sockets were last looked at, monotonic
+    log::Moment m_looked{}; ///< when the sockets were last looked at
 };
 
 /// If the kernel refuses, stamps come from the clock.
@@ -164,7 +164,7 @@ void RecvmmsgLoop::measureBuffers() {
 }
 
 void RecvmmsgLoop::run() {
-    m_lookedNs = m_context.clock.monotonicNs();
+    m_looked = m_context.clock.monotonic();
     while (!isStopping()) {
         m_context.commands.run();
         rest(drainAll());
@@ -241,8 +241,8 @@ std::size_t RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
     socket.lastSender = arrival.sender;
     socket.hasSender = true;
     arrival.flags.truncated = received.isTruncated;
-    arrival.flags.stampedByKernel = received.stampNs != 0;
-    arrival.stampNs = received.stampNs != 0 ? received.stampNs : m_context.clock.wallNs();
+    arrival.flags.stampedByKernel = received.stamp != log::Stamp();
+    arrival.stamp = received.stamp != log::Stamp() ? received.stamp : m_context.clock.wall();
     // 0 is none. A packet under way may carry a smaller count than a record made meanwhile.
     if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {
         arrival.kernelDropsBefore = received.drops - socket.dropsInLog;
@@ -270,7 +270,7 @@ void RecvmmsgLoop::recordDrops(Socket& socket, std::uint32_t drops) {
         return;
     }
     log::Arrival arrival;
-    arrival.stampNs = m_context.clock.wallNs();
+    arrival.stamp = m_context.clock.wall();
     arrival.sender = socket.lastSender;
     arrival.kernelDropsBefore = static_cast<std::uint32_t>(more);
     arrival.flags.skipped = true;
@@ -319,8 +319,7 @@ void RecvmmsgLoop::checkAllDrops() {
 /// buffer.
 void RecvmmsgLoop::adaptNap(std::size_t received) {
     if (received * kBufferPerDatagram > m_smallestBuffer / 8) {
-        m_nap = std::max<std::chrono::nanoseconds>(
-            m_nap / 2, std::min<std::chrono::nanoseconds>(kShortestNap, m_longestNap));
+        m_nap = std::max<log::Duration>(m_nap / 2, std::min<log::Duration>(kShortestNap, m_longestNap));
     } else {
         m_nap = std::min(m_nap + m_nap / 4, m_longestNap);
     }
@@ -332,15 +331,15 @@ void RecvmmsgLoop::rest(std::size_t received) {
     if (m_idleNaps > kNapsUntilIdle) {
         checkAllDrops();
         waitForSomething();
-        m_lookedNs = m_context.clock.monotonicNs();
+        m_looked = m_context.clock.monotonic();
         return;
     }
     std::this_thread::sleep_for(m_nap);
-    const std::int64_t nowNs = m_context.clock.monotonicNs();
-    const std::int64_t delayNs = nowNs - std::exchange(m_lookedNs, nowNs);
-    m_isDelayed = std::chrono::nanoseconds(delayNs) > 2 * m_longestNap;
-    if (delayNs > m_context.counters.longestDelayNs.load(std::memory_order_relaxed)) {
-        m_context.counters.longestDelayNs.store(delayNs, std::memory_order_relaxed);
+    const log::Moment now = m_context.clock.monotonic();
+    const log::Duration delay = now - std::exchange(m_looked, now);
+    m_isDelayed = delay > 2 * m_longestNap;
+    if (delay > m_context.counters.longestDelay.load(std::memory_order_relaxed)) {
+        m_context.counters.longestDelay.store(delay, std::memory_order_relaxed);
     }
 }
 

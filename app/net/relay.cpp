@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t kAtOnce = 1024;
 constexpr std::chrono::milliseconds kNap{2};
 /// A packet this much older than the last time the relay had caught up is not live.
-constexpr std::int64_t kOldNs = 1'000'000'000;
+constexpr log::Duration kOld = std::chrono::seconds(1);
 /// How long to wait for the network to empty the socket's send buffer.
 constexpr int kAttempts = 10;
 constexpr std::chrono::microseconds kAttemptPause{200};
@@ -115,7 +115,7 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
         if (m_targets.empty()) {
             m_reader.refresh();
             m_next = m_reader.end();
-            m_caughtUpNs = m_clock.wallNs();
+            m_caughtUp = m_clock.wall();
         }
         m_targets.push_back(added);
     });
@@ -196,7 +196,7 @@ bool Relay::forwardSome() {
         }
     }
     if (m_next == m_reader.end()) {
-        m_caughtUpNs = m_clock.wallNs();
+        m_caughtUp = m_clock.wall();
         return false;
     }
     return true;
@@ -224,7 +224,7 @@ bool Relay::isForwarded(const log::Packet& packet) {
         m_verdicts[index] = judge(packet.sender);
     }
     return m_verdicts[index] == Verdict::Forward && !packet.flags.skipped &&
-           packet.stampNs >= m_caughtUpNs - kOldNs;
+           packet.stamp >= m_caughtUp - kOld;
 }
 
 /// Leaves out what this relay itself has sent, should it come back by a path that add() did not see.

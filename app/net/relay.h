@@ -6,6 +6,7 @@
 #include "app/net/net_error.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
+#include "core/log/time.h"
 
 #include <condition_variable>
 #include <cstdint>
@@ -84,7 +85,7 @@ private:
     // Of the thread alone.
     log::LogReader m_reader;
     std::uint64_t m_next = 0;        ///< the packet to forward
-    std::int64_t m_caughtUpNs = 0;   ///< when it last had caught up, wall clock
+    log::Stamp m_caughtUp{};         ///< when it last had caught up, wall clock
     std::vector<Verdict> m_verdicts; ///< of senders, by id
     std::unique_ptr<Sockets> m_sockets;
     std::thread m_thread;

@@ -1,27 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/send_schedule.h"
 
-#include <chrono>
 #include <thread>
 
 namespace posewire::net {
 
 SendSchedule::SendSchedule(const log::Clock& clock, Sleep sleep)
-    : m_clock(clock), m_sleep(std::move(sleep)), m_startNs(clock.monotonicNs()) {
+    : m_clock(clock), m_sleep(std::move(sleep)), m_start(clock.monotonic()) {
     if (!m_sleep) {
-        m_sleep = [](std::int64_t nanoseconds) {
-            std::this_thread::sleep_for(std::chrono::nanoseconds(nanoseconds));
-        };
+        m_sleep = [](log::Duration duration) { std::this_thread::sleep_for(duration); };
     }
 }
 
-std::int64_t SendSchedule::waitUntil(std::int64_t nanosecondsAfterStart) {
+log::Duration SendSchedule::waitUntil(log::Duration afterStart) {
     while (true) {
-        const std::int64_t lateNs = elapsedNs() - nanosecondsAfterStart;
-        if (lateNs >= 0) {
-            return lateNs;
+        const log::Duration late = elapsed() - afterStart;
+        if (late >= log::Duration::zero()) {
+            return late;
         }
-        m_sleep(-lateNs);
+        m_sleep(-late);
     }
 }
 

@@ -13,15 +13,15 @@ namespace posewire::net {
 
 namespace {
 
-constexpr std::int64_t kPublishNs = 100'000'000;
-constexpr std::int64_t kFirstPauseNs = 250'000'000;
-constexpr std::int64_t kLongestPauseNs = 5'000'000'000;
+constexpr log::Duration kPublish = std::chrono::milliseconds(100);
+constexpr log::Duration kFirstPause = std::chrono::milliseconds(250);
+constexpr log::Duration kLongestPause = std::chrono::seconds(5);
 /// An attempt without an answer by then has failed.
-constexpr std::int64_t kPatienceNs = 5'000'000'000;
+constexpr log::Duration kPatience = std::chrono::seconds(5);
 
-std::string secondsText(std::int64_t nanoseconds) {
+std::string secondsText(log::Duration duration) {
     std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%.3g s", static_cast<double>(nanoseconds) * 1e-9);
+    std::snprintf(text.data(), text.size(), "%.3g s", log::secondsOf(duration));
     return text.data();
 }
 
@@ -84,7 +84,7 @@ bool TcpListener::accept() {
     return hasChanged;
 }
 
-bool TcpListener::turn(std::int64_t nowNs) {
+bool TcpListener::turn(log::Moment now) {
     bool hasChanged = accept();
     bool hasMore = false;
     bool hasRead = false;
@@ -97,16 +97,16 @@ bool TcpListener::turn(std::int64_t nowNs) {
         }
     }
     hasChanged |= std::erase_if(m_peers, [](const auto& peer) { return peer->hasEnded(); }) != 0;
-    if (hasChanged || (m_publishNs && nowNs >= *m_publishNs)) {
+    if (hasChanged || (m_publish && now >= *m_publish)) {
         publish();
-    } else if (hasRead && !m_publishNs) {
-        m_publishNs = nowNs + kPublishNs;
+    } else if (hasRead && !m_publish) {
+        m_publish = now + kPublish;
     }
     return hasMore;
 }
 
 void TcpListener::publish() {
-    m_publishNs.reset();
+    m_publish.reset();
     std::vector<Peer> peers;
     for (const auto& peer : m_peers) {
         peers.push_back(peer->status());
@@ -123,39 +123,36 @@ void TcpListener::drain() {
 }
 
 TcpDialer::TcpDialer(const TcpContext& context, std::shared_ptr<Input> input, Endpoint endpoint)
-    : TcpInput(std::move(input)),
-      m_context(context),
-      m_endpoint(std::move(endpoint)),
-      m_pauseNs(kFirstPauseNs) {}
+    : TcpInput(std::move(input)), m_context(context), m_endpoint(std::move(endpoint)), m_pause(kFirstPause) {}
 
-bool TcpDialer::turn(std::int64_t nowNs) {
-    if (!m_socket && !m_peer && nowNs >= m_nextNs) {
-        begin(nowNs);
+bool TcpDialer::turn(log::Moment now) {
+    if (!m_socket && !m_peer && now >= m_next) {
+        begin(now);
     }
     if (m_socket) {
-        await(nowNs);
+        await(now);
     }
     if (!m_peer) {
         return false;
     }
     const bool hasMore = m_peer->read();
     if (m_peer->status().datagrams != 0) {
-        m_pauseNs = kFirstPauseNs;
+        m_pause = kFirstPause;
     }
     if (m_peer->hasEnded()) {
         m_peer->finish();
         m_peer.reset();
-        pause(nowNs, "the connection to " + textOf(m_endpoint) + " ended");
-    } else if (!m_publishNs) {
-        m_publishNs = nowNs + kPublishNs;
-    } else if (nowNs >= *m_publishNs) {
+        pause(now, "the connection to " + textOf(m_endpoint) + " ended");
+    } else if (!m_publish) {
+        m_publish = now + kPublish;
+    } else if (now >= *m_publish) {
         publish();
     }
     return hasMore;
 }
 
-void TcpDialer::begin(std::int64_t nowNs) {
-    m_begunNs = nowNs;
+void TcpDialer::begin(log::Moment now) {
+    m_begun = now;
     m_socket = std::make_unique<QTcpSocket>();
     m_socket->setProxy(QNetworkProxy::NoProxy);
     m_socket->setReadBufferSize(TcpPeer::kReadBuffer);
@@ -165,39 +162,39 @@ void TcpDialer::begin(std::int64_t nowNs) {
     m_input->setState(InputState::Connecting, "connecting to " + textOf(m_endpoint));
 }
 
-void TcpDialer::await(std::int64_t nowNs) {
+void TcpDialer::await(log::Moment now) {
     const auto state = m_socket->state();
     if (state == QAbstractSocket::ConnectedState || m_socket->bytesAvailable() > 0) {
         // 0: the local port changes with each connection and would make it a new sender.
         m_peer = std::make_unique<TcpPeer>(m_context, m_input, std::move(m_socket), std::uint16_t{0});
         publish();
     } else if (state == QAbstractSocket::UnconnectedState) {
-        pause(nowNs, textOf(m_endpoint) + " cannot be reached: " + m_socket->errorString().toStdString());
-    } else if (nowNs - m_begunNs >= kPatienceNs) {
-        pause(nowNs, textOf(m_endpoint) + " does not answer");
+        pause(now, textOf(m_endpoint) + " cannot be reached: " + m_socket->errorString().toStdString());
+    } else if (now - m_begun >= kPatience) {
+        pause(now, textOf(m_endpoint) + " does not answer");
     }
 }
 
-void TcpDialer::pause(std::int64_t nowNs, const std::string& why) {
+void TcpDialer::pause(log::Moment now, const std::string& why) {
     m_socket.reset();
-    m_publishNs.reset();
-    m_nextNs = nowNs + m_pauseNs;
+    m_publish.reset();
+    m_next = now + m_pause;
     m_input->setPeers({}, 0);
-    m_input->setState(InputState::Retrying, why + "; trying again in " + secondsText(m_pauseNs));
-    m_pauseNs = std::min(2 * m_pauseNs, kLongestPauseNs);
+    m_input->setState(InputState::Retrying, why + "; trying again in " + secondsText(m_pause));
+    m_pause = std::min(2 * m_pause, kLongestPause);
 }
 
 void TcpDialer::publish() {
-    m_publishNs.reset();
+    m_publish.reset();
     m_input->setState(InputState::Connected, "connected to " + textOf(m_endpoint));
     m_input->setPeers({m_peer->status()}, 0);
 }
 
-std::optional<std::int64_t> TcpDialer::dueNs() const {
+std::optional<log::Moment> TcpDialer::due() const {
     if (m_peer) {
-        return m_publishNs;
+        return m_publish;
     }
-    return m_socket ? m_begunNs + kPatienceNs : m_nextNs;
+    return m_socket ? m_begun + kPatience : m_next;
 }
 
 void TcpDialer::drain() {

@@ -3,6 +3,7 @@
 
 #include "app/net/net_error.h"
 #include "app/net/tcp_peer.h"
+#include "core/log/time.h"
 
 #include <QTcpServer>
 
@@ -24,10 +25,10 @@ public:
     [[nodiscard]] InputId id() const { return m_input->id(); }
 
     /// Does the work at hand; true if there is more that no event will announce.
-    virtual bool turn(std::int64_t nowNs) = 0;
+    virtual bool turn(log::Moment now) = 0;
 
-    /// When it needs a turn even without events, monotonic; empty for never.
-    [[nodiscard]] virtual std::optional<std::int64_t> dueNs() const = 0;
+    /// When it needs a turn even without events; empty for never.
+    [[nodiscard]] virtual std::optional<log::Moment> due() const = 0;
 
     /// Reads what has arrived, before destruction.
     virtual void drain() = 0;
@@ -42,8 +43,8 @@ public:
     TcpListener(const TcpContext& context, std::shared_ptr<Input> input);
     NetResult<void> listen(const Endpoint& endpoint);
 
-    bool turn(std::int64_t nowNs) override;
-    [[nodiscard]] std::optional<std::int64_t> dueNs() const override { return m_publishNs; }
+    bool turn(log::Moment now) override;
+    [[nodiscard]] std::optional<log::Moment> due() const override { return m_publish; }
     void drain() override;
 
 private:
@@ -54,7 +55,7 @@ private:
     QTcpServer m_server;
     std::vector<std::unique_ptr<TcpPeer>> m_peers;
     std::uint64_t m_refused = 0;
-    std::optional<std::int64_t> m_publishNs; ///< when to publish the peers' counters next
+    std::optional<log::Moment> m_publish; ///< when to publish the peers' counters next
 };
 
 /// Connects to a sender that listens, and reconnects.
@@ -62,24 +63,24 @@ class TcpDialer final : public TcpInput {
 public:
     TcpDialer(const TcpContext& context, std::shared_ptr<Input> input, Endpoint endpoint);
 
-    bool turn(std::int64_t nowNs) override;
-    [[nodiscard]] std::optional<std::int64_t> dueNs() const override;
+    bool turn(log::Moment now) override;
+    [[nodiscard]] std::optional<log::Moment> due() const override;
     void drain() override;
 
 private:
-    void begin(std::int64_t nowNs);
-    void await(std::int64_t nowNs);
-    void pause(std::int64_t nowNs, const std::string& why);
+    void begin(log::Moment now);
+    void await(log::Moment now);
+    void pause(log::Moment now, const std::string& why);
     void publish();
 
     const TcpContext& m_context;
     Endpoint m_endpoint;
     std::unique_ptr<QTcpSocket> m_socket; ///< while it connects
     std::unique_ptr<TcpPeer> m_peer;      ///< once it has
-    std::int64_t m_begunNs = 0;           ///< of this attempt
-    std::int64_t m_nextNs = 0;            ///< of the next attempt
-    std::int64_t m_pauseNs;
-    std::optional<std::int64_t> m_publishNs;
+    log::Moment m_begun{};                ///< of this attempt
+    log::Moment m_next{};                 ///< of the next attempt
+    log::Duration m_pause;
+    std::optional<log::Moment> m_publish;
 };
 
 } // namespace posewire::net

@@ -23,7 +23,7 @@ TcpPeer::TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::u
       m_socket(std::move(socket)),
       m_sender{textOf(Endpoint{addressText(m_socket->peerAddress()), m_socket->peerPort()}),
                log::Transport::Tcp, localPort},
-      m_status{m_sender.address, context.clock.wallNs()} {
+      m_status{m_sender.address, context.clock.wall()} {
     m_socket->setReadBufferSize(kReadBuffer);
     m_socket->setSocketOption(QAbstractSocket::KeepAliveOption, 1);
 }
@@ -35,7 +35,7 @@ bool TcpPeer::read() {
         return false;
     }
     const auto bytes = static_cast<std::uint64_t>(size);
-    m_stampNs = m_context.clock.wallNs();
+    m_stamp = m_context.clock.wall();
     m_status.bytes += bytes;
     increase<std::uint64_t>(m_input->counters().bytes, bytes);
     increase<std::uint64_t>(m_context.totals.bytes, bytes);
@@ -54,13 +54,13 @@ void TcpPeer::drain() {
 }
 
 void TcpPeer::finish() {
-    m_stampNs = m_context.clock.wallNs();
+    m_stamp = m_context.clock.wall();
     m_framer.finish([this](const log::TcpFramer::Piece& piece) { take(piece); });
 }
 
 void TcpPeer::take(const log::TcpFramer::Piece& piece) {
     log::Arrival arrival;
-    arrival.stampNs = m_stampNs;
+    arrival.stamp = m_stamp;
     arrival.flags.skipped = piece.kind == log::TcpFramer::Kind::Skipped;
     if (arrival.flags.skipped) {
         m_status.skippedBytes += piece.bytes.size();

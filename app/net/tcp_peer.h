@@ -5,6 +5,7 @@
 #include "app/net/packet_queue.h"
 #include "core/log/clock.h"
 #include "core/log/tcp_framer.h"
+#include "core/log/time.h"
 
 #include <QTcpSocket>
 
@@ -54,7 +55,7 @@ private:
     std::unique_ptr<QTcpSocket> m_socket;
     log::SenderInfo m_sender;
     log::TcpFramer m_framer;
-    std::int64_t m_stampNs = 0; ///< of the bytes being read
+    log::Stamp m_stamp{}; ///< of the bytes being read
     Peer m_status;
 };
 

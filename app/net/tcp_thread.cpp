@@ -13,12 +13,6 @@
 
 namespace posewire::net {
 
-namespace {
-
-constexpr std::int64_t kNsPerMs = 1'000'000;
-
-} // namespace
-
 struct TcpThread::Inside {
     explicit Inside(const TcpContext& itsContext) : context(itsContext) { timer.setSingleShot(true); }
 
@@ -28,17 +22,19 @@ struct TcpThread::Inside {
 
     /// True if there is more to do at once.
     bool turn() {
-        const std::int64_t nowNs = context.clock.monotonicNs();
+        const log::Moment now = context.clock.monotonic();
         bool hasMore = false;
-        std::optional<std::int64_t> dueNs;
+        std::optional<log::Moment> earliest;
         for (const auto& input : inputs) {
-            hasMore |= input->turn(nowNs);
-            if (const auto due = input->dueNs()) {
-                dueNs = std::min(*due, dueNs.value_or(*due));
+            hasMore |= input->turn(now);
+            if (const auto due = input->due()) {
+                earliest = std::min(*due, earliest.value_or(*due));
             }
         }
-        if (dueNs && !hasMore) {
-            timer.start(static_cast<int>(std::max<std::int64_t>(0, *dueNs - nowNs) / kNsPerMs + 1));
+        if (earliest && !hasMore) {
+            using std::chrono::milliseconds;
+            const log::Duration wait = std::max(*earliest - now, log::Duration::zero());
+            timer.start(std::chrono::duration_cast<milliseconds>(wait) + milliseconds(1));
         }
         return hasMore;
     }

@@ -21,10 +21,11 @@ std::string addressOf(const model::SessionView& session, const Event& event) {
     return sender == nullptr ? std::string() : sender->info.address;
 }
 
-std::string secondsText(std::int64_t stampNs) {
-    constexpr std::int64_t kSecondNs = 1'000'000'000;
-    const std::string decimals = std::to_string(stampNs % kSecondNs);
-    return std::to_string(stampNs / kSecondNs) + '.' + std::string(9 - decimals.size(), '0') + decimals;
+std::string secondsText(log::Stamp stamp) {
+    constexpr std::chrono::seconds kSecond(1);
+    const log::Duration time = stamp.time_since_epoch();
+    const std::string decimals = std::to_string((time % kSecond).count());
+    return std::to_string(time / kSecond) + '.' + std::string(9 - decimals.size(), '0') + decimals;
 }
 
 JsonValue objectOf(const model::SessionView& session, const Event& event) {
@@ -39,8 +40,8 @@ JsonValue objectOf(const model::SessionView& session, const Event& event) {
     if (event.type) {
         object["type"] = wire::typeDigits(*event.type);
     }
-    object["fromNs"] = event.firstStampNs;
-    object["toNs"] = event.lastStampNs;
+    object["fromNs"] = log::nanosecondsOf(event.firstStamp);
+    object["toNs"] = log::nanosecondsOf(event.lastStamp);
     object["firstPacket"] = event.firstPacket;
     object["lastPacket"] = event.lastPacket;
     object["count"] = event.count;
@@ -76,8 +77,8 @@ std::string eventsCsv(const model::SessionView& session, std::span<const Event* 
             addressOf(session, *event),
             event->character ? std::to_string(*event->character) : std::string(),
             event->type ? wire::typeDigits(*event->type) : std::string(),
-            secondsText(event->firstStampNs),
-            secondsText(event->lastStampNs),
+            secondsText(event->firstStamp),
+            secondsText(event->lastStamp),
             std::to_string(event->firstPacket),
             std::to_string(event->lastPacket),
             std::to_string(event->count),

@@ -95,7 +95,7 @@ bool givesBack(const Json& object, wire::Bytes bytes) {
 
 std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes) {
     Json object = placed(place, bytes.size());
-    object["stampNs"] = place.stampNs ? Json(*place.stampNs) : Json();
+    object["stampNs"] = place.stamp ? Json(log::nanosecondsOf(*place.stamp)) : Json();
     object["source"] = place.sender ? jsonOf(*place.sender) : Json();
     addHeader(object, bytes);
     const auto datagram = wire::decode(bytes);

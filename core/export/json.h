@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/wire/types.h"
 
 #include <tl/expected.hpp>
@@ -19,7 +20,7 @@ namespace posewire::exporting {
 struct DatagramPlace {
     std::uint64_t index = 0;  ///< of the object in the output, from 0
     std::uint64_t offset = 0; ///< of its first byte in the file
-    std::optional<std::int64_t> stampNs;
+    std::optional<log::Stamp> stamp;
     std::optional<std::string> sender;
 };
 

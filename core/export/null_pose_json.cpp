@@ -8,7 +8,7 @@ namespace posewire::exporting {
 namespace {
 
 void addPose(const model::NullPose& pose, Json& object) {
-    object["stampNs"] = pose.stampNs;
+    object["stampNs"] = log::nanosecondsOf(pose.stamp);
     object["packet"] = pose.packet;
     object["partsReceived"] = pose.partsReceived;
     object["partsExpected"] = pose.partsExpected;

@@ -37,7 +37,7 @@ struct NullPoseSheet {
 ///      "props": [{"id": 24, "name": "Prop1"}, …]}
 ///
 /// Without a null pose the keys from "stampNs" to "points" are missing, without type 10 or 11 "scale" and
-/// "props". stampNs are nanoseconds since 1970 UTC, of the newest part. What is no number is one of the
+/// "props". "stampNs" is nanoseconds since 1970 UTC, of the newest part. What is no number is one of the
 /// strings "NaN", "Infinity" and "-Infinity".
 [[nodiscard]] std::string nullPoseJson(const NullPoseSheet& sheet);
 

@@ -39,8 +39,8 @@ std::string whose(const model::SessionView& session, const Event& event) {
     return text;
 }
 
-std::string secondsAfter(std::int64_t stampNs, const ReportSteps& steps) {
-    return fixed(static_cast<double>(stampNs - steps.fromNs) * 1e-9, 3);
+std::string secondsAfter(log::Stamp stamp, const ReportSteps& steps) {
+    return fixed(log::secondsOf(stamp - steps.from), 3);
 }
 
 } // namespace
@@ -48,7 +48,7 @@ std::string secondsAfter(std::int64_t stampNs, const ReportSteps& steps) {
 std::string eventSection(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const Event*> events;
     for (const Event& event : session.events().all()) {
-        if (event.lastStampNs >= steps.fromNs && event.firstStampNs <= steps.toNs) {
+        if (event.lastStamp >= steps.from && event.firstStamp <= steps.to) {
             events.push_back(&event);
         }
     }
@@ -70,7 +70,7 @@ std::string eventSection(const model::SessionView& session, const ReportSteps& s
                                      : "<span class=\"" + std::string(severityName(severity)) +
                                            "\" aria-label=\"" + std::string(severityName(severity)) + "\">" +
                                            std::string(severityMark(severity)) + "</span> ";
-        table.add({secondsAfter(event->firstStampNs, steps), secondsAfter(event->lastStampNs, steps),
+        table.add({secondsAfter(event->firstStamp, steps), secondsAfter(event->lastStamp, steps),
                    mark + escaped(model::nameOf(event->kind)), escaped(whose(session, *event)),
                    grouped(event->count), escaped(event->text())});
     });

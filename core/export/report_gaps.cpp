@@ -18,7 +18,7 @@ constexpr std::size_t kMostListed = 100;
 std::vector<const Gap*> gapsIn(const model::SessionView& session, const ReportSteps& steps) {
     std::vector<const Gap*> gaps;
     for (const Gap& gap : session.gaps()) {
-        if (gap.lost != 0 && gap.toStampNs >= steps.fromNs && gap.toStampNs <= steps.toNs) {
+        if (gap.lost != 0 && gap.toStamp >= steps.from && gap.toStamp <= steps.to) {
             gaps.push_back(&gap);
         }
     }
@@ -31,18 +31,14 @@ std::size_t colourOf(std::size_t cause) {
     return colours[cause];
 }
 
-double milliseconds(std::int64_t ns) {
-    return static_cast<double>(ns) * 1e-6;
-}
-
 std::vector<std::string> cellsOf(const model::SessionView& session, const Gap& gap,
                                  const ReportSteps& steps) {
     const model::CharacterKey key{gap.stream.sender, gap.stream.character};
-    return {fixed(milliseconds(gap.fromStampNs - steps.fromNs) * 1e-3, 3),
+    return {fixed(log::millisecondsOf(gap.fromStamp - steps.from) * 1e-3, 3),
             escaped(session.displayName(key)) + ", " + escaped(wire::typeTitle(gap.stream.type)),
             grouped(gap.lost),
             std::to_string(gap.fromSample) + "–" + std::to_string(gap.toSample),
-            fixed(milliseconds(gap.toStampNs - gap.fromStampNs), 1),
+            fixed(log::millisecondsOf(gap.toStamp - gap.fromStamp), 1),
             escaped(model::nameOf(gap.cause)),
             escaped(gap.evidenceText())};
 }
@@ -50,14 +46,14 @@ std::vector<std::string> cellsOf(const model::SessionView& session, const Gap& g
 } // namespace
 
 SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
-    const double durationS = static_cast<double>(steps.widthNs) * 1e-9 * static_cast<double>(steps.count);
+    const double durationS = log::secondsOf(steps.width) * static_cast<double>(steps.count);
     SvgPlot plot{"Samples lost, by cause", SvgPlot::Form::StackedBars, durationS, {}, 1};
     for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
         plot.series.push_back({std::string(model::nameOf(static_cast<model::LossCause>(cause))),
                                colourOf(cause), std::vector<double>(steps.count)});
     }
     for (const Gap* gap : gapsIn(session, steps)) {
-        const std::int64_t step = (gap->toStampNs - steps.firstNs) / steps.widthNs;
+        const std::int64_t step = (gap->toStamp - steps.first) / steps.width;
         auto& values = plot.series[static_cast<std::size_t>(gap->cause)].values;
         values[std::min(static_cast<std::size_t>(step), values.size() - 1)] += gap->lost;
     }
@@ -72,7 +68,7 @@ std::string gapSection(const model::SessionView& session, const ReportSteps& ste
     const std::size_t all = gaps.size();
     std::ranges::stable_sort(gaps, std::greater{}, [](const Gap* gap) { return gap->lost; });
     gaps.resize(std::min(all, kMostListed));
-    std::ranges::stable_sort(gaps, {}, [](const Gap* gap) { return gap->fromStampNs; });
+    std::ranges::stable_sort(gaps, {}, [](const Gap* gap) { return gap->fromStamp; });
     HtmlTable table({{"At s", true, "seconds since the report's beginning"},
                      {"Stream", false, ""},
                      {"Lost", true, "samples"},

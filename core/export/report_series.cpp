@@ -19,15 +19,15 @@ std::vector<const model::Stream*> sampledStreams(const model::SessionView& sessi
     return streams;
 }
 
-std::int64_t startOf(const ReportSteps& steps, std::size_t step) {
-    return steps.firstNs + static_cast<std::int64_t>(step) * steps.widthNs;
+log::Stamp startOf(const ReportSteps& steps, std::size_t step) {
+    return steps.first + static_cast<std::int64_t>(step) * steps.width;
 }
 
 /// How much of a step the report covers, in seconds.
 double coveredS(const ReportSteps& steps, std::size_t step) {
-    const std::int64_t from = std::max(startOf(steps, step), steps.fromNs);
-    const std::int64_t to = std::min(startOf(steps, step + 1), steps.toNs);
-    return static_cast<double>(std::max<std::int64_t>(to - from, 0)) * 1e-9;
+    const log::Stamp from = std::max(startOf(steps, step), steps.from);
+    const log::Stamp to = std::min(startOf(steps, step + 1), steps.to);
+    return log::secondsOf(std::max(to - from, log::Duration::zero()));
 }
 
 model::StreamCounts countsIn(const model::Stream& stream, const ReportSteps& steps, std::size_t step) {
@@ -62,7 +62,7 @@ CharacterSeries seriesOf(const model::SessionView& session, const model::Charact
         }
         // An end that is covered by a sliver tells nothing of a rate.
         const double seconds = coveredS(steps, step);
-        const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.widthNs);
+        const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.width.count());
         series.rate.push_back(isCovered ? static_cast<double>(most) / seconds : kNothing);
         series.loss.push_back(percentLost(sum));
         series.jitter.push_back(jitterMs);
@@ -75,28 +75,28 @@ CharacterSeries seriesOf(const model::SessionView& session, const model::Charact
 ReportSteps stepsOf(const model::SessionView& session, const std::optional<model::TimeRange>& range) {
     const model::TimeRange part = range.value_or(model::kAllTime);
     ReportSteps steps;
-    std::int64_t first = std::numeric_limits<std::int64_t>::max();
-    std::int64_t last = std::numeric_limits<std::int64_t>::min();
-    std::int64_t resolution = 1;
+    log::Stamp first = log::Stamp::max();
+    log::Stamp last = log::Stamp::min();
+    log::Duration resolution(1);
     for (const model::Stream& stream : session.streams()) {
-        first = std::min(first, stream.accounting.firstStampNs());
-        last = std::max(last, stream.accounting.lastStampNs());
-        resolution = std::max(resolution, stream.accounting.resolutionNs());
+        first = std::min(first, stream.accounting.firstStamp());
+        last = std::max(last, stream.accounting.lastStamp());
+        resolution = std::max(resolution, stream.accounting.resolution());
     }
-    steps.fromNs = std::max(first, part.fromNs);
-    steps.toNs = std::min(last, part.toNs);
-    if (first > last || steps.fromNs > steps.toNs) {
+    steps.from = std::max(first, part.from);
+    steps.to = std::min(last, part.to);
+    if (first > last || steps.from > steps.to) {
         return {};
     }
-    const std::int64_t least = (steps.toNs - steps.fromNs) / kMostSteps + 1;
-    steps.widthNs = (least + resolution - 1) / resolution * resolution;
-    steps.firstNs = steps.fromNs / steps.widthNs * steps.widthNs;
-    steps.count = static_cast<std::size_t>((steps.toNs - steps.firstNs) / steps.widthNs + 1);
+    const log::Duration least = (steps.to - steps.from) / kMostSteps + log::Duration(1);
+    steps.width = (least + resolution - log::Duration(1)) / resolution * resolution;
+    steps.first = steps.from - steps.from.time_since_epoch() % steps.width;
+    steps.count = static_cast<std::size_t>((steps.to - steps.first) / steps.width + 1);
     return steps;
 }
 
 std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportSteps& steps) {
-    const double durationS = static_cast<double>(steps.widthNs) * 1e-9 * static_cast<double>(steps.count);
+    const double durationS = log::secondsOf(steps.width) * static_cast<double>(steps.count);
     std::vector<SvgPlot> plots{
         {"Samples a second, of the fastest stream", SvgPlot::Form::Curves, durationS, {}, 1},
         {"Lost samples, percent of those expected", SvgPlot::Form::Curves, durationS, {}, 1},
@@ -131,7 +131,7 @@ std::vector<double> rateSeries(const model::Stream& stream, const ReportSteps& s
     std::vector<double> values;
     for (std::size_t step = 0; step < steps.count; ++step) {
         const double seconds = coveredS(steps, step);
-        const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.widthNs);
+        const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.width.count());
         values.push_back(isCovered ? static_cast<double>(countsIn(stream, steps, step).samples) / seconds
                                    : kNothing);
     }

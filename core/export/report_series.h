@@ -3,18 +3,19 @@
 
 #include "core/export/session_reading.h"
 #include "core/export/svg_plot.h"
+#include "core/log/time.h"
 
 namespace posewire::exporting {
 
 /// The time that a report shows, cut into equal steps that buckets of the accounting fill exactly.
 struct ReportSteps {
-    std::int64_t fromNs = 0; ///< where the report begins: the first stamp, or what was asked for
-    std::int64_t toNs = 0;
-    std::int64_t firstNs = 0; ///< where the first step begins, at or before fromNs
-    std::int64_t widthNs = 1;
+    log::Stamp from{}; ///< where the report begins: the first stamp, or what was asked for
+    log::Stamp to{};
+    log::Stamp first{}; ///< where the first step begins, at or before from
+    log::Duration width{1};
     std::size_t count = 0;
 
-    [[nodiscard]] double durationS() const { return static_cast<double>(toNs - fromNs) * 1e-9; }
+    [[nodiscard]] double durationS() const { return log::secondsOf(to - from); }
 };
 
 /// All streams of the session together, within the range.

@@ -130,12 +130,12 @@ std::string metadataList(const model::SessionView& session, const model::Charact
     return html.empty() ? html : "<dl class=\"facts\">\n" + html + "</dl>\n";
 }
 
-std::string utcText(std::int64_t stampNs) {
+std::string utcText(log::Stamp stamp) {
     using namespace std::chrono;
-    const sys_time<milliseconds> stamp{milliseconds(stampNs / 1'000'000)};
-    const auto day = floor<days>(stamp);
+    const auto shown = time_point_cast<milliseconds>(stamp);
+    const auto day = floor<days>(shown);
     const year_month_day date{day};
-    const hh_mm_ss time{stamp - day};
+    const hh_mm_ss time{shown - day};
     return padded(static_cast<int>(date.year()), 4) + '-' + padded(static_cast<unsigned>(date.month()), 2) +
            '-' + padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(time.hours().count(), 2) + ':' +
            padded(time.minutes().count(), 2) + ':' + padded(time.seconds().count(), 2) + '.' +

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/export/report_series.h"
+#include "core/log/time.h"
 
 #include <string>
 
@@ -16,6 +17,6 @@ namespace posewire::exporting {
 [[nodiscard]] std::string metadataList(const model::SessionView& session, const model::CharacterKey& key);
 
 /// "2026-11-21 16:01:32.123 UTC".
-[[nodiscard]] std::string utcText(std::int64_t stampNs);
+[[nodiscard]] std::string utcText(log::Stamp stamp);
 
 } // namespace posewire::exporting

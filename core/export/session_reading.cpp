@@ -18,7 +18,7 @@ model::StreamFigures figuresOf(const model::SessionView& session, const model::S
     constexpr std::array kCauses{LostHere, LostOnNetwork, LostAtSender};
     double unknown = figures[LostUnknown];
     for (const model::Gap& gap : session.gaps()) {
-        if (gap.stream == stream.key && gap.toStampNs >= range->fromNs && gap.toStampNs < range->toNs &&
+        if (gap.stream == stream.key && gap.toStamp >= range->from && gap.toStamp < range->to &&
             gap.cause != model::LossCause::Unknown) {
             const model::Figure cause = kCauses[static_cast<std::size_t>(gap.cause)];
             figures.set(cause, figures[cause] + gap.lost);

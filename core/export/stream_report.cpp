@@ -46,7 +46,7 @@ std::string timeFacts(const model::SessionView& session, const ReportSteps& step
         return fact("Time", "not known: the file has no stamps; time codes of the sender took their place") +
                duration;
     }
-    return fact("From", utcText(steps.fromNs)) + fact("To", utcText(steps.toNs)) + duration;
+    return fact("From", utcText(steps.from)) + fact("To", utcText(steps.to)) + duration;
 }
 
 std::string verdictList(const std::vector<Finding>& findings) {

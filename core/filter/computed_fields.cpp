@@ -6,7 +6,6 @@
 namespace posewire::filter {
 namespace {
 
-constexpr double kSecondsPerNs = 1e-9;
 
 using model::PacketKind;
 
@@ -60,12 +59,12 @@ bool readPort(Subject& subject, std::size_t index, Value& value) {
 
 bool readTime(Subject& subject, std::size_t index, Value& value) {
     const Candidate& candidate = subject.candidate;
-    value.number = static_cast<double>(candidate.packet.stampNs - candidate.firstStampNs) * kSecondsPerNs;
+    value.number = log::secondsOf(candidate.packet.stamp - candidate.firstStamp);
     return index == 0;
 }
 
 bool readUtc(Subject& subject, std::size_t index, Value& value) {
-    value.number = static_cast<double>(subject.candidate.packet.stampNs) * kSecondsPerNs;
+    value.number = log::secondsOf(subject.candidate.packet.stamp.time_since_epoch());
     return index == 0;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/wire/codec.h"
 
@@ -29,7 +30,7 @@ struct Candidate {
     const model::PacketDigest& digest;
     const wire::Datagram* datagram = nullptr; ///< null if not decoded; see needsDatagram
     const log::SenderInfo* sender = nullptr;  ///< null if not known
-    std::int64_t firstStampNs = 0;            ///< of the first packet: where `time` begins
+    log::Stamp firstStamp{};            ///< of the first packet: where `time` begins
     const wire::WireError* fault = nullptr; ///< why it could not be decoded; null: decoded again to find out
 };
 

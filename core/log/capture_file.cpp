@@ -15,7 +15,6 @@
 namespace posewire::log {
 namespace {
 
-constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
 /// No packet and no block of a sound file is longer.
 constexpr std::uint32_t kLongestBlock = 16U << 20;
 
@@ -99,8 +98,8 @@ tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic,
         if (bytes->size() < size) {
             return {};
         }
-        const std::int64_t stampNs = seconds * kNanosecondsPerSecond + fraction * (hasNanoseconds ? 1 : 1000);
-        reassembly.add({linkType, *bytes, reader.offset(), stampNs});
+        const Stamp stamp(std::chrono::seconds(seconds) + Duration(fraction * (hasNanoseconds ? 1 : 1000)));
+        reassembly.add({linkType, *bytes, reader.offset(), stamp});
     }
 }
 
@@ -123,7 +122,7 @@ public:
         constexpr std::uint64_t most = UINT32_MAX;
         record.kernelDropsBefore = static_cast<std::uint32_t>(std::min(std::exchange(m_drops, 0), most));
         record.comments = m_comments;
-        record.isStampedByKernel = record.stampNs.has_value();
+        record.isStampedByKernel = record.stamp.has_value();
         if (!m_origin) {
             return;
         }
@@ -150,7 +149,7 @@ struct Interface {
 };
 
 /// Split so that nothing overflows: whole seconds, then the rest.
-std::int64_t nanoseconds(std::uint64_t stamp, const Interface& interface) {
+Stamp stampOf(std::uint64_t stamp, const Interface& interface) {
     const std::uint64_t exponent = interface.resolution & 0x7fU;
     std::uint64_t perSecond = 1;
     if ((interface.resolution & 0x80U) != 0) {
@@ -163,11 +162,11 @@ std::int64_t nanoseconds(std::uint64_t stamp, const Interface& interface) {
     const auto seconds =
         static_cast<std::int64_t>(stamp / perSecond % 0x200000000U) + interface.offsetSeconds;
     const double rest = static_cast<double>(stamp % perSecond) / static_cast<double>(perSecond);
-    const std::int64_t fraction =
+    const Duration fraction =
         perSecond <= 1'000'000'000U && 1'000'000'000U % perSecond == 0
-            ? static_cast<std::int64_t>(stamp % perSecond * (1'000'000'000U / perSecond))
-            : static_cast<std::int64_t>(rest * 1e9);
-    return static_cast<std::int64_t>(static_cast<std::uint64_t>(seconds) * kNanosecondsPerSecond) + fraction;
+            ? Duration(static_cast<std::int64_t>(stamp % perSecond * (1'000'000'000U / perSecond)))
+            : durationOf(rest);
+    return Stamp(Duration(static_cast<std::int64_t>(static_cast<std::uint64_t>(seconds) * 1'000'000'000U)) + fraction);
 }
 
 class PcapngReader {
@@ -301,7 +300,7 @@ private:
             std::min<std::size_t>(m_reader.read32(body.data() + 12), body.size() - fixed);
         readNotes(body.subspan(std::min(body.size(), fixed + (size + 3) / 4 * 4)));
         const CapturedFrame frame{interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
-                                  nanoseconds(stamp, interface)};
+                                  stampOf(stamp, interface)};
         if (m_notes.isOfRecording()) {
             m_reassembly.addRecorded(frame);
         } else {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
 
 #include <condition_variable>
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace posewire::log {
 /// What the log keeps of a packet besides its bytes.
 struct Record {
     const std::byte* data;
-    std::int64_t stampNs;
+    Stamp stamp;
     std::uint32_t size;
     SenderId sender;
     std::uint32_t kernelDropsBefore;

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/clock.h"
 
-#include <chrono>
-
 namespace posewire::log {
 
-namespace {
-
-template <typename ChronoClock>
-std::int64_t nanoseconds() {
-    return std::chrono::duration_cast<std::chrono::nanoseconds>(ChronoClock::now().time_since_epoch())
-        .count();
+Stamp SystemClock::wall() const {
+    return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
 }
 
-} // namespace
-
-std::int64_t SystemClock::wallNs() const {
-    return nanoseconds<std::chrono::system_clock>();
-}
-
-std::int64_t SystemClock::monotonicNs() const {
-    return nanoseconds<std::chrono::steady_clock>();
+Moment SystemClock::monotonic() const {
+    return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
 }
 
 } // namespace posewire::log

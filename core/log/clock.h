@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <atomic>
-#include <cstdint>
 
 namespace posewire::log {
 
@@ -11,38 +12,35 @@ class Clock {
 public:
     virtual ~Clock() = default;
 
-    /// Nanoseconds since 1970-01-01 UTC: comparable with kernel receive stamps. May jump when the computer's
-    /// clock is set.
-    [[nodiscard]] virtual std::int64_t wallNs() const = 0;
+    /// Comparable with kernel receive stamps. May jump when the computer's clock is set.
+    [[nodiscard]] virtual Stamp wall() const = 0;
 
-    /// Nanoseconds since some fixed moment; never goes back. For intervals and schedules.
-    [[nodiscard]] virtual std::int64_t monotonicNs() const = 0;
+    [[nodiscard]] virtual Moment monotonic() const = 0;
 };
 
 class SystemClock final : public Clock {
 public:
-    [[nodiscard]] std::int64_t wallNs() const override;
-    [[nodiscard]] std::int64_t monotonicNs() const override;
+    [[nodiscard]] Stamp wall() const override;
+    [[nodiscard]] Moment monotonic() const override;
 };
 
 /// Stands still until it is moved.
 class ManualClock final : public Clock {
 public:
-    explicit ManualClock(std::int64_t wallNs = 0, std::int64_t monotonicNs = 0)
-        : m_wallNs(wallNs), m_monotonicNs(monotonicNs) {}
+    explicit ManualClock(Stamp wall = {}, Moment monotonic = {}) : m_wall(wall), m_monotonic(monotonic) {}
 
-    void advance(std::int64_t nanoseconds) {
-        m_wallNs += nanoseconds;
-        m_monotonicNs += nanoseconds;
+    void advance(Duration duration) {
+        m_wall = m_wall.load() + duration;
+        m_monotonic = m_monotonic.load() + duration;
     }
-    void setWallNs(std::int64_t wallNs) { m_wallNs = wallNs; }
+    void setWall(Stamp wall) { m_wall = wall; }
 
-    [[nodiscard]] std::int64_t wallNs() const override { return m_wallNs; }
-    [[nodiscard]] std::int64_t monotonicNs() const override { return m_monotonicNs; }
+    [[nodiscard]] Stamp wall() const override { return m_wall; }
+    [[nodiscard]] Moment monotonic() const override { return m_monotonic; }
 
 private:
-    std::atomic<std::int64_t> m_wallNs;
-    std::atomic<std::int64_t> m_monotonicNs;
+    std::atomic<Stamp> m_wall;
+    std::atomic<Moment> m_monotonic;
 };
 
 } // namespace posewire::log

@@ -16,13 +16,13 @@ bool belongTogether(const IpPacket& first, const IpPacket& second) {
 
 } // namespace
 
-void IpFragments::add(const IpPacket& fragment, std::uint64_t fileOffset, std::optional<std::int64_t> stampNs,
+void IpFragments::add(const IpPacket& fragment, std::uint64_t fileOffset, std::optional<Stamp> stamp,
                       const Visitor& visit) {
     if (fragment.bytes.empty() || fragment.fragmentOffset + fragment.bytes.size() > kLargest) {
         return;
     }
     Pending& pending = pendingOf(fragment, visit);
-    pending.stampNs = stampNs;
+    pending.stamp = stamp;
     if (fragment.fragmentOffset == 0) {
         pending.packet = fragment;
         pending.packet.bytes = {}; // they are not valid any longer than this call
@@ -97,7 +97,7 @@ void IpFragments::give(const Pending& pending, const Visitor& visit) {
         return;
     }
     const std::vector<std::byte> bytes = beginningOf(pending);
-    visit({pending.packet, bytes, pending.pieces.begin()->second.fileOffset, pending.stampNs});
+    visit({pending.packet, bytes, pending.pieces.begin()->second.fileOffset, pending.stamp});
 }
 
 } // namespace posewire::log

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/ip_packet.h"
+#include "core/log/time.h"
 
 #include <functional>
 #include <list>
@@ -15,7 +16,7 @@ struct WholePacket {
     IpPacket packet;                     ///< the first fragment's headers
     std::span<const std::byte> bytes;    ///< the payload; of an incomplete packet the beginning of it
     std::uint64_t fileOffset = 0;        ///< of the payload's first byte
-    std::optional<std::int64_t> stampNs; ///< of the frame that completed it
+    std::optional<Stamp> stamp; ///< of the frame that completed it
 };
 
 /// Puts IP fragments together (RFC 791, RFC 8200 section 4.5), in whatever order and however often they come.
@@ -28,7 +29,7 @@ public:
 
     /// `fileOffset`: of the fragment's payload. The visitor hears of a packet when it is complete, or given
     /// up: then of its beginning, if that was there.
-    void add(const IpPacket& fragment, std::uint64_t fileOffset, std::optional<std::int64_t> stampNs,
+    void add(const IpPacket& fragment, std::uint64_t fileOffset, std::optional<Stamp> stamp,
              const Visitor& visit);
 
     /// Gives up what is incomplete.
@@ -44,7 +45,7 @@ private:
         std::map<std::uint32_t, Piece> pieces; ///< by offset
         std::size_t kept = 0;                  ///< bytes of all pieces
         std::optional<std::uint32_t> size;     ///< known from the last fragment
-        std::optional<std::int64_t> stampNs;
+        std::optional<Stamp> stamp;
     };
 
     Pending& pendingOf(const IpPacket& fragment, const Visitor& visit);

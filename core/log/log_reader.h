@@ -53,7 +53,7 @@ private:
 
     [[nodiscard]] Packet view(std::uint64_t number) const {
         const Record& record = m_current->record(static_cast<std::size_t>(number - m_currentFirst));
-        return {number,        record.stampNs,
+        return {number,        record.stamp,
                 record.sender, record.kernelDropsBefore,
                 record.flags,  {record.data, record.size}};
     }

@@ -123,7 +123,7 @@ std::byte* LogWriter::place(std::size_t size) {
 }
 
 void LogWriter::addRecord(const std::byte* data, std::size_t size, const Arrival& arrival) {
-    m_chunk->addRecord({data, arrival.stampNs, static_cast<std::uint32_t>(size), arrival.sender,
+    m_chunk->addRecord({data, arrival.stamp, static_cast<std::uint32_t>(size), arrival.sender,
                         arrival.kernelDropsBefore, arrival.flags});
     ++m_next;
 }

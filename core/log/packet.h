@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -36,7 +38,7 @@ struct PacketFlags {
 
 /// All that is known about a packet when it arrives, besides its bytes.
 struct Arrival {
-    std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
+    Stamp stamp{};
     SenderId sender{};
     /// Datagrams that this computer lost for want of room (SO_RXQ_OVFL of the socket, or the receiver's
     /// queue) on the socket of this packet since the packet before it from that socket. Kept in the log so
@@ -48,7 +50,7 @@ struct Arrival {
 /// A view of one packet of the log. How long `bytes` stays valid, the LogReader that gave it says.
 struct Packet {
     std::uint64_t number = 0; ///< position in the log: always grows, without gaps, in the order of arrival
-    std::int64_t stampNs = 0; ///< nanoseconds since 1970-01-01 UTC
+    Stamp stamp{};
     SenderId sender{};
     std::uint32_t kernelDropsBefore = 0; ///< see Arrival
     PacketFlags flags{};

@@ -13,7 +13,7 @@ namespace posewire::log {
 /// memory. One thread writes, any number read, each through a LogReader of its own:
 ///
 ///     PacketLog log;
-///     log.writer().append(bytes, {.stampNs = now, .sender = log.senders().intern(info)});
+///     log.writer().append(bytes, {.stamp = now, .sender = log.senders().intern(info)});
 ///     log.writer().publish();
 ///
 ///     LogReader reader(log);

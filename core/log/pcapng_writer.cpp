@@ -91,10 +91,10 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     const Ends ends = endsOf(sender);
     m_frame.clear();
     appendUdpFrame(m_frame, ends.sender, ends.target, packet.bytes);
-    const std::int64_t stampNs = std::max<std::int64_t>(packet.stampNs, 0);
+    const Stamp stamp = std::max(packet.stamp, Stamp());
     PcapngBlock block(m_block, PcapngBlockType::EnhancedPacket);
     block.number(0, 4);
-    block.halves(static_cast<std::uint64_t>(stampNs));
+    block.halves(static_cast<std::uint64_t>(nanosecondsOf(stamp)));
     block.number(m_frame.size(), 4);
     block.number(m_frame.size(), 4);
     block.padded(m_frame);
@@ -113,14 +113,14 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     block.finish();
     ++m_packets;
     m_kernelDrops += packet.kernelDropsBefore;
-    m_firstStampNs = std::min(m_firstStampNs, stampNs);
-    m_lastStampNs = std::max(m_lastStampNs, stampNs);
+    m_firstStamp = std::min(m_firstStamp, stamp);
+    m_lastStamp = std::max(m_lastStamp, stamp);
     return write();
 }
 
 PcapngWriter::Result PcapngWriter::finish() {
-    const auto last = static_cast<std::uint64_t>(m_lastStampNs);
-    const std::uint64_t first = m_packets != 0 ? static_cast<std::uint64_t>(m_firstStampNs) : last;
+    const auto last = static_cast<std::uint64_t>(nanosecondsOf(m_lastStamp));
+    const auto first = m_packets != 0 ? static_cast<std::uint64_t>(nanosecondsOf(m_firstStamp)) : last;
     const auto stamp = [](std::uint64_t value) { return value >> 32 | value << 32; }; // upper half first
     PcapngBlock block(m_block, PcapngBlockType::InterfaceStatistics);
     block.number(0, 4);

@@ -3,6 +3,7 @@
 
 #include "core/log/byte_sink.h"
 #include "core/log/packet.h"
+#include "core/log/time.h"
 
 #include <cstdint>
 #include <limits>
@@ -50,8 +51,8 @@ private:
     std::uint64_t m_packets = 0;
     std::uint64_t m_bytes = 0;
     std::uint64_t m_kernelDrops = 0;
-    std::int64_t m_firstStampNs = std::numeric_limits<std::int64_t>::max();
-    std::int64_t m_lastStampNs = 0;
+    Stamp m_firstStamp = Stamp::max();
+    Stamp m_lastStamp{};
 };
 
 } // namespace posewire::log

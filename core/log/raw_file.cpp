@@ -75,9 +75,9 @@ FileFormat fileFormat(std::span<const std::byte> firstBytes) {
     }
 }
 
-Arrival arrivalOf(const FileRecord& record, SenderId sender, std::int64_t stampNs) {
+Arrival arrivalOf(const FileRecord& record, SenderId sender, Stamp stamp) {
     Arrival arrival;
-    arrival.stampNs = record.stampNs.value_or(stampNs);
+    arrival.stamp = record.stamp.value_or(stamp);
     arrival.sender = sender;
     arrival.kernelDropsBefore = record.kernelDropsBefore;
     arrival.flags.truncated = record.isTruncated;

@@ -3,6 +3,7 @@
 
 #include "core/log/byte_source.h"
 #include "core/log/packet.h"
+#include "core/log/time.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +22,7 @@ struct FileRecord {
     std::uint64_t offset = 0;         ///< of the first byte in the file
     std::span<const std::byte> bytes; ///< valid during the call
     bool isSkipped = false; ///< belongs to no datagram; a run longer than 64 KiB comes in several records
-    std::optional<std::int64_t> stampNs; ///< since 1970-01-01 UTC; raw files have none
+    std::optional<Stamp> stamp; ///< since 1970-01-01 UTC; raw files have none
     std::optional<SenderInfo> sender;    ///< raw files know none
 
     // What recordings know besides; see PcapngWriter.
@@ -32,8 +33,8 @@ struct FileRecord {
     std::span<const std::string> comments{}; ///< UTF-8, valid during the call
 };
 
-/// What the log keeps of a record of `sender`. `stampNs` is for records without a stamp.
-[[nodiscard]] Arrival arrivalOf(const FileRecord& record, SenderId sender, std::int64_t stampNs);
+/// What the log keeps of a record of `sender`. `stamp` is for records without a stamp.
+[[nodiscard]] Arrival arrivalOf(const FileRecord& record, SenderId sender, Stamp stamp);
 
 using FileVisitor = std::function<void(const FileRecord&)>;
 

@@ -39,7 +39,7 @@ std::optional<TcpHeader> tcpHeaderOf(std::span<const std::byte> segment) {
 }
 
 FileRecord recordOf(const WholePacket& whole, const UdpPayload& payload) {
-    return {whole.fileOffset + payload.offset, payload.bytes, false, whole.stampNs,
+    return {whole.fileOffset + payload.offset, payload.bytes, false, whole.stamp,
             SenderInfo{endpointText({whole.packet.sender, payload.sourcePort}), Transport::Udp,
                        payload.targetPort}};
 }
@@ -53,9 +53,9 @@ void Reassembly::add(const CapturedFrame& frame) {
     }
     const std::uint64_t offset = frame.offset + packet->offset;
     if (packet->isFragment()) {
-        m_fragments.add(*packet, offset, frame.stampNs, [&](const WholePacket& whole) { addPacket(whole); });
+        m_fragments.add(*packet, offset, frame.stamp, [&](const WholePacket& whole) { addPacket(whole); });
     } else {
-        addPacket({*packet, packet->bytes, offset, frame.stampNs});
+        addPacket({*packet, packet->bytes, offset, frame.stamp});
     }
 }
 
@@ -63,7 +63,7 @@ void Reassembly::addRecorded(const CapturedFrame& frame) {
     const auto packet = ipPacketOf(frame.linkType, frame.bytes);
     const auto payload = packet ? udpPayloadOf(*packet, packet->bytes) : std::nullopt;
     if (payload) {
-        m_visit(recordOf({*packet, packet->bytes, frame.offset + packet->offset, frame.stampNs}, *payload));
+        m_visit(recordOf({*packet, packet->bytes, frame.offset + packet->offset, frame.stamp}, *payload));
     }
 }
 
@@ -121,7 +121,7 @@ void Reassembly::addTcp(const WholePacket& whole) {
     }
     TcpStream& stream = *found->second.stream;
     found->second.lastUse = ++m_uses;
-    stream.add({sequence, bytes, whole.fileOffset + header->size, whole.stampNs}, m_visit);
+    stream.add({sequence, bytes, whole.fileOffset + header->size, whole.stamp}, m_visit);
     if (header->ends && stream.expected() == sequence + static_cast<std::uint32_t>(bytes.size())) {
         stream.finish(m_visit);
         m_streams.erase(found);

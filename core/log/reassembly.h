@@ -3,6 +3,7 @@
 
 #include "core/log/ip_fragments.h"
 #include "core/log/tcp_stream.h"
+#include "core/log/time.h"
 
 #include <memory>
 #include <set>
@@ -14,7 +15,7 @@ struct CapturedFrame {
     std::uint32_t linkType = 0;
     std::span<const std::byte> bytes;
     std::uint64_t offset = 0;
-    std::optional<std::int64_t> stampNs;
+    std::optional<Stamp> stamp;
 };
 
 /// Finds what a listener for MXTP would have received in captured frames: one datagram to a UDP packet, which

@@ -30,13 +30,13 @@ std::optional<std::size_t> StreamEntries::atOrBeforePacket(std::uint64_t packet)
     return newestAtOrBefore(*this, packet, &StreamEntry::packet);
 }
 
-std::optional<std::size_t> StreamEntries::atOrBeforeStamp(std::int64_t stampNs) const {
-    return newestAtOrBefore(*this, stampNs, &StreamEntry::stampNs);
+std::optional<std::size_t> StreamEntries::atOrBeforeStamp(Stamp stamp) const {
+    return newestAtOrBefore(*this, stamp, &StreamEntry::stamp);
 }
 
 void StreamEntries::append(StreamEntry entry, Spare& spare) {
     if (m_size > 0) {
-        entry.stampNs = std::max(entry.stampNs, back().stampNs);
+        entry.stamp = std::max(entry.stamp, back().stamp);
     }
     const std::size_t place = m_front + m_size;
     if (place == m_blocks.size() * kBlock) {
@@ -95,7 +95,7 @@ void StreamIndex::add(const Packet& packet, const wire::Header& header) {
         return;
     }
     entries->append(
-        {packet.number, packet.stampNs, header.sampleCounter, header.datagramIndex(), header.isLast()},
+        {packet.number, packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
         m_spare);
 }
 

@@ -4,6 +4,7 @@
 #include "core/log/log_reader.h"
 #include "core/log/packet.h"
 #include "core/log/stream_key.h"
+#include "core/log/time.h"
 #include "core/wire/header.h"
 
 #include <cstddef>
@@ -20,8 +21,7 @@ namespace posewire::log {
 /// One datagram of a stream.
 struct StreamEntry {
     std::uint64_t packet = 0; ///< its number in the log
-    std::int64_t stampNs =
-        0; ///< the packet's, but never before that of the entry before: clocks may be set back
+    Stamp stamp{}; ///< the packet's, but never before that of the entry before: clocks may be set back
     std::uint32_t sample = 0;  ///< sample counter
     std::uint8_t datagram = 0; ///< index of the datagram within its sample
     bool isLast = false;       ///< the last one of its sample
@@ -46,7 +46,7 @@ public:
 
     /// Place of the newest entry at or before a packet or a stamp; nothing where all are later.
     [[nodiscard]] std::optional<std::size_t> atOrBeforePacket(std::uint64_t packet) const;
-    [[nodiscard]] std::optional<std::size_t> atOrBeforeStamp(std::int64_t stampNs) const;
+    [[nodiscard]] std::optional<std::size_t> atOrBeforeStamp(Stamp stamp) const;
 
     /// `spare` lends blocks that are not in use, and gets them back.
     void append(StreamEntry entry, Spare& spare);

@@ -28,7 +28,7 @@ void TcpStream::add(const TcpSegment& segment, const FileVisitor& visit) {
     } else if (ahead > 0) {
         const auto [place, isNew] = m_waiting.try_emplace(
             m_expectedPosition + static_cast<std::uint32_t>(ahead),
-            Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.fileOffset, segment.stampNs});
+            Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.fileOffset, segment.stamp});
         m_waitingSize += isNew ? costOf(segment.bytes) : 0;
         if (m_waitingSize > kMostWaiting || hasWaitedTooLong(segment)) {
             passOver(visit);
@@ -36,7 +36,7 @@ void TcpStream::add(const TcpSegment& segment, const FileVisitor& visit) {
         return;
     }
     append(segment, visit);
-    appendWaiting(segment.stampNs, visit);
+    appendWaiting(segment.stamp, visit);
     if (hasWaitedTooLong(segment)) {
         passOver(visit);
     }
@@ -46,7 +46,7 @@ void TcpStream::finish(const FileVisitor& visit) {
     while (!m_waiting.empty()) {
         passOver(visit);
     }
-    m_framer.finish([&](const TcpFramer::Piece& piece) { visit(recordOf(piece, m_lastStampNs)); });
+    m_framer.finish([&](const TcpFramer::Piece& piece) { visit(recordOf(piece, m_lastStamp)); });
     m_places.clear();
     m_given = 0;
 }
@@ -67,28 +67,28 @@ void TcpStream::append(const TcpSegment& segment, const FileVisitor& visit) {
     m_given += bytes.size();
     m_expected += static_cast<std::uint32_t>(bytes.size());
     m_expectedPosition += bytes.size();
-    m_lastStampNs = segment.stampNs;
-    m_framer.push(bytes, [&](const TcpFramer::Piece& piece) { visit(recordOf(piece, segment.stampNs)); });
+    m_lastStamp = segment.stamp;
+    m_framer.push(bytes, [&](const TcpFramer::Piece& piece) { visit(recordOf(piece, segment.stamp)); });
     while (m_places.size() > 1 && m_places[1].position <= m_given - m_framer.kept()) {
         m_places.pop_front();
     }
 }
 
 /// Hands on what has waited for the bytes before it. Without a stamp each keeps its own.
-void TcpStream::appendWaiting(std::optional<std::int64_t> stampNs, const FileVisitor& visit) {
+void TcpStream::appendWaiting(std::optional<Stamp> stamp, const FileVisitor& visit) {
     while (!m_waiting.empty() && m_waiting.begin()->first <= m_expectedPosition) {
         const auto node = m_waiting.extract(m_waiting.begin());
         const Waiting& waiting = node.mapped();
         m_waitingSize -= costOf(waiting.bytes);
         const auto behind = static_cast<std::uint32_t>(m_expectedPosition - node.key());
-        append({m_expected - behind, waiting.bytes, waiting.fileOffset, stampNs ? stampNs : waiting.stampNs},
+        append({m_expected - behind, waiting.bytes, waiting.fileOffset, stamp ? stamp : waiting.stamp},
                visit);
     }
 }
 
 /// Goes on behind the gap.
 void TcpStream::passOver(const FileVisitor& visit) {
-    m_framer.finish([&](const TcpFramer::Piece& piece) { visit(recordOf(piece, m_lastStampNs)); });
+    m_framer.finish([&](const TcpFramer::Piece& piece) { visit(recordOf(piece, m_lastStamp)); });
     m_places.clear();
     m_given = 0;
     const std::uint64_t position = m_waiting.begin()->first;
@@ -101,17 +101,17 @@ bool TcpStream::hasWaitedTooLong(const TcpSegment& segment) const {
     if (m_waiting.empty()) {
         return false;
     }
-    const auto since = m_waiting.begin()->second.stampNs;
-    return since && segment.stampNs && *segment.stampNs - *since > kLongestWaitNs;
+    const auto since = m_waiting.begin()->second.stamp;
+    return since && segment.stamp && *segment.stamp - *since > kLongestWait;
 }
 
-FileRecord TcpStream::recordOf(const TcpFramer::Piece& piece, std::optional<std::int64_t> stampNs) {
+FileRecord TcpStream::recordOf(const TcpFramer::Piece& piece, std::optional<Stamp> stamp) {
     while (m_places.size() > 1 && m_places[1].position <= piece.offset) {
         m_places.pop_front();
     }
     const Place& place = m_places.front();
     return {place.fileOffset + (piece.offset - place.position), piece.bytes,
-            piece.kind == TcpFramer::Kind::Skipped, stampNs, m_sender};
+            piece.kind == TcpFramer::Kind::Skipped, stamp, m_sender};
 }
 
 } // namespace posewire::log

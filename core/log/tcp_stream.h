@@ -3,6 +3,7 @@
 
 #include "core/log/raw_file.h"
 #include "core/log/tcp_framer.h"
+#include "core/log/time.h"
 
 #include <deque>
 #include <map>
@@ -14,7 +15,7 @@ struct TcpSegment {
     std::uint32_t sequence = 0; ///< of the first byte of `bytes`
     std::span<const std::byte> bytes;
     std::uint64_t fileOffset = 0; ///< of the first byte of `bytes`
-    std::optional<std::int64_t> stampNs;
+    std::optional<Stamp> stamp;
 };
 
 /// One direction of a captured TCP connection: puts segments in order, leaves out what came before, cuts the
@@ -24,7 +25,7 @@ class TcpStream {
 public:
     /// How much may wait for a missing segment, and how long.
     static constexpr std::size_t kMostWaiting = std::size_t{256} << 10;
-    static constexpr std::int64_t kLongestWaitNs = 1'000'000'000;
+    static constexpr Duration kLongestWait = std::chrono::seconds(1);
 
     TcpStream(SenderInfo sender, std::uint32_t firstSequence);
 
@@ -43,7 +44,7 @@ private:
     struct Waiting {
         std::vector<std::byte> bytes;
         std::uint64_t fileOffset = 0;
-        std::optional<std::int64_t> stampNs;
+        std::optional<Stamp> stamp;
     };
     struct Place {
         std::uint64_t position = 0; ///< in what the framer has been given
@@ -51,10 +52,10 @@ private:
     };
 
     void append(const TcpSegment& segment, const FileVisitor& visit);
-    void appendWaiting(std::optional<std::int64_t> stampNs, const FileVisitor& visit);
+    void appendWaiting(std::optional<Stamp> stamp, const FileVisitor& visit);
     void passOver(const FileVisitor& visit);
     [[nodiscard]] bool hasWaitedTooLong(const TcpSegment& segment) const;
-    [[nodiscard]] FileRecord recordOf(const TcpFramer::Piece& piece, std::optional<std::int64_t> stampNs);
+    [[nodiscard]] FileRecord recordOf(const TcpFramer::Piece& piece, std::optional<Stamp> stamp);
 
     SenderInfo m_sender;
     TcpFramer m_framer;
@@ -64,7 +65,7 @@ private:
     std::size_t m_waitingSize = 0;
     std::deque<Place> m_places; ///< where in the file the bytes are that the framer may still give out
     std::uint64_t m_given = 0;
-    std::optional<std::int64_t> m_lastStampNs;
+    std::optional<Stamp> m_lastStamp;
 };
 
 } // namespace posewire::log

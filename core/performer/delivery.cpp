@@ -10,9 +10,9 @@
 namespace posewire::performer {
 namespace {
 
-constexpr std::int64_t kDoubtfulFromNs = 25'000'000;
-constexpr std::int64_t kDoubtfulToNs = 100'000'000;
-constexpr std::int64_t kClearlyLateNs = 110'000'000;
+constexpr log::Duration kDoubtfulFrom = std::chrono::milliseconds(25);
+constexpr log::Duration kDoubtfulTo = std::chrono::milliseconds(100);
+constexpr log::Duration kClearlyLate = std::chrono::milliseconds(110);
 /// A jump back by more than the first or forward by more than the second may be a restart (RFC 3550 A.1).
 constexpr std::int64_t kMostBack = 100;
 constexpr std::int64_t kMostForward = 3000;
@@ -22,7 +22,7 @@ constexpr std::uint64_t kSettled = 16;
 constexpr std::size_t kRecent = 4096;
 
 constexpr auto kIsLater = [](const auto& a, const auto& b) {
-    return std::pair(a.sending.dueNs, a.order) > std::pair(b.sending.dueNs, b.order);
+    return std::pair(a.sending.due, a.order) > std::pair(b.sending.due, b.order);
 };
 
 std::int64_t distance(std::uint32_t to, std::uint32_t from) {
@@ -31,14 +31,14 @@ std::int64_t distance(std::uint32_t to, std::uint32_t from) {
 
 } // namespace
 
-bool QuietTimes::contains(std::int64_t timeNs) const {
-    return std::ranges::any_of(momentsNs, [&](std::int64_t moment) {
-        return timeNs >= moment - widthNs && timeNs <= moment + widthNs;
+bool QuietTimes::contains(log::Duration time) const {
+    return std::ranges::any_of(moments, [&](log::Duration moment) {
+        return time >= moment - width && time <= moment + width;
     });
 }
 
-Delivery::Delivery(double periodNs, QuietTimes quiet)
-    : m_periodNs(static_cast<std::int64_t>(std::max(periodNs, 1.0))), m_quiet(std::move(quiet)) {}
+Delivery::Delivery(log::Duration period, QuietTimes quiet)
+    : m_period(std::max(period, log::Duration(1))), m_quiet(std::move(quiet)) {}
 
 void Delivery::push(Sending sending) {
     m_heap.push_back({std::move(sending), m_pushed++});
@@ -49,12 +49,12 @@ void Delivery::pushAfter(Sending sending, std::uint64_t count) {
     m_counted.push_back({std::move(sending), count});
 }
 
-void Delivery::notePassed(std::int64_t timeNs) {
+void Delivery::notePassed(log::Duration time) {
     for (Counted& counted : m_counted) {
         if (counted.left > 0) {
             --counted.left;
         } else {
-            counted.sending.dueNs = std::max(timeNs, counted.sending.dueNs);
+            counted.sending.due = std::max(time, counted.sending.due);
             push(std::move(counted.sending));
             counted.sending.bytes.clear();
         }
@@ -69,10 +69,10 @@ Delivery::Entry Delivery::pop() {
     return entry;
 }
 
-void Delivery::advance(Front& front, std::uint32_t sample, std::int64_t timeNs) {
+void Delivery::advance(Front& front, std::uint32_t sample, log::Duration time) {
     front.highest = sample;
     ++front.advances;
-    front.recent.push_back({sample, timeNs});
+    front.recent.push_back({sample, time});
     if (front.recent.size() > kRecent) {
         front.recent.pop_front();
     }
@@ -82,8 +82,8 @@ Delivery::Verdict Delivery::judgeFar(Sending& sending, Front& front, bool isAtEn
     if (isAtEnd || front.advances < kSettled) {
         return Verdict::GiveUp;
     }
-    if (front.advances < front.advancesAtFar + kAdvancesBetween || m_quiet.contains(sending.dueNs)) {
-        sending.dueNs += m_periodNs;
+    if (front.advances < front.advancesAtFar + kAdvancesBetween || m_quiet.contains(sending.due)) {
+        sending.due += m_period;
         return Verdict::Wait;
     }
     front.advancesAtFar = front.advances;
@@ -95,9 +95,9 @@ Delivery::Verdict Delivery::judgeBehind(Sending& sending, Front& front, std::uin
     const auto after = std::ranges::partition_point(
         front.recent, [&](const Advance& advance) { return distance(advance.sample, sample) <= 0; });
     if (after != front.recent.end()) {
-        const std::int64_t lateNs = sending.dueNs - after->timeNs;
-        if (lateNs > kDoubtfulFromNs && lateNs < kDoubtfulToNs) {
-            sending.dueNs = after->timeNs + kClearlyLateNs;
+        const log::Duration late = sending.due - after->time;
+        if (late > kDoubtfulFrom && late < kDoubtfulTo) {
+            sending.due = after->time + kClearlyLate;
             return Verdict::Wait;
         }
     }
@@ -116,7 +116,7 @@ Delivery::Verdict Delivery::begin(Front& front, const Sending& sending, std::uin
     front.epoch = sending.origin.epoch;
     front.regime = sending.origin.regime;
     front.first = sample;
-    advance(front, sample, sending.dueNs);
+    advance(front, sample, sending.due);
     return Verdict::Deliver;
 }
 
@@ -154,7 +154,7 @@ Delivery::Verdict Delivery::judgeNative(Sending& sending, Front& front, std::uin
     if (front.epoch != origin.epoch || isElsewhere) {
         return judgeFar(sending, front, isAtEnd);
     }
-    if (!isIntact && (distance(sample, front.first) < 0 || m_quiet.contains(sending.dueNs))) {
+    if (!isIntact && (distance(sample, front.first) < 0 || m_quiet.contains(sending.due))) {
         return Verdict::GiveUp;
     }
     const std::int64_t moved = distance(sample, front.highest);
@@ -162,17 +162,17 @@ Delivery::Verdict Delivery::judgeNative(Sending& sending, Front& front, std::uin
         if (std::exchange(front.regime, origin.regime) != origin.regime) {
             front.first = sample;
         }
-        advance(front, sample, sending.dueNs);
+        advance(front, sample, sending.due);
     }
     return moved >= 0 ? Verdict::Deliver : judgeBehind(sending, front, sample, isAtEnd);
 }
 
-void Delivery::take(std::optional<std::int64_t> untilNs, std::vector<Sending>& into) {
-    while (!m_heap.empty() && (!untilNs || m_heap.front().sending.dueNs < *untilNs)) {
+void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& into) {
+    while (!m_heap.empty() && (!until || m_heap.front().sending.due < *until)) {
         Entry entry = pop();
-        switch (judge(entry.sending, !untilNs.has_value())) {
+        switch (judge(entry.sending, !until.has_value())) {
         case Verdict::Deliver:
-            m_latestNs = entry.sending.dueNs;
+            m_latest = entry.sending.due;
             into.push_back(std::move(entry.sending));
             break;
         case Verdict::Wait:
@@ -185,13 +185,13 @@ void Delivery::take(std::optional<std::int64_t> untilNs, std::vector<Sending>& i
     }
 }
 
-void Delivery::takeUntil(std::int64_t untilNs, std::vector<Sending>& into) {
-    take(untilNs, into);
+void Delivery::takeUntil(log::Duration until, std::vector<Sending>& into) {
+    take(until, into);
 }
 
 void Delivery::takeRest(std::vector<Sending>& into) {
     for (Counted& counted : m_counted) {
-        counted.sending.dueNs = std::max(counted.sending.dueNs, m_latestNs);
+        counted.sending.due = std::max(counted.sending.due, m_latest);
         push(std::move(counted.sending));
     }
     m_counted.clear();

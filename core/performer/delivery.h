@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/performer/sending.h"
 
 #include <cstdint>
@@ -14,10 +15,10 @@ namespace posewire::performer {
 
 /// Moments around which what belongs to what would be open to doubt: a restart, a change of rate.
 struct QuietTimes {
-    std::vector<std::int64_t> momentsNs;
-    std::int64_t widthNs = 0; ///< before and after each
+    std::vector<log::Duration> moments;
+    log::Duration width{}; ///< before and after each
 
-    [[nodiscard]] bool contains(std::int64_t timeNs) const;
+    [[nodiscard]] bool contains(log::Duration time) const;
 };
 
 /// Datagrams under way: they come out in the order of their due times. Where their order would leave it to
@@ -29,19 +30,19 @@ struct QuietTimes {
 ///   has gone on, and is given up at the end of the stream.
 class Delivery {
 public:
-    Delivery(double periodNs, QuietTimes quiet);
+    Delivery(log::Duration period, QuietTimes quiet);
 
     void push(Sending sending);
     /// Comes out after `count` more have been pushed or noted.
     void pushAfter(Sending sending, std::uint64_t count);
     /// One more datagram of this sender has passed at this time.
-    void notePassed(std::int64_t timeNs);
+    void notePassed(log::Duration time);
     /// Whether what a stream has overtaken by a restart still comes; else it is given up, as it is to begin
     /// with.
     void keepStragglers(bool keeps) { m_keepsStragglers = keeps; }
 
     /// All that are due before this time, in order, appended. Nothing due earlier may be pushed afterwards.
-    void takeUntil(std::int64_t untilNs, std::vector<Sending>& into);
+    void takeUntil(log::Duration until, std::vector<Sending>& into);
     /// The rest: the streams have ended.
     void takeRest(std::vector<Sending>& into);
 
@@ -58,7 +59,7 @@ private:
     };
     struct Advance {
         std::uint32_t sample;
-        std::int64_t timeNs;
+        log::Duration time;
     };
     /// How far a stream has come, as a receiver sees it.
     struct Front {
@@ -81,16 +82,16 @@ private:
     [[nodiscard]] Verdict judgeFar(Sending& sending, Front& front, bool isAtEnd) const;
     [[nodiscard]] Verdict judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
                                       bool isAtEnd) const;
-    static void advance(Front& front, std::uint32_t sample, std::int64_t timeNs);
-    void take(std::optional<std::int64_t> untilNs, std::vector<Sending>& into);
+    static void advance(Front& front, std::uint32_t sample, log::Duration time);
+    void take(std::optional<log::Duration> until, std::vector<Sending>& into);
     Entry pop();
 
-    std::int64_t m_periodNs;
+    log::Duration m_period;
     QuietTimes m_quiet;
     std::vector<Entry> m_heap;
     std::vector<Counted> m_counted;
     std::map<std::pair<std::uint8_t, std::uint8_t>, Front> m_fronts;
-    std::int64_t m_latestNs = 0; ///< of what has come out
+    log::Duration m_latest{}; ///< of what has come out
     std::uint64_t m_pushed = 0;
     std::uint64_t m_givenUp = 0;
     bool m_keepsStragglers = false;

@@ -12,8 +12,6 @@
 namespace posewire::performer {
 namespace {
 
-constexpr double kNsPerSecond = 1e9;
-constexpr double kNsPerMs = 1e6;
 /// Samples before and after a restart or a change of rate that reach the receiver as they are.
 constexpr double kQuietSamples = 16.0;
 /// Restarts further away than this leave no doubt where a straggler belongs.
@@ -39,21 +37,25 @@ enum Chance : std::uint64_t {
     Parts
 };
 
-std::int64_t nanoseconds(double seconds) {
-    return static_cast<std::int64_t>(std::llround(seconds * kNsPerSecond));
+log::Duration fromSeconds(double seconds) {
+    return log::Duration(std::llround(seconds * 1e9));
+}
+
+log::Duration fromMilliseconds(double milliseconds) {
+    return log::Duration(std::llround(milliseconds * 1e6));
 }
 
 QuietTimes quietTimes(const FaultSettings& settings) {
     QuietTimes quiet;
     double samples = kQuietSamples;
     if (settings.restart) {
-        quiet.momentsNs.push_back(nanoseconds(settings.restart->atSeconds));
+        quiet.moments.push_back(fromSeconds(settings.restart->atSeconds));
     }
     if (settings.reduction) {
-        quiet.momentsNs.push_back(nanoseconds(settings.reduction->atSeconds));
+        quiet.moments.push_back(fromSeconds(settings.reduction->atSeconds));
         samples *= settings.reduction->step;
     }
-    quiet.widthNs = nanoseconds(samples / settings.rateHz);
+    quiet.width = fromSeconds(samples / settings.rateHz);
     return quiet;
 }
 
@@ -70,17 +72,17 @@ Faults::Faults(const FaultSettings& settings)
       m_random(KeyedRandom(settings.seed).fork(0xfa17)),
       m_quiet(quietTimes(settings)),
       m_loss(settings, m_random.fork(Loss)),
-      m_delivery(kNsPerSecond / settings.rateHz, m_quiet) {}
+      m_delivery(log::Duration(static_cast<std::int64_t>(1e9 / settings.rateHz)), m_quiet) {}
 
-bool Faults::isPaused(std::int64_t dueNs) const {
+bool Faults::isPaused(log::Duration due) const {
     const auto& pause = m_settings.pause;
-    return pause && dueNs >= nanoseconds(pause->atSeconds) &&
-           dueNs < nanoseconds(pause->atSeconds + pause->seconds);
+    return pause && due >= fromSeconds(pause->atSeconds) &&
+           due < fromSeconds(pause->atSeconds + pause->seconds);
 }
 
-bool Faults::isReduced(std::uint32_t sample, std::int64_t dueNs) {
+bool Faults::isReduced(std::uint32_t sample, log::Duration due) {
     const auto& reduction = m_settings.reduction;
-    if (!reduction || dueNs < nanoseconds(reduction->atSeconds)) {
+    if (!reduction || due < fromSeconds(reduction->atSeconds)) {
         return false;
     }
     if (!m_reductionSample) {
@@ -89,9 +91,9 @@ bool Faults::isReduced(std::uint32_t sample, std::int64_t dueNs) {
     return true;
 }
 
-void Faults::restartAt(std::int64_t dueNs, Sending& sending) {
+void Faults::restartAt(log::Duration due, Sending& sending) {
     const auto& restart = m_settings.restart;
-    if (m_epoch != 0 || !restart || dueNs < nanoseconds(restart->atSeconds)) {
+    if (m_epoch != 0 || !restart || due < fromSeconds(restart->atSeconds)) {
         return;
     }
     m_epoch = 1;
@@ -100,17 +102,17 @@ void Faults::restartAt(std::int64_t dueNs, Sending& sending) {
     m_delivery.keepStragglers(std::abs(jump) > kFarRestart);
 }
 
-void Faults::offer(std::vector<std::byte> datagram, std::int64_t dueNs) {
-    m_delivery.takeUntil(dueNs, m_ready);
+void Faults::offer(std::vector<std::byte> datagram, log::Duration due) {
+    m_delivery.takeUntil(due, m_ready);
     const auto header = wire::decodeHeader(datagram);
-    Sending sending{std::move(datagram), dueNs, {}, header.has_value()};
+    Sending sending{std::move(datagram), due, {}, header.has_value()};
     if (header) {
         sending.origin.sample = header->sampleCounter;
         sending.origin.type = header->type();
         sending.origin.character = header->character;
     }
     if (header && wire::isSampled(header->type())) {
-        if (isReduced(header->sampleCounter, dueNs)) {
+        if (isReduced(header->sampleCounter, due)) {
             sending.origin.regime = 1;
             sending.origin.step = m_settings.reduction->step;
             if ((header->sampleCounter - *m_reductionSample) % sending.origin.step != 0) {
@@ -118,12 +120,12 @@ void Faults::offer(std::vector<std::byte> datagram, std::int64_t dueNs) {
                 return;
             }
         }
-        restartAt(dueNs, sending);
+        restartAt(due, sending);
         sending.origin.epoch = m_epoch;
         sending.origin.sample -= m_shift;
         writeCounter(sending.bytes, sending.origin.sample);
     }
-    if (isPaused(dueNs)) {
+    if (isPaused(due)) {
         ++m_tally.withheld;
         return;
     }
@@ -140,7 +142,7 @@ void Faults::send(Sending sending) {
     const KeyedRandom random = m_random.fork(Parts).fork(256U * origin.type + origin.character);
     const std::size_t parts = 2 + random.bits(origin.sample) % 3;
     for (auto& part : splitSample(sending.bytes, parts)) {
-        deliver({std::move(part), sending.dueNs, sending.origin, sending.isReadable}, ++m_datagrams);
+        deliver({std::move(part), sending.due, sending.origin, sending.isReadable}, ++m_datagrams);
     }
 }
 
@@ -173,22 +175,22 @@ double Faults::holdMs(std::uint64_t key) const {
 
 void Faults::deliver(Sending sending, std::uint64_t key) {
     ++m_tally.offered;
-    const std::int64_t passedNs = sending.dueNs;
-    const bool isQuiet = m_quiet.contains(passedNs);
+    const log::Duration passed = sending.due;
+    const bool isQuiet = m_quiet.contains(passed);
     if (const bool loses = m_loss.loses(); loses && !isQuiet) {
         ++m_tally.dropped;
-        m_delivery.notePassed(passedNs);
+        m_delivery.notePassed(passed);
         return;
     }
-    sending.dueNs += std::llround(m_settings.delayMs * kNsPerMs);
+    sending.due += fromMilliseconds(m_settings.delayMs);
     if (isQuiet) {
         m_delivery.push(std::move(sending));
-        m_delivery.notePassed(passedNs);
+        m_delivery.notePassed(passed);
         return;
     }
     const bool isSampled = wire::isSampled(sending.origin.type);
     const double jitterMs = isSampled ? m_settings.jitterMs : std::min(m_settings.jitterMs, kTogetherMs);
-    sending.dueNs += std::llround(jitterMs * m_random.fork(Jitter).uniform(key) * kNsPerMs);
+    sending.due += fromMilliseconds(jitterMs * m_random.fork(Jitter).uniform(key));
     damage(sending, key);
     if (happens(m_settings.duplicate, m_random.fork(Duplication), key)) {
         sendCopy(sending, key);
@@ -201,11 +203,11 @@ void Faults::deliver(Sending sending, std::uint64_t key) {
         if (isSampled && bits % 3 == 0) {
             m_delivery.pushAfter(std::move(sending), 1 + (bits >> 8) % 150);
         } else {
-            sending.dueNs += std::llround((isSampled ? holdMs(key) : kTogetherMs) * kNsPerMs);
+            sending.due += fromMilliseconds(isSampled ? holdMs(key) : kTogetherMs);
             m_delivery.push(std::move(sending));
         }
     }
-    m_delivery.notePassed(passedNs);
+    m_delivery.notePassed(passed);
 }
 
 /// Half of the copies follow at once, the others come some milliseconds to half a second later.
@@ -216,13 +218,13 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
     if (bits % 2 == 0) {
         const bool isNear = bits % 4 == 0 || !wire::isSampled(sending.origin.type);
         const std::uint64_t milliseconds = isNear ? 1 + (bits >> 8) % 25 : 120 + (bits >> 8) % 380;
-        copy.dueNs += static_cast<std::int64_t>(milliseconds) * 1'000'000;
+        copy.due += std::chrono::milliseconds(milliseconds);
     }
     m_delivery.push(std::move(copy));
 }
 
-void Faults::takeUntil(std::int64_t untilNs, std::vector<Sending>& into) {
-    m_delivery.takeUntil(untilNs, m_ready);
+void Faults::takeUntil(log::Duration until, std::vector<Sending>& into) {
+    m_delivery.takeUntil(until, m_ready);
     into.insert(into.end(), std::move_iterator(m_ready.begin()), std::move_iterator(m_ready.end()));
     m_ready.clear();
 }

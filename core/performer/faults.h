@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/performer/corruption.h"
 #include "core/performer/delivery.h"
 #include "core/performer/fault_settings.h"
@@ -36,20 +37,20 @@ public:
     /// The settings must be without a problem.
     explicit Faults(const FaultSettings& settings);
 
-    /// In order of their times. Nanoseconds after the start.
-    void offer(std::vector<std::byte> datagram, std::int64_t dueNs);
+    /// In order of their times, after the start.
+    void offer(std::vector<std::byte> datagram, log::Duration due);
 
     /// All that leave before this time, in order, appended; later offers are due at that time or after it.
-    void takeUntil(std::int64_t untilNs, std::vector<Sending>& into);
+    void takeUntil(log::Duration until, std::vector<Sending>& into);
     /// The rest, after the last offer.
     void takeRest(std::vector<Sending>& into);
 
     [[nodiscard]] FaultTally tally() const;
 
 private:
-    [[nodiscard]] bool isPaused(std::int64_t dueNs) const;
-    [[nodiscard]] bool isReduced(std::uint32_t sample, std::int64_t dueNs);
-    void restartAt(std::int64_t dueNs, Sending& sending);
+    [[nodiscard]] bool isPaused(log::Duration due) const;
+    [[nodiscard]] bool isReduced(std::uint32_t sample, log::Duration due);
+    void restartAt(log::Duration due, Sending& sending);
     void send(Sending sending);
     void damage(Sending& sending, std::uint64_t key);
     void deliver(Sending sending, std::uint64_t key);

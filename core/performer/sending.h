@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -20,7 +22,7 @@ struct Origin {
 /// A datagram on its way.
 struct Sending {
     std::vector<std::byte> bytes;
-    std::int64_t dueNs = 0; ///< nanoseconds after the start
+    log::Duration due{}; ///< after the start
     Origin origin;
     bool isReadable = true; ///< false once it is too damaged to be decoded
 };

@@ -14,7 +14,7 @@ constexpr std::int64_t kMostBack = 100;
 constexpr std::int64_t kMostForward = 3000;
 
 /// Parts of a message that is sent again and again come within this time.
-constexpr std::int64_t kTogetherNs = 250'000'000;
+constexpr log::Duration kTogether = std::chrono::milliseconds(250);
 
 std::int64_t distance(std::uint32_t to, std::uint32_t from) {
     return static_cast<std::int32_t>(to - from);
@@ -69,26 +69,26 @@ void StreamTruth::add(const wire::Header& header, const Sending& sending) {
     if (wire::isSampled(header.type())) {
         addSample(header, sending);
     } else {
-        addMessage(header, sending.dueNs);
+        addMessage(header, sending.due);
     }
 }
 
 /// What a receiver takes for one message: indices that do not repeat, close together.
-void StreamTruth::addMessage(const wire::Header& header, std::int64_t timeNs) {
+void StreamTruth::addMessage(const wire::Header& header, log::Duration time) {
     const bool isOpen = m_message.isTouched();
-    if (isOpen && timeNs - m_messageNs <= kTogetherNs && m_message.add(header)) {
+    if (isOpen && time - m_messageAt <= kTogether && m_message.add(header)) {
         return;
     }
     m_incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
     m_message = {};
-    m_messageNs = timeNs;
+    m_messageAt = time;
     m_message.add(header);
 }
 
 void StreamTruth::addSample(const wire::Header& header, const Sending& sending) {
     const Origin& origin = sending.origin;
     if (Run* run = runOf(header, origin)) {
-        addTo(*run, header, sending.dueNs);
+        addTo(*run, header, sending.due);
     }
 }
 
@@ -137,7 +137,7 @@ StreamTruth::Run& StreamTruth::beginRun(const wire::Header& header, const Origin
     return run;
 }
 
-void StreamTruth::addTo(Run& run, const wire::Header& header, std::int64_t timeNs) {
+void StreamTruth::addTo(Run& run, const wire::Header& header, log::Duration time) {
     const std::int64_t place = run.place(header.sampleCounter);
     if (!run.at(place).add(header)) {
         // A restart forgets the counters of before.
@@ -147,7 +147,7 @@ void StreamTruth::addTo(Run& run, const wire::Header& header, std::int64_t timeN
     run.first = std::min(run.first, place);
     if (run.advances.empty() || place > run.last) {
         run.last = place;
-        run.advances.emplace_back(place, timeNs);
+        run.advances.emplace_back(place, time);
         return;
     }
     if (place == run.last) {
@@ -156,7 +156,7 @@ void StreamTruth::addTo(Run& run, const wire::Header& header, std::int64_t timeN
     ++m_figures.reordered;
     const auto overtaking = std::ranges::partition_point(
         run.advances, [&](const auto& advance) { return advance.first <= place; });
-    m_figures.late += timeNs - overtaking->second > kLateNs ? 1 : 0;
+    m_figures.late += time - overtaking->second > kLate ? 1 : 0;
 }
 
 SentFigures StreamTruth::figures() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/performer/sending.h"
 #include "core/wire/header.h"
 
@@ -32,7 +33,7 @@ struct SentFigures {
 };
 
 /// Behind a later sample by more than this, a sample is late: the waiting time of the display.
-inline constexpr std::int64_t kLateNs = 50'000'000;
+inline constexpr log::Duration kLate = std::chrono::milliseconds(50);
 
 /// Keeps book of the datagrams of one stream as they leave, with what the sender knows about each: what it
 /// was meant to be, where restarts and changes of rate are. Nothing is inferred, so nothing of the receiver's
@@ -65,23 +66,23 @@ private:
         std::int64_t last = 0;
         std::int64_t base = 0; ///< of samples.front()
         std::deque<Parts> samples;
-        std::vector<std::pair<std::int64_t, std::int64_t>> advances; ///< counter, time
+        std::vector<std::pair<std::int64_t, log::Duration>> advances; ///< counter, time
 
         [[nodiscard]] std::int64_t place(std::uint32_t sample) const;
         Parts& at(std::int64_t position);
     };
 
-    void addMessage(const wire::Header& header, std::int64_t timeNs);
+    void addMessage(const wire::Header& header, log::Duration time);
     void addSample(const wire::Header& header, const Sending& sending);
     /// Null where the counter is damaged so that it can belong to nothing.
     Run* runOf(const wire::Header& header, const Origin& origin);
     Run& beginRun(const wire::Header& header, const Origin& origin);
-    void addTo(Run& run, const wire::Header& header, std::int64_t timeNs);
+    void addTo(Run& run, const wire::Header& header, log::Duration time);
 
     SentFigures m_figures; ///< those that are counted as they come
     std::vector<Run> m_runs;
     Parts m_message;                ///< the newest one of types 10 to 13
-    std::int64_t m_messageNs = 0;   ///< when it began
+    log::Duration m_messageAt{};    ///< when it began
     std::uint64_t m_incomplete = 0; ///< messages before it
 };
 

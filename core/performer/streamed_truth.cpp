@@ -5,7 +5,7 @@ namespace posewire::performer {
 
 void StreamedTruth::add(const Sending& sending) {
     m_size += sending.bytes.size();
-    m_sent.push_back({m_size, sending.dueNs, sending.origin});
+    m_sent.push_back({m_size, sending.due, sending.origin});
     m_framer.push(sending.bytes, [this](const log::TcpFramer::Piece& piece) { take(piece); });
 }
 
@@ -18,7 +18,7 @@ void StreamedTruth::take(const log::TcpFramer::Piece& piece) {
         m_sent.pop_front();
     }
     if (piece.kind == log::TcpFramer::Kind::Datagram) {
-        m_truth.add({{piece.bytes.begin(), piece.bytes.end()}, m_sent.front().dueNs, m_sent.front().origin});
+        m_truth.add({{piece.bytes.begin(), piece.bytes.end()}, m_sent.front().due, m_sent.front().origin});
     }
 }
 

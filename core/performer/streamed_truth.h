@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/tcp_framer.h"
+#include "core/log/time.h"
 #include "core/performer/truth.h"
 
 #include <deque>
@@ -22,7 +23,7 @@ public:
 private:
     struct Sent {
         std::uint64_t end = 0; ///< bytes of the stream up to the end of it
-        std::int64_t dueNs = 0;
+        log::Duration due{};
         Origin origin;
     };
     void take(const log::TcpFramer::Piece& piece);

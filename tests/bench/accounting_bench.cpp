@@ -54,7 +54,8 @@ double accounting(std::size_t count, bool isLossy) {
             }
             header.sampleCounter -= std::min(header.sampleCounter, 5U);
         }
-        streams[i % kStreams]->add(static_cast<std::int64_t>(header.sampleCounter) * 4'000'000, 760, header);
+        streams[i % kStreams]->add(log::Stamp(header.sampleCounter * std::chrono::milliseconds(4)), 760,
+                                   header);
     }
     return nsPer(start, count);
 }

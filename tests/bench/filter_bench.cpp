@@ -53,7 +53,7 @@ std::pair<double, std::size_t> filtered(std::string_view text, const std::vector
     for (std::size_t i = 0; i < packets; ++i) {
         log::Packet packet;
         packet.number = i;
-        packet.stampNs = static_cast<std::int64_t>(i) * 1000;
+        packet.stamp = log::Stamp(std::chrono::microseconds(i));
         packet.bytes = all[i % all.size()];
         const bool isDecoded = wire::decodeInto(packet.bytes, datagram).has_value();
         const model::PacketDigest digest = digester.add(packet, isDecoded ? &datagram : nullptr);

@@ -42,7 +42,8 @@ void fill(log::PacketLog& log, std::size_t count) {
         datagram.header.sampleCounter = static_cast<std::uint32_t>(i + i / 1000);
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         if (wire::encodeInto(datagram, bytes)) {
-            log.writer().append(bytes, {.stampNs = static_cast<std::int64_t>(i) * 100'000, .sender = sender});
+            log.writer().append(bytes,
+                                {.stamp = log::Stamp(std::chrono::microseconds(100 * i)), .sender = sender});
         }
     }
     log.writer().publish();
@@ -72,7 +73,7 @@ int report(const char* name, std::pair<double, double> taken, double limitMs, bo
 int filterAll(model::Session& session, gui::PacketModel& model, bool isChecked) {
     auto begin = Clock::now();
     gui::PacketFilterRun run(session.log(), session.digests(),
-                             *filter::Filter::compile("gap > 0 || sample >= 0"), session.firstStampNs());
+                             *filter::Filter::compile("gap > 0 || sample >= 0"), session.firstStamp());
     model.beginMatches();
     double longestMs = 0;
     gui::PacketFilterRun::Progress progress;
@@ -121,7 +122,7 @@ int main(int argumentCount, char** arguments) {
     log::PacketLog log({.memoryCap = std::size_t{2} << 30, .chunkSize = std::size_t{8} << 20});
     fill(log, packets);
     model::Session session(log);
-    while (session.follow(0)) {
+    while (session.follow(log::Stamp())) {
     }
     gui::PacketModel model(session);
     gui::PacketView view("Packets");

@@ -58,7 +58,7 @@ int report(std::uint64_t sent, const Count& count, const net::ReceiveTotals& tot
                  " records), dropped say the counters %" PRIu64 ", missed by this reader %" PRIu64
                  ", longest delay %.1f ms\n",
                  sent, count.received(), count.dropped(), count.records(), totals.kernelDropped,
-                 count.missed(), static_cast<double>(totals.longestDelayNs) * 1e-6);
+                 count.missed(), log::millisecondsOf(totals.longestDelay));
     const auto unaccounted = static_cast<double>(sent) - static_cast<double>(count.received()) -
                              static_cast<double>(count.dropped());
     const bool isExact = unaccounted == 0 && count.missed() == 0 && totals.datagrams == count.received() &&

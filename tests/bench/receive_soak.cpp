@@ -98,14 +98,14 @@ int main(int argc, char** argv) {
     }
     const Result result = soak(receiver, log, duration);
     const net::ReceiveTotals totals = receiver.totals();
-    std::fprintf(
-        stderr,
-        "sent %llu, received %llu, seen in order by the reader %llu, dropped by the kernel %llu, "
-        "longest delay "
-        "%.1f ms, receive buffer %lld bytes\n",
-        static_cast<unsigned long long>(result.sent), static_cast<unsigned long long>(result.received),
-        static_cast<unsigned long long>(result.seenInOrder),
-        static_cast<unsigned long long>(totals.kernelDropped),
-        static_cast<double>(totals.longestDelayNs) * 1e-6, static_cast<long long>(totals.receiveBufferBytes));
+    std::fprintf(stderr,
+                 "sent %llu, received %llu, seen in order by the reader %llu, dropped by the kernel %llu, "
+                 "longest delay "
+                 "%.1f ms, receive buffer %lld bytes\n",
+                 static_cast<unsigned long long>(result.sent),
+                 static_cast<unsigned long long>(result.received),
+                 static_cast<unsigned long long>(result.seenInOrder),
+                 static_cast<unsigned long long>(totals.kernelDropped),
+                 log::millisecondsOf(totals.longestDelay), static_cast<long long>(totals.receiveBufferBytes));
     return verdict("receive_soak_lost", static_cast<double>(result.sent - result.seenInOrder), 0, isChecked);
 }

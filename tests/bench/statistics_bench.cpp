@@ -25,7 +25,7 @@ using namespace posewire::bench;
 constexpr double kLimit = 2.5;
 constexpr double kRate = 100'000;
 constexpr double kBurstS = 0.001;
-constexpr std::int64_t kFollowNs = 16'000'000;
+constexpr log::Duration kFollow = std::chrono::milliseconds(16);
 
 std::array<std::byte, kDatagramSize> poseBytes() {
     wire::PoseQuaternion pose;
@@ -100,10 +100,10 @@ Cost ours(double duration) {
         stayOn(true);
         const double begin = threadCpuSeconds();
         while (!isStopping) {
-            session.follow(clock.wallNs());
-            std::this_thread::sleep_for(std::chrono::nanoseconds(kFollowNs));
+            session.follow(clock.wall());
+            std::this_thread::sleep_for(kFollow);
         }
-        session.follow(clock.wallNs());
+        session.follow(clock.wall());
         following = threadCpuSeconds() - begin;
     });
     LoopbackSender sender(receiver.inputs().front().endpoint.port, poseBytes(), numberPose);

@@ -24,7 +24,7 @@ void check(const model::StreamAccounting& stream, std::size_t datagrams, std::si
     require(counts.reordered <= datagrams && counts.late <= counts.reordered);
     require(verdicts <= datagrams && datagrams - verdicts <= model::Probation::kMost);
     require(counts.step != 0 || counts.restarts != 0 || counts.lost < UINT64_MAX / 2);
-    const auto range = stream.countsBetween(INT64_MIN, INT64_MAX);
+    const auto range = stream.countsBetween(log::Stamp::min(), log::Stamp::max());
     require(range.datagrams == datagrams);
     if (!stream.isInDoubt()) {
         require(range.samples == counts.samples && range.incomplete == counts.incomplete);
@@ -41,7 +41,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     model::StreamAccounting stream(data[0] % 4 == 3 ? 13 : 2);
     wire::Header header;
-    std::int64_t stampNs = 1'000'000'000'000;
+    log::Stamp stamp(std::chrono::seconds(1000));
     std::size_t datagrams = 0;
     std::size_t verdicts = 0;
     std::uint32_t highest = static_cast<std::uint32_t>(data[1]) << 24 | data[2];
@@ -71,8 +71,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         header.datagramCounter = data[i + 2] < 128 ? 0x80 : data[i + 2] & 0x83;
         header.timeCode += data[i + 3] / 8U;
-        stampNs += (data[i + 3] - (data[i + 3] == 255 ? 600 : 0)) * std::int64_t{100'000};
-        verdicts += stream.add(stampNs, 760, header).size();
+        stamp += (data[i + 3] - (data[i + 3] == 255 ? 600 : 0)) * std::chrono::microseconds(100);
+        verdicts += stream.add(stamp, 760, header).size();
         ++datagrams;
     }
     check(stream, datagrams, verdicts);

@@ -40,7 +40,7 @@ void checkTags(std::string_view text) {
 void checkHistory(const wire::MetaData& message) {
     model::Metadata history;
     for (std::uint64_t packet = 0; packet < 3; ++packet) {
-        history.add(message, packet, 0);
+        history.add(message, packet, log::Stamp());
     }
     require(history.tags().size() <= model::Metadata::kMaxTags);
     for (const model::MetadataTag& tag : history.tags()) {

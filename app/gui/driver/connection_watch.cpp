@@ -4,14 +4,13 @@
 #include "core/log/time.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kExamineNs = 250 * log::kMillisecondNs;
-constexpr std::int64_t kAskNs = 3 * log::kSecondNs;
+constexpr log::Duration kExamine = std::chrono::milliseconds(250);
+constexpr log::Duration kAsk = std::chrono::seconds(3);
 
 net::InputKind kindOf(InputAddress::Kind kind) {
     switch (kind) {
@@ -32,9 +31,9 @@ bool isFromNetwork(const model::Sender& sender) {
 } // namespace
 
 net::ConnectionFacts connectionFacts(const model::SessionView& session, const ReceivingState& state,
-                                     std::int64_t openedNs, std::int64_t nowNs) {
+                                     log::Stamp opened, log::Stamp now) {
     net::ConnectionFacts facts;
-    facts.nowNs = nowNs;
+    facts.now = now;
     for (const PortState& port : state.ports) {
         if (port.id) {
             facts.inputs.push_back(port.status);
@@ -44,55 +43,55 @@ net::ConnectionFacts connectionFacts(const model::SessionView& session, const Re
                                     {net::NetError::Kind::Other, port.problem.toStdString()}});
         }
     }
-    std::int64_t newestNs = openedNs;
+    log::Stamp newest = opened;
     for (const model::Sender& sender : session.senders()) {
         if (!isFromNetwork(sender)) {
             continue;
         }
         facts.mxtpDatagrams += sender.datagrams + sender.malformed;
         if (sender.datagrams + sender.malformed != 0) {
-            newestNs = std::max(newestNs, sender.lastStampNs);
+            newest = std::max(newest, sender.lastStamp);
         }
         if (sender.foreign != 0) {
             facts.foreign.push_back({sender.info.address, sender.foreign, sender.foreignHead});
         }
     }
-    facts.silenceNs = std::max<std::int64_t>(0, nowNs - newestNs);
+    facts.silence = std::max(log::Duration::zero(), now - newest);
     return facts;
 }
 
-void ConnectionWatch::examine(const model::SessionView& session, std::int64_t nowNs, ReceivingState& state) {
-    if (std::abs(nowNs - m_examinedNs) < kExamineNs) {
+void ConnectionWatch::examine(const model::SessionView& session, log::Stamp now, ReceivingState& state) {
+    if (std::chrono::abs(now - m_examined) < kExamine) {
         return;
     }
-    m_examinedNs = nowNs;
-    askSystem(nowNs);
-    noteOpenings(nowNs, state);
-    net::ConnectionFacts facts = connectionFacts(session, state, m_openedNs, nowNs);
+    m_examined = now;
+    askSystem(now);
+    noteOpenings(now, state);
+    net::ConnectionFacts facts = connectionFacts(session, state, m_opened, now);
     facts.addresses = m_addresses;
     facts.firewall = m_firewall;
     state.findings = net::connectionHelp(facts);
     state.addresses = m_addresses;
 }
 
-void ConnectionWatch::askSystem(std::int64_t nowNs) {
-    if (std::abs(nowNs - m_askedNs) >= kAskNs) {
-        m_askedNs = nowNs;
+void ConnectionWatch::askSystem(log::Stamp now) {
+    if (std::chrono::abs(now - m_asked) >= kAsk) {
+        m_asked = now;
         m_addresses = net::reachable(net::localAddresses());
         m_firewall = net::findFirewall();
     }
 }
 
-void ConnectionWatch::noteOpenings(std::int64_t nowNs, const ReceivingState& state) {
+void ConnectionWatch::noteOpenings(log::Stamp now, const ReceivingState& state) {
     std::vector<net::InputId> open;
     for (const PortState& port : state.ports) {
         if (port.id) {
             open.push_back(*port.id);
         }
     }
-    if (open != m_open || m_openedNs == 0) {
+    if (open != m_open || m_opened == log::Stamp()) {
         m_open = open;
-        m_openedNs = nowNs;
+        m_opened = now;
     }
 }
 

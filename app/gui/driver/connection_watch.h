@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/receiving_state.h"
+#include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
 #include <cstdint>
@@ -14,23 +15,23 @@ namespace posewire::gui {
 class ConnectionWatch {
 public:
     /// Writes the findings and the addresses of this computer into `state`, at most four times a second.
-    void examine(const model::SessionView& session, std::int64_t nowNs, ReceivingState& state);
+    void examine(const model::SessionView& session, log::Stamp now, ReceivingState& state);
 
 private:
-    void askSystem(std::int64_t nowNs);
-    void noteOpenings(std::int64_t nowNs, const ReceivingState& state);
+    void askSystem(log::Stamp now);
+    void noteOpenings(log::Stamp now, const ReceivingState& state);
 
     std::vector<net::LocalAddress> m_addresses;
     std::optional<net::Firewall> m_firewall;
     std::vector<net::InputId> m_open;
-    std::int64_t m_openedNs = 0; ///< the inputs that are open now
-    std::int64_t m_examinedNs = 0;
-    std::int64_t m_askedNs = 0;
+    log::Stamp m_opened{}; ///< the inputs that are open now
+    log::Stamp m_examined{};
+    log::Stamp m_asked{};
 };
 
 /// The facts that the session and the inputs give; without those of the system.
 [[nodiscard]] net::ConnectionFacts connectionFacts(const model::SessionView& session,
-                                                   const ReceivingState& state, std::int64_t openedNs,
-                                                   std::int64_t nowNs);
+                                                   const ReceivingState& state, log::Stamp opened,
+                                                   log::Stamp now);
 
 } // namespace posewire::gui

@@ -15,7 +15,7 @@ namespace {
 
 /// A sender that fell behind (a sleeping computer) goes on from now instead of flooding the receiver with the
 /// past.
-constexpr std::int64_t kGreatestLagNs = 250 * log::kMillisecondNs;
+constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
 
 } // namespace
 
@@ -37,16 +37,16 @@ void DemoSender::run(int characters, std::uint16_t port) {
     performer::Performer performer(settings);
     const log::SystemClock clock;
     net::SendSchedule schedule(clock);
-    const auto periodNs = static_cast<std::int64_t>(static_cast<double>(log::kSecondNs) / settings.rateHz);
+    const auto period =
+        std::chrono::duration_cast<log::Duration>(log::Duration(std::chrono::seconds(1)) / settings.rateHz);
     std::vector<wire::Datagram> datagrams;
     std::vector<std::byte> bytes;
-    std::int64_t skippedNs = 0;
+    log::Duration skipped{};
     for (std::uint64_t index = 0; !m_isStopping; ++index) {
         performer.frameInto(index, datagrams);
-        const std::int64_t lateNs =
-            schedule.waitUntil(skippedNs + static_cast<std::int64_t>(index) * periodNs);
-        if (lateNs > kGreatestLagNs) {
-            skippedNs += lateNs;
+        const log::Duration late = schedule.waitUntil(skipped + static_cast<std::int64_t>(index) * period);
+        if (late > kGreatestLag) {
+            skipped += late;
         }
         for (const wire::Datagram& datagram : datagrams) {
             bytes.clear();

@@ -20,18 +20,19 @@ void HealthMeter::add(const Reading& reading) {
     const std::optional<Reading> before = std::exchange(m_before, reading);
     m_health.bufferFill = reading.bufferFill;
     m_health.memoryBytes = reading.memoryBytes;
-    const std::int64_t followNs = std::exchange(m_followNs, 0);
+    const log::Duration follow = std::exchange(m_follow, {});
     const std::uint64_t followed = std::exchange(m_followed, 0);
     if (followed != 0) {
-        m_health.followUsPerPacket = static_cast<double>(followNs) * 1e-3 / static_cast<double>(followed);
+        m_health.followUsPerPacket =
+            static_cast<double>(follow.count()) * 1e-3 / static_cast<double>(followed);
     }
-    const double seconds = before ? log::secondsOf(reading.monotonicNs - before->monotonicNs) : 0;
+    const double seconds = before ? log::secondsOf(reading.monotonic - before->monotonic) : 0;
     if (seconds <= 0) {
         return;
     }
     m_health.receiverShare = shareOf(before->receiverCpuS, reading.receiverCpuS, seconds);
     m_health.processShare = shareOf(before->processCpuS, reading.processCpuS, seconds);
-    m_health.followShare = log::secondsOf(followNs) / seconds;
+    m_health.followShare = log::secondsOf(follow) / seconds;
     m_health.framesPerSecond = static_cast<double>(reading.frames - before->frames) / seconds;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/monitor_health.h"
+#include "core/log/time.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,11 +13,11 @@ namespace posewire::gui {
 /// Makes figures of what this program does out of counters that only grow.
 class HealthMeter {
 public:
-    static constexpr std::int64_t kPeriodNs = 500'000'000;
+    static constexpr log::Duration kPeriod = std::chrono::milliseconds(500);
 
     /// Counters at a moment of the monotonic clock.
     struct Reading {
-        std::int64_t monotonicNs = 0;
+        log::Moment monotonic{};
         std::optional<double> receiverCpuS{};
         std::optional<double> processCpuS{};
         std::optional<double> bufferFill{};
@@ -25,14 +26,14 @@ public:
     };
 
     /// The session took so long to follow so many packets.
-    void addFollow(std::int64_t tookNs, std::uint64_t packets) {
-        m_followNs += tookNs;
+    void addFollow(log::Duration took, std::uint64_t packets) {
+        m_follow += took;
         m_followed += packets;
     }
 
     /// Whether it is time for another reading.
-    [[nodiscard]] bool isDue(std::int64_t monotonicNs) const {
-        return !m_before || monotonicNs - m_before->monotonicNs >= kPeriodNs;
+    [[nodiscard]] bool isDue(log::Moment monotonic) const {
+        return !m_before || monotonic - m_before->monotonic >= kPeriod;
     }
     void add(const Reading& reading);
 
@@ -40,7 +41,7 @@ public:
 
 private:
     std::optional<Reading> m_before;
-    std::int64_t m_followNs = 0;
+    log::Duration m_follow{};
     std::uint64_t m_followed = 0;
     MonitorHealth m_health;
 };

@@ -15,25 +15,24 @@ namespace posewire::gui {
 namespace {
 
 /// Longer jumps of the time code are taken for a new beginning.
-constexpr std::int64_t kGreatestStepNs = 10 * log::kSecondNs;
+constexpr log::Duration kGreatestStep = std::chrono::seconds(10);
 
 /// Time within a raw file, told by its time codes, from 0.
 class TimeCodeStamps {
 public:
-    std::int64_t next(const log::FileRecord& record) {
+    log::Duration next(const log::FileRecord& record) {
         const auto header = wire::decodeHeader(record.bytes);
         if (!record.isSkipped && header) {
-            const std::int64_t step =
-                m_timeCode ? (static_cast<std::int64_t>(header->timeCode) - *m_timeCode) * log::kMillisecondNs
-                           : 0;
-            m_stampNs += step > 0 && step <= kGreatestStepNs ? step : 0;
+            const auto timeCode = static_cast<std::int64_t>(header->timeCode);
+            const log::Duration step = std::chrono::milliseconds(m_timeCode ? timeCode - *m_timeCode : 0);
+            m_time += step > log::Duration::zero() && step <= kGreatestStep ? step : log::Duration::zero();
             m_timeCode = header->timeCode;
         }
-        return m_stampNs;
+        return m_time;
     }
 
 private:
-    std::int64_t m_stampNs = 0;
+    log::Duration m_time{};
     std::optional<std::uint32_t> m_timeCode;
 };
 
@@ -49,13 +48,13 @@ QString visitFile(const QString& path, const log::FileVisitor& visit) {
 
 } // namespace
 
-QString importRawFile(const QString& path, const PacketTaker& take, std::int64_t endNs) {
+QString importRawFile(const QString& path, const PacketTaker& take, log::Stamp end) {
     // Twice over: how long a raw file lasts is known at its end, and it may be larger than memory.
     TimeCodeStamps measuring;
-    std::int64_t lengthNs = 0;
+    log::Duration length{};
     std::uint64_t count = 0;
     QString problem = visitFile(path, [&](const log::FileRecord& record) {
-        lengthNs = measuring.next(record);
+        length = measuring.next(record);
         ++count;
     });
     if (!problem.isEmpty() || count == 0) {
@@ -65,8 +64,8 @@ QString importRawFile(const QString& path, const PacketTaker& take, std::int64_t
     const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
     TimeCodeStamps stamps;
     return visitFile(path, [&](const log::FileRecord& record) {
-        const std::int64_t stampNs = endNs - lengthNs + stamps.next(record);
-        take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stampNs));
+        const log::Stamp stamp = end - length + stamps.next(record);
+        take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
     });
 }
 

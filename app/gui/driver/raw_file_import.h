@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
 
 #include <QString>
 
@@ -16,7 +17,7 @@ using PacketTaker = std::function<void(std::span<const std::byte> bytes, const l
 
 /// Reads a file of datagrams. Those of a capture keep their stamps and senders. Those of a raw file are one
 /// sender, spaced by their time codes (by their order where those stand still or go back), the newest at
-/// `endNs`. The answer is what went wrong, empty for nothing.
-[[nodiscard]] QString importRawFile(const QString& path, const PacketTaker& take, std::int64_t endNs);
+/// `end`. The answer is what went wrong, empty for nothing.
+[[nodiscard]] QString importRawFile(const QString& path, const PacketTaker& take, log::Stamp end);
 
 } // namespace posewire::gui

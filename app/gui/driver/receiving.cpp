@@ -15,7 +15,7 @@ namespace {
 
 using Kind = InputAddress::Kind;
 
-constexpr std::int64_t kRateWindowNs = log::kSecondNs;
+constexpr log::Duration kRateWindow = std::chrono::seconds(1);
 
 net::Endpoint endpointOf(const InputAddress& port) {
     return {port.address.toStdString(), port.port};
@@ -143,7 +143,7 @@ QString Receiving::openFile(const QString& path) {
         [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival) {
             m_receiver.submitWaiting(bytes, sender, arrival);
         },
-        m_clock.wallNs());
+        m_clock.wall());
     m_receiver.flush();
     if (problem.isEmpty()) {
         m_state.file = QFileInfo(path).fileName();
@@ -151,41 +151,41 @@ QString Receiving::openFile(const QString& path) {
     return problem;
 }
 
-void Receiving::measure(std::int64_t nowNs) {
+void Receiving::measure(log::Stamp now) {
     readStatus();
     const net::ReceiveTotals figures = m_receiver.totals();
     m_state.kernelDropped = figures.kernelDropped + figures.queueDropped;
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
-    m_state.longestDelayNs = figures.longestDelayNs;
-    const Totals totals{nowNs, figures.datagrams, figures.bytes};
+    m_state.longestDelay = figures.longestDelay;
+    const Totals totals{now, figures.datagrams, figures.bytes};
     const Totals& before = oldest(m_totals, totals);
-    const double seconds = log::secondsOf(nowNs - before.stampNs);
+    const double seconds = log::secondsOf(now - before.stamp);
     if (seconds > 0) {
         m_state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
         m_state.bytesPerSecond = static_cast<double>(totals.bytes - before.bytes) / seconds;
     }
-    measurePorts(nowNs);
+    measurePorts(now);
     m_relaying.measure(openInputs());
     m_state.relays = m_relaying.states();
 }
 
 const Receiving::Totals& Receiving::oldest(Window& window, const Totals& totals) {
     window.push_back(totals);
-    while (window.size() > 2 && window[1].stampNs <= totals.stampNs - kRateWindowNs) {
+    while (window.size() > 2 && window[1].stamp <= totals.stamp - kRateWindow) {
         window.pop_front();
     }
     return window.front();
 }
 
-void Receiving::measurePorts(std::int64_t nowNs) {
+void Receiving::measurePorts(log::Stamp now) {
     for (PortState& state : m_state.ports) {
         if (!state.id) {
             state.datagramsPerSecond = 0;
             continue;
         }
-        const Totals totals{nowNs, state.status.datagrams, state.status.bytes};
+        const Totals totals{now, state.status.datagrams, state.status.bytes};
         const Totals& before = oldest(m_portTotals[*state.id], totals);
-        const double seconds = log::secondsOf(nowNs - before.stampNs);
+        const double seconds = log::secondsOf(now - before.stamp);
         if (seconds > 0) {
             state.datagramsPerSecond = static_cast<double>(totals.datagrams - before.datagrams) / seconds;
         }

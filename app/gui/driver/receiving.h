@@ -7,6 +7,7 @@
 #include "app/net/receiver.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
+#include "core/log/time.h"
 
 #include <deque>
 #include <map>
@@ -40,11 +41,11 @@ public:
     /// nothing.
     [[nodiscard]] QString openFile(const QString& path);
 
-    /// `nowNs` is what rates are measured against.
-    void measure(std::int64_t nowNs);
+    /// `now` is what rates are measured against.
+    void measure(log::Stamp now);
     /// Looks why no characters are seen; after measure().
-    void examine(const model::SessionView& session, std::int64_t nowNs) {
-        m_watch.examine(session, nowNs, m_state);
+    void examine(const model::SessionView& session, log::Stamp now) {
+        m_watch.examine(session, now, m_state);
     }
     [[nodiscard]] const ReceivingState& state() const { return m_state; }
 
@@ -59,7 +60,7 @@ public:
 
 private:
     struct Totals {
-        std::int64_t stampNs;
+        log::Stamp stamp;
         std::uint64_t datagrams;
         std::uint64_t bytes;
     };
@@ -67,7 +68,7 @@ private:
 
     void open(PortState& state);
     void readStatus();
-    void measurePorts(std::int64_t nowNs);
+    void measurePorts(log::Stamp now);
     [[nodiscard]] std::vector<net::InputStatus> openInputs() const;
     /// The oldest of a window of one second that ends with `totals`.
     static const Totals& oldest(Window& window, const Totals& totals);

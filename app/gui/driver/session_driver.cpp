@@ -13,10 +13,10 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr int kTickMs = 16;
-constexpr int kSlowestTickMs = 200;
-constexpr std::int64_t kTableTickNs = 100 * log::kMillisecondNs;
-constexpr std::int64_t kRetryNs = 2 * log::kSecondNs;
+constexpr std::chrono::milliseconds kTick(16);
+constexpr std::chrono::milliseconds kSlowestTick(200);
+constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
+constexpr log::Duration kRetry = std::chrono::seconds(2);
 /// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake.
 constexpr std::size_t kPacketsPerTick = 50'000;
 
@@ -27,12 +27,12 @@ SessionDriver::SessionDriver(const log::Clock& clock, QObject* parent)
     m_timer.setTimerType(Qt::PreciseTimer);
     m_timer.setSingleShot(true);
     connect(&m_timer, &QTimer::timeout, this, [this] {
-        const std::int64_t begin = m_clock.monotonicNs();
+        const log::Moment begin = m_clock.monotonic();
         tick();
         // A tick that takes long is followed by a rest as long: the window never takes more than half a
         // processor.
-        const auto tookMs = static_cast<int>((m_clock.monotonicNs() - begin) / log::kMillisecondNs);
-        m_timer.start(std::clamp(std::max(kTickMs - tookMs, tookMs), 1, kSlowestTickMs));
+        const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - begin);
+        m_timer.start(std::clamp(std::max(kTick - took, took), std::chrono::milliseconds(1), kSlowestTick));
     });
 }
 
@@ -43,14 +43,14 @@ void SessionDriver::start() {
 }
 
 void SessionDriver::tick() {
-    const std::int64_t nowNs = m_clock.wallNs();
+    const log::Stamp now = m_clock.wall();
     const std::uint64_t endBefore = m_session.end();
-    const std::int64_t beginNs = m_clock.monotonicNs();
-    const bool hasNew = m_session.follow(nowNs, kPacketsPerTick);
-    m_meter.addFollow(m_clock.monotonicNs() - beginNs, m_session.end() - endBefore);
-    const bool isTableTick = std::abs(nowNs - m_tableTickNs) >= kTableTickNs;
-    if (std::abs(nowNs - m_retryNs) >= kRetryNs) {
-        m_retryNs = nowNs;
+    const log::Moment begin = m_clock.monotonic();
+    const bool hasNew = m_session.follow(now, kPacketsPerTick);
+    m_meter.addFollow(m_clock.monotonic() - begin, m_session.end() - endBefore);
+    const bool isTableTick = std::chrono::abs(now - m_tableTick) >= kTableTick;
+    if (std::chrono::abs(now - m_retry) >= kRetry) {
+        m_retry = now;
         m_receiving.retry();
     }
     // Without new packets ages still grow: figures fade at the tables' pace.
@@ -60,19 +60,19 @@ void SessionDriver::tick() {
         emit moved();
     }
     if (isTableTick) {
-        m_tableTickNs = nowNs;
-        m_receiving.measure(nowNs);
-        m_receiving.examine(m_session, nowNs);
+        m_tableTick = now;
+        m_receiving.measure(now);
+        m_receiving.examine(m_session, now);
         measureHealth();
         emit tableTick();
     }
 }
 
 void SessionDriver::measureHealth() {
-    const std::int64_t nowNs = m_clock.monotonicNs();
-    if (m_meter.isDue(nowNs)) {
+    const log::Moment now = m_clock.monotonic();
+    if (m_meter.isDue(now)) {
         net::Receiver& receiver = m_receiving.receiver();
-        m_meter.add({nowNs, receiver.cpuSeconds(), processCpuSeconds(), receiver.takeBufferFill(),
+        m_meter.add({now, receiver.cpuSeconds(), processCpuSeconds(), receiver.takeBufferFill(),
                      processMemoryBytes(), m_pictures});
     }
 }
@@ -88,10 +88,9 @@ QString SessionDriver::openFile(const QString& path) {
 }
 
 void SessionDriver::seek(double seconds) {
-    const auto afterNs = static_cast<std::int64_t>(seconds * 1e9);
+    const auto after = log::durationOf(seconds);
     setPaused(true);
-    m_session.setCursor(
-        {model::Cursor::Mode::Paused, m_session.packetAt(m_session.firstStampNs() + afterNs)});
+    m_session.setCursor({model::Cursor::Mode::Paused, m_session.packetAt(m_session.firstStamp() + after)});
     announceChange();
 }
 
@@ -159,7 +158,7 @@ void SessionDriver::setThresholds(const model::Thresholds& thresholds) {
 
 void SessionDriver::announceChange() {
     m_isChanged = true;
-    m_tableTickNs = 0;
+    m_tableTick = {};
 }
 
 void SessionDriver::frameCharacter(const model::CharacterKey& key) {

@@ -6,6 +6,7 @@
 #include "app/gui/driver/health_meter.h"
 #include "app/gui/driver/receiving.h"
 #include "app/gui/program_view.h"
+#include "core/log/time.h"
 #include "core/model/session/session.h"
 
 #include <QObject>
@@ -93,8 +94,8 @@ private:
     QTimer m_timer;
     HealthMeter m_meter;
     std::uint64_t m_pictures = 0;
-    std::int64_t m_tableTickNs = 0;
-    std::int64_t m_retryNs = 0;
+    log::Stamp m_tableTick{};
+    log::Stamp m_retry{};
     bool m_isChanged = true;
 };
 

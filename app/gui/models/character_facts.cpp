@@ -84,7 +84,7 @@ PropertyValue nullPose(model::SessionView& view, const Key& key) {
         text, pose->isComplete() ? Health::Good : Health::Warning,
         tr("Datagrams of the scale message (type 13) received of those sent, with %1 segments; last at %2")
             .arg(pose->segments.size())
-            .arg(timeOfDay(pose->stampNs))};
+            .arg(timeOfDay(pose->stamp))};
 }
 
 } // namespace

@@ -57,7 +57,7 @@ PropertyValue lastJump(const ClockHistory& clock) {
     }
     return {tr("%1 at %2")
                 .arg(clockDifference(clock.lastJump()->milliseconds),
-                     timeOfDay(clock.lastJump()->stampNs).chopped(4)),
+                     timeOfDay(clock.lastJump()->stamp).chopped(4)),
             Health::Warning, toolTip};
 }
 

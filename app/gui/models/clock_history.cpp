@@ -12,8 +12,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kNsPerSecond = 1'000'000'000;
-constexpr std::int64_t kWindowNs = 60 * kNsPerSecond;
+constexpr log::Duration kWindow = std::chrono::seconds(60);
 constexpr std::size_t kMostReadings = 20'000;
 constexpr double kMsPerDay = 86'400'000;
 /// Milliseconds are cut, and senders sample their clock with some unrest.
@@ -53,7 +52,7 @@ std::optional<double> millisecondsOf(std::string_view text) {
 void ClockHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key) {
     const std::uint8_t type = key ? clockType(view, *key) : std::uint8_t{0};
     const auto* newest = type == 0 ? nullptr : view.message(*key, type);
-    const bool wentBack = newest != nullptr && newest->stampNs < lastStampNs();
+    const bool wentBack = newest != nullptr && newest->stamp < lastStamp();
     if (key != m_key || type != m_type || wentBack) {
         *this = {};
         m_key = key;
@@ -62,10 +61,10 @@ void ClockHistory::follow(model::SessionView& view, const std::optional<model::C
     if (newest == nullptr) {
         return;
     }
-    const std::int64_t from = std::max(newest->stampNs - kWindowNs, lastStampNs() + 1);
+    const log::Stamp from = std::max(newest->stamp - kWindow, lastStamp() + log::Duration(1));
     const std::size_t added =
         view.visit({key->sender, key->character, type}, from, kMostReadings, [this](const auto& message) {
-            add({message.stampNs, message.datagram.header.sampleCounter, message.datagram.header.timeCode});
+            add({message.stamp, message.datagram.header.sampleCounter, message.datagram.header.timeCode});
         });
     if (added != 0) {
         m_drift = fitDrift();
@@ -79,7 +78,7 @@ void ClockHistory::add(const Reading& reading) {
     }
     m_rate.add(reading.sample, reading.timeCode);
     m_readings.push_back(reading);
-    while (reading.stampNs - m_readings.front().stampNs > kWindowNs || m_readings.size() > kMostReadings) {
+    while (reading.stamp - m_readings.front().stamp > kWindow || m_readings.size() > kMostReadings) {
         m_readings.pop_front();
     }
 }
@@ -92,11 +91,11 @@ void ClockHistory::findJump(const Reading& reading) {
     // A restarted counter says nothing about time: then the receive stamps have to do.
     const bool byStamps = samples < 0 || !hz;
     const double expected =
-        byStamps ? static_cast<double>(reading.stampNs - before.stampNs) * 1e-6 : samples * 1000.0 / *hz;
+        byStamps ? log::millisecondsOf(reading.stamp - before.stamp) : samples * 1000.0 / *hz;
     const double difference = advanced - expected;
     const double tolerance = byStamps ? 250.0 : std::max(kLeastJumpMs, hz ? 3000.0 / *hz : 0.0);
     if (std::abs(difference) > tolerance) {
-        m_jump = {difference, reading.stampNs};
+        m_jump = {difference, reading.stamp};
         m_readings.clear();
         m_rate = {};
     }
@@ -120,9 +119,7 @@ std::optional<std::uint32_t> ClockHistory::headerMs() const {
 }
 
 double ClockHistory::observedSeconds() const {
-    return m_readings.empty()
-               ? 0.0
-               : static_cast<double>(m_readings.back().stampNs - m_readings.front().stampNs) * 1e-9;
+    return m_readings.empty() ? 0.0 : log::secondsOf(m_readings.back().stamp - m_readings.front().stamp);
 }
 
 std::optional<ClockHistory::Drift> ClockHistory::fitDrift() const {
@@ -132,7 +129,7 @@ std::optional<ClockHistory::Drift> ClockHistory::fitDrift() const {
     const Reading& first = m_readings.front();
     double meanX = 0;
     double meanY = 0;
-    const auto x = [&](const Reading& r) { return static_cast<double>(r.stampNs - first.stampNs) * 1e-9; };
+    const auto x = [&](const Reading& r) { return log::secondsOf(r.stamp - first.stamp); };
     const auto y = [&](const Reading& r) {
         return static_cast<std::int32_t>(r.timeCode - first.timeCode) * 1e-3 - x(r);
     };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/models/nominal_rate.h"
+#include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
 #include <deque>
@@ -41,18 +42,18 @@ public:
     /// The newest place where the time code did not go on as its samples did.
     struct Jump {
         double milliseconds = 0; ///< how far off
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
     };
     [[nodiscard]] const std::optional<Jump>& lastJump() const { return m_jump; }
 
     /// Stamp of the newest sample; 0 before the first.
-    [[nodiscard]] std::int64_t lastStampNs() const {
-        return m_readings.empty() ? 0 : m_readings.back().stampNs;
+    [[nodiscard]] log::Stamp lastStamp() const {
+        return m_readings.empty() ? log::Stamp() : m_readings.back().stamp;
     }
 
 private:
     struct Reading {
-        std::int64_t stampNs;
+        log::Stamp stamp;
         std::uint32_t sample;
         std::uint32_t timeCode;
     };

@@ -14,14 +14,13 @@ namespace {
 using EventColumn = TableColumn<model::Event>;
 
 QString lasted(const model::Event& event) {
-    return event.isCurrent ? tr("goes on")
-                           : duration(static_cast<double>(event.lastStampNs - event.firstStampNs) * 1e-9);
+    return event.isCurrent ? tr("goes on") : duration(log::secondsOf(event.lastStamp - event.firstStamp));
 }
 
 QString fromTo(const model::Event& event) {
     return tr("From %1 to %2")
-        .arg(timeOfDay(event.firstStampNs),
-             event.isCurrent ? tr("now: it goes on, or may") : timeOfDay(event.lastStampNs));
+        .arg(timeOfDay(event.firstStamp),
+             event.isCurrent ? tr("now: it goes on, or may") : timeOfDay(event.lastStamp));
 }
 
 EventColumn severityColumn() {
@@ -50,9 +49,12 @@ std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel
         {.title = tr("Time"),
          .help = tr("When it began"),
          .isNumber = true,
-         .text = [](const model::Event& event) { return timeOfDay(event.firstStampNs); },
+         .text = [](const model::Event& event) { return timeOfDay(event.firstStamp); },
          .toolTip = fromTo,
-         .sortKey = [](const model::Event& event) { return QVariant::fromValue(event.firstStampNs); }},
+         .sortKey =
+             [](const model::Event& event) {
+                 return QVariant::fromValue(log::nanosecondsOf(event.firstStamp));
+             }},
         {.title = tr("Whose"),
          .help = tr("Character and type, or the sender"),
          .text = whose,
@@ -72,7 +74,7 @@ std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel
          .text = lasted,
          .sortKey =
              [](const model::Event& event) {
-                 return QVariant::fromValue(event.lastStampNs - event.firstStampNs);
+                 return QVariant::fromValue((event.lastStamp - event.firstStamp).count());
              }},
     };
     for (EventColumn& column : columns) {
@@ -118,7 +120,7 @@ EventModel::EventModel(model::SessionView& view, QObject* parent)
     : ColumnModel(eventColumns(view, *this), parent), m_view(view) {}
 
 EventModel::Row EventModel::rowFor(const model::Event& event) {
-    return {event.number, event.count, event.samples, event.lastStampNs, event.value, event.isCurrent};
+    return {event.number, event.count, event.samples, event.lastStamp, event.value, event.isCurrent};
 }
 
 bool EventModel::matches(const model::Event& event) const {

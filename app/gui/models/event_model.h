@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/models/column.h"
+#include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
 #include <array>
@@ -63,7 +64,7 @@ private:
         std::uint64_t number = 0;
         std::uint64_t count = 0;
         std::uint64_t samples = 0;
-        std::int64_t lastStampNs = 0;
+        log::Stamp lastStamp{};
         double value = 0;
         bool isCurrent = false;
         friend bool operator==(const Row&, const Row&) = default;

@@ -61,13 +61,14 @@ bool hasPacket(EventKind kind) {
 
 /// A limit was exceeded in the window before; what is silent has no packets.
 model::TimeRange rangeOf(model::SessionView& view, const model::Event& event) {
-    const auto windowNs = static_cast<std::int64_t>(view.thresholds().windowS * 1e9);
-    return {event.firstStampNs - windowNs, std::max(event.lastStampNs, event.firstStampNs + 1'000'000)};
+    const auto window = log::durationOf(view.thresholds().windowS);
+    return {event.firstStamp - window,
+            std::max(event.lastStamp, event.firstStamp + std::chrono::milliseconds(1))};
 }
 
 /// The last packet that came before a moment.
-std::optional<std::uint64_t> packetBefore(model::SessionView& view, std::int64_t stampNs) {
-    const std::uint64_t first = view.packetFrom(stampNs);
+std::optional<std::uint64_t> packetBefore(model::SessionView& view, log::Stamp stamp) {
+    const std::uint64_t first = view.packetFrom(stamp);
     return first == view.begin() ? std::nullopt : std::optional(first - 1);
 }
 
@@ -180,7 +181,7 @@ QString packetFilterOf(model::SessionView& view, const model::Event& event) {
 
 std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Event& event) {
     if (!hasPacket(event.kind)) {
-        return packetBefore(view, event.firstStampNs);
+        return packetBefore(view, event.firstStamp);
     }
     return event.lastPacket >= view.begin() && event.lastPacket < view.end() ? std::optional(event.lastPacket)
                                                                              : std::nullopt;

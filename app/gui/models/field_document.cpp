@@ -34,7 +34,7 @@ Health worse(Health a, Health b) {
 FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit unit)
     : m_bytes(packet.bytes.begin(), packet.bytes.end()),
       m_number(packet.number),
-      m_stampNs(packet.stampNs),
+      m_stamp(packet.stamp),
       m_sender(packet.sender),
       m_unit(unit) {
     if (packet.flags.skipped) {

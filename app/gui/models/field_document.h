@@ -3,6 +3,7 @@
 
 #include "app/gui/theme/theme.h"
 #include "core/log/packet.h"
+#include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/body/points.h"
 #include "core/model/body/spaces.h"
@@ -36,7 +37,7 @@ public:
 
     [[nodiscard]] bool isEmpty() const { return m_bytes.empty(); }
     [[nodiscard]] std::uint64_t number() const { return m_number; }
-    [[nodiscard]] std::int64_t stampNs() const { return m_stampNs; }
+    [[nodiscard]] log::Stamp stamp() const { return m_stamp; }
     [[nodiscard]] log::SenderId sender() const { return m_sender; }
     [[nodiscard]] model::PacketKind kind() const { return m_kind; }
     [[nodiscard]] bool hasHeader() const { return m_hasHeader; }
@@ -93,7 +94,7 @@ private:
 
     std::vector<std::byte> m_bytes;
     std::uint64_t m_number = 0;
-    std::int64_t m_stampNs = 0;
+    log::Stamp m_stamp{};
     log::SenderId m_sender{};
     model::PacketKind m_kind = model::PacketKind::Datagram;
     bool m_hasHeader = false;

@@ -34,11 +34,11 @@ ByCause lostByCause(model::SessionView& view) {
 
 ByCause lostByCause(model::SessionView& view, const model::TimeRange& range) {
     // Gaps of several streams end nearly in order.
-    constexpr std::int64_t kDisorderNs = 1'000'000'000;
+    constexpr log::Duration kDisorder = std::chrono::seconds(1);
     ByCause sum{};
     const auto& gaps = view.gaps();
-    for (auto gap = gaps.rbegin(); gap != gaps.rend() && gap->toStampNs > range.fromNs - kDisorderNs; ++gap) {
-        if (gap->toStampNs >= range.fromNs && gap->toStampNs < range.toNs) {
+    for (auto gap = gaps.rbegin(); gap != gaps.rend() && gap->toStamp > range.from - kDisorder; ++gap) {
+        if (gap->toStamp >= range.from && gap->toStamp < range.to) {
             at(sum, gap->cause) += gap->lost;
         }
     }
@@ -76,7 +76,7 @@ PropertyValue longestGap(model::SessionView& view) {
     double rateHz = 0;
     for (const model::Stream& stream : view.streams()) {
         const model::StreamCounts counts =
-            range ? stream.accounting.countsBetween(range->fromNs, range->toNs) : stream.accounting.counts();
+            range ? stream.accounting.countsBetween(range->from, range->to) : stream.accounting.counts();
         if (counts.longestGapSamples > longest) {
             longest = counts.longestGapSamples;
             rateHz = stream.statistics.rateHz();

@@ -76,7 +76,7 @@ PropertyValue shownValue(const MetadataRow& row) {
         return {tr("not sent yet")};
     }
     return {textOf(row.value->text), Health::Unknown,
-            row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(row.value->stampNs))};
+            row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(row.value->stamp))};
 }
 
 MetadataColumn sentColumn(model::SessionView& view) {
@@ -87,8 +87,8 @@ MetadataColumn sentColumn(model::SessionView& view) {
                     if (row.fact != nullptr) {
                         return QString();
                     }
-                    const double age = static_cast<double>(view.cursorStampNs() - row.tag->lastSeenNs) * 1e-9;
-                    return row.isEarlier ? timeOfDay(row.value->stampNs) : duration(std::max(0.0, age));
+                    const double age = log::secondsOf(view.cursorStamp() - row.tag->lastSeen);
+                    return row.isEarlier ? timeOfDay(row.value->stamp) : duration(std::max(0.0, age));
                 },
             .colour = dim,
             .toolTip =
@@ -96,7 +96,7 @@ MetadataColumn sentColumn(model::SessionView& view) {
                     return row.tag == nullptr || row.isEarlier
                                ? QString()
                                : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
-                                     .arg(timeOfDay(row.tag->lastSeenNs));
+                                     .arg(timeOfDay(row.tag->lastSeen));
                 },
             .more =
                 [](const MetadataRow& row, int role) {

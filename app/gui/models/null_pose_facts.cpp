@@ -12,14 +12,14 @@ PropertyValue none() {
     return {QStringLiteral("–")};
 }
 
-QString age(const NullPoseReading& reading, std::int64_t stampNs) {
-    const double seconds = static_cast<double>(reading.view().cursorStampNs() - stampNs) * 1e-9;
+QString age(const NullPoseReading& reading, log::Stamp stamp) {
+    const double seconds = log::secondsOf(reading.view().cursorStamp() - stamp);
     return duration(std::max(seconds, 0.0));
 }
 
 /// "10:42:17": scale messages come seconds apart.
-QString secondsOfDay(std::int64_t stampNs) {
-    return timeOfDay(stampNs).section(QLatin1Char('.'), 0, 0);
+QString secondsOfDay(log::Stamp stamp) {
+    return timeOfDay(stamp).section(QLatin1Char('.'), 0, 0);
 }
 
 PropertyValue parts(const NullPoseReading& reading) {
@@ -29,7 +29,7 @@ PropertyValue parts(const NullPoseReading& reading) {
     const model::NullPoseMessage& message = *reading.newest();
     const QString whole =
         message.partsExpected == 0 ? QStringLiteral("?") : QString::number(message.partsExpected);
-    const double silence = static_cast<double>(reading.view().cursorStampNs() - message.stampNs) * 1e-9;
+    const double silence = log::secondsOf(reading.view().cursorStamp() - message.stamp);
     const Health health = message.isComplete()             ? Health::Good
                           : silence >= model::kPartOverdue ? Health::Error
                                                            : Health::Unknown;
@@ -48,15 +48,15 @@ PropertyValue received(const NullPoseReading& reading) {
     if (!reading.newest()) {
         return none();
     }
-    const std::int64_t stampNs = reading.newest()->stampNs;
-    return {secondsOfDay(stampNs) + QStringLiteral(" · ") + age(reading, stampNs), Health::Unknown,
+    const log::Stamp stamp = reading.newest()->stamp;
+    return {secondsOfDay(stamp) + QStringLiteral(" · ") + age(reading, stamp), Health::Unknown,
             tr("When its newest part came, and how long ago")};
 }
 
 PropertyValue messages(const NullPoseReading& reading) {
     QString text = grouped(reading.messages());
-    if (reading.repetitionNs() > 0) {
-        text += tr(" · every %1").arg(duration(static_cast<double>(reading.repetitionNs()) * 1e-9));
+    if (reading.repetition() > log::Duration::zero()) {
+        text += tr(" · every %1").arg(duration(log::secondsOf(reading.repetition())));
     }
     return {text, Health::Unknown, tr("Type 13 messages so far, and the median time between them")};
 }
@@ -68,7 +68,7 @@ PropertyValue changed(const NullPoseReading& reading) {
     if (!reading.hasChanged()) {
         return {tr("never"), Health::Unknown, tr("All messages said the same")};
     }
-    return {secondsOfDay(reading.changedNs()) + QStringLiteral(" · ") + age(reading, reading.changedNs()),
+    return {secondsOfDay(reading.changed()) + QStringLiteral(" · ") + age(reading, reading.changed()),
             Health::Warning, tr("When a message said something else than the one before, and how long ago")};
 }
 
@@ -91,7 +91,7 @@ PropertyValue scale(const NullPoseReading& reading) {
     return reading.scale() == nullptr ? PropertyValue{tr("not sent")}
                                       : PropertyValue{tr("%1 segments · %2")
                                                           .arg(reading.scale()->segments.size())
-                                                          .arg(age(reading, reading.scaleStampNs()))};
+                                                          .arg(age(reading, reading.scaleStamp()))};
 }
 
 PropertyValue props(const NullPoseReading& reading) {

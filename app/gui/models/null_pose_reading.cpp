@@ -27,12 +27,11 @@ NullPoseReading::Signature NullPoseReading::signatureOf(const model::NullPoseEvi
         signature.packet = record.pose->packet;
     }
     signature.messages = record.messages;
-    signature.changedNs = record.changedNs;
+    signature.changed = record.changed;
     signature.segments = evidence.layout ? evidence.layout->count() : 0;
     signature.isDue = evidence.poseSeconds >= model::kScaleMessageDue;
-    signature.isOverdue =
-        record.newest != nullptr && !record.newest->isComplete() &&
-        static_cast<double>(evidence.nowNs - record.newest->stampNs) * 1e-9 >= model::kPartOverdue;
+    signature.isOverdue = record.newest != nullptr && !record.newest->isComplete() &&
+                          log::secondsOf(evidence.now - record.newest->stamp) >= model::kPartOverdue;
     if (const auto* message = m_view.message(*m_key, wire::ScaleInformation::kType)) {
         signature.scalePacket = message->packet;
     }
@@ -59,12 +58,12 @@ bool NullPoseReading::refresh() {
 void NullPoseReading::take(const model::NullPoseEvidence& evidence) {
     const model::NullPoseRecord& record = evidence.record;
     m_messages = record.messages;
-    m_repetitionNs = record.repetitionNs;
-    m_changedNs = record.changedNs;
+    m_repetition = record.repetition;
+    m_changed = record.changed;
     m_findings = model::findContradictions(evidence);
     const auto* scale = m_key ? m_view.message(*m_key, wire::ScaleInformation::kType) : nullptr;
     m_scale = bodyOf<wire::ScaleInformation>(scale);
-    m_scaleStampNs = scale == nullptr ? 0 : scale->stampNs;
+    m_scaleStamp = scale == nullptr ? log::Stamp() : scale->stamp;
     m_props =
         bodyOf<wire::PropInformation>(m_key ? m_view.message(*m_key, wire::PropInformation::kType) : nullptr);
     m_fromBefore.clear();

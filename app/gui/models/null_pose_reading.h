@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/session/session_view.h"
@@ -34,13 +35,13 @@ public:
     [[nodiscard]] const model::Distances& fromBefore() const { return m_fromBefore; }
     [[nodiscard]] const model::Distances& fromReference() const { return m_fromReference; }
     [[nodiscard]] bool hasChanged() const { return !m_fromBefore.empty(); }
-    [[nodiscard]] std::int64_t changedNs() const { return m_changedNs; }
+    [[nodiscard]] log::Stamp changed() const { return m_changed; }
 
     /// The newest message, complete or not; nothing where there is none.
     [[nodiscard]] const std::optional<model::NullPoseMessage>& newest() const { return m_newest; }
     [[nodiscard]] std::uint64_t messages() const { return m_messages; }
-    [[nodiscard]] std::int64_t repetitionNs() const { return m_repetitionNs; }
-    [[nodiscard]] std::int64_t scaleStampNs() const { return m_scaleStampNs; }
+    [[nodiscard]] log::Duration repetition() const { return m_repetition; }
+    [[nodiscard]] log::Stamp scaleStamp() const { return m_scaleStamp; }
     [[nodiscard]] model::SessionView& view() const { return m_view; }
 
     /// The place in the message of the selected segment, −1 for none.
@@ -56,7 +57,7 @@ private:
         std::uint64_t messages = 0;
         std::uint64_t scalePacket = UINT64_MAX;
         std::uint64_t propPacket = UINT64_MAX;
-        std::int64_t changedNs = 0;
+        log::Stamp changed{};
         int segments = 0; ///< of poses
         bool isOverdue = false;
         bool isDue = false;
@@ -77,10 +78,10 @@ private:
     model::Distances m_fromBefore;
     model::Distances m_fromReference;
     std::optional<model::NullPoseMessage> m_newest;
-    std::int64_t m_changedNs = 0;
+    log::Stamp m_changed{};
     std::uint64_t m_messages = 0;
-    std::int64_t m_repetitionNs = 0;
-    std::int64_t m_scaleStampNs = 0;
+    log::Duration m_repetition{};
+    log::Stamp m_scaleStamp{};
 };
 
 } // namespace posewire::gui

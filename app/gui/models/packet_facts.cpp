@@ -142,7 +142,7 @@ std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t n
     if (!packet) {
         return std::nullopt;
     }
-    PacketFacts facts{number, packet->stampNs, packet->sender, packet->bytes.size(), *digest, {}, {}, {}};
+    PacketFacts facts{number, packet->stamp, packet->sender, packet->bytes.size(), *digest, {}, {}, {}};
     if (digest->kind == model::PacketKind::Datagram || digest->kind == model::PacketKind::Malformed) {
         if (const auto header = wire::decodeHeader(packet->bytes)) {
             facts.header = *header;

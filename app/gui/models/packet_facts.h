@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
+#include "core/log/time.h"
 #include "core/model/session/session_view.h"
 #include "core/wire/header.h"
 
@@ -16,7 +17,7 @@ namespace posewire::gui {
 /// What a list says about one packet. Holds nothing of the packet's memory, so it may be kept.
 struct PacketFacts {
     std::uint64_t number = 0;
-    std::int64_t stampNs = 0;
+    log::Stamp stamp{};
     log::SenderId sender{};
     std::size_t size = 0;
     model::PacketDigest digest;

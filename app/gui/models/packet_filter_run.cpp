@@ -14,10 +14,10 @@ constexpr std::uint64_t kPacketsAtATime = 8192;
 } // namespace
 
 PacketFilterRun::PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests,
-                                 filter::Filter filter, std::int64_t firstStampNs)
+                                 filter::Filter filter, log::Stamp firstStamp)
     : m_log(log),
       m_filter(std::move(filter)),
-      m_firstStampNs(firstStampNs),
+      m_firstStamp(firstStamp),
       m_begin(digests.begin()),
       m_next(digests.begin()),
       m_end(digests.end()) {
@@ -96,7 +96,7 @@ void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::
         const model::PacketDigest& digest = excerpt.at(number);
         const bool isRead = !packet->flags.skipped && wire::decodeInto(packet->bytes, m_datagram).has_value();
         const log::SenderInfo* sender = m_log.senders().find(packet->sender);
-        if (m_filter.matches({*packet, digest, isRead ? &m_datagram : nullptr, sender, m_firstStampNs})) {
+        if (m_filter.matches({*packet, digest, isRead ? &m_datagram : nullptr, sender, m_firstStamp})) {
             found.packets.push_back(number);
             if (digest.isProblem()) {
                 found.problems.push_back(number);

@@ -4,6 +4,7 @@
 #include "core/filter/filter.h"
 #include "core/log/log_reader.h"
 #include "core/log/packet_log.h"
+#include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 
 #include <atomic>
@@ -22,9 +23,9 @@ namespace posewire::gui {
 /// is known about a packet beyond its bytes is the session's own digest, so that list and filter agree.
 class PacketFilterRun {
 public:
-    /// The log must outlive the run. `firstStampNs` is where the filter's `time` begins.
+    /// The log must outlive the run. `firstStamp` is where the filter's `time` begins.
     PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests, filter::Filter filter,
-                    std::int64_t firstStampNs);
+                    log::Stamp firstStamp);
     ~PacketFilterRun();
     PacketFilterRun(const PacketFilterRun&) = delete;
     PacketFilterRun& operator=(const PacketFilterRun&) = delete;
@@ -58,7 +59,7 @@ private:
 
     const log::PacketLog& m_log;
     const filter::Filter m_filter;
-    const std::int64_t m_firstStampNs;
+    const log::Stamp m_firstStamp;
     const std::uint64_t m_begin; ///< the first packet there was
     std::atomic<bool> m_isCancelled = false;
     std::atomic<std::uint64_t> m_next; ///< the packet to be looked at next

@@ -15,10 +15,10 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kNsPerMs = 1'000'000;
+using namespace std::chrono_literals;
+
 constexpr int kTimeDecimals = 4;
 constexpr double kMsPerSecond = 1000;
-constexpr double kSecondsPerNs = 1e-9;
 /// What the rows of a table can count.
 constexpr std::uint64_t kMostRows = std::numeric_limits<int>::max() - 1;
 
@@ -98,7 +98,8 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
          .help = tr("When it arrived; the context menu has other ways"),
          .isNumber = true,
          .text = [&model](const PacketFacts& facts) { return model.timeText(facts); },
-         .sortKey = [](const PacketFacts& facts) { return QVariant::fromValue(facts.stampNs); }},
+         .sortKey =
+             [](const PacketFacts& facts) { return QVariant::fromValue(log::nanosecondsOf(facts.stamp)); }},
         {.title = tr("Δ ms"),
          .help = tr("Since the packet before it in its stream"),
          .isNumber = true,
@@ -316,11 +317,11 @@ const PacketFacts* PacketModel::facts(int row) const {
 
 QString PacketModel::timeText(const PacketFacts& facts) const {
     if (m_timeMode == TimeMode::SinceFirst) {
-        return fixed(static_cast<double>(facts.stampNs - m_view.firstStampNs()) * kSecondsPerNs,
-                     kTimeDecimals);
+        return fixed(log::secondsOf(facts.stamp - m_view.firstStamp()), kTimeDecimals);
     }
-    const std::int64_t microseconds = facts.stampNs / 1000 % 1000;
-    const QDateTime time = QDateTime::fromMSecsSinceEpoch(facts.stampNs / kNsPerMs);
+    const log::Duration sinceEpoch = facts.stamp.time_since_epoch();
+    const std::int64_t microseconds = sinceEpoch / 1us % 1000;
+    const QDateTime time = QDateTime::fromMSecsSinceEpoch(sinceEpoch / 1ms);
     return time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz")) +
            QStringLiteral("%1").arg(microseconds, 3, 10, QLatin1Char('0'));
 }
@@ -332,7 +333,8 @@ double PacketModel::deltaMs(const PacketFacts& facts) const {
     }
     const int row = rowOf(facts.number);
     const auto above = row > 0 ? m_view.packet(packetAt(row - 1)) : std::nullopt;
-    return above ? static_cast<double>(facts.stampNs - above->stampNs) / kNsPerMs : kNone;
+    using Milliseconds = std::chrono::duration<double, std::milli>;
+    return above ? Milliseconds(facts.stamp - above->stamp).count() : kNone;
 }
 
 QString PacketModel::senderText(const PacketFacts& facts) const {

@@ -13,14 +13,13 @@ namespace posewire::gui {
 
 namespace {
 
+using std::chrono::milliseconds;
 using Target = tl::expected<std::uint64_t, QString>;
 
-constexpr double kNsPerSecond = 1e9;
-constexpr std::int64_t kNsPerMs = 1'000'000;
 constexpr double kMostSeconds = 1e9;
 
-Target atStamp(model::SessionView& view, std::int64_t stampNs, const QString& text) {
-    const std::uint64_t number = view.packetFrom(stampNs);
+Target atStamp(model::SessionView& view, log::Stamp stamp, const QString& text) {
+    const std::uint64_t number = view.packetFrom(stamp);
     if (number == view.end()) {
         return tl::unexpected(tr("No packet has come at %1 or later.").arg(text));
     }
@@ -32,9 +31,10 @@ Target atTimeOfDay(model::SessionView& view, const QString& text) {
         const QTime time = QTime::fromString(text, QLatin1String(format));
         if (time.isValid()) {
             const auto newest = view.packet(view.end() - 1);
+            const log::Stamp stamp = newest ? newest->stamp : view.now();
             const QDate day =
-                QDateTime::fromMSecsSinceEpoch((newest ? newest->stampNs : view.nowNs()) / kNsPerMs).date();
-            return atStamp(view, QDateTime(day, time).toMSecsSinceEpoch() * kNsPerMs, text);
+                QDateTime::fromMSecsSinceEpoch(stamp.time_since_epoch() / milliseconds(1)).date();
+            return atStamp(view, log::Stamp(milliseconds(QDateTime(day, time).toMSecsSinceEpoch())), text);
         }
     }
     return tl::unexpected(tr("%1 is not a time of day such as 10:42:17.508.").arg(text));
@@ -79,8 +79,7 @@ tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, cons
     if (compact.endsWith(QLatin1Char('s'))) {
         const double seconds = compact.chopped(1).toDouble(&isNumber);
         if (isNumber && std::abs(seconds) < kMostSeconds) {
-            return atStamp(view, view.firstStampNs() + static_cast<std::int64_t>(seconds * kNsPerSecond),
-                           trimmed);
+            return atStamp(view, view.firstStamp() + log::durationOf(seconds), trimmed);
         }
     }
     const std::uint64_t number = compact.toULongLong(&isNumber);

@@ -49,7 +49,7 @@ QString cArray(wire::Bytes bytes, std::uint64_t number) {
 
 QString json(model::SessionView& view, const log::Packet& packet) {
     const log::SenderInfo* sender = view.log().senders().find(packet.sender);
-    const exporting::DatagramPlace place{packet.number, 0, packet.stampNs,
+    const exporting::DatagramPlace place{packet.number, 0, packet.stamp,
                                          sender == nullptr ? std::nullopt : std::optional(sender->address)};
     const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
                                                     : exporting::datagramJson(place, packet.bytes);
@@ -158,7 +158,7 @@ QString packetCellFilter(model::SessionView& view, std::uint64_t number, int col
         return expression("number", QString::number(number));
     case PacketModel::kTime:
         return QStringLiteral("time >= %1")
-            .arg(static_cast<double>(packet->stampNs - view.firstStampNs()) / 1e9, 0, 'f', 6);
+            .arg(std::chrono::duration<double>(packet->stamp - view.firstStamp()).count(), 0, 'f', 6);
     case PacketModel::kDelta:
         return digest->deltaS < 0
                    ? QString()

@@ -7,27 +7,28 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
 /// A whole second: shorter parts show the beat of samples and buckets, not the rate.
-constexpr std::int64_t kLeastPartNs = kSecondNs;
+constexpr log::Duration kLeastPart = std::chrono::seconds(1);
 
 } // namespace
 
 void RangeOverview::refresh() {
-    const std::int64_t end = m_view.cursorStampNs();
-    if (m_view.streams().empty() || m_view.firstStampNs() == 0 || end <= m_view.firstStampNs()) {
+    const log::Stamp end = m_view.cursorStamp();
+    if (m_view.streams().empty() || m_view.firstStamp() == log::Stamp() || end <= m_view.firstStamp()) {
         return;
     }
-    const bool isSameSecond = end / kSecondNs == m_span.toNs / kSecondNs;
-    m_span = {m_view.firstStampNs(), end};
+    using std::chrono::seconds;
+    using std::chrono::time_point_cast;
+    const bool isSameSecond = time_point_cast<seconds>(end) == time_point_cast<seconds>(m_span.to);
+    m_span = {m_view.firstStamp(), end};
     if (isSameSecond && !empty()) {
         return;
     }
-    m_resolutionNs = 1;
+    m_resolution = log::Duration(1);
     for (const model::Stream& stream : m_view.streams()) {
-        m_resolutionNs = std::max(m_resolutionNs, stream.accounting.resolutionNs());
+        m_resolution = std::max(m_resolution, stream.accounting.resolution());
     }
-    m_parts = model::partsOf(m_span, kMostParts, kLeastPartNs, m_resolutionNs);
+    m_parts = model::partsOf(m_span, kMostParts, kLeastPart, m_resolution);
     m_counted.assign(m_parts.count, {});
     for (const model::Stream& stream : m_view.streams()) {
         model::addParts(stream.accounting, m_parts, m_counted);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/range_figures.h"
 #include "core/model/session/session_view.h"
 
@@ -24,14 +25,14 @@ public:
     [[nodiscard]] const std::vector<model::RangePart>& counted() const { return m_counted; }
     [[nodiscard]] bool empty() const { return m_parts.count == 0; }
     /// The coarsest of the streams: finer ranges make no difference.
-    [[nodiscard]] std::int64_t resolutionNs() const { return m_resolutionNs; }
+    [[nodiscard]] log::Duration resolution() const { return m_resolution; }
 
 private:
     model::SessionView& m_view;
     model::TimeRange m_span;
     model::RangeParts m_parts;
     std::vector<model::RangePart> m_counted;
-    std::int64_t m_resolutionNs = 1;
+    log::Duration m_resolution{1};
 };
 
 } // namespace posewire::gui

@@ -12,7 +12,7 @@ namespace {
 
 /// At the design load, 9,600 datagrams a second, this much lasts for 50 ms without the receiving thread.
 constexpr std::int64_t kSmallBuffer = std::int64_t{1} << 20;
-constexpr std::int64_t kLongDelayNs = 100'000'000;
+constexpr log::Duration kLongDelay = std::chrono::milliseconds(100);
 
 PropertyValue buffer(const ReceivingState& state) {
     if (state.receiveBufferBytes == 0) {
@@ -29,9 +29,9 @@ PropertyValue buffer(const ReceivingState& state) {
 }
 
 PropertyValue delay(const ReceivingState& state) {
-    const double milliseconds = static_cast<double>(state.longestDelayNs) * 1e-6;
+    const double milliseconds = log::millisecondsOf(state.longestDelay);
     return {tr("%1 ms").arg(QLocale().toString(milliseconds, 'f', 1)),
-            state.longestDelayNs < kLongDelayNs ? Health::Good : Health::Warning,
+            state.longestDelay < kLongDelay ? Health::Good : Health::Warning,
             tr("The longest time the receiving thread did not come to look at its ports; the buffer has to "
                "last that long")};
 }

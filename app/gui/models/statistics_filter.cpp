@@ -38,10 +38,10 @@ void addRow(model::SessionView& view, const StatisticsModel& model, const QModel
 } // namespace
 
 QString rangeFilter(model::SessionView& view, const model::TimeRange& range) {
-    const auto seconds = [&view](std::int64_t stampNs) {
-        return QString::number(static_cast<double>(stampNs - view.firstStampNs()) * 1e-9, 'f', 3);
+    const auto seconds = [&view](log::Stamp stamp) {
+        return QString::number(log::secondsOf(stamp - view.firstStamp()), 'f', 3);
     };
-    return QStringLiteral("time >= %1 && time < %2").arg(seconds(range.fromNs), seconds(range.toNs));
+    return QStringLiteral("time >= %1 && time < %2").arg(seconds(range.from), seconds(range.to));
 }
 
 QString statisticsFilter(model::SessionView& view, const StatisticsModel& model, const QModelIndex& index) {

@@ -15,9 +15,8 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
 /// Shorter parts show the beat of samples and buckets, not the rate.
-constexpr std::int64_t kLeastPartNs = 500'000'000;
+constexpr log::Duration kLeastPart = std::chrono::milliseconds(500);
 
 } // namespace
 
@@ -26,7 +25,7 @@ StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent)
 
 void StatisticsModel::refresh() {
     ++m_turn;
-    const std::int64_t second = view().cursorStampNs() / kSecondNs;
+    const auto second = std::chrono::time_point_cast<std::chrono::seconds>(view().cursorStamp());
     if (second != m_curveSecond || m_choice != view().rangeChoice()) {
         m_curveSecond = second;
         m_choice = view().rangeChoice();
@@ -64,7 +63,7 @@ model::StreamFigures StatisticsModel::sumOf(const QModelIndex& index) const {
     if (nodeOf(index).kind == Kind::Sender) {
         const model::Sender& sender = view().senders()[nodeOf(index).entry]; // also those without a header
         sum.set(model::Figure::Malformed,
-                static_cast<double>(m_range ? sender.history.malformedBetween(m_range->fromNs, m_range->toNs)
+                static_cast<double>(m_range ? sender.history.malformedBetween(m_range->from, m_range->to)
                                             : sender.malformed));
     }
     return sum;
@@ -97,21 +96,21 @@ StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) cons
     if (streams.empty()) {
         return {};
     }
-    std::int64_t first = std::numeric_limits<std::int64_t>::max();
-    std::int64_t resolution = 1;
+    log::Stamp first = log::Stamp::max();
+    log::Duration resolution(1);
     for (const model::Stream* each : streams) {
-        first = std::min(first, each->accounting.firstStampNs());
-        resolution = std::max(resolution, each->accounting.resolutionNs());
+        first = std::min(first, each->accounting.firstStamp());
+        resolution = std::max(resolution, each->accounting.resolution());
     }
-    const std::int64_t end = view().cursorStampNs();
-    const model::TimeRange shown = m_range.value_or(model::TimeRange{end - kCurveNs, end});
-    const model::RangeParts parts = model::partsOf(shown, kCurvePoints, kLeastPartNs, resolution);
+    const log::Stamp end = view().cursorStamp();
+    const model::TimeRange shown = m_range.value_or(model::TimeRange{end - kCurve, end});
+    const model::RangeParts parts = model::partsOf(shown, kCurvePoints, kLeastPart, resolution);
     std::array<model::RangePart, kCurvePoints> counted{};
     for (const model::Stream* each : streams) {
         model::addParts(each->accounting, parts, counted);
     }
     Curve made;
-    const double seconds = static_cast<double>(parts.widthNs) * 1e-9;
+    const double seconds = log::secondsOf(parts.width);
     // Fewer parts than points are drawn as steps, so that the curve always fills its room.
     for (std::size_t point = 0; point < kCurvePoints && parts.count > 0; ++point) {
         const std::size_t part = point * parts.count / kCurvePoints;

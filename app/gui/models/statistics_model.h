@@ -3,6 +3,7 @@
 
 #include "app/gui/models/statistics_columns.h"
 #include "app/gui/models/stream_tree_model.h"
+#include "core/log/time.h"
 
 #include <QList>
 
@@ -21,7 +22,7 @@ class StatisticsModel : public StreamTreeModel {
 public:
     /// The points of a row's curve, and what it spans where no range is chosen: two minutes.
     static constexpr int kCurvePoints = 120;
-    static constexpr std::int64_t kCurveNs = 120'000'000'000;
+    static constexpr log::Duration kCurve = std::chrono::seconds(120);
 
     explicit StatisticsModel(model::SessionView& view, QObject* parent = nullptr);
 
@@ -64,7 +65,7 @@ private:
     model::RangeChoice m_choice;
     std::uint64_t m_turn = 1;
     std::uint64_t m_curveTurn = 1;
-    std::int64_t m_curveSecond = 0;
+    std::chrono::sys_seconds m_curveSecond{};
     mutable std::deque<Cached> m_cache; ///< by the node of the row
 };
 

@@ -75,14 +75,14 @@ bool hasEnded(model::SessionView& view, const model::Sender& sender) {
     return hasCharacters;
 }
 
-double ageOf(model::SessionView& view, std::int64_t stampNs) {
-    return std::max(0.0, static_cast<double>(view.cursorStampNs() - stampNs) * 1e-9);
+double ageOf(model::SessionView& view, log::Stamp stamp) {
+    return std::max(0.0, log::secondsOf(view.cursorStamp() - stamp));
 }
 
 } // namespace
 
 double streamAge(model::SessionView& view, const model::Stream& stream) {
-    return ageOf(view, stream.accounting.lastStampNs());
+    return ageOf(view, stream.accounting.lastStamp());
 }
 
 PropertyValue streamState(model::SessionView& view, const model::Stream& stream) {
@@ -121,7 +121,7 @@ PropertyValue senderState(model::SessionView& view, const model::Sender& sender)
     if (hasEnded(view, sender)) {
         return ended();
     }
-    const PropertyValue age = ageState(ageOf(view, sender.lastStampNs), 0.0);
+    const PropertyValue age = ageState(ageOf(view, sender.lastStamp), 0.0);
     if (age.health != Health::Unknown) {
         return age;
     }

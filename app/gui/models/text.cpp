@@ -9,8 +9,6 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kNsPerMs = 1'000'000;
-
 QString padded(std::int64_t value, int digits) {
     return QString::number(value).rightJustified(digits, QLatin1Char('0'));
 }
@@ -63,8 +61,9 @@ QString clockDifference(double milliseconds) {
     return milliseconds > 0 ? QLatin1Char('+') + text : text;
 }
 
-QString timeOfDay(std::int64_t stampNs) {
-    return QDateTime::fromMSecsSinceEpoch(stampNs / kNsPerMs).toString(QStringLiteral("HH:mm:ss.zzz"));
+QString timeOfDay(log::Stamp stamp) {
+    return QDateTime::fromMSecsSinceEpoch(stamp.time_since_epoch() / std::chrono::milliseconds(1))
+        .toString(QStringLiteral("HH:mm:ss.zzz"));
 }
 
 QString duration(double seconds) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/log/time.h"
+
 #include <QString>
 
 #include <cstdint>
@@ -27,8 +29,8 @@ namespace posewire::gui {
 /// A difference of clocks: "+3.1 ms" below a second, else "−00:00:01.508".
 [[nodiscard]] QString clockDifference(double milliseconds);
 
-/// Time of day of a stamp (nanoseconds since 1970 UTC) in the computer's own zone, "10:42:17.508".
-[[nodiscard]] QString timeOfDay(std::int64_t stampNs);
+/// Time of day of a stamp in the computer's own zone, "10:42:17.508".
+[[nodiscard]] QString timeOfDay(log::Stamp stamp);
 
 /// "0.4 s", "3.2 s", "12 min", "3 h": as long as a duration is interesting to the digit.
 [[nodiscard]] QString duration(double seconds);

@@ -13,11 +13,11 @@ namespace posewire::gui {
 namespace {
 
 constexpr std::size_t kMostMessages = 5'000;
-constexpr std::int64_t kNormSpacingNs = 50'000'000;
+constexpr log::Duration kNormSpacing = std::chrono::milliseconds(50);
 constexpr std::size_t kLeastNorms = 20;
 constexpr std::size_t kMostTrackers = wire::kMaxItems;
 /// A pause this long is a gap whatever the counter says.
-constexpr std::int64_t kGapNs = 250'000'000;
+constexpr log::Duration kGap = std::chrono::milliseconds(250);
 
 bool reaches(const wire::Vec3& vector, float limit) {
     return std::ranges::any_of(vector, [limit](float value) { return std::abs(value) > limit; });
@@ -39,7 +39,7 @@ double dipDegrees(const wire::Tracker& tracker) {
 void TrackerHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key,
                             std::uint32_t trackerId) {
     const auto* newest = key ? view.message(*key, wire::TrackerKinematics::kType) : nullptr;
-    const bool wentBack = newest != nullptr && newest->stampNs < m_lastStampNs;
+    const bool wentBack = newest != nullptr && newest->stamp < m_lastStamp;
     if (key != m_key || wentBack) {
         *this = {};
         m_key = key;
@@ -47,7 +47,7 @@ void TrackerHistory::follow(model::SessionView& view, const std::optional<model:
     if (trackerId != m_trackerId) {
         m_trackerId = trackerId;
         m_points.clear();
-        m_lastStampNs = 0;
+        m_lastStamp = {};
         m_lastSample = 0;
     }
     if (newest == nullptr) {
@@ -56,7 +56,7 @@ void TrackerHistory::follow(model::SessionView& view, const std::optional<model:
     const log::StreamKey stream{key->sender, key->character, wire::TrackerKinematics::kType};
     const model::Stream* figures = view.find(stream);
     const std::uint32_t step = figures == nullptr ? 0 : figures->accounting.step();
-    const std::int64_t from = std::max(newest->stampNs - kPlotNs, m_lastStampNs + 1);
+    const log::Stamp from = std::max(newest->stamp - kPlot, m_lastStamp + log::Duration(1));
     const std::size_t added =
         view.visit(stream, from, kMostMessages, [&](const auto& message) { add(message, step); });
     if (added != 0) {
@@ -70,40 +70,39 @@ void TrackerHistory::add(const model::Message& message, std::uint32_t step) {
         return;
     }
     const std::uint32_t advanced = message.datagram.header.sampleCounter - m_lastSample;
-    const bool followsGap = m_lastStampNs != 0 && (message.stampNs - m_lastStampNs > kGapNs ||
-                                                   (step != 0 && advanced > step + step / 2));
+    const bool followsGap = m_lastStamp != log::Stamp() &&
+                            (message.stamp - m_lastStamp > kGap || (step != 0 && advanced > step + step / 2));
     for (const wire::Tracker& tracker : body->trackers) {
         if (m_trackers.size() >= kMostTrackers && !m_trackers.contains(tracker.id)) {
             continue;
         }
         Lately& lately = m_trackers[tracker.id];
-        addNorm(lately, message.stampNs, norm(tracker.magneticField));
+        addNorm(lately, message.stamp, norm(tracker.magneticField));
         if (reaches(tracker.acceleration, kSaturatedAcceleration) ||
             reaches(tracker.angularVelocity, kSaturatedAngularVelocity)) {
-            lately.saturatedNs = message.stampNs;
+            lately.saturated = message.stamp;
         }
         if (tracker.id == m_trackerId) {
-            addPoint(tracker, message.stampNs, followsGap);
+            addPoint(tracker, message.stamp, followsGap);
         }
     }
-    m_lastStampNs = message.stampNs;
+    m_lastStamp = message.stamp;
     m_lastSample = message.datagram.header.sampleCounter;
 }
 
-void TrackerHistory::addPoint(const wire::Tracker& tracker, std::int64_t stampNs, bool followsGap) {
-    m_points.push_back({stampNs, tracker.freeAcceleration, norm(tracker.magneticField), followsGap});
-    while (stampNs - m_points.front().stampNs > kPlotNs || m_points.size() > kMostMessages) {
+void TrackerHistory::addPoint(const wire::Tracker& tracker, log::Stamp stamp, bool followsGap) {
+    m_points.push_back({stamp, tracker.freeAcceleration, norm(tracker.magneticField), followsGap});
+    while (stamp - m_points.front().stamp > kPlot || m_points.size() > kMostMessages) {
         m_points.pop_front();
     }
 }
 
-void TrackerHistory::addNorm(Lately& lately, std::int64_t stampNs, float norm) const {
-    if (!std::isfinite(norm) ||
-        (!lately.norms.empty() && stampNs - lately.norms.back().stampNs < kNormSpacingNs)) {
+void TrackerHistory::addNorm(Lately& lately, log::Stamp stamp, float norm) const {
+    if (!std::isfinite(norm) || (!lately.norms.empty() && stamp - lately.norms.back().stamp < kNormSpacing)) {
         return;
     }
-    lately.norms.push_back({stampNs, norm});
-    while (stampNs - lately.norms.front().stampNs > kMedianNs) {
+    lately.norms.push_back({stamp, norm});
+    while (stamp - lately.norms.front().stamp > kMedian) {
         lately.norms.pop_front();
     }
 }
@@ -137,8 +136,8 @@ bool TrackerHistory::isDisturbed(const wire::Tracker& tracker) const {
 
 bool TrackerHistory::isSaturated(std::uint32_t trackerId) const {
     const auto found = m_trackers.find(trackerId);
-    return found != m_trackers.end() && found->second.saturatedNs &&
-           m_lastStampNs - *found->second.saturatedNs < kPlotNs;
+    return found != m_trackers.end() && found->second.saturated &&
+           m_lastStamp - *found->second.saturated < kPlot;
 }
 
 } // namespace posewire::gui

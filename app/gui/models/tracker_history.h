@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/session/message.h"
 #include "core/model/session/session_view.h"
 
@@ -15,8 +16,8 @@ namespace posewire::gui {
 /// seconds for plots, and for all trackers what their flags rest on. Bounded.
 class TrackerHistory {
 public:
-    static constexpr std::int64_t kPlotNs = 10'000'000'000;
-    static constexpr std::int64_t kMedianNs = 60'000'000'000;
+    static constexpr log::Duration kPlot = std::chrono::seconds(10);
+    static constexpr log::Duration kMedian = std::chrono::seconds(60);
 
     /// Full scale of the trackers' accelerometers (16 g) and gyroscopes (2000 °/s), a little below: an
     /// assumption from published data sheets, since the stream does not tell.
@@ -30,13 +31,13 @@ public:
                 std::uint32_t trackerId);
 
     struct Point {
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
         wire::Vec3 freeAcceleration{};
         float magneticNorm = 0;
         bool followsGap = false; ///< samples are missing before it
     };
     [[nodiscard]] const std::deque<Point>& points() const { return m_points; }
-    [[nodiscard]] std::int64_t lastStampNs() const { return m_lastStampNs; }
+    [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 
     /// Median of a tracker's magnetic field norm over the last minute read; nothing before its first second.
     [[nodiscard]] std::optional<float> magneticMedian(std::uint32_t trackerId) const;
@@ -46,23 +47,23 @@ public:
 
 private:
     struct Norm {
-        std::int64_t stampNs;
+        log::Stamp stamp;
         float norm;
     };
     struct Lately {
         std::deque<Norm> norms; ///< twenty a second
         float median = 0;
         bool hasMedian = false;
-        std::optional<std::int64_t> saturatedNs;
+        std::optional<log::Stamp> saturated;
     };
     void add(const model::Message& message, std::uint32_t step);
-    void addPoint(const wire::Tracker& tracker, std::int64_t stampNs, bool followsGap);
-    void addNorm(Lately& lately, std::int64_t stampNs, float norm) const;
+    void addPoint(const wire::Tracker& tracker, log::Stamp stamp, bool followsGap);
+    void addNorm(Lately& lately, log::Stamp stamp, float norm) const;
     void computeMedians();
 
     std::optional<model::CharacterKey> m_key;
     std::uint32_t m_trackerId = 0;
-    std::int64_t m_lastStampNs = 0;
+    log::Stamp m_lastStamp{};
     std::uint32_t m_lastSample = 0;
     std::deque<Point> m_points;
     std::map<std::uint32_t, Lately> m_trackers;

@@ -218,8 +218,7 @@ void InspectorPanel::inspect(const log::Packet& packet) {
         owner = QStringLiteral(" · ") + characterName(m_view, key);
     }
     m_title->setText(documentTitle(*m_document), owner);
-    m_title->setToolTip(
-        tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(packet.stampNs)));
+    m_title->setToolTip(tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(packet.stamp)));
     describeProblems();
     describeCurrent();
 }
@@ -270,7 +269,7 @@ QString InspectorPanel::comparisonText() const {
     if (const FieldDocument* other = m_model.other()) {
         const QString count = m_model.differences() == 1 ? tr("1 field differs")
                                                          : tr("%1 fields differ").arg(m_model.differences());
-        const double apartMs = static_cast<double>(m_document->stampNs() - other->stampNs()) * 1e-6;
+        const double apartMs = log::millisecondsOf(m_document->stamp() - other->stamp());
         return tr("Compared with packet %1, %2 ms apart: %3")
             .arg(grouped(other->number()), signedFixed(apartMs, 2), count);
     }

@@ -162,7 +162,7 @@ void PacketsPanel::followFilter() {
         m_filteredTo = 0;
         m_filterFrom = m_view.end();
         m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled),
-                                                  m_view.firstStampNs());
+                                                  m_view.firstStamp());
     }
 }
 

@@ -9,12 +9,6 @@
 
 namespace posewire::gui {
 
-namespace {
-
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-
-} // namespace
-
 RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent)
     : QWidget(parent), m_view(view), m_commands(commands), m_strip(new RangeStrip(view, commands, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
@@ -22,12 +16,12 @@ RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent
     row->setContentsMargins(margin, margin / 2, margin, margin / 2);
     row->setSpacing(margin / 2);
     row->addWidget(m_strip, 1);
-    addButton(tr("10 s"), tr("Figures for the last ten seconds"), 10 * kSecondNs);
-    addButton(tr("1 min"), tr("Figures for the last minute"), 60 * kSecondNs);
-    addButton(tr("All"), tr("Figures for everything received"), 0);
+    addButton(tr("10 s"), tr("Figures for the last ten seconds"), std::chrono::seconds(10));
+    addButton(tr("1 min"), tr("Figures for the last minute"), std::chrono::seconds(60));
+    addButton(tr("All"), tr("Figures for everything received"), log::Duration::zero());
 }
 
-void RangeBar::addButton(const QString& text, const QString& toolTip, std::int64_t lastNs) {
+void RangeBar::addButton(const QString& text, const QString& toolTip, log::Duration last) {
     auto* button = new QToolButton(this);
     button->setText(text);
     button->setToolTip(toolTip);
@@ -35,9 +29,9 @@ void RangeBar::addButton(const QString& text, const QString& toolTip, std::int64
     button->setCheckable(true);
     button->setFocusPolicy(Qt::TabFocus);
     layout()->addWidget(button);
-    m_buttons.push_back({button, lastNs});
-    connect(button, &QToolButton::clicked, this, [this, lastNs] {
-        m_commands.selectRange({lastNs, std::nullopt});
+    m_buttons.push_back({button, last});
+    connect(button, &QToolButton::clicked, this, [this, last] {
+        m_commands.selectRange({last, std::nullopt});
         refresh();
     });
 }
@@ -46,7 +40,7 @@ void RangeBar::refresh() {
     m_strip->refresh();
     const model::RangeChoice& choice = m_view.rangeChoice();
     for (const Button& each : m_buttons) {
-        each.button->setChecked(!choice.fixed && choice.lastNs == each.lastNs);
+        each.button->setChecked(!choice.fixed && choice.last == each.last);
     }
 }
 
@@ -59,7 +53,7 @@ QString RangeBar::rangeText() const {
     if (!m_view.rangeChoice().fixed) {
         return tr("last %1").arg(length);
     }
-    return tr("%1 + %2").arg(timeOfDay(range->fromNs).chopped(2), length);
+    return tr("%1 + %2").arg(timeOfDay(range->from).chopped(2), length);
 }
 
 } // namespace posewire::gui

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/panels/range_strip.h"
+#include "core/log/time.h"
 
 #include <vector>
 
@@ -22,11 +23,11 @@ public:
     [[nodiscard]] QString rangeText() const;
 
 private:
-    void addButton(const QString& text, const QString& toolTip, std::int64_t lastNs);
+    void addButton(const QString& text, const QString& toolTip, log::Duration last);
 
     struct Button {
         QToolButton* button;
-        std::int64_t lastNs; ///< 0 for all
+        log::Duration last; ///< 0 for all
     };
 
     model::SessionView& m_view;

@@ -18,6 +18,9 @@ namespace posewire::gui {
 
 namespace {
 
+/// With fractions.
+using Nanoseconds = std::chrono::duration<double, std::nano>;
+
 constexpr double kGrip = 4; // pixels at either side of an edge
 
 QColor withAlpha(QColor colour, double alpha) {
@@ -51,16 +54,16 @@ QSize RangeStrip::minimumSizeHint() const {
     return {fontMetrics().height() * 4, sizeHint().height()};
 }
 
-double RangeStrip::placeOf(std::int64_t stampNs) const {
+double RangeStrip::placeOf(log::Stamp stamp) const {
     const model::TimeRange& span = m_overview.span();
-    const auto length = static_cast<double>(std::max<std::int64_t>(1, span.toNs - span.fromNs));
-    return static_cast<double>(stampNs - span.fromNs) / length * width();
+    const Nanoseconds length = std::max(log::Duration(1), span.to - span.from);
+    return (stamp - span.from) / length * width();
 }
 
-std::int64_t RangeStrip::stampAt(double place) const {
+log::Stamp RangeStrip::stampAt(double place) const {
     const model::TimeRange& span = m_overview.span();
     const double share = std::clamp(place / std::max(1, width()), 0.0, 1.0);
-    return span.fromNs + static_cast<std::int64_t>(share * static_cast<double>(span.toNs - span.fromNs));
+    return span.from + std::chrono::duration_cast<log::Duration>(share * (span.to - span.from));
 }
 
 void RangeStrip::paintEvent(QPaintEvent*) {
@@ -85,16 +88,15 @@ void RangeStrip::paintRate(QPainter& painter) const {
     const model::RangeParts& parts = m_overview.parts();
     const auto& counted = m_overview.counted();
     // The last part is still being filled: it would always look like a loss.
-    const std::size_t count = parts.beginOf(parts.count) > m_overview.span().toNs && parts.count > 1
-                                  ? parts.count - 1
-                                  : parts.count;
+    const std::size_t count =
+        parts.beginOf(parts.count) > m_overview.span().to && parts.count > 1 ? parts.count - 1 : parts.count;
     std::uint32_t most = 1;
     for (std::size_t i = 0; i < count; ++i) {
         most = std::max(most, counted[i].datagrams);
     }
     const double bottom = height();
     const double scale = (height() - 4.0) / most;
-    QPolygonF area{{std::max(0.0, placeOf(parts.firstNs)), bottom}};
+    QPolygonF area{{std::max(0.0, placeOf(parts.first)), bottom}};
     double right = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const double y = bottom - counted[i].datagrams * scale;
@@ -126,8 +128,8 @@ void RangeStrip::paintRange(QPainter& painter) const {
     if (!range) {
         return;
     }
-    const double from = std::clamp(placeOf(range->fromNs), 0.0, width() - 1.0);
-    const double to = std::clamp(placeOf(range->toNs), from + 1, static_cast<double>(width()));
+    const double from = std::clamp(placeOf(range->from), 0.0, width() - 1.0);
+    const double to = std::clamp(placeOf(range->to), from + 1, static_cast<double>(width()));
     const QColor shade = withAlpha(theme().panel, 0.62);
     painter.fillRect(QRectF(0, 0, from, height()), shade);
     painter.fillRect(QRectF(to, 0, width() - to, height()), shade);
@@ -136,19 +138,19 @@ void RangeStrip::paintRange(QPainter& painter) const {
     painter.drawRect(QRectF(from, 0, to - from, height()).adjusted(1, 1, -1, -1));
 }
 
-void RangeStrip::choose(std::int64_t fromNs, std::int64_t toNs) {
+void RangeStrip::choose(log::Stamp from, log::Stamp to) {
     const model::TimeRange& span = m_overview.span();
-    const std::int64_t resolution = m_overview.resolutionNs();
-    model::TimeRange range{std::min(fromNs, toNs), std::max(fromNs, toNs)};
-    range.fromNs = std::clamp(range.fromNs, span.fromNs, span.toNs);
-    range.toNs = std::clamp(range.toNs, range.fromNs, span.toNs);
+    const log::Duration resolution = m_overview.resolution();
+    model::TimeRange range{std::min(from, to), std::max(from, to)};
+    range.from = std::clamp(range.from, span.from, span.to);
+    range.to = std::clamp(range.to, range.from, span.to);
     // As buckets go: what is shown as chosen is what is counted.
-    range.fromNs -= range.fromNs % resolution;
-    range.toNs += (resolution - range.toNs % resolution) % resolution;
-    if (range.toNs == range.fromNs) {
-        range.toNs += resolution;
+    range.from -= range.from.time_since_epoch() % resolution;
+    range.to += (resolution - range.to.time_since_epoch() % resolution) % resolution;
+    if (range.to == range.from) {
+        range.to += resolution;
     }
-    m_commands.selectRange({0, range});
+    m_commands.selectRange({log::Duration::zero(), range});
     update();
 }
 
@@ -163,44 +165,44 @@ void RangeStrip::mousePressEvent(QMouseEvent* event) {
     const double place = event->position().x();
     m_pressed = place;
     m_isMoved = false;
-    m_anchorNs = stampAt(place);
+    m_anchor = stampAt(place);
     if (const auto range = m_view.range()) {
-        if (isAtEdge(place, placeOf(range->fromNs))) {
-            m_anchorNs = range->toNs;
-        } else if (isAtEdge(place, placeOf(range->toNs))) {
-            m_anchorNs = range->fromNs;
+        if (isAtEdge(place, placeOf(range->from))) {
+            m_anchor = range->to;
+        } else if (isAtEdge(place, placeOf(range->to))) {
+            m_anchor = range->from;
         }
     }
 }
 
 void RangeStrip::mouseMoveEvent(QMouseEvent* event) {
     const double place = event->position().x();
-    if (!m_anchorNs) {
+    if (!m_anchor) {
         const auto range = m_view.range();
         const bool isEdge =
-            range && (isAtEdge(place, placeOf(range->fromNs)) || isAtEdge(place, placeOf(range->toNs)));
+            range && (isAtEdge(place, placeOf(range->from)) || isAtEdge(place, placeOf(range->to)));
         setCursor(isEdge ? Qt::SizeHorCursor : Qt::IBeamCursor);
         return;
     }
     if (m_isMoved || std::abs(place - m_pressed) >= kGrip) {
         m_isMoved = true;
-        choose(*m_anchorNs, stampAt(place));
+        choose(*m_anchor, stampAt(place));
     }
 }
 
 void RangeStrip::mouseReleaseEvent(QMouseEvent*) {
-    if (m_anchorNs && !m_isMoved) {
+    if (m_anchor && !m_isMoved) {
         m_commands.selectRange({}); // a click beside the range takes it away, as in any text
         update();
     }
-    m_anchorNs.reset();
+    m_anchor.reset();
 }
 
 /// A fiftieth of the history, in round steps.
-std::int64_t RangeStrip::keyStepNs() const {
+log::Duration RangeStrip::keyStep() const {
     const model::TimeRange& span = m_overview.span();
-    const std::int64_t resolution = m_overview.resolutionNs();
-    const std::int64_t step = (span.toNs - span.fromNs) / 50;
+    const log::Duration resolution = m_overview.resolution();
+    const log::Duration step = (span.to - span.from) / 50;
     return std::max(resolution, step - step % resolution);
 }
 
@@ -216,32 +218,31 @@ void RangeStrip::keyPressEvent(QKeyEvent* event) {
         return;
     }
     const bool isFar = event->modifiers().testFlag(Qt::ControlModifier);
-    const std::int64_t moved = (isLeft ? -1 : 1) * keyStepNs() * (isFar ? 10 : 1);
+    const log::Duration moved = (isLeft ? -1 : 1) * keyStep() * (isFar ? 10 : 1);
     const model::TimeRange& span = m_overview.span();
     const auto range = m_view.range();
     if (!range) {
-        choose(span.toNs - std::min(5 * keyStepNs(), span.toNs - span.fromNs), span.toNs);
+        choose(span.to - std::min(5 * keyStep(), span.to - span.from), span.to);
         return;
     }
     if (event->modifiers().testFlag(Qt::ShiftModifier)) {
-        choose(range->fromNs, std::max(range->fromNs, range->toNs + moved));
+        choose(range->from, std::max(range->from, range->to + moved));
         return;
     }
-    const std::int64_t length = range->toNs - range->fromNs;
-    const std::int64_t from =
-        std::clamp(range->fromNs + moved, span.fromNs, std::max(span.fromNs, span.toNs - length));
+    const log::Duration length = range->to - range->from;
+    const log::Stamp from = std::clamp(range->from + moved, span.from, std::max(span.from, span.to - length));
     choose(from, from + length);
 }
 
 QString RangeStrip::partText(double place) const {
     const model::RangeParts& parts = m_overview.parts();
-    const std::int64_t at = stampAt(place) - parts.firstNs;
-    const auto part = static_cast<std::size_t>(std::max<std::int64_t>(0, at) / parts.widthNs);
+    const log::Duration at = stampAt(place) - parts.first;
+    const auto part = static_cast<std::size_t>(std::max(log::Duration::zero(), at) / parts.width);
     if (part >= parts.count) {
         return {};
     }
     const model::RangePart& counted = m_overview.counted()[part];
-    const double seconds = static_cast<double>(parts.widthNs) * 1e-9;
+    const double seconds = log::secondsOf(parts.width);
     return tr("%1: %2 datagrams/s, %3 samples lost\nDrag to choose a range.")
         .arg(timeOfDay(parts.beginOf(part)).chopped(4), fixed(counted.datagrams / seconds, 0),
              grouped(counted.lost));

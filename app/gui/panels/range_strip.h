@@ -3,6 +3,7 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/models/range_overview.h"
+#include "core/log/time.h"
 
 #include <QWidget>
 
@@ -22,8 +23,8 @@ public:
     void refresh();
 
     /// Pixels from the left for a stamp, and back.
-    [[nodiscard]] double placeOf(std::int64_t stampNs) const;
-    [[nodiscard]] std::int64_t stampAt(double place) const;
+    [[nodiscard]] double placeOf(log::Stamp stamp) const;
+    [[nodiscard]] log::Stamp stampAt(double place) const;
 
     [[nodiscard]] QSize sizeHint() const override;
     [[nodiscard]] QSize minimumSizeHint() const override;
@@ -40,15 +41,15 @@ private:
     void paintRate(QPainter& painter) const;
     void paintLosses(QPainter& painter) const;
     void paintRange(QPainter& painter) const;
-    void choose(std::int64_t fromNs, std::int64_t toNs);
+    void choose(log::Stamp from, log::Stamp to);
     [[nodiscard]] bool isAtEdge(double place, double edge) const;
-    [[nodiscard]] std::int64_t keyStepNs() const;
+    [[nodiscard]] log::Duration keyStep() const;
     [[nodiscard]] QString partText(double place) const;
 
     model::SessionView& m_view;
     Commands& m_commands;
     RangeOverview m_overview;
-    std::optional<std::int64_t> m_anchorNs; ///< while dragging: the end that stays
+    std::optional<log::Stamp> m_anchor; ///< while dragging: the end that stays
     double m_pressed = 0;
     bool m_isMoved = false;
 };

@@ -84,7 +84,7 @@ QString TimecodePanel::caption() const {
 }
 
 double TimecodePanel::age() const {
-    return static_cast<double>(m_view.cursorStampNs() - m_clock.lastStampNs()) * 1e-9;
+    return log::secondsOf(m_view.cursorStamp() - m_clock.lastStamp());
 }
 
 void TimecodePanel::showClock() {

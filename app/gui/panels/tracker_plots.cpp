@@ -17,7 +17,7 @@ QString tr(const char* text) {
 } // namespace
 
 TimePlot* makeTrackerPlot(QWidget* parent) {
-    constexpr double kSecondsShown = static_cast<double>(TrackerHistory::kPlotNs) * 1e-9;
+    constexpr double kSecondsShown = log::secondsOf(TrackerHistory::kPlot);
     constexpr double kLeastAcceleration = 2.0; // m/s²
     constexpr double kLeastNorm = 0.1;
     auto* plot = new TimePlot(tr("Plots of the tracker"), kSecondsShown, parent);
@@ -35,7 +35,7 @@ void plotHistory(TimePlot& plot, const TrackerHistory& history) {
     std::vector<TimePlot::Gap> gaps;
     double before = 0;
     for (const TrackerHistory::Point& point : history.points()) {
-        const double time = static_cast<double>(point.stampNs - history.lastStampNs()) * 1e-9;
+        const double time = log::secondsOf(point.stamp - history.lastStamp());
         if (point.followsGap) {
             gaps.emplace_back(before, time);
             for (auto& curve : curves) {

@@ -32,7 +32,7 @@ double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& k
     if (pose == nullptr) {
         return session.ageSeconds(key);
     }
-    return std::max(0.0, log::secondsOf(session.cursorStampNs() - pose->stampNs));
+    return std::max(0.0, log::secondsOf(session.cursorStamp() - pose->stamp));
 }
 
 CharacterHealth characterHealth(model::SessionView& session, const model::CharacterKey& key) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/keys.h"
 #include "render/mesh/mannequin.h"
 #include "render/picking.h"
@@ -42,7 +43,7 @@ struct SceneFrame {
     int width = 1; ///< device pixels
     int height = 1;
     float pixelRatio = 1.0F;
-    std::int64_t builtNs = 0; ///< the session's time
+    log::Stamp built{}; ///< the session's time
 
     [[nodiscard]] float aspect() const { return static_cast<float>(width) / static_cast<float>(height); }
 };

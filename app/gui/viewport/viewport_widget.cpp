@@ -97,15 +97,15 @@ void ViewportWidget::drawNext() {
     m_builder->build(m_axes, *frame);
     followCharacters(*frame);
     frame->camera = m_motion.camera();
-    frame->builtNs = m_session.nowNs();
+    frame->built = m_session.now();
     m_isOutdated = false;
     m_drawing = frame;
     m_presenter->present(std::move(frame));
 }
 
 void ViewportWidget::followCharacters(SceneFrame& frame) {
-    const double seconds = log::secondsOf(m_session.nowNs() - m_followedNs);
-    m_followedNs = m_session.nowNs();
+    const double seconds = log::secondsOf(m_session.now() - m_followed);
+    m_followed = m_session.now();
     m_motion.follow(boxesOf(frame), aspect(), seconds);
 }
 
@@ -148,9 +148,9 @@ void ViewportWidget::updateOverlay() {
 }
 
 bool ViewportWidget::isSettled() const {
-    constexpr std::int64_t kFreshNs = 250 * log::kMillisecondNs;
+    constexpr log::Duration kFresh = std::chrono::milliseconds(250);
     const bool isIdle = !m_isOutdated && m_drawing == nullptr;
-    return m_shown != nullptr && (isIdle || m_session.nowNs() - m_shown->builtNs < kFreshNs);
+    return m_shown != nullptr && (isIdle || m_session.now() - m_shown->built < kFresh);
 }
 
 QString ViewportWidget::rendererName() const {

@@ -6,6 +6,7 @@
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/viewport/scene_builder.h"
+#include "core/log/time.h"
 
 #include <memory>
 #include <optional>
@@ -82,7 +83,7 @@ private:
     std::shared_ptr<const SceneFrame> m_drawing; ///< with the presenter
     std::shared_ptr<const SceneFrame> m_shown;
     bool m_isOutdated = true;
-    std::int64_t m_followedNs = 0;
+    log::Stamp m_followed{};
     std::uint64_t m_picturesShown = 0;
     QPointF m_pressed;
     QPointF m_pointer;

@@ -9,7 +9,6 @@
 #include <QHBoxLayout>
 
 #include <algorithm>
-#include <limits>
 
 namespace posewire::gui {
 
@@ -23,13 +22,13 @@ QString perSecondText(double bytesPerSecond) {
 
 /// From the first packet to the newest.
 double historySeconds(model::SessionView& session) {
-    std::int64_t first = std::numeric_limits<std::int64_t>::max();
-    std::int64_t last = 0;
+    log::Stamp first = log::Stamp::max();
+    log::Stamp last{};
     for (const model::Stream& stream : session.streams()) {
-        first = std::min(first, stream.accounting.firstStampNs());
-        last = std::max(last, stream.accounting.lastStampNs());
+        first = std::min(first, stream.accounting.firstStamp());
+        last = std::max(last, stream.accounting.lastStamp());
     }
-    return last <= first ? 0.0 : static_cast<double>(last - first) * 1e-9;
+    return last <= first ? 0.0 : log::secondsOf(last - first);
 }
 
 QString historyText(model::SessionView& session) {

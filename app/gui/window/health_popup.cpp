@@ -20,7 +20,7 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::int64_t kPastNs = 10'000'000'000;
+constexpr log::Duration kPast = std::chrono::seconds(10);
 /// More would be a list: that is in the dock of events.
 constexpr std::size_t kMostLines = 6;
 
@@ -42,8 +42,8 @@ HealthPopup::HealthPopup(model::SessionView& session, Commands& commands, const 
 }
 
 QString HealthPopup::lossText(model::SessionView& session, const model::CharacterKey& key) {
-    const std::int64_t now = session.cursorStampNs();
-    const model::StreamCounts counts = session.countsOf(key, {now - kPastNs, now});
+    const log::Stamp now = session.cursorStamp();
+    const model::StreamCounts counts = session.countsOf(key, {now - kPast, now});
     if (counts.expected() == 0) {
         return tr("No samples in the last 10 s.");
     }
@@ -81,7 +81,7 @@ void HealthPopup::addTroubles(QVBoxLayout& column) {
             text.prepend(tr("Type %1: ").arg(event.type.value(), 2, 10, QLatin1Char('0')));
         }
         auto* line = new TroubleLine(healthOf(event.severity()), text,
-                                     tr("since %1").arg(timeOfDay(event.firstStampNs)), this);
+                                     tr("since %1").arg(timeOfDay(event.firstStamp)), this);
         line->setToolTip(tr("Show the packets"));
         connect(line, &QAbstractButton::clicked, this,
                 [this, number = event.number] { showPackets(number); });

@@ -28,8 +28,7 @@ exporting::StreamReportOptions optionsFor(model::SessionView& session,
     options.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
     options.range = range;
     for (const model::Event& event : session.events().all()) {
-        const bool isInside =
-            !range || (event.firstStampNs < range->toNs && event.lastStampNs >= range->fromNs);
+        const bool isInside = !range || (event.firstStamp < range->to && event.lastStamp >= range->from);
         if (isInside && event.group() == model::EventGroup::Limit) {
             options.exceeded.push_back(whoseWords(session, event).toStdString() + ": " + event.text());
         }
@@ -43,10 +42,10 @@ std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& s
     if (!range) {
         return std::optional<model::TimeRange>();
     }
-    QMessageBox question(QMessageBox::NoIcon, tr("Save stream report"),
-                         tr("A range of time is selected: from %1 to %2.")
-                             .arg(timeOfDay(range->fromNs), timeOfDay(range->toNs)),
-                         QMessageBox::Cancel, parent);
+    QMessageBox question(
+        QMessageBox::NoIcon, tr("Save stream report"),
+        tr("A range of time is selected: from %1 to %2.").arg(timeOfDay(range->from), timeOfDay(range->to)),
+        QMessageBox::Cancel, parent);
     const auto* selected = question.addButton(tr("&Selected range"), QMessageBox::AcceptRole);
     const auto* all = question.addButton(tr("&All of it"), QMessageBox::AcceptRole);
     question.exec();

@@ -15,7 +15,6 @@ constexpr std::size_t kMostSilences = 64;
 constexpr std::size_t kMostStreams = 64;
 // Late arrivals are looked for among this many gaps, or incomplete samples.
 constexpr std::size_t kMostBack = 1'024;
-constexpr std::int64_t kNsPerMs = 1'000'000;
 
 bool isBetween(std::uint32_t sample, const Gap& gap) {
     return static_cast<std::int32_t>(sample - gap.fromSample) > 0 &&
@@ -63,7 +62,7 @@ std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
 }
 
 std::string Gap::evidenceText() const {
-    const std::int64_t lastedMs = (toStampNs - fromStampNs) / kNsPerMs;
+    const std::int64_t lastedMs = (toStamp - fromStamp) / std::chrono::milliseconds(1);
     switch (evidence) {
     case Evidence::Dropped:
         return "This computer dropped " + plural(figure, "datagram", "datagrams") +
@@ -106,7 +105,7 @@ std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uin
     m_judged.clear();
     while (!m_due.empty()) {
         const Gap* gap = find(m_due.front().gap);
-        if (gap != nullptr && packet.stampNs - gap->toStampNs < kPatienceNs) {
+        if (gap != nullptr && packet.stamp - gap->toStamp < kPatience) {
             break;
         }
         if (gap != nullptr) {
@@ -123,17 +122,17 @@ std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uin
     return m_judged;
 }
 
-void Attribution::takeSampled(log::SenderId sender, std::int64_t stampNs) {
+void Attribution::takeSampled(log::SenderId sender, log::Stamp stamp) {
     const auto found = m_senders.find(static_cast<std::uint32_t>(sender));
     if (found == m_senders.end()) {
         return;
     }
     Sender& figures = found->second;
-    if (figures.lastStampNs != 0 && stampNs - figures.lastStampNs >= kPauseNs) {
-        figures.silences.emplace_back(figures.lastStampNs, stampNs);
+    if (figures.lastStamp != log::Stamp() && stamp - figures.lastStamp >= kPause) {
+        figures.silences.push_back({figures.lastStamp, stamp});
         keepNewest(figures.silences, kMostSilences);
     }
-    figures.lastStampNs = stampNs;
+    figures.lastStamp = stamp;
 }
 
 void Attribution::takeMalformed(const log::Packet& packet, const wire::Header& header) {
@@ -150,8 +149,8 @@ void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
         gap.stream = m_streams[stream].key;
         gap.fromSample = verdict.sampleBefore;
         gap.toSample = verdict.sample;
-        gap.fromStampNs = verdict.stampBeforeNs;
-        gap.toStampNs = verdict.stampNs;
+        gap.fromStamp = verdict.stampBefore;
+        gap.toStamp = verdict.stamp;
         gap.fromPacket = verdict.packetBefore;
         gap.toPacket = verdict.packet;
         gap.lost = verdict.gap;
@@ -185,7 +184,7 @@ void Attribution::takePartial(std::size_t stream, const Verdict& verdict) {
         open = 0;
     }
     if (verdict.isFirstOfSample && !verdict.isCompleting) {
-        m_partials.push_back({stream, verdict.sample, verdict.stampNs, verdict.packet});
+        m_partials.push_back({stream, verdict.sample, verdict.stamp, verdict.packet});
         open = verdict.isReordered ? open : m_firstPartial + m_partials.size();
     } else if (verdict.isCompleting && !verdict.isFirstOfSample) {
         complete(stream, verdict.sample);
@@ -193,7 +192,7 @@ void Attribution::takePartial(std::size_t stream, const Verdict& verdict) {
 }
 
 void Attribution::judgePartials(const log::Packet& packet) {
-    for (; !m_partials.empty() && packet.stampNs - m_partials.front().stampNs >= kPatienceNs;
+    for (; !m_partials.empty() && packet.stamp - m_partials.front().stamp >= kPatience;
          m_partials.pop_front(), ++m_firstPartial) {
         Partial& partial = m_partials.front();
         Stream& stream = m_streams[partial.stream];
@@ -314,7 +313,7 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
             return decide(LossCause::Network, Gap::Evidence::Partial, neighbour);
         }
     }
-    const TimeRange when{gap.fromStampNs - kPatienceNs, gap.toStampNs + kPatienceNs};
+    const TimeRange when{gap.fromStamp - kPatience, gap.toStamp + kPatience};
     for (const std::size_t other : sender.streams) {
         const Stream& candidate = m_streams[other];
         if (candidate.key == gap.stream) {
@@ -352,14 +351,14 @@ const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {
 }
 
 bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
-    const std::int64_t lastedNs = gap.toStampNs - gap.fromStampNs;
+    const log::Duration lasted = gap.toStamp - gap.fromStamp;
     const bool isSilent =
         std::any_of(sender.silences.begin(), sender.silences.end(), [&](const auto& silence) {
-            const std::int64_t common =
-                std::min(silence.second, gap.toStampNs) - std::max(silence.first, gap.fromStampNs);
-            return common >= kPauseNs && 10 * common >= 9 * lastedNs;
+            const log::Duration common =
+                std::min(silence.to, gap.toStamp) - std::max(silence.from, gap.fromStamp);
+            return common >= kPause && 10 * common >= 9 * lasted;
         });
-    const std::int64_t lastedMs = lastedNs / kNsPerMs;
+    const std::int64_t lastedMs = lasted / std::chrono::milliseconds(1);
     const std::int64_t moved = static_cast<std::int32_t>(gap.timeCodeMoved);
     return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
 }

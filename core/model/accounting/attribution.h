@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
+#include "core/model/accounting/time_range.h"
 #include "core/model/accounting/stream.h"
 
 #include <cstdint>
@@ -30,8 +32,8 @@ struct Gap {
     log::StreamKey stream;
     std::uint32_t fromSample = 0; ///< the samples around it, which came
     std::uint32_t toSample = 0;
-    std::int64_t fromStampNs = 0;
-    std::int64_t toStampNs = 0;
+    log::Stamp fromStamp{};
+    log::Stamp toStamp{};
     std::uint64_t fromPacket = 0;
     std::uint64_t toPacket = 0;
     std::uint32_t lost = 0; ///< what still is; 0 where all came late or nothing was expected
@@ -51,10 +53,10 @@ struct Gap {
 /// and corrected where they come even later.
 class Attribution {
 public:
-    static constexpr std::int64_t kPatienceNs = 150'000'000;
+    static constexpr log::Duration kPatience = std::chrono::milliseconds(150);
     static constexpr std::size_t kMostGaps = 65'536;
     /// A shorter silence of a sender is no pause.
-    static constexpr std::int64_t kPauseNs = 250'000'000;
+    static constexpr log::Duration kPause = std::chrono::milliseconds(250);
 
     /// The streams of the session, which outlive this.
     explicit Attribution(std::deque<Stream>& streams) : m_streams(streams) {}
@@ -65,7 +67,7 @@ public:
     /// judged, valid until the next call.
     std::span<const Gap> takePacket(const log::Packet& packet, std::uint16_t localPort);
     /// Each datagram of a type that counts samples.
-    void takeSampled(log::SenderId sender, std::int64_t stampNs);
+    void takeSampled(log::SenderId sender, log::Stamp stamp);
     /// One that has a header and cannot be decoded.
     void takeMalformed(const log::Packet& packet, const wire::Header& header);
     /// What the accounting of a stream says.
@@ -85,14 +87,14 @@ private:
         std::vector<std::size_t> streams; ///< those that count samples
         log::Transport transport = log::Transport::Udp;
         std::uint16_t localPort = 0;
-        std::int64_t lastStampNs = 0;
-        std::deque<std::pair<std::int64_t, std::int64_t>> silences; ///< from, to
+        log::Stamp lastStamp{};
+        std::deque<TimeRange> silences;
     };
     /// A sample of which only a part has come yet.
     struct Partial {
         std::size_t stream = 0;
         std::uint32_t sample = 0;
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
         std::uint64_t packet = 0;     ///< the first that came of it
         std::uint64_t nextPacket = 0; ///< the first of the next sample of the stream; 0 until that comes
         LossCause cause = LossCause::Unknown;

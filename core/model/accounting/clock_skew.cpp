@@ -6,15 +6,14 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kLeastPartNs = 250'000'000;
+constexpr log::Duration kLeastPart = std::chrono::milliseconds(250);
 constexpr std::int64_t kMostParts = 128;
 /// Fewer parts than these show no skew.
 constexpr std::size_t kLeastParts = 8;
-constexpr double kSecondsPerNs = 1e-9;
 
 } // namespace
 
-ClockFit::ClockFit(std::int64_t spanNs) : m_partNs(std::max(kLeastPartNs, spanNs / kMostParts)) {}
+ClockFit::ClockFit(log::Duration span) : m_width(std::max<log::Duration>(kLeastPart, span / kMostParts)) {}
 
 void ClockFit::Sums::add(double atSeconds, double differenceMs) {
     ++count;
@@ -24,28 +23,28 @@ void ClockFit::Sums::add(double atSeconds, double differenceMs) {
     products += atSeconds * differenceMs;
 }
 
-void ClockFit::add(std::int64_t stampNs, double differenceMs) {
+void ClockFit::add(log::Stamp stamp, double differenceMs) {
     if (!m_hasFirst) {
         m_hasFirst = true;
-        m_firstNs = m_leastNs = stampNs;
+        m_first = m_least = stamp;
         m_firstMs = m_leastMs = differenceMs;
         return;
     }
-    const std::int64_t part = (stampNs - m_firstNs) / m_partNs;
+    const std::int64_t part = (stamp - m_first) / m_width;
     if (part != m_part) {
-        m_sums.add(static_cast<double>(m_leastNs - m_firstNs) * kSecondsPerNs, m_leastMs - m_firstMs);
+        m_sums.add(log::secondsOf(m_least - m_first), m_leastMs - m_firstMs);
         m_part = part;
-        m_leastNs = stampNs;
+        m_least = stamp;
         m_leastMs = differenceMs;
     } else if (differenceMs < m_leastMs) {
-        m_leastNs = stampNs;
+        m_least = stamp;
         m_leastMs = differenceMs;
     }
 }
 
 ClockSkew ClockFit::skew() const {
     Sums sums = m_sums;
-    const double lastSeconds = static_cast<double>(m_leastNs - m_firstNs) * kSecondsPerNs;
+    const double lastSeconds = log::secondsOf(m_least - m_first);
     sums.add(lastSeconds, m_leastMs - m_firstMs);
     const auto count = static_cast<double>(sums.count);
     const double square = sums.squares - sums.seconds * sums.seconds / count;

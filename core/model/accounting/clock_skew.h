@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <cstddef>
 #include <cstdint>
 
@@ -17,10 +19,10 @@ struct ClockSkew {
 class ClockFit {
 public:
     /// All that will be added spans so much time.
-    explicit ClockFit(std::int64_t spanNs);
+    explicit ClockFit(log::Duration span);
 
     /// In the order of time.
-    void add(std::int64_t stampNs, double differenceMs);
+    void add(log::Stamp stamp, double differenceMs);
     [[nodiscard]] ClockSkew skew() const;
 
 private:
@@ -32,12 +34,12 @@ private:
         double products = 0;
         void add(double atSeconds, double differenceMs);
     };
-    std::int64_t m_partNs;
+    log::Duration m_width; ///< of a part
     bool m_hasFirst = false;
-    std::int64_t m_firstNs = 0;
+    log::Stamp m_first{};
     double m_firstMs = 0;
-    std::int64_t m_part = 0; ///< the one that is being looked at, and its least delayed sample
-    std::int64_t m_leastNs = 0;
+    std::int64_t m_part = 0; ///< number of the one that is being looked at, and its least delayed sample
+    log::Stamp m_least{};
     double m_leastMs = 0;
     Sums m_sums; ///< of the parts before it, relative to the first sample
 };

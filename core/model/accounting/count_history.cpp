@@ -7,11 +7,9 @@
 namespace posewire::model {
 namespace {
 
-constexpr double kMsPerNs = 1e-6;
-
-std::int64_t aligned(std::int64_t stampNs, std::int64_t widthNs) {
-    const std::int64_t rest = stampNs % widthNs;
-    return stampNs - (rest < 0 ? rest + widthNs : rest);
+log::Stamp aligned(log::Stamp stamp, log::Duration width) {
+    const log::Duration rest = stamp.time_since_epoch() % width;
+    return stamp - (rest < log::Duration::zero() ? rest + width : rest);
 }
 
 } // namespace
@@ -33,17 +31,17 @@ void CountHistory::apply(Bucket& bucket, const Change& change) {
 }
 
 /// The newest bucket, made where the stamp is beyond it; an earlier stamp makes none.
-CountHistory::Bucket& CountHistory::bucketAt(std::int64_t stampNs) {
+CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
     if (m_buckets.empty()) {
         Bucket& first = m_buckets.emplace_back();
-        first.startNs = aligned(stampNs, m_widthNs);
-    } else if (stampNs >= m_buckets.back().startNs + m_widthNs) {
+        first.start = aligned(stamp, m_width);
+    } else if (stamp >= m_buckets.back().start + m_width) {
         if (m_buckets.size() == kMostBuckets) {
             halve();
         }
-        if (stampNs >= m_buckets.back().startNs + m_widthNs) {
+        if (stamp >= m_buckets.back().start + m_width) {
             Bucket next = m_buckets.back();
-            next.startNs = aligned(stampNs, m_widthNs);
+            next.start = aligned(stamp, m_width);
             next.longestGap = 0;
             next.leastMs = next.mostMs = 0;
             next.hasArrivals = next.hasDifference = false;
@@ -66,19 +64,19 @@ void CountHistory::merge(Bucket& bucket, const Bucket& before) {
     if (before.hasDifference && isLess) {
         bucket.hasDifference = true;
         bucket.generation = before.generation;
-        bucket.leastDelayedNs = before.leastDelayedNs;
+        bucket.leastDelayed = before.leastDelayed;
         bucket.differenceMs = before.differenceMs;
     }
 }
 
 void CountHistory::halve() {
     while (m_buckets.size() > kMostBuckets / 2) {
-        m_widthNs *= 2;
+        m_width *= 2;
         std::size_t kept = 0;
         for (std::size_t i = 0; i < m_buckets.size(); ++i) {
             Bucket bucket = m_buckets[i];
-            bucket.startNs = aligned(bucket.startNs, m_widthNs);
-            if (kept != 0 && m_buckets[kept - 1].startNs == bucket.startNs) {
+            bucket.start = aligned(bucket.start, m_width);
+            if (kept != 0 && m_buckets[kept - 1].start == bucket.start) {
                 merge(bucket, m_buckets[kept - 1]);
                 --kept;
             }
@@ -88,29 +86,29 @@ void CountHistory::halve() {
     }
 }
 
-void CountHistory::add(std::int64_t stampNs, const Change& change) {
-    Bucket& newest = bucketAt(stampNs);
-    if (stampNs >= newest.startNs) {
+void CountHistory::add(log::Stamp stamp, const Change& change) {
+    Bucket& newest = bucketAt(stamp);
+    if (stamp >= newest.start) {
         apply(newest, change);
         return;
     }
-    const std::size_t after = firstFrom(stampNs + 1);
+    const std::size_t after = firstFrom(stamp + log::Duration(1));
     for (std::size_t i = after == 0 ? 0 : after - 1; i < m_buckets.size(); ++i) {
         apply(m_buckets[i], change);
     }
 }
 
-void CountHistory::addGap(std::int64_t stampNs, std::uint32_t samples) {
-    Bucket& bucket = bucketAt(stampNs);
+void CountHistory::addGap(log::Stamp stamp, std::uint32_t samples) {
+    Bucket& bucket = bucketAt(stamp);
     bucket.longestGap = std::max(bucket.longestGap, samples);
 }
 
-void CountHistory::addArrival(std::int64_t stampNs, std::int64_t sinceNs, double jitterMs) {
-    Bucket& bucket = bucketAt(stampNs);
-    const double since = static_cast<double>(sinceNs) * kMsPerNs;
-    const auto shown = static_cast<float>(since);
-    bucket.sumNs += static_cast<std::uint64_t>(sinceNs);
-    bucket.sumSquares += since * since;
+void CountHistory::addArrival(log::Stamp stamp, log::Duration since, double jitterMs) {
+    Bucket& bucket = bucketAt(stamp);
+    const double sinceMs = log::millisecondsOf(since);
+    const auto shown = static_cast<float>(sinceMs);
+    bucket.sum += since;
+    bucket.sumSquares += sinceMs * sinceMs;
     ++bucket.arrivals;
     bucket.leastMs = bucket.hasArrivals ? std::min(bucket.leastMs, shown) : shown;
     bucket.mostMs = std::max(bucket.mostMs, shown);
@@ -118,35 +116,35 @@ void CountHistory::addArrival(std::int64_t stampNs, std::int64_t sinceNs, double
     bucket.hasArrivals = true;
 }
 
-void CountHistory::addDifference(std::int64_t stampNs, double differenceMs, std::uint32_t generation) {
-    Bucket& bucket = bucketAt(stampNs);
+void CountHistory::addDifference(log::Stamp stamp, double differenceMs, std::uint32_t generation) {
+    Bucket& bucket = bucketAt(stamp);
     if (!bucket.hasDifference || bucket.generation != generation || differenceMs < bucket.differenceMs) {
         bucket.hasDifference = true;
         bucket.generation = generation;
-        bucket.leastDelayedNs = stampNs;
+        bucket.leastDelayed = stamp;
         bucket.differenceMs = differenceMs;
     }
 }
 
-std::size_t CountHistory::firstFrom(std::int64_t stampNs) const {
+std::size_t CountHistory::firstFrom(log::Stamp stamp) const {
     const auto found =
-        std::lower_bound(m_buckets.begin(), m_buckets.end(), stampNs,
-                         [](const Bucket& bucket, std::int64_t stamp) { return bucket.startNs < stamp; });
+        std::lower_bound(m_buckets.begin(), m_buckets.end(), stamp,
+                         [](const Bucket& bucket, log::Stamp from) { return bucket.start < from; });
     return static_cast<std::size_t>(found - m_buckets.begin());
 }
 
-std::optional<CountHistory::Ends> CountHistory::endsOf(std::int64_t fromNs, std::int64_t toNs) const {
-    const std::size_t first = firstFrom(fromNs);
-    const std::size_t end = firstFrom(toNs);
+std::optional<CountHistory::Ends> CountHistory::endsOf(log::Stamp from, log::Stamp to) const {
+    const std::size_t first = firstFrom(from);
+    const std::size_t end = firstFrom(to);
     if (end <= first) {
         return std::nullopt;
     }
     return Ends{first == 0 ? Bucket{} : m_buckets[first - 1], m_buckets[end - 1], first, end};
 }
 
-StreamCounts CountHistory::countsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+StreamCounts CountHistory::countsBetween(log::Stamp from, log::Stamp to) const {
     StreamCounts counts;
-    const auto ends = endsOf(fromNs, toNs);
+    const auto ends = endsOf(from, to);
     if (!ends) {
         return counts;
     }
@@ -166,21 +164,21 @@ StreamCounts CountHistory::countsBetween(std::int64_t fromNs, std::int64_t toNs)
     return counts;
 }
 
-BurstCounts CountHistory::burstsBetween(std::int64_t fromNs, std::int64_t toNs) const {
-    const auto ends = endsOf(fromNs, toNs);
+BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
+    const auto ends = endsOf(from, to);
     return ends ? BurstCounts{ends->last.bursts - ends->before.bursts,
                               ends->last.burstLost - ends->before.burstLost,
                               ends->last.burstSamples - ends->before.burstSamples}
                 : BurstCounts{};
 }
 
-std::uint64_t CountHistory::malformedBetween(std::int64_t fromNs, std::int64_t toNs) const {
-    const auto ends = endsOf(fromNs, toNs);
+std::uint64_t CountHistory::malformedBetween(log::Stamp from, log::Stamp to) const {
+    const auto ends = endsOf(from, to);
     return ends ? ends->last.malformed - ends->before.malformed : 0;
 }
 
-ClockSkew CountHistory::skewBetween(std::int64_t fromNs, std::int64_t toNs) const {
-    const auto ends = endsOf(fromNs, toNs);
+ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
+    const auto ends = endsOf(from, to);
     if (!ends) {
         return {};
     }
@@ -200,18 +198,18 @@ ClockSkew CountHistory::skewBetween(std::int64_t fromNs, std::int64_t toNs) cons
     if (newest == nullptr) {
         return {};
     }
-    ClockFit fit(newest->leastDelayedNs - m_buckets[first].leastDelayedNs);
+    ClockFit fit(newest->leastDelayed - m_buckets[first].leastDelayed);
     for (std::size_t i = first; i < ends->end; ++i) {
         if (m_buckets[i].hasDifference) {
-            fit.add(m_buckets[i].leastDelayedNs, m_buckets[i].differenceMs);
+            fit.add(m_buckets[i].leastDelayed, m_buckets[i].differenceMs);
         }
     }
     return fit.skew();
 }
 
-InterArrival CountHistory::arrivalsBetween(std::int64_t fromNs, std::int64_t toNs) const {
+InterArrival CountHistory::arrivalsBetween(log::Stamp from, log::Stamp to) const {
     InterArrival result;
-    const auto ends = endsOf(fromNs, toNs);
+    const auto ends = endsOf(from, to);
     if (!ends) {
         return result;
     }
@@ -221,7 +219,7 @@ InterArrival CountHistory::arrivalsBetween(std::int64_t fromNs, std::int64_t toN
         return result;
     }
     const auto count = static_cast<double>(result.count);
-    result.meanMs = static_cast<double>(last.sumNs - before.sumNs) * kMsPerNs / count;
+    result.meanMs = log::millisecondsOf(last.sum - before.sum) / count;
     const double squares = (last.sumSquares - before.sumSquares) / count;
     result.deviationMs = std::sqrt(std::max(0.0, squares - result.meanMs * result.meanMs));
     bool isFirst = true;
@@ -237,8 +235,8 @@ InterArrival CountHistory::arrivalsBetween(std::int64_t fromNs, std::int64_t toN
     return result;
 }
 
-double CountHistory::jitterMsAt(std::int64_t toNs) const {
-    const std::size_t end = firstFrom(toNs);
+double CountHistory::jitterMsAt(log::Stamp to) const {
+    const std::size_t end = firstFrom(to);
     return end == 0 ? 0 : static_cast<double>(m_buckets[end - 1].jitterMs);
 }
 

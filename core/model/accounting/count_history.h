@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/clock_skew.h"
 #include "core/model/accounting/stream_counts.h"
 
@@ -15,7 +16,7 @@ namespace posewire::model {
 class CountHistory {
 public:
     static constexpr std::size_t kMostBuckets = 2048;
-    static constexpr std::int64_t kFirstWidthNs = 100'000'000;
+    static constexpr log::Duration kFirstWidth = std::chrono::milliseconds(100);
 
     /// What changes at one moment; members go down too where a loss turns out to be none.
     struct Change {
@@ -33,31 +34,31 @@ public:
         std::int32_t burstLost = 0;
         std::int32_t burstSamples = 0;
     };
-    void add(std::int64_t stampNs, const Change& change);
-    void addGap(std::int64_t stampNs, std::uint32_t samples);
+    void add(log::Stamp stamp, const Change& change);
+    void addGap(log::Stamp stamp, std::uint32_t samples);
     /// Time since the sample before, and the jitter as it is now.
-    void addArrival(std::int64_t stampNs, std::int64_t sinceNs, double jitterMs);
+    void addArrival(log::Stamp stamp, log::Duration since, double jitterMs);
 
     /// How far our clock is ahead of the sender's. Only differences of one generation can be compared.
-    void addDifference(std::int64_t stampNs, double differenceMs, std::uint32_t generation);
+    void addDifference(log::Stamp stamp, double differenceMs, std::uint32_t generation);
 
-    /// Figures of the buckets that begin in [fromNs, toNs). Without step, first and last sample.
-    [[nodiscard]] StreamCounts countsBetween(std::int64_t fromNs, std::int64_t toNs) const;
-    [[nodiscard]] InterArrival arrivalsBetween(std::int64_t fromNs, std::int64_t toNs) const;
-    [[nodiscard]] BurstCounts burstsBetween(std::int64_t fromNs, std::int64_t toNs) const;
-    [[nodiscard]] std::uint64_t malformedBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    /// Figures of the buckets that begin in [from, to). Without step, first and last sample.
+    [[nodiscard]] StreamCounts countsBetween(log::Stamp from, log::Stamp to) const;
+    [[nodiscard]] InterArrival arrivalsBetween(log::Stamp from, log::Stamp to) const;
+    [[nodiscard]] BurstCounts burstsBetween(log::Stamp from, log::Stamp to) const;
+    [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const;
     /// Of the newest generation in the range.
-    [[nodiscard]] ClockSkew skewBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] ClockSkew skewBetween(log::Stamp from, log::Stamp to) const;
     /// At the end of the range.
-    [[nodiscard]] double jitterMsAt(std::int64_t toNs) const;
-    [[nodiscard]] std::int64_t widthNs() const { return m_widthNs; }
+    [[nodiscard]] double jitterMsAt(log::Stamp to) const;
+    [[nodiscard]] log::Duration width() const { return m_width; }
 
 private:
     // Counters are modulo 2^32: their differences are right.
     struct Bucket {
-        std::int64_t startNs = 0;
+        log::Stamp start{};
         std::uint64_t bytes = 0;
-        std::uint64_t sumNs = 0;
+        log::Duration sum{}; ///< of the inter-arrival times
         double sumSquares = 0; ///< ms²
         std::uint32_t datagrams = 0;
         std::uint32_t samples = 0;
@@ -80,7 +81,7 @@ private:
         bool hasArrivals = false;
         bool hasDifference = false;
         std::uint32_t generation = 0;
-        std::int64_t leastDelayedNs = 0; ///< stamp of the least difference
+        log::Stamp leastDelayed{}; ///< stamp of the least difference
         double differenceMs = 0;
     };
     /// The buckets before a range and at its end; nothing where none is in it.
@@ -90,16 +91,16 @@ private:
         std::size_t first = 0;
         std::size_t end = 0;
     };
-    [[nodiscard]] std::optional<Ends> endsOf(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] std::optional<Ends> endsOf(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
     static void apply(Bucket& bucket, const Change& change);
-    Bucket& bucketAt(std::int64_t stampNs);
+    Bucket& bucketAt(log::Stamp stamp);
     void halve();
     /// Index of the first bucket that begins at or after a stamp.
-    [[nodiscard]] std::size_t firstFrom(std::int64_t stampNs) const;
+    [[nodiscard]] std::size_t firstFrom(log::Stamp stamp) const;
 
     std::vector<Bucket> m_buckets;
-    std::int64_t m_widthNs = kFirstWidthNs;
+    log::Duration m_width = kFirstWidth;
 };
 
 } // namespace posewire::model

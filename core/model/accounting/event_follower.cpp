@@ -9,10 +9,9 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-constexpr std::int64_t kSilentNs = kSecondNs;
-constexpr std::int64_t kCheckNs = 100'000'000;
-constexpr std::int64_t kWatchNs = 500'000'000;
+constexpr log::Duration kSilent = std::chrono::seconds(1);
+constexpr log::Duration kCheck = std::chrono::milliseconds(100);
+constexpr log::Duration kWatch = std::chrono::milliseconds(500);
 constexpr std::int64_t kJumpMs = 500;
 constexpr std::size_t kMostSenders = 4'096;
 /// This many samples lost in a row are a burst.
@@ -24,7 +23,7 @@ Event EventFollower::eventOf(EventKind kind, const log::Packet& packet) {
     Event event;
     event.kind = kind;
     event.sender = packet.sender;
-    event.firstStampNs = event.lastStampNs = packet.stampNs;
+    event.firstStamp = event.lastStamp = packet.stamp;
     event.firstPacket = event.lastPacket = packet.number;
     return event;
 }
@@ -34,20 +33,20 @@ Event EventFollower::eventOf(EventKind kind, const log::StreamKey& stream, const
     event.kind = kind;
     event.sender = stream.sender;
     event.character = stream.character;
-    event.firstStampNs = event.lastStampNs = verdict.stampNs;
+    event.firstStamp = event.lastStamp = verdict.stamp;
     event.firstPacket = event.lastPacket = verdict.packet;
     return event;
 }
 
 void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
                                const std::deque<Stream>& streams) {
-    if (packet.stampNs >= m_nextCheckNs) {
-        check(packet.stampNs);
-        m_nextCheckNs = packet.stampNs + kCheckNs;
+    if (packet.stamp >= m_nextCheck) {
+        check(packet.stamp);
+        m_nextCheck = packet.stamp + kCheck;
     }
-    if (packet.stampNs >= m_nextWatchNs) {
-        m_watch.check(streams, packet.stampNs, m_events);
-        m_nextWatchNs = packet.stampNs + kWatchNs;
+    if (packet.stamp >= m_nextWatch) {
+        m_watch.check(streams, packet.stamp, m_events);
+        m_nextWatch = packet.stamp + kWatch;
     }
     if (packet.kernelDropsBefore != 0) {
         Event event = eventOf(EventKind::Dropped, packet);
@@ -71,9 +70,9 @@ void EventFollower::takeDatagram(const log::Packet& packet, const wire::Header& 
         m_events.report(eventOf(EventKind::SenderUp, packet));
     }
     if (countsSamples(header.type())) {
-        sender->second.lastSampledNs = packet.stampNs;
+        sender->second.lastSampled = packet.stamp;
         if (std::exchange(sender->second.isDown, false)) {
-            m_events.end(eventOf(EventKind::SenderDown, packet), packet.stampNs);
+            m_events.end(eventOf(EventKind::SenderDown, packet), packet.stamp);
         }
         noteSampled(packet, header);
     }
@@ -85,9 +84,9 @@ void EventFollower::noteSampled(const log::Packet& packet, const wire::Header& h
     if (std::exchange(person.isStale, false)) {
         Event event = eventOf(EventKind::Stale, packet);
         event.character = header.character;
-        m_events.end(event, packet.stampNs);
+        m_events.end(event, packet.stamp);
     }
-    person.lastSampledNs = packet.stampNs;
+    person.lastSampled = packet.stamp;
     person.lastPacket = packet.number;
     noteClaim(packet, header);
 }
@@ -95,11 +94,11 @@ void EventFollower::noteSampled(const log::Packet& packet, const wire::Header& h
 /// Two senders that take turns with one character in one type.
 void EventFollower::noteClaim(const log::Packet& packet, const wire::Header& header) {
     Claim& claim = m_claims[{header.character, header.type()}];
-    if (claim.stampNs == 0) {
+    if (claim.stamp == log::Stamp()) {
         claim.sender = packet.sender;
     } else if (claim.sender != packet.sender) {
         const bool isBack =
-            claim.hasBefore && claim.before == packet.sender && packet.stampNs - claim.beforeNs < kSecondNs;
+            claim.hasBefore && claim.before == packet.sender && packet.stamp - claim.stampBefore < std::chrono::seconds(1);
         if (isBack) {
             Event event = eventOf(EventKind::CharacterConflict, packet);
             event.sender = std::min(packet.sender, claim.sender);
@@ -107,11 +106,11 @@ void EventFollower::noteClaim(const log::Packet& packet, const wire::Header& hea
             m_events.report(event);
         }
         claim.before = claim.sender;
-        claim.beforeNs = claim.stampNs;
+        claim.stampBefore = claim.stamp;
         claim.hasBefore = true;
         claim.sender = packet.sender;
     }
-    claim.stampNs = packet.stampNs;
+    claim.stamp = packet.stamp;
 }
 
 void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& verdict) {
@@ -122,10 +121,10 @@ void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& ver
         return;
     }
     // All streams of a character restart together, each with a verdict of its own.
-    std::int64_t& restartNs = m_persons[{stream.sender, stream.character}].restartNs;
-    const bool isReported = restartNs != 0 && std::abs(verdict.stampNs - restartNs) < kSecondNs;
+    log::Stamp& restart = m_persons[{stream.sender, stream.character}].restart;
+    const bool isReported = restart != log::Stamp() && std::chrono::abs(verdict.stamp - restart) < std::chrono::seconds(1);
     if (!isReported) {
-        restartNs = verdict.stampNs;
+        restart = verdict.stamp;
         m_events.report(eventOf(EventKind::Restart, stream, verdict));
     }
 }
@@ -134,13 +133,13 @@ void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& ver
 /// nothing about it.
 void EventFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
     Person& person = m_persons[{stream.sender, stream.character}];
-    const bool isFirst = person.stampNs == 0;
+    const bool isFirst = person.stamp == log::Stamp();
     const auto moved = static_cast<std::int32_t>(verdict.sample - person.sample);
     const bool isAnew = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
     if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isAnew)) {
         return;
     }
-    const std::int64_t passedMs = (verdict.stampNs - person.stampNs) / 1'000'000;
+    const std::int64_t passedMs = (verdict.stamp - person.stamp) / std::chrono::milliseconds(1);
     const std::int64_t jumpMs = static_cast<std::int32_t>(verdict.timeCode - person.timeCode) - passedMs;
     if (!isAnew && moved < Probation::kMostForward && verdict.timeCode != person.timeCode &&
         std::abs(jumpMs) > kJumpMs) {
@@ -150,7 +149,7 @@ void EventFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& ve
     }
     person.sample = verdict.sample;
     person.timeCode = verdict.timeCode;
-    person.stampNs = verdict.stampNs;
+    person.stamp = verdict.stamp;
 }
 
 void EventFollower::takeGap(const Gap& gap) {
@@ -162,8 +161,8 @@ void EventFollower::takeGap(const Gap& gap) {
     event.sender = gap.stream.sender;
     event.character = gap.stream.character;
     event.type = gap.stream.type;
-    event.firstStampNs = gap.fromStampNs;
-    event.lastStampNs = gap.toStampNs;
+    event.firstStamp = gap.fromStamp;
+    event.lastStamp = gap.toStamp;
     event.firstPacket = gap.fromPacket;
     event.lastPacket = gap.toPacket;
     event.samples = gap.lost;
@@ -180,44 +179,44 @@ void EventFollower::takeChange(EventKind kind, const CharacterKey& key, const lo
     m_events.report(event);
 }
 
-void EventFollower::advance(std::int64_t stampNs) {
-    if (stampNs >= m_nextCheckNs) {
-        check(stampNs);
+void EventFollower::advance(log::Stamp stamp) {
+    if (stamp >= m_nextCheck) {
+        check(stamp);
     }
 }
 
 void EventFollower::endFile() {
     for (auto& [id, sender] : m_senders) {
-        sender.lastSampledNs = 0;
+        sender.lastSampled = {};
     }
     for (auto& [key, person] : m_persons) {
-        person.lastSampledNs = 0;
+        person.lastSampled = {};
     }
 }
 
-void EventFollower::check(std::int64_t stampNs) {
-    m_events.advance(stampNs);
+void EventFollower::check(log::Stamp stamp) {
+    m_events.advance(stamp);
     for (auto& [id, sender] : m_senders) {
-        const bool isSilent = sender.lastSampledNs != 0 && stampNs - sender.lastSampledNs > kSilentNs;
+        const bool isSilent = sender.lastSampled != log::Stamp() && stamp - sender.lastSampled > kSilent;
         if (isSilent && !sender.isDown) {
             sender.isDown = true;
             Event event;
             event.kind = EventKind::SenderDown;
             event.sender = id;
-            event.firstStampNs = event.lastStampNs = sender.lastSampledNs + kSilentNs;
+            event.firstStamp = event.lastStamp = sender.lastSampled + kSilent;
             m_events.report(event);
         }
     }
     for (auto& [key, person] : m_persons) {
         const auto sender = m_senders.find(key.sender);
-        const bool isSilent = person.lastSampledNs != 0 && stampNs - person.lastSampledNs > kSilentNs;
+        const bool isSilent = person.lastSampled != log::Stamp() && stamp - person.lastSampled > kSilent;
         if (isSilent && !person.isStale && sender != m_senders.end() && !sender->second.isDown) {
             person.isStale = true;
             Event event;
             event.kind = EventKind::Stale;
             event.sender = key.sender;
             event.character = key.character;
-            event.firstStampNs = event.lastStampNs = person.lastSampledNs + kSilentNs;
+            event.firstStamp = event.lastStamp = person.lastSampled + kSilent;
             event.firstPacket = event.lastPacket = person.lastPacket;
             m_events.report(event);
         }
@@ -225,8 +224,8 @@ void EventFollower::check(std::int64_t stampNs) {
 }
 
 std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key,
-                                                    std::optional<std::int64_t> stampNs) const {
-    std::vector<const Event*> troubles = stampNs ? m_events.currentAt(*stampNs) : m_events.current();
+                                                    std::optional<log::Stamp> stamp) const {
+    std::vector<const Event*> troubles = stamp ? m_events.currentAt(*stamp) : m_events.current();
     std::erase_if(troubles, [&key](const Event* event) {
         return event->sender != key.sender || event->character.value_or(key.character) != key.character ||
                event->severity() == EventSeverity::Info;
@@ -239,8 +238,8 @@ std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key,
     return troubles;
 }
 
-Condition EventFollower::conditionOf(const CharacterKey& key, std::optional<std::int64_t> stampNs) const {
-    const auto troubles = troublesOf(key, stampNs);
+Condition EventFollower::conditionOf(const CharacterKey& key, std::optional<log::Stamp> stamp) const {
+    const auto troubles = troublesOf(key, stamp);
     if (troubles.empty()) {
         return {};
     }

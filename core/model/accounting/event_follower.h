@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/condition.h"
 #include "core/model/accounting/events.h"
@@ -32,7 +33,7 @@ public:
     void takeChange(EventKind kind, const CharacterKey& key, const log::Packet& packet, std::string detail);
 
     /// Time passes without packets: reports only who is silent.
-    void advance(std::int64_t stampNs);
+    void advance(log::Stamp stamp);
 
     /// What came so far is a file, which has ended: nobody in it is expected to send on.
     void endFile();
@@ -40,34 +41,34 @@ public:
     /// What goes on, or went on at a time of the past, and concerns the character or its sender, worst first,
     /// limits last of their like; no notes.
     [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key,
-                                                       std::optional<std::int64_t> stampNs) const;
+                                                       std::optional<log::Stamp> stamp) const;
     /// The worst of these.
-    [[nodiscard]] Condition conditionOf(const CharacterKey& key, std::optional<std::int64_t> stampNs) const;
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key, std::optional<log::Stamp> stamp) const;
 
 private:
     struct Sender {
-        std::int64_t lastSampledNs = 0;
+        log::Stamp lastSampled{};
         bool isDown = false;
     };
     struct Person {
-        std::int64_t lastSampledNs = 0;
+        log::Stamp lastSampled{};
         std::uint64_t lastPacket = 0;
         bool isStale = false;
-        std::int64_t restartNs = 0; ///< when its counter last restarted
+        log::Stamp restart{}; ///< when its counter last restarted
         // Of the newest sample, for jumps of the time code:
         std::uint32_t sample = 0;
         std::uint32_t timeCode = 0;
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
     };
     /// Who sends a character in a type.
     struct Claim {
         log::SenderId sender{};
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
         log::SenderId before{}; ///< the other one
-        std::int64_t beforeNs = 0;
+        log::Stamp stampBefore{};
         bool hasBefore = false;
     };
-    void check(std::int64_t stampNs);
+    void check(log::Stamp stamp);
     void noteSampled(const log::Packet& packet, const wire::Header& header);
     void noteTimeCode(const log::StreamKey& stream, const Verdict& verdict);
     void noteClaim(const log::Packet& packet, const wire::Header& header);
@@ -79,8 +80,8 @@ private:
     std::map<log::SenderId, Sender> m_senders;
     std::map<CharacterKey, Person> m_persons;
     std::map<std::pair<std::uint8_t, std::uint8_t>, Claim> m_claims;
-    std::int64_t m_nextCheckNs = 0;
-    std::int64_t m_nextWatchNs = 0;
+    log::Stamp m_nextCheck{};
+    log::Stamp m_nextWatch{};
 };
 
 } // namespace posewire::model

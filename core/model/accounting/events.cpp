@@ -150,13 +150,13 @@ std::vector<const Event*> Events::current() const {
     return events;
 }
 
-std::vector<const Event*> Events::currentAt(std::int64_t stampNs) const {
-    const auto wentOn = [stampNs](const Event& event) {
-        if (event.firstStampNs > stampNs) {
+std::vector<const Event*> Events::currentAt(log::Stamp stamp) const {
+    const auto wentOn = [stamp](const Event& event) {
+        if (event.firstStamp > stamp) {
             return false;
         }
-        return factsOf(event.kind).lasts ? event.isCurrent || event.lastStampNs > stampNs
-                                         : event.lastStampNs + kQuietNs > stampNs;
+        return factsOf(event.kind).lasts ? event.isCurrent || event.lastStamp > stamp
+                                         : event.lastStamp + kQuiet > stamp;
     };
     std::vector<const Event*> events;
     for (const Event& event : m_events) {
@@ -186,7 +186,7 @@ void Events::report(const Event& event) {
     ++m_version;
     if (const Event* current = findCurrent(event)) {
         Event& known = m_events[indexOf(current->number)];
-        known.lastStampNs = std::max(known.lastStampNs, event.lastStampNs);
+        known.lastStamp = std::max(known.lastStamp, event.lastStamp);
         known.lastPacket = std::max(known.lastPacket, event.lastPacket);
         known.count += event.count;
         known.samples += event.samples;
@@ -201,22 +201,22 @@ void Events::report(const Event& event) {
     forget();
 }
 
-void Events::end(const Event& like, std::int64_t stampNs) {
+void Events::end(const Event& like, log::Stamp stamp) {
     const Event* current = findCurrent(like);
     if (current == nullptr) {
         return;
     }
     Event& known = m_events[indexOf(current->number)];
     known.isCurrent = false;
-    known.lastStampNs = std::max(known.lastStampNs, stampNs);
+    known.lastStamp = std::max(known.lastStamp, stamp);
     std::erase(m_current, known.number);
     ++m_version;
 }
 
-void Events::advance(std::int64_t stampNs) {
+void Events::advance(log::Stamp stamp) {
     std::erase_if(m_current, [&](std::uint64_t number) {
         Event& event = m_events[indexOf(number)];
-        const bool isOver = !factsOf(event.kind).lasts && stampNs - event.lastStampNs >= kQuietNs;
+        const bool isOver = !factsOf(event.kind).lasts && stamp - event.lastStamp >= kQuiet;
         event.isCurrent = !isOver;
         m_version += isOver ? 1 : 0;
         return isOver;

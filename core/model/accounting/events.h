@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/loss_cause.h"
 #include "core/model/keys.h"
 
@@ -52,8 +53,8 @@ struct Event {
     log::SenderId sender{};
     std::optional<std::uint8_t> character{};
     std::optional<std::uint8_t> type{}; ///< of the stream, where it is of one
-    std::int64_t firstStampNs = 0;
-    std::int64_t lastStampNs = 0;
+    log::Stamp firstStamp{};
+    log::Stamp lastStamp{};
     std::uint64_t firstPacket = 0;
     std::uint64_t lastPacket = 0;
     std::uint64_t count = 1;   ///< how often it happened
@@ -75,7 +76,7 @@ class Events {
 public:
     static constexpr std::size_t kMost = 10'000;
     /// What happens again within this time is of the same episode.
-    static constexpr std::int64_t kQuietNs = 5'000'000'000;
+    static constexpr log::Duration kQuiet = std::chrono::seconds(5);
 
     /// Oldest first.
     [[nodiscard]] const std::deque<Event>& all() const { return m_events; }
@@ -85,7 +86,7 @@ public:
     /// Those that last, in the order in which they began.
     [[nodiscard]] std::vector<const Event*> current() const;
     /// Those that lasted at a time in the past, in the same order, with all that is known of them now.
-    [[nodiscard]] std::vector<const Event*> currentAt(std::int64_t stampNs) const;
+    [[nodiscard]] std::vector<const Event*> currentAt(log::Stamp stamp) const;
     /// Null where there is none of that number, or none any more.
     [[nodiscard]] const Event* find(std::uint64_t number) const;
 
@@ -93,10 +94,10 @@ public:
     /// type and cause).
     void report(const Event& event);
     /// An episode is over.
-    void end(const Event& like, std::int64_t stampNs);
+    void end(const Event& like, log::Stamp stamp);
     [[nodiscard]] bool isCurrent(const Event& like) const { return findCurrent(like) != nullptr; }
     /// Ends what has been quiet for long, by the time of the log.
-    void advance(std::int64_t stampNs);
+    void advance(log::Stamp stamp);
 
 private:
     [[nodiscard]] const Event* findCurrent(const Event& like) const;

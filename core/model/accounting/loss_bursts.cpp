@@ -3,7 +3,7 @@
 
 namespace posewire::model {
 
-std::optional<LossBursts::Burst> LossBursts::add(std::uint64_t lostBefore, std::int64_t stampNs) {
+std::optional<LossBursts::Burst> LossBursts::add(std::uint64_t lostBefore, log::Stamp stamp) {
     std::optional<Burst> over;
     if (lostBefore != 0) {
         if (m_receivedSince >= kGmin) {
@@ -11,7 +11,7 @@ std::optional<LossBursts::Burst> LossBursts::add(std::uint64_t lostBefore, std::
         }
         m_cluster.samples += lostBefore + (m_cluster.lost != 0 ? m_receivedSince : 0);
         m_cluster.lost += lostBefore;
-        m_cluster.endNs = stampNs;
+        m_cluster.end = stamp;
         m_receivedSince = 0;
     }
     ++m_receivedSince;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/stream_counts.h"
 
 #include <cstdint>
@@ -18,11 +19,11 @@ public:
     struct Burst {
         std::uint64_t lost = 0;
         std::uint64_t samples = 0;
-        std::int64_t endNs = 0; ///< when the first sample after it arrived
+        log::Stamp end{}; ///< when the first sample after it arrived
     };
 
     /// A sample that arrived, with how many were lost just before it. Returns the burst that is over with it.
-    std::optional<Burst> add(std::uint64_t lostBefore, std::int64_t stampNs);
+    std::optional<Burst> add(std::uint64_t lostBefore, log::Stamp stamp);
     /// Nothing is counted as lost from here to the next sample, which begins a run.
     std::optional<Burst> endRun();
 

@@ -11,15 +11,15 @@ bool MessageRounds::isWhole() const {
     return m_last >= 0 && count == m_last + 1;
 }
 
-bool MessageRounds::add(std::int64_t stampNs, std::uint8_t datagram, bool isLast) {
+bool MessageRounds::add(log::Stamp stamp, std::uint8_t datagram, bool isLast) {
     const std::size_t half = datagram >> 6 & 1;
     const std::uint64_t bit = std::uint64_t{1} << (datagram & 63);
     const bool isRepeated = (m_arrived[half] & bit) != 0;
-    const bool isBegin = !isOpen() || isRepeated || std::abs(stampNs - m_firstNs) > kTogetherNs;
+    const bool isBegin = !isOpen() || isRepeated || std::chrono::abs(stamp - m_first) > kTogether;
     if (isBegin) {
         m_arrived = {};
         m_last = -1;
-        m_firstNs = stampNs;
+        m_first = stamp;
     } else {
         m_incomplete -= isWhole() ? 0 : 1;
     }

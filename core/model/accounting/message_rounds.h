@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <array>
 #include <cstdint>
 
@@ -8,13 +10,13 @@ namespace posewire::model {
 
 /// Counts messages of which some but not all datagrams came, among those that are sent again and again with
 /// the same sample counter (types 10 to 13). Datagrams belong to one message while their indices do not
-/// repeat and they come within kTogetherNs of each other, in any order.
+/// repeat and they come within kTogether of each other, in any order.
 class MessageRounds {
 public:
-    static constexpr std::int64_t kTogetherNs = 250'000'000;
+    static constexpr log::Duration kTogether = std::chrono::milliseconds(250);
 
     /// Returns true where the datagram begins a message.
-    bool add(std::int64_t stampNs, std::uint8_t datagram, bool isLast);
+    bool add(log::Stamp stamp, std::uint8_t datagram, bool isLast);
 
     /// The newest message included.
     [[nodiscard]] std::uint64_t incomplete() const { return m_incomplete; }
@@ -27,7 +29,7 @@ private:
 
     std::uint64_t m_incomplete = 0;
     // Of the newest message:
-    std::int64_t m_firstNs = 0;
+    log::Stamp m_first{};
     std::array<std::uint64_t, 2> m_arrived{};
     int m_last = -1; ///< index of its last datagram; -1 before that is known
 };

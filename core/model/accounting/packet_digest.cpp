@@ -6,7 +6,6 @@
 namespace posewire::model {
 namespace {
 
-constexpr double kSecondsPerNs = 1e-9;
 
 } // namespace
 
@@ -41,8 +40,8 @@ void applyVerdict(const Verdict& verdict, PacketDigest& digest) {
 std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
                                      StreamAccounting& accounting, PacketDigest& digest) {
     if (accounting.datagrams() != 0) {
-        const auto since = static_cast<double>(packet.stampNs - accounting.lastStampNs());
-        digest.deltaS = static_cast<float>(std::max(0.0, since * kSecondsPerNs));
+        const double sinceS = log::secondsOf(packet.stamp - accounting.lastStamp());
+        digest.deltaS = static_cast<float>(std::max(0.0, sinceS));
     }
     const bool wasInDoubt = accounting.isInDoubt();
     const auto verdicts = accounting.add(packet, header);

@@ -24,7 +24,7 @@ std::int32_t away(std::uint32_t sample, std::uint32_t from) {
 }
 
 /// Whether datagrams with these counters may have been on their way for long.
-bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, std::int64_t stampNs) {
+bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, log::Stamp stamp) {
     constexpr std::int32_t kBefore = 4'096;
     constexpr std::int32_t kNear = 100;
     const auto isIn = [&](const SampleSequence& sequence, std::int32_t below, std::int32_t above) {
@@ -32,7 +32,7 @@ bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high
                away(low, sequence.highest()) <= above;
     };
     return isIn(ledger.present(), kBefore, 0) ||
-           (ledger.hasBefore(stampNs) && isIn(ledger.before(), kNear, kNear));
+           (ledger.hasBefore(stamp) && isIn(ledger.before(), kNear, kNear));
 }
 
 bool isMissing(const SampleSequence& sequence, const SampleLedger::Datagram& datagram) {
@@ -49,7 +49,7 @@ std::int32_t forwardLimit(const SampleLedger& ledger, const SampleLedger::Datagr
     constexpr std::uint32_t kSteps = 100;
     constexpr std::uint32_t kStepsInDoubt = 8;
     const std::uint32_t step = ledger.present().step();
-    const bool isStraggling = ledger.hasBefore(datagram.stampNs) && isMissing(ledger.before(), datagram);
+    const bool isStraggling = ledger.hasBefore(datagram.stamp) && isMissing(ledger.before(), datagram);
     if (step == 0 && !isStraggling) {
         return Probation::kMostForward;
     }
@@ -158,11 +158,11 @@ void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
 }
 
 /// Whether a group is the new place of the counter.
-bool Probation::isSettled(const Group& group, const SampleLedger& ledger, std::int64_t stampNs, bool isEnd) {
+bool Probation::isSettled(const Group& group, const SampleLedger& ledger, log::Stamp stamp, bool isEnd) {
     if (group.count < kAgreeing) {
         return false;
     }
-    if (!mayBeLate(ledger, group.low, group.high, stampNs) || group.count >= kAgreeingAnyhow) {
+    if (!mayBeLate(ledger, group.low, group.high, stamp) || group.count >= kAgreeingAnyhow) {
         return true;
     }
     const std::uint32_t step = std::max(ledger.present().step(), ledger.present().step() == 0 ? 4U : 1U);
@@ -191,7 +191,7 @@ void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decisio
     };
     if (found.newest != kExpected) {
         const Group& group = found.groups[found.newest];
-        if (isSettled(group, ledger, m_waiting.back().datagram.stampNs, isEnd)) {
+        if (isSettled(group, ledger, m_waiting.back().datagram.stamp, isEnd)) {
             const std::int32_t jump = away(group.low, found.highest);
             settle(m_waiting.size(), found.newest,
                    jump > 0 && jump <= kMostForward ? Place::Begun : Place::Restarted);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/sample_ledger.h"
 
 #include <array>
@@ -68,7 +69,7 @@ private:
     void scan(const SampleLedger& ledger, Scan& scan) const;
     static void takeUnexpected(const Waiting& waiting, std::size_t near, const SampleLedger& ledger,
                                Scan& scan);
-    [[nodiscard]] static bool isSettled(const Group& group, const SampleLedger& ledger, std::int64_t stampNs,
+    [[nodiscard]] static bool isSettled(const Group& group, const SampleLedger& ledger, log::Stamp stamp,
                                         bool isEnd);
 
     std::vector<Waiting> m_waiting;

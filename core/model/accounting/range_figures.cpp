@@ -8,18 +8,20 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kSecondNs = 1'000'000'000;
-constexpr double kSecondsPerNs = 1e-9;
 constexpr std::size_t kMostParts = 120;
 
-std::int64_t roundedUp(std::int64_t value, std::int64_t unit) {
-    const std::int64_t rest = value % unit;
-    return rest == 0 ? value : value - rest + (rest > 0 ? unit : 0);
+log::Duration roundedUp(log::Duration value, log::Duration unit) {
+    const log::Duration rest = value % unit;
+    return value - rest + (rest > log::Duration::zero() ? unit : log::Duration::zero());
 }
 
-std::int64_t roundedDown(std::int64_t value, std::int64_t unit) {
-    const std::int64_t rest = value % unit;
-    return value - (rest < 0 ? rest + unit : rest);
+log::Stamp roundedUp(log::Stamp stamp, log::Duration unit) {
+    return log::Stamp(roundedUp(stamp.time_since_epoch(), unit));
+}
+
+log::Stamp roundedDown(log::Stamp stamp, log::Duration unit) {
+    const log::Duration rest = stamp.time_since_epoch() % unit;
+    return stamp - (rest < log::Duration::zero() ? rest + unit : rest);
 }
 
 std::uint64_t unitsOf(const StreamCounts& counts) {
@@ -28,11 +30,11 @@ std::uint64_t unitsOf(const StreamCounts& counts) {
 
 /// The part of the range in which the stream was on the air, as the history rounds it.
 TimeRange onAir(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
-    TimeRange air{stream.firstStampNs(), stream.lastStampNs()};
+    TimeRange air{stream.firstStamp(), stream.lastStamp()};
     if (range) {
-        const std::int64_t resolution = stream.resolutionNs();
-        air.fromNs = std::max(air.fromNs, roundedUp(range->fromNs, resolution));
-        air.toNs = std::min(air.toNs, roundedUp(range->toNs, resolution));
+        const log::Duration resolution = stream.resolution();
+        air.from = std::max(air.from, roundedUp(range->from, resolution));
+        air.to = std::min(air.to, roundedUp(range->to, resolution));
     }
     return air;
 }
@@ -43,7 +45,7 @@ void readMean(const StreamAccounting& stream, const TimeRange& air, const Stream
               RateFigures& rate) {
     const double seconds = air.seconds();
     const double cut =
-        (air.fromNs == stream.firstStampNs() ? 0.5 : 0.0) + (air.toNs == stream.lastStampNs() ? 0.5 : 0.0);
+        (air.from == stream.firstStamp() ? 0.5 : 0.0) + (air.to == stream.lastStamp() ? 0.5 : 0.0);
     const auto units = static_cast<double>(unitsOf(counts));
     if (seconds <= 0 || units <= 1) {
         return;
@@ -56,21 +58,21 @@ void readMean(const StreamAccounting& stream, const TimeRange& air, const Stream
 
 void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigures& rate) {
     rate.leastHz = rate.mostHz = rate.meanHz;
-    const std::int64_t resolution = stream.resolutionNs();
-    const TimeRange whole{roundedUp(air.fromNs, resolution), roundedDown(air.toNs, resolution)};
-    if (whole.toNs - whole.fromNs < kSecondNs) {
+    const log::Duration resolution = stream.resolution();
+    const TimeRange whole{roundedUp(air.from, resolution), roundedDown(air.to, resolution)};
+    if (whole.to - whole.from < std::chrono::seconds(1)) {
         return;
     }
     std::array<RangePart, kMostParts> counted{};
-    RangeParts parts = partsOf(whole, kMostParts, kSecondNs, resolution);
-    while (parts.count > 0 && parts.beginOf(parts.count) > whole.toNs) {
+    RangeParts parts = partsOf(whole, kMostParts, std::chrono::seconds(1), resolution);
+    while (parts.count > 0 && parts.beginOf(parts.count) > whole.to) {
         --parts.count;
     }
     if (parts.count == 0) {
         return;
     }
     addParts(stream, parts, std::span(counted).first(parts.count));
-    const double seconds = static_cast<double>(parts.widthNs) * kSecondsPerNs;
+    const double seconds = log::secondsOf(parts.width);
     double sum = 0;
     double squares = 0;
     for (std::size_t i = 0; i < parts.count; ++i) {
@@ -90,11 +92,11 @@ void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigure
 RangeFigures countedFigures(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
     RangeFigures figures;
     if (range) {
-        figures.counts = stream.countsBetween(range->fromNs, range->toNs);
-        figures.arrivals = stream.interArrivalBetween(range->fromNs, range->toNs);
-        figures.clock = stream.clockBetween(range->fromNs, range->toNs);
-        figures.pattern = stream.lossPatternBetween(range->fromNs, range->toNs);
-        figures.malformed = stream.malformedBetween(range->fromNs, range->toNs);
+        figures.counts = stream.countsBetween(range->from, range->to);
+        figures.arrivals = stream.interArrivalBetween(range->from, range->to);
+        figures.clock = stream.clockBetween(range->from, range->to);
+        figures.pattern = stream.lossPatternBetween(range->from, range->to);
+        figures.malformed = stream.malformedBetween(range->from, range->to);
     } else {
         figures.counts = stream.counts();
         figures.arrivals = stream.interArrival();
@@ -120,25 +122,25 @@ RangePart& RangePart::operator+=(const RangePart& other) {
     return *this;
 }
 
-RangeParts partsOf(const TimeRange& range, std::size_t most, std::int64_t leastWidthNs,
-                   std::int64_t resolutionNs) {
+RangeParts partsOf(const TimeRange& range, std::size_t most, log::Duration leastWidth,
+                   log::Duration resolution) {
     RangeParts parts;
-    parts.firstNs = roundedDown(range.fromNs, resolutionNs);
-    const std::int64_t length = range.toNs - parts.firstNs;
-    if (range.toNs <= range.fromNs || most == 0) {
+    parts.first = roundedDown(range.from, resolution);
+    const log::Duration length = range.to - parts.first;
+    if (range.to <= range.from || most == 0) {
         return {};
     }
     const auto wanted = static_cast<std::int64_t>(most);
-    parts.widthNs = roundedUp(std::max(leastWidthNs, (length + wanted - 1) / wanted), resolutionNs);
-    parts.count = static_cast<std::size_t>((length + parts.widthNs - 1) / parts.widthNs);
+    parts.width = roundedUp(std::max(leastWidth, (length + log::Duration(wanted - 1)) / wanted), resolution);
+    parts.count = static_cast<std::size_t>((length + parts.width - log::Duration(1)) / parts.width);
     return parts;
 }
 
 void addParts(const StreamAccounting& stream, const RangeParts& parts, std::span<RangePart> into) {
     const std::size_t count = std::min(parts.count, into.size());
     for (std::size_t i = 0; i < count; ++i) {
-        const std::int64_t begin = parts.beginOf(i);
-        if (begin > stream.lastStampNs() || parts.beginOf(i + 1) <= stream.firstStampNs() - kSecondNs) {
+        const log::Stamp begin = parts.beginOf(i);
+        if (begin > stream.lastStamp() || parts.beginOf(i + 1) <= stream.firstStamp() - std::chrono::seconds(1)) {
             continue;
         }
         const StreamCounts counts = stream.countsBetween(begin, parts.beginOf(i + 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/loss_cause.h"
 #include "core/model/accounting/stream_accounting.h"
 #include "core/model/accounting/time_range.h"
@@ -55,19 +56,19 @@ struct RangePart {
 
 /// Equal parts that follow one another, in whole buckets of the accounting.
 struct RangeParts {
-    std::int64_t firstNs = 0; ///< where the first one begins
-    std::int64_t widthNs = 0; ///< 0: there are none
+    log::Stamp first{};    ///< where the first one begins
+    log::Duration width{}; ///< 0: there are none
     std::size_t count = 0;
 
-    [[nodiscard]] std::int64_t beginOf(std::size_t part) const {
-        return firstNs + static_cast<std::int64_t>(part) * widthNs;
+    [[nodiscard]] log::Stamp beginOf(std::size_t part) const {
+        return first + static_cast<std::int64_t>(part) * width;
     }
 };
 
-/// At most `most` parts of at least `leastWidthNs` that cover a range, so that none mixes buckets of a
+/// At most `most` parts of at least `leastWidth` that cover a range, so that none mixes buckets of a
 /// history with that resolution.
-[[nodiscard]] RangeParts partsOf(const TimeRange& range, std::size_t most, std::int64_t leastWidthNs,
-                                 std::int64_t resolutionNs);
+[[nodiscard]] RangeParts partsOf(const TimeRange& range, std::size_t most, log::Duration leastWidth,
+                                 log::Duration resolution);
 
 /// Adds what a stream has in each part.
 void addParts(const StreamAccounting& stream, const RangeParts& parts, std::span<RangePart> into);

@@ -14,9 +14,9 @@ bool isWithin(const SampleSequence& sequence, std::uint32_t sample, std::int32_t
 
 } // namespace
 
-Placement SampleLedger::count(const Placement& placement, std::int64_t stampNs, CountHistory* history) {
+Placement SampleLedger::count(const Placement& placement, log::Stamp stamp, CountHistory* history) {
     const bool isDuplicate = placement.kind == Placement::Kind::Duplicate;
-    const bool isLate = placement.isReordered && placement.lateNs > m_lateAfterNs;
+    const bool isLate = placement.isReordered && placement.late > m_lateAfter;
     if (isDuplicate || placement.isReordered) {
         m_settled.duplicates += isDuplicate ? 1 : 0;
         m_settled.reordered += placement.isReordered ? 1 : 0;
@@ -26,14 +26,14 @@ Placement SampleLedger::count(const Placement& placement, std::int64_t stampNs, 
             change.duplicates = isDuplicate ? 1 : 0;
             change.reordered = placement.isReordered ? 1 : 0;
             change.late = isLate ? 1 : 0;
-            history->add(stampNs, change);
+            history->add(stamp, change);
         }
     }
     return placement;
 }
 
 Placement SampleLedger::place(const Datagram& datagram, CountHistory* history) {
-    return count(m_present.place(datagram, history), datagram.stampNs, history);
+    return count(m_present.place(datagram, history), datagram.stamp, history);
 }
 
 Placement SampleLedger::placeBefore(const Datagram& datagram, CountHistory* history) {
@@ -43,7 +43,7 @@ Placement SampleLedger::placeBefore(const Datagram& datagram, CountHistory* hist
     const Placement placement = m_before.place(datagram, history);
     // Which counters came before a restart is forgotten: the same one after it is no duplicate.
     return placement.kind == Placement::Kind::Duplicate ? Placement{}
-                                                        : count(placement, datagram.stampNs, history);
+                                                        : count(placement, datagram.stamp, history);
 }
 
 Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* history) {
@@ -52,12 +52,12 @@ Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* histo
     if (isWithin(m_present, datagram.sample, kNear, 0)) {
         return place(datagram, history);
     }
-    return hasBefore(datagram.stampNs) && isWithin(m_before, datagram.sample, kNear, kNear)
+    return hasBefore(datagram.stamp) && isWithin(m_before, datagram.sample, kNear, kNear)
                ? placeBefore(datagram, history)
                : Placement{};
 }
 
-void SampleLedger::restart(std::int64_t stampNs, CountHistory* history) {
+void SampleLedger::restart(log::Stamp stamp, CountHistory* history) {
     if (!m_before.empty()) {
         // A straggler may have been the first sample of all.
         m_firstSample = m_settled.restarts == 1 ? m_before.first() : m_firstSample;
@@ -72,12 +72,12 @@ void SampleLedger::restart(std::int64_t stampNs, CountHistory* history) {
         m_firstSample = m_present.first();
     }
     std::swap(m_present, m_before);
-    m_restartNs = stampNs;
+    m_restart = stamp;
     ++m_settled.restarts;
     if (history != nullptr) {
         CountHistory::Change change;
         change.restarts = 1;
-        history->add(stampNs, change);
+        history->add(stamp, change);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/sample_sequence.h"
 
 #include <cstdint>
@@ -12,12 +13,12 @@ namespace posewire::model {
 class SampleLedger {
 public:
     /// For this long after a restart, a straggler of the sequence before it still counts there.
-    static constexpr std::int64_t kStragglingNs = 10'000'000'000;
+    static constexpr log::Duration kStraggling = std::chrono::seconds(10);
 
     using Datagram = SampleSequence::Datagram;
 
-    void setLateAfter(std::int64_t lateAfterNs) { m_lateAfterNs = lateAfterNs; }
-    [[nodiscard]] std::int64_t lateAfterNs() const { return m_lateAfterNs; }
+    void setLateAfter(log::Duration lateAfter) { m_lateAfter = lateAfter; }
+    [[nodiscard]] log::Duration lateAfter() const { return m_lateAfter; }
 
     /// In the present sequence.
     Placement place(const Datagram& datagram, CountHistory* history);
@@ -26,13 +27,13 @@ public:
     /// One that came alone from far away: near a sequence it counts there, else nowhere.
     Placement placeAlone(const Datagram& datagram, CountHistory* history);
     /// The counter restarted: the next datagram placed is the first of a sequence.
-    void restart(std::int64_t stampNs, CountHistory* history);
+    void restart(log::Stamp stamp, CountHistory* history);
 
     [[nodiscard]] const SampleSequence& present() const { return m_present; }
     [[nodiscard]] const SampleSequence& before() const { return m_before; }
     /// Whether something of the sequence before may still come.
-    [[nodiscard]] bool hasBefore(std::int64_t stampNs) const {
-        return !m_before.empty() && stampNs - m_restartNs < kStragglingNs;
+    [[nodiscard]] bool hasBefore(log::Stamp stamp) const {
+        return !m_before.empty() && stamp - m_restart < kStraggling;
     }
 
     /// All but datagrams and bytes.
@@ -44,10 +45,10 @@ public:
     }
 
 private:
-    Placement count(const Placement& placement, std::int64_t stampNs, CountHistory* history);
+    Placement count(const Placement& placement, log::Stamp stamp, CountHistory* history);
 
-    std::int64_t m_lateAfterNs = 50'000'000;
-    std::int64_t m_restartNs = 0;
+    log::Duration m_lateAfter = std::chrono::milliseconds(50);
+    log::Stamp m_restart{};
     SampleSequence m_present;
     SampleSequence m_before;
     StreamCounts m_settled; ///< of the sequences before those, and what belongs to none

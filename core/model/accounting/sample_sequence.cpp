@@ -37,7 +37,7 @@ void noteBurst(const std::optional<LossBursts::Burst>& burst, CountHistory* hist
         change.bursts = 1;
         change.burstLost = static_cast<std::int32_t>(burst->lost);
         change.burstSamples = static_cast<std::int32_t>(burst->samples);
-        history->add(burst->endNs, change);
+        history->add(burst->end, change);
     }
 }
 
@@ -117,7 +117,7 @@ Placement SampleSequence::place(const Datagram& datagram, CountHistory* history)
 }
 
 void SampleSequence::begin(const Datagram& datagram) {
-    m_window.insert(0, datagram.sample, datagram.stampNs);
+    m_window.insert(0, datagram.sample, datagram.stamp);
     m_highest = datagram.sample;
     m_first = datagram.sample;
     m_runs[0] = {m_highest, m_highest, 0, 0, 0};
@@ -140,10 +140,10 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
     if (!isFirst) {
         placement.kind = Placement::Kind::Part;
     }
-    const std::int64_t dueNs = dueStamp(index);
+    const log::Stamp due = dueStamp(index);
     if (!isHighest) {
         placement.isReordered = true;
-        placement.lateNs = datagram.stampNs - dueStamp(index + 1);
+        placement.late = datagram.stamp - dueStamp(index + 1);
     }
     const bool isCompleting = mark == SampleWindow::Mark::Completing;
     placement.isCompleting = isCompleting;
@@ -169,7 +169,7 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
     }
     if (history != nullptr) {
         change.lost = mayChangeLost ? static_cast<std::int32_t>(lostNow() - lostBefore) : 0;
-        history->add(dueNs, change);
+        history->add(due, change);
     }
     return placement;
 }
@@ -178,7 +178,7 @@ Placement SampleSequence::advance(const Datagram& datagram, CountHistory* histor
     const std::uint32_t before = m_window.back().sample;
     const std::uint32_t difference = datagram.sample - before;
     const bool wasFull = m_window.size() == SampleWindow::kKept;
-    m_window.insert(m_window.size(), datagram.sample, datagram.stampNs);
+    m_window.insert(m_window.size(), datagram.sample, datagram.stamp);
     m_settled -= wasFull && m_settled > 0 ? 1 : 0;
     m_highest += difference;
     const std::uint32_t step = newestRun().step;
@@ -188,7 +188,7 @@ Placement SampleSequence::advance(const Datagram& datagram, CountHistory* histor
     const bool isIrregular = step == 0 && m_window.size() > kStepDifferences;
     const std::uint32_t shown = isIrregular ? difference : placement.gap;
     if (shown != 0 && history != nullptr) {
-        history->addGap(datagram.stampNs, shown);
+        history->addGap(datagram.stamp, shown);
     }
     if (difference != step) {
         reconsiderStep(history);
@@ -199,7 +199,7 @@ Placement SampleSequence::advance(const Datagram& datagram, CountHistory* histor
 
 Placement SampleSequence::fill(const Datagram& datagram, std::size_t index, CountHistory* history) {
     const bool wasFull = m_window.size() == SampleWindow::kKept;
-    index = m_window.insert(index, datagram.sample, datagram.stampNs);
+    index = m_window.insert(index, datagram.sample, datagram.stamp);
     m_settled -= wasFull && m_settled > 0 ? 1 : 0;
     m_settled += index < m_settled ? 1 : 0;
     if (index == 0 && static_cast<std::int32_t>(datagram.sample - m_first) < 0) {
@@ -216,11 +216,11 @@ Placement SampleSequence::fill(const Datagram& datagram, std::size_t index, Coun
 }
 
 /// When the sample at an index should have come: when it came, or when the first one above it did.
-std::int64_t SampleSequence::dueStamp(std::size_t index) const {
+log::Stamp SampleSequence::dueStamp(std::size_t index) const {
     while (!m_window[index].isAdvance && index + 1 < m_window.size()) {
         ++index;
     }
-    return m_window[index].stampNs;
+    return m_window[index].stamp;
 }
 
 /// The first entry of a run, or the `most`th from the end where that is later.
@@ -258,7 +258,7 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
     }
     if (rest != 0) {
         correction.lost = static_cast<std::int32_t>(rest);
-        history->add(m_window.back().stampNs, correction);
+        history->add(m_window.back().stamp, correction);
     }
 }
 
@@ -382,7 +382,7 @@ std::uint64_t SampleSequence::longestGap() const {
 
 void SampleSequence::addNewestBursts(const TimeRange& range, BurstCounts& into) const {
     const auto take = [&](const std::optional<LossBursts::Burst>& burst) {
-        if (burst && burst->endNs >= range.fromNs && burst->endNs < range.toNs) {
+        if (burst && burst->end >= range.from && burst->end < range.to) {
             into.bursts += 1;
             into.lost += burst->lost;
             into.samples += burst->samples;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/loss_bursts.h"
 #include "core/model/accounting/sample_window.h"
@@ -24,7 +25,7 @@ struct Placement {
     Kind kind = Kind::Outside;
     bool isReordered = false;
     bool isCompleting = false;      ///< it is the last datagram that its sample lacked
-    std::int64_t lateNs = 0;        ///< of a reordered one: since the first arrival above it (RFC 4737 §4.3)
+    log::Duration late{};        ///< of a reordered one: since the first arrival above it (RFC 4737 §4.3)
     std::uint32_t gap = 0;          ///< samples missing just before an advance, as far as the step is known
     std::uint32_t sampleBefore = 0; ///< the highest before an advance with a gap
 };
@@ -34,7 +35,7 @@ struct Placement {
 class SampleSequence {
 public:
     struct Datagram {
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
         std::uint32_t sample = 0;
         std::uint8_t index = 0; ///< in its sample
         bool isLast = false;
@@ -89,7 +90,7 @@ private:
     Placement advance(const Datagram& datagram, CountHistory* history);
     Placement fill(const Datagram& datagram, std::size_t index, CountHistory* history);
     Placement mark(const Datagram& datagram, std::size_t index, CountHistory* history, bool isSteady = false);
-    [[nodiscard]] std::int64_t dueStamp(std::size_t index) const;
+    [[nodiscard]] log::Stamp dueStamp(std::size_t index) const;
     void reconsiderStep(CountHistory* history);
     /// What seems lost before each of the newest entries.
     using LostByEntry = std::array<std::int64_t, 128>;

@@ -36,7 +36,7 @@ SampleWindow::Place SampleWindow::find(std::uint32_t sample) const {
     return {low, (*this)[low].sample == sample};
 }
 
-std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, std::int64_t stampNs) {
+std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, log::Stamp stamp) {
     if (m_size == kKept) {
         forgetFront();
         index = index == 0 ? 0 : index - 1;
@@ -49,7 +49,7 @@ std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, std::i
     }
     Entry& entry = at(index);
     entry = {};
-    entry.stampNs = stampNs;
+    entry.stamp = stamp;
     entry.sample = sample;
     entry.parts = kUnmarked;
     entry.isAdvance = index + 1 == m_size;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -17,7 +19,7 @@ public:
     static constexpr std::uint16_t kUnmarked = 0xfffe; ///< parts: nothing has come yet
 
     struct Entry {
-        std::int64_t stampNs = 0; ///< of its first datagram
+        log::Stamp stamp{}; ///< of its first datagram
         std::uint32_t sample = 0;
         std::uint16_t parts = kUnmarked; ///< place of its mask, or one of the above
         std::uint8_t last = 0xff;        ///< index of its last datagram, 0xff before that is known
@@ -43,7 +45,7 @@ public:
 
     /// Inserts a sample of which nothing has arrived. Forgets the lowest one where the window is full;
     /// nothing may be inserted below that one then. Returns its index.
-    std::size_t insert(std::size_t index, std::uint32_t sample, std::int64_t stampNs);
+    std::size_t insert(std::size_t index, std::uint32_t sample, log::Stamp stamp);
 
     enum class Mark : std::uint8_t { Duplicate, Part, Completing };
     /// Notes a datagram of the sample at an index.

@@ -8,7 +8,6 @@
 namespace posewire::model {
 namespace {
 
-constexpr double kMsPerNs = 1e-6;
 /// A time code that moves by more than this between two samples jumped.
 constexpr std::int32_t kMostTimeCodeMs = 60'000;
 
@@ -34,7 +33,7 @@ void SenderClock::add(const Sample& sample) {
         add(sample);
         return;
     }
-    const double sinceMs = static_cast<double>(sample.stampNs - m_previous.stampNs) * kMsPerNs;
+    const double sinceMs = log::millisecondsOf(sample.stamp - m_previous.stamp);
     if (moved != 0) {
         ++((timeCodeMoved > 0) == (moved > 0) && timeCodeMoved != 0 ? m_timed : m_untimed);
         // Forgets slowly, so that the period follows a sender that changes it.
@@ -47,7 +46,7 @@ void SenderClock::add(const Sample& sample) {
     const double senderMs = isFromTimeCode() ? timeCodeMoved : moved * periodMs;
     m_jitterMs += (std::abs(sinceMs - senderMs) - m_jitterMs) / 16;
     m_differenceMs =
-        static_cast<double>(sample.stampNs - m_first.stampNs) * kMsPerNs - static_cast<double>(m_timeCodeMs);
+        log::millisecondsOf(sample.stamp - m_first.stamp) - static_cast<double>(m_timeCodeMs);
     m_previous = sample;
 }
 

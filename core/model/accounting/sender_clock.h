@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <cstdint>
 
 namespace posewire::model {
@@ -10,7 +12,7 @@ namespace posewire::model {
 class SenderClock {
 public:
     struct Sample {
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
         std::uint32_t sample = 0;
         std::uint32_t timeCode = 0; ///< ms
     };

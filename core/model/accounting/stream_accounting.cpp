@@ -5,32 +5,32 @@
 
 namespace posewire::model {
 
-std::span<const Verdict> StreamAccounting::add(std::int64_t stampNs, std::size_t bytes,
+std::span<const Verdict> StreamAccounting::add(log::Stamp stamp, std::size_t bytes,
                                                const wire::Header& header) {
     log::Packet packet;
     packet.number = m_datagrams;
-    packet.stampNs = stampNs;
+    packet.stamp = stamp;
     packet.bytes = {static_cast<const std::byte*>(nullptr), std::size_t{0}};
     const auto verdicts = add(packet, header);
     m_bytes += bytes;
     CountHistory::Change change;
     change.bytes = static_cast<std::int32_t>(bytes);
-    m_history.add(stampNs, change);
+    m_history.add(stamp, change);
     return verdicts;
 }
 
 std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const wire::Header& header) {
     m_verdicts.clear();
-    m_firstStampNs = m_datagrams == 0 ? packet.stampNs : m_firstStampNs;
-    m_lastStampNs = packet.stampNs;
+    m_firstStamp = m_datagrams == 0 ? packet.stamp : m_firstStamp;
+    m_lastStamp = packet.stamp;
     ++m_datagrams;
     m_bytes += packet.bytes.size();
     CountHistory::Change change;
     change.datagrams = 1;
     change.bytes = static_cast<std::int32_t>(packet.bytes.size());
     if (m_countsSamples) {
-        m_history.add(packet.stampNs, change);
-        takeSample({{packet.stampNs, header.sampleCounter, header.datagramIndex(), header.isLast()},
+        m_history.add(packet.stamp, change);
+        takeSample({{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
                     packet.number,
                     header.timeCode,
                     false});
@@ -38,12 +38,12 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     }
     const std::uint64_t incomplete = m_rounds.incomplete();
     const bool isPartial = m_rounds.isPartial();
-    const bool isBegin = m_rounds.add(packet.stampNs, header.datagramIndex(), header.isLast());
+    const bool isBegin = m_rounds.add(packet.stamp, header.datagramIndex(), header.isLast());
     change.incomplete = static_cast<std::int32_t>(m_rounds.incomplete() - incomplete);
-    m_history.add(packet.stampNs, change);
+    m_history.add(packet.stamp, change);
     Verdict verdict;
     verdict.packet = packet.number;
-    verdict.stampNs = packet.stampNs;
+    verdict.stamp = packet.stamp;
     verdict.sample = header.sampleCounter;
     verdict.packetBefore = m_messagePacket;
     verdict.isAfterPartial = isBegin && isPartial;
@@ -75,7 +75,7 @@ Placement StreamAccounting::carryOut(const Probation::Waiting& datagram, Probati
                                      SampleLedger& ledger, CountHistory* history) {
     switch (place) {
     case Probation::Place::Restarted:
-        ledger.restart(datagram.datagram.stampNs, history);
+        ledger.restart(datagram.datagram.stamp, history);
         return ledger.place(datagram.datagram, history);
     case Probation::Place::Begun:
         return ledger.place(datagram.datagram, history);
@@ -92,7 +92,7 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
     const Placement placement = carryOut(datagram, place, isMoved, m_ledger, &m_history);
     Verdict& verdict = m_verdicts.emplace_back();
     verdict.packet = datagram.packet;
-    verdict.stampNs = datagram.datagram.stampNs;
+    verdict.stamp = datagram.datagram.stamp;
     verdict.sample = datagram.datagram.sample;
     verdict.gap = placement.gap;
     verdict.timeCode = datagram.timeCode;
@@ -100,11 +100,11 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
         verdict.sampleBefore = placement.sampleBefore;
         verdict.timeCodeBefore = m_highest.timeCode;
         verdict.packetBefore = m_highest.packet;
-        verdict.stampBeforeNs = m_highest.datagram.stampNs;
+        verdict.stampBefore = m_highest.datagram.stamp;
     }
     verdict.isDuplicate = placement.kind == Placement::Kind::Duplicate;
     verdict.isReordered = placement.isReordered;
-    verdict.isLate = placement.isReordered && placement.lateNs > m_ledger.lateAfterNs();
+    verdict.isLate = placement.isReordered && placement.late > m_ledger.lateAfter();
     verdict.isRestart = place == Probation::Place::Restarted;
     verdict.isCompleting = placement.isCompleting;
     verdict.isStray = placement.kind == Placement::Kind::Outside;
@@ -120,14 +120,14 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
     if (placement.kind == Placement::Kind::Advance) {
         m_highest = datagram;
     }
-    m_clock.add({verdict.stampNs, verdict.sample, datagram.timeCode});
+    m_clock.add({verdict.stamp, verdict.sample, datagram.timeCode});
     if (m_hasSample) {
-        m_history.addArrival(verdict.stampNs, std::max<std::int64_t>(0, verdict.stampNs - m_lastSampleNs),
+        m_history.addArrival(verdict.stamp, std::max(log::Duration::zero(), verdict.stamp - m_lastSample),
                              m_clock.jitterMs());
     }
-    m_history.addDifference(verdict.stampNs, m_clock.differenceMs(), m_clock.generation());
+    m_history.addDifference(verdict.stamp, m_clock.differenceMs(), m_clock.generation());
     m_hasSample = true;
-    m_lastSampleNs = verdict.stampNs;
+    m_lastSample = verdict.stamp;
 }
 
 SampleLedger StreamAccounting::ledgerInHindsight() const {
@@ -152,14 +152,14 @@ StreamCounts StreamAccounting::counts() const {
     return counts;
 }
 
-StreamCounts StreamAccounting::countsBetween(std::int64_t fromNs, std::int64_t toNs) const {
-    StreamCounts counts = m_history.countsBetween(fromNs, toNs);
+StreamCounts StreamAccounting::countsBetween(log::Stamp from, log::Stamp to) const {
+    StreamCounts counts = m_history.countsBetween(from, to);
     counts.step = step();
     return counts;
 }
 
 LossPattern StreamAccounting::patternIn(const TimeRange& range, const StreamCounts& counts) const {
-    BurstCounts bursts = m_history.burstsBetween(range.fromNs, range.toNs);
+    BurstCounts bursts = m_history.burstsBetween(range.from, range.to);
     m_ledger.addNewestBursts(range, bursts);
     return patternOf(bursts, counts);
 }
@@ -168,16 +168,16 @@ LossPattern StreamAccounting::lossPattern() const {
     return patternIn({kBeginning, kEnd}, counts());
 }
 
-LossPattern StreamAccounting::lossPatternBetween(std::int64_t fromNs, std::int64_t toNs) const {
-    return patternIn({fromNs, toNs}, countsBetween(fromNs, toNs));
+LossPattern StreamAccounting::lossPatternBetween(log::Stamp from, log::Stamp to) const {
+    return patternIn({from, to}, countsBetween(from, to));
 }
 
-ClockFigures StreamAccounting::clockBetween(std::int64_t fromNs, std::int64_t toNs) const {
+ClockFigures StreamAccounting::clockBetween(log::Stamp from, log::Stamp to) const {
     ClockFigures figures;
-    figures.jitterMs = m_history.jitterMsAt(toNs);
+    figures.jitterMs = m_history.jitterMsAt(to);
     figures.isFromTimeCode = m_clock.isFromTimeCode();
     if (figures.isFromTimeCode) {
-        const ClockSkew skew = m_history.skewBetween(fromNs, toNs);
+        const ClockSkew skew = m_history.skewBetween(from, to);
         figures.skewPpm = skew.skewPpm;
         figures.driftMs = skew.driftMs;
     }
@@ -190,11 +190,11 @@ ClockFigures StreamAccounting::clock() const {
     return figures;
 }
 
-void StreamAccounting::addMalformed(std::int64_t stampNs) {
+void StreamAccounting::addMalformed(log::Stamp stamp) {
     CountHistory::Change change;
     change.malformed = 1;
     ++m_malformed;
-    m_history.add(stampNs, change);
+    m_history.add(stamp, change);
 }
 
 std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,
@@ -208,7 +208,7 @@ std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from
         if (!isBelow(entry.sample, to) || !isBelow(from, entry.sample)) {
             break;
         }
-        if (entry.stampNs >= when.fromNs && entry.stampNs < when.toNs) {
+        if (entry.stamp >= when.from && entry.stamp < when.to) {
             return entry.sample;
         }
     }

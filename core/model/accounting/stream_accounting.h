@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/message_rounds.h"
 #include "core/model/accounting/probation.h"
@@ -22,7 +23,7 @@ namespace posewire::model {
 /// What one datagram turned out to be.
 struct Verdict {
     std::uint64_t packet = 0;
-    std::int64_t stampNs = 0;
+    log::Stamp stamp{};
     std::uint32_t sample = 0;
     std::uint32_t timeCode = 0; ///< ms
     std::uint32_t gap = 0;      ///< samples missing just before it
@@ -30,7 +31,7 @@ struct Verdict {
     std::uint32_t sampleBefore = 0;
     std::uint32_t timeCodeBefore = 0;
     std::uint64_t packetBefore = 0;
-    std::int64_t stampBeforeNs = 0;
+    log::Stamp stampBefore{};
     bool isDuplicate = false;
     bool isReordered = false;
     bool isLate = false;
@@ -55,13 +56,13 @@ public:
     /// of arrival: usually its own, none while it is in doubt, and several when a doubt ends. Valid until the
     /// next call.
     std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
-    std::span<const Verdict> add(std::int64_t stampNs, std::size_t bytes, const wire::Header& header);
+    std::span<const Verdict> add(log::Stamp stamp, std::size_t bytes, const wire::Header& header);
 
     /// A datagram of the stream that could not be decoded.
-    void addMalformed(std::int64_t stampNs);
+    void addMalformed(log::Stamp stamp);
 
     /// Reordered by more than this is late; counts from the next datagram on. 50 ms unless set.
-    void setLateAfter(std::int64_t lateAfterNs) { m_ledger.setLateAfter(lateAfterNs); }
+    void setLateAfter(log::Duration lateAfter) { m_ledger.setLateAfter(lateAfter); }
 
     [[nodiscard]] StreamCounts counts() const;
     [[nodiscard]] ClockFigures clock() const;
@@ -70,20 +71,20 @@ public:
 
     /// Figures of a range of time, at a cost that does not depend on it. The ends are rounded to the
     /// resolution, at first 0.1 s. What belongs to samples counts when they were due.
-    [[nodiscard]] StreamCounts countsBetween(std::int64_t fromNs, std::int64_t toNs) const;
-    [[nodiscard]] InterArrival interArrivalBetween(std::int64_t fromNs, std::int64_t toNs) const {
-        return m_history.arrivalsBetween(fromNs, toNs);
+    [[nodiscard]] StreamCounts countsBetween(log::Stamp from, log::Stamp to) const;
+    [[nodiscard]] InterArrival interArrivalBetween(log::Stamp from, log::Stamp to) const {
+        return m_history.arrivalsBetween(from, to);
     }
-    [[nodiscard]] double jitterMsAt(std::int64_t toNs) const { return m_history.jitterMsAt(toNs); }
+    [[nodiscard]] double jitterMsAt(log::Stamp to) const { return m_history.jitterMsAt(to); }
     /// A burst counts where it ended.
-    [[nodiscard]] LossPattern lossPatternBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] LossPattern lossPatternBetween(log::Stamp from, log::Stamp to) const;
     /// The jitter at the end of the range; skew and drift from its beginning or the newest restart in it on.
-    [[nodiscard]] ClockFigures clockBetween(std::int64_t fromNs, std::int64_t toNs) const;
+    [[nodiscard]] ClockFigures clockBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] std::uint64_t malformed() const { return m_malformed; }
-    [[nodiscard]] std::uint64_t malformedBetween(std::int64_t fromNs, std::int64_t toNs) const {
-        return m_history.malformedBetween(fromNs, toNs);
+    [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const {
+        return m_history.malformedBetween(from, to);
     }
-    [[nodiscard]] std::int64_t resolutionNs() const { return m_history.widthNs(); }
+    [[nodiscard]] log::Duration resolution() const { return m_history.width(); }
 
     /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
     [[nodiscard]] std::optional<std::uint32_t> arrivedBetween(std::uint32_t from, std::uint32_t to,
@@ -99,12 +100,12 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return m_bytes; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
     [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
-    [[nodiscard]] std::int64_t firstStampNs() const { return m_firstStampNs; }
-    [[nodiscard]] std::int64_t lastStampNs() const { return m_lastStampNs; }
+    [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp; }
+    [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 
 private:
-    static constexpr std::int64_t kBeginning = std::numeric_limits<std::int64_t>::min();
-    static constexpr std::int64_t kEnd = std::numeric_limits<std::int64_t>::max();
+    static constexpr log::Stamp kBeginning = log::Stamp::min();
+    static constexpr log::Stamp kEnd = log::Stamp::max();
 
     [[nodiscard]] LossPattern patternIn(const TimeRange& range, const StreamCounts& counts) const;
     void takeSample(const Probation::Waiting& datagram);
@@ -117,9 +118,9 @@ private:
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;
     std::uint64_t m_malformed = 0;
-    std::int64_t m_firstStampNs = 0;
-    std::int64_t m_lastStampNs = 0;
-    std::int64_t m_lastSampleNs = 0; ///< stamp of the newest first arrival of a sample
+    log::Stamp m_firstStamp{};
+    log::Stamp m_lastStamp{};
+    log::Stamp m_lastSample{}; ///< stamp of the newest first arrival of a sample
     bool m_hasSample = false;
     Probation::Waiting m_highest; ///< the first datagram of the highest sample
     SampleLedger m_ledger;

@@ -204,9 +204,9 @@ static_assert(rowsFollowTheEnum());
 /// Between the first and the last, so that a stream that ended long ago keeps its rate.
 double wholeRate(const Stream& stream, const StreamCounts& counts, const std::optional<TimeRange>& range) {
     const TimeRange part = range.value_or(kAllTime);
-    const std::int64_t from = std::max(stream.accounting.firstStampNs(), part.fromNs);
-    const std::int64_t to = std::min(stream.accounting.lastStampNs(), part.toNs);
-    const double seconds = static_cast<double>(to - from) * 1e-9;
+    const log::Stamp from = std::max(stream.accounting.firstStamp(), part.from);
+    const log::Stamp to = std::min(stream.accounting.lastStamp(), part.to);
+    const double seconds = log::secondsOf(to - from);
     const bool isSampled = countsSamples(stream.key.type);
     const std::uint64_t count = isSampled ? counts.samples : counts.datagrams;
     // Messages come seldom and in several datagrams at once: a moment says nothing about how often.

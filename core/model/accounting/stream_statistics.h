@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +13,7 @@ namespace posewire::model {
 class StreamStatistics {
 public:
     /// Adds a datagram; `beginsSample` is true for the first one of a sample.
-    void add(std::int64_t stampNs, std::size_t bytes, bool beginsSample);
+    void add(log::Stamp stamp, std::size_t bytes, bool beginsSample);
 
     /// Samples a second over the window of the newest samples (at most 256 and at most about 2 s before the
     /// newest); 0 before the second sample.
@@ -19,30 +21,22 @@ public:
     /// Bytes a second over the same window.
     [[nodiscard]] double bytesPerSecond() const;
 
-    /// Time between samples over the same window, in nanoseconds; zeros before the second sample.
-    struct Spacing {
-        double mean = 0;
-        double deviation = 0;
-        double least = 0;
-        double most = 0;
-    };
-    [[nodiscard]] Spacing spacing() const;
-
 private:
-    static constexpr std::size_t kWindow = 256;
+    static constexpr std::size_t kMostSamples = 256;
     struct Arrival {
-        std::int64_t stampNs;
+        log::Stamp stamp;
         std::uint64_t bytesSoFar;
     };
     [[nodiscard]] std::size_t windowSize() const;
+    [[nodiscard]] log::Duration span() const;
     [[nodiscard]] const Arrival& arrival(std::size_t back) const {
-        return m_arrivals[(m_samples - 1 - back) % kWindow];
+        return m_arrivals[(m_samples - 1 - back) % kMostSamples];
     }
 
     std::uint64_t m_bytes = 0;
     std::uint64_t m_samples = 0;
-    std::int64_t m_lastStampNs = 0;
-    std::array<Arrival, kWindow> m_arrivals{};
+    log::Stamp m_lastStamp{};
+    std::array<Arrival, kMostSamples> m_arrivals{};
 };
 
 } // namespace posewire::model

@@ -37,53 +37,53 @@ std::span<const ThresholdRow> thresholdTable() {
     return kRows;
 }
 
-void ThresholdWatch::check(const std::deque<Stream>& streams, std::int64_t stampNs, Events& events) {
+void ThresholdWatch::check(const std::deque<Stream>& streams, log::Stamp stamp, Events& events) {
     m_habits.resize(streams.size());
     for (std::size_t i = 0; i < streams.size(); ++i) {
         if (countsSamples(streams[i].key.type)) {
-            check(streams[i], m_habits[i], stampNs, events);
+            check(streams[i], m_habits[i], stamp, events);
         }
     }
 }
 
-void ThresholdWatch::check(const Stream& stream, Habit& habit, std::int64_t stampNs, Events& events) const {
+void ThresholdWatch::check(const Stream& stream, Habit& habit, log::Stamp stamp, Events& events) const {
     const StreamAccounting& accounting = stream.accounting;
-    const auto windowNs = static_cast<std::int64_t>(m_thresholds.windowS * 1e9);
-    const std::int64_t fromNs = stampNs - windowNs;
-    const double ageS = static_cast<double>(stampNs - accounting.lastStampNs()) * 1e-9;
-    hold(stream, {EventKind::AgeLimit, ageS, m_thresholds.ageS}, stampNs, events);
-    const RangeFigures read = countedFigures(accounting, TimeRange{fromNs, stampNs});
+    const auto window = log::durationOf(m_thresholds.windowS);
+    const log::Stamp from = stamp - window;
+    const double ageS = log::secondsOf(stamp - accounting.lastStamp());
+    hold(stream, {EventKind::AgeLimit, ageS, m_thresholds.ageS}, stamp, events);
+    const RangeFigures read = countedFigures(accounting, TimeRange{from, stamp});
     if (read.counts.samples == 0) {
         return;
     }
     for (const ThresholdRow& row : kRows) {
         if (row.figure) {
             const double value = std::fmax(0, rowOf(*row.figure).read(read)); // 0 where it is not known
-            hold(stream, {row.alert, value, m_thresholds.*row.limit}, stampNs, events);
+            hold(stream, {row.alert, value, m_thresholds.*row.limit}, stamp, events);
         }
     }
-    const bool isWholeWindow = accounting.firstStampNs() <= fromNs && ageS < m_thresholds.windowS / 2;
+    const bool isWholeWindow = accounting.firstStamp() <= from && ageS < m_thresholds.windowS / 2;
     if (!isWholeWindow || m_thresholds.windowS <= 0) {
         return;
     }
     const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
     if (habit.rateHz > 0) {
         const double offPercent = 100 * std::abs(rateHz - habit.rateHz) / habit.rateHz;
-        hold(stream, {EventKind::RateLimit, offPercent, m_thresholds.ratePercent}, stampNs, events);
+        hold(stream, {EventKind::RateLimit, offPercent, m_thresholds.ratePercent}, stamp, events);
     }
     // What lasts becomes usual: half of the way in about a minute of two checks a second.
     constexpr double kShare = 1.0 / 180;
     habit.rateHz += habit.rateHz > 0 ? (rateHz - habit.rateHz) * kShare : rateHz;
 }
 
-void ThresholdWatch::hold(const Stream& stream, const Measure& measure, std::int64_t stampNs,
+void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Stamp stamp,
                           Events& events) const {
     Event event;
     event.kind = measure.kind;
     event.sender = stream.key.sender;
     event.character = stream.key.character;
     event.type = stream.key.type;
-    event.firstStampNs = event.lastStampNs = stampNs;
+    event.firstStamp = event.lastStamp = stamp;
     event.value = measure.value;
     event.limit = measure.limit;
     event.count = 1;
@@ -92,7 +92,7 @@ void ThresholdWatch::hold(const Stream& stream, const Measure& measure, std::int
         event.count = isKnown ? 0 : 1;
         events.report(event);
     } else if (isKnown && (measure.limit <= 0 || measure.value <= measure.limit * m_thresholds.hysteresis)) {
-        events.end(event, stampNs);
+        events.end(event, stamp);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/events.h"
 #include "core/model/accounting/stream.h"
 
@@ -30,7 +31,7 @@ public:
     [[nodiscard]] const Thresholds& thresholds() const { return m_thresholds; }
 
     /// Looks at all streams that count samples as they were just before a moment.
-    void check(const std::deque<Stream>& streams, std::int64_t stampNs, Events& events);
+    void check(const std::deque<Stream>& streams, log::Stamp stamp, Events& events);
 
 private:
     struct Habit {
@@ -41,8 +42,8 @@ private:
         double value;
         double limit;
     };
-    void check(const Stream& stream, Habit& habit, std::int64_t stampNs, Events& events) const;
-    void hold(const Stream& stream, const Measure& measure, std::int64_t stampNs, Events& events) const;
+    void check(const Stream& stream, Habit& habit, log::Stamp stamp, Events& events) const;
+    void hold(const Stream& stream, const Measure& measure, log::Stamp stamp, Events& events) const;
 
     Thresholds m_thresholds;
     std::vector<Habit> m_habits; ///< of the streams

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include "core/log/time.h"
+
 #include <optional>
 
 namespace posewire::model {
 
-/// Stamps in nanoseconds; the end does not belong to it.
+/// The end does not belong to it.
 struct TimeRange {
-    std::int64_t fromNs = 0;
-    std::int64_t toNs = 0;
+    log::Stamp from{};
+    log::Stamp to{};
 
-    [[nodiscard]] double seconds() const { return static_cast<double>(toNs - fromNs) * 1e-9; }
+    [[nodiscard]] double seconds() const { return log::secondsOf(to - from); }
     friend bool operator==(const TimeRange&, const TimeRange&) = default;
 };
 
 /// The time that figures are of: all of it, so much before the cursor, or between two stamps.
 struct RangeChoice {
-    std::int64_t lastNs = 0; ///< above 0: so much before the cursor
+    log::Duration last{}; ///< above 0: so much before the cursor
     std::optional<TimeRange> fixed{};
 
-    [[nodiscard]] bool isAll() const { return lastNs <= 0 && !fixed; }
+    [[nodiscard]] bool isAll() const { return last <= log::Duration::zero() && !fixed; }
     friend bool operator==(const RangeChoice&, const RangeChoice&) = default;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/body/segments.h"
 #include "core/model/body/spaces.h"
 #include "core/wire/codec.h"
@@ -18,7 +19,7 @@ struct CharacterPose {
     std::uint8_t type = 0;             ///< the message type it was taken from
     std::uint32_t sample = 0;
     std::uint32_t timeCode = 0;
-    std::int64_t stampNs = 0;
+    log::Stamp stamp{};
     std::uint64_t packet = 0;
 };
 

@@ -40,9 +40,9 @@ std::vector<unsigned> missingOf(const std::vector<bool>& present) {
     return missing;
 }
 
-std::int64_t median(std::vector<std::int64_t> values) {
+log::Duration median(std::vector<log::Duration> values) {
     if (values.empty()) {
-        return 0;
+        return {};
     }
     const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
     std::nth_element(values.begin(), middle, values.end());
@@ -71,25 +71,25 @@ bool isDifferentBody(const NullPose& a, const NullPose& b) {
     });
 }
 
-void NullPoseAssembler::begin(std::uint64_t packet, std::int64_t stampNs) {
+void NullPoseAssembler::begin(std::uint64_t packet, log::Stamp stamp) {
     const std::uint64_t message = m_arriving.message + 1;
     m_parts.clear();
     m_present.clear();
     m_arriving = {};
     m_arriving.message = message;
     m_arriving.firstPacket = packet;
-    m_arriving.firstStampNs = stampNs;
+    m_arriving.firstStamp = stamp;
 }
 
 void NullPoseAssembler::add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
-                            std::int64_t stampNs) {
+                            log::Stamp stamp) {
     const std::size_t index = datagramCounter & 0x7fU;
-    if (index < m_parts.size() && m_present[index] && stampNs - m_arriving.stampNs < kDuplicateNs &&
+    if (index < m_parts.size() && m_present[index] && stamp - m_arriving.stamp < kDuplicate &&
         m_parts[index] == part) {
         return;
     }
     if (m_arriving.message == 0 || isBeginning(index, part, m_present) || m_arriving.isComplete()) {
-        begin(packet, stampNs);
+        begin(packet, stamp);
     }
     if (index >= m_parts.size() && index < kMaxParts) {
         m_parts.resize(index + 1);
@@ -102,7 +102,7 @@ void NullPoseAssembler::add(const wire::NullPose& part, std::uint8_t datagramCou
     }
     m_arriving.partsReceived = static_cast<unsigned>(std::count(m_present.begin(), m_present.end(), true));
     m_arriving.missingParts = missingOf(m_present);
-    m_arriving.stampNs = stampNs;
+    m_arriving.stamp = stamp;
     m_arriving.packet = packet;
     settle();
 }
@@ -138,11 +138,11 @@ const NullPose* NullPoseAssembler::newest() const {
 }
 
 void NullPoseHistory::add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
-                          std::int64_t stampNs) {
-    m_assembler.add(part, datagramCounter, packet, stampNs);
+                          log::Stamp stamp) {
+    m_assembler.add(part, datagramCounter, packet, stamp);
     note();
     if (const NullPose* newest = m_assembler.newest()) {
-        keep(*newest, packet, stampNs);
+        keep(*newest, packet, stamp);
     }
 }
 
@@ -153,16 +153,16 @@ void NullPoseHistory::note() {
         if (m_messages.size() == kMost) {
             m_messages.pop_front();
         }
-        m_messages.push_back({arriving.firstPacket, arriving.firstStampNs, 0, 0, 0, {}});
+        m_messages.push_back({arriving.firstPacket, arriving.firstStamp, {}, 0, 0, {}});
     }
     NullPoseMessage& message = m_messages.back();
-    message.stampNs = arriving.stampNs;
+    message.stamp = arriving.stamp;
     message.partsReceived = arriving.partsReceived;
     message.partsExpected = arriving.partsExpected;
     message.missingParts = arriving.missingParts;
 }
 
-void NullPoseHistory::keep(const NullPose& pose, std::uint64_t packet, std::int64_t stampNs) {
+void NullPoseHistory::keep(const NullPose& pose, std::uint64_t packet, log::Stamp stamp) {
     if (!m_versions.empty() && isSameBody(m_versions.back().pose, pose)) {
         m_versions.back().pose = pose;
         return;
@@ -175,7 +175,7 @@ void NullPoseHistory::keep(const NullPose& pose, std::uint64_t packet, std::int6
     } else if (count == kMost) {
         m_versions.pop_front();
     }
-    m_versions.push_back({packet, stampNs, pose});
+    m_versions.push_back({packet, stamp, pose});
 }
 
 const NullPoseHistory::Version* NullPoseHistory::versionAt(std::uint64_t packet) const {
@@ -197,18 +197,18 @@ NullPoseRecord NullPoseHistory::record(std::uint64_t packet) const {
     NullPoseRecord record;
     if (const Version* version = versionAt(packet)) {
         record.pose = &version->pose;
-        record.changedNs = version->firstStampNs;
+        record.changed = version->firstStamp;
         auto other = std::ranges::find(m_versions, version, [](const Version& each) { return &each; });
         while (record.before == nullptr && other != m_versions.begin()) {
             --other;
             if (isDifferentBody(other->pose, version->pose)) {
                 record.before = &other->pose;
             } else {
-                record.changedNs = other->firstStampNs;
+                record.changed = other->firstStamp;
             }
         }
     }
-    std::vector<std::int64_t> spaces;
+    std::vector<log::Duration> spaces;
     record.messages = m_messageCount;
     for (const NullPoseMessage& message : m_messages) {
         if (message.firstPacket > packet) {
@@ -216,12 +216,12 @@ NullPoseRecord NullPoseHistory::record(std::uint64_t packet) const {
             continue;
         }
         if (record.newest != nullptr) {
-            spaces.push_back(message.firstStampNs - record.newest->firstStampNs);
+            spaces.push_back(message.firstStamp - record.newest->firstStamp);
             record.incompleteMessages += record.newest->isComplete() ? 0 : 1;
         }
         record.newest = &message;
     }
-    record.repetitionNs = median(std::move(spaces));
+    record.repetition = median(std::move(spaces));
     return record;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/wire/messages.h"
 
 #include <Eigen/Core>
@@ -32,9 +33,9 @@ struct NullPose {
     unsigned partsExpected = 0;         ///< 0 as long as the last part has not arrived
     std::vector<unsigned> missingParts; ///< places from 0, below the last one that is known of
     std::uint64_t message = 0;          ///< counts the messages of its sender, from 1
-    std::int64_t firstStampNs = 0;      ///< of the part that came first
+    log::Stamp firstStamp{};      ///< of the part that came first
     std::uint64_t firstPacket = 0;      ///< number of the part that came first
-    std::int64_t stampNs = 0;           ///< of the newest part
+    log::Stamp stamp{};           ///< of the newest part
     std::uint64_t packet = 0;           ///< number of the newest part
 
     [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
@@ -49,11 +50,11 @@ struct NullPose {
 class NullPoseAssembler {
 public:
     /// A part that is repeated within this time is the network's doing and no new message.
-    static constexpr std::int64_t kDuplicateNs = 100'000'000;
+    static constexpr log::Duration kDuplicate = std::chrono::milliseconds(100);
 
     /// Takes a part with its place from the header's datagram counter.
     void add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
-             std::int64_t stampNs);
+             log::Stamp stamp);
 
     /// The newest message that has segments: complete, or, before there is a complete one, what has arrived
     /// of the first.
@@ -63,7 +64,7 @@ public:
     [[nodiscard]] const NullPose& arriving() const { return m_arriving; }
 
 private:
-    void begin(std::uint64_t packet, std::int64_t stampNs);
+    void begin(std::uint64_t packet, log::Stamp stamp);
     void settle();
     [[nodiscard]] bool hasMoved() const;
 
@@ -76,8 +77,8 @@ private:
 /// One scale message as it came, whether it said anything new or not.
 struct NullPoseMessage {
     std::uint64_t firstPacket = 0;
-    std::int64_t firstStampNs = 0;
-    std::int64_t stampNs = 0; ///< of its newest part
+    log::Stamp firstStamp{};
+    log::Stamp stamp{}; ///< of its newest part
     unsigned partsReceived = 0;
     unsigned partsExpected = 0;
     std::vector<unsigned> missingParts; ///< places from 0
@@ -88,11 +89,11 @@ struct NullPoseMessage {
 struct NullPoseRecord {
     const NullPose* pose = nullptr;          ///< null where there was none by then
     const NullPose* before = nullptr;        ///< the newest that said something else, null where none did
-    std::int64_t changedNs = 0;              ///< when `pose` was said first
+    log::Stamp changed{};              ///< when `pose` was said first
     const NullPoseMessage* newest = nullptr; ///< the newest message, maybe still arriving
     std::uint64_t messages = 0;              ///< begun so far
     std::size_t incompleteMessages = 0;      ///< of the newest 64, without the newest
-    std::int64_t repetitionNs = 0;           ///< median time between messages, 0 where unknown
+    log::Duration repetition{};           ///< median time between messages, 0 where unknown
 };
 
 /// The scale messages of one character over time, as far as they differ. Bounded: the oldest go first.
@@ -101,7 +102,7 @@ public:
     static constexpr std::size_t kMost = 64;
 
     void add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
-             std::int64_t stampNs);
+             log::Stamp stamp);
 
     /// As of a packet number; null where there was none by then. What is older than the history counts as its
     /// oldest.
@@ -115,11 +116,11 @@ public:
 private:
     struct Version {
         std::uint64_t firstPacket;
-        std::int64_t firstStampNs;
+        log::Stamp firstStamp;
         NullPose pose;
     };
     void note();
-    void keep(const NullPose& pose, std::uint64_t packet, std::int64_t stampNs);
+    void keep(const NullPose& pose, std::uint64_t packet, log::Stamp stamp);
     [[nodiscard]] const Version* versionAt(std::uint64_t packet) const;
 
     NullPoseAssembler m_assembler;

@@ -13,8 +13,8 @@ namespace {
 
 using contradictions::Findings;
 
-double secondsSince(std::int64_t stampNs, std::int64_t nowNs) {
-    return static_cast<double>(nowNs - stampNs) * 1e-9;
+double secondsSince(log::Stamp stamp, log::Stamp now) {
+    return log::secondsOf(now - stamp);
 }
 
 /// "Parts 2 and 3 of 6", "The last part".
@@ -100,7 +100,7 @@ void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
     const NullPoseMessage* newest = evidence.record.newest;
     const NullPose* pose = evidence.record.pose;
     if (newest != nullptr && !newest->isComplete() &&
-        secondsSince(newest->stampNs, evidence.nowNs) >= kPartOverdue) {
+        secondsSince(newest->stamp, evidence.now) >= kPartOverdue) {
         const bool hasWhole = pose != nullptr && pose->isComplete();
         findings.push_back(
             {NullPoseFault::MissingPart, hasWhole ? Severity::Warning : Severity::Error, -1,
@@ -109,8 +109,8 @@ void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
              std::string(hasWhole ? "What an earlier message said is shown. "
                                   : "Segments or points are missing below. ") +
                  "Parts get lost on the way, mostly where the network drops datagrams" +
-                 (evidence.record.repetitionNs > 0
-                      ? "; the next message is due every " + seconds(evidence.record.repetitionNs) + "."
+                 (evidence.record.repetition > log::Duration::zero()
+                      ? "; the next message is due every " + seconds(evidence.record.repetition) + "."
                       : ".")});
     }
     if (evidence.record.incompleteMessages > 0) {

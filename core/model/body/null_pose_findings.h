@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/body/null_pose.h"
 #include "core/model/body/segments.h"
 #include "core/wire/messages.h"
@@ -53,7 +54,7 @@ struct NullPoseEvidence {
     const wire::ScaleInformation* scale = nullptr; ///< newest type 10, null where none was sent
     std::optional<SegmentLayout> layout;           ///< of the newest pose
     double poseSeconds = 0;                        ///< for how long poses have come
-    std::int64_t nowNs = 0;                        ///< stamp at the cursor
+    log::Stamp now{};                        ///< stamp at the cursor
 };
 
 /// Every contradiction, gravest first.

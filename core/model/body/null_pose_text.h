@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -46,8 +48,8 @@ inline std::string fixedText(double value, int decimals) {
     return value < 0 && rounded != 0 ? "−" + digits : digits;
 }
 
-inline std::string seconds(std::int64_t ns) {
-    return fixedText(static_cast<double>(ns) * 1e-9, 1) + " s";
+inline std::string seconds(log::Duration duration) {
+    return fixedText(log::secondsOf(duration), 1) + " s";
 }
 
 /// "1.684 m".

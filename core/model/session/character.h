@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/keys.h"
 #include "core/model/session/metadata.h"
 
@@ -15,7 +16,7 @@ struct Character {
     CharacterKey key;
     std::size_t ordinal = 0; ///< place in the order of first appearance, for default colours
     Metadata metadata;
-    std::int64_t lastStampNs = 0;
+    log::Stamp lastStamp{};
     std::uint64_t firstPacket = 0;
     std::uint64_t lastPacket = 0;
     std::optional<CharacterKey> before; ///< see SessionView::predecessor

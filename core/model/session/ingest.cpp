@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
 constexpr std::size_t kMostCharacters = 1024;
 /// Packets that are not older than this when they are followed are live: silence after them is silence.
-constexpr std::int64_t kLiveNs = 10 * log::kSecondNs;
+constexpr log::Duration kLive = std::chrono::seconds(10);
 
 std::string_view hostOf(const log::SenderInfo& info) {
     return std::string_view(info.address).substr(0, info.address.rfind(':'));
@@ -38,8 +38,8 @@ std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
 
 Ingest::Ingest(const log::PacketLog& log) : m_log(log), m_reader(log) {}
 
-bool Ingest::follow(std::int64_t nowNs, std::size_t most) {
-    m_nowNs = nowNs;
+bool Ingest::follow(log::Stamp now, std::size_t most) {
+    m_now = now;
     m_reader.refresh();
     m_begin = m_reader.begin();
     const std::uint64_t from = std::max(m_end, m_begin);
@@ -52,10 +52,10 @@ bool Ingest::follow(std::int64_t nowNs, std::size_t most) {
     m_end = std::max(m_end, to);
     if (to > from) {
         const auto newest = m_reader.packet(to - 1);
-        m_isLive = newest && nowNs - newest->stampNs < kLiveNs && newest->stampNs - nowNs < kLiveNs;
+        m_isLive = newest && now - newest->stamp < kLive && newest->stamp - now < kLive;
     }
     if (m_isLive && to == m_reader.end()) {
-        m_follower.advance(nowNs);
+        m_follower.advance(now);
     }
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
@@ -64,17 +64,17 @@ bool Ingest::follow(std::int64_t nowNs, std::size_t most) {
 
 void Ingest::followFile() {
     // However new its packets are, they are no reason to take it for live.
-    const std::int64_t nowNs = m_nowNs;
-    while (follow(0, 200'000)) {
+    const log::Stamp now = m_now;
+    while (follow({}, 200'000)) {
     }
-    m_nowNs = nowNs;
+    m_now = now;
     m_isLive = false;
     m_follower.endFile();
 }
 
 void Ingest::take(const log::Packet& packet) {
     if (m_digests.end() == 0) {
-        m_firstStampNs = packet.stampNs;
+        m_firstStamp = packet.stamp;
     }
     Observation seen{packet};
     observe(seen);
@@ -103,7 +103,7 @@ void Ingest::observe(Observation& seen) {
         into.packet = UINT64_MAX;
         if (wire::decodeInto(packet.bytes, into.datagram)) {
             into.packet = packet.number;
-            into.stampNs = packet.stampNs;
+            into.stamp = packet.stamp;
             into.sender = packet.sender;
             seen.datagram = &into.datagram;
         }
@@ -113,7 +113,7 @@ void Ingest::observe(Observation& seen) {
 
 void Ingest::countPacket(const Observation& seen) {
     Sender& sender = *seen.sender;
-    sender.lastStampNs = seen.packet.stampNs;
+    sender.lastStamp = seen.packet.stamp;
     sender.kernelDrops += seen.packet.kernelDropsBefore;
     sender.bytes += seen.packet.bytes.size();
     sender.datagrams += seen.digest.kind == PacketKind::Skipped ? 0 : 1;
@@ -132,12 +132,12 @@ void Ingest::countFaulty(const Observation& seen) {
     case PacketKind::Datagram:
         break;
     case PacketKind::Malformed:
-        sender.takeMalformed(seen.packet.stampNs);
+        sender.takeMalformed(seen.packet.stamp);
         if (seen.header) {
             m_attribution.takeMalformed(seen.packet, *seen.header);
         }
         if (seen.stream) {
-            m_streams[*seen.stream].accounting.addMalformed(seen.packet.stampNs);
+            m_streams[*seen.stream].accounting.addMalformed(seen.packet.stamp);
         }
         break;
     case PacketKind::Foreign:
@@ -166,9 +166,9 @@ bool Ingest::takeHeader(Observation& seen) {
         return false;
     }
     m_index.add(packet, header);
-    m_streams[*seen.stream].statistics.add(packet.stampNs, packet.bytes.size(), header.datagramIndex() == 0);
+    m_streams[*seen.stream].statistics.add(packet.stamp, packet.bytes.size(), header.datagramIndex() == 0);
     m_follower.takeDatagram(packet, header);
-    seen.character->lastStampNs = packet.stampNs;
+    seen.character->lastStamp = packet.stamp;
     seen.character->lastPacket = packet.number;
     return true;
 }
@@ -176,7 +176,7 @@ bool Ingest::takeHeader(Observation& seen) {
 void Ingest::account(Observation& seen) {
     const log::Packet& packet = seen.packet;
     if (countsSamples(seen.digest.type)) {
-        m_attribution.takeSampled(packet.sender, packet.stampNs);
+        m_attribution.takeSampled(packet.sender, packet.stamp);
     }
     Stream& stream = m_streams[*seen.stream];
     for (const Verdict& verdict : addToStream(packet, *seen.header, stream.accounting, seen.digest)) {
@@ -192,7 +192,7 @@ void Ingest::takeContent(const Observation& seen) {
     const log::Packet& packet = seen.packet;
     if (const auto* message = std::get_if<wire::MetaData>(&seen.datagram->body)) {
         Metadata& metadata = seen.character->metadata;
-        metadata.add(*message, packet.number, packet.stampNs);
+        metadata.add(*message, packet.number, packet.stamp);
         if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
             m_follower.takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
         }
@@ -206,10 +206,10 @@ void Ingest::takeContent(const Observation& seen) {
 void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     const log::Packet& packet = seen.packet;
     NullPoseHistory& history = m_nullPoses[seen.character->key];
-    const std::int64_t changedNs = history.record(packet.number).changedNs;
-    history.add(part, seen.header->datagramCounter, packet.number, packet.stampNs);
+    const log::Stamp changed = history.record(packet.number).changed;
+    history.add(part, seen.header->datagramCounter, packet.number, packet.stamp);
     const NullPoseRecord record = history.record(packet.number);
-    if (record.before != nullptr && record.changedNs != changedNs) {
+    if (record.before != nullptr && record.changed != changed) {
         m_follower.takeChange(EventKind::ScaleChange, seen.character->key, packet, {});
     }
 }

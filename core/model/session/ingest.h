@@ -3,6 +3,7 @@
 
 #include "core/log/packet_log.h"
 #include "core/log/stream_index.h"
+#include "core/log/time.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/event_follower.h"
 #include "core/model/accounting/packet_digest.h"
@@ -31,7 +32,7 @@ public:
     explicit Ingest(const log::PacketLog& log);
 
     /// Reads at most `most` new packets; true if there were any.
-    bool follow(std::int64_t nowNs, std::size_t most);
+    bool follow(log::Stamp now, std::size_t most);
     /// Reads all new packets as those of a file that has ended: nobody in it is expected to send on.
     void followFile();
 
@@ -57,10 +58,10 @@ public:
     /// Packets as of the last follow().
     [[nodiscard]] log::LogReader& reader() { return m_reader; }
 
-    [[nodiscard]] std::int64_t nowNs() const { return m_nowNs; }
+    [[nodiscard]] log::Stamp now() const { return m_now; }
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_end; }
-    [[nodiscard]] std::int64_t firstStampNs() const { return m_firstStampNs; }
+    [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp; }
 
 private:
     /// A packet on its way through the stages.
@@ -97,8 +98,8 @@ private:
     log::StreamIndex m_index;
     std::uint64_t m_begin = 0;
     std::uint64_t m_end = 0;
-    std::int64_t m_nowNs = 0;
-    std::int64_t m_firstStampNs = 0;
+    log::Stamp m_now{};
+    log::Stamp m_firstStamp{};
     PacketDigests m_digests;
     std::deque<Sender> m_senders;
     std::deque<Character> m_characters;

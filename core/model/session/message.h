@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
 #include "core/wire/codec.h"
 
 #include <cstdint>
@@ -11,7 +12,7 @@ namespace posewire::model {
 /// A complete message, decoded. Items of a sample that came in several datagrams are joined.
 struct Message {
     wire::Datagram datagram;
-    std::int64_t stampNs = 0;
+    log::Stamp stamp{};
     std::uint64_t packet =
         UINT64_MAX; ///< its number in the log, of the last datagram where there are several
     log::SenderId sender{};

@@ -17,7 +17,7 @@ const MetadataTag::Value* MetadataTag::at(std::uint64_t packet) const {
     return after == values.begin() ? nullptr : &*std::prev(after);
 }
 
-void Metadata::add(const wire::MetaData& message, std::uint64_t packet, std::int64_t stampNs) {
+void Metadata::add(const wire::MetaData& message, std::uint64_t packet, log::Stamp stamp) {
     for (const wire::Tag& tag : wire::parseTags(message.text).tags) {
         auto found = std::find_if(m_tags.begin(), m_tags.end(),
                                   [&](const auto& known) { return known.name == tag.name; });
@@ -25,15 +25,15 @@ void Metadata::add(const wire::MetaData& message, std::uint64_t packet, std::int
             if (m_tags.size() == kMaxTags) {
                 continue;
             }
-            m_tags.push_back({std::string(tag.name), wire::isKnownTag(tag.name), stampNs, {}});
+            m_tags.push_back({std::string(tag.name), wire::isKnownTag(tag.name), stamp, {}});
             found = std::prev(m_tags.end());
         }
-        found->lastSeenNs = stampNs;
+        found->lastSeen = stamp;
         if (found->values.empty() || found->values.back().text != tag.value) {
             if (found->values.size() == kMaxValues) {
                 found->values.erase(found->values.begin());
             }
-            found->values.push_back({std::string(tag.value), packet, stampNs});
+            found->values.push_back({std::string(tag.value), packet, stamp});
         }
     }
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,11 +21,11 @@ struct MetadataTag {
     struct Value {
         std::string text;
         std::uint64_t packet = 0; ///< the packet that brought it first
-        std::int64_t stampNs = 0;
+        log::Stamp stamp{};
     };
     std::string name;
     bool isKnown = false;        ///< specified, or known from real senders
-    std::int64_t lastSeenNs = 0; ///< when it was last sent, changed or not
+    log::Stamp lastSeen{}; ///< when it was last sent, changed or not
     std::vector<Value> values;   ///< each change, oldest first; never empty
 
     /// The value as of a packet number; null where the tag had not been sent by then.
@@ -38,7 +40,7 @@ public:
     static constexpr std::size_t kMaxTags = 64;
     static constexpr std::size_t kMaxValues = 256;
 
-    void add(const wire::MetaData& message, std::uint64_t packet, std::int64_t stampNs);
+    void add(const wire::MetaData& message, std::uint64_t packet, log::Stamp stamp);
 
     /// In the order in which they were first seen.
     [[nodiscard]] std::span<const MetadataTag> tags() const { return m_tags; }

@@ -12,7 +12,7 @@ namespace posewire::model {
 
 NullPoseEvidence nullPoseEvidence(const SessionView& session, const CharacterKey& key) {
     NullPoseEvidence evidence;
-    evidence.nowNs = session.cursorStampNs();
+    evidence.now = session.cursorStamp();
     const std::uint64_t newest = session.end() == 0 ? 0 : session.end() - 1;
     const std::uint64_t visible =
         session.cursor().mode == Cursor::Mode::Paused ? std::min(session.cursor().packet, newest) : newest;
@@ -29,7 +29,7 @@ NullPoseEvidence nullPoseEvidence(const SessionView& session, const CharacterKey
     if (const CharacterPose* pose = session.pose(key)) {
         evidence.layout = pose->layout;
         if (const Stream* stream = session.find(log::StreamKey{key.sender, key.character, pose->type})) {
-            evidence.poseSeconds = log::secondsOf(pose->stampNs - stream->accounting.firstStampNs());
+            evidence.poseSeconds = log::secondsOf(pose->stamp - stream->accounting.firstStamp());
         }
     }
     return evidence;

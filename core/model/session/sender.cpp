@@ -8,11 +8,11 @@
 
 namespace posewire::model {
 
-void Sender::takeMalformed(std::int64_t stampNs) {
+void Sender::takeMalformed(log::Stamp stamp) {
     CountHistory::Change change;
     change.malformed = 1;
     ++malformed;
-    history.add(stampNs, change);
+    history.add(stamp, change);
 }
 
 void Sender::takeForeign(wire::Bytes datagram) {

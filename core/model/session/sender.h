@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/session/detection.h"
 
@@ -23,13 +24,13 @@ struct Sender {
     std::uint64_t foreignBytes = 0;
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDrops = 0;
-    std::int64_t lastStampNs = 0;
+    log::Stamp lastStamp{};
     CountHistory history;               ///< of malformed datagrams alone, also those without a header
     std::vector<std::byte> foreignHead; ///< what the newest foreign datagram begins with, at most 16 bytes
     Detector detector;
     SenderOverride overrides{};
 
-    void takeMalformed(std::int64_t stampNs);
+    void takeMalformed(log::Stamp stamp);
     void takeForeign(wire::Bytes datagram);
     /// "7b 22 61": foreignHead in hexadecimal.
     [[nodiscard]] std::string foreignText() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/session/ingest.h"
 #include "core/model/session/session_view.h"
 
@@ -12,9 +13,9 @@ class Session final : public SessionView {
 public:
     explicit Session(const log::PacketLog& log) : SessionView(m_ingest, m_choices), m_ingest(log) {}
 
-    /// Reads at most `most` new packets; true if there were any. `nowNs` (wall clock) is what ages are
+    /// Reads at most `most` new packets; true if there were any. `now` (wall clock) is what ages are
     /// measured against.
-    bool follow(std::int64_t nowNs, std::size_t most = 200'000) { return m_ingest.follow(nowNs, most); }
+    bool follow(log::Stamp now, std::size_t most = 200'000) { return m_ingest.follow(now, most); }
     /// Reads all new packets as those of a file that has ended: nobody in it is expected to send on.
     void followFile() { m_ingest.followFile(); }
 

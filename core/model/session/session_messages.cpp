@@ -13,7 +13,7 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kPoseTieNs = 250 * log::kMillisecondNs;
+constexpr log::Duration kPoseTie = std::chrono::milliseconds(250);
 constexpr std::array<std::uint8_t, 3> kPoseTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType,
                                                  wire::PoseUnity::kType};
 
@@ -64,7 +64,7 @@ bool SessionView::readWhole(const log::StreamEntry& entry, Message& message) con
     if (!packet || !wire::decodeInto(packet->bytes, message.datagram)) {
         return false;
     }
-    message.stampNs = packet->stampNs;
+    message.stamp = packet->stamp;
     message.packet = entry.packet;
     message.sender = packet->sender;
     return true;
@@ -100,7 +100,7 @@ bool SessionView::readMessage(const log::StreamEntries& entries, std::size_t cou
             }
         }
         message.packet = last.packet;
-        message.stampNs = last.stampNs;
+        message.stamp = last.stamp;
         return true;
     }
     return false;
@@ -129,14 +129,14 @@ const Message* SessionView::message(const CharacterKey& key, std::uint8_t type) 
     return decoded.isValid ? &decoded.message : nullptr;
 }
 
-std::size_t SessionView::visit(const log::StreamKey& key, std::int64_t fromStampNs, std::size_t most,
+std::size_t SessionView::visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
                                const std::function<void(const Message&)>& visitor) const {
     const log::StreamEntries* stream = m_ingest.index().find(key);
     const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
     if (count == 0) {
         return 0;
     }
-    const auto before = stream->atOrBeforeStamp(fromStampNs - 1);
+    const auto before = stream->atOrBeforeStamp(fromStamp - log::Duration(1));
     const std::size_t first = std::max(before ? *before + 1 : 0, count > most ? count - most : 0);
     std::size_t visited = 0;
     for (std::size_t i = first; i < count; ++i) {
@@ -153,7 +153,7 @@ const CharacterPose* SessionView::pose(const CharacterKey& key) const {
     const Message* best = nullptr;
     for (const std::uint8_t type : kPoseTypes) {
         const Message* candidate = message(key, type);
-        if (candidate != nullptr && (best == nullptr || candidate->stampNs > best->stampNs + kPoseTieNs)) {
+        if (candidate != nullptr && (best == nullptr || candidate->stamp > best->stamp + kPoseTie)) {
             best = candidate;
         }
     }
@@ -167,7 +167,7 @@ const CharacterPose* SessionView::pose(const CharacterKey& key) const {
     if (decoded.packet != best->packet || decoded.unit != unit) {
         decoded.isValid = poseFromMessage(best->datagram, bodyOrigins(key).places, unit, decoded.pose);
         decoded.packet = decoded.pose.packet = best->packet;
-        decoded.pose.stampNs = best->stampNs;
+        decoded.pose.stamp = best->stamp;
         decoded.unit = unit;
     }
     return decoded.isValid ? &decoded.pose : nullptr;

@@ -61,12 +61,12 @@ std::uint64_t SessionView::begin() const {
     return m_ingest.begin();
 }
 
-std::int64_t SessionView::nowNs() const {
-    return m_ingest.nowNs();
+log::Stamp SessionView::now() const {
+    return m_ingest.now();
 }
 
-std::int64_t SessionView::firstStampNs() const {
-    return m_ingest.firstStampNs();
+log::Stamp SessionView::firstStamp() const {
+    return m_ingest.firstStamp();
 }
 
 const log::PacketLog& SessionView::log() const {
@@ -102,7 +102,7 @@ auto ofSender(log::SenderId id) {
 
 auto within(const TimeRange& range) {
     return [range](const StreamAccounting& accounting) {
-        return accounting.countsBetween(range.fromNs, range.toNs);
+        return accounting.countsBetween(range.from, range.to);
     };
 }
 
@@ -130,13 +130,13 @@ StreamCounts SessionView::countsBetween(const TimeRange& range) const {
     return sumOf([](const log::StreamKey&) { return true; }, within(range));
 }
 
-std::uint64_t SessionView::packetFrom(std::int64_t stampNs) const {
+std::uint64_t SessionView::packetFrom(log::Stamp stamp) const {
     std::uint64_t first = begin();
     std::uint64_t last = end();
     while (first < last) {
         const std::uint64_t middle = first + (last - first) / 2;
         const auto packet = this->packet(middle);
-        if (packet && packet->stampNs >= stampNs) {
+        if (packet && packet->stamp >= stamp) {
             last = middle;
         } else {
             first = middle + 1;
@@ -145,45 +145,45 @@ std::uint64_t SessionView::packetFrom(std::int64_t stampNs) const {
     return first;
 }
 
-std::uint64_t SessionView::packetAt(std::int64_t stampNs) const {
-    const std::uint64_t after = packetFrom(stampNs + 1);
+std::uint64_t SessionView::packetAt(log::Stamp stamp) const {
+    const std::uint64_t after = packetFrom(stamp + log::Duration(1));
     return after == begin() ? after : after - 1;
 }
 
 std::optional<TimeRange> SessionView::range() const {
-    if (rangeChoice().fixed || rangeChoice().lastNs <= 0) {
+    if (rangeChoice().fixed || rangeChoice().last <= log::Duration::zero()) {
         return rangeChoice().fixed;
     }
     // What arrives at this very moment belongs to it.
-    const std::int64_t end = cursorStampNs() + 1;
-    return TimeRange{end - rangeChoice().lastNs, end};
+    const log::Stamp end = cursorStamp() + log::Duration(1);
+    return TimeRange{end - rangeChoice().last, end};
 }
 
-std::int64_t SessionView::cursorStampNs() const {
+log::Stamp SessionView::cursorStamp() const {
     if (!isPaused()) {
-        return nowNs();
+        return now();
     }
     const auto packet = this->packet(cursor().packet);
-    return packet ? packet->stampNs : nowNs();
+    return packet ? packet->stamp : now();
 }
 
 std::uint64_t SessionView::visibleEnd() const {
     return isPaused() ? std::min(end(), cursor().packet + 1) : end();
 }
 
-std::optional<std::int64_t> SessionView::pausedStampNs() const {
-    return isPaused() ? std::optional(cursorStampNs()) : std::nullopt;
+std::optional<log::Stamp> SessionView::pausedStamp() const {
+    return isPaused() ? std::optional(cursorStamp()) : std::nullopt;
 }
 
 std::vector<const Event*> SessionView::troublesOf(const CharacterKey& key) const {
-    return m_ingest.follower().troublesOf(key, pausedStampNs());
+    return m_ingest.follower().troublesOf(key, pausedStamp());
 }
 
 Condition SessionView::conditionOf(const CharacterKey& key) const {
     if (isSuperseded(key)) {
         return {};
     }
-    const Condition condition = m_ingest.follower().conditionOf(key, pausedStampNs());
+    const Condition condition = m_ingest.follower().conditionOf(key, pausedStamp());
     if (condition.level != Condition::Level::Good) {
         return condition;
     }
@@ -265,17 +265,17 @@ double SessionView::ageSeconds(const CharacterKey& key) const {
     if (character == nullptr) {
         return 0;
     }
-    std::int64_t newest = character->lastStampNs;
+    log::Stamp newest = character->lastStamp;
     if (isPaused()) {
-        newest = 0;
+        newest = {};
         for (const Stream& stream : streams()) {
             const bool isOwn = stream.key.sender == key.sender && stream.key.character == key.character;
             const log::StreamEntries* list = isOwn ? m_ingest.index().find(stream.key) : nullptr;
             const std::size_t count = list != nullptr ? visibleCount(*list) : 0;
-            newest = count != 0 ? std::max(newest, (*list)[count - 1].stampNs) : newest;
+            newest = count != 0 ? std::max(newest, (*list)[count - 1].stamp) : newest;
         }
     }
-    return std::max(0.0, log::secondsOf(cursorStampNs() - newest));
+    return std::max(0.0, log::secondsOf(cursorStamp() - newest));
 }
 
 } // namespace posewire::model

@@ -3,6 +3,7 @@
 
 #include "core/log/packet_log.h"
 #include "core/log/stream_key.h"
+#include "core/log/time.h"
 #include "core/model/accounting/condition.h"
 #include "core/model/accounting/events.h"
 #include "core/model/accounting/packet_digest.h"
@@ -68,18 +69,18 @@ public:
     /// Packets followed so far: one past the newest packet number.
     [[nodiscard]] std::uint64_t end() const;
     [[nodiscard]] std::uint64_t begin() const;
-    [[nodiscard]] std::int64_t nowNs() const;
+    [[nodiscard]] log::Stamp now() const;
     /// Of the first packet that was followed, also where the log has dropped it; 0 before there is one.
-    [[nodiscard]] std::int64_t firstStampNs() const;
+    [[nodiscard]] log::Stamp firstStamp() const;
     [[nodiscard]] log::LogFigures figures() const { return log().figures(); }
     /// For readers on other threads.
     [[nodiscard]] const log::PacketLog& log() const;
     /// Nothing where the log has dropped it. The bytes are valid until the session follows the log again.
     [[nodiscard]] std::optional<log::Packet> packet(std::uint64_t number) const;
     /// The first packet from a stamp on; end() where there is none. Stamps are taken to grow.
-    [[nodiscard]] std::uint64_t packetFrom(std::int64_t stampNs) const;
+    [[nodiscard]] std::uint64_t packetFrom(log::Stamp stamp) const;
     /// The newest packet that had been received by then; the oldest there is where all came later.
-    [[nodiscard]] std::uint64_t packetAt(std::int64_t stampNs) const;
+    [[nodiscard]] std::uint64_t packetAt(log::Stamp stamp) const;
 
     // What the operator chose.
     [[nodiscard]] const Cursor& cursor() const { return m_choices.cursor; }
@@ -114,7 +115,7 @@ public:
     /// "Factory", or "Character 1" with its ID where no name was sent, or there is no such character.
     [[nodiscard]] std::string displayName(const CharacterKey& key) const;
     [[nodiscard]] Colour colour(const CharacterKey& key) const;
-    /// Seconds since the newest datagram of the character, against cursorStampNs().
+    /// Seconds since the newest datagram of the character, against cursorStamp().
     [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
     /// What type 12 messages said about a character, or about its predecessor where it has sent none itself.
     /// The character must be one of this session.
@@ -127,7 +128,7 @@ public:
     /// Reads the messages of a stream from a stamp up to the cursor, oldest first, at most the newest `most`
     /// of them. Datagrams that cannot be decoded or are one of several of a sample are left out. Returns how
     /// many were visited.
-    std::size_t visit(const log::StreamKey& key, std::int64_t fromStampNs, std::size_t most,
+    std::size_t visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
                       const std::function<void(const Message&)>& visitor) const;
     /// The newest pose, of type 02, 01 or 05: the first of these that is not more than 0.25 s older than the
     /// newest of them, so that a figure does not jump between types that are sent together.
@@ -139,8 +140,8 @@ public:
     /// Of the null pose, or of the reference body where none was received. Valid as message() is.
     [[nodiscard]] const BodyOrigins& bodyOrigins(const CharacterKey& key) const;
 
-    /// What "now" means at the cursor: nowNs() when following, the packet's stamp when paused.
-    [[nodiscard]] std::int64_t cursorStampNs() const;
+    /// What "now" means at the cursor: now() when following, the packet's stamp when paused.
+    [[nodiscard]] log::Stamp cursorStamp() const;
 
 protected:
     /// Both outlive this; neither is looked at here.
@@ -155,7 +156,7 @@ private:
     /// One past the newest packet that the cursor lets through.
     [[nodiscard]] std::uint64_t visibleEnd() const;
     /// The cursor's time where it is paused.
-    [[nodiscard]] std::optional<std::int64_t> pausedStampNs() const;
+    [[nodiscard]] std::optional<log::Stamp> pausedStamp() const;
     template <class Selected, class Counts>
     [[nodiscard]] StreamCounts sumOf(Selected isSelected, Counts counts) const;
     [[nodiscard]] std::string_view metadataValue(const CharacterKey& key, std::string_view tag) const;

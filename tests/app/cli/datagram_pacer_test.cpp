@@ -8,6 +8,8 @@
 namespace posewire::cli {
 namespace {
 
+using namespace std::chrono_literals;
+
 std::vector<std::byte> datagram(std::uint8_t type, std::uint32_t sample, std::uint32_t timeCode) {
     wire::Datagram datagram;
     datagram.header.setType(type);
@@ -16,37 +18,35 @@ std::vector<std::byte> datagram(std::uint8_t type, std::uint32_t sample, std::ui
     return *wire::encode(datagram);
 }
 
-constexpr std::int64_t kMillisecond = 1'000'000;
-
 TEST(DatagramPacer, FollowsTheTimeCodesOfTheSender) {
     DatagramPacer pacer(0.1, 1.0);
-    EXPECT_EQ(pacer.due(datagram(2, 100, 5000), {}), 0);
-    EXPECT_EQ(pacer.due(datagram(21, 100, 5000), {}), 0);
-    EXPECT_EQ(pacer.due(datagram(12, 0, 0), {}), 0);
-    EXPECT_EQ(pacer.due(datagram(2, 104, 5017), {}), 17 * kMillisecond);
+    EXPECT_EQ(pacer.due(datagram(2, 100, 5000), {}), 0ms);
+    EXPECT_EQ(pacer.due(datagram(21, 100, 5000), {}), 0ms);
+    EXPECT_EQ(pacer.due(datagram(12, 0, 0), {}), 0ms);
+    EXPECT_EQ(pacer.due(datagram(2, 104, 5017), {}), 17ms);
 }
 
 TEST(DatagramPacer, TakesAPeriodWhereTimeCodesStandStillOrJump) {
     DatagramPacer pacer(0.1, 1.0);
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 0);
-    EXPECT_EQ(pacer.due(datagram(2, 2, 5000), {}), 100 * kMillisecond);
-    EXPECT_EQ(pacer.due(datagram(2, 3, 0), {}), 200 * kMillisecond);
-    EXPECT_EQ(pacer.due(datagram(2, 4, 900000), {}), 300 * kMillisecond);
+    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 0ms);
+    EXPECT_EQ(pacer.due(datagram(2, 2, 5000), {}), 100ms);
+    EXPECT_EQ(pacer.due(datagram(2, 3, 0), {}), 200ms);
+    EXPECT_EQ(pacer.due(datagram(2, 4, 900000), {}), 300ms);
 }
 
 TEST(DatagramPacer, FollowsStampsWhereThereAreAny) {
     DatagramPacer pacer(0.1, 1.0);
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), 1'000'000'000), 0);
-    EXPECT_EQ(pacer.due(datagram(12, 0, 0), 1'003'000'000), 3 * kMillisecond);
-    EXPECT_EQ(pacer.due(datagram(2, 2, 5000), 1'002'000'000), 3 * kMillisecond);
+    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), log::Stamp(1000ms)), 0ms);
+    EXPECT_EQ(pacer.due(datagram(12, 0, 0), log::Stamp(1003ms)), 3ms);
+    EXPECT_EQ(pacer.due(datagram(2, 2, 5000), log::Stamp(1002ms)), 3ms);
 }
 
 TEST(DatagramPacer, PlaysFasterAndAgain) {
     DatagramPacer pacer(0.1, 2.0);
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 0);
-    EXPECT_EQ(pacer.due(datagram(2, 2, 5010), {}), 5 * kMillisecond);
+    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 0ms);
+    EXPECT_EQ(pacer.due(datagram(2, 2, 5010), {}), 5ms);
     pacer.beginAgain();
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 55 * kMillisecond);
+    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 55ms);
 }
 
 } // namespace

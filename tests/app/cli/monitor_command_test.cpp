@@ -75,7 +75,7 @@ TEST(MonitorCommand, TellsMalformedAndForeignDatagramsApart) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
         file.addPose(sample);
     }
-    const std::int64_t later = RecordingFile::kStartNs + 1'000'000'000;
+    const log::Stamp later = RecordingFile::kStart + std::chrono::seconds(1);
     file.add(bytesOfText("MXTP02 but nothing more"), later);
     file.add(bytesOfText("/osc/address"), later);
     file.add(bytesOfText("/osc/address"), later, {"10.0.0.9:1", log::Transport::Udp, 9763});
@@ -97,7 +97,7 @@ TEST(MonitorCommand, TellsMalformedAndForeignDatagramsApart) {
 TEST(MonitorCommand, SortsCharactersAndStreams) {
     RecordingFile file;
     file.addPose(0, 3);
-    file.add(RecordingFile::metadata("Ana"), RecordingFile::kStartNs);
+    file.add(RecordingFile::metadata("Ana"), RecordingFile::kStart);
     file.addPose(1, 0);
     const Json characters = reportOf(file.finish())["sources"][0]["characters"];
     ASSERT_EQ(characters.size(), 2U);
@@ -138,7 +138,7 @@ TEST(MonitorCommand, ShowsATableInPlainLinesWhereThereIsNoTerminal) {
 
 TEST(MonitorCommand, LetsNoNameControlTheTerminal) {
     RecordingFile file;
-    file.add(RecordingFile::metadata("\x1b[31mred\x07"), RecordingFile::kStartNs);
+    file.add(RecordingFile::metadata("\x1b[31mred\x07"), RecordingFile::kStart);
     const ProgramRun run = runProgram({"monitor", file.finish()});
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
     EXPECT_THAT(run.out, HasSubstr("?[31mred?"));

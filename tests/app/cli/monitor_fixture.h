@@ -3,6 +3,7 @@
 
 #include "core/log/byte_sink.h"
 #include "core/log/pcapng_writer.h"
+#include "core/log/time.h"
 #include "core/wire/codec.h"
 #include "tests/app/cli/program_run.h"
 
@@ -17,14 +18,14 @@ public:
         static_cast<void>(m_writer.begin({}));
     }
 
-    void add(const std::vector<std::byte>& bytes, std::int64_t stampNs,
+    void add(const std::vector<std::byte>& bytes, log::Stamp stamp,
              const log::SenderInfo& sender = {"10.0.0.2:40001", log::Transport::Udp, 9763},
              std::uint32_t drops = 0, log::PacketFlags flags = {.stampedByKernel = true}) {
-        static_cast<void>(m_writer.add({0, stampNs, {}, drops, flags, bytes}, sender));
+        static_cast<void>(m_writer.add({0, stamp, {}, drops, flags, bytes}, sender));
     }
     /// A pose of one segment, 240 a second from stamp 1,700,000,000 s on.
     void addPose(std::uint32_t sample, std::uint8_t character = 0) {
-        add(pose(sample, character), kStartNs + std::int64_t{sample} * 1'000'000'000 / 240);
+        add(pose(sample, character), kStart + sample * log::Duration(std::chrono::seconds(1)) / 240);
     }
     /// Ends the file; its path.
     std::string finish() {
@@ -53,7 +54,7 @@ public:
         return wire::encode(datagram).value();
     }
 
-    static constexpr std::int64_t kStartNs = 1'700'000'000'000'000'000;
+    static constexpr log::Stamp kStart{std::chrono::seconds(1'700'000'000)};
 
 private:
     std::string m_path;

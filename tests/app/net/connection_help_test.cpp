@@ -12,11 +12,10 @@
 namespace posewire::net {
 namespace {
 
+using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Kind = Finding::Kind;
-
-constexpr std::int64_t kSecond = 1'000'000'000;
 
 std::vector<std::byte> bytesOf(std::string_view text) {
     const auto bytes = std::as_bytes(std::span(text));
@@ -45,14 +44,14 @@ protected:
     ConnectionHelpTest() {
         facts.inputs = {input(InputKind::Udp), input(InputKind::TcpListener)};
         facts.addresses = {{"192.168.1.20", "eth0", true, false, false}};
-        facts.nowNs = 100 * kSecond;
-        facts.silenceNs = 5 * kSecond;
+        facts.now = log::Stamp(100s);
+        facts.silence = 5s;
     }
     ConnectionFacts facts;
 };
 
 TEST_F(ConnectionHelpTest, SaysNothingWhereAllIsWell) {
-    facts.silenceNs = kSecond / 10;
+    facts.silence = 100ms;
     facts.mxtpDatagrams = 100;
     facts.firewall = Firewall{"ufw", "sudo ufw allow PORT/udp"};
     EXPECT_TRUE(connectionHelp(facts).empty());
@@ -67,7 +66,7 @@ TEST_F(ConnectionHelpTest, NothingArrivesTellsWhatToTypeIntoMvn) {
 }
 
 TEST_F(ConnectionHelpTest, WaitsBeforeItComplains) {
-    facts.silenceNs = kSecond;
+    facts.silence = 1s;
     EXPECT_TRUE(connectionHelp(facts).empty());
 }
 
@@ -91,7 +90,7 @@ TEST_F(ConnectionHelpTest, AFirewallIsNamedOnlyWhileNothingHasCome) {
 }
 
 TEST_F(ConnectionHelpTest, ForeignDatagramsAreShownAndGuessedAt) {
-    facts.silenceNs = 0;
+    facts.silence = 0s;
     facts.foreign = {{"10.0.0.9:4000", 17, bytesOf(std::string_view("/body/hip\0\0\0,fff", 16))}};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotMxtp));
     const Finding finding = connectionHelp(facts)[0];
@@ -105,7 +104,7 @@ TEST_F(ConnectionHelpTest, ForeignDatagramsAreShownAndGuessedAt) {
 }
 
 TEST_F(ConnectionHelpTest, ForeignSendersOfOneHostAreOneFinding) {
-    facts.silenceNs = 0;
+    facts.silence = 0s;
     const auto osc = bytesOf(std::string_view("/body/hip\0\0\0,fff", 16));
     facts.foreign = {{"10.0.0.9:4000", 17, osc},
                      {"10.0.0.9:4001", 3, osc},
@@ -134,11 +133,11 @@ TEST_F(ConnectionHelpTest, APortInUseKeepsItsWordsAndItsAdvice) {
 
 TEST_F(ConnectionHelpTest, TcpPeersThatSayNothingOrNonsenseAreTold) {
     facts.mxtpDatagrams = 1;
-    facts.silenceNs = 0;
-    facts.inputs[1].peers = {{"10.0.0.7:50000", 90 * kSecond, 0, 0, 0},
-                             {"10.0.0.8:50000", 90 * kSecond, 0, 500, 500},
-                             {"10.0.0.9:50000", 90 * kSecond, 5, 500, 0},
-                             {"10.0.0.10:50000", 99 * kSecond, 0, 0, 0}};
+    facts.silence = 0s;
+    facts.inputs[1].peers = {{"10.0.0.7:50000", log::Stamp(90s), 0, 0, 0},
+                             {"10.0.0.8:50000", log::Stamp(90s), 0, 500, 500},
+                             {"10.0.0.9:50000", log::Stamp(90s), 5, 500, 0},
+                             {"10.0.0.10:50000", log::Stamp(99s), 0, 0, 0}};
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::SilentPeer, Kind::GarbledPeer));
     EXPECT_THAT(connectionHelp(facts)[0].text, HasSubstr("10.0.0.7:50000 is connected by TCP and has sent "
                                                          "nothing for 10 s"));

@@ -18,8 +18,9 @@ TEST(PacketQueue, HandsPacketsOverInOrderWithAllThatIsKnownOfThem) {
     log::PacketLog log;
     EXPECT_TRUE(queue.isEmpty());
     for (std::size_t i = 0; i < 100; ++i) {
-        EXPECT_TRUE(queue.push(numbered(i, i), kSender,
-                               {.stampNs = static_cast<std::int64_t>(i), .flags = {.skipped = i == 3}}));
+        EXPECT_TRUE(
+            queue.push(numbered(i, i), kSender,
+                       {.stamp = log::stampOf(static_cast<std::int64_t>(i)), .flags = {.skipped = i == 3}}));
     }
     EXPECT_FALSE(queue.isEmpty());
     EXPECT_EQ(queue.moveTo(log), 100U);
@@ -31,7 +32,7 @@ TEST(PacketQueue, HandsPacketsOverInOrderWithAllThatIsKnownOfThem) {
     for (std::size_t i = 0; i < 100; ++i) {
         const auto packet = reader.packet(i);
         EXPECT_TRUE(equal(packet->bytes, numbered(i, i)));
-        EXPECT_EQ(packet->stampNs, static_cast<std::int64_t>(i));
+        EXPECT_EQ(packet->stamp, log::stampOf(static_cast<std::int64_t>(i)));
         EXPECT_EQ(packet->flags.skipped, i == 3);
         EXPECT_EQ(*log.senders().find(packet->sender), kSender);
     }
@@ -55,12 +56,12 @@ TEST(PacketQueue, LossesReachTheLogAfterWhatWasQueuedBefore) {
     PacketQueue queue({}, 4000);
     log::PacketLog log;
     std::size_t taken = 0;
-    while (queue.push(numbered(760, taken), kSender, {.stampNs = 5})) {
+    while (queue.push(numbered(760, taken), kSender, {.stamp = log::stampOf(5)})) {
         ++taken;
     }
     const log::SenderInfo other{"10.0.0.6:50000", log::Transport::Tcp, 9763};
-    EXPECT_FALSE(queue.push(numbered(760, 0), kSender, {.stampNs = 6}));
-    EXPECT_FALSE(queue.push(numbered(760, 0), other, {.stampNs = 7}));
+    EXPECT_FALSE(queue.push(numbered(760, 0), kSender, {.stamp = log::stampOf(6)}));
+    EXPECT_FALSE(queue.push(numbered(760, 0), other, {.stamp = log::stampOf(7)}));
     queue.moveTo(log);
 
     log::LogReader reader(log);
@@ -70,7 +71,7 @@ TEST(PacketQueue, LossesReachTheLogAfterWhatWasQueuedBefore) {
     EXPECT_TRUE(first->flags.skipped);
     EXPECT_TRUE(first->bytes.empty());
     EXPECT_EQ(first->kernelDropsBefore, 2U);
-    EXPECT_EQ(first->stampNs, 6);
+    EXPECT_EQ(first->stamp, log::stampOf(6));
     EXPECT_EQ(*log.senders().find(first->sender), kSender);
     EXPECT_EQ(reader.packet(taken + 1)->kernelDropsBefore, 1U);
     EXPECT_EQ(*log.senders().find(reader.packet(taken + 1)->sender), other);

@@ -64,19 +64,19 @@ TEST_P(ReceiverTest, OversizedDatagramsArriveWhole) {
 TEST_P(ReceiverTest, StampsAreOfNowAndDoNotGoBack) {
     Receiving receiving(options());
     auto sender = DatagramSender::connect({receiving.target()});
-    const std::int64_t before = receiving.clock.wallNs();
+    const log::Stamp before = receiving.clock.wall();
     for (std::size_t i = 0; i < 50; ++i) {
         ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
     }
     ASSERT_TRUE(eventually([&] { return receiving.packets() == 50; }));
-    const std::int64_t after = receiving.clock.wallNs();
+    const log::Stamp after = receiving.clock.wall();
     log::LogReader reader(receiving.log);
-    std::int64_t last = before - 1'000'000; // the kernel's clock and ours are read apart
+    log::Stamp last = before - std::chrono::milliseconds(1); // the kernel's clock and ours are read apart
     for (std::size_t i = 0; i < 50; ++i) {
         const auto packet = reader.packet(i);
-        EXPECT_GE(packet->stampNs, last);
-        EXPECT_LE(packet->stampNs, after);
-        last = packet->stampNs;
+        EXPECT_GE(packet->stamp, last);
+        EXPECT_LE(packet->stamp, after);
+        last = packet->stamp;
 #ifdef __linux__
         EXPECT_EQ(packet->flags.stampedByKernel, GetParam() == ReceivePath::Native);
 #endif
@@ -145,7 +145,7 @@ TEST_P(ReceiverTest, PacketsOfOtherThreadsJoinTheLog) {
     for (std::size_t t = 0; t < 4; ++t) {
         threads.emplace_back([&, t] {
             for (std::size_t i = 0; i < 500; ++i) {
-                receiving.receiver->submit(numbered(100 + t, i), sender, {.stampNs = 7});
+                receiving.receiver->submit(numbered(100 + t, i), sender, {.stamp = log::stampOf(7)});
             }
         });
     }
@@ -239,7 +239,7 @@ TEST_P(ReceiverTest, LossesOfTheQueueAreInTheLog) {
     for (int i = 0; i < 4; ++i) {
         threads.emplace_back([&] {
             while (receiving.totals().queueDropped == 0 && submitted < 1'000'000) {
-                receiving.receiver->submit(packet, sender, {.stampNs = 7});
+                receiving.receiver->submit(packet, sender, {.stamp = log::stampOf(7)});
                 ++submitted;
             }
         });

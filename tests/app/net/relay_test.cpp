@@ -15,9 +15,9 @@ using ::testing::HasSubstr;
 
 class RelayTest : public ::testing::Test {
 protected:
-    void append(std::size_t size, std::size_t number, const log::SenderInfo& sender, std::int64_t ageNs = 0) {
+    void append(std::size_t size, std::size_t number, const log::SenderInfo& sender, log::Duration age = {}) {
         log::Arrival arrival;
-        arrival.stampNs = clock.wallNs() - ageNs;
+        arrival.stamp = clock.wall() - age;
         arrival.sender = log.senders().intern(sender);
         log.writer().append(numbered(size, number), arrival);
         log.writer().publish();
@@ -70,9 +70,9 @@ TEST_F(RelayTest, WhatIsNoLiveDatagramStaysHere) {
     Relay relay(log, clock);
     ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
     append(100, 1, {"take.bin", log::Transport::File, 0});
-    append(100, 2, {"10.0.0.5:50000", log::Transport::Udp, 1}, 3'600'000'000'000); // from a capture
+    append(100, 2, {"10.0.0.5:50000", log::Transport::Udp, 1}, std::chrono::hours(1)); // from a capture
     log::Arrival record;
-    record.stampNs = clock.wallNs();
+    record.stamp = clock.wall();
     record.sender = log.senders().intern(performer);
     record.kernelDropsBefore = 3;
     record.flags.skipped = true;
@@ -143,7 +143,7 @@ TEST_F(RelayTest, FallenBehindItLeavesOutAndCounts) {
     constexpr std::uint64_t kCount = 3 * Relay::kMostBehind;
     const auto bytes = numbered(24, 1);
     for (std::uint64_t i = 0; i < kCount; ++i) {
-        arrival.stampNs = clock.wallNs();
+        arrival.stamp = clock.wall();
         log.writer().append(bytes, arrival);
     }
     log.writer().publish(); // all at once

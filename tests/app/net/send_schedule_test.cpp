@@ -6,36 +6,38 @@
 namespace posewire::net {
 namespace {
 
-constexpr std::int64_t kFrameNs = 1'000'000'000 / 240;
+using namespace std::chrono_literals;
+
+constexpr log::Duration kFrame = log::Duration(1s) / 240;
 
 TEST(SendSchedule, LateSleepsDoNotAddUp) {
-    log::ManualClock clock(0, 5'000);
-    SendSchedule schedule(clock, [&](std::int64_t nanoseconds) { clock.advance(nanoseconds + 60'000); });
+    log::ManualClock clock(log::Stamp(), log::Moment(5us));
+    SendSchedule schedule(clock, [&](log::Duration duration) { clock.advance(duration + 60us); });
     for (std::int64_t frame = 0; frame < 240'000; ++frame) {
-        const std::int64_t lateNs = schedule.waitUntil(frame * kFrameNs);
-        ASSERT_GE(lateNs, 0);
-        ASSERT_LE(lateNs, 60'000) << "frame " << frame;
+        const log::Duration late = schedule.waitUntil(frame * kFrame);
+        ASSERT_GE(late, 0s);
+        ASSERT_LE(late, 60us) << "frame " << frame;
     }
-    EXPECT_LE(schedule.elapsedNs() - 239'999 * kFrameNs, 60'000);
+    EXPECT_LE(schedule.elapsed() - 239'999 * kFrame, 60us);
 }
 
 TEST(SendSchedule, SleepsAgainAfterWakingEarly) {
     log::ManualClock clock;
     int sleeps = 0;
-    SendSchedule schedule(clock, [&](std::int64_t nanoseconds) {
+    SendSchedule schedule(clock, [&](log::Duration duration) {
         ++sleeps;
-        clock.advance((nanoseconds + 1) / 2);
+        clock.advance((duration + 1ns) / 2);
     });
-    EXPECT_EQ(schedule.waitUntil(1000), 0);
+    EXPECT_EQ(schedule.waitUntil(1us), 0s);
     EXPECT_GT(sleeps, 1);
 }
 
 TEST(SendSchedule, DoesNotSleepWhenLate) {
     log::ManualClock clock;
     int sleeps = 0;
-    SendSchedule schedule(clock, [&](std::int64_t) { ++sleeps; });
-    clock.advance(700);
-    EXPECT_EQ(schedule.waitUntil(500), 200);
+    SendSchedule schedule(clock, [&](log::Duration) { ++sleeps; });
+    clock.advance(700ns);
+    EXPECT_EQ(schedule.waitUntil(500ns), 200ns);
     EXPECT_EQ(sleeps, 0);
 }
 

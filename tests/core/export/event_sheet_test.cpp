@@ -21,8 +21,8 @@ protected:
         gap.sender = log.senders().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
         gap.character = 1;
         gap.type = 2;
-        gap.firstStampNs = 1'700'000'000'000'000'001;
-        gap.lastStampNs = 1'700'000'003'500'000'000;
+        gap.firstStamp = log::stampOf(1'700'000'000'000'000'001);
+        gap.lastStamp = log::stampOf(1'700'000'003'500'000'000);
         gap.firstPacket = 10;
         gap.lastPacket = 12;
         gap.count = 2;

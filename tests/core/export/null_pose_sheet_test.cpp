@@ -47,7 +47,7 @@ model::NullPose oddPose() {
     pose.points.push_back({1, 13, "pSacrum", 0x80000005U, model::toVector({-0.078F, 0, 0.027F})});
     pose.partsReceived = 2;
     pose.partsExpected = 3;
-    pose.stampNs = 1'700'000'000'123'456'789;
+    pose.stamp = log::stampOf(1'700'000'000'123'456'789);
     pose.packet = 42;
     return pose;
 }
@@ -74,7 +74,7 @@ TEST(NullPoseSheet, JsonReadsBackToTheSameFloats) {
     const model::NullPose pose = oddPose();
     const auto object = nlohmann::json::parse(nullPoseJson({"Mira", &pose, nullptr, nullptr}));
     EXPECT_EQ(object["character"], "Mira");
-    EXPECT_EQ(object["stampNs"], pose.stampNs);
+    EXPECT_EQ(object["stampNs"], log::nanosecondsOf(pose.stamp));
     EXPECT_EQ(object["partsExpected"], 3);
     for (std::size_t i = 0; i < pose.segments.size(); ++i) {
         const auto floats = model::toFloats(pose.segments[i].position);

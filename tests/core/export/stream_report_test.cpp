@@ -14,8 +14,14 @@
 namespace posewire::exporting {
 namespace {
 
+using namespace std::chrono_literals;
 using testing::HasSubstr;
 using testing::Not;
+
+/// From the first sample to this one, of 240 a second.
+log::Duration after(std::uint32_t samples) {
+    return samples * log::Duration(1s) / 240;
+}
 
 /// What is wrong with the nesting of elements; empty where all is well.
 std::string faultOf(std::string_view html) {
@@ -50,7 +56,7 @@ protected:
     void stream(std::uint32_t count, std::uint32_t every = 0) {
         for (std::uint32_t sample = 0; sample < count; ++sample) {
             if (every == 0 || sample % every != every / 2) {
-                send(standingAt(0), sample, kStart + sample * kSecond / 240);
+                send(standingAt(0), sample, kStart + after(sample));
             }
         }
         follow();
@@ -63,12 +69,12 @@ protected:
     [[nodiscard]] std::string report(const StreamReportOptions& options = {}) const {
         return streamReport(m_session, options);
     }
-    static constexpr std::int64_t kStart = 1'700'000'000 * kSecond;
+    static constexpr log::Stamp kStart{1'700'000'000s};
 };
 
 TEST_F(StreamReportTest, TakesStampsOf1970ForStamps) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
-        send(standingAt(0), sample, sample * kSecond / 240);
+        send(standingAt(0), sample, log::Stamp(after(sample)));
     }
     follow();
     EXPECT_THAT(report(), HasSubstr("1970-01-01 00:00:00.000 UTC"));
@@ -95,9 +101,9 @@ TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {
     for (std::uint32_t sample = 0; sample < 480; ++sample) {
         if (sample == 100) {
             m_log.writer().append(
-                {}, {kStart + sample * kSecond / 240, sender(), 1, {.skipped = true, .isDropRecord = true}});
+                {}, {kStart + after(sample), sender(), 1, {.skipped = true, .isDropRecord = true}});
         } else if (sample != 200) {
-            send(standingAt(0), sample, kStart + sample * kSecond / 240);
+            send(standingAt(0), sample, kStart + after(sample));
         }
     }
     follow();
@@ -122,10 +128,10 @@ TEST_F(StreamReportTest, SaysThatNothingCame) {
 
 TEST_F(StreamReportTest, IsAboutTheRangeThatWasAskedFor) {
     stream(960);
-    const std::string html = report({.range = model::TimeRange{kStart + kSecond, kStart + 3 * kSecond}});
+    const std::string html = report({.range = model::TimeRange{kStart + 1s, kStart + 3s}});
     EXPECT_THAT(html, HasSubstr("Good: 480 samples"));
     EXPECT_THAT(html, HasSubstr("2023-11-14 22:13:21.000 UTC"));
-    EXPECT_THAT(report({.range = model::TimeRange{kStart + 100 * kSecond, model::kAllTime.toNs}}),
+    EXPECT_THAT(report({.range = model::TimeRange{kStart + 100s, model::kAllTime.to}}),
                 HasSubstr("nothing was received"));
 }
 

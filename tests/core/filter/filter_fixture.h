@@ -10,12 +10,14 @@
 
 namespace posewire::filter::test {
 
+using namespace std::chrono_literals;
+
 /// A packet with everything that a filter may look at.
 struct Case {
     explicit Case(std::vector<std::byte> from) : bytes(std::move(from)) {
         packet.bytes = bytes;
         packet.number = 41;
-        packet.stampNs = 1'800'000'000'500'000'000;
+        packet.stamp = log::Stamp(1'800'000'000s + 500ms);
         auto decoded = wire::decode(bytes);
         if (decoded) {
             datagram = std::move(*decoded);
@@ -27,8 +29,7 @@ struct Case {
     explicit Case(const wire::Datagram& from) : Case(*wire::encode(from)) {}
 
     [[nodiscard]] Candidate candidate() const {
-        return {packet, digest, fault ? nullptr : &datagram, &sender, packet.stampNs - 2'500'000'000,
-                nullptr};
+        return {packet, digest, fault ? nullptr : &datagram, &sender, packet.stamp - 2'500ms, nullptr};
     }
 
     std::vector<std::byte> bytes;

@@ -133,7 +133,7 @@ TEST(Mutations, AreReadAlikeByAllReadersAndNeverFatal) {
         log::Packet packet;
         packet.number = i;
         packet.bytes = bytes;
-        packet.stampNs = static_cast<std::int64_t>(mutator.pick(1'000'000'000));
+        packet.stamp = log::Stamp(log::Duration(mutator.pick(1'000'000'000)));
         packet.sender = static_cast<log::SenderId>(mutator.pick(5000));
         const model::PacketDigest digest = digester.add(packet, decoded ? &datagram : nullptr);
         ASSERT_EQ(digest.kind == model::PacketKind::Datagram, decoded.has_value());

@@ -12,10 +12,12 @@
 namespace posewire::log {
 namespace {
 
+using namespace std::chrono_literals;
+
 struct Seen {
     std::uint64_t offset;
     ByteVector bytes;
-    std::optional<std::int64_t> stampNs;
+    std::optional<Stamp> stamp;
     std::string address;
 };
 
@@ -44,7 +46,7 @@ std::vector<Seen> seenIn(std::span<const std::byte> file, bool isSound = true) {
         EXPECT_FALSE(record.isSkipped);
         all.push_back({record.offset,
                        {record.bytes.begin(), record.bytes.end()},
-                       record.stampNs,
+                       record.stamp,
                        record.sender ? record.sender->address : ""});
     });
     EXPECT_EQ(result.has_value(), isSound);
@@ -63,9 +65,9 @@ TEST(CaptureFile, ReadsPcapInBothByteOrdersAndResolutions) {
                 pcap({{1700000000, 123456, frame}, {1700000001, 5, frame}}, magic, 1, bigEndian);
             const auto seen = seenIn(file);
             ASSERT_EQ(seen.size(), 2U);
-            const std::int64_t unit = magic == kMicroseconds ? 1000 : 1;
-            EXPECT_EQ(seen[0].stampNs, 1700000000'000000000 + 123456 * unit);
-            EXPECT_EQ(seen[1].stampNs, 1700000001'000000000 + 5 * unit);
+            const Duration unit = magic == kMicroseconds ? 1us : 1ns;
+            EXPECT_EQ(seen[0].stamp, Stamp(1'700'000'000s + 123'456 * unit));
+            EXPECT_EQ(seen[1].stamp, Stamp(1'700'000'001s + 5 * unit));
             EXPECT_EQ(seen[0].offset, 24U + 16 + 14 + 20 + 8);
             EXPECT_EQ(seen[1].offset, 24U + 16 + frame.size() + 16 + 14 + 20 + 8);
             EXPECT_EQ(seen[0].bytes, pose);
@@ -88,9 +90,9 @@ TEST(CaptureFile, ReadsPcapngInBothByteOrdersWithItsInterfaces) {
                     enhancedPacket(0, 1700000000'123, ipv4(udp(pose)), !bigEndian)});
         const auto seen = seenIn(file);
         ASSERT_EQ(seen.size(), 3U);
-        EXPECT_EQ(seen[0].stampNs, 1700000000'123456789);
-        EXPECT_EQ(seen[1].stampNs, 1700000000'123456000);
-        EXPECT_EQ(seen[2].stampNs, 1700000000'123000000);
+        EXPECT_EQ(seen[0].stamp, Stamp(1'700'000'000s + 123'456'789ns));
+        EXPECT_EQ(seen[1].stamp, Stamp(1'700'000'000s + 123'456us));
+        EXPECT_EQ(seen[2].stamp, Stamp(1'700'000'000s + 123ms));
         for (const Seen& one : seen) {
             EXPECT_EQ(one.bytes, pose);
             EXPECT_TRUE(
@@ -107,7 +109,7 @@ TEST(CaptureFile, ReadsSimplePacketsWithoutAStamp) {
     const auto seen = seenIn(joined({sectionHeader(false), interfaceBlock(101, 6, false), simple}));
     ASSERT_EQ(seen.size(), 1U);
     EXPECT_EQ(seen[0].bytes, pose);
-    EXPECT_EQ(seen[0].stampNs, std::nullopt);
+    EXPECT_EQ(seen[0].stamp, std::nullopt);
 }
 
 TEST(CaptureFile, PassesOverWhatIsNotMxtp) {

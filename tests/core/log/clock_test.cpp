@@ -6,23 +6,25 @@
 namespace posewire::log {
 namespace {
 
+using namespace std::chrono_literals;
+
 TEST(Clock, SystemClockIsInThisCenturyAndDoesNotGoBack) {
     const SystemClock clock;
-    EXPECT_GT(clock.wallNs(), 1'700'000'000LL * 1'000'000'000LL);
-    const std::int64_t before = clock.monotonicNs();
-    EXPECT_GE(clock.monotonicNs(), before);
+    EXPECT_GT(clock.wall(), Stamp(1'700'000'000s));
+    const Moment before = clock.monotonic();
+    EXPECT_GE(clock.monotonic(), before);
 }
 
 TEST(Clock, ManualClockMovesOnlyWhenTold) {
-    ManualClock clock(100, 7);
-    EXPECT_EQ(clock.wallNs(), 100);
-    EXPECT_EQ(clock.monotonicNs(), 7);
-    clock.advance(5);
-    EXPECT_EQ(clock.wallNs(), 105);
-    EXPECT_EQ(clock.monotonicNs(), 12);
-    clock.setWallNs(-3);
-    EXPECT_EQ(clock.wallNs(), -3);
-    EXPECT_EQ(clock.monotonicNs(), 12);
+    ManualClock clock(Stamp(100ns), Moment(7ns));
+    EXPECT_EQ(clock.wall(), Stamp(100ns));
+    EXPECT_EQ(clock.monotonic(), Moment(7ns));
+    clock.advance(5ns);
+    EXPECT_EQ(clock.wall(), Stamp(105ns));
+    EXPECT_EQ(clock.monotonic(), Moment(12ns));
+    clock.setWall(Stamp(-3ns));
+    EXPECT_EQ(clock.wall(), Stamp(-3ns));
+    EXPECT_EQ(clock.monotonic(), Moment(12ns));
 }
 
 } // namespace

@@ -27,7 +27,7 @@ void receive(PacketLog& log, std::uint64_t first, std::span<const std::size_t> s
             writeInto(lanes[i], pattern(sizes[done + i], first + done + i));
         }
         for (std::size_t i = 0; i < batch; ++i) {
-            log.writer().commit(i, sizes[done + i], {.stampNs = static_cast<std::int64_t>(first + done + i)});
+            log.writer().commit(i, sizes[done + i], {.stamp = Stamp(Duration(first + done + i))});
         }
         log.writer().publish();
         done += batch;
@@ -40,7 +40,7 @@ void expectPatterns(PacketLog& log, std::span<const std::size_t> sizes) {
     for (std::uint64_t i = reader.begin(); i < reader.end(); ++i) {
         const auto packet = reader.packet(i);
         ASSERT_TRUE(packet);
-        ASSERT_EQ(packet->stampNs, static_cast<std::int64_t>(i));
+        ASSERT_EQ(packet->stamp, Stamp(Duration(i)));
         ASSERT_TRUE(equal(packet->bytes, pattern(sizes[i], i)))
             << "packet " << i << " of " << sizes[i] << " bytes";
     }
@@ -116,8 +116,7 @@ TEST(LogWriter, LanesAndAppendTakeTurns) {
     std::vector<std::size_t> sizes;
     for (std::size_t i = 0; i < 3000; ++i) {
         if (i % 3 == 0) {
-            log.writer().append(pattern(900, sizes.size()),
-                                {.stampNs = static_cast<std::int64_t>(sizes.size())});
+            log.writer().append(pattern(900, sizes.size()), {.stamp = Stamp(Duration(sizes.size()))});
             log.writer().publish();
             sizes.push_back(900);
         } else {

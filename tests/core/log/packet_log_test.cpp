@@ -8,8 +8,10 @@
 namespace posewire::log {
 namespace {
 
+using namespace std::chrono_literals;
+
 void appendPattern(PacketLog& log, std::uint64_t seed, std::size_t size) {
-    log.writer().append(pattern(size, seed), {.stampNs = static_cast<std::int64_t>(seed)});
+    log.writer().append(pattern(size, seed), {.stamp = Stamp(Duration(seed))});
 }
 
 TEST(PacketLog, IsEmptyAtFirst) {
@@ -26,7 +28,7 @@ TEST(PacketLog, GivesBackWhatWasAppended) {
     PacketLog log;
     const SenderId sender = log.senders().intern({"127.0.0.1:40001", Transport::Tcp, 9763});
     const auto bytes = pattern(760, 1);
-    log.writer().append(bytes, {.stampNs = 42,
+    log.writer().append(bytes, {.stamp = Stamp(42ns),
                                 .sender = sender,
                                 .kernelDropsBefore = 7,
                                 .flags = {.truncated = true, .stampedByKernel = true, .skipped = true}});
@@ -36,7 +38,7 @@ TEST(PacketLog, GivesBackWhatWasAppended) {
     const auto packet = reader.packet(0);
     ASSERT_TRUE(packet);
     EXPECT_EQ(packet->number, 0U);
-    EXPECT_EQ(packet->stampNs, 42);
+    EXPECT_EQ(packet->stamp, Stamp(42ns));
     EXPECT_EQ(packet->sender, sender);
     EXPECT_EQ(packet->kernelDropsBefore, 7U);
     EXPECT_EQ(packet->flags, (PacketFlags{true, true, true}));
@@ -72,7 +74,7 @@ TEST(PacketLog, KeepsEveryPacketAcrossChunks) {
         const auto packet = reader.packet(i);
         ASSERT_TRUE(packet);
         ASSERT_EQ(packet->number, i);
-        ASSERT_EQ(packet->stampNs, static_cast<std::int64_t>(i));
+        ASSERT_EQ(packet->stamp, Stamp(Duration(i)));
         ASSERT_TRUE(equal(packet->bytes, pattern(i % 1500, i))) << i;
     }
 }
@@ -148,14 +150,14 @@ TEST(PacketLog, ManyTinyPacketsFillAChunkLikeFewLargeOnes) {
     PacketLog log(kSmallLog);
     constexpr std::uint64_t kCount = 100'000;
     for (std::uint64_t i = 0; i < kCount; ++i) {
-        log.writer().append({}, {.stampNs = static_cast<std::int64_t>(i)});
+        log.writer().append({}, {.stamp = Stamp(Duration(i))});
     }
     log.writer().publish();
     LogReader reader(log);
     // 32 bytes each and nothing else: three quarters of the cap at the least, the newest chunk may be fresh.
     EXPECT_GE(reader.end() - reader.begin(), kSmallLog.memoryCap / 32 * 3 / 4);
     for (std::uint64_t i = reader.begin(); i < reader.end(); ++i) {
-        ASSERT_EQ(reader.packet(i)->stampNs, static_cast<std::int64_t>(i));
+        ASSERT_EQ(reader.packet(i)->stamp, Stamp(Duration(i)));
     }
 }
 

@@ -21,8 +21,7 @@ std::byte fillOf(std::uint64_t number) {
 }
 
 bool isIntact(const Packet& packet) {
-    if (packet.bytes.size() != sizeOf(packet.number) ||
-        packet.stampNs != static_cast<std::int64_t>(packet.number)) {
+    if (packet.bytes.size() != sizeOf(packet.number) || packet.stamp != Stamp(Duration(packet.number))) {
         return false;
     }
     for (const std::byte byte : packet.bytes) {
@@ -74,7 +73,7 @@ void write(PacketLog& log, std::uint64_t total) {
             std::memset(lanes[i].bytes.data(), std::to_integer<int>(fillOf(number + i)), sizeOf(number + i));
         }
         for (std::size_t i = 0; i < batch; ++i, ++number) {
-            writer.commit(i, sizeOf(number), {.stampNs = static_cast<std::int64_t>(number)});
+            writer.commit(i, sizeOf(number), {.stamp = Stamp(Duration(number))});
         }
         writer.publish();
     }

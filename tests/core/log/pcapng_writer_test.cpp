@@ -14,12 +14,14 @@
 namespace posewire::log {
 namespace {
 
+using namespace std::chrono_literals;
+
 ByteVector written(const std::vector<Recorded>& packets, bool isFinished = true) {
     MemorySink sink;
     PcapngWriter writer(sink);
     EXPECT_TRUE(writer.begin({"this machine", "some system", "Posewire test"}));
     for (const Recorded& one : packets) {
-        const Packet packet{0, one.stampNs, {}, one.kernelDropsBefore, one.flags, one.bytes};
+        const Packet packet{0, one.stamp, {}, one.kernelDropsBefore, one.flags, one.bytes};
         EXPECT_TRUE(writer.add(packet, one.sender, one.comments));
     }
     if (isFinished) {
@@ -40,7 +42,7 @@ Recorded with(PacketFlags flags, std::uint32_t drops = 0) {
     Recorded one{poseDatagram(7)};
     one.flags = flags;
     one.kernelDropsBefore = drops;
-    one.stampNs = 5;
+    one.stamp = Stamp(5ns);
     return one;
 }
 
@@ -128,7 +130,7 @@ TEST(PcapngWriter, GivesBackRandomPackets) {
         Recorded one{bytesOf(random() % 3000)};
         one.sender.localPort = static_cast<std::uint16_t>(random());
         one.sender.transport = static_cast<Transport>(random() % 4);
-        one.stampNs = static_cast<std::int64_t>((std::uint64_t{random()} << 32 | random()) >> 2);
+        one.stamp = Stamp(Duration((std::uint64_t{random()} << 32 | random()) >> 2));
         one.kernelDropsBefore = random() % 3 == 0 ? static_cast<std::uint32_t>(random()) : 0;
         one.flags = {random() % 2 == 0, random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
         packets.push_back(one);
@@ -161,7 +163,7 @@ TEST(PcapngWriter, StopsWhereTheDiskIsFull) {
     PcapngWriter writer(sink);
     ASSERT_TRUE(writer.begin({}));
     const ByteVector pose = poseDatagram(1);
-    const auto result = writer.add({0, 1, {}, 0, {}, pose}, {"10.0.0.1:1", Transport::Udp, 1});
+    const auto result = writer.add({0, Stamp(1ns), {}, 0, {}, pose}, {"10.0.0.1:1", Transport::Udp, 1});
     ASSERT_FALSE(result);
     EXPECT_THAT(result.error().text, testing::HasSubstr("full"));
 }

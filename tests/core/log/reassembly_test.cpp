@@ -10,11 +10,13 @@
 namespace posewire::log {
 namespace {
 
+using namespace std::chrono_literals;
+
 struct Seen {
     std::uint64_t offset;
     ByteVector bytes;
     bool isSkipped;
-    std::optional<std::int64_t> stampNs;
+    std::optional<Stamp> stamp;
     std::string address;
     Transport transport;
 };
@@ -23,11 +25,11 @@ struct Seen {
 class Capture {
 public:
     void add(const ByteVector& packet) {
-        m_reassembly.add({101, packet, m_offset, m_stampNs});
+        m_reassembly.add({101, packet, m_offset, m_stamp});
         m_offset += packet.size();
-        m_stampNs += 1'000'000;
+        m_stamp += 1ms;
     }
-    void pass(std::int64_t nanoseconds) { m_stampNs += nanoseconds; }
+    void pass(Duration time) { m_stamp += time; }
     std::vector<Seen>& finish() {
         m_reassembly.finish();
         return m_seen;
@@ -57,13 +59,13 @@ private:
         m_seen.push_back({record.offset,
                           {record.bytes.begin(), record.bytes.end()},
                           record.isSkipped,
-                          record.stampNs,
+                          record.stamp,
                           record.sender->address,
                           record.sender->transport});
     };
     Reassembly m_reassembly{m_visit};
     std::uint64_t m_offset = 0;
-    std::int64_t m_stampNs = 0;
+    Stamp m_stamp{};
 };
 
 ByteVector slice(const ByteVector& bytes, std::size_t from, std::size_t size) {
@@ -130,7 +132,7 @@ TEST(Reassembly, PutsFragmentsTogetherInAnyOrder) {
         }
         ASSERT_EQ(capture.seen().size(), 1U);
         EXPECT_EQ(capture.seen()[0].bytes, pose);
-        EXPECT_EQ(capture.seen()[0].stampNs, 3'000'000);
+        EXPECT_EQ(capture.seen()[0].stamp, Stamp(3ms));
         EXPECT_EQ(capture.seen()[0].address, "10.0.0.2:40001");
     } while (std::ranges::next_permutation(order).found);
 }
@@ -241,9 +243,9 @@ TEST(Reassembly, TellsWhereAndWhenADatagramOfAStreamWasCaptured) {
     capture.add(tcp(100 + static_cast<std::uint32_t>(size) + 30, slice(bytes, size + 30, size)));
     ASSERT_EQ(capture.seen().size(), 2U);
     EXPECT_EQ(capture.seen()[0].offset, 40U);
-    EXPECT_EQ(capture.seen()[0].stampNs, 0);
+    EXPECT_EQ(capture.seen()[0].stamp, Stamp());
     EXPECT_EQ(capture.seen()[1].offset, 40U + size);
-    EXPECT_EQ(capture.seen()[1].stampNs, 1'000'000);
+    EXPECT_EQ(capture.seen()[1].stamp, Stamp(1ms));
     EXPECT_EQ(capture.seen()[1].address, "10.0.0.2:40001");
     EXPECT_EQ(capture.seen()[1].transport, Transport::Tcp);
 }
@@ -275,7 +277,7 @@ TEST(Reassembly, PassesOverWhatTheCaptureMissed) {
     capture.add(tcp(0, slice(bytes, 0, 100)));
     capture.add(tcp(300, slice(bytes, 300, 100)));
     EXPECT_EQ(capture.seen().size(), 1U);
-    capture.pass(TcpStream::kLongestWaitNs);
+    capture.pass(TcpStream::kLongestWait);
     capture.add(tcp(400, slice(bytes, 400, 1000)));
     const auto poses = posesApart(6);
     EXPECT_EQ(capture.datagrams(), (std::vector{poses[0], slice(poses[1], 0, 12), poses[4], poses[5]}));
@@ -289,7 +291,7 @@ TEST(Reassembly, WaitsForAMissingSegmentWithBoundedMemory) {
     std::uint32_t sequence = 2000;
     while (capture.seen().size() < 2 && sequence < 2'000'000) {
         capture.add(tcp(sequence, pose));
-        capture.pass(-1'000'000);
+        capture.pass(-1ms);
         sequence += static_cast<std::uint32_t>(pose.size());
     }
     EXPECT_LT(sequence, 2000 + TcpStream::kMostWaiting);

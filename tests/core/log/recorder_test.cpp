@@ -9,16 +9,19 @@
 namespace posewire::log {
 namespace {
 
+using namespace std::chrono_literals;
+
 class RecorderTest : public testing::Test {
 protected:
     void append(std::uint32_t sample, std::uint32_t drops = 0) {
         const SenderId sender = m_log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
-        m_log.writer().append(poseDatagram(sample), {m_stampNs++, sender, drops, {.stampedByKernel = true}});
+        m_log.writer().append(poseDatagram(sample), {m_stamp, sender, drops, {.stampedByKernel = true}});
         m_log.writer().publish();
+        m_stamp += 1ns;
     }
     PacketLog m_log{kSmallLog};
     MemorySink m_sink;
-    std::int64_t m_stampNs = 1'000;
+    Stamp m_stamp{1us};
 };
 
 TEST_F(RecorderTest, WritesWhatTheLogGetsAndHandsItToTheSystemEachTime) {
@@ -32,7 +35,7 @@ TEST_F(RecorderTest, WritesWhatTheLogGetsAndHandsItToTheSystemEachTime) {
         const auto seen = recordedIn(m_sink.bytes);
         ASSERT_EQ(seen.size(), sample + 1);
         EXPECT_EQ(seen.back().bytes, poseDatagram(sample));
-        EXPECT_EQ(seen.back().stampNs, 1'000 + sample);
+        EXPECT_EQ(seen.back().stamp, Stamp(1us + Duration(sample)));
         EXPECT_EQ(seen.back().kernelDropsBefore, sample);
     }
     ASSERT_TRUE(recorder.finish());

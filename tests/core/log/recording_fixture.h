@@ -4,6 +4,7 @@
 #include "core/log/byte_sink.h"
 #include "core/log/capture_file.h"
 #include "core/log/pcapng_writer.h"
+#include "core/log/time.h"
 #include "tests/core/log/datagram_fixture.h"
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace posewire::log {
 struct Recorded {
     ByteVector bytes;
     SenderInfo sender{"10.0.0.2:40001", Transport::Udp, 9763};
-    std::int64_t stampNs = 1'700'000'000'123'456'789;
+    Stamp stamp = stampOf(1'700'000'000'123'456'789);
     std::uint32_t kernelDropsBefore = 0;
     PacketFlags flags{.stampedByKernel = true};
     std::vector<std::string> comments{};
@@ -26,10 +27,10 @@ struct Recorded {
 /// For the messages of tests.
 inline void PrintTo(const Recorded& one, std::ostream* out) {
     *out << one.bytes.size() << " bytes from " << one.sender.address << " ("
-         << static_cast<int>(one.sender.transport) << ") to " << one.sender.localPort << " at " << one.stampNs
-         << " after " << one.kernelDropsBefore << " drops, flags " << one.flags.truncated
-         << one.flags.stampedByKernel << one.flags.skipped << one.flags.isDropRecord << ", "
-         << one.comments.size() << " comments";
+         << static_cast<int>(one.sender.transport) << ") to " << one.sender.localPort << " at "
+         << nanosecondsOf(one.stamp) << " after " << one.kernelDropsBefore << " drops, flags "
+         << one.flags.truncated << one.flags.stampedByKernel << one.flags.skipped << one.flags.isDropRecord
+         << ", " << one.comments.size() << " comments";
 }
 
 /// In memory; full after `room` bytes.
@@ -77,10 +78,10 @@ inline std::vector<Recorded> recordedIn(std::span<const std::byte> file) {
     std::vector<Recorded> all;
     BytesSource source(file);
     const auto result = readFile(source, [&](const FileRecord& record) {
-        const Arrival arrival = arrivalOf(record, {}, -1);
+        const Arrival arrival = arrivalOf(record, {}, stampOf(-1));
         all.push_back({{record.bytes.begin(), record.bytes.end()},
                        record.sender.value_or(SenderInfo{"unknown", Transport::File, 0}),
-                       arrival.stampNs,
+                       arrival.stamp,
                        arrival.kernelDropsBefore,
                        arrival.flags,
                        {record.comments.begin(), record.comments.end()}});

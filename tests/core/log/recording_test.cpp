@@ -33,7 +33,7 @@ TEST(Recording, HoldsEveryPacketThatWasWrittenMeanwhile) {
     ASSERT_TRUE(recording) << recording.error().text;
     const SenderId sender = log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
     for (std::uint32_t sample = 0; sample < count; ++sample) {
-        log.writer().append(poseDatagram(sample, 1), {sample, sender, 0, {}});
+        log.writer().append(poseDatagram(sample, 1), {Stamp(Duration(sample)), sender, 0, {}});
         log.writer().publish();
     }
     ASSERT_TRUE((*recording)->stop());
@@ -44,7 +44,7 @@ TEST(Recording, HoldsEveryPacketThatWasWrittenMeanwhile) {
     ASSERT_EQ(seen.size(), count);
     for (std::uint32_t sample = 0; sample < count; ++sample) {
         ASSERT_EQ(seen[sample].bytes, poseDatagram(sample, 1));
-        ASSERT_EQ(seen[sample].stampNs, sample);
+        ASSERT_EQ(seen[sample].stamp, Stamp(Duration(sample)));
     }
 }
 

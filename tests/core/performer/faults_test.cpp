@@ -7,10 +7,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <optional>
 #include <set>
 
 namespace posewire::performer {
 namespace {
+
+using namespace std::chrono_literals;
 
 PerformerSettings oneStream(double rateHz = 240.0) {
     PerformerSettings settings;
@@ -47,8 +50,8 @@ TEST(Faults, LeaveEverythingAloneWithoutSettings) {
         for (const wire::Datagram& datagram : performer.frame(index)) {
             ASSERT_LT(place, sendings.size());
             EXPECT_EQ(sendings[place].bytes, *wire::encode(datagram));
-            EXPECT_EQ(sendings[place].dueNs,
-                      static_cast<std::int64_t>(static_cast<double>(index) * 1e9 / 240.0));
+            EXPECT_EQ(sendings[place].due,
+                      log::Duration(static_cast<std::int64_t>(static_cast<double>(index) * 1e9 / 240.0)));
             ++place;
         }
     }
@@ -65,7 +68,7 @@ TEST(Faults, GiveTheSameForTheSameSeed) {
     ASSERT_EQ(first.size(), second.size());
     for (std::size_t place = 0; place < first.size(); ++place) {
         ASSERT_EQ(first[place].bytes, second[place].bytes);
-        ASSERT_EQ(first[place].dueNs, second[place].dueNs);
+        ASSERT_EQ(first[place].due, second[place].due);
     }
     settings.seed = 2;
     EXPECT_NE(samplesOf(performWithFaults({}, settings, 1.0)), samplesOf(first));
@@ -76,7 +79,7 @@ TEST(Faults, LeaveInTheOrderOfTheirTimes) {
     settings.reorder = settings.duplicate = 0.2;
     settings.jitterMs = 60.0;
     const auto sendings = performWithFaults({}, settings, 2.0);
-    EXPECT_TRUE(std::ranges::is_sorted(sendings, {}, &Sending::dueNs));
+    EXPECT_TRUE(std::ranges::is_sorted(sendings, {}, &Sending::due));
 }
 
 TEST(Faults, DropTheShareThatWasAskedForInBurstsOfThatLength) {
@@ -148,15 +151,15 @@ TEST(Faults, NeverComeBehindByATimeThatIsLateOnlyPerhaps) {
         settings.reorder = 0.2;
         settings.jitterMs = 80.0;
         std::int64_t highest = 0;
-        std::vector<std::int64_t> overtaken(10'000, -1);
+        std::vector<std::optional<log::Duration>> overtaken(10'000);
         for (const Sending& sending : performWithFaults(oneStream(rateHz), settings, 15.0)) {
             const std::int64_t sample = headerOf(sending).sampleCounter;
             for (; highest < sample; ++highest) {
-                overtaken[static_cast<std::size_t>(highest)] = sending.dueNs;
+                overtaken[static_cast<std::size_t>(highest)] = sending.due;
             }
-            const std::int64_t since = overtaken[static_cast<std::size_t>(sample)];
-            if (sample < highest && since >= 0) {
-                const std::int64_t lateMs = (sending.dueNs - since) / 1'000'000;
+            const auto since = overtaken[static_cast<std::size_t>(sample)];
+            if (sample < highest && since) {
+                const std::int64_t lateMs = (sending.due - *since) / 1ms;
                 EXPECT_TRUE(lateMs <= 25 || lateMs >= 99)
                     << rateHz << " Hz, sample " << sample << ": " << lateMs;
             }
@@ -183,7 +186,7 @@ TEST(Faults, DelayEverythingAlikeWithoutJitter) {
     settings.delayMs = 40.0;
     const auto sendings = performWithFaults(oneStream(), settings, 1.0);
     ASSERT_EQ(sendings.size(), 240U);
-    EXPECT_EQ(sendings.front().dueNs, 40'000'000);
+    EXPECT_EQ(sendings.front().due, 40ms);
     EXPECT_TRUE(std::ranges::is_sorted(samplesOf(sendings)));
 }
 

@@ -21,13 +21,14 @@ inline std::vector<Sending> performWithFaults(const PerformerSettings& performan
     const auto frames = static_cast<std::uint64_t>(seconds * performance.rateHz);
     for (std::uint64_t index = 0; index < frames; ++index) {
         performer.frameInto(index, frame);
-        const auto dueNs = static_cast<std::int64_t>(static_cast<double>(index) * 1e9 / performance.rateHz);
+        const log::Duration due(
+            static_cast<std::int64_t>(static_cast<double>(index) * 1e9 / performance.rateHz));
         for (const wire::Datagram& datagram : frame) {
             if (wire::encodeInto(datagram, bytes)) {
-                faults.offer(bytes, dueNs);
+                faults.offer(bytes, due);
             }
         }
-        faults.takeUntil(dueNs, sendings);
+        faults.takeUntil(due, sendings);
     }
     faults.takeRest(sendings);
     if (tally != nullptr) {

@@ -24,6 +24,8 @@ std::ostream& operator<<(std::ostream& out, const SentFigures& figures) {
 
 namespace {
 
+using namespace std::chrono_literals;
+
 /// What the receiver makes of it.
 struct Received {
     std::map<Truth::StreamKey, model::StreamAccounting> streams;
@@ -49,12 +51,12 @@ void receive(const log::Packet& packet, Received& received) {
 }
 
 Received receiveAll(const std::vector<Sending>& sendings) {
-    constexpr std::int64_t startNs = 1'700'000'000'000'000'000;
+    constexpr log::Stamp start(1'700'000'000s);
     log::PacketLog log;
     const log::SenderId sender = log.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
     for (const Sending& sending : sendings) {
         log::Arrival arrival;
-        arrival.stampNs = startNs + sending.dueNs;
+        arrival.stamp = start + sending.due;
         arrival.sender = sender;
         log.writer().append(sending.bytes, arrival);
     }

@@ -37,12 +37,12 @@ protected:
             },
             Stage::kStart);
     }
-    std::vector<std::int64_t> stamps() {
-        std::vector<std::int64_t> result;
+    std::vector<log::Stamp> stamps() {
+        std::vector<log::Stamp> result;
         log::LogReader reader(log);
         reader.refresh();
         for (std::uint64_t number = reader.begin(); number != reader.end(); ++number) {
-            result.push_back(reader.packet(number)->stampNs);
+            result.push_back(reader.packet(number)->stamp);
         }
         return result;
     }
@@ -55,9 +55,8 @@ protected:
 TEST_F(RawFileImport, SpacesDatagramsByTheirTimeCodesWithTheNewestAtTheEnd) {
     writeFile({1000, 1000, 1010, 1030});
     ASSERT_EQ(import(path), "");
-    const std::int64_t ms = Stage::kMillisecond;
-    EXPECT_EQ(stamps(), (std::vector<std::int64_t>{Stage::kStart - 30 * ms, Stage::kStart - 30 * ms,
-                                                   Stage::kStart - 20 * ms, Stage::kStart}));
+    EXPECT_EQ(stamps(), (std::vector<log::Stamp>{Stage::kStart - 30ms, Stage::kStart - 30ms,
+                                                 Stage::kStart - 20ms, Stage::kStart}));
 }
 
 TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {
@@ -80,7 +79,7 @@ TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
         ASSERT_TRUE(writer.begin({}));
         for (std::size_t i = 0; i < senders.size(); ++i) {
             log::Packet packet;
-            packet.stampNs = Stage::kStart + static_cast<std::int64_t>(i) * 1'000'003;
+            packet.stamp = Stage::kStart + static_cast<std::int64_t>(i) * 1'000'003ns;
             packet.kernelDropsBefore = i == 1 ? 17 : 0;
             packet.bytes = bytes;
             ASSERT_TRUE(writer.add(packet, senders[i]));
@@ -88,8 +87,8 @@ TEST_F(RawFileImport, ACaptureKeepsItsSendersTransportsStampsAndDrops) {
         ASSERT_TRUE(writer.finish());
     }
     ASSERT_EQ(import(path), "");
-    EXPECT_EQ(stamps(), (std::vector<std::int64_t>{Stage::kStart, Stage::kStart + 1'000'003,
-                                                   Stage::kStart + 2'000'006}));
+    EXPECT_EQ(stamps(), (std::vector<log::Stamp>{Stage::kStart, Stage::kStart + 1'000'003ns,
+                                                 Stage::kStart + 2'000'006ns}));
     log::LogReader reader(log);
     ASSERT_EQ(reader.end(), 3U);
     for (std::size_t i = 0; i < senders.size(); ++i) {

@@ -170,11 +170,11 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
             file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
         }
     }
-    log::ManualClock manual(1'700'000'000'000'000'000);
+    log::ManualClock manual(log::Stamp(1'700'000'000s));
     SessionDriver opened{manual};
     ASSERT_EQ(opened.openFile(path), "");
     ASSERT_EQ(opened.session().characters().size(), 1U);
-    manual.advance(5'000'000'000);
+    manual.advance(5s);
     opened.tick();
     for (const model::Event& event : opened.session().events().all()) {
         EXPECT_NE(event.severity(), model::EventSeverity::Error) << event.text();

@@ -34,7 +34,7 @@ protected:
         arrival.sender = m_log.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
-        m_session.follow(0);
+        m_session.follow(log::Stamp());
     }
 
     void perform(performer::Performer& performer, std::uint64_t frame) {

@@ -193,7 +193,7 @@ TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
     const InputAddress input{"127.0.0.1", freePort()};
     const InputAddress away{"127.0.0.1", freePort()};
     type(input);
-    driver.receiving().measure(clock.wallNs());
+    driver.receiving().measure(clock.wall());
     dialog.open(InputsDialog::Page::Relay);
     dialog.relay().targetEdit().setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
     dialog.relay().submit();

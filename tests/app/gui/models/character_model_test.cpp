@@ -87,7 +87,7 @@ TEST_F(CharacterModelTest, KeepsTheOrderOfAppearance) {
     second.header.character = 3;
     m_stage.send(second, Stage::kStart);
     refresh();
-    m_stage.send(smallPose(), 1, 1, Stage::kStart + 1);
+    m_stage.send(smallPose(), 1, 1, Stage::kStart + 1ns);
     refresh();
     EXPECT_EQ(m_model.character(character(0)), m_stage.key(3));
     EXPECT_EQ(m_model.character(character(1)), m_stage.key(0));
@@ -114,10 +114,10 @@ TEST_F(CharacterModelTest, SaysInShapeAndWordsHowAStreamDoes) {
     m_stage.perform(performer, 203, 300);
     refresh();
     EXPECT_EQ(text(state), QStringLiteral("▲ 3"));
-    m_stage.now += 400 * Stage::kMillisecond;
+    m_stage.now += 400ms;
     refresh();
     EXPECT_EQ(text(state), QStringLiteral("▲ silent 0.4 s"));
-    m_stage.now += 3 * Stage::kSecond;
+    m_stage.now += 3s;
     refresh();
     EXPECT_EQ(text(state), QStringLiteral("■ stale 3.4 s"));
     EXPECT_EQ(text(character(0).siblingAtColumn(CharacterModel::kState)), QStringLiteral("■ stale 3.4 s"));

@@ -18,7 +18,7 @@ protected:
             const double seconds = sample / hz;
             m_stage.send(smallPose(), sample,
                          m_firstMs + static_cast<std::uint32_t>(std::lround(seconds * 1000)),
-                         Stage::kStart + static_cast<std::int64_t>(seconds / speed * 1e9));
+                         Stage::kStart + log::durationOf(seconds / speed));
         }
     }
     void follow() {
@@ -62,7 +62,7 @@ TEST_F(ClockHistoryTest, SeesAJumpOfTheTimeCodeAndWhenItCame) {
     follow();
     ASSERT_TRUE(m_clock.lastJump().has_value());
     EXPECT_NEAR(m_clock.lastJump()->milliseconds, -508, 1);
-    EXPECT_EQ(m_clock.lastJump()->stampNs, Stage::kStart + 3 * Stage::kSecond);
+    EXPECT_EQ(m_clock.lastJump()->stamp, Stage::kStart + 3s);
     EXPECT_EQ(m_clock.frameHz(), 100.0);
 }
 
@@ -109,7 +109,7 @@ TEST_F(ClockHistoryTest, ReadsAtTheCursor) {
     m_stage.session.setCursor({model::Cursor::Mode::Paused, 100});
     follow();
     EXPECT_EQ(clockText(m_clock, ClockChoice::Header), "10:00:01.000");
-    EXPECT_EQ(m_clock.lastStampNs(), Stage::kStart + Stage::kSecond);
+    EXPECT_EQ(m_clock.lastStamp(), Stage::kStart + 1s);
 }
 
 } // namespace

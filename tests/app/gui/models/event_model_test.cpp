@@ -141,7 +141,7 @@ TEST_F(EventModelTest, NamesACharacterThatTheSessionDoesNotKnowByItsId) {
 
 TEST_F(EventModelTest, WhatHasNoPacketLeadsToTheOneBefore) {
     perform(0, 60);
-    m_stage.now += 3 * Stage::kSecond;
+    m_stage.now += 3s;
     m_stage.follow();
     m_model.refresh();
     const int row = rowOfKind(model::EventKind::SenderDown);

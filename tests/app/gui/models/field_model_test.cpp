@@ -137,7 +137,8 @@ TEST(FieldDocument, SaysWhatForeignAndSkippedBytesAre) {
     EXPECT_EQ(foreign->kind(), model::PacketKind::Foreign);
     ASSERT_EQ(foreign->problems().size(), 1U);
     EXPECT_TRUE(foreign->problems()[0].text.startsWith("foreign"));
-    const FieldDocument skipped(log::Packet{1, 0, {}, 0, {.skipped = true}, bytes}, model::LengthUnit::Metre);
+    const FieldDocument skipped(log::Packet{1, {}, {}, 0, {.skipped = true}, bytes},
+                                model::LengthUnit::Metre);
     EXPECT_TRUE(skipped.problems().at(0).text.startsWith("skipped"));
     EXPECT_EQ(skipped.count(), 1);
 }
@@ -201,9 +202,9 @@ TEST(InspectedPacket, IsTheSelectedOrTheNewestOfTheShownCharacter) {
     Stage stage;
     EXPECT_FALSE(inspectedPacket(stage.session, 0));
     stage.sendMetadata("name:A\n", Stage::kStart);
-    stage.send(smallPose(), 1, 0, Stage::kStart + 1);
-    stage.send(smallPose(), 2, 0, Stage::kStart + 2);
-    stage.sendMetadata("name:A\n", Stage::kStart + 3);
+    stage.send(smallPose(), 1, 0, Stage::kStart + 1ns);
+    stage.send(smallPose(), 2, 0, Stage::kStart + 2ns);
+    stage.sendMetadata("name:A\n", Stage::kStart + 3ns);
     stage.follow();
     EXPECT_EQ(inspectedPacket(stage.session, 0), 2U);
     EXPECT_EQ(inspectedPacket(stage.session, wire::MetaData::kType), 3U);
@@ -216,8 +217,8 @@ TEST(InspectedPacket, IsTheSelectedOrTheNewestOfTheShownCharacter) {
 TEST(InspectedPacket, StepsWithinItsStream) {
     Stage stage;
     stage.send(smallPose(), 1, 0, Stage::kStart);
-    stage.sendMetadata("name:A\n", Stage::kStart + 1);
-    stage.send(smallPose(), 2, 0, Stage::kStart + 2);
+    stage.sendMetadata("name:A\n", Stage::kStart + 1ns);
+    stage.send(smallPose(), 2, 0, Stage::kStart + 2ns);
     stage.follow();
     EXPECT_EQ(neighbourInStream(stage.session, 0, 1), 2U);
     EXPECT_EQ(neighbourInStream(stage.session, 2, -1), 0U);

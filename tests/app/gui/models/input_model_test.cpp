@@ -81,7 +81,7 @@ TEST(InputModel, SaysTheStateOfEachKindInWords) {
     EXPECT_EQ(inputState(listener).text, "listening, nobody has connected");
     listener.datagramsPerSecond = 10;
     EXPECT_EQ(inputState(listener).text, "listening, nobody has connected") << "the rate is of before";
-    listener.status.peers = {{"10.0.0.5:50123", 0, 12, 0, 0}, {"10.0.0.6:50124", 0, 0, 0, 0}};
+    listener.status.peers = {{"10.0.0.5:50123", {}, 12, 0, 0}, {"10.0.0.6:50124", {}, 0, 0, 0}};
     EXPECT_EQ(inputState(listener).text, "connected from 10.0.0.5:50123 and 1 more");
     EXPECT_TRUE(inputState(listener).toolTip.contains("10.0.0.6:50124"));
 

@@ -65,7 +65,7 @@ TEST_F(MetadataModelTest, ShowsWhatTheOperatorDeclaredInsteadOfWhatWasDetected) 
 
 TEST_F(MetadataModelTest, KeepsEarlierValuesBelowTheTagNewestFirst) {
     for (const char* text : {"name:Ana\n", "name:Bea\n", "name:Cleo\n"}) {
-        m_stage.sendMetadata(text, m_stage.now + Stage::kSecond);
+        m_stage.sendMetadata(text, m_stage.now + 1s);
         refresh();
     }
     const QModelIndex name = row("name");
@@ -78,7 +78,7 @@ TEST_F(MetadataModelTest, KeepsEarlierValuesBelowTheTagNewestFirst) {
 
 TEST_F(MetadataModelTest, ShowsWhatWasSaidAtTheCursor) {
     m_stage.sendMetadata("name:Ana\n", Stage::kStart);
-    m_stage.sendMetadata("name:Bea\n", Stage::kStart + Stage::kSecond);
+    m_stage.sendMetadata("name:Bea\n", Stage::kStart + 1s);
     refresh();
     EXPECT_EQ(m_model.rowCount(row("name")), 1);
     m_stage.session.setCursor({model::Cursor::Mode::Paused, 0});
@@ -118,7 +118,7 @@ TEST_F(MetadataModelTest, SaysThatTheReferenceBodyStandsIn) {
 TEST_F(MetadataModelTest, AnnouncesAtMostOneOfEachInARefresh) {
     m_stage.sendMetadata("name:Ana\ncolor:112233\n", Stage::kStart);
     refresh();
-    m_stage.sendMetadata("name:Bea\ncolor:445566\nxmid:1\n", Stage::kStart + 1);
+    m_stage.sendMetadata("name:Bea\ncolor:445566\nxmid:1\n", Stage::kStart + 1ns);
     QSignalSpy inserted(&m_model, &QAbstractItemModel::rowsInserted);
     QSignalSpy changed(&m_model, &QAbstractItemModel::dataChanged);
     for (int i = 1; i <= 3; ++i) {

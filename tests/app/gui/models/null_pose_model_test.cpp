@@ -19,14 +19,14 @@ protected:
         }
     }
     /// The scale message of a performer; `change` may spoil its parts.
-    void sendNullPose(std::int64_t stampNs, const std::function<void(wire::NullPose&)>& change = {}) {
+    void sendNullPose(log::Stamp stamp, const std::function<void(wire::NullPose&)>& change = {}) {
         performer::Performer performer(sending(1, {13}));
         for (wire::Datagram datagram : performer.characterInformation()) {
             if (change) {
                 change(std::get<wire::NullPose>(datagram.body));
                 wire::completeHeader(datagram, wire::HeaderEra::Counted);
             }
-            stage.send(datagram, stampNs);
+            stage.send(datagram, stamp);
         }
     }
     bool refresh() {
@@ -104,7 +104,7 @@ TEST_F(NullPoseModelTest, ShowsFlagsInHexadecimalAndAsBits) {
 
 TEST_F(NullPoseModelTest, TellsHowFarSegmentsMovedSinceTheMessageBefore) {
     sendNullPose(Stage::kStart);
-    sendNullPose(Stage::kStart + 5 * Stage::kSecond, [](wire::NullPose& part) {
+    sendNullPose(Stage::kStart + 5s, [](wire::NullPose& part) {
         if (!part.segments.empty()) {
             part.segments[14].position[1] += 0.03F;
         }
@@ -146,7 +146,7 @@ TEST_F(NullPoseModelTest, SaysWhichPartsAreMissing) {
     refresh();
     EXPECT_EQ(fact("Parts"), "5 of 6, no 3");
     EXPECT_TRUE(reading.findings().empty());
-    stage.now += 2 * Stage::kSecond;
+    stage.now += 2s;
     EXPECT_TRUE(refresh());
     EXPECT_EQ(fact("Parts"), healthSymbol(Health::Error) + " 5 of 6, no 3");
     ASSERT_FALSE(reading.findings().empty());
@@ -189,7 +189,7 @@ TEST_F(NullPoseModelTest, FollowsTheSelectedSegmentByName) {
 TEST_F(NullPoseModelTest, RowsGrowAndShrinkWithTheMessage) {
     sendNullPose(Stage::kStart);
     refresh();
-    sendNullPose(Stage::kStart + 5 * Stage::kSecond, [](wire::NullPose& part) {
+    sendNullPose(Stage::kStart + 5s, [](wire::NullPose& part) {
         if (!part.segments.empty()) {
             part.segments.resize(20);
         }

@@ -22,7 +22,7 @@ protected:
     }
     /// A pose with this sample counter, a hundredth of a second after the last packet.
     void pose(std::uint32_t sample) {
-        m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + m_sent++ * 10 * Stage::kMillisecond);
+        m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + m_sent++ * 10ms);
     }
     void steadyPoses(std::uint32_t count) {
         for (std::uint32_t sample = 0; sample < count; ++sample) {
@@ -65,7 +65,7 @@ TEST_F(PacketModelTest, ListsWhatIsKnownAboutAPacket) {
 
 TEST_F(PacketModelTest, CountsTimesFromWhereTheOperatorWants) {
     pose(0);
-    m_stage.sendMetadata("name:Mira\n", Stage::kStart + 4 * Stage::kMillisecond);
+    m_stage.sendMetadata("name:Mira\n", Stage::kStart + 4ms);
     m_sent = 1;
     pose(1);
     refresh();
@@ -96,18 +96,18 @@ TEST_F(PacketModelTest, NotesInWordsWhatIsWrongWithTheBytes) {
     EXPECT_TRUE(lastNote().startsWith(QStringLiteral("■ malformed: "))) << lastNote().toStdString();
     EXPECT_TRUE(lastNote().contains("needs")) << lastNote().toStdString();
     const std::string_view foreign = "GET / HTTP/1.1\r\n";
-    m_stage.sendBytes(std::as_bytes(std::span(foreign)), Stage::kStart + 1);
+    m_stage.sendBytes(std::as_bytes(std::span(foreign)), Stage::kStart + 1ns);
     EXPECT_TRUE(lastNote().startsWith(QStringLiteral("▲ foreign: 47 45 54"))) << lastNote().toStdString();
     EXPECT_EQ(text(1, PacketModel::kType), "foreign");
     std::vector<std::byte> longer(whole);
     longer.resize(whole.size() + 3);
-    m_stage.sendBytes(longer, Stage::kStart + 2);
+    m_stage.sendBytes(longer, Stage::kStart + 2ns);
     EXPECT_TRUE(lastNote().contains("byte")) << lastNote().toStdString();
 }
 
 TEST_F(PacketModelTest, NotesWhatThisComputerDroppedMarksAndComments) {
     log::Arrival arrival;
-    arrival.stampNs = Stage::kStart;
+    arrival.stamp = Stage::kStart;
     arrival.sender = m_stage.sender();
     arrival.kernelDropsBefore = 12;
     m_stage.log.writer().append(test::golden("02_quaternion_counted").bytes, arrival);
@@ -144,7 +144,7 @@ TEST(PacketModel, AnnouncesOneRemovalForWhatTheLogDropped) {
     int rounds = 0;
     while (session.begin() == 0) {
         for (int i = 0; i < 500; ++i) {
-            log.writer().append(bytes, {.stampNs = Stage::kStart, .sender = sender});
+            log.writer().append(bytes, {.stamp = Stage::kStart, .sender = sender});
         }
         log.writer().publish();
         session.follow(Stage::kStart);
@@ -166,7 +166,7 @@ TEST_F(PacketModelTest, ListsWhatAFilterLetsThroughAndFollowsIt) {
     refresh();
     m_model.beginMatches();
     PacketFilterRun run(m_stage.log, m_stage.session.digests(), *filter::Filter::compile("type == 12"),
-                        m_stage.session.firstStampNs());
+                        m_stage.session.firstStamp());
     const auto take = [&] {
         run.wait();
         return run.take(m_stage.session.digests()).packets;
@@ -189,7 +189,7 @@ TEST_F(PacketModelTest, ListsWhatAFilterLetsThroughAndFollowsIt) {
 
 TEST_F(PacketModelTest, FilterStopsAtOnceWhenItIsCancelled) {
     steadyPoses(50'000);
-    PacketFilterRun run(m_stage.log, m_stage.session.digests(), *filter::Filter::compile("type == 02"), 0);
+    PacketFilterRun run(m_stage.log, m_stage.session.digests(), *filter::Filter::compile("type == 02"), {});
     run.cancel();
     run.wait();
     const auto found = run.take(m_stage.session.digests()).packets.size();
@@ -211,12 +211,12 @@ TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
             sample += i % 5 == 4 ? 3 : 1; // two are missing again and again
             bytes[8] = static_cast<std::byte>(sample >> 8);
             bytes[9] = static_cast<std::byte>(sample);
-            log.writer().append(bytes, {.stampNs = Stage::kStart, .sender = sender});
+            log.writer().append(bytes, {.stamp = Stage::kStart, .sender = sender});
         }
         log.writer().publish();
         session.follow(Stage::kStart);
     }
-    PacketFilterRun run(log, session.digests(), *filter::Filter::compile("gap > 0"), 0);
+    PacketFilterRun run(log, session.digests(), *filter::Filter::compile("gap > 0"), {});
     run.wait();
     std::vector<std::uint64_t> gaps;
     for (std::uint64_t number = session.digests().begin(); number < session.digests().end(); ++number) {
@@ -238,7 +238,7 @@ TEST_F(PacketModelTest, PaintsEveryCellOfDamagedDatagrams) {
         for (unsigned flips = random() % 4; flips > 0 && !bytes.empty(); --flips) {
             bytes[random() % std::min<std::size_t>(bytes.size(), 64)] = static_cast<std::byte>(random());
         }
-        m_stage.sendBytes(bytes, Stage::kStart + i);
+        m_stage.sendBytes(bytes, Stage::kStart + i * 1ns);
     }
     refresh();
     qsizetype written = 0;

@@ -15,9 +15,9 @@ class PacketTextTest : public testing::Test {
 protected:
     PacketTextTest() {
         for (std::uint32_t sample = 0; sample < 100; ++sample) {
-            m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + sample * 10 * Stage::kMillisecond);
+            m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + sample * 10ms);
         }
-        m_stage.sendMetadata("name:Mira Lindqvist\n", Stage::kStart + Stage::kSecond);
+        m_stage.sendMetadata("name:Mira Lindqvist\n", Stage::kStart + 1s);
         m_stage.follow();
         m_model.refresh();
     }
@@ -63,7 +63,7 @@ TEST_F(PacketTextTest, EveryCellMakesAFilterThatItsOwnPacketPasses) {
         const auto datagram = wire::decode(packet->bytes);
         EXPECT_TRUE(
             compiled->matches({*packet, *m_stage.session.digests().find(42), &*datagram,
-                               m_stage.log.senders().find(packet->sender), m_stage.session.firstStampNs()}))
+                               m_stage.log.senders().find(packet->sender), m_stage.session.firstStamp()}))
             << text.toStdString();
     }
     EXPECT_EQ(packetCellFilter(m_stage.session, 42, PacketModel::kNote), "");

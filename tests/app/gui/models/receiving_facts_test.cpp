@@ -6,6 +6,8 @@
 namespace posewire::gui {
 namespace {
 
+using namespace std::chrono_literals;
+
 TEST(ReceivingFacts, FollowTheStateAndWarnOfASmallBuffer) {
     ReceivingState state;
     const std::vector<Property> facts = receivingFacts([&state] { return state; });
@@ -17,9 +19,9 @@ TEST(ReceivingFacts, FollowTheStateAndWarnOfASmallBuffer) {
     state.receiveBufferBytes = 212'992 / 2;
     EXPECT_EQ(facts[0].read().display(), QStringLiteral("▲ 104 KB"));
     EXPECT_TRUE(facts[0].read().toolTip.contains("rmem_max"));
-    state.longestDelayNs = 47'300'000;
+    state.longestDelay = 47'300us;
     EXPECT_EQ(facts[1].read().health, Health::Good);
-    state.longestDelayNs = 400'000'000;
+    state.longestDelay = 400ms;
     EXPECT_EQ(facts[1].read().health, Health::Warning);
 }
 

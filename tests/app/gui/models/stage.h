@@ -4,6 +4,7 @@
 #include "app/gui/commands.h"
 #include "app/gui/program_view.h"
 #include "core/log/packet_log.h"
+#include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/session/session.h"
 #include "core/performer/performer.h"
@@ -14,6 +15,8 @@
 #include <string>
 
 namespace posewire::gui {
+
+using namespace std::chrono_literals;
 
 /// Carries out commands at once and remembers what was asked for.
 class ImmediateCommands : public Commands {
@@ -67,9 +70,7 @@ public:
 
 /// A log to which tests send datagrams at stamps of their choosing, and a session that follows it.
 struct Stage {
-    static constexpr std::int64_t kMillisecond = 1'000'000;
-    static constexpr std::int64_t kSecond = 1'000'000'000;
-    static constexpr std::int64_t kStart = 1'700'000'000 * kSecond;
+    static constexpr log::Stamp kStart{1'700'000'000s};
     static constexpr const char* kAddress = "192.168.10.21:52011";
 
     log::SenderId sender(const std::string& address = kAddress) {
@@ -77,35 +78,35 @@ struct Stage {
     }
     model::CharacterKey key(std::uint8_t character = 0) { return {sender(), character}; }
 
-    void sendBytes(wire::Bytes bytes, std::int64_t stampNs, const std::string& address = kAddress) {
+    void sendBytes(wire::Bytes bytes, log::Stamp stamp, const std::string& address = kAddress) {
         log::Arrival arrival;
-        arrival.stampNs = stampNs;
+        arrival.stamp = stamp;
         arrival.sender = sender(address);
         log.writer().append(bytes, arrival);
         log.writer().publish();
-        now = std::max(now, stampNs);
+        now = std::max(now, stamp);
     }
 
-    void send(const wire::Datagram& datagram, std::int64_t stampNs, const std::string& address = kAddress) {
+    void send(const wire::Datagram& datagram, log::Stamp stamp, const std::string& address = kAddress) {
         const auto bytes = wire::encode(datagram);
         ASSERT_TRUE(bytes.has_value());
-        sendBytes(*bytes, stampNs, address);
+        sendBytes(*bytes, stamp, address);
     }
 
     /// One message of its own; `timeCode` in ms.
-    void send(wire::Body body, std::uint32_t sample, std::uint32_t timeCode, std::int64_t stampNs) {
+    void send(wire::Body body, std::uint32_t sample, std::uint32_t timeCode, log::Stamp stamp) {
         wire::Datagram datagram;
         datagram.body = std::move(body);
         datagram.header.sampleCounter = sample;
         datagram.header.timeCode = timeCode;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
-        send(datagram, stampNs);
+        send(datagram, stamp);
     }
 
-    void sendMetadata(const std::string& text, std::int64_t stampNs) {
+    void sendMetadata(const std::string& text, log::Stamp stamp) {
         wire::MetaData metadata;
         metadata.text = text;
-        send(metadata, 0, 0, stampNs);
+        send(metadata, 0, 0, stamp);
     }
 
     /// Frames [from, to) of a performer at its own rate; `isSent` may leave frames out.
@@ -117,7 +118,7 @@ struct Stage {
             }
             const double seconds = static_cast<double>(frame) / performer.settings().rateHz;
             for (const wire::Datagram& datagram : performer.frame(frame)) {
-                send(datagram, kStart + static_cast<std::int64_t>(seconds * 1e9));
+                send(datagram, kStart + log::durationOf(seconds));
             }
         }
     }
@@ -128,7 +129,7 @@ struct Stage {
     model::Session session{log};
     ImmediateCommands commands{session};
     IdleProgram program;
-    std::int64_t now = kStart;
+    log::Stamp now = kStart;
 };
 
 /// Settings of a sender; no types means all.

@@ -52,8 +52,8 @@ protected:
 
 TEST_F(StatisticsModelTest, ShowsRateSpacingAndBandwidthOfAStream) {
     for (std::uint32_t i = 0; i < 200; ++i) {
-        const std::int64_t late = i % 2 == 0 ? 0 : Stage::kMillisecond;
-        m_stage.send(smallPose(), i, i * 10, Stage::kStart + i * 10 * Stage::kMillisecond + late);
+        const auto late = i % 2 == 0 ? 0ms : 1ms;
+        m_stage.send(smallPose(), i, i * 10, Stage::kStart + i * 10ms + late);
     }
     refresh();
     ASSERT_EQ(m_model.rowCount(character()), 1);
@@ -83,16 +83,15 @@ TEST_F(StatisticsModelTest, ZeroIsQuietAndLossHasShapeColourAndText) {
 TEST_F(StatisticsModelTest, FiguresAreOfTheRangeThatIsChosen) {
     performSeconds(20);
     EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
-    const std::int64_t start = Stage::kStart;
-    m_stage.commands.selectRange(
-        {0, model::TimeRange{start + 10 * Stage::kSecond, start + 15 * Stage::kSecond}});
+    const log::Stamp start = Stage::kStart;
+    m_stage.commands.selectRange({0s, model::TimeRange{start + 10s, start + 15s}});
     refresh();
     EXPECT_EQ(text(stream(), Column::Lost), "0");
     EXPECT_EQ(text(stream(), Column::Samples), "500");
     EXPECT_EQ(text(stream(), Column::Rate), "100.0");
     EXPECT_EQ(text(stream(), Column::Bursts), "0");
     EXPECT_EQ(text(sender(), Column::Samples), "500");
-    m_stage.commands.selectRange({10 * Stage::kSecond, std::nullopt});
+    m_stage.commands.selectRange({10s, std::nullopt});
     refresh();
     EXPECT_NEAR(number(stream(), Column::Samples), 1000, 11);
     m_stage.commands.selectRange({});
@@ -164,8 +163,7 @@ TEST_F(StatisticsModelTest, ACellIsAFilterThatThePacketListUnderstands) {
     EXPECT_EQ(filter(character(), Column::Restarts), "character == 0 && restart");
     EXPECT_EQ(filter(sender(), Column::Malformed), "source == \"192.168.10.21:52011\" && malformed");
     m_stage.sendBytes({}, m_stage.now, "192.168.10.22:52011");
-    m_stage.commands.selectRange(
-        {0, model::TimeRange{Stage::kStart + Stage::kSecond, Stage::kStart + 2 * Stage::kSecond}});
+    m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 1s, Stage::kStart + 2s}});
     refresh();
     EXPECT_EQ(filter(stream(), Column::Reordered),
               "type == 02 && character == 0 && source == \"192.168.10.21:52011\" && reordered && "
@@ -191,7 +189,7 @@ TEST_F(StatisticsModelTest, CsvHasALineForEachStreamAndNumbersThatProgramsRead) 
 
 TEST_F(StatisticsModelTest, CsvHasTheNumbersThemselvesNotWhatTheTableShows) {
     for (std::uint32_t i = 0; i < 3000; ++i) { // a sender's clock that loses 2 ms a second
-        m_stage.send(smallPose(), i, i * 10 - i / 5, Stage::kStart + i * 10 * Stage::kMillisecond);
+        m_stage.send(smallPose(), i, i * 10 - i / 5, Stage::kStart + i * 10ms);
     }
     refresh();
     const QStringList lines = m_model.csv().split(QStringLiteral("\r\n"));
@@ -212,7 +210,7 @@ TEST(ReceiverFacts, TellsWhatThisComputerDropped) {
     EXPECT_EQ(facts.index(2, 0).data().toString(), "Dropped here");
     EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("● 0"));
     log::Arrival arrival;
-    arrival.stampNs = Stage::kStart;
+    arrival.stamp = Stage::kStart;
     arrival.sender = stage.sender();
     arrival.kernelDropsBefore = 17;
     wire::Datagram datagram;
@@ -236,8 +234,7 @@ TEST(LossFacts, TellWhoseLossesTheyWereInTheRange) {
     EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("▲ unknown 4"));
     EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("▲ 4 samples · 40.0 ms"));
     const auto rangeOf = [](int from, int to) {
-        return model::RangeChoice{
-            0, model::TimeRange{Stage::kStart + from * Stage::kSecond, Stage::kStart + to * Stage::kSecond}};
+        return model::RangeChoice{0s, model::TimeRange{Stage::kStart + from * 1s, Stage::kStart + to * 1s}};
     };
     stage.session.setRange(rangeOf(7, 9));
     EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("● nothing lost"));

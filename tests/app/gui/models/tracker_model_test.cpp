@@ -32,8 +32,7 @@ protected:
     void sendTracker(const wire::Tracker& tracker, std::uint32_t sample) {
         wire::TrackerKinematics body;
         body.trackers.push_back(tracker);
-        m_stage.send(body, sample, sample * 10,
-                     Stage::kStart + std::int64_t{sample} * 10 * Stage::kMillisecond);
+        m_stage.send(body, sample, sample * 10, Stage::kStart + sample * 10ms);
     }
 
     Stage m_stage;
@@ -116,7 +115,7 @@ TEST_F(TrackerModelTest, KeepsTenSecondsOfTheShownTrackerWithItsGaps) {
     }
     refresh();
     const auto& points = m_model.history().points();
-    EXPECT_LE(points.back().stampNs - points.front().stampNs, TrackerHistory::kPlotNs);
+    EXPECT_LE(points.back().stamp - points.front().stamp, TrackerHistory::kPlot);
     EXPECT_NEAR(static_cast<double>(points.size()), 996, 1);
     EXPECT_EQ(std::ranges::count_if(points, &TrackerHistory::Point::followsGap), 1);
 }

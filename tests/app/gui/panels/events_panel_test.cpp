@@ -42,7 +42,7 @@ protected:
     /// So many events of the smallest kind, each an episode of its own.
     void sendForeign(int count) {
         for (int i = 0; i < count; ++i) {
-            m_stage.sendBytes(std::vector<std::byte>(8, std::byte{'G'}), m_stage.now + Stage::kMillisecond,
+            m_stage.sendBytes(std::vector<std::byte>(8, std::byte{'G'}), m_stage.now + 1ms,
                               "10.0.0." + std::to_string(++m_sender) + ":1");
         }
         m_stage.follow();

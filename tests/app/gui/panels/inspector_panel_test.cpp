@@ -65,7 +65,7 @@ TEST_F(InspectorPanelTest, TellsWhatIsMissingBeforeThePacketAndWhy) {
     stage.perform(performer, 0, 100);
     const std::uint64_t next = stage.log.figures().end;
     const auto frame = performer.frame(100);
-    stage.send(frame.back(), Stage::kStart + 417 * Stage::kMillisecond); // its type 02 is lost
+    stage.send(frame.back(), Stage::kStart + 417ms); // its type 02 is lost
     stage.perform(performer, 101, 200);
     stage.follow();
     InspectorPanel panel(stage.session, stage.commands, nullptr);

@@ -17,7 +17,7 @@ namespace {
 
 class NullPosePanelTest : public testing::Test {
 protected:
-    void send(std::int64_t stampNs = Stage::kStart, const std::function<void(wire::NullPose&)>& change = {}) {
+    void send(log::Stamp stamp = Stage::kStart, const std::function<void(wire::NullPose&)>& change = {}) {
         performer::Performer performer(sending(1, {2, 12, 13}));
         for (wire::Datagram datagram : performer.frame(0)) {
             auto* part = std::get_if<wire::NullPose>(&datagram.body);
@@ -25,7 +25,7 @@ protected:
                 change(*part);
                 wire::completeHeader(datagram, wire::HeaderEra::Counted);
             }
-            m_stage.send(datagram, stampNs);
+            m_stage.send(datagram, stamp);
         }
     }
     void open(const QSize& size = {600, 800}) {
@@ -137,7 +137,7 @@ TEST_F(NullPosePanelTest, ContradictionsStandAtTheTopAndAreCounted) {
     EXPECT_TRUE(notices->isVisible());
     EXPECT_TRUE(notices->toPlainText().contains("\"Pelvis\" stands twice"));
     EXPECT_TRUE(m_panel->summary().contains("1 error, 2 warnings")) << m_panel->summary().toStdString();
-    send(Stage::kStart + Stage::kSecond);
+    send(Stage::kStart + 1s);
     refresh();
     EXPECT_FALSE(notices->toPlainText().contains("stands twice"));
 }
@@ -189,7 +189,7 @@ TEST_F(NullPosePanelTest, LowDocksHaveTheFigureAsATab) {
 
 TEST_F(NullPosePanelTest, PaintsPosesOfAnySize) {
     for (const float factor : {0.0F, 1e-30F, 1e30F, -100.0F, std::numeric_limits<float>::quiet_NaN()}) {
-        send(m_stage.now + Stage::kSecond, [factor](wire::NullPose& part) {
+        send(m_stage.now + 1s, [factor](wire::NullPose& part) {
             for (wire::NullPoseSegment& segment : part.segments) {
                 segment.position[2] *= factor;
                 segment.position[1] *= factor;

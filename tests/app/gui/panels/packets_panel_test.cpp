@@ -29,7 +29,7 @@ protected:
     }
     void poses(std::uint32_t from, std::uint32_t to) {
         for (std::uint32_t sample = from; sample < to; ++sample) {
-            m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + sample * 10 * Stage::kMillisecond);
+            m_stage.send(smallPose(), sample, sample * 10, Stage::kStart + sample * 10ms);
         }
         refresh();
     }
@@ -198,7 +198,7 @@ TEST_F(PacketsPanelTest, KeepsFiltersAndTimesFromOneRunToTheNext) {
 TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
     poses(0, 100);
     poses(104, 200); // packet 100 follows a gap
-    m_stage.sendMetadata("name:Mira\n", Stage::kStart + 3 * Stage::kSecond);
+    m_stage.sendMetadata("name:Mira\n", Stage::kStart + 3s);
     poses(200, 210);
     trigger("nextProblem");
     EXPECT_EQ(selected(), 100U);
@@ -291,7 +291,7 @@ TEST_F(PacketsPanelTest, FiltersByTheCellUnderTheCursor) {
 
 TEST_F(PacketsPanelTest, FindsTextInThePackets) {
     poses(0, 100);
-    m_stage.sendMetadata("name:Mira Lindqvist\n", Stage::kStart + 3 * Stage::kSecond);
+    m_stage.sendMetadata("name:Mira Lindqvist\n", Stage::kStart + 3s);
     refresh();
     auto* find = m_panel.findChild<FindBar*>();
     trigger("find");

@@ -91,19 +91,19 @@ protected:
             panels.back()->resize(info.area == Qt::LeftDockWidgetArea ? 330 : 390, isTall ? 640 : 300);
             panels.back()->show();
         }
-        qint64 refreshNs = 0;
+        log::Duration refresh{};
         for (int tick = 0; tick < ticks; ++tick) {
             play(tick);
-            m_stage.now = std::max(m_stage.now, Stage::kStart + (tick + 1) * 100 * Stage::kMillisecond);
+            m_stage.now = std::max(m_stage.now, Stage::kStart + (tick + 1) * 100ms);
             m_stage.follow();
             QElapsedTimer timer;
             timer.start();
             for (const auto& panel : panels) {
                 panel->refresh();
             }
-            refreshNs += timer.nsecsElapsed();
+            refresh += log::Duration(timer.nsecsElapsed());
         }
-        RecordProperty("microsecondsPerRefresh", static_cast<int>(refreshNs / ticks / 1000));
+        RecordProperty("microsecondsPerRefresh", static_cast<int>(refresh / ticks / 1us));
         const QDir folder(POSEWIRE_PICTURE_FOLDER);
         ASSERT_TRUE(folder.mkpath("."));
         std::vector<QImage> images;
@@ -167,7 +167,7 @@ TEST_P(PicturesTest, Overloaded) {
             m_stage.perform(performer, frame, frame + 24, [](std::uint64_t n) { return n % 5 != 3; });
             m_stage.sendBytes(std::as_bytes(std::span(foreign)), m_stage.now, "192.168.10.34:49800");
             if (tick == 29) {
-                m_stage.now += 400 * Stage::kMillisecond;
+                m_stage.now += 400ms;
             }
         },
         30);

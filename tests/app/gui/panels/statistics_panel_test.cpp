@@ -104,7 +104,7 @@ TEST_F(StatisticsPanelTest, DraggingInTheStripChoosesARangeAndAClickTakesItAway)
     QTest::mouseMove(&strip(), {to, middle});
     QTest::mouseRelease(&strip(), Qt::LeftButton, {}, {to, middle});
     ASSERT_TRUE(range().has_value());
-    EXPECT_NEAR(static_cast<double>(range()->fromNs - Stage::kStart) * 1e-9, 5.0, 0.5);
+    EXPECT_NEAR(log::secondsOf(range()->from - Stage::kStart), 5.0, 0.5);
     EXPECT_NEAR(range()->seconds(), 5.0, 0.5);
     EXPECT_TRUE(m_panel->summary().endsWith(" s"));
     QTest::mouseClick(&strip(), Qt::LeftButton, {}, {2, middle});
@@ -120,12 +120,12 @@ TEST_F(StatisticsPanelTest, ArrowKeysMoveTheRangeAndShiftExtendsIt) {
     ASSERT_TRUE(range().has_value());
     const model::TimeRange first = *range();
     QTest::keyClick(&strip(), Qt::Key_Left, Qt::ControlModifier);
-    EXPECT_LT(range()->fromNs, first.fromNs);
+    EXPECT_LT(range()->from, first.from);
     EXPECT_NEAR(range()->seconds(), first.seconds(), 0.21);
     const model::TimeRange moved = *range();
     QTest::keyClick(&strip(), Qt::Key_Right, Qt::ShiftModifier);
-    EXPECT_EQ(range()->fromNs, moved.fromNs);
-    EXPECT_GT(range()->toNs, moved.toNs);
+    EXPECT_EQ(range()->from, moved.from);
+    EXPECT_GT(range()->to, moved.to);
     QTest::keyClick(&strip(), Qt::Key_Escape);
     EXPECT_FALSE(range().has_value());
 }
@@ -138,7 +138,7 @@ TEST_F(StatisticsPanelTest, ButtonsChooseTheNewestSecondsAndTheTitleSaysSo) {
             button->click();
         }
     }
-    EXPECT_EQ(m_stage.session.rangeChoice().lastNs, 10 * Stage::kSecond);
+    EXPECT_EQ(m_stage.session.rangeChoice().last, 10s);
     EXPECT_EQ(m_panel->summary(), "last 10 s");
     refresh();
     const double samples = stream(Column::Samples).data().toString().remove(QChar(0x202f)).toDouble();
@@ -150,8 +150,7 @@ TEST_F(StatisticsPanelTest, FiltersThePacketsToTheRange) {
     open();
     m_panel->filterToRange();
     EXPECT_EQ(m_commands.dock, "");
-    m_commands.selectRange(
-        {0, model::TimeRange{Stage::kStart + 2 * Stage::kSecond, Stage::kStart + 4 * Stage::kSecond}});
+    m_commands.selectRange({0s, model::TimeRange{Stage::kStart + 2s, Stage::kStart + 4s}});
     m_panel->filterToRange();
     EXPECT_EQ(m_stage.session.displayFilter(), "time >= 2.000 && time < 4.000");
     EXPECT_EQ(m_commands.dock, "packets");

@@ -122,12 +122,12 @@ TEST_F(SceneBuilderTest, HiddenCharactersAreLeftOut) {
 
 TEST_F(SceneBuilderTest, DataThatStopFadeAndAreStripedAfterASecond) {
     perform(1);
-    const std::int64_t newest = stage.now;
-    stage.session.follow(newest + 300 * Stage::kMillisecond);
+    const log::Stamp newest = stage.now;
+    stage.session.follow(newest + 300ms);
     const SceneFrame fading = build();
     EXPECT_GT(fading.figures[0].look.dim, 0.1F);
     EXPECT_FALSE(fading.figures[0].look.isHatched);
-    stage.session.follow(newest + 1100 * Stage::kMillisecond);
+    stage.session.follow(newest + 1100ms);
     const SceneFrame stale = build();
     EXPECT_GT(stale.figures[0].look.dim, fading.figures[0].look.dim);
     EXPECT_TRUE(stale.figures[0].look.isHatched);

@@ -72,7 +72,7 @@ TEST_F(Viewport, NamesEveryCharacterInThePicture) {
 }
 
 TEST_F(Viewport, LabelsStaleDataAsStale) {
-    stage.session.follow(stage.now + 3 * Stage::kSecond);
+    stage.session.follow(stage.now + 3s);
     viewport.refresh();
     EXPECT_TRUE(QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).level == Health::Error; }));
     EXPECT_TRUE(viewport.overlay().labels()[0].words.contains("stale"));

@@ -21,7 +21,7 @@ void PrintTo(const StreamCounts& counts, std::ostream* stream) {
 
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;
+using namespace std::chrono_literals;
 
 /// A sender whose network does everything at once, as far as the seed says.
 class FaultySender {
@@ -31,8 +31,8 @@ public:
         m_worsen = chance() < 0.4 ? 0.02 : 0;
         m_duplicate = chance() < 0.5 ? chance() * 0.1 : 0;
         m_reorder = chance() < 0.6 ? chance() * 0.15 : 0;
-        constexpr std::int64_t delays[] = {6, 30, 200, 700};
-        m_delayMs = delays[pick(4)];
+        constexpr log::Duration delays[] = {6ms, 30ms, 200ms, 700ms};
+        m_delay = delays[pick(4)];
         m_split = chance() < 0.3;
     }
 
@@ -47,7 +47,7 @@ public:
             }
         }
         std::stable_sort(arrivals.begin(), arrivals.end(),
-                         [](const SentDatagram& a, const SentDatagram& b) { return a.stampNs < b.stampNs; });
+                         [](const SentDatagram& a, const SentDatagram& b) { return a.stamp < b.stamp; });
     }
 
     std::vector<SentDatagram> arrivals;
@@ -62,7 +62,7 @@ private:
 
     void change() {
         const double what = chance();
-        if (what < 0.25 && m_sample - (m_delayMs <= 30 ? 300 : 1'200) < UINT32_MAX / 2) {
+        if (what < 0.25 && m_sample - (m_delay <= 30ms ? 300 : 1'200) < UINT32_MAX / 2) {
             // Back, among known samples or below them.
             m_sample = m_sample < 100'000'000 ? pick(50) : m_sample - 150 - pick(500);
             begin({runs.back().step, true});
@@ -75,7 +75,7 @@ private:
             m_sample += step - runs.back().step;
             begin({step, false});
         } else if (what < 0.85) {
-            m_nowNs += 900 * kMillisecond; // the sender pauses
+            m_now += 900ms; // the sender pauses
         } else {
             m_sample += runs.back().step * (110 + pick(500)); // a long loss
         }
@@ -92,19 +92,18 @@ private:
                     arrive(part, part + 1 == parts, isEdge);
                 }
             }
-            m_nowNs += 4'200'000;
+            m_now += 4'200us;
         }
     }
 
     void arrive(std::uint8_t part, bool isLast, bool isEdge) {
-        SentDatagram datagram{m_nowNs + part * 1'000, m_sample, part, isLast,
-                              static_cast<int>(runs.size()) - 1};
+        SentDatagram datagram{m_now + part * 1us, m_sample, part, isLast, static_cast<int>(runs.size()) - 1};
         if (!isEdge && chance() < m_reorder) {
-            datagram.stampNs += kMillisecond + static_cast<std::int64_t>(pick(1'000)) * m_delayMs * 1'000;
+            datagram.stamp += 1ms + pick(1'000) * m_delay / 1'000;
         }
         arrivals.push_back(datagram);
         if (chance() < m_duplicate) {
-            datagram.stampNs += 1 + static_cast<std::int64_t>(pick(3)) * 3 * kMillisecond;
+            datagram.stamp += 1ns + pick(3) * 3ms;
             arrivals.push_back(datagram);
         }
     }
@@ -114,10 +113,10 @@ private:
     double m_worsen = 0; ///< Gilbert-Elliott
     double m_duplicate = 0;
     double m_reorder = 0;
-    std::int64_t m_delayMs = 0;
+    log::Duration m_delay{};
     bool m_split = false;
     bool m_isBad = false;
-    std::int64_t m_nowNs = 1'700'000'000'000'000'000;
+    log::Stamp m_now{1'700'000'000s};
     std::uint32_t m_sample = 0;
 };
 
@@ -134,14 +133,14 @@ TEST_P(RandomStreams, AreCountedAsTheReferenceCountsThem) {
             wire::Header header;
             header.sampleCounter = datagram.sample;
             header.datagramCounter = static_cast<std::uint8_t>(datagram.index | (datagram.isLast ? 0x80 : 0));
-            verdicts += stream.add(datagram.stampNs, 760, header).size();
+            verdicts += stream.add(datagram.stamp, 760, header).size();
         }
         StreamCounts expected = referenceCounts(sender.arrivals, sender.runs);
         StreamCounts counts = stream.counts();
         EXPECT_EQ(counts, expected) << "seed " << seed;
         if (!stream.isInDoubt()) {
             EXPECT_EQ(verdicts, sender.arrivals.size()) << "seed " << seed;
-            const auto range = stream.countsBetween(0, INT64_MAX);
+            const auto range = stream.countsBetween({}, log::Stamp::max());
             EXPECT_EQ(range.samples, counts.samples) << "seed " << seed;
             EXPECT_EQ(range.lost, counts.lost) << "seed " << seed;
             EXPECT_EQ(range.incomplete, counts.incomplete) << "seed " << seed;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
 #include "core/model/accounting/stream_counts.h"
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace posewire::model {
 
 /// A datagram as it arrives, with what only its sender knows: which run it is of.
 struct SentDatagram {
-    std::int64_t stampNs = 0;
+    log::Stamp stamp{};
     std::uint32_t sample = 0;
     std::uint8_t index = 0;
     bool isLast = true;
@@ -47,7 +48,7 @@ inline StreamCounts referenceCounts(const std::vector<SentDatagram>& arrivals,
     }
     struct Seen {
         std::int64_t position;
-        std::int64_t stampNs;
+        log::Stamp stamp;
     };
     std::map<int, std::vector<Seen>> advances; // of a sequence
     std::map<int, std::uint32_t> origins;
@@ -68,12 +69,12 @@ inline StreamCounts referenceCounts(const std::vector<SentDatagram>& arrivals,
         sample.last = datagram.isLast ? datagram.index : sample.last;
         auto& seen = advances[place];
         if (seen.empty() || position > seen.back().position) {
-            seen.push_back({position, datagram.stampNs});
+            seen.push_back({position, datagram.stamp});
         } else if (position < seen.back().position) {
             ++counts.reordered;
             for (const Seen& larger : seen) {
                 if (larger.position > position) {
-                    counts.late += datagram.stampNs - larger.stampNs > 50'000'000 ? 1 : 0;
+                    counts.late += datagram.stamp - larger.stamp > std::chrono::milliseconds(50) ? 1 : 0;
                     break;
                 }
             }

@@ -23,7 +23,7 @@ protected:
             datagram.body = wire::CentreOfMass{};
         }
         datagram.header.sampleCounter = sample;
-        datagram.header.timeCode = static_cast<std::uint32_t>(m_at / kMillisecond);
+        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
         datagram.header.datagramCounter = sent.datagramCounter;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         auto bytes = *wire::encode(datagram);
@@ -31,7 +31,7 @@ protected:
             bytes.resize(bytes.size() - 4);
         }
         log::Arrival arrival;
-        arrival.stampNs = m_at;
+        arrival.stamp = m_at;
         arrival.sender = m_log.senders().intern({"127.0.0.1:40001", sent.transport, 9763});
         arrival.kernelDropsBefore = sent.drops;
         m_log.writer().append(bytes, arrival);
@@ -40,7 +40,7 @@ protected:
     }
     void frames(std::uint32_t first, std::uint32_t last) { frames(first, last, Sent()); }
     void frames(std::uint32_t first, std::uint32_t last, const Sent& sent) {
-        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 4 * kMillisecond) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 4ms) {
             put(sample, sent);
         }
     }
@@ -50,14 +50,14 @@ protected:
         return m_session.gaps().front();
     }
 
-    std::int64_t m_at = 10 * kSecond;
+    log::Stamp m_at{10s};
 };
 
 TEST_F(AttributionTest, BlamesThisComputerWhereItsCounterRose) {
     frames(1, 50);
-    m_at += 8 * kMillisecond;
+    m_at += 8ms;
     put(53, {.drops = 2});
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(54, 120);
     const Gap& gap = onlyGap();
     EXPECT_EQ(gap.cause, LossCause::ThisComputer);
@@ -70,7 +70,7 @@ TEST_F(AttributionTest, BlamesThisComputerWhereItsCounterRose) {
 }
 
 TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
-    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 4 * kMillisecond) {
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 4ms) {
         if (sample != 60) {
             put(sample, {});
         }
@@ -84,7 +84,7 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereAnotherStreamBroughtTheSample) {
 TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
     frames(1, 50);
     put(51, {.isTruncated = true});
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(52, 120);
     EXPECT_EQ(onlyGap().cause, LossCause::Network);
     EXPECT_EQ(m_session.senders().front().malformed, 1U);
@@ -93,7 +93,7 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereTheSampleCameTruncated) {
 TEST_F(AttributionTest, BlamesTheNetworkWhereOnlyAPartOfANeighbourCame) {
     frames(1, 50);
     put(51, {.datagramCounter = 0x00});
-    m_at += 8 * kMillisecond;
+    m_at += 8ms;
     frames(53, 120);
     EXPECT_EQ(onlyGap().cause, LossCause::Network);
 }
@@ -101,22 +101,22 @@ TEST_F(AttributionTest, BlamesTheNetworkWhereOnlyAPartOfANeighbourCame) {
 TEST_F(AttributionTest, CountsIncompleteSamplesByCauseToo) {
     frames(1, 50);
     put(51, {.datagramCounter = 0x00}); // its second part does not come
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(52, 120);
     put(121, {.datagramCounter = 0x00});
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     put(122, {.drops = 1});
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(123, 200);
     put(201, {.datagramCounter = 0x00}); // its second part comes late
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(202, 260);
     follow();
     const Stream& stream = m_session.streams().front();
     EXPECT_EQ(stream.accounting.counts().incomplete, 3U);
     EXPECT_EQ(stream.lostByCause(), (std::array<std::uint64_t, 4>{1, 2, 0, 0}));
     put(201, {.datagramCounter = 0x81});
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(261, 262);
     follow();
     EXPECT_EQ(stream.accounting.counts().incomplete, 2U);
@@ -126,7 +126,7 @@ TEST_F(AttributionTest, CountsIncompleteSamplesByCauseToo) {
 TEST_F(AttributionTest, BlamesTheSenderForWhatIsIncompleteOnTcp) {
     frames(1, 50, {.transport = log::Transport::Tcp});
     put(51, {.transport = log::Transport::Tcp, .datagramCounter = 0x00});
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(52, 120, {.transport = log::Transport::Tcp});
     follow();
     EXPECT_EQ(m_session.streams().front().lostByCause(), (std::array<std::uint64_t, 4>{0, 0, 1, 0}));
@@ -136,10 +136,10 @@ TEST_F(AttributionTest, CountsIncompleteMessagesByCauseToo) {
     const auto sendMetadata = [this](std::uint8_t datagramCounter) {
         wire::MetaData message;
         message.text = "name:Jonas\n";
-        send(message, 0, m_at += 4 * kMillisecond, datagramCounter);
+        send(message, 0, m_at += 4ms, datagramCounter);
     };
     sendMetadata(0x00);
-    m_at += kSecond;
+    m_at += 1s;
     sendMetadata(0x80);
     follow();
     const Stream& stream = m_session.streams().front();
@@ -148,7 +148,7 @@ TEST_F(AttributionTest, CountsIncompleteMessagesByCauseToo) {
 }
 
 TEST_F(AttributionTest, TakesAStreamThatEndsForNoLoss) {
-    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4 * kMillisecond) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
         put(sample, {});
         if (sample <= 100) {
             put(sample, {.type = 24});
@@ -168,7 +168,7 @@ TEST_F(AttributionTest, BlamesTheSenderOnTcp) {
 }
 
 TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
-    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4 * kMillisecond) {
+    for (std::uint32_t sample = 1; sample <= 400; ++sample, m_at += 4ms) {
         if (sample <= 100 || sample > 300) {
             put(sample, {});
             put(sample, {.type = 24});
@@ -186,7 +186,7 @@ TEST_F(AttributionTest, BlamesTheSenderThatPausesAllItsStreams) {
 
 TEST_F(AttributionTest, SaysUnknownWithoutEvidence) {
     frames(1, 50);
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(52, 120);
     const Gap& gap = onlyGap();
     EXPECT_EQ(gap.cause, LossCause::Unknown);
@@ -197,11 +197,11 @@ TEST_F(AttributionTest, SaysUnknownWithoutEvidence) {
 TEST_F(AttributionTest, DoesNotBlameAnotherPortsDrops) {
     frames(1, 50);
     log::Arrival other;
-    other.stampNs = m_at;
+    other.stamp = m_at;
     other.sender = m_log.senders().intern({"127.0.0.1:40002", log::Transport::Udp, 9764});
     other.kernelDropsBefore = 5;
     m_log.writer().append(std::as_bytes(std::span("hello")), other);
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(52, 120);
     EXPECT_EQ(onlyGap().cause, LossCause::Unknown);
 }
@@ -210,7 +210,7 @@ TEST_F(AttributionTest, TakesBackWhatCameLate) {
     frames(1, 50);
     frames(52, 120); // judged meanwhile
     put(51, {});
-    m_at += 4 * kMillisecond;
+    m_at += 4ms;
     frames(121, 200);
     const Gap& gap = onlyGap();
     EXPECT_EQ(gap.lost, 0U);
@@ -219,7 +219,7 @@ TEST_F(AttributionTest, TakesBackWhatCameLate) {
 
 TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
     frames(1, 100);
-    for (std::uint32_t sample = 102; sample <= 400; sample += 2, m_at += 8 * kMillisecond) {
+    for (std::uint32_t sample = 102; sample <= 400; sample += 2, m_at += 8ms) {
         put(sample, {});
     }
     follow();
@@ -231,7 +231,7 @@ TEST_F(AttributionTest, TakesBackWhatAChangeOfStepExplains) {
 
 TEST_F(AttributionTest, IsTheSameInWhateverPortionsTheLogIsRead) {
     std::uint32_t random = 7;
-    for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 4 * kMillisecond) {
+    for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 4ms) {
         for (const std::uint8_t type : {std::uint8_t{2}, std::uint8_t{24}}) {
             random = random * 1'664'525 + 1'013'904'223;
             const std::uint32_t what = random >> 24;

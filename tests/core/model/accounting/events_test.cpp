@@ -12,12 +12,13 @@ protected:
         wire::Datagram datagram;
         datagram.body = standingAt(0);
         datagram.header.sampleCounter = sample;
-        datagram.header.timeCode = static_cast<std::uint32_t>((m_at + m_timeCodeOff) / kMillisecond);
+        datagram.header.timeCode =
+            static_cast<std::uint32_t>((m_at + m_timeCodeOff).time_since_epoch() / 1ms);
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         sendBytes(*wire::encode(datagram), m_at, address);
     }
     void poses(std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10 * kMillisecond) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10ms) {
             pose(sample);
         }
     }
@@ -28,20 +29,20 @@ protected:
                              [&](const Event& event) { return event.kind == kind; });
         return found;
     }
-    std::int64_t m_at = 100 * kSecond;
-    std::int64_t m_timeCodeOff = 0;
+    log::Stamp m_at{100s};
+    log::Duration m_timeCodeOff{};
 };
 
 TEST_F(EventsTest, TellThatASenderComesAndGoes) {
     poses(1, 100);
     ASSERT_EQ(of(EventKind::SenderUp).size(), 1U);
-    m_session.follow(m_at + 3 * kSecond); // nothing more comes
+    m_session.follow(m_at + 3s); // nothing more comes
     auto down = of(EventKind::SenderDown);
     ASSERT_EQ(down.size(), 1U);
     EXPECT_TRUE(down[0].isCurrent);
     EXPECT_EQ(down[0].severity(), EventSeverity::Error);
     EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Error);
-    m_at += 4 * kSecond;
+    m_at += 4s;
     poses(101, 200);
     down = of(EventKind::SenderDown);
     ASSERT_EQ(down.size(), 1U);
@@ -51,12 +52,12 @@ TEST_F(EventsTest, TellThatASenderComesAndGoes) {
 TEST_F(EventsTest, SayNothingOfSilenceAfterTheEndOfAFile) {
     poses(1, 100);
     m_session.followFile();
-    m_session.follow(m_at + 3 * kSecond);
+    m_session.follow(m_at + 3s);
     EXPECT_TRUE(of(EventKind::SenderDown).empty());
     // Nor where another sender is live.
     pose(1, "127.0.0.1:40002");
     m_session.follow(m_at);
-    m_session.follow(m_at + 3 * kSecond);
+    m_session.follow(m_at + 3s);
     const auto down = of(EventKind::SenderDown);
     ASSERT_EQ(down.size(), 1U);
     EXPECT_EQ(down[0].sender, sender("127.0.0.1:40002"));
@@ -69,7 +70,7 @@ TEST_F(EventsTest, JudgeACharacterWhereTheCursorStands) {
     poses(311, 400); // ten lost
     poses(401, 1'000);
     follow();
-    m_session.follow(m_at + 3 * kSecond); // nothing more comes
+    m_session.follow(m_at + 3s); // nothing more comes
     const auto levelAt = [this](std::uint64_t packet) {
         m_session.setCursor({Cursor::Mode::Paused, packet});
         return m_session.conditionOf(key()).level;
@@ -82,7 +83,7 @@ TEST_F(EventsTest, JudgeACharacterWhereTheCursorStands) {
 }
 
 TEST_F(EventsTest, CountTheGapsOfAnEpisodeInOne) {
-    for (std::uint32_t sample = 1; sample <= 500; ++sample, m_at += 10 * kMillisecond) {
+    for (std::uint32_t sample = 1; sample <= 500; ++sample, m_at += 10ms) {
         if (sample % 50 != 0) {
             pose(sample);
         }
@@ -115,7 +116,7 @@ TEST_F(EventsTest, TellRestartsMalformedAndForeignDatagrams) {
 
 TEST_F(EventsTest, CountOneRestartOfAllStreamsOnce) {
     const auto both = [this](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10 * kMillisecond) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10ms) {
             pose(sample);
             send(wire::CentreOfMass{}, sample, m_at);
         }
@@ -141,7 +142,7 @@ TEST_F(EventsTest, TellChangesOfMetadataButNotItsRepetition) {
 
 TEST_F(EventsTest, TellAJumpOfTheTimeCode) {
     poses(1, 100);
-    m_timeCodeOff = 5 * kSecond;
+    m_timeCodeOff = 5s;
     poses(101, 200);
     ASSERT_EQ(of(EventKind::TimeCodeJump).size(), 1U);
     EXPECT_EQ(of(EventKind::TimeCodeJump)[0].text(), "The time code jumped by 5000 ms.");
@@ -149,12 +150,12 @@ TEST_F(EventsTest, TellAJumpOfTheTimeCode) {
 
 TEST_F(EventsTest, TakeNoDatagramThatComesLateForAJumpOfTheTimeCode) {
     poses(1, 99);
-    const std::int64_t due = m_at;
-    m_at += 10 * kMillisecond;
+    const log::Stamp due = m_at;
+    m_at += 10ms;
     poses(101, 400);
     m_timeCodeOff = due - m_at; // sample 100 was sent when it was due
     pose(100);
-    m_timeCodeOff = 0;
+    m_timeCodeOff = 0s;
     poses(401, 500);
     EXPECT_TRUE(of(EventKind::TimeCodeJump).empty());
     EXPECT_TRUE(of(EventKind::Restart).empty());
@@ -162,11 +163,11 @@ TEST_F(EventsTest, TakeNoDatagramThatComesLateForAJumpOfTheTimeCode) {
 
 TEST_F(EventsTest, TellTwoSendersWithOneCharacterButNotASuccessor) {
     poses(1, 50);
-    for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10 * kMillisecond) {
+    for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10ms) {
         pose(sample, "127.0.0.1:40002"); // the same person from another port
     }
     EXPECT_TRUE(of(EventKind::CharacterConflict).empty());
-    for (std::uint32_t sample = 51; sample <= 100; ++sample, m_at += 10 * kMillisecond) {
+    for (std::uint32_t sample = 51; sample <= 100; ++sample, m_at += 10ms) {
         pose(sample, "127.0.0.1:40002");
         pose(sample, "127.0.0.1:40003");
     }
@@ -178,7 +179,7 @@ TEST_F(EventsTest, AlertOncePerEpisodeWithHysteresis) {
     poses(1, 1'000);
     EXPECT_TRUE(of(EventKind::LossLimit).empty());
     EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
-    for (std::uint32_t sample = 1'001; sample <= 2'000; ++sample, m_at += 10 * kMillisecond) {
+    for (std::uint32_t sample = 1'001; sample <= 2'000; ++sample, m_at += 10ms) {
         if (sample % 20 != 0) {
             pose(sample);
         }
@@ -197,7 +198,7 @@ TEST_F(EventsTest, AlertOncePerEpisodeWithHysteresis) {
 
 TEST_F(EventsTest, AlertOnARateThatFallsByHalf) {
     poses(1, 1'500);
-    for (std::uint32_t sample = 1'502; sample <= 3'000; sample += 2, m_at += 20 * kMillisecond) {
+    for (std::uint32_t sample = 1'502; sample <= 3'000; sample += 2, m_at += 20ms) {
         pose(sample);
     }
     EXPECT_EQ(of(EventKind::RateLimit).size(), 1U);
@@ -213,7 +214,7 @@ TEST(EventList, IsBoundedAndForgetsEndedOnesFirst) {
         event.kind = EventKind::Gap;
         event.sender = static_cast<log::SenderId>(i);
         events.report(event);
-        events.end(event, i);
+        events.end(event, log::Stamp(log::Duration(i)));
     }
     EXPECT_EQ(events.all().size(), Events::kMost);
     EXPECT_EQ(events.all().front().kind, EventKind::SenderDown);

@@ -6,6 +6,8 @@
 namespace posewire::model {
 namespace {
 
+using namespace std::chrono_literals;
+
 struct Digests : testing::Test {
     PacketDigest send(std::uint32_t sample, std::uint8_t datagramCounter = 0x80, std::uint8_t type = 2) {
         wire::Datagram datagram;
@@ -14,7 +16,7 @@ struct Digests : testing::Test {
         datagram.header.datagramCounter = datagramCounter;
         log::Packet packet;
         packet.number = number++;
-        packet.stampNs = stampNs += 4'000'000;
+        packet.stamp = stamp += 4ms;
         return digester.add(packet, &datagram);
     }
     void sendSteady(std::uint32_t from, std::uint32_t to, std::uint32_t step = 1) {
@@ -24,7 +26,7 @@ struct Digests : testing::Test {
     }
     PacketDigester digester;
     std::uint64_t number = 0;
-    std::int64_t stampNs = 1'000'000'000;
+    log::Stamp stamp{1s};
 };
 
 TEST_F(Digests, OfASteadyStreamShowNoProblem) {

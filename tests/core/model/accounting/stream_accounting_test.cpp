@@ -8,8 +8,11 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;
-constexpr std::int64_t kSecond = 1'000'000'000;
+using namespace std::chrono_literals;
+
+constexpr log::Stamp at(log::Duration time) {
+    return log::Stamp(time);
+}
 
 /// Datagrams of one stream, 4 ms apart unless said otherwise.
 struct Accounting : testing::Test {
@@ -17,9 +20,9 @@ struct Accounting : testing::Test {
         wire::Header header;
         header.sampleCounter = sample;
         header.datagramCounter = datagramCounter;
-        header.timeCode = static_cast<std::uint32_t>(stampNs / kMillisecond);
-        const auto verdicts = stream.add(stampNs, 760, header);
-        stampNs += 4 * kMillisecond;
+        header.timeCode = static_cast<std::uint32_t>(stamp.time_since_epoch() / 1ms);
+        const auto verdicts = stream.add(stamp, 760, header);
+        stamp += 4ms;
         return verdicts;
     }
     void sendAll(std::initializer_list<std::uint32_t> samples) {
@@ -34,7 +37,7 @@ struct Accounting : testing::Test {
         }
     }
     StreamAccounting stream;
-    std::int64_t stampNs = kSecond;
+    log::Stamp stamp = at(1s);
 };
 
 TEST_F(Accounting, CountsASteadyStreamWithoutLoss) {
@@ -79,7 +82,7 @@ TEST_F(Accounting, CountsNothingAsLostInAnIrregularStream) {
     EXPECT_EQ(stream.counts().lost, 0U);
     EXPECT_EQ(stream.counts().samples, 300U);
     EXPECT_EQ(stream.counts().longestGapSamples, 4U);
-    EXPECT_EQ(stream.countsBetween(0, 100 * kSecond).longestGapSamples, 4U);
+    EXPECT_EQ(stream.countsBetween({}, at(100s)).longestGapSamples, 4U);
 }
 
 TEST_F(Accounting, TakesAStepForOneWhereNineTenthsAreMultiplesOfIt) {
@@ -160,7 +163,7 @@ TEST_F(Accounting, CountsNoLossWhileAStreamIsIrregular) {
     EXPECT_EQ(stream.counts().lost, 2U);
     send(sample + 156);
     EXPECT_EQ(stream.counts().lost, 7U);
-    EXPECT_EQ(stream.countsBetween(0, 100 * kSecond).lost, 7U);
+    EXPECT_EQ(stream.countsBetween({}, at(100s)).lost, 7U);
 }
 
 TEST_F(Accounting, CountsTheFirstSamplesInHindsight) {
@@ -218,11 +221,11 @@ TEST_F(Accounting, TellsLostDuplicateAndReorderedApart) {
 TEST_F(Accounting, CallsALateArrivalLateByTheFirstLargerOne) {
     sendSteady(1, 20);
     send(22);
-    stampNs += 46 * kMillisecond; // 50 ms after 22 arrived: not above 50 ms
+    stamp += 46ms; // 50 ms after 22 arrived: not above 50 ms
     send(21);
     EXPECT_EQ(stream.counts().late, 0U);
     send(24);
-    stampNs += 46 * kMillisecond + 1;
+    stamp += 46ms + 1ns;
     send(23);
     EXPECT_EQ(stream.counts().late, 1U);
     EXPECT_EQ(stream.counts().reordered, 2U);
@@ -425,23 +428,23 @@ TEST_F(Accounting, SeesNoRestartInDelayedDatagrams) {
 
 TEST(MessagesSentAgain, CountOnlyDatagramsAndIncompleteOnes) {
     StreamAccounting stream(13);
-    std::int64_t stampNs = 0;
+    log::Stamp stamp{};
     const auto send = [&](std::uint8_t datagramCounter) {
         wire::Header header;
         header.datagramCounter = datagramCounter;
-        stream.add(stampNs += kMillisecond, 500, header);
+        stream.add(stamp += 1ms, 500, header);
     };
     for (const std::uint8_t counter : std::initializer_list<std::uint8_t>{0x00, 0x82, 0x01}) { // out of order
         send(counter);
     }
     EXPECT_EQ(stream.counts().incomplete, 0U);
-    stampNs += kSecond;
+    stamp += 1s;
     for (const std::uint8_t counter :
          std::initializer_list<std::uint8_t>{0x00, 0x00, 0x82}) { // one twice, one lost
         send(counter);
     }
     EXPECT_EQ(stream.counts().incomplete, 2U); // the repeated index began a message
-    stampNs += kSecond;
+    stamp += 1s;
     for (const std::uint8_t counter : std::initializer_list<std::uint8_t>{0x01, 0x82}) {
         send(counter);
     }
@@ -452,24 +455,24 @@ TEST(MessagesSentAgain, CountOnlyDatagramsAndIncompleteOnes) {
 
 TEST(MessagesSentAgain, BelongTogetherWithinAQuarterOfASecond) {
     StreamAccounting stream(13);
-    const auto send = [&](std::int64_t stampMs, std::uint8_t datagramCounter) {
+    const auto send = [&](log::Duration time, std::uint8_t datagramCounter) {
         wire::Header header;
         header.datagramCounter = datagramCounter;
-        stream.add(stampMs * kMillisecond, 500, header);
+        stream.add(at(time), 500, header);
         return stream.counts().incomplete;
     };
-    send(1'000, 0x00);
-    send(1'150, 0x01);
-    EXPECT_EQ(send(1'250, 0x82), 0U);
-    send(2'000, 0x00);
-    send(2'150, 0x01);
-    EXPECT_EQ(send(2'251, 0x82), 2U); // too late for the first
+    send(1'000ms, 0x00);
+    send(1'150ms, 0x01);
+    EXPECT_EQ(send(1'250ms, 0x82), 0U);
+    send(2'000ms, 0x00);
+    send(2'150ms, 0x01);
+    EXPECT_EQ(send(2'251ms, 0x82), 2U); // too late for the first
     // The next message begins at once where an index comes again.
-    send(3'000, 0x00);
-    send(3'001, 0x82);
-    send(3'002, 0x00);
-    send(3'003, 0x01);
-    EXPECT_EQ(send(3'004, 0x82), 3U);
+    send(3'000ms, 0x00);
+    send(3'001ms, 0x82);
+    send(3'002ms, 0x00);
+    send(3'003ms, 0x01);
+    EXPECT_EQ(send(3'004ms, 0x82), 3U);
 }
 
 TEST_F(Accounting, GivesTheSameFiguresForARangeOfTime) {
@@ -477,13 +480,13 @@ TEST_F(Accounting, GivesTheSameFiguresForARangeOfTime) {
     sendSteady(261, 500);
     sendAll({255, 256});
     sendSteady(501, 750);
-    const auto before = stream.countsBetween(kSecond, 2 * kSecond);
+    const auto before = stream.countsBetween(at(1s), at(2s));
     EXPECT_EQ(before.samples, 250U);
     EXPECT_EQ(before.lost, 0U);
-    const auto after = stream.countsBetween(2 * kSecond, 3 * kSecond);
+    const auto after = stream.countsBetween(at(2s), at(3s));
     EXPECT_EQ(after.lost, 8U); // those that came late are no loss any more
     EXPECT_EQ(after.longestGapSamples, 10U);
-    const auto all = stream.countsBetween(0, 100 * kSecond);
+    const auto all = stream.countsBetween({}, at(100s));
     const auto counts = stream.counts();
     EXPECT_EQ(all.samples, counts.samples);
     EXPECT_EQ(all.lost, counts.lost);
@@ -496,12 +499,12 @@ TEST_F(Accounting, KeepsRangesOfALongStreamInBoundedMemory) {
     wire::Header header;
     for (std::uint32_t i = 0; i < 100'000; ++i) {
         header.sampleCounter = i + (i >= 50'000 ? 5 : 0);
-        stream.add(std::int64_t{i} * 100 * kMillisecond, 100, header);
+        stream.add(at(i * 100ms), 100, header);
     }
-    EXPECT_GT(stream.resolutionNs(), 4 * kSecond);
-    EXPECT_EQ(stream.countsBetween(0, 20'000 * kSecond).lost, 5U);
-    EXPECT_EQ(stream.countsBetween(0, 4'900 * kSecond).lost, 0U);
-    EXPECT_EQ(stream.countsBetween(4'900 * kSecond, 5'100 * kSecond).lost, 5U);
+    EXPECT_GT(stream.resolution(), 4s);
+    EXPECT_EQ(stream.countsBetween({}, at(20'000s)).lost, 5U);
+    EXPECT_EQ(stream.countsBetween({}, at(4'900s)).lost, 0U);
+    EXPECT_EQ(stream.countsBetween(at(4'900s), at(5'100s)).lost, 5U);
     EXPECT_NEAR(stream.interArrival().meanMs, 100, 1e-6);
     EXPECT_NEAR(stream.interArrival().deviationMs, 0, 1e-3);
 }
@@ -523,8 +526,8 @@ TEST_F(Accounting, MeasuresJitterAndSkewOfTheSendersClock) {
     for (std::uint32_t i = 0; i < 6'000; ++i) { // 60 s; the sender's clock gains 200 ppm
         header.sampleCounter = i;
         header.timeCode = static_cast<std::uint32_t>(std::lround(i * 10 * 1.0002));
-        const std::int64_t delayNs = i % 2 == 0 ? 0 : 2 * kMillisecond;
-        stream.add(std::int64_t{i} * 10 * kMillisecond + delayNs, 760, header);
+        const log::Duration delay = i % 2 == 0 ? 0ms : 2ms;
+        stream.add(at(i * 10ms + delay), 760, header);
     }
     const ClockFigures clock = stream.clock();
     EXPECT_TRUE(clock.isFromTimeCode);
@@ -537,7 +540,7 @@ TEST_F(Accounting, TakesTheCounterForAClockWhereThereIsNoTimeCode) {
     wire::Header header;
     for (std::uint32_t i = 0; i < 3'000; ++i) {
         header.sampleCounter = i * 2;
-        stream.add(std::int64_t{i} * 10 * kMillisecond, 760, header);
+        stream.add(at(i * 10ms), 760, header);
     }
     EXPECT_FALSE(stream.clock().isFromTimeCode);
     EXPECT_NEAR(stream.clock().jitterMs, 0, 0.01);

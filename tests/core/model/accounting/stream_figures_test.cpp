@@ -13,8 +13,9 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
-constexpr std::int64_t kStart = 1'700'000'000'000 * kMs;
+using namespace std::chrono_literals;
+
+constexpr log::Stamp kStart(1'700'000'000s);
 
 /// 100 samples a second, of which every `every`th does not come.
 Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std::uint32_t timeCodeStep = 0) {
@@ -25,8 +26,8 @@ Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std
             header.sampleCounter = i;
             header.datagramCounter = 0x80;
             header.timeCode = i * timeCodeStep;
-            stream.accounting.add(kStart + i * 10 * kMs, 760, header);
-            stream.statistics.add(kStart + i * 10 * kMs, 760, true);
+            stream.accounting.add(kStart + i * 10ms, 760, header);
+            stream.statistics.add(kStart + i * 10ms, 760, true);
         }
     }
     return stream;
@@ -53,9 +54,9 @@ TEST(StreamFigures, AreReadFromTheAccounting) {
     EXPECT_NEAR(figures[Figure::SpacingMost], 20, 1e-6);
     EXPECT_EQ(figures.trouble(Figure::Lost), FigureTrouble::Warning);
     EXPECT_EQ(figures.trouble(Figure::Late), FigureTrouble::None);
-    const TimeRange second{kStart + 1000 * kMs, kStart + 2000 * kMs};
+    const TimeRange second{kStart + 1s, kStart + 2s};
     EXPECT_EQ(figuresOf(stream, second).count(Figure::Lost), 2U);
-    const TimeRange open{kStart + 5000 * kMs, kAllTime.toNs};
+    const TimeRange open{kStart + 5s, kAllTime.to};
     EXPECT_EQ(figuresOf(stream, open).count(Figure::Lost), 10U);
     EXPECT_DOUBLE_EQ(figuresOf(stream, open)[Figure::Rate], figuresOf(stream, open)[Figure::RateMean]);
 }
@@ -65,7 +66,7 @@ TEST(StreamFigures, HaveACauseForAllThatIsMissingAlsoInARange) {
     wire::Header part;
     part.sampleCounter = 1000;
     part.datagramCounter = 0; // the first of several, and the only one that comes
-    stream.accounting.add(kStart + 10'000 * kMs, 760, part);
+    stream.accounting.add(kStart + 10s, 760, part);
     const auto causes = [&](const std::optional<TimeRange>& range) {
         const StreamFigures figures = figuresOf(stream, range);
         EXPECT_EQ(figures.count(Figure::Incomplete), 1U);
@@ -73,7 +74,7 @@ TEST(StreamFigures, HaveACauseForAllThatIsMissingAlsoInARange) {
                figures[Figure::LostUnknown] - figures[Figure::Missing];
     };
     EXPECT_EQ(causes({}), 0);
-    EXPECT_EQ(causes(TimeRange{kStart + 5000 * kMs, kAllTime.toNs}), 0);
+    EXPECT_EQ(causes(TimeRange{kStart + 5s, kAllTime.to}), 0);
 }
 
 TEST(StreamFigures, OfSeveralStreamsAddUpAsTheTableSays) {

@@ -14,7 +14,7 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+using namespace std::chrono_literals;
 
 NullPose poseOf(const ReferenceBody& body) {
     NullPose pose;
@@ -88,21 +88,21 @@ TEST_F(NullPoseFindings, AnUnknownNameAndOneSpelledOtherwise) {
 }
 
 TEST_F(NullPoseFindings, AMissingPartOnceItIsOverdue) {
-    NullPoseMessage message{1, 0, 0, 4, 6, {2, 4}};
+    NullPoseMessage message{1, {}, {}, 4, 6, {2, 4}};
     evidence.record.newest = &message;
-    evidence.nowNs = kSecond / 2;
+    evidence.now = log::Stamp(500ms);
     EXPECT_TRUE(find().empty());
-    evidence.nowNs = 2 * kSecond;
+    evidence.now = log::Stamp(2s);
     const auto* finding = only(NullPoseFault::MissingPart);
     ASSERT_NE(finding, nullptr);
     EXPECT_NE(finding->what.find("Parts 3 and 5 of 6"), std::string::npos) << finding->what;
     EXPECT_EQ(finding->severity, Severity::Warning); // an earlier message was whole
     pose.partsExpected = 6;
     EXPECT_EQ(only(NullPoseFault::MissingPart)->severity, Severity::Error);
-    message = {1, 0, 0, 1, 0, {}};
+    message = {1, {}, {}, 1, 0, {}};
     EXPECT_EQ(only(NullPoseFault::MissingPart)->what,
               "The last part of the newest scale message never came; 1 part did.");
-    message = {1, 0, 0, 2, 0, {1}};
+    message = {1, {}, {}, 2, 0, {1}};
     EXPECT_EQ(only(NullPoseFault::MissingPart)->what,
               "Parts 2 and the last of the newest scale message never came; 2 parts did.");
 }

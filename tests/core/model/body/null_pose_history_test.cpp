@@ -6,7 +6,11 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;
+using namespace std::chrono_literals;
+
+constexpr log::Stamp at(log::Duration time) {
+    return log::Stamp(time);
+}
 
 wire::NullPose segmentsOf(float height) {
     wire::NullPose part;
@@ -23,12 +27,12 @@ wire::NullPose pointsOf(std::uint16_t id) {
 /// Sends messages of three parts, one part a packet.
 class NullPoseRecordTest : public testing::Test {
 protected:
-    void send(float height, std::int64_t stampNs, const std::vector<int>& lost = {}) {
+    void send(float height, log::Stamp stamp, const std::vector<int>& lost = {}) {
         for (int part = 0; part < 3; ++part) {
             if (std::find(lost.begin(), lost.end(), part) == lost.end()) {
                 const auto counter = static_cast<std::uint8_t>(part == 2 ? 0x82 : part);
                 history.add(part == 0 ? segmentsOf(height) : pointsOf(static_cast<std::uint16_t>(part)),
-                            counter, packet, stampNs + part);
+                            counter, packet, stamp + part * 1ns);
             }
             ++packet;
         }
@@ -41,23 +45,23 @@ protected:
 
 TEST_F(NullPoseRecordTest, CountsMessagesAndKnowsHowOftenTheyCome) {
     for (int i = 0; i < 5; ++i) {
-        send(1, i * 5 * kSecond);
+        send(1, at(i * 5s));
     }
     EXPECT_EQ(now().messages, 5U);
-    EXPECT_EQ(now().repetitionNs, 5 * kSecond);
+    EXPECT_EQ(now().repetition, 5s);
     EXPECT_EQ(now().incompleteMessages, 0U);
     EXPECT_EQ(now().before, nullptr);
-    EXPECT_EQ(now().changedNs, 0);
+    EXPECT_EQ(now().changed, log::Stamp());
     EXPECT_EQ(history.record(5).messages, 2U);
 }
 
 TEST_F(NullPoseRecordTest, RemembersWhatWasSaidBeforeAChange) {
-    send(1, 0);
-    send(1, 5 * kSecond);
-    send(2, 10 * kSecond);
-    send(2, 15 * kSecond);
+    send(1, at(0s));
+    send(1, at(5s));
+    send(2, at(10s));
+    send(2, at(15s));
     const NullPoseRecord record = now();
-    EXPECT_EQ(record.changedNs, 10 * kSecond);
+    EXPECT_EQ(record.changed, at(10s));
     ASSERT_NE(record.before, nullptr);
     EXPECT_EQ(record.before->segments[0].position.z(), 1.0);
     EXPECT_TRUE(record.before->isComplete());
@@ -66,9 +70,9 @@ TEST_F(NullPoseRecordTest, RemembersWhatWasSaidBeforeAChange) {
 }
 
 TEST_F(NullPoseRecordTest, ALostPartIsNoChange) {
-    send(1, 0, {1});
+    send(1, at(0s), {1});
     EXPECT_EQ(now().newest->missingParts, std::vector<unsigned>{1});
-    send(1, 5 * kSecond);
+    send(1, at(5s));
     EXPECT_EQ(now().before, nullptr);
     EXPECT_EQ(now().incompleteMessages, 1U);
     EXPECT_TRUE(now().newest->isComplete());
@@ -76,23 +80,23 @@ TEST_F(NullPoseRecordTest, ALostPartIsNoChange) {
 }
 
 TEST_F(NullPoseRecordTest, WithoutTheLastPartTheNumberOfPartsIsOpen) {
-    send(1, 0, {2});
+    send(1, at(0s), {2});
     EXPECT_EQ(now().newest->partsExpected, 0U);
     EXPECT_FALSE(now().newest->isComplete());
     EXPECT_TRUE(now().newest->missingParts.empty());
 }
 
 TEST_F(NullPoseRecordTest, PartsThatTheNetworkRepeatsBeginNoMessage) {
-    send(1, 0);
-    history.add(pointsOf(2), 0x82, packet, 10);
-    history.add(segmentsOf(1), 0x00, packet + 1, 11);
+    send(1, at(0s));
+    history.add(pointsOf(2), 0x82, packet, at(10ns));
+    history.add(segmentsOf(1), 0x00, packet + 1, at(11ns));
     EXPECT_EQ(now().messages, 1U);
     EXPECT_TRUE(now().newest->isComplete());
 }
 
 TEST_F(NullPoseRecordTest, HasNothingBeforeTheFirstMessage) {
     packet = 10;
-    send(1, 0);
+    send(1, at(0s));
     EXPECT_EQ(history.record(9).pose, nullptr);
     EXPECT_EQ(history.record(9).messages, 0U);
     EXPECT_EQ(history.record(9).newest, nullptr);
@@ -100,7 +104,7 @@ TEST_F(NullPoseRecordTest, HasNothingBeforeTheFirstMessage) {
 
 TEST_F(NullPoseRecordTest, OneMessageTakesNoMoreThanTwoVersions) {
     for (int i = 0; i < 20; ++i) {
-        send(static_cast<float>(i), i * kSecond);
+        send(static_cast<float>(i), at(i * 1s));
     }
     // 20 bodies in 60 steps: the first is still known.
     EXPECT_EQ(history.at(2)->segments[0].position.z(), 0.0);

@@ -6,6 +6,8 @@
 namespace posewire::model {
 namespace {
 
+using namespace std::chrono_literals;
+
 wire::NullPose segmentsOf(float height) {
     wire::NullPose part;
     part.segments = {{"Pelvis", {0, 0, height}}, {"L5", {0, 0, height + 0.1F}}};
@@ -21,57 +23,57 @@ wire::NullPose pointsOf(std::uint16_t first) {
 
 TEST(NullPoseAssembler, HasNothingBeforeSegmentsArrive) {
     NullPoseAssembler assembler;
-    assembler.add(pointsOf(1), 1, 0, 0);
+    assembler.add(pointsOf(1), 1, 0, {});
     EXPECT_EQ(assembler.newest(), nullptr);
     EXPECT_EQ(assembler.arriving().partsReceived, 1U);
 }
 
 TEST(NullPoseAssembler, GathersPartsInAnyOrder) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, 10);
-    assembler.add(pointsOf(5), 0x82, 1, 11);
+    assembler.add(segmentsOf(1), 0x00, 0, log::Stamp(10ns));
+    assembler.add(pointsOf(5), 0x82, 1, log::Stamp(11ns));
     EXPECT_FALSE(assembler.newest()->isComplete());
-    assembler.add(pointsOf(3), 0x01, 2, 12);
+    assembler.add(pointsOf(3), 0x01, 2, log::Stamp(12ns));
     const NullPose* pose = assembler.newest();
     ASSERT_TRUE(pose->isComplete());
     EXPECT_EQ(pose->partsReceived, 3U);
     ASSERT_EQ(pose->points.size(), 4U);
     EXPECT_EQ(pose->points[0].id, 3);
     EXPECT_EQ(pose->points[2].id, 5);
-    EXPECT_EQ(pose->stampNs, 12);
+    EXPECT_EQ(pose->stamp, log::Stamp(12ns));
 }
 
 TEST(NullPoseAssembler, CountsARepeatedPartOnce) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, 0);
-    assembler.add(pointsOf(3), 0x01, 1, 0);
-    assembler.add(pointsOf(3), 0x01, 2, 0);
+    assembler.add(segmentsOf(1), 0x00, 0, {});
+    assembler.add(pointsOf(3), 0x01, 1, {});
+    assembler.add(pointsOf(3), 0x01, 2, {});
     EXPECT_EQ(assembler.newest()->points.size(), 2U);
     EXPECT_EQ(assembler.newest()->partsReceived, 2U);
 }
 
 TEST(NullPoseAssembler, KeepsTheCompleteMessageWhileTheSameIsSentAgain) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, 0);
-    assembler.add(pointsOf(3), 0x81, 1, 0);
-    assembler.add(segmentsOf(1), 0x00, 2, 0);
+    assembler.add(segmentsOf(1), 0x00, 0, {});
+    assembler.add(pointsOf(3), 0x81, 1, {});
+    assembler.add(segmentsOf(1), 0x00, 2, {});
     EXPECT_TRUE(assembler.newest()->isComplete());
     EXPECT_EQ(assembler.newest()->points.size(), 2U);
 }
 
 TEST(NullPoseAssembler, UsesNewSegmentsAtOnceAlthoughPartsAreMissing) {
     NullPoseAssembler assembler;
-    assembler.add(segmentsOf(1), 0x00, 0, 0);
-    assembler.add(pointsOf(3), 0x81, 1, 0);
-    assembler.add(segmentsOf(1.2F), 0x00, 2, 0);
+    assembler.add(segmentsOf(1), 0x00, 0, {});
+    assembler.add(pointsOf(3), 0x81, 1, {});
+    assembler.add(segmentsOf(1.2F), 0x00, 2, {});
     EXPECT_FLOAT_EQ(static_cast<float>(assembler.newest()->segments[0].position.z()), 1.2F);
 }
 
 TEST(NullPoseHistory, TellsWhatWasKnownAtAPacket) {
     NullPoseHistory history;
-    history.add(segmentsOf(1), 0x80, 10, 0);
-    history.add(segmentsOf(1), 0x80, 20, 0);
-    history.add(segmentsOf(2), 0x80, 30, 0);
+    history.add(segmentsOf(1), 0x80, 10, {});
+    history.add(segmentsOf(1), 0x80, 20, {});
+    history.add(segmentsOf(2), 0x80, 30, {});
     EXPECT_EQ(history.at(9), nullptr);
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(25)->segments[0].position.z()), 1.0F);
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(30)->segments[0].position.z()), 2.0F);
@@ -80,7 +82,7 @@ TEST(NullPoseHistory, TellsWhatWasKnownAtAPacket) {
 TEST(NullPoseHistory, StaysBounded) {
     NullPoseHistory history;
     for (std::uint64_t packet = 0; packet < 10'000; ++packet) {
-        history.add(segmentsOf(static_cast<float>(packet)), 0x80, packet, 0);
+        history.add(segmentsOf(static_cast<float>(packet)), 0x80, packet, {});
     }
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(9'999)->segments[0].position.z()), 9'999.0F);
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(0)->segments[0].position.z()),

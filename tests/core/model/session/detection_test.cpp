@@ -174,23 +174,23 @@ protected:
 };
 
 TEST_F(UnitTest, IsTheSendersForPosesAsForEverybodyElse) {
-    send(standingAt(2), 1, kSecond);
+    send(standingAt(2), 1, at(1s));
     follow();
     EXPECT_NEAR(poseX(), 2.0, 1e-6);
     // Reaches five metres and more, on a sender whose pelvis says metres.
     wire::PoseQuaternion stretched = standingAt(2);
     stretched.segments[6].position = {2, 0, 9};
-    send(stretched, 2, 2 * kSecond);
+    send(stretched, 2, at(2s));
     follow();
     EXPECT_EQ(unit(wire::PoseQuaternion::kType), LengthUnit::Metre);
     EXPECT_NEAR(poseX(), 2.0, 1e-6);
 }
 
 TEST_F(UnitTest, ChangesForPosesWhenItChangesForTheSender) {
-    send(standingAt(2), 1, kSecond);
+    send(standingAt(2), 1, at(1s));
     follow();
     for (std::uint32_t i = 1; i <= UnitFinder::kPatience; ++i) {
-        send(inCentimetres(standingAt(2)), 1 + i, (1 + i) * kSecond);
+        send(inCentimetres(standingAt(2)), 1 + i, at((1 + i) * 1s));
         follow();
         const LengthUnit now = unit(wire::PoseQuaternion::kType);
         EXPECT_EQ(now, i < UnitFinder::kPatience ? LengthUnit::Metre : LengthUnit::Centimetre);
@@ -199,7 +199,7 @@ TEST_F(UnitTest, ChangesForPosesWhenItChangesForTheSender) {
 }
 
 TEST_F(UnitTest, OfTypesWithYUpIsTheirOwn) {
-    send(standingAt(0), 1, kSecond);
+    send(standingAt(0), 1, at(1s));
     follow();
     EXPECT_EQ(unit(wire::PoseEuler::kType), LengthUnit::Centimetre);
     wire::PoseEuler euler;
@@ -207,7 +207,7 @@ TEST_F(UnitTest, OfTypesWithYUpIsTheirOwn) {
         const auto& [x, y, z] = segment.position;
         euler.segments.push_back({segment.id, {y, z, x}, {0, 0, 0}});
     }
-    send(euler, 2, 2 * kSecond);
+    send(euler, 2, at(2s));
     follow();
     EXPECT_EQ(unit(wire::PoseEuler::kType), LengthUnit::Metre);
     EXPECT_EQ(unit(wire::PointPositions::kType), LengthUnit::Metre);
@@ -217,7 +217,7 @@ TEST_F(UnitTest, OfTypesWithYUpIsTheirOwn) {
 class OverrideTest : public SessionTest {};
 
 TEST_F(OverrideTest, ReadsPosesInTheDeclaredUnit) {
-    send(standingAt(2), 1, kSecond);
+    send(standingAt(2), 1, at(1s));
     follow();
     ASSERT_NE(m_session.pose(key()), nullptr);
     EXPECT_NEAR(m_session.pose(key())->segments[0].position.x(), 2.0, 1e-6);
@@ -231,14 +231,14 @@ TEST_F(OverrideTest, ReadsPosesInTheDeclaredUnit) {
 }
 
 TEST_F(OverrideTest, HoldsForTheSenderThatComesBackFromAnotherPort) {
-    send(standingAt(0), 1, kSecond);
+    send(standingAt(0), 1, at(1s));
     follow();
     m_session.setOverride(sender(), {.revision = Revision::JOrK});
     wire::Datagram datagram;
     datagram.body = standingAt(0);
     wire::completeHeader(datagram, wire::HeaderEra::Counted);
-    sendBytes(*wire::encode(datagram), 2 * kSecond, "127.0.0.1:40002");
-    sendBytes(*wire::encode(datagram), 2 * kSecond, "127.0.0.2:40002");
+    sendBytes(*wire::encode(datagram), at(2s), "127.0.0.1:40002");
+    sendBytes(*wire::encode(datagram), at(2s), "127.0.0.2:40002");
     follow();
     EXPECT_EQ(m_session.find(sender("127.0.0.1:40002"))->revision(), Revision::JOrK);
     EXPECT_EQ(m_session.find(sender("127.0.0.2:40002"))->revision(), Revision::N);

@@ -8,10 +8,12 @@
 namespace posewire::model {
 namespace {
 
+using namespace std::chrono_literals;
+
 TEST(Metadata, KeepsTagsThatALaterPacketDoesNotRepeat) {
     Metadata metadata;
-    metadata.add({true, "name:Ana\ncolor:2f72c4\n"}, 1, 100);
-    metadata.add({true, "xmid:00B42C51\n"}, 2, 200);
+    metadata.add({true, "name:Ana\ncolor:2f72c4\n"}, 1, log::Stamp(100ns));
+    metadata.add({true, "xmid:00B42C51\n"}, 2, log::Stamp(200ns));
     EXPECT_EQ(metadata.value("name", 2), "Ana");
     EXPECT_EQ(metadata.value("xmid", 2), "00B42C51");
     EXPECT_EQ(metadata.value("xmid", 1), "");
@@ -19,19 +21,19 @@ TEST(Metadata, KeepsTagsThatALaterPacketDoesNotRepeat) {
 
 TEST(Metadata, RemembersEachChangeWithItsPacket) {
     Metadata metadata;
-    metadata.add({true, "name:Ana\n"}, 1, 100);
-    metadata.add({true, "name:Ana\n"}, 5, 500);
-    metadata.add({true, "name:Bo\n"}, 9, 900);
+    metadata.add({true, "name:Ana\n"}, 1, log::Stamp(100ns));
+    metadata.add({true, "name:Ana\n"}, 5, log::Stamp(500ns));
+    metadata.add({true, "name:Bo\n"}, 9, log::Stamp(900ns));
     const MetadataTag* tag = metadata.find("name");
     ASSERT_EQ(tag->values.size(), 2U);
     EXPECT_EQ(tag->at(8)->text, "Ana");
     EXPECT_EQ(tag->at(9)->text, "Bo");
-    EXPECT_EQ(tag->lastSeenNs, 900);
+    EXPECT_EQ(tag->lastSeen, log::Stamp(900ns));
 }
 
 TEST(Metadata, MarksTagsThatAreNotKnown) {
     Metadata metadata;
-    metadata.add({true, "name:a:b\nshoeSize:42\n"}, 1, 1);
+    metadata.add({true, "name:a:b\nshoeSize:42\n"}, 1, log::Stamp(1ns));
     EXPECT_EQ(metadata.value("name", 1), "a:b");
     EXPECT_TRUE(metadata.find("name")->isKnown);
     EXPECT_FALSE(metadata.find("shoeSize")->isKnown);
@@ -40,7 +42,7 @@ TEST(Metadata, MarksTagsThatAreNotKnown) {
 TEST(Metadata, StaysBoundedWhateverIsSent) {
     Metadata metadata;
     for (std::uint64_t i = 0; i < 2'000; ++i) {
-        metadata.add({true, "tag" + std::to_string(i) + ":x\nname:" + std::to_string(i) + "\n"}, i, 0);
+        metadata.add({true, "tag" + std::to_string(i) + ":x\nname:" + std::to_string(i) + "\n"}, i, {});
     }
     EXPECT_EQ(metadata.tags().size(), Metadata::kMaxTags);
     EXPECT_LE(metadata.find("name")->values.size(), Metadata::kMaxValues);

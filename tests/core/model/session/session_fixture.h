@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet_log.h"
+#include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/session/session.h"
@@ -10,36 +11,36 @@
 
 namespace posewire::model {
 
+using namespace std::chrono_literals;
+
 /// A log to which tests send datagrams at stamps of their choosing, and a session that follows it.
 class SessionTest : public testing::Test {
 protected:
-    static constexpr std::int64_t kMillisecond = 1'000'000;
-    static constexpr std::int64_t kSecond = 1'000'000'000;
+    static constexpr log::Stamp at(log::Duration time) { return log::Stamp(time); }
 
     log::SenderId sender(const std::string& address = "127.0.0.1:40001") {
         return m_log.senders().intern({address, log::Transport::Udp, 9763});
     }
 
-    void sendBytes(wire::Bytes bytes, std::int64_t stampNs, const std::string& address = "127.0.0.1:40001") {
+    void sendBytes(wire::Bytes bytes, log::Stamp stamp, const std::string& address = "127.0.0.1:40001") {
         log::Arrival arrival;
-        arrival.stampNs = stampNs;
+        arrival.stamp = stamp;
         arrival.sender = sender(address);
         m_log.writer().append(bytes, arrival);
         m_log.writer().publish();
-        m_now = stampNs;
+        m_now = stamp;
     }
 
-    void send(wire::Body body, std::uint32_t sample, std::int64_t stampNs,
-              std::uint8_t datagramCounter = 0x80) {
+    void send(wire::Body body, std::uint32_t sample, log::Stamp stamp, std::uint8_t datagramCounter = 0x80) {
         wire::Datagram datagram;
         datagram.body = std::move(body);
         datagram.header.sampleCounter = sample;
         datagram.header.datagramCounter = datagramCounter;
-        datagram.header.timeCode = static_cast<std::uint32_t>(stampNs / kMillisecond);
+        datagram.header.timeCode = static_cast<std::uint32_t>(stamp.time_since_epoch() / 1ms);
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         const auto bytes = wire::encode(datagram);
         ASSERT_TRUE(bytes.has_value());
-        sendBytes(*bytes, stampNs);
+        sendBytes(*bytes, stamp);
     }
 
     void follow() { m_session.follow(m_now); }
@@ -59,7 +60,7 @@ protected:
 
     log::PacketLog m_log;
     Session m_session{m_log};
-    std::int64_t m_now = 0;
+    log::Stamp m_now{};
 };
 
 } // namespace posewire::model

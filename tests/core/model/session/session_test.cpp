@@ -12,8 +12,8 @@ constexpr std::array<std::byte, 5> kForeign{std::byte{'{'}, std::byte{'"'}, std:
                                             std::byte{'}'}};
 
 TEST_F(SessionTest, ListsSenderCharacterAndStreamInOrderOfAppearance) {
-    send(wire::MetaData{true, "name:Factory\n"}, 0, 1 * kSecond);
-    send(standingAt(0), 1, 2 * kSecond);
+    send(wire::MetaData{true, "name:Factory\n"}, 0, at(1s));
+    send(standingAt(0), 1, at(2s));
     follow();
     ASSERT_EQ(m_session.senders().size(), 1U);
     EXPECT_EQ(m_session.senders()[0].info.address, "127.0.0.1:40001");
@@ -24,10 +24,10 @@ TEST_F(SessionTest, ListsSenderCharacterAndStreamInOrderOfAppearance) {
 }
 
 TEST_F(SessionTest, CountsForeignMalformedAndSkippedApart) {
-    sendBytes(kForeign, 1);
+    sendBytes(kForeign, at(1ns));
     const std::array<std::byte, 6> cut{std::byte{'M'}, std::byte{'X'}, std::byte{'T'},
                                        std::byte{'P'}, std::byte{'0'}, std::byte{'2'}};
-    sendBytes(cut, 2);
+    sendBytes(cut, at(2ns));
     log::Arrival skipped;
     skipped.sender = sender();
     skipped.flags.skipped = true;
@@ -50,9 +50,9 @@ TEST_F(SessionTest, HandsOnTheNewestMessageAsItWasDecodedWhenItCame) {
         datagram.header.sampleCounter = sample;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         log.writer().append(*wire::encode(datagram),
-                            {.stampNs = sample * kSecond, .sender = log.senders().intern({"a:1"})});
+                            {.stamp = at(sample * 1s), .sender = log.senders().intern({"a:1"})});
         log.writer().publish();
-        ingest.follow(sample * kSecond, 100);
+        ingest.follow(at(sample * 1s), 100);
         const Message* newest = ingest.newest({log::SenderId{0}, 0, wire::PoseQuaternion::kType});
         ASSERT_NE(newest, nullptr);
         EXPECT_EQ(newest->datagram.header.sampleCounter, sample);
@@ -62,12 +62,12 @@ TEST_F(SessionTest, HandsOnTheNewestMessageAsItWasDecodedWhenItCame) {
 }
 
 TEST_F(SessionTest, ReadsTheMessageBeforeAMalformedOneFromTheLog) {
-    send(standingAt(1), 1, 1 * kSecond);
-    send(standingAt(2), 2, 2 * kSecond);
+    send(standingAt(1), 1, at(1s));
+    send(standingAt(2), 2, at(2s));
     wire::Datagram datagram{{}, standingAt(3), {}};
     wire::completeHeader(datagram, wire::HeaderEra::Counted);
     const auto bytes = *wire::encode(datagram);
-    sendBytes(wire::Bytes(bytes).first(100), 3 * kSecond);
+    sendBytes(wire::Bytes(bytes).first(100), at(3s));
     follow();
     EXPECT_EQ(m_session.senders().front().malformed, 1U);
     EXPECT_EQ(m_session.streams().front().accounting.malformed(), 1U);
@@ -79,17 +79,17 @@ TEST_F(SessionTest, ReadsTheMessageBeforeAMalformedOneFromTheLog) {
 }
 
 TEST_F(SessionTest, GivesTheNewestPoseAndFreezesItWhenPaused) {
-    send(standingAt(0), 1, 1 * kSecond);
-    send(standingAt(1), 2, 2 * kSecond);
+    send(standingAt(0), 1, at(1s));
+    send(standingAt(1), 2, at(2s));
     follow();
     ASSERT_NE(m_session.pose(key()), nullptr);
     EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 1.0F);
 
     m_session.setCursor({Cursor::Mode::Paused, 0});
     EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 0.0F);
-    EXPECT_EQ(m_session.cursorStampNs(), 1 * kSecond);
+    EXPECT_EQ(m_session.cursorStamp(), at(1s));
 
-    send(standingAt(2), 3, 3 * kSecond);
+    send(standingAt(2), 3, at(3s));
     follow();
     EXPECT_FLOAT_EQ(static_cast<float>(m_session.pose(key())->segments[0].position.x()), 0.0F);
     EXPECT_EQ(m_session.end(), 3U);
@@ -115,7 +115,7 @@ TEST_F(SessionTest, PosesOfTypes01And02And05AgreeInTheOneFrame) {
     const std::array<wire::Body, 3> bodies{quaternion, euler, unity};
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         // A second apart, so that the newest type is the one that counts.
-        send(bodies[i], static_cast<std::uint32_t>(i), static_cast<std::int64_t>(i + 1) * kSecond);
+        send(bodies[i], static_cast<std::uint32_t>(i), at(std::chrono::seconds(i + 1)));
         follow();
         const CharacterPose* pose = m_session.pose(key());
         ASSERT_NE(pose, nullptr);
@@ -133,8 +133,8 @@ TEST_F(SessionTest, PosesOfTypes01And02And05AgreeInTheOneFrame) {
 TEST_F(SessionTest, PrefersTheQuaternionPoseAmongTypesSentTogether) {
     wire::PoseEuler euler;
     euler.segments.push_back({1, {0, 104, 0}, {}});
-    send(standingAt(0), 7, 1 * kSecond);
-    send(euler, 7, 1 * kSecond + kMillisecond);
+    send(standingAt(0), 7, at(1s));
+    send(euler, 7, at(1'001ms));
     follow();
     EXPECT_EQ(m_session.pose(key())->type, 2);
 }
@@ -145,23 +145,23 @@ TEST_F(SessionTest, JoinsAPoseThatCameInSeveralDatagramsOnceAllAreThere) {
     wire::PoseQuaternion second;
     first.segments.assign(whole.segments.begin(), whole.segments.begin() + 12);
     second.segments.assign(whole.segments.begin() + 12, whole.segments.end());
-    send(first, 5, 1 * kSecond, 0);
+    send(first, 5, at(1s), 0);
     follow();
     EXPECT_EQ(m_session.message(key(), 2), nullptr);
-    send(second, 5, 1 * kSecond, 0x81);
+    send(second, 5, at(1s), 0x81);
     follow();
     const Message* message = m_session.message(key(), 2);
     ASSERT_NE(message, nullptr);
     EXPECT_EQ(std::get<wire::PoseQuaternion>(message->datagram.body), whole);
 
     // The first half of the next sample must not hide the last complete one.
-    send(first, 6, 2 * kSecond, 0);
+    send(first, 6, at(2s), 0);
     follow();
     EXPECT_EQ(m_session.message(key(), 2)->datagram.header.sampleCounter, 5U);
 }
 
 TEST_F(SessionTest, ComputesTheOriginsOfABodyOncePerScaleMessage) {
-    send(standingAt(0), 1, 1 * kSecond);
+    send(standingAt(0), 1, at(1s));
     follow();
     EXPECT_EQ(m_session.bodyOrigins(key()).places, referenceOrigins());
     wire::NullPose nullPose;
@@ -169,7 +169,7 @@ TEST_F(SessionTest, ComputesTheOriginsOfABodyOncePerScaleMessage) {
         nullPose.segments.push_back(
             {"Segment " + std::to_string(nullPose.segments.size()), toFloats(1.1 * origin)});
     }
-    send(nullPose, 0, 2 * kSecond);
+    send(nullPose, 0, at(2s));
     follow();
     const BodyOrigins* origins = &m_session.bodyOrigins(key());
     const Eigen::Vector3d head = origins->places[segment::kHead];
@@ -182,7 +182,7 @@ TEST_F(SessionTest, ComputesTheOriginsOfABodyOncePerScaleMessage) {
 }
 
 TEST_F(SessionTest, NamesACharacterByItsIdWhereNoNameWasSentAndWhereItIsUnknown) {
-    send(standingAt(0), 1, 1 * kSecond);
+    send(standingAt(0), 1, at(1s));
     follow();
     EXPECT_EQ(m_session.displayName(key()), "Character 0");
     EXPECT_EQ(m_session.displayName({sender(), 3}), "Character 3");
@@ -202,47 +202,47 @@ TEST_F(SessionTest, KeepsWhatIsHiddenWithTheChoices) {
 
 TEST_F(SessionTest, VisitsMessagesOldestFirstUpToTheCursor) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
-        send(standingAt(0), sample, sample * kSecond);
+        send(standingAt(0), sample, at(sample * 1s));
     }
     follow();
     m_session.setCursor({Cursor::Mode::Paused, 7});
     std::vector<std::uint32_t> samples;
-    const auto visited = m_session.visit({sender(), 0, 2}, 3 * kSecond, 100, [&](const Message& message) {
+    const auto visited = m_session.visit({sender(), 0, 2}, at(3s), 100, [&](const Message& message) {
         samples.push_back(message.datagram.header.sampleCounter);
     });
     EXPECT_EQ(visited, 5U);
     EXPECT_EQ(samples, (std::vector<std::uint32_t>{3, 4, 5, 6, 7}));
-    EXPECT_EQ(m_session.visit({sender(), 0, 2}, 0, 2, [](const auto&) {}), 2U);
+    EXPECT_EQ(m_session.visit({sender(), 0, 2}, at(0s), 2, [](const auto&) {}), 2U);
 }
 
 TEST_F(SessionTest, FindsThePacketOfATime) {
-    EXPECT_EQ(m_session.packetAt(kSecond), 0U) << "there is none";
+    EXPECT_EQ(m_session.packetAt(at(1s)), 0U) << "there is none";
     for (std::uint32_t sample = 0; sample < 100; ++sample) {
-        send(standingAt(0), sample, kSecond + sample * 10 * kMillisecond);
+        send(standingAt(0), sample, at(1s + sample * 10ms));
     }
     follow();
-    EXPECT_EQ(m_session.packetAt(0), 0U);
-    EXPECT_EQ(m_session.packetAt(kSecond + 95 * kMillisecond), 9U);
-    EXPECT_EQ(m_session.packetAt(kSecond + 100 * kMillisecond), 10U);
-    EXPECT_EQ(m_session.packetAt(100 * kSecond), 99U);
-    EXPECT_EQ(m_session.packetFrom(0), 0U);
-    EXPECT_EQ(m_session.packetFrom(kSecond + 95 * kMillisecond), 10U);
-    EXPECT_EQ(m_session.packetFrom(kSecond + 100 * kMillisecond), 10U);
-    EXPECT_EQ(m_session.packetFrom(100 * kSecond), 100U);
+    EXPECT_EQ(m_session.packetAt(at(0s)), 0U);
+    EXPECT_EQ(m_session.packetAt(at(1'095ms)), 9U);
+    EXPECT_EQ(m_session.packetAt(at(1'100ms)), 10U);
+    EXPECT_EQ(m_session.packetAt(at(100s)), 99U);
+    EXPECT_EQ(m_session.packetFrom(at(0s)), 0U);
+    EXPECT_EQ(m_session.packetFrom(at(1'095ms)), 10U);
+    EXPECT_EQ(m_session.packetFrom(at(1'100ms)), 10U);
+    EXPECT_EQ(m_session.packetFrom(at(100s)), 100U);
 }
 
 TEST_F(SessionTest, TellsTheAgeOfACharacterAgainstTheGivenTime) {
-    send(standingAt(0), 1, 1 * kSecond);
-    m_session.follow(3 * kSecond + kSecond / 5);
+    send(standingAt(0), 1, at(1s));
+    m_session.follow(at(3'200ms));
     EXPECT_NEAR(m_session.ageSeconds(key()), 2.2, 1e-9);
 }
 
 TEST_F(SessionTest, FallsBackToDefaultNameAndColour) {
-    send(standingAt(0), 1, 1 * kSecond);
+    send(standingAt(0), 1, at(1s));
     follow();
     EXPECT_EQ(m_session.displayName(key()), "Character 0");
     EXPECT_EQ(m_session.colour(key()), defaultColour(0));
-    send(wire::MetaData{true, "color:e96417\n"}, 0, 2 * kSecond);
+    send(wire::MetaData{true, "color:e96417\n"}, 0, at(2s));
     follow();
     EXPECT_NEAR(m_session.colour(key()).red, 0xe9 / 255.0, 1e-6);
 }
@@ -260,10 +260,10 @@ TEST_F(SessionTest, ForgetsWhatTheLogForgetsWithoutLosingItsPlace) {
         small.writer().append(*bytes, arrival);
         small.writer().publish();
         if (i % 5'000 == 0) {
-            session.follow(0);
+            session.follow({});
         }
     }
-    session.follow(0);
+    session.follow({});
     EXPECT_EQ(session.end(), 60'000U);
     EXPECT_GT(session.begin(), 0U);
     EXPECT_NE(session.message({arrival.sender, 0}, 2), nullptr);

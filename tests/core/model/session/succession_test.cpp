@@ -7,14 +7,14 @@ namespace {
 /// Datagrams of one character from several ports of one host.
 class SuccessionTest : public SessionTest {
 protected:
-    void sendFrom(const std::string& address, wire::Body body, std::int64_t stampNs) {
+    void sendFrom(const std::string& address, wire::Body body, log::Stamp stamp) {
         wire::Datagram datagram;
         datagram.body = std::move(body);
         datagram.header.sampleCounter = ++m_sample;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         const auto bytes = wire::encode(datagram);
         ASSERT_TRUE(bytes.has_value());
-        sendBytes(*bytes, stampNs, address);
+        sendBytes(*bytes, stamp, address);
     }
     CharacterKey keyOf(const std::string& address) { return {sender(address), 0}; }
 
@@ -22,9 +22,9 @@ protected:
 };
 
 TEST_F(SuccessionTest, TakesWhatItHasNotSentFromTheSenderBefore) {
-    sendFrom("10.0.0.5:1000", wire::MetaData{true, "name:Factory\ncolor:e96417\n"}, 1 * kSecond);
-    sendFrom("10.0.0.5:1001", standingAt(3), 2 * kSecond);
-    sendFrom("10.0.0.5:1002", wire::TimeCode{}, 3 * kSecond);
+    sendFrom("10.0.0.5:1000", wire::MetaData{true, "name:Factory\ncolor:e96417\n"}, at(1s));
+    sendFrom("10.0.0.5:1001", standingAt(3), at(2s));
+    sendFrom("10.0.0.5:1002", wire::TimeCode{}, at(3s));
     follow();
     const CharacterKey newest = keyOf("10.0.0.5:1002");
     EXPECT_EQ(m_session.displayName(newest), "Factory");
@@ -38,25 +38,25 @@ TEST_F(SuccessionTest, TakesWhatItHasNotSentFromTheSenderBefore) {
 }
 
 TEST_F(SuccessionTest, KeepsTwoSendersApartThatSendAtTheSameTime) {
-    sendFrom("10.0.0.5:1000", wire::MetaData{true, "name:Ana\n"}, 1 * kSecond);
-    sendFrom("10.0.0.5:1001", standingAt(0), 2 * kSecond);
-    sendFrom("10.0.0.5:1000", standingAt(1), 3 * kSecond);
+    sendFrom("10.0.0.5:1000", wire::MetaData{true, "name:Ana\n"}, at(1s));
+    sendFrom("10.0.0.5:1001", standingAt(0), at(2s));
+    sendFrom("10.0.0.5:1000", standingAt(1), at(3s));
     follow();
     EXPECT_FALSE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
     EXPECT_EQ(m_session.displayName(keyOf("10.0.0.5:1001")), "Character 0");
 }
 
 TEST_F(SuccessionTest, KeepsHostsAndCharactersApart) {
-    sendFrom("10.0.0.5:1000", wire::MetaData{true, "name:Ana\n"}, 1 * kSecond);
-    sendFrom("10.0.0.6:1000", standingAt(0), 2 * kSecond);
+    sendFrom("10.0.0.5:1000", wire::MetaData{true, "name:Ana\n"}, at(1s));
+    sendFrom("10.0.0.6:1000", standingAt(0), at(2s));
     follow();
     EXPECT_FALSE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
     EXPECT_EQ(m_session.displayName(keyOf("10.0.0.6:1000")), "Character 0");
 }
 
 TEST_F(SuccessionTest, ShowsTheOldSenderAgainBeforeItsSuccessorCame) {
-    sendFrom("10.0.0.5:1000", standingAt(0), 1 * kSecond);
-    sendFrom("10.0.0.5:1001", standingAt(1), 2 * kSecond);
+    sendFrom("10.0.0.5:1000", standingAt(0), at(1s));
+    sendFrom("10.0.0.5:1001", standingAt(1), at(2s));
     follow();
     EXPECT_TRUE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
     m_session.setCursor({Cursor::Mode::Paused, 0});
