@@ -7,7 +7,7 @@
 #include <vector>
 
 /// A message type that no sender has, added by the steps of CONTRIBUTING.md and nothing else. Included in
-/// front of every unit of the copy of core that is built here.
+/// front of every unit of the copy of core that is built here. WITHOUT_… leaves a step out.
 #define POSEWIRE_FURTHER_MESSAGES , Probe
 
 namespace posewire::wire {
@@ -27,6 +27,7 @@ struct Probe {
     friend bool operator==(const Probe&, const Probe&) = default;
 };
 
+#ifndef WITHOUT_LAYOUT
 template <>
 struct Layout<ProbeReading> {
     static constexpr auto fields = std::tuple{
@@ -46,15 +47,20 @@ struct Layout<Probe> {
         Items<&Probe::readings>{{"readings", Unit::None, "one a probe", "P 1.1", RefersTo::Segment}},
     };
 };
+#endif
 
+#ifndef WITHOUT_ROW
 template <>
 inline constexpr TypeInfo kRow<Probe>{Probe::kType, "Probes", Frame::ZUp, "N", "P 1", "Only a test.", true};
+#endif
 
 } // namespace posewire::wire
 
 namespace posewire::performer {
 
 struct Subject;
+#ifndef WITHOUT_PERFORMER
 void perform(const Subject& subject, wire::Probe& message);
+#endif
 
 } // namespace posewire::performer
