@@ -5,7 +5,7 @@
 #include "app/net/send_schedule.h"
 #include "core/log/time.h"
 #include "core/performer/faults.h"
-#include "core/performer/streamed_truth.h"
+#include "core/performer/truth.h"
 
 #include <cstdint>
 #include <string>

@@ -50,4 +50,26 @@ struct LimbSegments {
 };
 const LimbSegments& limbs(model::Side side);
 
+/// Where a leg has to go: the ankle, the world orientation of the foot, and the upper leg's orientation as a
+/// preference, which decides where the knee points.
+struct LegGoal {
+    Eigen::Vector3d ankle = Eigen::Vector3d::Zero();
+    Eigen::Quaterniond foot = Eigen::Quaterniond::Identity();
+    Eigen::Quaterniond upperLegWish = Eigen::Quaterniond::Identity();
+};
+
+/// Two-bone inverse kinematics for one leg. The hip comes from `pose`, whose pelvis must be in place; upper
+/// leg, lower leg, foot and toe of `rotations` and `pose` are written (the toe keeps its rotation against the
+/// foot). A goal out of reach is approached softly, so that the knee never snaps: the last 2 % of the way are
+/// shortened, by 4 mm at most within the leg's length.
+void reach(const model::ReferenceBody& body, model::Side side, const LegGoal& goal, LocalRotations& rotations,
+           BodyPose& pose);
+
+inline constexpr int kSolePointCount = 7;
+
+/// Seven points of one sole in the world: four of the foot (heel, ball inner, outer and middle), three of the
+/// toe (ball inner and outer, tip).
+std::array<Eigen::Vector3d, kSolePointCount> worldSolePoints(const model::ReferenceBody& body,
+                                                             model::Side side, const BodyPose& pose);
+
 } // namespace posewire::performer

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/performer/extra_segments.h"
 #include "core/performer/kinematics.h"
 #include "core/performer/motion.h"
 #include "core/performer/trackers.h"
@@ -10,9 +9,24 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace posewire::performer {
+
+/// Poses of the props and fingers that follow the body in a pose datagram.
+struct ExtraSegments {
+    model::SegmentLayout layout;
+
+    /// Appends them to `poses`, which holds the body alone. `curl` from 0 (flat hand) to 1 (fist).
+    void append(const model::ReferenceBody& body, double curl, std::vector<model::SegmentPose>& poses) const;
+
+    /// Appends their origins in the null pose to `origins`, in the frame of the body's own.
+    void appendNullPose(const model::ReferenceBody& body, std::vector<Eigen::Vector3d>& origins) const;
+};
+
+/// "Sword", "Crutch", "Generic" and "Golfclub", as a sender names its props.
+std::string_view propName(int prop);
 
 /// A character's identity, as sent in type 12.
 struct Identity {
@@ -67,7 +81,6 @@ private:
 
     void fill(Poses& poses, double seconds) const;
     const Poses& sampleAt(std::int64_t key);
-    void update(const TrackerMoment& samples);
 
     CharacterSettings m_settings;
     double m_rateHz;

@@ -32,9 +32,8 @@ std::int64_t distance(std::uint32_t to, std::uint32_t from) {
 } // namespace
 
 bool QuietTimes::contains(log::Duration time) const {
-    return std::ranges::any_of(moments, [&](log::Duration moment) {
-        return time >= moment - width && time <= moment + width;
-    });
+    return std::ranges::any_of(
+        moments, [&](log::Duration moment) { return time >= moment - width && time <= moment + width; });
 }
 
 Delivery::Delivery(log::Duration period, QuietTimes quiet)
@@ -78,36 +77,36 @@ void Delivery::advance(Front& front, std::uint32_t sample, log::Duration time) {
     }
 }
 
-Delivery::Verdict Delivery::judgeFar(Sending& sending, Front& front, bool isAtEnd) const {
+Delivery::Judgement Delivery::judgeFar(Sending& sending, Front& front, bool isAtEnd) const {
     if (isAtEnd || front.advances < kSettled) {
-        return Verdict::GiveUp;
+        return Judgement::GiveUp;
     }
     if (front.advances < front.advancesAtFar + kAdvancesBetween || m_quiet.contains(sending.due)) {
         sending.due += m_period;
-        return Verdict::Wait;
+        return Judgement::Wait;
     }
     front.advancesAtFar = front.advances;
-    return Verdict::Deliver;
+    return Judgement::Deliver;
 }
 
-Delivery::Verdict Delivery::judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
-                                        bool isAtEnd) const {
+Delivery::Judgement Delivery::judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
+                                          bool isAtEnd) const {
     const auto after = std::ranges::partition_point(
         front.recent, [&](const Advance& advance) { return distance(advance.sample, sample) <= 0; });
     if (after != front.recent.end()) {
         const log::Duration late = sending.due - after->time;
         if (late > kDoubtfulFrom && late < kDoubtfulTo) {
             sending.due = after->time + kClearlyLate;
-            return Verdict::Wait;
+            return Judgement::Wait;
         }
     }
     return distance(sample, front.highest) < -kMostBack ? judgeFar(sending, front, isAtEnd)
-                                                        : Verdict::Deliver;
+                                                        : Judgement::Deliver;
 }
 
-Delivery::Verdict Delivery::begin(Front& front, const Sending& sending, std::uint32_t sample) {
+Delivery::Judgement Delivery::begin(Front& front, const Sending& sending, std::uint32_t sample) {
     if (sample != sending.origin.sample) {
-        return Verdict::GiveUp;
+        return Judgement::GiveUp;
     }
     const bool isNative = front.isNative;
     front = {};
@@ -117,13 +116,13 @@ Delivery::Verdict Delivery::begin(Front& front, const Sending& sending, std::uin
     front.regime = sending.origin.regime;
     front.first = sample;
     advance(front, sample, sending.due);
-    return Verdict::Deliver;
+    return Judgement::Deliver;
 }
 
-Delivery::Verdict Delivery::judge(Sending& sending, bool isAtEnd) {
+Delivery::Judgement Delivery::judge(Sending& sending, bool isAtEnd) {
     const auto header = wire::decodeHeader(sending.bytes);
     if (!sending.isReadable || !header || !wire::isSampled(header->type())) {
-        return Verdict::Deliver;
+        return Judgement::Deliver;
     }
     const Origin& origin = sending.origin;
     const std::uint32_t sample = header->sampleCounter;
@@ -137,25 +136,25 @@ Delivery::Verdict Delivery::judge(Sending& sending, bool isAtEnd) {
     }
     if (!front.isNative) {
         // How many apart the samples of such a stream should be, nobody could say.
-        return moved == 0 ? Verdict::Deliver : Verdict::GiveUp;
+        return moved == 0 ? Judgement::Deliver : Judgement::GiveUp;
     }
     front.epoch = std::max(front.epoch, origin.epoch);
     return judgeNative(sending, front, sample, isAtEnd);
 }
 
-Delivery::Verdict Delivery::judgeNative(Sending& sending, Front& front, std::uint32_t sample,
-                                        bool isAtEnd) const {
+Delivery::Judgement Delivery::judgeNative(Sending& sending, Front& front, std::uint32_t sample,
+                                          bool isAtEnd) const {
     const Origin& origin = sending.origin;
     const bool isIntact = sample == origin.sample;
     const bool isElsewhere = !isIntact && std::abs(distance(sample, origin.sample)) > kMostForward;
     if (front.epoch != origin.epoch && !m_keepsStragglers) {
-        return Verdict::GiveUp;
+        return Judgement::GiveUp;
     }
     if (front.epoch != origin.epoch || isElsewhere) {
         return judgeFar(sending, front, isAtEnd);
     }
     if (!isIntact && (distance(sample, front.first) < 0 || m_quiet.contains(sending.due))) {
-        return Verdict::GiveUp;
+        return Judgement::GiveUp;
     }
     const std::int64_t moved = distance(sample, front.highest);
     if (moved > 0) {
@@ -164,21 +163,21 @@ Delivery::Verdict Delivery::judgeNative(Sending& sending, Front& front, std::uin
         }
         advance(front, sample, sending.due);
     }
-    return moved >= 0 ? Verdict::Deliver : judgeBehind(sending, front, sample, isAtEnd);
+    return moved >= 0 ? Judgement::Deliver : judgeBehind(sending, front, sample, isAtEnd);
 }
 
 void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& into) {
     while (!m_heap.empty() && (!until || m_heap.front().sending.due < *until)) {
         Entry entry = pop();
         switch (judge(entry.sending, !until.has_value())) {
-        case Verdict::Deliver:
+        case Judgement::Deliver:
             m_latest = entry.sending.due;
             into.push_back(std::move(entry.sending));
             break;
-        case Verdict::Wait:
+        case Judgement::Wait:
             push(std::move(entry.sending));
             break;
-        case Verdict::GiveUp:
+        case Judgement::GiveUp:
             ++m_givenUp;
             break;
         }

@@ -73,15 +73,15 @@ private:
         std::uint64_t advancesAtFar = 0;
         std::deque<Advance> recent;
     };
-    enum class Verdict : std::uint8_t { Deliver, Wait, GiveUp };
+    enum class Judgement : std::uint8_t { Deliver, Wait, GiveUp };
 
-    [[nodiscard]] static Verdict begin(Front& front, const Sending& sending, std::uint32_t sample);
-    [[nodiscard]] Verdict judge(Sending& sending, bool isAtEnd);
-    [[nodiscard]] Verdict judgeNative(Sending& sending, Front& front, std::uint32_t sample,
-                                      bool isAtEnd) const;
-    [[nodiscard]] Verdict judgeFar(Sending& sending, Front& front, bool isAtEnd) const;
-    [[nodiscard]] Verdict judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
-                                      bool isAtEnd) const;
+    [[nodiscard]] static Judgement begin(Front& front, const Sending& sending, std::uint32_t sample);
+    [[nodiscard]] Judgement judge(Sending& sending, bool isAtEnd);
+    [[nodiscard]] Judgement judgeNative(Sending& sending, Front& front, std::uint32_t sample,
+                                        bool isAtEnd) const;
+    [[nodiscard]] Judgement judgeFar(Sending& sending, Front& front, bool isAtEnd) const;
+    [[nodiscard]] Judgement judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
+                                        bool isAtEnd) const;
     static void advance(Front& front, std::uint32_t sample, log::Duration time);
     void take(std::optional<log::Duration> until, std::vector<Sending>& into);
     Entry pop();

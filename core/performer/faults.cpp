@@ -1,16 +1,56 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/faults.h"
 
-#include "core/performer/sample_split.h"
+#include "core/performer/datagram_damage.h"
+#include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iterator>
+#include <utility>
 
 namespace posewire::performer {
 namespace {
+
+constexpr double kLongestDelayMs = 10'000.0;
+
+bool isProbability(double value) {
+    return value >= 0.0 && value <= 1.0;
+}
+
+std::optional<std::string> findProbabilityProblem(const FaultSettings& settings) {
+    const std::array<std::pair<const char*, double>, 5> probabilities{{{"drop", settings.drop},
+                                                                       {"duplicate", settings.duplicate},
+                                                                       {"reorder", settings.reorder},
+                                                                       {"corrupt", settings.corrupt},
+                                                                       {"truncate", settings.truncate}}};
+    for (const auto& [name, value] : probabilities) {
+        if (!isProbability(value)) {
+            return std::string("The probability of ") + name + " must be from 0 to 1.";
+        }
+    }
+    const auto& model = settings.gilbertElliott;
+    if (model && !(isProbability(model->toBad) && isProbability(model->toGood) &&
+                   isProbability(model->passesInGood) && isProbability(model->passesInBad))) {
+        return "The four probabilities p, r, k, h of the Gilbert-Elliott model must be from 0 to 1.";
+    }
+    if (model && settings.drop > 0.0) {
+        return "Choose either drop or the Gilbert-Elliott model.";
+    }
+    return std::nullopt;
+}
+
+/// The chance of a burst to begin where none is, so that a share `drop` of all datagrams is lost.
+double burstChance(double drop, int burst) {
+    if (drop >= 1.0) {
+        return 1.0;
+    }
+    const double lost = drop / burst;
+    return lost / (lost + 1.0 - drop);
+}
 
 /// Samples before and after a restart or a change of rate that reach the receiver as they are.
 constexpr double kQuietSamples = 16.0;
@@ -66,6 +106,61 @@ void writeCounter(std::vector<std::byte>& bytes, std::uint32_t sample) {
 }
 
 } // namespace
+
+std::optional<std::string> findProblem(const FaultSettings& settings) {
+    if (auto problem = findProbabilityProblem(settings)) {
+        return problem;
+    }
+    if (settings.burst < 1 || settings.burst > 1'000'000) {
+        return "A burst is from 1 to 1000000 datagrams long.";
+    }
+    for (const double milliseconds : {settings.delayMs, settings.jitterMs}) {
+        if (!(milliseconds >= 0.0 && milliseconds <= kLongestDelayMs)) {
+            return "Delay and jitter must be from 0 to 10000 ms.";
+        }
+    }
+    if (settings.restart && !(settings.restart->atSeconds >= 0.0)) {
+        return "A restart needs a time after the start.";
+    }
+    if (settings.pause && !(settings.pause->atSeconds >= 0.0 && settings.pause->seconds >= 0.0)) {
+        return "A pause needs a time after the start and a length.";
+    }
+    if (settings.reduction && !(settings.reduction->atSeconds >= 0.0 && settings.reduction->step >= 1 &&
+                                settings.reduction->step <= 100)) {
+        return "A rate is reduced at a time after the start to every 1st to 100th sample.";
+    }
+    return std::nullopt;
+}
+
+LossPattern::LossPattern(const FaultSettings& settings, const KeyedRandom& random)
+    : m_random(random),
+      m_burstChance(burstChance(settings.drop, settings.burst)),
+      m_burst(settings.burst),
+      m_model(settings.gilbertElliott) {}
+
+bool LossPattern::loses() {
+    ++m_asked;
+    if (m_model) {
+        return losesByState();
+    }
+    if (m_leftOfBurst == 0 && m_random.uniform(m_asked) < m_burstChance) {
+        m_leftOfBurst = m_burst;
+    }
+    if (m_leftOfBurst == 0) {
+        return false;
+    }
+    --m_leftOfBurst;
+    return true;
+}
+
+bool LossPattern::losesByState() {
+    const double change = m_isBad ? m_model->toGood : m_model->toBad;
+    if (m_random.uniform(2 * m_asked) < change) {
+        m_isBad = !m_isBad;
+    }
+    const double passes = m_isBad ? m_model->passesInBad : m_model->passesInGood;
+    return m_random.uniform(2 * m_asked + 1) >= passes;
+}
 
 Faults::Faults(const FaultSettings& settings)
     : m_settings(settings),
@@ -224,15 +319,15 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
 }
 
 void Faults::takeUntil(log::Duration until, std::vector<Sending>& into) {
-    m_delivery.takeUntil(until, m_ready);
-    into.insert(into.end(), std::move_iterator(m_ready.begin()), std::move_iterator(m_ready.end()));
+    std::ranges::move(m_ready, std::back_inserter(into));
     m_ready.clear();
+    m_delivery.takeUntil(until, into);
 }
 
 void Faults::takeRest(std::vector<Sending>& into) {
-    m_delivery.takeRest(m_ready);
-    into.insert(into.end(), std::move_iterator(m_ready.begin()), std::move_iterator(m_ready.end()));
+    std::ranges::move(m_ready, std::back_inserter(into));
     m_ready.clear();
+    m_delivery.takeRest(into);
 }
 
 FaultTally Faults::tally() const {

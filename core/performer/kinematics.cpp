@@ -4,9 +4,46 @@
 #include <cmath>
 
 namespace posewire::performer {
+namespace {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+
+struct Mass {
+    double share;  ///< as tabulated; head, trunk and limbs together make 1.0 but for rounding
+    double centre; ///< share of the way to the second point of the segment, the joint that it reaches to; the
+                   ///< rib cage reaches far below the joint at which T8 begins
+};
+
+constexpr std::array<Mass, model::kBodySegmentCount> kMasses{{
+    {0.142, 0.5},                                                    // pelvis
+    {0.046, 0.5},   {0.046, 0.5},    {0.047, 0.5},                   // L5, L3, T12
+    {0.160, -0.3},  {0.020, 0.5},    {0.061, 0.5},                   // T8, neck, head
+    {0.028, 0.5},   {0.028, 0.436},  {0.016, 0.430}, {0.006, 0.506}, // right arm
+    {0.028, 0.5},   {0.028, 0.436},  {0.016, 0.430}, {0.006, 0.506}, // left arm
+    {0.100, 0.433}, {0.0465, 0.433}, {0.0115, 0.5},  {0.003, 0.5},   // right leg
+    {0.100, 0.433}, {0.0465, 0.433}, {0.0115, 0.5},  {0.003, 0.5},   // left leg
+}};
+
+constexpr double tabulatedSum() {
+    double sum = 0.0;
+    for (const Mass& mass : kMasses) {
+        sum += mass.share;
+    }
+    return sum;
+}
+
+/// Place of the first point of each segment in the table of points.
+std::array<std::size_t, model::kBodySegmentCount> firstPoints() {
+    std::array<std::size_t, model::kBodySegmentCount> first{};
+    const auto points = model::anatomicalPoints();
+    for (std::size_t place = points.size(); place-- > 0;) {
+        first[static_cast<std::size_t>(points[place].segment)] = place;
+    }
+    return first;
+}
+
+} // namespace
 
 PointState differentiated(const Vector3d& before, const Vector3d& now, const Vector3d& after, double step) {
     return {now, (after - before) / (2.0 * step), (after - 2.0 * now + before) / (step * step)};
@@ -25,12 +62,8 @@ Vector3d rotationBetween(const Quaterniond& from, const Quaterniond& to) {
     return way.vec() * (2.0 * std::atan2(sine, way.w()) / sine);
 }
 
-bool KinematicsJob::validate() const {
-    return step > 0.0 && before.size() == now.size() && after.size() == now.size() &&
-           states.size() == now.size();
-}
-
-void KinematicsJob::run() const {
+void differentiate(const ThreeMoments& moments, std::span<SegmentState> states) {
+    const auto& [before, now, after, step] = moments;
     for (std::size_t index = 0; index < now.size(); ++index) {
         const PointState point =
             differentiated(before[index].position, now[index].position, after[index].position, step);
@@ -39,6 +72,17 @@ void KinematicsJob::run() const {
         states[index] = {now[index], point.velocity, point.acceleration, 0.5 * (first + second),
                          (second - first) / step};
     }
+}
+
+Vector3d centreOfMass(const model::ReferenceBody& body, std::span<const model::SegmentPose> segments) {
+    static const auto first = firstPoints();
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t index = 0; index < kMasses.size(); ++index) {
+        const Mass& mass = kMasses[index];
+        const Vector3d& far = body.points[first[index] + 1];
+        sum += mass.share * (segments[index].position + segments[index].orientation * (mass.centre * far));
+    }
+    return sum / tabulatedSum();
 }
 
 } // namespace posewire::performer

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/body/spaces.h"
+#include "core/performer/body_pose.h"
 
 #include <span>
-#include <vector>
 
 namespace posewire::performer {
 
@@ -31,16 +30,20 @@ PointState differentiated(const Eigen::Vector3d& before, const Eigen::Vector3d& 
 /// The rotation vector of `to` against `from`, in the world: axis times angle, the shorter way round.
 Eigen::Vector3d rotationBetween(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to);
 
-/// Derives the states of segments at the middle of three moments `step` seconds apart.
-struct KinematicsJob {
+/// As many segments at three moments, `step` seconds apart.
+struct ThreeMoments {
     std::span<const model::SegmentPose> before;
     std::span<const model::SegmentPose> now;
     std::span<const model::SegmentPose> after;
     double step = 0.0;
-    std::span<SegmentState> states;
-
-    bool validate() const;
-    void run() const;
 };
+
+/// The states of the segments at the middle one of three moments; as many as there are segments.
+void differentiate(const ThreeMoments& moments, std::span<SegmentState> states);
+
+/// Centre of mass of the body, from the 23 segments in the world. Each segment's own centre lies on the way
+/// from its origin to the far joint, at the shares tabulated by
+/// Winter; masses after Dempster and Winter, the trunk split over its segments.
+Eigen::Vector3d centreOfMass(const model::ReferenceBody& body, std::span<const model::SegmentPose> segments);
 
 } // namespace posewire::performer

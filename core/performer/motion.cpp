@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/motion.h"
 
-#include "core/performer/stand_motion.h"
-#include "core/performer/walk_motion.h"
-
 #include <array>
-#include <limits>
 
 namespace posewire::performer {
 namespace {
@@ -14,31 +10,24 @@ constexpr std::array<std::string_view, 5> kNames{"walk", "idle", "wave", "squat"
 
 } // namespace
 
-double Motion::sinceHeelStrike(model::Side /*side*/, double /*seconds*/) const {
-    return std::numeric_limits<double>::infinity();
-}
-
 std::span<const std::string_view> motionNames() {
     return kNames;
 }
 
 std::unique_ptr<Motion> makeMotion(std::string_view name, const MotionSettings& settings) {
     if (name == "walk") {
-        return std::make_unique<WalkMotion>(settings);
+        return makeWalk(settings);
     }
     if (name == "idle") {
-        return std::make_unique<StandMotion>(settings, StandAction::Idle);
+        return makeStanding(settings, StandAction::Idle);
     }
     if (name == "wave") {
-        return std::make_unique<StandMotion>(settings, StandAction::Wave);
+        return makeStanding(settings, StandAction::Wave);
     }
     if (name == "squat") {
-        return std::make_unique<StandMotion>(settings, StandAction::Squat);
+        return makeStanding(settings, StandAction::Squat);
     }
-    if (name == "tpose") {
-        return std::make_unique<TPoseMotion>(settings);
-    }
-    return nullptr;
+    return name == "tpose" ? makeTPose(settings) : nullptr;
 }
 
 } // namespace posewire::performer

@@ -4,6 +4,7 @@
 #include "core/performer/body_pose.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -20,7 +21,9 @@ public:
     virtual BodyPose sample(double seconds) const = 0;
 
     /// Seconds since the heel of that side last struck the floor; infinite for motions without steps.
-    virtual double sinceHeelStrike(model::Side side, double seconds) const;
+    virtual double sinceHeelStrike(model::Side /*side*/, double /*seconds*/) const {
+        return std::numeric_limits<double>::infinity();
+    }
 };
 
 /// What makes one performance of a motion differ from another.
@@ -30,6 +33,13 @@ struct MotionSettings {
     int character = 0;      ///< its place among
     int characterCount = 1; ///< all that share the floor
 };
+
+/// What a standing character does.
+enum class StandAction : std::uint8_t { Idle, Wave, Squat };
+
+std::unique_ptr<Motion> makeWalk(const MotionSettings& settings);
+std::unique_ptr<Motion> makeStanding(const MotionSettings& settings, StandAction action);
+std::unique_ptr<Motion> makeTPose(const MotionSettings& settings);
 
 /// "walk", "idle", "wave", "squat", "tpose".
 std::span<const std::string_view> motionNames();

@@ -180,14 +180,6 @@ void Performer::addFrameTypes(Character& character, std::uint64_t index,
     });
 }
 
-std::vector<wire::Datagram> Performer::characterInformation() const {
-    std::vector<wire::Datagram> datagrams;
-    for (const Character& character : m_characters) {
-        addInformation(character, datagrams, true);
-    }
-    return datagrams;
-}
-
 void Performer::frameInto(std::uint64_t index, std::vector<wire::Datagram>& into) {
     into.clear();
     const bool withScale = isDue(index, m_settings.rateHz, kScalePeriod);

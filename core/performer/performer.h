@@ -54,9 +54,6 @@ public:
     /// The same, reusing the memory of `into`.
     void frameInto(std::uint64_t index, std::vector<wire::Datagram>& into);
 
-    /// The character information alone, as a sender repeats it when a receiver connects.
-    std::vector<wire::Datagram> characterInformation() const;
-
     const PerformerSettings& settings() const { return m_settings; }
     const std::vector<Character>& characters() const { return m_characters; }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/stand_motion.h"
-
-#include "core/performer/easing.h"
-#include "core/performer/leg.h"
+#include "core/performer/curves.h"
+#include "core/performer/motion.h"
+#include "core/performer/noise.h"
 
 #include <cmath>
 #include <numbers>
@@ -24,30 +23,53 @@ double recurring(double seconds, double period, double duration, double ease) {
     return smoothStep(0.0, ease, t) * (1.0 - smoothStep(duration - ease, duration, t));
 }
 
-} // namespace
-
+/// A standing character's place: in a row along y.
 Vector3d standingSpot(const MotionSettings& settings) {
     // Wide enough for two neighbours with their arms out.
     constexpr double kSpacing = 2.1;
     return {0.0, kSpacing * (0.5 * (settings.characterCount - 1) - settings.character), 0.0};
 }
 
-TPoseMotion::TPoseMotion(const MotionSettings& settings)
-    : m_pose(
-          posed(settings.body, settings.body.origins[kPelvis] + standingSpot(settings), LocalRotations())) {}
+/// The exact null pose at any time.
+class TPoseMotion final : public Motion {
+public:
+    explicit TPoseMotion(const MotionSettings& settings)
+        : m_pose(posed(settings.body, settings.body.origins[kPelvis] + standingSpot(settings),
+                       LocalRotations())) {}
+    BodyPose sample(double /*seconds*/) const override { return m_pose; }
 
-BodyPose TPoseMotion::sample(double /*seconds*/) const {
-    return m_pose;
-}
+private:
+    BodyPose m_pose;
+};
 
-/// Everything that changes, at one time. Lengths in metres of the reference body, angles in degrees.
-struct StandMotion::Moment {
-    double seconds = 0.0;
-    double breath = 0.0; ///< -1 … 1
-    double weight = 0.0; ///< -1 right … 1 left
-    double look = 0.0;
-    double wave = 0.0;  ///< 0 … 1
-    double squat = 0.0; ///< 0 … 1
+/// Stands on one spot with both feet planted: breathes, sways, shifts weight, looks around; waves or squats
+/// now and then, if that is its action.
+class StandMotion final : public Motion {
+public:
+    StandMotion(const MotionSettings& settings, StandAction action);
+    BodyPose sample(double seconds) const override;
+
+private:
+    /// Everything that changes, at one time. Lengths in metres of the reference body, angles in degrees.
+    struct Moment {
+        double seconds = 0.0;
+        double breath = 0.0; ///< -1 … 1
+        double weight = 0.0; ///< -1 right … 1 left
+        double look = 0.0;
+        double wave = 0.0;  ///< 0 … 1
+        double squat = 0.0; ///< 0 … 1
+    };
+    Moment momentAt(double seconds) const;
+    void setUpperBody(const Moment& moment, LocalRotations& rotations) const;
+    void addWave(const Moment& moment, LocalRotations& rotations) const;
+
+    model::ReferenceBody m_body;
+    StandAction m_action;
+    Vector3d m_spot;
+    double m_breathHz = 0.25;
+    double m_weightHz = 0.09;
+    double m_actionStart = 0.0;
+    std::array<Wander, 6> m_wander; ///< sway x, sway y (m); look, trunk x, y, arms (degrees)
 };
 
 StandMotion::StandMotion(const MotionSettings& settings, StandAction action)
@@ -143,6 +165,16 @@ BodyPose StandMotion::sample(double seconds) const {
         reach(m_body, side, goal, rotations, pose);
     }
     return pose;
+}
+
+} // namespace
+
+std::unique_ptr<Motion> makeTPose(const MotionSettings& settings) {
+    return std::make_unique<TPoseMotion>(settings);
+}
+
+std::unique_ptr<Motion> makeStanding(const MotionSettings& settings, StandAction action) {
+    return std::make_unique<StandMotion>(settings, action);
 }
 
 } // namespace posewire::performer

@@ -42,14 +42,6 @@ constexpr std::array<MountPlan, kTrackerCount> kPlans{{
     {kLeftFoot, {0.06, 0.0, -0.02}, Lie::FootTop},
 }};
 
-constexpr auto kSegments = [] {
-    std::array<int, kTrackerCount> segments{};
-    for (std::size_t index = 0; index < segments.size(); ++index) {
-        segments[index] = kPlans[index].segment;
-    }
-    return segments;
-}();
-
 Quaterniond fromAxes(const Vector3d& alongBone, const Vector3d& outOfSkin) {
     Eigen::Matrix3d axes;
     axes << alongBone, outOfSkin.cross(alongBone), outOfSkin;
@@ -111,10 +103,6 @@ double shakeAt(int segment, const std::array<double, 2>& sinceHeelStrike) {
 
 } // namespace
 
-std::span<const int> TrackerSet::segments() {
-    return kSegments;
-}
-
 TrackerSet::TrackerSet(const model::ReferenceBody& body, const KeyedRandom& random,
                        const KeyedRandom& session)
     : m_random(random.fork(0x6e6f6973U)) {
@@ -165,9 +153,9 @@ TrackerReading TrackerSet::readOne(const Mount& mount, std::uint64_t number,
     const auto placeIn = [&](const model::SegmentPose& segment) -> Vector3d {
         return segment.position + segment.orientation * mount.place;
     };
-    const Vector3d place = placeIn(moment.now[index]);
-    const PointState point =
-        differentiated(placeIn(moment.before[index]), place, placeIn(moment.after[index]), moment.step);
+    const Vector3d place = placeIn(moment.segments.now[index]);
+    const PointState point = differentiated(placeIn(moment.segments.before[index]), place,
+                                            placeIn(moment.segments.after[index]), moment.segments.step);
     const double shake = shakeAt(mount.segment, moment.sinceHeelStrike);
     const Vector3d felt = kAccelerationNoise * m_random.normal3(3 * number);
     const Vector3d bias(mount.bias[0].at(moment.seconds), mount.bias[1].at(moment.seconds),
@@ -175,7 +163,7 @@ TrackerReading TrackerSet::readOne(const Mount& mount, std::uint64_t number,
 
     TrackerReading reading;
     reading.segment = mount.segment;
-    reading.orientation = (moment.now[index].orientation * mount.fromTracker).normalized();
+    reading.orientation = (moment.segments.now[index].orientation * mount.fromTracker).normalized();
     const Quaterniond trackerFromWorld = reading.orientation.conjugate();
     reading.freeAcceleration = point.acceleration + Vector3d(0.0, 0.0, shake) + reading.orientation * felt;
     reading.acceleration =

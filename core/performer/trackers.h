@@ -25,13 +25,10 @@ struct TrackerReading {
     Eigen::Vector3d magneticField = Eigen::Vector3d::Zero();   ///< tracker; length 1 where undisturbed
 };
 
-/// Three moments `step` seconds apart, with what only the motion knows.
+/// The segments around a moment, with what only the motion knows.
 struct TrackerMoment {
-    std::span<const model::SegmentPose> before;
-    std::span<const model::SegmentPose> now;
-    std::span<const model::SegmentPose> after;
-    std::span<const SegmentState> states;
-    double step = 0.0;
+    ThreeMoments segments;
+    std::span<const SegmentState> states; ///< at the middle one
     double seconds = 0.0;
     std::uint64_t frame = 0;                 ///< keys the noise
     std::array<double, 2> sinceHeelStrike{}; ///< right, left, in seconds
@@ -47,9 +44,6 @@ public:
     TrackerSet(const model::ReferenceBody& body, const KeyedRandom& random, const KeyedRandom& session);
 
     std::array<TrackerReading, kTrackerCount> read(const TrackerMoment& moment) const;
-
-    /// Segments that carry a tracker, in sending order.
-    static std::span<const int> segments();
 
 private:
     struct Mount {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/walk_motion.h"
-
-#include "core/performer/easing.h"
-#include "core/performer/leg.h"
+#include "core/performer/motion.h"
+#include "core/performer/noise.h"
+#include "core/performer/walk_clip.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,7 +75,40 @@ double leanFor(const PathPlace& place) {
     return 0.5 * std::atan(kSpeed * kSpeed * place.curvature / model::kGravity) * model::kDegreesPerRadian;
 }
 
-} // namespace
+/// Walks a figure of eight at even speed. Up to four characters share one eight, spread over the lap so
+/// that they pass the crossing one after the other; further groups walk eights of their own beside it.
+///
+/// The straight clip is bent along the path: whatever rests on the floor there rests on it here. The legs are
+/// then solved for the bent places of the feet.
+class WalkMotion final : public Motion {
+public:
+    explicit WalkMotion(const MotionSettings& settings);
+
+    BodyPose sample(double seconds) const override;
+    double sinceHeelStrike(Side side, double seconds) const override {
+        return WalkClip::sidePhase(side, phaseAt(seconds)) * m_strideTime;
+    }
+
+private:
+    double phaseAt(double seconds) const { return m_startPhase + seconds / m_strideTime; }
+    void addLife(double seconds, const PathPlace& place, double distance, LocalRotations& rotations) const;
+    /// The straight walk at one time.
+    struct Stride {
+        double phase = 0.0;
+        double distance = 0.0; ///< along the path, of the straight walk's origin
+        double heading = 0.0;  ///< of the path at the pelvis
+        BodyPose pose;
+    };
+    void plant(Side side, const Stride& straight, LocalRotations& rotations, BodyPose& pose) const;
+
+    model::ReferenceBody m_body;
+    FigureOfEight m_path;
+    WalkClip m_clip;
+    double m_startDistance = 0.0;
+    double m_startPhase = 0.0;
+    double m_strideTime = 1.0;
+    std::array<Wander, 6> m_wander; ///< trunk x y z, head x y z, in degrees
+};
 
 WalkMotion::WalkMotion(const MotionSettings& settings)
     : m_body(settings.body), m_path(pathFor(settings)), m_clip(settings.body, styleFor(randomOf(settings))) {
@@ -89,14 +121,6 @@ WalkMotion::WalkMotion(const MotionSettings& settings)
         const bool isHead = index >= 3;
         m_wander[index] = Wander(random.fork(kWanderFirst + index), 0.06, 0.9, isHead ? 1.2 : 0.5);
     }
-}
-
-double WalkMotion::phaseAt(double seconds) const {
-    return m_startPhase + seconds / m_strideTime;
-}
-
-double WalkMotion::sinceHeelStrike(Side side, double seconds) const {
-    return WalkClip::sidePhase(side, phaseAt(seconds)) * m_strideTime;
 }
 
 void WalkMotion::addLife(double seconds, const PathPlace& place, double distance,
@@ -154,6 +178,12 @@ BodyPose WalkMotion::sample(double seconds) const {
         plant(side, straight, rotations, pose);
     }
     return pose;
+}
+
+} // namespace
+
+std::unique_ptr<Motion> makeWalk(const MotionSettings& settings) {
+    return std::make_unique<WalkMotion>(settings);
 }
 
 } // namespace posewire::performer

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/walk_planting.h"
-
-#include "core/performer/easing.h"
 #include "core/performer/walk_clip.h"
 
 #include <algorithm>

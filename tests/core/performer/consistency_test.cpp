@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/centre_of_mass.h"
+#include "core/performer/kinematics.h"
 #include "core/performer/performer.h"
 
 #include "core/model/body/joint_angles.h"
@@ -224,15 +224,6 @@ TEST_P(Consistency, KeepsTheCentreOfMassInsideTheBody) {
 
 INSTANTIATE_TEST_SUITE_P(Motions, Consistency, testing::Values("walk", "idle", "wave", "squat", "tpose"),
                          [](const auto& motion) { return std::string(motion.param); });
-
-TEST(CentreOfMass, SharesOutTheWholeMass) {
-    double sum = 0.0;
-    for (int index = 0; index < model::kBodySegmentCount; ++index) {
-        sum += massShare(index);
-        EXPECT_NEAR(massShare(index), massShare(model::mirrored(index)), 1e-12);
-    }
-    EXPECT_NEAR(sum, 1.0, 1e-12);
-}
 
 TEST(CentreOfMass, LiesAtThePelvisInTheTPose) {
     const model::ReferenceBody body = model::makeReferenceBody();

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/gait.h"
-
-#include "core/performer/easing.h"
+#include "core/performer/curves.h"
 #include "core/performer/noise.h"
-#include "core/performer/path.h"
-#include "core/performer/periodic_spline.h"
+#include "core/performer/walk_clip.h"
 
 #include <gtest/gtest.h>
 

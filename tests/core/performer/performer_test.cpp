@@ -162,11 +162,6 @@ TEST(Performer, RepeatsCharacterInformation) {
     EXPECT_EQ(metaData,
               (std::vector<std::uint64_t>{0, 240, 480, 720, 960, 1200, 1440, 1680, 1920, 2160, 2400}));
     EXPECT_EQ(nullPoses, (std::vector<std::uint64_t>{0, 1200, 2400}));
-    EXPECT_EQ(typesIn(performer.characterInformation()), typesIn([&] {
-                  auto all = performer.frame(0);
-                  std::erase_if(all, [](const auto& d) { return d.header.type() == 2; });
-                  return all;
-              }()));
 }
 
 TEST(Performer, SendsTheNullPoseInPartsLikeRealSenders) {

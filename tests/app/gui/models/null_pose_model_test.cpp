@@ -21,7 +21,7 @@ protected:
     /// The scale message of a performer; `change` may spoil its parts.
     void sendNullPose(log::Stamp stamp, const std::function<void(wire::NullPose&)>& change = {}) {
         performer::Performer performer(sending(1, {13}));
-        for (wire::Datagram datagram : performer.characterInformation()) {
+        for (wire::Datagram datagram : performer.frame(0)) {
             if (change) {
                 change(std::get<wire::NullPose>(datagram.body));
                 wire::completeHeader(datagram, wire::HeaderEra::Counted);
@@ -138,7 +138,7 @@ TEST_F(NullPoseModelTest, MarksLengthsThatDifferBetweenLeftAndRight) {
 
 TEST_F(NullPoseModelTest, SaysWhichPartsAreMissing) {
     performer::Performer performer(sending(1, {13}));
-    for (const wire::Datagram& datagram : performer.characterInformation()) {
+    for (const wire::Datagram& datagram : performer.frame(0)) {
         if (datagram.header.datagramIndex() != 2) {
             stage.send(datagram, Stage::kStart);
         }
@@ -156,9 +156,10 @@ TEST_F(NullPoseModelTest, SaysWhichPartsAreMissing) {
 TEST_F(NullPoseModelTest, ShowsTypes10And11OfOldSenders) {
     performer::PerformerSettings settings = sending(1);
     settings.revision = performer::Revision::E;
+    settings.types = {10, 11, 12};
     settings.props = 2;
     performer::Performer performer(settings);
-    for (const wire::Datagram& datagram : performer.characterInformation()) {
+    for (const wire::Datagram& datagram : performer.frame(0)) {
         stage.send(datagram, Stage::kStart);
     }
     refresh();

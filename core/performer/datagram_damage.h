@@ -4,6 +4,10 @@
 #include "core/performer/noise.h"
 #include "core/performer/sending.h"
 
+#include <cstddef>
+#include <span>
+#include <vector>
+
 namespace posewire::performer {
 
 /// What a damaged datagram may turn into. What cannot be decoded is malformed and what stays itself counts as
@@ -20,5 +24,10 @@ void corrupt(Sending& sending, const CorruptionBounds& bounds, const KeyedRandom
 
 /// Cuts the datagram to a random size below its own.
 void truncate(Sending& sending, const KeyedRandom& random, std::uint64_t key);
+
+/// One sample in several datagrams (§2.4.1.3): its items are divided evenly, in their order, among `parts` or
+/// as many as there are items. One datagram unchanged where it cannot be divided: types that do not count
+/// frames or have no list, single items, what is in parts already, what cannot be decoded.
+std::vector<std::vector<std::byte>> splitSample(std::span<const std::byte> datagram, std::size_t parts);
 
 } // namespace posewire::performer

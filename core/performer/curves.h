@@ -1,12 +1,36 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <Eigen/Core>
+
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
 namespace posewire::performer {
+
+/// 0 at `from`, 1 at `to`, with first and second derivative zero at both ends.
+inline double smoothStep(double from, double to, double x) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return t * t * t * (t * (6.0 * t - 15.0) + 10.0);
+}
+
+/// 1 inside [on, off], easing over `width` before and after.
+inline double smoothWindow(double on, double off, double width, double x) {
+    return smoothStep(on - width, on, x) * (1.0 - smoothStep(off, off + width, x));
+}
+
+/// max(x, 0) with its corner rounded over about `softness`; half of that at 0.
+inline double smoothPositive(double x, double softness) {
+    return 0.5 * (x + std::sqrt(x * x + softness * softness));
+}
+
+/// The fractional part, in [0, 1).
+inline double fraction(double x) {
+    return x - std::floor(x);
+}
 
 /// A curve through equally spaced samples that closes on itself: a uniform cubic B-spline, so first and
 /// second derivative are continuous everywhere. `Value` is double or a fixed-size Eigen vector.
@@ -63,6 +87,30 @@ private:
     }
 
     std::vector<Value> m_coefficients;
+};
+
+/// A place on the floor and the direction of the path there. Metres, radians.
+struct PathPlace {
+    Eigen::Vector2d position = Eigen::Vector2d::Zero();
+    double heading = 0.0;   ///< about z, from the x-axis
+    double curvature = 0.0; ///< 1/m, left turns +
+};
+
+/// A lemniscate of Bernoulli with its crossing at `centre`, walked at even speed. Curvature grows evenly from
+/// zero at the crossing to 3 / `halfWidth` at the far ends.
+class FigureOfEight {
+public:
+    explicit FigureOfEight(double halfWidth, const Eigen::Vector2d& centre = Eigen::Vector2d::Zero());
+
+    /// Length of one lap, in metres.
+    double length() const { return m_length; }
+
+    /// The place `distance` metres after the crossing (any number, taken modulo the length).
+    PathPlace at(double distance) const;
+
+private:
+    double m_length = 0.0;
+    PeriodicSpline<Eigen::Vector4d> m_places; ///< x, y, heading, curvature by share of the lap
 };
 
 } // namespace posewire::performer

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/path.h"
+#include "core/performer/curves.h"
 
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 namespace posewire::performer {
 namespace {

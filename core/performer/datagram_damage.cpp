@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "core/performer/corruption.h"
+#include "core/performer/datagram_damage.h"
 
 #include "core/wire/codec.h"
+#include "core/wire/message_parts.h"
 #include "core/wire/type_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -14,7 +16,7 @@ constexpr int kTries = 16;
 constexpr std::uint64_t kKeysPerDatagram = 4096;
 /// Further from every other counter than any loss, delay or restart.
 constexpr std::int64_t kFar = 1'000'000;
-/// Ahead by so much, the samples in between are reordered but clearly not late.
+/// Up to this far ahead, the samples in between are reordered but clearly not late.
 constexpr double kNearMs = 20.0;
 /// Less than a jump back that could be a restart.
 constexpr std::int64_t kMostBack = 90;
@@ -63,6 +65,17 @@ void flipPayload(Sending& sending, const KeyedRandom& random, std::uint64_t key)
     }
 }
 
+wire::Datagram partOf(const wire::Datagram& whole, std::size_t part, std::size_t parts) {
+    wire::Datagram datagram{whole.header, whole.body, {}};
+    const std::size_t items = wire::dividableItems(datagram.body);
+    wire::keepItems(datagram.body, part * items / parts, (part + 1) * items / parts);
+    const bool isCounted = whole.header.payloadSize != 0 || whole.header.countedSegments() != 0;
+    completeHeader(datagram, isCounted ? wire::HeaderEra::Counted : wire::HeaderEra::Reserved);
+    const bool isLast = part + 1 == parts;
+    datagram.header.datagramCounter = static_cast<std::uint8_t>(part | (isLast ? 0x80U : 0U));
+    return datagram;
+}
+
 } // namespace
 
 void corrupt(Sending& sending, const CorruptionBounds& bounds, const KeyedRandom& random, std::uint64_t key) {
@@ -91,6 +104,27 @@ void truncate(Sending& sending, const KeyedRandom& random, std::uint64_t key) {
         sending.bytes.resize(random.bits(key) % sending.bytes.size());
         sending.isReadable = wire::decode(sending.bytes).has_value();
     }
+}
+
+std::vector<std::vector<std::byte>> splitSample(std::span<const std::byte> datagram, std::size_t parts) {
+    std::vector<std::vector<std::byte>> all;
+    auto whole = wire::decode(datagram);
+    const bool isWhole = whole && wire::isSampled(whole->header.type()) &&
+                         whole->header.datagramIndex() == 0 && whole->header.isLast();
+    const std::size_t count =
+        isWhole ? std::min({parts, wire::dividableItems(whole->body), std::size_t{128}}) : 0;
+    for (std::size_t part = 0; count > 1 && part < count; ++part) {
+        auto bytes = wire::encode(partOf(*whole, part, count));
+        if (!bytes) {
+            all.clear();
+            break;
+        }
+        all.push_back(std::move(*bytes));
+    }
+    if (all.empty()) {
+        all.emplace_back(datagram.begin(), datagram.end());
+    }
+    return all;
 }
 
 } // namespace posewire::performer
