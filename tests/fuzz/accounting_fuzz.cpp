@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/stream_accounting.h"
 
+#include "tests/core/model/accounting/arrivals.h"
+
 #include <cstdint>
 #include <cstdlib>
 
@@ -72,7 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         header.datagramCounter = data[i + 2] < 128 ? 0x80 : data[i + 2] & 0x83;
         header.timeCode += data[i + 3] / 8U;
         stamp += (data[i + 3] - (data[i + 3] == 255 ? 600 : 0)) * std::chrono::microseconds(100);
-        verdicts += stream.add(stamp, 760, header).size();
+        verdicts += model::addTo(stream, stamp, 760, header).size();
         ++datagrams;
     }
     check(stream, datagrams, verdicts);

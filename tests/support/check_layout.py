@@ -14,7 +14,7 @@ import sys
 MAY_INCLUDE = [
     ("core/wire", []),
     ("core/log", ["core/wire"]),
-    ("core/model/body", ["core/wire"]),
+    ("core/model/body", ["core/wire", "core/log", "core/model/*"]),
     ("core/model/accounting", ["core/wire", "core/log", "core/model/*"]),
     ("core/model/session", ["core/wire", "core/log", "core/model"]),
     ("core/model", ["core/wire", "core/log"]),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/alerts.h"
 
-#include "core/model/accounting/threshold_table.h"
+#include "core/model/accounting/thresholds.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 #include "app/gui/window/thresholds_dialog.h"
 
 #include "app/gui/theme/dim_label.h"
-#include "core/model/accounting/threshold_table.h"
+#include "core/model/accounting/thresholds.h"
 
 #include <QCheckBox>
 #include <QDialogButtonBox>

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/attribution.h"
 
+#include "core/model/text.h"
+
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 
 namespace posewire::model {
@@ -21,15 +22,13 @@ bool isBetween(std::uint32_t sample, const Gap& gap) {
            static_cast<std::int32_t>(gap.toSample - sample) > 0;
 }
 
+/// Adds a value; the oldest goes where there are too many.
 template <class Value>
-void keepNewest(std::deque<Value>& values, std::size_t most) {
+void keepNewest(std::deque<Value>& values, const Value& value, std::size_t most) {
+    values.push_back(value);
     if (values.size() > most) {
         values.pop_front();
     }
-}
-
-std::string plural(std::uint64_t count, const char* one, const char* many) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : many);
 }
 
 std::string twoDigits(std::uint8_t type) {
@@ -38,34 +37,11 @@ std::string twoDigits(std::uint8_t type) {
 
 } // namespace
 
-std::string_view nameOf(LossCause cause) {
-    switch (cause) {
-    case LossCause::ThisComputer:
-        return "this computer";
-    case LossCause::Network:
-        return "network";
-    case LossCause::Sender:
-        return "sender";
-    case LossCause::Unknown:
-        break;
-    }
-    return "unknown";
-}
-
-std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
-    auto result = attributed;
-    const StreamCounts counts = accounting.counts();
-    const std::uint64_t lost = counts.lost + counts.incomplete;
-    const std::uint64_t known = result[0] + result[1] + result[2];
-    result[static_cast<std::size_t>(LossCause::Unknown)] = lost > known ? lost - known : 0;
-    return result;
-}
-
 std::string Gap::evidenceText() const {
     const std::int64_t lastedMs = (toStamp - fromStamp) / std::chrono::milliseconds(1);
     switch (evidence) {
     case Evidence::Dropped:
-        return "This computer dropped " + plural(figure, "datagram", "datagrams") +
+        return "This computer dropped " + counted(figure, "datagram", "datagrams") +
                " of the port between packets " + std::to_string(fromPacket) + " and " +
                std::to_string(toPacket) + ".";
     case Evidence::Damaged:
@@ -76,22 +52,22 @@ std::string Gap::evidenceText() const {
         return "Type " + twoDigits(otherType) + " of the same source brought sample " +
                std::to_string(figure) + ", which is missing here.";
     case Evidence::Reliable:
-        return "TCP loses nothing: " + plural(lost, "sample was", "samples were") + " not sent.";
+        return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
     case Evidence::Paused:
-        return "All " + plural(figure, "stream", "streams") + " of the source paused together for " +
+        return "All " + counted(figure, "stream", "streams") + " of the source paused together for " +
                std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
                " ms.";
     case Evidence::None:
         break;
     }
     return isJudged ? "Nothing was dropped here, and nothing else of the source shows where " +
-                          plural(lost, "sample", "samples") + " went in " + std::to_string(lastedMs) + " ms."
+                          counted(lost, "sample", "samples") + " went in " + std::to_string(lastedMs) + " ms."
                     : "Late arrivals are still waited for.";
 }
 
 void Attribution::addStream(std::size_t stream, const log::SenderInfo& info) {
     const log::StreamKey& key = m_streams[stream].key;
-    Sender& sender = m_senders[static_cast<std::uint32_t>(key.sender)];
+    Sender& sender = m_senders[key.sender];
     sender.transport = info.transport;
     sender.localPort = info.localPort;
     if (countsSamples(key.type) && sender.streams.size() < kMostStreams) {
@@ -116,29 +92,27 @@ std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uin
     }
     judgePartials(packet);
     if (packet.kernelDropsBefore != 0) {
-        m_drops.push_back({packet.number, packet.kernelDropsBefore, localPort});
-        keepNewest(m_drops, kMostDrops);
+        keepNewest(m_drops, {packet.number, packet.kernelDropsBefore, localPort}, kMostDrops);
     }
     return m_judged;
 }
 
 void Attribution::takeSampled(log::SenderId sender, log::Stamp stamp) {
-    const auto found = m_senders.find(static_cast<std::uint32_t>(sender));
+    const auto found = m_senders.find(sender);
     if (found == m_senders.end()) {
         return;
     }
     Sender& figures = found->second;
     if (figures.lastStamp != log::Stamp() && stamp - figures.lastStamp >= kPause) {
-        figures.silences.push_back({figures.lastStamp, stamp});
-        keepNewest(figures.silences, kMostSilences);
+        keepNewest(figures.silences, {figures.lastStamp, stamp}, kMostSilences);
     }
     figures.lastStamp = stamp;
 }
 
 void Attribution::takeMalformed(const log::Packet& packet, const wire::Header& header) {
-    m_damages.push_back(
-        {{packet.sender, header.character, header.type()}, header.sampleCounter, packet.number});
-    keepNewest(m_damages, kMostDamages);
+    keepNewest(m_damages,
+               {{packet.sender, header.character, header.type()}, header.sampleCounter, packet.number},
+               kMostDamages);
 }
 
 void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
@@ -161,13 +135,13 @@ void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
             m_gaps.pop_front();
             ++m_firstGap;
         }
-        ++m_version;
     } else if (verdict.isReordered && verdict.isFirstOfSample) {
-        fill(stream, verdict.sample);
+        recount(stream, verdict.sample); // it came after all
     }
     if (step != m_steps[stream]) {
+        // Known in hindsight: what seemed lost may not be.
         m_steps[stream] = step;
-        recheck(stream);
+        recount(stream, {});
     }
 }
 
@@ -176,7 +150,6 @@ void Attribution::takePartial(std::size_t stream, const Verdict& verdict) {
     if (verdict.isAfterPartial) {
         const LossCause cause = causeOfPartial(m_streams[stream].key, verdict.packetBefore, verdict.packet);
         ++m_streams[stream].attributed[static_cast<std::size_t>(cause)];
-        ++m_version;
     }
     std::uint64_t& open = m_openPartials[stream];
     if (verdict.isFirstOfSample && !verdict.isReordered && open > m_firstPartial) {
@@ -202,9 +175,7 @@ void Attribution::judgePartials(const log::Packet& packet) {
         const std::uint64_t to = partial.nextPacket != 0 ? partial.nextPacket : packet.number;
         partial.cause = causeOfPartial(stream.key, partial.packet, to);
         ++stream.attributed[static_cast<std::size_t>(partial.cause)];
-        ++m_version;
-        m_judgedPartials.push_back(partial);
-        keepNewest(m_judgedPartials, kMostBack);
+        keepNewest(m_judgedPartials, partial, kMostBack);
     }
 }
 
@@ -215,7 +186,6 @@ void Attribution::complete(std::size_t stream, std::uint32_t sample) {
     });
     if (found != m_judgedPartials.end()) {
         --m_streams[stream].attributed[static_cast<std::size_t>(found->cause)];
-        ++m_version;
         m_judgedPartials.erase(found);
     }
 }
@@ -223,7 +193,7 @@ void Attribution::complete(std::size_t stream, std::uint32_t sample) {
 /// Whose loss the rest of a sample or message is, of which some came from a packet on.
 LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
                                       std::uint64_t toPacket) const {
-    const auto found = m_senders.find(static_cast<std::uint32_t>(stream.sender));
+    const auto found = m_senders.find(stream.sender);
     if (found == m_senders.end()) {
         return LossCause::Unknown;
     }
@@ -252,7 +222,6 @@ void Attribution::recount(Gap& gap, std::size_t stream) {
         sum -= std::min<std::uint64_t>(sum, gap.lost);
     }
     gap.lost = lost;
-    ++m_version;
 }
 
 void Attribution::judge(std::uint64_t number, std::size_t stream) {
@@ -261,34 +230,24 @@ void Attribution::judge(std::uint64_t number, std::size_t stream) {
     findCause(gap, m_streams[stream]);
     gap.isJudged = true;
     m_streams[stream].attributed[static_cast<std::size_t>(gap.cause)] += gap.lost;
-    ++m_version;
 }
 
-/// A sample came after all.
-void Attribution::fill(std::size_t stream, std::uint32_t sample) {
+/// Counts again the newest gaps of a stream, or only the one around a sample.
+void Attribution::recount(std::size_t stream, std::optional<std::uint32_t> around) {
     const log::StreamKey& key = m_streams[stream].key;
     std::size_t looked = 0;
     for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && looked < kMostBack; ++gap, ++looked) {
-        if (gap->stream == key && isBetween(sample, *gap)) {
+        if (gap->stream == key && (!around || isBetween(*around, *gap))) {
             recount(*gap, stream);
-            return;
-        }
-    }
-}
-
-/// The step became another in hindsight: what seemed lost may not be.
-void Attribution::recheck(std::size_t stream) {
-    const log::StreamKey& key = m_streams[stream].key;
-    std::size_t looked = 0;
-    for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && looked < kMostBack; ++gap, ++looked) {
-        if (gap->stream == key) {
-            recount(*gap, stream);
+            if (around) {
+                return;
+            }
         }
     }
 }
 
 void Attribution::findCause(Gap& gap, const Stream& stream) const {
-    const auto found = m_senders.find(static_cast<std::uint32_t>(gap.stream.sender));
+    const auto found = m_senders.find(gap.stream.sender);
     if (gap.lost == 0 || found == m_senders.end()) {
         return;
     }

@@ -3,8 +3,8 @@
 
 #include "core/log/packet.h"
 #include "core/log/time.h"
-#include "core/model/accounting/time_range.h"
 #include "core/model/accounting/stream.h"
+#include "core/model/accounting/stream_counts.h"
 
 #include <cstdint>
 #include <deque>
@@ -77,10 +77,6 @@ public:
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
     [[nodiscard]] const Gap* endedBy(std::uint64_t packet) const;
-    /// Number of the first one of gaps(), counted from the beginning of the session.
-    [[nodiscard]] std::uint64_t firstGap() const { return m_firstGap; }
-    /// Grows whenever a gap comes or changes.
-    [[nodiscard]] std::uint64_t version() const { return m_version; }
 
 private:
     struct Sender {
@@ -110,7 +106,7 @@ private:
         std::uint64_t packet = 0;
     };
     /// A gap and the stream it is of.
-    struct Place {
+    struct Due {
         std::uint64_t gap = 0;
         std::size_t stream = 0;
     };
@@ -122,8 +118,7 @@ private:
     [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
                                            std::uint64_t toPacket) const;
     void recount(Gap& gap, std::size_t stream);
-    void recheck(std::size_t stream);
-    void fill(std::size_t stream, std::uint32_t sample);
+    void recount(std::size_t stream, std::optional<std::uint32_t> around);
     void findCause(Gap& gap, const Stream& stream) const;
     /// Datagrams that this computer dropped of a port behind one packet, up to another.
     [[nodiscard]] std::uint64_t dropsBetween(std::uint64_t fromPacket, std::uint64_t toPacket,
@@ -135,12 +130,11 @@ private:
     }
 
     std::deque<Stream>& m_streams;
-    std::unordered_map<std::uint32_t, Sender> m_senders; ///< by sender
-    std::vector<std::uint32_t> m_steps;                  ///< of the streams, when last looked at
+    std::unordered_map<log::SenderId, Sender> m_senders;
+    std::vector<std::uint32_t> m_steps; ///< of the streams, when last looked at
     std::deque<Gap> m_gaps;
     std::uint64_t m_firstGap = 0;
-    std::uint64_t m_version = 0;
-    std::deque<Place> m_due; ///< yet to be judged, oldest first
+    std::deque<Due> m_due; ///< yet to be judged, oldest first
     std::vector<Gap> m_judged;
     std::deque<Partial> m_partials; ///< yet to be judged, oldest first
     std::uint64_t m_firstPartial = 0;

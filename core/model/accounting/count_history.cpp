@@ -2,6 +2,7 @@
 #include "core/model/accounting/count_history.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace posewire::model {
@@ -12,23 +13,21 @@ log::Stamp aligned(log::Stamp stamp, log::Duration width) {
     return stamp - (rest < log::Duration::zero() ? rest + width : rest);
 }
 
-} // namespace
+using Counters = CountHistory::Counters;
 
-void CountHistory::apply(Bucket& bucket, const Change& change) {
-    bucket.datagrams += static_cast<std::uint32_t>(change.datagrams);
-    bucket.bytes += static_cast<std::uint64_t>(change.bytes);
-    bucket.samples += static_cast<std::uint32_t>(change.samples);
-    bucket.lost += static_cast<std::uint32_t>(change.lost);
-    bucket.duplicates += static_cast<std::uint32_t>(change.duplicates);
-    bucket.reordered += static_cast<std::uint32_t>(change.reordered);
-    bucket.late += static_cast<std::uint32_t>(change.late);
-    bucket.incomplete += static_cast<std::uint32_t>(change.incomplete);
-    bucket.restarts += static_cast<std::uint32_t>(change.restarts);
-    bucket.malformed += static_cast<std::uint32_t>(change.malformed);
-    bucket.bursts += static_cast<std::uint32_t>(change.bursts);
-    bucket.burstLost += static_cast<std::uint32_t>(change.burstLost);
-    bucket.burstSamples += static_cast<std::uint32_t>(change.burstSamples);
+constexpr std::array kCounters{&Counters::datagrams,  &Counters::samples,   &Counters::lost,
+                               &Counters::duplicates, &Counters::reordered, &Counters::late,
+                               &Counters::incomplete, &Counters::restarts,  &Counters::malformed,
+                               &Counters::bursts,     &Counters::burstLost, &Counters::burstSamples};
+
+void add(Counters& counters, const Counters& change) {
+    counters.bytes += change.bytes;
+    for (const auto counter : kCounters) {
+        counters.*counter += change.*counter;
+    }
 }
+
+} // namespace
 
 /// The newest bucket, made where the stamp is beyond it; an earlier stamp makes none.
 CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
@@ -86,15 +85,15 @@ void CountHistory::halve() {
     }
 }
 
-void CountHistory::add(log::Stamp stamp, const Change& change) {
+void CountHistory::add(log::Stamp stamp, const Counters& change) {
     Bucket& newest = bucketAt(stamp);
     if (stamp >= newest.start) {
-        apply(newest, change);
+        model::add(newest.counters, change);
         return;
     }
     const std::size_t after = firstFrom(stamp + log::Duration(1));
     for (std::size_t i = after == 0 ? 0 : after - 1; i < m_buckets.size(); ++i) {
-        apply(m_buckets[i], change);
+        model::add(m_buckets[i].counters, change);
     }
 }
 
@@ -127,65 +126,58 @@ void CountHistory::addDifference(log::Stamp stamp, double differenceMs, std::uin
 }
 
 std::size_t CountHistory::firstFrom(log::Stamp stamp) const {
-    const auto found =
-        std::lower_bound(m_buckets.begin(), m_buckets.end(), stamp,
-                         [](const Bucket& bucket, log::Stamp from) { return bucket.start < from; });
+    const auto found = std::ranges::lower_bound(m_buckets, stamp, {}, &Bucket::start);
     return static_cast<std::size_t>(found - m_buckets.begin());
 }
 
-std::optional<CountHistory::Ends> CountHistory::endsOf(log::Stamp from, log::Stamp to) const {
+const CountHistory::Bucket& CountHistory::before(std::size_t index) const {
+    static const Bucket none;
+    return index == 0 ? none : m_buckets[index - 1];
+}
+
+Counters CountHistory::between(log::Stamp from, log::Stamp to) const {
     const std::size_t first = firstFrom(from);
-    const std::size_t end = firstFrom(to);
-    if (end <= first) {
-        return std::nullopt;
+    const std::size_t end = std::max(first, firstFrom(to));
+    const Counters& earlier = before(first).counters;
+    Counters result = before(end).counters;
+    result.bytes -= earlier.bytes;
+    for (const auto counter : kCounters) {
+        result.*counter -= earlier.*counter;
     }
-    return Ends{first == 0 ? Bucket{} : m_buckets[first - 1], m_buckets[end - 1], first, end};
+    return result;
 }
 
 StreamCounts CountHistory::countsBetween(log::Stamp from, log::Stamp to) const {
+    const Counters came = between(from, to);
     StreamCounts counts;
-    const auto ends = endsOf(from, to);
-    if (!ends) {
-        return counts;
-    }
-    const auto& [before, last, first, end] = *ends;
-    counts.datagrams = last.datagrams - before.datagrams;
-    counts.bytes = last.bytes - before.bytes;
-    counts.samples = last.samples - before.samples;
-    counts.lost = last.lost - before.lost;
-    counts.duplicates = last.duplicates - before.duplicates;
-    counts.reordered = last.reordered - before.reordered;
-    counts.late = last.late - before.late;
-    counts.incomplete = last.incomplete - before.incomplete;
-    counts.restarts = last.restarts - before.restarts;
-    for (std::size_t i = first; i < end; ++i) {
+    counts.datagrams = came.datagrams;
+    counts.bytes = came.bytes;
+    counts.samples = came.samples;
+    counts.lost = came.lost;
+    counts.duplicates = came.duplicates;
+    counts.reordered = came.reordered;
+    counts.late = came.late;
+    counts.incomplete = came.incomplete;
+    counts.restarts = came.restarts;
+    const std::size_t end = firstFrom(to);
+    for (std::size_t i = firstFrom(from); i < end; ++i) {
         counts.longestGapSamples = std::max<std::uint64_t>(counts.longestGapSamples, m_buckets[i].longestGap);
     }
     return counts;
 }
 
 BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
-    const auto ends = endsOf(from, to);
-    return ends ? BurstCounts{ends->last.bursts - ends->before.bursts,
-                              ends->last.burstLost - ends->before.burstLost,
-                              ends->last.burstSamples - ends->before.burstSamples}
-                : BurstCounts{};
-}
-
-std::uint64_t CountHistory::malformedBetween(log::Stamp from, log::Stamp to) const {
-    const auto ends = endsOf(from, to);
-    return ends ? ends->last.malformed - ends->before.malformed : 0;
+    const Counters came = between(from, to);
+    return {came.bursts, came.burstLost, came.burstSamples};
 }
 
 ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
-    const auto ends = endsOf(from, to);
-    if (!ends) {
-        return {};
-    }
+    const std::size_t begin = firstFrom(from);
+    const std::size_t end = firstFrom(to);
     // The newest generation: from where on it is alone, and what it spans.
-    std::size_t first = ends->end;
+    std::size_t first = end;
     const Bucket* newest = nullptr;
-    for (std::size_t i = ends->end; i > ends->first; --i) {
+    for (std::size_t i = end; i > begin; --i) {
         const Bucket& bucket = m_buckets[i - 1];
         if (bucket.hasDifference && newest != nullptr && bucket.generation != newest->generation) {
             break;
@@ -199,7 +191,7 @@ ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
         return {};
     }
     ClockFit fit(newest->leastDelayed - m_buckets[first].leastDelayed);
-    for (std::size_t i = first; i < ends->end; ++i) {
+    for (std::size_t i = first; i < end; ++i) {
         if (m_buckets[i].hasDifference) {
             fit.add(m_buckets[i].leastDelayed, m_buckets[i].differenceMs);
         }
@@ -209,21 +201,20 @@ ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
 
 InterArrival CountHistory::arrivalsBetween(log::Stamp from, log::Stamp to) const {
     InterArrival result;
-    const auto ends = endsOf(from, to);
-    if (!ends) {
-        return result;
-    }
-    const auto& [before, last, first, end] = *ends;
-    result.count = last.arrivals - before.arrivals;
+    const std::size_t begin = firstFrom(from);
+    const std::size_t end = std::max(begin, firstFrom(to));
+    const Bucket& earlier = before(begin);
+    const Bucket& last = before(end);
+    result.count = last.arrivals - earlier.arrivals;
     if (result.count == 0) {
         return result;
     }
     const auto count = static_cast<double>(result.count);
-    result.meanMs = log::millisecondsOf(last.sum - before.sum) / count;
-    const double squares = (last.sumSquares - before.sumSquares) / count;
+    result.meanMs = log::millisecondsOf(last.sum - earlier.sum) / count;
+    const double squares = (last.sumSquares - earlier.sumSquares) / count;
     result.deviationMs = std::sqrt(std::max(0.0, squares - result.meanMs * result.meanMs));
     bool isFirst = true;
-    for (std::size_t i = first; i < end; ++i) {
+    for (std::size_t i = begin; i < end; ++i) {
         const Bucket& bucket = m_buckets[i];
         if (bucket.hasArrivals) {
             const auto least = static_cast<double>(bucket.leastMs);
@@ -236,8 +227,7 @@ InterArrival CountHistory::arrivalsBetween(log::Stamp from, log::Stamp to) const
 }
 
 double CountHistory::jitterMsAt(log::Stamp to) const {
-    const std::size_t end = firstFrom(to);
-    return end == 0 ? 0 : static_cast<double>(m_buckets[end - 1].jitterMs);
+    return static_cast<double>(before(firstFrom(to)).jitterMs);
 }
 
 } // namespace posewire::model

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/model/accounting/clock_skew.h"
+#include "core/model/accounting/sender_clock.h"
 #include "core/model/accounting/stream_counts.h"
 
+#include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace posewire::model {
@@ -18,23 +18,24 @@ public:
     static constexpr std::size_t kMostBuckets = 2048;
     static constexpr log::Duration kFirstWidth = std::chrono::milliseconds(100);
 
-    /// What changes at one moment; members go down too where a loss turns out to be none.
-    struct Change {
-        std::int32_t datagrams = 0;
-        std::int32_t bytes = 0;
-        std::int32_t samples = 0;
-        std::int32_t lost = 0;
-        std::int32_t duplicates = 0;
-        std::int32_t reordered = 0;
-        std::int32_t late = 0;
-        std::int32_t incomplete = 0;
-        std::int32_t restarts = 0;
-        std::int32_t malformed = 0;
-        std::int32_t bursts = 0; ///< see BurstCounts
-        std::int32_t burstLost = 0;
-        std::int32_t burstSamples = 0;
+    /// What changes at one moment, or has come so far. Modulo 2^32, so that differences are right; one that
+    /// goes down, where a loss turns out to be none, wraps.
+    struct Counters {
+        std::uint64_t bytes = 0;
+        std::uint32_t datagrams = 0;
+        std::uint32_t samples = 0;
+        std::uint32_t lost = 0;
+        std::uint32_t duplicates = 0;
+        std::uint32_t reordered = 0;
+        std::uint32_t late = 0;
+        std::uint32_t incomplete = 0;
+        std::uint32_t restarts = 0;
+        std::uint32_t malformed = 0;
+        std::uint32_t bursts = 0; ///< see BurstCounts
+        std::uint32_t burstLost = 0;
+        std::uint32_t burstSamples = 0;
     };
-    void add(log::Stamp stamp, const Change& change);
+    void add(log::Stamp stamp, const Counters& change);
     void addGap(log::Stamp stamp, std::uint32_t samples);
     /// Time since the sample before, and the jitter as it is now.
     void addArrival(log::Stamp stamp, log::Duration since, double jitterMs);
@@ -46,7 +47,9 @@ public:
     [[nodiscard]] StreamCounts countsBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] InterArrival arrivalsBetween(log::Stamp from, log::Stamp to) const;
     [[nodiscard]] BurstCounts burstsBetween(log::Stamp from, log::Stamp to) const;
-    [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const;
+    [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const {
+        return between(from, to).malformed;
+    }
     /// Of the newest generation in the range.
     [[nodiscard]] ClockSkew skewBetween(log::Stamp from, log::Stamp to) const;
     /// At the end of the range.
@@ -54,25 +57,12 @@ public:
     [[nodiscard]] log::Duration width() const { return m_width; }
 
 private:
-    // Counters are modulo 2^32: their differences are right.
     struct Bucket {
         log::Stamp start{};
-        std::uint64_t bytes = 0;
-        log::Duration sum{}; ///< of the inter-arrival times
+        Counters counters{};
+        log::Duration sum{};   ///< of the inter-arrival times
         double sumSquares = 0; ///< ms²
-        std::uint32_t datagrams = 0;
-        std::uint32_t samples = 0;
-        std::uint32_t lost = 0;
-        std::uint32_t duplicates = 0;
-        std::uint32_t reordered = 0;
-        std::uint32_t late = 0;
-        std::uint32_t incomplete = 0;
-        std::uint32_t restarts = 0;
         std::uint32_t arrivals = 0;
-        std::uint32_t malformed = 0;
-        std::uint32_t bursts = 0;
-        std::uint32_t burstLost = 0;
-        std::uint32_t burstSamples = 0;
         // Of this bucket alone:
         std::uint32_t longestGap = 0;
         float leastMs = 0;
@@ -84,16 +74,11 @@ private:
         log::Stamp leastDelayed{}; ///< stamp of the least difference
         double differenceMs = 0;
     };
-    /// The buckets before a range and at its end; nothing where none is in it.
-    struct Ends {
-        Bucket before;
-        Bucket last;
-        std::size_t first = 0;
-        std::size_t end = 0;
-    };
-    [[nodiscard]] std::optional<Ends> endsOf(log::Stamp from, log::Stamp to) const;
+    /// The newest bucket before one, empty where there is none.
+    [[nodiscard]] const Bucket& before(std::size_t index) const;
+    /// What came between the ends of a range.
+    [[nodiscard]] Counters between(log::Stamp from, log::Stamp to) const;
     static void merge(Bucket& bucket, const Bucket& before);
-    static void apply(Bucket& bucket, const Change& change);
     Bucket& bucketAt(log::Stamp stamp);
     void halve();
     /// Index of the first bucket that begins at or after a stamp.

@@ -17,26 +17,17 @@ constexpr std::size_t kMostSenders = 4'096;
 /// This many samples lost in a row are a burst.
 constexpr std::uint32_t kBurstSamples = 10;
 
-} // namespace
-
-Event EventFollower::eventOf(EventKind kind, const log::Packet& packet) {
-    Event event;
-    event.kind = kind;
-    event.sender = packet.sender;
-    event.firstStamp = event.lastStamp = packet.stamp;
-    event.firstPacket = event.lastPacket = packet.number;
-    return event;
+Event eventOf(EventKind kind, const log::Packet& packet) {
+    return Event::of(kind, packet.sender, packet.stamp, packet.number);
 }
 
-Event EventFollower::eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdict) {
-    Event event;
-    event.kind = kind;
-    event.sender = stream.sender;
+Event eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdict) {
+    Event event = Event::of(kind, stream.sender, verdict.stamp, verdict.packet);
     event.character = stream.character;
-    event.firstStamp = event.lastStamp = verdict.stamp;
-    event.firstPacket = event.lastPacket = verdict.packet;
     return event;
 }
+
+} // namespace
 
 void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
                                const std::deque<Stream>& streams) {
@@ -80,14 +71,14 @@ void EventFollower::takeDatagram(const log::Packet& packet, const wire::Header& 
 
 void EventFollower::noteSampled(const log::Packet& packet, const wire::Header& header) {
     const CharacterKey key{packet.sender, header.character};
-    Person& person = m_persons[key];
-    if (std::exchange(person.isStale, false)) {
+    Character& character = m_characters[key];
+    if (std::exchange(character.isStale, false)) {
         Event event = eventOf(EventKind::Stale, packet);
         event.character = header.character;
         m_events.end(event, packet.stamp);
     }
-    person.lastSampled = packet.stamp;
-    person.lastPacket = packet.number;
+    character.lastSampled = packet.stamp;
+    character.lastPacket = packet.number;
     noteClaim(packet, header);
 }
 
@@ -97,8 +88,8 @@ void EventFollower::noteClaim(const log::Packet& packet, const wire::Header& hea
     if (claim.stamp == log::Stamp()) {
         claim.sender = packet.sender;
     } else if (claim.sender != packet.sender) {
-        const bool isBack =
-            claim.hasBefore && claim.before == packet.sender && packet.stamp - claim.stampBefore < std::chrono::seconds(1);
+        const bool isBack = claim.hasBefore && claim.before == packet.sender &&
+                            packet.stamp - claim.stampBefore < std::chrono::seconds(1);
         if (isBack) {
             Event event = eventOf(EventKind::CharacterConflict, packet);
             event.sender = std::min(packet.sender, claim.sender);
@@ -121,8 +112,9 @@ void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& ver
         return;
     }
     // All streams of a character restart together, each with a verdict of its own.
-    log::Stamp& restart = m_persons[{stream.sender, stream.character}].restart;
-    const bool isReported = restart != log::Stamp() && std::chrono::abs(verdict.stamp - restart) < std::chrono::seconds(1);
+    log::Stamp& restart = m_characters[{stream.sender, stream.character}].restart;
+    const bool isReported =
+        restart != log::Stamp() && std::chrono::abs(verdict.stamp - restart) < std::chrono::seconds(1);
     if (!isReported) {
         restart = verdict.stamp;
         m_events.report(eventOf(EventKind::Restart, stream, verdict));
@@ -132,38 +124,35 @@ void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& ver
 /// A time code that moves differently from our clock while the counter runs on. What came out of order says
 /// nothing about it.
 void EventFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
-    Person& person = m_persons[{stream.sender, stream.character}];
-    const bool isFirst = person.stamp == log::Stamp();
-    const auto moved = static_cast<std::int32_t>(verdict.sample - person.sample);
-    const bool isAnew = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
-    if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isAnew)) {
+    Character& character = m_characters[{stream.sender, stream.character}];
+    const bool isFirst = character.stamp == log::Stamp();
+    const auto moved = static_cast<std::int32_t>(verdict.sample - character.sample);
+    const bool isBeginning = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
+    if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isBeginning)) {
         return;
     }
-    const std::int64_t passedMs = (verdict.stamp - person.stamp) / std::chrono::milliseconds(1);
-    const std::int64_t jumpMs = static_cast<std::int32_t>(verdict.timeCode - person.timeCode) - passedMs;
-    if (!isAnew && moved < Probation::kMostForward && verdict.timeCode != person.timeCode &&
+    const std::int64_t passedMs = (verdict.stamp - character.stamp) / std::chrono::milliseconds(1);
+    const std::int64_t jumpMs = static_cast<std::int32_t>(verdict.timeCode - character.timeCode) - passedMs;
+    if (!isBeginning && moved < Probation::kMostForward && verdict.timeCode != character.timeCode &&
         std::abs(jumpMs) > kJumpMs) {
         Event event = eventOf(EventKind::TimeCodeJump, stream, verdict);
         event.value = static_cast<double>(jumpMs);
         m_events.report(event);
     }
-    person.sample = verdict.sample;
-    person.timeCode = verdict.timeCode;
-    person.stamp = verdict.stamp;
+    character.sample = verdict.sample;
+    character.timeCode = verdict.timeCode;
+    character.stamp = verdict.stamp;
 }
 
 void EventFollower::takeGap(const Gap& gap) {
     if (gap.lost == 0) {
         return;
     }
-    Event event;
-    event.kind = gap.lost >= kBurstSamples ? EventKind::Burst : EventKind::Gap;
-    event.sender = gap.stream.sender;
+    const EventKind kind = gap.lost >= kBurstSamples ? EventKind::Burst : EventKind::Gap;
+    Event event = Event::of(kind, gap.stream.sender, gap.fromStamp, gap.fromPacket);
     event.character = gap.stream.character;
     event.type = gap.stream.type;
-    event.firstStamp = gap.fromStamp;
     event.lastStamp = gap.toStamp;
-    event.firstPacket = gap.fromPacket;
     event.lastPacket = gap.toPacket;
     event.samples = gap.lost;
     event.cause = gap.cause;
@@ -189,8 +178,8 @@ void EventFollower::endFile() {
     for (auto& [id, sender] : m_senders) {
         sender.lastSampled = {};
     }
-    for (auto& [key, person] : m_persons) {
-        person.lastSampled = {};
+    for (auto& [key, character] : m_characters) {
+        character.lastSampled = {};
     }
 }
 
@@ -200,24 +189,18 @@ void EventFollower::check(log::Stamp stamp) {
         const bool isSilent = sender.lastSampled != log::Stamp() && stamp - sender.lastSampled > kSilent;
         if (isSilent && !sender.isDown) {
             sender.isDown = true;
-            Event event;
-            event.kind = EventKind::SenderDown;
-            event.sender = id;
-            event.firstStamp = event.lastStamp = sender.lastSampled + kSilent;
-            m_events.report(event);
+            m_events.report(Event::of(EventKind::SenderDown, id, sender.lastSampled + kSilent));
         }
     }
-    for (auto& [key, person] : m_persons) {
+    for (auto& [key, character] : m_characters) {
         const auto sender = m_senders.find(key.sender);
-        const bool isSilent = person.lastSampled != log::Stamp() && stamp - person.lastSampled > kSilent;
-        if (isSilent && !person.isStale && sender != m_senders.end() && !sender->second.isDown) {
-            person.isStale = true;
-            Event event;
-            event.kind = EventKind::Stale;
-            event.sender = key.sender;
+        const bool isSilent =
+            character.lastSampled != log::Stamp() && stamp - character.lastSampled > kSilent;
+        if (isSilent && !character.isStale && sender != m_senders.end() && !sender->second.isDown) {
+            character.isStale = true;
+            Event event = Event::of(EventKind::Stale, key.sender, character.lastSampled + kSilent,
+                                    character.lastPacket);
             event.character = key.character;
-            event.firstStamp = event.lastStamp = person.lastSampled + kSilent;
-            event.firstPacket = event.lastPacket = person.lastPacket;
             m_events.report(event);
         }
     }

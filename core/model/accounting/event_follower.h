@@ -4,7 +4,6 @@
 #include "core/log/packet.h"
 #include "core/log/time.h"
 #include "core/model/accounting/attribution.h"
-#include "core/model/accounting/condition.h"
 #include "core/model/accounting/events.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/thresholds.h"
@@ -38,8 +37,8 @@ public:
     /// What came so far is a file, which has ended: nobody in it is expected to send on.
     void endFile();
 
-    /// What goes on, or went on at a time of the past, and concerns the character or its sender, worst first,
-    /// limits last of their like; no notes.
+    /// What lasts, or lasted at a time in the past, and concerns the character or its sender, worst first, a
+    /// limit behind what is as bad; no notes.
     [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key,
                                                        std::optional<log::Stamp> stamp) const;
     /// The worst of these.
@@ -50,7 +49,7 @@ private:
         log::Stamp lastSampled{};
         bool isDown = false;
     };
-    struct Person {
+    struct Character {
         log::Stamp lastSampled{};
         std::uint64_t lastPacket = 0;
         bool isStale = false;
@@ -72,13 +71,11 @@ private:
     void noteSampled(const log::Packet& packet, const wire::Header& header);
     void noteTimeCode(const log::StreamKey& stream, const Verdict& verdict);
     void noteClaim(const log::Packet& packet, const wire::Header& header);
-    [[nodiscard]] static Event eventOf(EventKind kind, const log::Packet& packet);
-    [[nodiscard]] static Event eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdict);
 
     Events m_events;
     ThresholdWatch m_watch;
     std::map<log::SenderId, Sender> m_senders;
-    std::map<CharacterKey, Person> m_persons;
+    std::map<CharacterKey, Character> m_characters;
     std::map<std::pair<std::uint8_t, std::uint8_t>, Claim> m_claims;
     log::Stamp m_nextCheck{};
     log::Stamp m_nextWatch{};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/events.h"
 
+#include "core/model/text.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -56,10 +58,6 @@ bool isSameEpisode(const Event& a, const Event& b) {
            a.cause == b.cause;
 }
 
-std::string counted(std::uint64_t count, const char* one, const char* many) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : many);
-}
-
 std::string fixed(double value, int decimals) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
@@ -92,6 +90,15 @@ EventGroup groupOf(EventKind kind) {
 
 std::string_view nameOf(EventKind kind) {
     return factsOf(kind).name;
+}
+
+Event Event::of(EventKind kind, log::SenderId sender, log::Stamp stamp, std::uint64_t packet) {
+    Event event;
+    event.kind = kind;
+    event.sender = sender;
+    event.firstStamp = event.lastStamp = stamp;
+    event.firstPacket = event.lastPacket = packet;
+    return event;
 }
 
 std::string Event::text() const {
@@ -136,9 +143,7 @@ std::string Event::text() const {
 }
 
 std::size_t Events::indexOf(std::uint64_t number) const {
-    const auto found =
-        std::lower_bound(m_events.begin(), m_events.end(), number,
-                         [](const Event& event, std::uint64_t value) { return event.number < value; });
+    const auto found = std::ranges::lower_bound(m_events, number, {}, &Event::number);
     return static_cast<std::size_t>(found - m_events.begin());
 }
 

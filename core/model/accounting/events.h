@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/model/accounting/loss_cause.h"
+#include "core/model/accounting/stream_counts.h"
 #include "core/model/keys.h"
 
 #include <cstddef>
@@ -65,10 +65,26 @@ struct Event {
     std::string detail{};  ///< content: what changed; Gap and Burst: evidence of the newest
     bool isCurrent = true; ///< lasts, or may
 
+    /// One that happened once, at one moment.
+    [[nodiscard]] static Event of(EventKind kind, log::SenderId sender, log::Stamp stamp,
+                                  std::uint64_t packet = 0);
     [[nodiscard]] EventSeverity severity() const { return severityOf(kind); }
     [[nodiscard]] EventGroup group() const { return groupOf(kind); }
     /// One line, without who and when.
     [[nodiscard]] std::string text() const;
+};
+
+/// How a character does, for all who show it.
+struct Condition {
+    /// Seconds of silence that are a warning, and those that are an error, also before an event reports it.
+    static constexpr double kSilentS = 0.25;
+    static constexpr double kStaleS = 1.0;
+
+    enum class Level : std::uint8_t { Good, Warning, Error };
+    Level level = Level::Good;
+    std::string reason; ///< one line; empty where it is good
+    /// What it rests on where that is an event: its number. Else silence or a contradiction.
+    std::optional<std::uint64_t> event{};
 };
 
 /// The events of a session. Bounded: the oldest that have ended go first.

@@ -4,10 +4,7 @@
 #include <algorithm>
 
 namespace posewire::model {
-namespace {
-
-
-} // namespace
+namespace {} // namespace
 
 PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram) {
     PacketDigest digest;

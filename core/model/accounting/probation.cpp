@@ -174,17 +174,17 @@ void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decisio
     Scan found;
     scan(ledger, found);
     decision.decided = 0;
-    const auto settle = [&](std::size_t count, std::uint8_t winner, Place begun) {
+    const auto settle = [&](std::size_t count, std::uint8_t winner, Outcome begun) {
         decision.decided = count;
         bool isFirst = true;
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint8_t label = found.labels[i];
             if (label == kExpected) {
-                decision.places[i] = Place::Expected;
+                decision.outcomes[i] = Outcome::Expected;
             } else if (label != winner) {
-                decision.places[i] = Place::Alone;
+                decision.outcomes[i] = Outcome::Alone;
             } else {
-                decision.places[i] = isFirst ? begun : Place::Begun;
+                decision.outcomes[i] = isFirst ? begun : Outcome::Begun;
                 isFirst = false;
             }
         }
@@ -194,14 +194,14 @@ void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decisio
         if (isSettled(group, ledger, m_waiting.back().datagram.stamp, isEnd)) {
             const std::int32_t jump = away(group.low, found.highest);
             settle(m_waiting.size(), found.newest,
-                   jump > 0 && jump <= kMostForward ? Place::Begun : Place::Restarted);
+                   jump > 0 && jump <= kMostForward ? Outcome::Begun : Outcome::Restarted);
             return;
         }
     }
     if (found.advances >= kAdvances || isEnd) {
-        settle(m_waiting.size(), kExpected, Place::Begun);
+        settle(m_waiting.size(), kExpected, Outcome::Begun);
     } else if (m_waiting.size() == kMost) {
-        settle(found.afterAdvance != 0 ? found.afterAdvance : kMost / 2, kExpected, Place::Begun);
+        settle(found.afterAdvance != 0 ? found.afterAdvance : kMost / 2, kExpected, Outcome::Begun);
     }
 }
 

@@ -27,11 +27,11 @@ public:
         bool isRepeat = false; ///< of one that waits too
     };
 
-    enum class Place : std::uint8_t { Expected, Alone, Begun, Restarted };
+    enum class Outcome : std::uint8_t { Expected, Alone, Begun, Restarted };
     /// What is to be done with those that wait, the oldest first.
     struct Decision {
         std::size_t decided = 0; ///< how many of them; 0 while nothing is clear
-        std::array<Place, kMost> places{};
+        std::array<Outcome, kMost> outcomes{};
     };
 
     /// Whether a counter is so near to the expected one that it is counted at once.

@@ -140,7 +140,8 @@ void addParts(const StreamAccounting& stream, const RangeParts& parts, std::span
     const std::size_t count = std::min(parts.count, into.size());
     for (std::size_t i = 0; i < count; ++i) {
         const log::Stamp begin = parts.beginOf(i);
-        if (begin > stream.lastStamp() || parts.beginOf(i + 1) <= stream.firstStamp() - std::chrono::seconds(1)) {
+        if (begin > stream.lastStamp() ||
+            parts.beginOf(i + 1) <= stream.firstStamp() - std::chrono::seconds(1)) {
             continue;
         }
         const StreamCounts counts = stream.countsBetween(begin, parts.beginOf(i + 1));

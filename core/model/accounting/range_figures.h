@@ -2,9 +2,8 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/model/accounting/loss_cause.h"
 #include "core/model/accounting/stream_accounting.h"
-#include "core/model/accounting/time_range.h"
+#include "core/model/accounting/stream_counts.h"
 
 #include <array>
 #include <cstdint>

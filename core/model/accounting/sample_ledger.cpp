@@ -16,13 +16,13 @@ bool isWithin(const SampleSequence& sequence, std::uint32_t sample, std::int32_t
 
 Placement SampleLedger::count(const Placement& placement, log::Stamp stamp, CountHistory* history) {
     const bool isDuplicate = placement.kind == Placement::Kind::Duplicate;
-    const bool isLate = placement.isReordered && placement.late > m_lateAfter;
+    const bool isLate = placement.isReordered && placement.late > kLateAfter;
     if (isDuplicate || placement.isReordered) {
         m_settled.duplicates += isDuplicate ? 1 : 0;
         m_settled.reordered += placement.isReordered ? 1 : 0;
         m_settled.late += isLate ? 1 : 0;
         if (history != nullptr) {
-            CountHistory::Change change;
+            CountHistory::Counters change;
             change.duplicates = isDuplicate ? 1 : 0;
             change.reordered = placement.isReordered ? 1 : 0;
             change.late = isLate ? 1 : 0;
@@ -75,7 +75,7 @@ void SampleLedger::restart(log::Stamp stamp, CountHistory* history) {
     m_restart = stamp;
     ++m_settled.restarts;
     if (history != nullptr) {
-        CountHistory::Change change;
+        CountHistory::Counters change;
         change.restarts = 1;
         history->add(stamp, change);
     }

@@ -14,11 +14,10 @@ class SampleLedger {
 public:
     /// For this long after a restart, a straggler of the sequence before it still counts there.
     static constexpr log::Duration kStraggling = std::chrono::seconds(10);
+    /// Reordered by more than this is late.
+    static constexpr log::Duration kLateAfter = std::chrono::milliseconds(50);
 
     using Datagram = SampleSequence::Datagram;
-
-    void setLateAfter(log::Duration lateAfter) { m_lateAfter = lateAfter; }
-    [[nodiscard]] log::Duration lateAfter() const { return m_lateAfter; }
 
     /// In the present sequence.
     Placement place(const Datagram& datagram, CountHistory* history);
@@ -47,7 +46,6 @@ public:
 private:
     Placement count(const Placement& placement, log::Stamp stamp, CountHistory* history);
 
-    log::Duration m_lateAfter = std::chrono::milliseconds(50);
     log::Stamp m_restart{};
     SampleSequence m_present;
     SampleSequence m_before;

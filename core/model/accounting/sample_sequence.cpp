@@ -33,10 +33,10 @@ constexpr std::size_t kLeastOfRun = 8;
 
 void noteBurst(const std::optional<LossBursts::Burst>& burst, CountHistory* history) {
     if (burst && history != nullptr) {
-        CountHistory::Change change;
+        CountHistory::Counters change;
         change.bursts = 1;
-        change.burstLost = static_cast<std::int32_t>(burst->lost);
-        change.burstSamples = static_cast<std::int32_t>(burst->samples);
+        change.burstLost = static_cast<std::uint32_t>(burst->lost);
+        change.burstSamples = static_cast<std::uint32_t>(burst->samples);
         history->add(burst->end, change);
     }
 }
@@ -154,21 +154,17 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
     const bool mayChangeLost = isFirst && !isSteady && history != nullptr;
     const std::int64_t lostBefore = mayChangeLost ? lostNow() : 0;
     Run& run = runFor(place);
-    CountHistory::Change change;
-    if (isFirst) {
-        change.incomplete = 1;
-    }
-    if (isCompleting) {
-        change.samples = 1;
-        change.incomplete -= 1;
-    }
-    run.samples += change.samples;
-    run.incomplete += change.incomplete;
+    const int incomplete = (isFirst ? 1 : 0) - (isCompleting ? 1 : 0);
+    run.samples += isCompleting ? 1 : 0;
+    run.incomplete += incomplete;
     if (isFirst && &run == &m_past) {
         m_pastLost = std::max<std::int64_t>(0, m_pastLost - 1);
     }
     if (history != nullptr) {
-        change.lost = mayChangeLost ? static_cast<std::int32_t>(lostNow() - lostBefore) : 0;
+        CountHistory::Counters change;
+        change.samples = isCompleting ? 1 : 0;
+        change.incomplete = static_cast<std::uint32_t>(incomplete);
+        change.lost = mayChangeLost ? static_cast<std::uint32_t>(lostNow() - lostBefore) : 0;
         history->add(due, change);
     }
     return placement;
@@ -248,16 +244,16 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
     }
     // What seemed lost, or did not, is corrected at the time when it seemed so.
     const LostByEntry after = lostAfter(first);
-    CountHistory::Change correction;
+    CountHistory::Counters correction;
     for (std::size_t i = 0; i < differences.size; ++i) {
         if (after[i] != before[i]) {
-            correction.lost = static_cast<std::int32_t>(after[i] - before[i]);
-            rest -= correction.lost;
+            correction.lost = static_cast<std::uint32_t>(after[i] - before[i]);
+            rest -= after[i] - before[i];
             history->add(dueStamp(first + 1 + i), correction);
         }
     }
     if (rest != 0) {
-        correction.lost = static_cast<std::int32_t>(rest);
+        correction.lost = static_cast<std::uint32_t>(rest);
         history->add(m_window.back().stamp, correction);
     }
 }

@@ -3,9 +3,8 @@
 
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
-#include "core/model/accounting/loss_bursts.h"
 #include "core/model/accounting/sample_window.h"
-#include "core/model/accounting/time_range.h"
+#include "core/model/accounting/stream_counts.h"
 
 #include <array>
 #include <cstdint>
@@ -25,7 +24,7 @@ struct Placement {
     Kind kind = Kind::Outside;
     bool isReordered = false;
     bool isCompleting = false;      ///< it is the last datagram that its sample lacked
-    log::Duration late{};        ///< of a reordered one: since the first arrival above it (RFC 4737 §4.3)
+    log::Duration late{};           ///< of a reordered one: since the first arrival above it (RFC 4737 §4.3)
     std::uint32_t gap = 0;          ///< samples missing just before an advance, as far as the step is known
     std::uint32_t sampleBefore = 0; ///< the highest before an advance with a gap
 };

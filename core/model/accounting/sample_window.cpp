@@ -14,7 +14,7 @@ bool isBelow(std::uint32_t a, std::uint32_t b) {
 
 } // namespace
 
-SampleWindow::Place SampleWindow::find(std::uint32_t sample) const {
+SampleWindow::Slot SampleWindow::find(std::uint32_t sample) const {
     if (m_size == 0 || isBelow(back().sample, sample)) {
         return {m_size, false};
     }

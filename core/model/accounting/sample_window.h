@@ -37,11 +37,11 @@ public:
     [[nodiscard]] bool hasForgotten() const { return m_hasForgotten; }
 
     /// Where a sample is, or where it would be inserted.
-    struct Place {
+    struct Slot {
         std::size_t index = 0;
         bool isThere = false;
     };
-    [[nodiscard]] Place find(std::uint32_t sample) const;
+    [[nodiscard]] Slot find(std::uint32_t sample) const;
 
     /// Inserts a sample of which nothing has arrived. Forgets the lowest one where the window is full;
     /// nothing may be inserted below that one then. Returns its index.

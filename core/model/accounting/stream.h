@@ -1,15 +1,44 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/stream_index.h"
-#include "core/model/accounting/loss_cause.h"
+#include "core/log/stream_key.h"
 #include "core/model/accounting/stream_accounting.h"
-#include "core/model/accounting/stream_statistics.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace posewire::model {
+
+/// How fast one stream is now, from receive stamps alone. O(1) in time and memory for each packet.
+class StreamStatistics {
+public:
+    /// Adds a datagram; `beginsSample` is true for the first one of a sample.
+    void add(log::Stamp stamp, std::size_t bytes, bool beginsSample);
+
+    /// Samples a second over the window of the newest samples (at most 256 and at most about 2 s before the
+    /// newest); 0 before the second sample.
+    [[nodiscard]] double rateHz() const;
+    /// Bytes a second over the same window.
+    [[nodiscard]] double bytesPerSecond() const;
+
+private:
+    static constexpr std::size_t kMostSamples = 256;
+    struct Arrival {
+        log::Stamp stamp;
+        std::uint64_t bytesSoFar;
+    };
+    [[nodiscard]] std::size_t windowSize() const;
+    [[nodiscard]] log::Duration span() const;
+    [[nodiscard]] const Arrival& arrival(std::size_t back) const {
+        return m_arrivals[(m_samples - 1 - back) % kMostSamples];
+    }
+
+    std::uint64_t m_bytes = 0;
+    std::uint64_t m_samples = 0;
+    log::Stamp m_lastStamp{};
+    std::array<Arrival, kMostSamples> m_arrivals{};
+};
 
 /// One message type of one character of one sender.
 struct Stream {

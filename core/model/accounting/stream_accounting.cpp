@@ -2,21 +2,32 @@
 #include "core/model/accounting/stream_accounting.h"
 
 #include <algorithm>
+#include <bit>
+#include <cstdlib>
 
 namespace posewire::model {
 
-std::span<const Verdict> StreamAccounting::add(log::Stamp stamp, std::size_t bytes,
-                                               const wire::Header& header) {
-    log::Packet packet;
-    packet.number = m_datagrams;
-    packet.stamp = stamp;
-    packet.bytes = {static_cast<const std::byte*>(nullptr), std::size_t{0}};
-    const auto verdicts = add(packet, header);
-    m_bytes += bytes;
-    CountHistory::Change change;
-    change.bytes = static_cast<std::int32_t>(bytes);
-    m_history.add(stamp, change);
-    return verdicts;
+bool MessageRounds::isWhole() const {
+    const int count = std::popcount(m_arrived[0]) + std::popcount(m_arrived[1]);
+    return m_last >= 0 && count == m_last + 1;
+}
+
+bool MessageRounds::add(log::Stamp stamp, std::uint8_t datagram, bool isLast) {
+    const std::size_t half = datagram >> 6 & 1;
+    const std::uint64_t bit = std::uint64_t{1} << (datagram & 63);
+    const bool isRepeated = (m_arrived[half] & bit) != 0;
+    const bool isBegin = !isOpen() || isRepeated || std::chrono::abs(stamp - m_first) > kTogether;
+    if (isBegin) {
+        m_arrived = {};
+        m_last = -1;
+        m_first = stamp;
+    } else {
+        m_incomplete -= isWhole() ? 0 : 1;
+    }
+    m_arrived[half] |= bit;
+    m_last = isLast ? datagram : m_last;
+    m_incomplete += isWhole() ? 0 : 1;
+    return isBegin;
 }
 
 std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const wire::Header& header) {
@@ -25,9 +36,9 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     m_lastStamp = packet.stamp;
     ++m_datagrams;
     m_bytes += packet.bytes.size();
-    CountHistory::Change change;
+    CountHistory::Counters change;
     change.datagrams = 1;
-    change.bytes = static_cast<std::int32_t>(packet.bytes.size());
+    change.bytes = packet.bytes.size();
     if (m_countsSamples) {
         m_history.add(packet.stamp, change);
         takeSample({{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
@@ -39,7 +50,7 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     const std::uint64_t incomplete = m_rounds.incomplete();
     const bool isPartial = m_rounds.isPartial();
     const bool isBegin = m_rounds.add(packet.stamp, header.datagramIndex(), header.isLast());
-    change.incomplete = static_cast<std::int32_t>(m_rounds.incomplete() - incomplete);
+    change.incomplete = static_cast<std::uint32_t>(m_rounds.incomplete() - incomplete);
     m_history.add(packet.stamp, change);
     Verdict verdict;
     verdict.packet = packet.number;
@@ -54,7 +65,7 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
 
 void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
     if (m_probation.empty() && Probation::isExpected(m_ledger, datagram.datagram)) {
-        settle(datagram, Probation::Place::Expected, false);
+        settle(datagram, Probation::Outcome::Expected, false);
         return;
     }
     m_probation.add(datagram);
@@ -63,33 +74,33 @@ void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
     if (decision.decided != 0) {
         bool isMoved = false;
         for (std::size_t i = 0; i < decision.decided; ++i) {
-            settle(m_probation.waiting()[i], decision.places[i], isMoved);
-            isMoved = isMoved || decision.places[i] == Probation::Place::Restarted;
+            settle(m_probation.waiting()[i], decision.outcomes[i], isMoved);
+            isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
         }
         m_probation.drop(decision.decided);
     }
 }
 
 /// `isMoved`: the counter restarted among those that waited, so that what was expected before is now past.
-Placement StreamAccounting::carryOut(const Probation::Waiting& datagram, Probation::Place place, bool isMoved,
-                                     SampleLedger& ledger, CountHistory* history) {
-    switch (place) {
-    case Probation::Place::Restarted:
+Placement StreamAccounting::carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome,
+                                     bool isMoved, SampleLedger& ledger, CountHistory* history) {
+    switch (outcome) {
+    case Probation::Outcome::Restarted:
         ledger.restart(datagram.datagram.stamp, history);
         return ledger.place(datagram.datagram, history);
-    case Probation::Place::Begun:
+    case Probation::Outcome::Begun:
         return ledger.place(datagram.datagram, history);
-    case Probation::Place::Expected:
+    case Probation::Outcome::Expected:
         return isMoved ? ledger.placeBefore(datagram.datagram, history)
                        : ledger.place(datagram.datagram, history);
-    case Probation::Place::Alone:
+    case Probation::Outcome::Alone:
         break;
     }
     return ledger.placeAlone(datagram.datagram, history);
 }
 
-void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Place place, bool isMoved) {
-    const Placement placement = carryOut(datagram, place, isMoved, m_ledger, &m_history);
+void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved) {
+    const Placement placement = carryOut(datagram, outcome, isMoved, m_ledger, &m_history);
     Verdict& verdict = m_verdicts.emplace_back();
     verdict.packet = datagram.packet;
     verdict.stamp = datagram.datagram.stamp;
@@ -104,14 +115,13 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Pla
     }
     verdict.isDuplicate = placement.kind == Placement::Kind::Duplicate;
     verdict.isReordered = placement.isReordered;
-    verdict.isLate = placement.isReordered && placement.late > m_ledger.lateAfter();
-    verdict.isRestart = place == Probation::Place::Restarted;
+    verdict.isRestart = outcome == Probation::Outcome::Restarted;
     verdict.isCompleting = placement.isCompleting;
     verdict.isStray = placement.kind == Placement::Kind::Outside;
     verdict.isFirstOfSample =
         placement.kind == Placement::Kind::Advance || placement.kind == Placement::Kind::Filled;
-    const bool isPast = isMoved && place == Probation::Place::Expected;
-    if (!verdict.isFirstOfSample || isPast || place == Probation::Place::Alone) {
+    const bool isPast = isMoved && outcome == Probation::Outcome::Expected;
+    if (!verdict.isFirstOfSample || isPast || outcome == Probation::Outcome::Alone) {
         return;
     }
     if (verdict.isRestart) {
@@ -136,8 +146,8 @@ SampleLedger StreamAccounting::ledgerInHindsight() const {
     m_probation.decide(ledger, true, decision);
     bool isMoved = false;
     for (std::size_t i = 0; i < decision.decided; ++i) {
-        carryOut(m_probation.waiting()[i], decision.places[i], isMoved, ledger, nullptr);
-        isMoved = isMoved || decision.places[i] == Probation::Place::Restarted;
+        carryOut(m_probation.waiting()[i], decision.outcomes[i], isMoved, ledger, nullptr);
+        isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
     }
     return ledger;
 }
@@ -191,7 +201,7 @@ ClockFigures StreamAccounting::clock() const {
 }
 
 void StreamAccounting::addMalformed(log::Stamp stamp) {
-    CountHistory::Change change;
+    CountHistory::Counters change;
     change.malformed = 1;
     ++m_malformed;
     m_history.add(stamp, change);

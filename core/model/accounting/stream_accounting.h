@@ -4,14 +4,13 @@
 #include "core/log/packet.h"
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
-#include "core/model/accounting/message_rounds.h"
 #include "core/model/accounting/probation.h"
 #include "core/model/accounting/sample_ledger.h"
 #include "core/model/accounting/sender_clock.h"
 #include "core/model/accounting/stream_counts.h"
-#include "core/model/accounting/time_range.h"
 #include "core/wire/header.h"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -34,12 +33,37 @@ struct Verdict {
     log::Stamp stampBefore{};
     bool isDuplicate = false;
     bool isReordered = false;
-    bool isLate = false;
     bool isRestart = false; ///< the first after the sender's counter restarted
     bool isStray = false;   ///< belongs to no sample: its counter is corrupt, or it is very old
     bool isFirstOfSample = false;
     bool isCompleting = false;   ///< the last datagram that its sample lacked
     bool isAfterPartial = false; ///< types 10 to 13: begins a message, and the one before was left incomplete
+};
+
+/// Counts messages of which some but not all datagrams came, among those that are sent again and again with
+/// the same sample counter (types 10 to 13). Datagrams belong to one message while their indices do not
+/// repeat and they come within kTogether of each other, in any order.
+class MessageRounds {
+public:
+    static constexpr log::Duration kTogether = std::chrono::milliseconds(250);
+
+    /// Returns true where the datagram begins a message.
+    bool add(log::Stamp stamp, std::uint8_t datagram, bool isLast);
+
+    /// The newest message included.
+    [[nodiscard]] std::uint64_t incomplete() const { return m_incomplete; }
+    /// Whether the newest message still lacks something.
+    [[nodiscard]] bool isPartial() const { return isOpen() && !isWhole(); }
+
+private:
+    [[nodiscard]] bool isOpen() const { return (m_arrived[0] | m_arrived[1]) != 0; }
+    [[nodiscard]] bool isWhole() const;
+
+    std::uint64_t m_incomplete = 0;
+    // Of the newest message:
+    log::Stamp m_first{};
+    std::array<std::uint64_t, 2> m_arrived{};
+    int m_last = -1; ///< index of its last datagram; -1 before that is known
 };
 
 /// Counts exactly what came and what did not come of one stream. Follows the log: figures are of what was
@@ -56,13 +80,9 @@ public:
     /// of arrival: usually its own, none while it is in doubt, and several when a doubt ends. Valid until the
     /// next call.
     std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
-    std::span<const Verdict> add(log::Stamp stamp, std::size_t bytes, const wire::Header& header);
 
     /// A datagram of the stream that could not be decoded.
     void addMalformed(log::Stamp stamp);
-
-    /// Reordered by more than this is late; counts from the next datagram on. 50 ms unless set.
-    void setLateAfter(log::Duration lateAfter) { m_ledger.setLateAfter(lateAfter); }
 
     [[nodiscard]] StreamCounts counts() const;
     [[nodiscard]] ClockFigures clock() const;
@@ -109,8 +129,8 @@ private:
 
     [[nodiscard]] LossPattern patternIn(const TimeRange& range, const StreamCounts& counts) const;
     void takeSample(const Probation::Waiting& datagram);
-    void settle(const Probation::Waiting& datagram, Probation::Place place, bool isMoved);
-    static Placement carryOut(const Probation::Waiting& datagram, Probation::Place place, bool isMoved,
+    void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
+    static Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved,
                               SampleLedger& ledger, CountHistory* history);
     [[nodiscard]] SampleLedger ledgerInHindsight() const;
 

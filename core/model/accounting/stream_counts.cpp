@@ -4,6 +4,19 @@
 #include <algorithm>
 
 namespace posewire::model {
+std::string_view nameOf(LossCause cause) {
+    switch (cause) {
+    case LossCause::ThisComputer:
+        return "this computer";
+    case LossCause::Network:
+        return "network";
+    case LossCause::Sender:
+        return "sender";
+    case LossCause::Unknown:
+        break;
+    }
+    return "unknown";
+}
 
 StreamCounts& StreamCounts::operator+=(const StreamCounts& other) {
     datagrams += other.datagrams;
@@ -35,6 +48,28 @@ LossPattern patternOf(const BurstCounts& bursts, const StreamCounts& counts) {
         pattern.gapDensity = std::max(0.0, gapLost) / gapSamples;
     }
     return pattern;
+}
+
+std::optional<LossBursts::Burst> LossBursts::add(std::uint64_t lostBefore, log::Stamp stamp) {
+    std::optional<Burst> over;
+    if (lostBefore != 0) {
+        if (m_receivedSince >= kGmin) {
+            over = endRun();
+        }
+        m_cluster.samples += lostBefore + (m_cluster.lost != 0 ? m_receivedSince : 0);
+        m_cluster.lost += lostBefore;
+        m_cluster.end = stamp;
+        m_receivedSince = 0;
+    }
+    ++m_receivedSince;
+    return over;
+}
+
+std::optional<LossBursts::Burst> LossBursts::endRun() {
+    const Burst over = m_cluster;
+    m_cluster = {};
+    // A single loss among samples that arrived is no burst.
+    return over.lost > 1 ? std::optional(over) : std::nullopt;
 }
 
 } // namespace posewire::model

@@ -1,9 +1,30 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/time.h"
+
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 
 namespace posewire::model {
+
+/// The end does not belong to it.
+struct TimeRange {
+    log::Stamp from{};
+    log::Stamp to{};
+
+    [[nodiscard]] double seconds() const { return log::secondsOf(to - from); }
+    friend bool operator==(const TimeRange&, const TimeRange&) = default;
+};
+
+/// Whose loss it was. Unknown is an answer: nothing is guessed.
+enum class LossCause : std::uint8_t { ThisComputer, Network, Sender, Unknown };
+inline constexpr std::size_t kLossCauses = 4;
+
+/// "this computer", "network", "sender", "unknown".
+[[nodiscard]] std::string_view nameOf(LossCause cause);
 
 /// Whether sample accounting applies to a message type: types 10 to 13 carry sample 0 and are sent again and
 /// again on purpose.
@@ -75,6 +96,29 @@ struct ClockFigures {
     /// first sample; both 0 where only the sample counter shows the sender's time, and in the first seconds.
     double skewPpm = 0;
     double driftMs = 0;
+};
+
+/// Finds bursts and gaps of loss in one pass over the samples that arrived, in the order of their counters
+/// (RFC 3611 §4.7.2 and appendix A.2, Gmin = 16).
+class LossBursts {
+public:
+    static constexpr std::uint64_t kGmin = 16;
+
+    /// From its first loss to its last.
+    struct Burst {
+        std::uint64_t lost = 0;
+        std::uint64_t samples = 0;
+        log::Stamp end{}; ///< when the first sample after it arrived
+    };
+
+    /// A sample that arrived, with how many were lost just before it. Returns the burst that is over with it.
+    std::optional<Burst> add(std::uint64_t lostBefore, log::Stamp stamp);
+    /// Nothing is counted as lost from here to the next sample, which begins a run.
+    std::optional<Burst> endRun();
+
+private:
+    Burst m_cluster; ///< losses with fewer than kGmin samples received in a row between them
+    std::uint64_t m_receivedSince = 0; ///< since the newest loss
 };
 
 } // namespace posewire::model

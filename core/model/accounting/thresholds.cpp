@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/thresholds.h"
 
-#include "core/model/accounting/threshold_table.h"
-
 #include <array>
 #include <cmath>
 
@@ -78,15 +76,11 @@ void ThresholdWatch::check(const Stream& stream, Habit& habit, log::Stamp stamp,
 
 void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Stamp stamp,
                           Events& events) const {
-    Event event;
-    event.kind = measure.kind;
-    event.sender = stream.key.sender;
+    Event event = Event::of(measure.kind, stream.key.sender, stamp);
     event.character = stream.key.character;
     event.type = stream.key.type;
-    event.firstStamp = event.lastStamp = stamp;
     event.value = measure.value;
     event.limit = measure.limit;
-    event.count = 1;
     const bool isKnown = events.isCurrent(event);
     if (measure.limit > 0 && measure.value > measure.limit) {
         event.count = isKnown ? 0 : 1;

@@ -4,9 +4,12 @@
 #include "core/log/time.h"
 #include "core/model/accounting/events.h"
 #include "core/model/accounting/stream.h"
+#include "core/model/accounting/stream_figures.h"
 
-#include <cstdint>
 #include <deque>
+#include <optional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 namespace posewire::model {
@@ -23,6 +26,22 @@ struct Thresholds {
 
     friend bool operator==(const Thresholds&, const Thresholds&) = default;
 };
+
+struct ThresholdRow {
+    double Thresholds::*limit;
+    std::string_view key; ///< in settings
+    const char* label;    ///< in a form, "&" before its mnemonic
+    const char* unit;     ///< as it follows a number
+    const char* help;
+    double least; ///< that makes sense; 0: the threshold can be switched off
+    double most;
+    double shownPerUnit = 1;        ///< people see this many times the value
+    std::optional<Figure> figure{}; ///< whose limit it is, in the window
+    EventKind alert{};              ///< where it is exceeded, of a figure
+};
+
+/// All thresholds, in the order of forms.
+[[nodiscard]] std::span<const ThresholdRow> thresholdTable();
 
 /// Holds the streams to the thresholds, in the time of the log: one event for each episode.
 class ThresholdWatch {

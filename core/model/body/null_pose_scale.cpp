@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
-#include "core/model/body/null_pose_text.h"
+#include "core/model/text.h"
 #include "core/model/body/points.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/body/spaces.h"

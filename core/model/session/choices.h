@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/accounting/time_range.h"
+#include "core/model/accounting/stream_counts.h"
 #include "core/model/keys.h"
 
 #include <cstdint>
@@ -11,6 +11,15 @@
 #include <string>
 
 namespace posewire::model {
+
+/// The time that figures are of: all of it, so much before the cursor, or between two stamps.
+struct RangeChoice {
+    log::Duration last{}; ///< above 0: so much before the cursor
+    std::optional<TimeRange> fixed{};
+
+    [[nodiscard]] bool isAll() const { return last <= log::Duration::zero() && !fixed; }
+    friend bool operator==(const RangeChoice&, const RangeChoice&) = default;
+};
 
 /// Where in time the operator looks.
 struct Cursor {

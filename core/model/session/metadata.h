@@ -24,9 +24,9 @@ struct MetadataTag {
         log::Stamp stamp{};
     };
     std::string name;
-    bool isKnown = false;        ///< specified, or known from real senders
-    log::Stamp lastSeen{}; ///< when it was last sent, changed or not
-    std::vector<Value> values;   ///< each change, oldest first; never empty
+    bool isKnown = false;      ///< specified, or known from real senders
+    log::Stamp lastSeen{};     ///< when it was last sent, changed or not
+    std::vector<Value> values; ///< each change, oldest first; never empty
 
     /// The value as of a packet number; null where the tag had not been sent by then.
     [[nodiscard]] const Value* at(std::uint64_t packet) const;

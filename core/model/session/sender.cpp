@@ -9,7 +9,7 @@
 namespace posewire::model {
 
 void Sender::takeMalformed(log::Stamp stamp) {
-    CountHistory::Change change;
+    CountHistory::Counters change;
     change.malformed = 1;
     ++malformed;
     history.add(stamp, change);

@@ -77,57 +77,14 @@ std::optional<log::Packet> SessionView::packet(std::uint64_t number) const {
     return m_ingest.reader().packet(number);
 }
 
-template <class Selected, class Counts>
-StreamCounts SessionView::sumOf(Selected isSelected, Counts counts) const {
+StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
     StreamCounts sum;
     for (const Stream& stream : streams()) {
-        if (isSelected(stream.key)) {
-            sum += counts(stream.accounting);
+        if (CharacterKey{stream.key.sender, stream.key.character} == key) {
+            sum += stream.accounting.countsBetween(range.from, range.to);
         }
     }
     return sum;
-}
-
-namespace {
-
-auto ofCharacter(const CharacterKey& key) {
-    return [key](const log::StreamKey& stream) {
-        return CharacterKey{stream.sender, stream.character} == key;
-    };
-}
-
-auto ofSender(log::SenderId id) {
-    return [id](const log::StreamKey& stream) { return stream.sender == id; };
-}
-
-auto within(const TimeRange& range) {
-    return [range](const StreamAccounting& accounting) {
-        return accounting.countsBetween(range.from, range.to);
-    };
-}
-
-constexpr auto kAll = [](const StreamAccounting& accounting) { return accounting.counts(); };
-
-} // namespace
-
-StreamCounts SessionView::countsOf(const CharacterKey& key) const {
-    return sumOf(ofCharacter(key), kAll);
-}
-
-StreamCounts SessionView::countsOf(log::SenderId id) const {
-    return sumOf(ofSender(id), kAll);
-}
-
-StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
-    return sumOf(ofCharacter(key), within(range));
-}
-
-StreamCounts SessionView::countsOf(log::SenderId id, const TimeRange& range) const {
-    return sumOf(ofSender(id), within(range));
-}
-
-StreamCounts SessionView::countsBetween(const TimeRange& range) const {
-    return sumOf([](const log::StreamKey&) { return true; }, within(range));
 }
 
 std::uint64_t SessionView::packetFrom(log::Stamp stamp) const {

@@ -4,7 +4,6 @@
 #include "core/log/packet_log.h"
 #include "core/log/stream_key.h"
 #include "core/log/time.h"
-#include "core/model/accounting/condition.h"
 #include "core/model/accounting/events.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
@@ -49,12 +48,8 @@ public:
     [[nodiscard]] const Character* find(const CharacterKey& key) const;
     [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
 
-    /// Sums over the streams of a character, a sender, or all, without what makes no sense of several.
-    [[nodiscard]] StreamCounts countsOf(const CharacterKey& key) const;
-    [[nodiscard]] StreamCounts countsOf(log::SenderId id) const;
+    /// What came in a range of time in all streams of a character, without what makes no sense of several.
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
-    [[nodiscard]] StreamCounts countsOf(log::SenderId id, const TimeRange& range) const;
-    [[nodiscard]] StreamCounts countsBetween(const TimeRange& range) const;
 
     /// What happened, in the time of the log; with conditions that last.
     [[nodiscard]] const Events& events() const;
@@ -157,8 +152,6 @@ private:
     [[nodiscard]] std::uint64_t visibleEnd() const;
     /// The cursor's time where it is paused.
     [[nodiscard]] std::optional<log::Stamp> pausedStamp() const;
-    template <class Selected, class Counts>
-    [[nodiscard]] StreamCounts sumOf(Selected isSelected, Counts counts) const;
     [[nodiscard]] std::string_view metadataValue(const CharacterKey& key, std::string_view tag) const;
     [[nodiscard]] std::size_t visibleCount(const log::StreamEntries& entries) const;
     bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;

@@ -2,6 +2,7 @@
 #include "core/model/accounting/stream_accounting.h"
 
 #include "tests/core/model/accounting/accounting_reference.h"
+#include "tests/core/model/accounting/arrivals.h"
 
 #include <gtest/gtest.h>
 
@@ -133,7 +134,7 @@ TEST_P(RandomStreams, AreCountedAsTheReferenceCountsThem) {
             wire::Header header;
             header.sampleCounter = datagram.sample;
             header.datagramCounter = static_cast<std::uint8_t>(datagram.index | (datagram.isLast ? 0x80 : 0));
-            verdicts += stream.add(datagram.stamp, 760, header).size();
+            verdicts += addTo(stream, datagram.stamp, 760, header).size();
         }
         StreamCounts expected = referenceCounts(sender.arrivals, sender.runs);
         StreamCounts counts = stream.counts();

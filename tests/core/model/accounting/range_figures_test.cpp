@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/range_figures.h"
 
+#include "tests/core/model/accounting/arrivals.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +22,7 @@ void send(StreamAccounting& stream, std::uint32_t sample, log::Stamp stamp) {
     header.sampleCounter = sample;
     header.datagramCounter = 0x80;
     header.timeCode = sample * 10;
-    stream.add(stamp, kBytes, header);
+    addTo(stream, stamp, kBytes, header);
 }
 
 /// 100 samples a second for a minute; the samples between 20 s and 21 s in every fourth place are lost.
@@ -83,7 +85,7 @@ StreamAccounting troubledMinute() {
             wire::Header header;
             header.sampleCounter = i;
             header.timeCode = i * 10 + (i > 3000 ? (i - 3000) / 200 : 0); // 0.5 ms a second from 30 s on
-            stream.add(stamp, 760, header);
+            addTo(stream, stamp, 760, header);
         }
     }
     return stream;

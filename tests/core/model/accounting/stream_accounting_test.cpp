@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/stream_accounting.h"
 
+#include "tests/core/model/accounting/arrivals.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -21,7 +23,7 @@ struct Accounting : testing::Test {
         header.sampleCounter = sample;
         header.datagramCounter = datagramCounter;
         header.timeCode = static_cast<std::uint32_t>(stamp.time_since_epoch() / 1ms);
-        const auto verdicts = stream.add(stamp, 760, header);
+        const auto verdicts = addTo(stream, stamp, 760, header);
         stamp += 4ms;
         return verdicts;
     }
@@ -432,7 +434,7 @@ TEST(MessagesSentAgain, CountOnlyDatagramsAndIncompleteOnes) {
     const auto send = [&](std::uint8_t datagramCounter) {
         wire::Header header;
         header.datagramCounter = datagramCounter;
-        stream.add(stamp += 1ms, 500, header);
+        addTo(stream, stamp += 1ms, 500, header);
     };
     for (const std::uint8_t counter : std::initializer_list<std::uint8_t>{0x00, 0x82, 0x01}) { // out of order
         send(counter);
@@ -458,7 +460,7 @@ TEST(MessagesSentAgain, BelongTogetherWithinAQuarterOfASecond) {
     const auto send = [&](log::Duration time, std::uint8_t datagramCounter) {
         wire::Header header;
         header.datagramCounter = datagramCounter;
-        stream.add(at(time), 500, header);
+        addTo(stream, at(time), 500, header);
         return stream.counts().incomplete;
     };
     send(1'000ms, 0x00);
@@ -499,7 +501,7 @@ TEST_F(Accounting, KeepsRangesOfALongStreamInBoundedMemory) {
     wire::Header header;
     for (std::uint32_t i = 0; i < 100'000; ++i) {
         header.sampleCounter = i + (i >= 50'000 ? 5 : 0);
-        stream.add(at(i * 100ms), 100, header);
+        addTo(stream, at(i * 100ms), 100, header);
     }
     EXPECT_GT(stream.resolution(), 4s);
     EXPECT_EQ(stream.countsBetween({}, at(20'000s)).lost, 5U);
@@ -527,7 +529,7 @@ TEST_F(Accounting, MeasuresJitterAndSkewOfTheSendersClock) {
         header.sampleCounter = i;
         header.timeCode = static_cast<std::uint32_t>(std::lround(i * 10 * 1.0002));
         const log::Duration delay = i % 2 == 0 ? 0ms : 2ms;
-        stream.add(at(i * 10ms + delay), 760, header);
+        addTo(stream, at(i * 10ms + delay), 760, header);
     }
     const ClockFigures clock = stream.clock();
     EXPECT_TRUE(clock.isFromTimeCode);
@@ -540,7 +542,7 @@ TEST_F(Accounting, TakesTheCounterForAClockWhereThereIsNoTimeCode) {
     wire::Header header;
     for (std::uint32_t i = 0; i < 3'000; ++i) {
         header.sampleCounter = i * 2;
-        stream.add(at(i * 10ms), 760, header);
+        addTo(stream, at(i * 10ms), 760, header);
     }
     EXPECT_FALSE(stream.clock().isFromTimeCode);
     EXPECT_NEAR(stream.clock().jitterMs, 0, 0.01);

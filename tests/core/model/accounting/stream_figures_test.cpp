@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/stream_figures.h"
 
-#include "core/model/accounting/threshold_table.h"
+#include "tests/core/model/accounting/arrivals.h"
+
+#include "core/model/accounting/thresholds.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +28,7 @@ Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std
             header.sampleCounter = i;
             header.datagramCounter = 0x80;
             header.timeCode = i * timeCodeStep;
-            stream.accounting.add(kStart + i * 10ms, 760, header);
+            addTo(stream.accounting, kStart + i * 10ms, 760, header);
             stream.statistics.add(kStart + i * 10ms, 760, true);
         }
     }
@@ -66,7 +68,7 @@ TEST(StreamFigures, HaveACauseForAllThatIsMissingAlsoInARange) {
     wire::Header part;
     part.sampleCounter = 1000;
     part.datagramCounter = 0; // the first of several, and the only one that comes
-    stream.accounting.add(kStart + 10s, 760, part);
+    addTo(stream.accounting, kStart + 10s, 760, part);
     const auto causes = [&](const std::optional<TimeRange>& range) {
         const StreamFigures figures = figuresOf(stream, range);
         EXPECT_EQ(figures.count(Figure::Incomplete), 1U);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/stream_statistics.h"
+#include "core/model/accounting/stream.h"
 
 #include <gtest/gtest.h>
 

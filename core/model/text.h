@@ -4,12 +4,13 @@
 #include "core/log/time.h"
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// Words that findings about scale messages are made of. Used by core/model only.
+/// Pieces of sentences about what was found.
 namespace posewire::model {
 
 /// As many things are named one by one; of more only their number.
@@ -31,9 +32,14 @@ inline std::string quoted(std::string_view name) {
     return "\"" + std::string(name) + "\"";
 }
 
+/// "1 sample was", "3 samples were".
+inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
+    return std::to_string(count) + ' ' + std::string(count == 1 ? one : many);
+}
+
 /// "1 part", "3 parts".
-inline std::string counted(std::size_t count, std::string_view noun) {
-    return std::to_string(count) + " " + std::string(noun) + (count == 1 ? "" : "s");
+inline std::string counted(std::uint64_t count, std::string_view noun) {
+    return counted(count, noun, std::string(noun) + 's');
 }
 
 inline std::string fixedText(double value, int decimals) {

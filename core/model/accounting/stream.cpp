@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/stream_statistics.h"
+#include "core/model/accounting/stream.h"
 
 #include <algorithm>
 
@@ -53,6 +53,15 @@ double StreamStatistics::bytesPerSecond() const {
     }
     const std::uint64_t bytes = arrival(0).bytesSoFar - arrival(windowSize() - 1).bytesSoFar;
     return static_cast<double>(bytes) * kNsPerSecond / static_cast<double>(span().count());
+}
+
+std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {
+    auto result = attributed;
+    const StreamCounts counts = accounting.counts();
+    const std::uint64_t lost = counts.lost + counts.incomplete;
+    const std::uint64_t known = result[0] + result[1] + result[2];
+    result[static_cast<std::size_t>(LossCause::Unknown)] = lost > known ? lost - known : 0;
+    return result;
 }
 
 } // namespace posewire::model
