@@ -100,7 +100,7 @@ void perform(const Subject& subject, wire::PoseUnity& message) {
 void perform(const Subject& subject, wire::JointAngles& message) {
     const auto orientations = bodyOrientations(subject.moment);
     std::array<Vector3d, model::kJointCount> angles;
-    model::JointAnglesJob{orientations, angles}.run();
+    model::jointAngles(orientations, angles);
     for (std::size_t row = 0; row < angles.size(); ++row) {
         const model::JointDefinition& joint = model::jointDefinitions()[row];
         message.joints.push_back({model::encodePointId(model::PointIdCoding::By256, joint.parent),

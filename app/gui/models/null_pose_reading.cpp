@@ -2,7 +2,6 @@
 #include "app/gui/models/null_pose_reading.h"
 
 #include "core/model/session/message.h"
-#include "core/model/session/null_pose_evidence.h"
 
 #include "app/gui/models/shown_character.h"
 
@@ -44,7 +43,7 @@ NullPoseReading::Signature NullPoseReading::signatureOf(const model::NullPoseEvi
 bool NullPoseReading::refresh() {
     m_key = shownCharacter(m_view);
     const model::NullPoseEvidence evidence =
-        m_key ? model::nullPoseEvidence(m_view, *m_key) : model::NullPoseEvidence();
+        m_key ? m_view.nullPoseEvidence(*m_key) : model::NullPoseEvidence();
     const Signature signature = m_key ? signatureOf(evidence) : Signature();
     m_newest = evidence.record.newest == nullptr ? std::nullopt : std::optional(*evidence.record.newest);
     if (signature == m_signature) {

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 namespace posewire::model {
-namespace {} // namespace
 
 PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram) {
     PacketDigest digest;

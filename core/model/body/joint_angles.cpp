@@ -90,12 +90,7 @@ Vector3d jointAngle(const JointDefinition& joint, const Quaterniond& parent, con
     return {joint.signs[0] * abduction, joint.signs[1] * axial, joint.signs[2] * flexion};
 }
 
-bool JointAnglesJob::validate() const {
-    return orientations.size() == kBodySegmentCount &&
-           (angles.size() == kAnatomicalJointCount || angles.size() == kJointCount);
-}
-
-void JointAnglesJob::run() const {
+void jointAngles(std::span<const Quaterniond> orientations, std::span<Vector3d> angles) {
     for (std::size_t row = 0; row < angles.size(); ++row) {
         const JointDefinition& joint = kJoints[row];
         angles[row] = jointAngle(joint, orientations[static_cast<std::size_t>(joint.parentSegment())],

@@ -43,12 +43,7 @@ Eigen::Vector3d jointAngle(const JointDefinition& joint, const Eigen::Quaternion
 ///
 /// Which vertical frame the last two rows refer to is not published; here it is the world's, turned about z
 /// to the heading of the segment.
-struct JointAnglesJob {
-    std::span<const Eigen::Quaterniond> orientations; ///< 23, worldFromSegment, T-pose based
-    std::span<Eigen::Vector3d> angles;                ///< 22 or 28, radians
-
-    bool validate() const;
-    void run() const;
-};
+/// `orientations` are 23, worldFromSegment, T-pose based; `angles`, 22 or 28, in radians.
+void jointAngles(std::span<const Eigen::Quaterniond> orientations, std::span<Eigen::Vector3d> angles);
 
 } // namespace posewire::model

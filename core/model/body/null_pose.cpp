@@ -12,19 +12,6 @@ namespace {
 
 constexpr std::size_t kMaxParts = 128; ///< what the 7-bit datagram index can tell apart
 
-bool isSameBody(const NullPose& a, const NullPose& b) {
-    const auto sameSegment = [](const auto& x, const auto& y) {
-        return x.name == y.name && x.position == y.position;
-    };
-    const auto samePoint = [](const auto& x, const auto& y) {
-        return x.segment == y.segment && x.id == y.id && x.name == y.name && x.flags == y.flags &&
-               x.position == y.position;
-    };
-    return std::equal(a.segments.begin(), a.segments.end(), b.segments.begin(), b.segments.end(),
-                      sameSegment) &&
-           std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), samePoint);
-}
-
 bool isBeginning(std::size_t index, const wire::NullPose& part, const std::vector<bool>& present) {
     return index == 0 && !part.segments.empty() &&
            std::find(present.begin(), present.end(), true) != present.end();
@@ -49,14 +36,10 @@ log::Duration median(std::vector<log::Duration> values) {
     return *middle;
 }
 
-} // namespace
-
+/// Whether two messages contradict each other: another list of segments, or a segment or point that both have
+/// elsewhere or under another name. Points that only one of them has are no difference: parts get lost.
 bool isDifferentBody(const NullPose& a, const NullPose& b) {
-    const auto sameSegment = [](const auto& x, const auto& y) {
-        return x.name == y.name && x.position == y.position;
-    };
-    if (!std::equal(a.segments.begin(), a.segments.end(), b.segments.begin(), b.segments.end(),
-                    sameSegment)) {
+    if (a.segments != b.segments) {
         return true;
     }
     std::map<std::pair<int, int>, const NullPose::Point*> points;
@@ -65,11 +48,11 @@ bool isDifferentBody(const NullPose& a, const NullPose& b) {
     }
     return std::ranges::any_of(b.points, [&](const NullPose::Point& point) {
         const auto other = points.find({point.segment, point.id});
-        return other != points.end() &&
-               (other->second->name != point.name || other->second->flags != point.flags ||
-                other->second->position != point.position);
+        return other != points.end() && *other->second != point;
     });
 }
+
+} // namespace
 
 void NullPoseAssembler::begin(std::uint64_t packet, log::Stamp stamp) {
     const std::uint64_t message = m_arriving.message + 1;
@@ -153,17 +136,14 @@ void NullPoseHistory::note() {
         if (m_messages.size() == kMost) {
             m_messages.pop_front();
         }
-        m_messages.push_back({arriving.firstPacket, arriving.firstStamp, {}, 0, 0, {}});
+        m_messages.emplace_back();
     }
-    NullPoseMessage& message = m_messages.back();
-    message.stamp = arriving.stamp;
-    message.partsReceived = arriving.partsReceived;
-    message.partsExpected = arriving.partsExpected;
-    message.missingParts = arriving.missingParts;
+    m_messages.back() = arriving;
 }
 
 void NullPoseHistory::keep(const NullPose& pose, std::uint64_t packet, log::Stamp stamp) {
-    if (!m_versions.empty() && isSameBody(m_versions.back().pose, pose)) {
+    if (!m_versions.empty() && m_versions.back().pose.segments == pose.segments &&
+        m_versions.back().pose.points == pose.points) {
         m_versions.back().pose = pose;
         return;
     }

@@ -13,12 +13,25 @@
 
 namespace posewire::model {
 
+/// How a scale message came, whether it said anything new or not.
+struct NullPoseMessage {
+    std::uint64_t firstPacket = 0; ///< number of the part that came first
+    log::Stamp firstStamp{};       ///< its stamp
+    log::Stamp stamp{};            ///< of the newest part
+    unsigned partsReceived = 0;
+    unsigned partsExpected = 0;         ///< 0 as long as the last part has not arrived
+    std::vector<unsigned> missingParts; ///< places from 0, below the last one that is known of
+
+    [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
+};
+
 /// A scale message put together from its datagrams (type 13): the null pose, a T-pose with all orientations
 /// identity.
-struct NullPose {
+struct NullPose : NullPoseMessage {
     struct Segment {
         std::string name;
         Eigen::Vector3d position; ///< metres, Z-up, world
+        friend bool operator==(const Segment&, const Segment&) = default;
     };
     struct Point {
         int segment = 0; ///< wire ID, 1-based
@@ -26,24 +39,13 @@ struct NullPose {
         std::string name;
         std::uint32_t flags = 0;
         Eigen::Vector3d position; ///< metres, from the segment's origin
+        friend bool operator==(const Point&, const Point&) = default;
     };
     std::vector<Segment> segments;
     std::vector<Point> points;
-    unsigned partsReceived = 0;
-    unsigned partsExpected = 0;         ///< 0 as long as the last part has not arrived
-    std::vector<unsigned> missingParts; ///< places from 0, below the last one that is known of
-    std::uint64_t message = 0;          ///< counts the messages of its sender, from 1
-    log::Stamp firstStamp{};      ///< of the part that came first
-    std::uint64_t firstPacket = 0;      ///< number of the part that came first
-    log::Stamp stamp{};           ///< of the newest part
-    std::uint64_t packet = 0;           ///< number of the newest part
-
-    [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
+    std::uint64_t message = 0; ///< counts the messages of its sender, from 1
+    std::uint64_t packet = 0;  ///< number of the newest part
 };
-
-/// Whether two messages contradict each other: another list of segments, or a segment or point that both have
-/// elsewhere or under another name. Points that only one of them has are no difference: parts get lost.
-[[nodiscard]] bool isDifferentBody(const NullPose& a, const NullPose& b);
 
 /// Puts parts together. A message begins with datagram 0; parts may come in any order and more than once; a
 /// part without segments adds to what is there.
@@ -74,26 +76,15 @@ private:
     std::vector<bool> m_present;
 };
 
-/// One scale message as it came, whether it said anything new or not.
-struct NullPoseMessage {
-    std::uint64_t firstPacket = 0;
-    log::Stamp firstStamp{};
-    log::Stamp stamp{}; ///< of its newest part
-    unsigned partsReceived = 0;
-    unsigned partsExpected = 0;
-    std::vector<unsigned> missingParts; ///< places from 0
-    [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
-};
-
 /// What was known of a character's null pose at one moment. Valid until the history grows.
 struct NullPoseRecord {
     const NullPose* pose = nullptr;          ///< null where there was none by then
     const NullPose* before = nullptr;        ///< the newest that said something else, null where none did
-    log::Stamp changed{};              ///< when `pose` was said first
+    log::Stamp changed{};                    ///< when `pose` was said first
     const NullPoseMessage* newest = nullptr; ///< the newest message, maybe still arriving
     std::uint64_t messages = 0;              ///< begun so far
     std::size_t incompleteMessages = 0;      ///< of the newest 64, without the newest
-    log::Duration repetition{};           ///< median time between messages, 0 where unknown
+    log::Duration repetition{};              ///< median time between messages, 0 where unknown
 };
 
 /// The scale messages of one character over time, as far as they differ. Bounded: the oldest go first.

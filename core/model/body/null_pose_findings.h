@@ -54,7 +54,7 @@ struct NullPoseEvidence {
     const wire::ScaleInformation* scale = nullptr; ///< newest type 10, null where none was sent
     std::optional<SegmentLayout> layout;           ///< of the newest pose
     double poseSeconds = 0;                        ///< for how long poses have come
-    log::Stamp now{};                        ///< stamp at the cursor
+    log::Stamp now{};                              ///< stamp at the cursor
 };
 
 /// Every contradiction, gravest first.
@@ -69,15 +69,8 @@ inline constexpr double kScaleMessageDue = 10.0;
 /// A part that has not come this long after its neighbours does not come any more (seconds).
 inline constexpr double kPartOverdue = 1.0;
 
-/// Parts of findContradictions: each adds what it finds.
-namespace contradictions {
-using Findings = std::vector<NullPoseFinding>;
-void findAboutParts(const NullPoseEvidence& evidence, Findings& findings);
-void findAboutNames(const NullPoseEvidence& evidence, Findings& findings);
-void findAboutShape(const NullPose& pose, Findings& findings);
-void findAboutChange(const NullPoseRecord& record, Findings& findings);
-void findAboutPoints(const NullPose& pose, Findings& findings);
-void findAboutScale(const NullPoseEvidence& evidence, Findings& findings);
-} // namespace contradictions
+/// Adds those of them that concern the shape of a null pose, which must be there: its size, axes and sides,
+/// what changed since the message before, its points. Part of findContradictions().
+void findInShape(const NullPoseRecord& record, std::vector<NullPoseFinding>& findings);
 
 } // namespace posewire::model

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
-#include "core/model/text.h"
 #include "core/model/body/points.h"
+#include "core/model/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,11 +11,12 @@
 #include <set>
 #include <utility>
 
-namespace posewire::model::contradictions {
+namespace posewire::model {
 namespace {
 
 using Eigen::Vector3d;
 using namespace segment;
+using Findings = std::vector<NullPoseFinding>;
 
 constexpr double kLeastStature = 0.4;    ///< an infant
 constexpr double kGreatestStature = 2.6; ///< nobody was taller than 2.72 m
@@ -265,8 +266,6 @@ void findJoints(const NullPose& pose, Findings& findings) {
     }
 }
 
-} // namespace
-
 void findAboutShape(const NullPose& pose, Findings& findings) {
     const BodyPlaces places = bodyPlaces(pose);
     std::vector<std::string> unusable;
@@ -320,10 +319,14 @@ void findAboutChange(const NullPoseRecord& record, Findings& findings) {
     }
 }
 
-void findAboutPoints(const NullPose& pose, Findings& findings) {
-    findPointIds(pose, findings);
-    findPointNames(pose, findings);
-    findJoints(pose, findings);
+} // namespace
+
+void findInShape(const NullPoseRecord& record, Findings& findings) {
+    findAboutShape(*record.pose, findings);
+    findAboutChange(record, findings);
+    findPointIds(*record.pose, findings);
+    findPointNames(*record.pose, findings);
+    findJoints(*record.pose, findings);
 }
 
-} // namespace posewire::model::contradictions
+} // namespace posewire::model

@@ -2,11 +2,13 @@
 #include "core/model/body/segments.h"
 
 #include <algorithm>
+#include <string>
 
 namespace posewire::model {
 namespace {
 
 using enum Side;
+using namespace segment;
 
 constexpr std::array<Segment, kBodySegmentCount> kBody{{
     {1, "Pelvis", "Pelvis", -1, Centre},
@@ -35,67 +37,50 @@ constexpr std::array<Segment, kBodySegmentCount> kBody{{
 }};
 
 // Metacarpals hang on the carpus, as in the Unreal plug-in; the bones of a finger form a chain.
-constexpr std::array<Segment, kHandSegmentCount> kHand{{
-    {1, "Carpus", "Carpus", -1, Centre},       {2, "FirstMC", "First MC", 0, Centre},
-    {3, "FirstPP", "First PP", 1, Centre},     {4, "FirstDP", "First DP", 2, Centre},
-    {5, "SecondMC", "Second MC", 0, Centre},   {6, "SecondPP", "Second PP", 4, Centre},
-    {7, "SecondMP", "Second MP", 5, Centre},   {8, "SecondDP", "Second DP", 6, Centre},
-    {9, "ThirdMC", "Third MC", 0, Centre},     {10, "ThirdPP", "Third PP", 8, Centre},
-    {11, "ThirdMP", "Third MP", 9, Centre},    {12, "ThirdDP", "Third DP", 10, Centre},
-    {13, "FourthMC", "Fourth MC", 0, Centre},  {14, "FourthPP", "Fourth PP", 12, Centre},
-    {15, "FourthMP", "Fourth MP", 13, Centre}, {16, "FourthDP", "Fourth DP", 14, Centre},
-    {17, "FifthMC", "Fifth MC", 0, Centre},    {18, "FifthPP", "Fifth PP", 16, Centre},
-    {19, "FifthMP", "Fifth MP", 17, Centre},   {20, "FifthDP", "Fifth DP", 18, Centre},
+constexpr std::array<HandSegment, kHandSegmentCount> kHand{{
+    {"Carpus", -1},   {"FirstMC", 0},  {"FirstPP", 1},  {"FirstDP", 2},   {"SecondMC", 0},
+    {"SecondPP", 4},  {"SecondMP", 5}, {"SecondDP", 6}, {"ThirdMC", 0},   {"ThirdPP", 8},
+    {"ThirdMP", 9},   {"ThirdDP", 10}, {"FourthMC", 0}, {"FourthPP", 12}, {"FourthMP", 13},
+    {"FourthDP", 14}, {"FifthMC", 0},  {"FifthPP", 16}, {"FifthMP", 17},  {"FifthDP", 18},
 }};
 
 constexpr std::array<std::string_view, kMaxPropCount> kPropNames{"Prop1", "Prop2", "Prop3", "Prop4"};
-constexpr std::array<std::string_view, kMaxPropCount> kPropDisplayNames{"Prop 1", "Prop 2", "Prop 3",
-                                                                        "Prop 4"};
-constexpr std::array<std::string_view, kHandSegmentCount> kLeftFingerNames{
-    "LeftCarpus",   "LeftFirstMC",  "LeftFirstPP",  "LeftFirstDP",  "LeftSecondMC",
-    "LeftSecondPP", "LeftSecondMP", "LeftSecondDP", "LeftThirdMC",  "LeftThirdPP",
-    "LeftThirdMP",  "LeftThirdDP",  "LeftFourthMC", "LeftFourthPP", "LeftFourthMP",
-    "LeftFourthDP", "LeftFifthMC",  "LeftFifthPP",  "LeftFifthMP",  "LeftFifthDP"};
-constexpr std::array<std::string_view, kHandSegmentCount> kLeftFingerDisplayNames{
-    "Left Carpus",    "Left First MC",  "Left First PP",  "Left First DP",  "Left Second MC",
-    "Left Second PP", "Left Second MP", "Left Second DP", "Left Third MC",  "Left Third PP",
-    "Left Third MP",  "Left Third DP",  "Left Fourth MC", "Left Fourth PP", "Left Fourth MP",
-    "Left Fourth DP", "Left Fifth MC",  "Left Fifth PP",  "Left Fifth MP",  "Left Fifth DP"};
-constexpr std::array<std::string_view, kHandSegmentCount> kRightFingerNames{
-    "RightCarpus",   "RightFirstMC",  "RightFirstPP",  "RightFirstDP",  "RightSecondMC",
-    "RightSecondPP", "RightSecondMP", "RightSecondDP", "RightThirdMC",  "RightThirdPP",
-    "RightThirdMP",  "RightThirdDP",  "RightFourthMC", "RightFourthPP", "RightFourthMP",
-    "RightFourthDP", "RightFifthMC",  "RightFifthPP",  "RightFifthMP",  "RightFifthDP"};
-constexpr std::array<std::string_view, kHandSegmentCount> kRightFingerDisplayNames{
-    "Right Carpus",    "Right First MC",  "Right First PP",  "Right First DP",  "Right Second MC",
-    "Right Second PP", "Right Second MP", "Right Second DP", "Right Third MC",  "Right Third PP",
-    "Right Third MP",  "Right Third DP",  "Right Fourth MC", "Right Fourth PP", "Right Fourth MP",
-    "Right Fourth DP", "Right Fifth MC",  "Right Fifth PP",  "Right Fifth MP",  "Right Fifth DP"};
+
+/// "LeftCarpus" and so on.
+std::array<std::string, kHandSegmentCount> handNames(std::string_view side) {
+    std::array<std::string, kHandSegmentCount> names;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        names[i] = std::string(side) + std::string(kHand[i].name);
+    }
+    return names;
+}
 
 // Table "Unity3D" of the specification: legs, spine, left arm, right arm, head.
-constexpr std::array<int, kBodySegmentCount> kUnityOrder{segment::kPelvis,
-                                                         segment::kRightUpperLeg,
-                                                         segment::kRightLowerLeg,
-                                                         segment::kRightFoot,
-                                                         segment::kRightToe,
-                                                         segment::kLeftUpperLeg,
-                                                         segment::kLeftLowerLeg,
-                                                         segment::kLeftFoot,
-                                                         segment::kLeftToe,
-                                                         segment::kL5,
-                                                         segment::kL3,
-                                                         segment::kT12,
-                                                         segment::kT8,
-                                                         segment::kLeftShoulder,
-                                                         segment::kLeftUpperArm,
-                                                         segment::kLeftForeArm,
-                                                         segment::kLeftHand,
-                                                         segment::kRightShoulder,
-                                                         segment::kRightUpperArm,
-                                                         segment::kRightForeArm,
-                                                         segment::kRightHand,
-                                                         segment::kNeck,
-                                                         segment::kHead};
+constexpr std::array<int, kBodySegmentCount> kUnityOrder{{
+    kPelvis,
+    kRightUpperLeg,
+    kRightLowerLeg,
+    kRightFoot,
+    kRightToe,
+    kLeftUpperLeg,
+    kLeftLowerLeg,
+    kLeftFoot,
+    kLeftToe,
+    kL5,
+    kL3,
+    kT12,
+    kT8,
+    kLeftShoulder,
+    kLeftUpperArm,
+    kLeftForeArm,
+    kLeftHand,
+    kRightShoulder,
+    kRightUpperArm,
+    kRightForeArm,
+    kRightHand,
+    kNeck,
+    kHead,
+}};
 
 constexpr std::array<int, kBodySegmentCount> inverse(const std::array<int, kBodySegmentCount>& order) {
     std::array<int, kBodySegmentCount> places{};
@@ -106,17 +91,12 @@ constexpr std::array<int, kBodySegmentCount> inverse(const std::array<int, kBody
 }
 constexpr std::array<int, kBodySegmentCount> kUnityPlaces = inverse(kUnityOrder);
 
-template <std::size_t size>
-std::string_view at(const std::array<std::string_view, size>& names, int index) {
-    return names[static_cast<std::size_t>(index)];
-}
-
 } // namespace
 
 const std::array<Segment, kBodySegmentCount>& bodySegments() {
     return kBody;
 }
-const std::array<Segment, kHandSegmentCount>& handSegments() {
+const std::array<HandSegment, kHandSegmentCount>& handSegments() {
     return kHand;
 }
 const std::array<int, kBodySegmentCount>& unityOrder() {
@@ -154,33 +134,18 @@ std::string_view segmentName(const SegmentLayout& layout, int position) {
     if (!place) {
         return {};
     }
+    static const auto kLeft = handNames("Left");
+    static const auto kRight = handNames("Right");
+    const auto index = static_cast<std::size_t>(place->index);
     switch (place->kind) {
     case SegmentKind::Body:
-        return kBody[static_cast<std::size_t>(place->index)].name;
+        return kBody[index].name;
     case SegmentKind::Prop:
-        return at(kPropNames, place->index);
+        return kPropNames[index];
     case SegmentKind::LeftFinger:
-        return at(kLeftFingerNames, place->index);
+        return kLeft[index];
     case SegmentKind::RightFinger:
-        return at(kRightFingerNames, place->index);
-    }
-    return {};
-}
-
-std::string_view segmentDisplayName(const SegmentLayout& layout, int position) {
-    const auto place = placeOf(layout, position);
-    if (!place) {
-        return {};
-    }
-    switch (place->kind) {
-    case SegmentKind::Body:
-        return kBody[static_cast<std::size_t>(place->index)].displayName;
-    case SegmentKind::Prop:
-        return at(kPropDisplayNames, place->index);
-    case SegmentKind::LeftFinger:
-        return at(kLeftFingerDisplayNames, place->index);
-    case SegmentKind::RightFinger:
-        return at(kRightFingerDisplayNames, place->index);
+        return kRight[index];
     }
     return {};
 }
@@ -196,7 +161,7 @@ int segmentParent(const SegmentLayout& layout, int position) {
     const bool left = place->kind == SegmentKind::LeftFinger;
     const int parent = kHand[static_cast<std::size_t>(place->index)].parent;
     if (parent < 0) {
-        const int hand = left ? segment::kLeftHand : segment::kRightHand;
+        const int hand = left ? kLeftHand : kRightHand;
         return hand < layout.body ? hand : -1;
     }
     return layout.body + layout.props + (left ? 0 : kHandSegmentCount) + parent;
@@ -208,7 +173,6 @@ std::optional<int> findBodySegment(std::string_view name) {
 }
 
 int mirrored(int bodySegment) {
-    using namespace segment;
     constexpr int kArmLength = kLeftShoulder - kRightShoulder;
     constexpr int kLegLength = kLeftUpperLeg - kRightUpperLeg;
     switch (kBody[static_cast<std::size_t>(bodySegment)].side) {

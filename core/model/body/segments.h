@@ -46,7 +46,7 @@ enum Index : int {
 
 enum class Side : std::uint8_t { Centre, Right, Left };
 
-/// One row of the segment tables.
+/// A segment of the body.
 struct Segment {
     int id = 0;                   ///< on the wire, 1-based
     std::string_view name;        ///< as sent in type 13: "RightUpperArm"
@@ -58,9 +58,12 @@ struct Segment {
 /// The 23 body segments in wire order (Table 1 of the specification; parents as in every known receiver).
 const std::array<Segment, kBodySegmentCount>& bodySegments();
 
-/// A segment of one hand. `parent` counts within the hand; -1 means the hand segment of the body.
-/// Names lack the side: "Carpus", "FirstMC" … "FifthDP".
-const std::array<Segment, kHandSegmentCount>& handSegments();
+/// A segment of one hand.
+struct HandSegment {
+    std::string_view name; ///< without the side: "Carpus", "FirstMC" … "FifthDP"
+    int parent = -1;       ///< within the hand; -1 for the hand segment of the body
+};
+const std::array<HandSegment, kHandSegmentCount>& handSegments();
 
 /// Body segment index at each place of a type 05 (Unity3D) datagram, and the inverse.
 const std::array<int, kBodySegmentCount>& unityOrder();
@@ -88,9 +91,8 @@ struct SegmentPlace {
 /// Judged by position, since the numbering of props differs between revisions. Empty outside the layout.
 std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position);
 
-/// Name for display and lists: "RightUpperArm", "Prop1", "LeftFirstPP"; empty outside the layout.
+/// "RightUpperArm", "Prop1", "LeftFirstPP"; empty outside the layout.
 std::string_view segmentName(const SegmentLayout& layout, int position);
-std::string_view segmentDisplayName(const SegmentLayout& layout, int position);
 
 /// Position of the parent item; -1 for the pelvis, for props (they are free in space) and outside the layout.
 int segmentParent(const SegmentLayout& layout, int position);

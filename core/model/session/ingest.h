@@ -9,7 +9,6 @@
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/body/null_pose.h"
-#include "core/model/session/character.h"
 #include "core/model/session/message.h"
 #include "core/model/session/sender.h"
 

@@ -32,13 +32,30 @@ public:
     void setRange(const RangeChoice& range) { m_choices.range = range; }
     /// The filter is not checked here.
     void setDisplayFilter(std::string filter) { m_choices.displayFilter = std::move(filter); }
-    void setMarked(std::uint64_t packet, bool isMarked);
+    void setMarked(std::uint64_t packet, bool isMarked) {
+        setIn(m_choices.annotations.marks, packet, isMarked);
+    }
     /// An empty comment takes the comment away.
-    void setComment(std::uint64_t packet, std::string comment);
-    void setHidden(const CharacterKey& key, bool isHidden);
+    void setComment(std::uint64_t packet, std::string comment) {
+        if (comment.empty()) {
+            m_choices.annotations.comments.erase(packet);
+        } else {
+            m_choices.annotations.comments[packet] = std::move(comment);
+        }
+    }
+    void setHidden(const CharacterKey& key, bool isHidden) { setIn(m_choices.hidden, key, isHidden); }
     void setGhostShown(bool isShown) { m_choices.isGhostShown = isShown; }
 
 private:
+    template <class Value>
+    static void setIn(std::set<Value>& set, const Value& value, bool isIn) {
+        if (isIn) {
+            set.insert(value);
+        } else {
+            set.erase(value);
+        }
+    }
+
     Ingest m_ingest;
     Choices m_choices;
 };

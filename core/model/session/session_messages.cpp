@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
 #include "core/model/session/ingest.h"
@@ -183,6 +184,28 @@ const NullPose* SessionView::nullPose(const CharacterKey& key) const {
     const NullPose* pose = history != nullptr && end != 0 ? history->at(end - 1) : nullptr;
     const Character* before = pose == nullptr ? predecessor(key) : nullptr;
     return before != nullptr ? nullPose(before->key) : pose;
+}
+
+NullPoseEvidence SessionView::nullPoseEvidence(const CharacterKey& key) const {
+    NullPoseEvidence evidence;
+    evidence.now = cursorStamp();
+    const std::uint64_t end = visibleEnd();
+    for (const Character* character = find(key); character != nullptr && evidence.record.messages == 0;
+         character = predecessor(character->key)) {
+        if (const NullPoseHistory* history = nullPoses(character->key)) {
+            evidence.record = history->record(end == 0 ? 0 : end - 1);
+        }
+    }
+    if (const Message* sent = message(key, wire::ScaleInformation::kType)) {
+        evidence.scale = std::get_if<wire::ScaleInformation>(&sent->datagram.body);
+    }
+    if (const CharacterPose* newest = pose(key)) {
+        evidence.layout = newest->layout;
+        if (const Stream* stream = find(log::StreamKey{key.sender, key.character, newest->type})) {
+            evidence.poseSeconds = log::secondsOf(newest->stamp - stream->accounting.firstStamp());
+        }
+    }
+    return evidence;
 }
 
 const BodyOrigins& SessionView::bodyOrigins(const CharacterKey& key) const {

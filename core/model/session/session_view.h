@@ -8,7 +8,6 @@
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/accounting/thresholds.h"
-#include "core/model/session/character.h"
 #include "core/model/session/choices.h"
 #include "core/model/session/sender.h"
 
@@ -28,6 +27,7 @@ struct CharacterPose;
 struct Gap;
 struct Message;
 struct NullPose;
+struct NullPoseEvidence;
 
 /// The session as panels, exports and the viewport read it: what was received, at the operator's cursor, and
 /// what the operator chose. It changes nothing but its own memory of what it decoded. One thread.
@@ -132,6 +132,9 @@ public:
     [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
     /// All scale messages of the character itself; null where none was received.
     [[nodiscard]] const NullPoseHistory* nullPoses(const CharacterKey& key) const;
+    /// What the scale messages of a character are judged by, or those of its predecessor where it has sent
+    /// none itself. Valid until the session follows the log again.
+    [[nodiscard]] NullPoseEvidence nullPoseEvidence(const CharacterKey& key) const;
     /// Of the null pose, or of the reference body where none was received. Valid as message() is.
     [[nodiscard]] const BodyOrigins& bodyOrigins(const CharacterKey& key) const;
 

@@ -91,7 +91,7 @@ TEST_P(Consistency, SendsTheJointAnglesOfItsOwnOrientations) {
             orientations.push_back(model::toQuaternion(segment.orientation));
         }
         std::vector<Vector3d> angles(28);
-        model::JointAnglesJob{orientations, angles}.run();
+        model::jointAngles(orientations, angles);
         for (std::size_t row = 0; row < angles.size(); ++row) {
             const Vector3d sent = model::toVector(joints.joints[row].rotation);
             EXPECT_LT((angles[row] * model::kDegreesPerRadian - sent).cwiseAbs().maxCoeff(), 0.01)

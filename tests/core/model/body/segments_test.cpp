@@ -65,7 +65,7 @@ TEST(Segments, FindsPropsAndFingersByPosition) {
     EXPECT_EQ(layout.count(), 65);
     EXPECT_EQ(segmentName(layout, 22), "LeftToe");
     EXPECT_EQ(segmentName(layout, 23), "Prop1");
-    EXPECT_EQ(segmentDisplayName(layout, 24), "Prop 2");
+    EXPECT_EQ(segmentName(layout, 24), "Prop2");
     EXPECT_EQ(segmentName(layout, 25), "LeftCarpus");
     EXPECT_EQ(segmentName(layout, 44), "LeftFifthDP");
     EXPECT_EQ(segmentName(layout, 45), "RightCarpus");
