@@ -2,7 +2,7 @@
 #include "app/gui/models/inspected_packet.h"
 
 #include "app/gui/models/shown_character.h"
-#include "core/model/session/message.h"
+#include "core/model/session/ingest.h"
 #include "core/wire/messages.h"
 #include "core/wire/schema.h"
 #include "core/wire/type_table.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/null_pose_reading.h"
 
-#include "core/model/session/message.h"
+#include "core/model/session/ingest.h"
 
 #include "app/gui/models/shown_character.h"
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/model/session/message.h"
 #include "core/model/session/session_view.h"
 
 #include <cstdint>

@@ -5,7 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/body/segments.h"
-#include "core/model/session/message.h"
+#include "core/model/session/ingest.h"
 
 #include <algorithm>
 

@@ -11,11 +11,10 @@ constexpr double kNsPerSecond = 1e9;
 
 } // namespace
 
-void StreamStatistics::add(log::Stamp stamp, std::size_t bytes, bool beginsSample) {
+void StreamStatistics::add(log::Stamp stamp, bool beginsSample) {
     m_lastStamp = stamp;
-    m_bytes += bytes;
     if (beginsSample) {
-        m_arrivals[m_samples % kMostSamples] = {stamp, m_bytes};
+        m_arrivals[m_samples % kMostSamples] = stamp;
         ++m_samples;
     }
 }
@@ -26,7 +25,7 @@ std::size_t StreamStatistics::windowSize() const {
     std::size_t high = kept;
     while (low < high) {
         const std::size_t middle = (low + high) / 2;
-        if (arrival(middle).stamp >= m_lastStamp - kWindow) {
+        if (arrival(middle) >= m_lastStamp - kWindow) {
             low = middle + 1;
         } else {
             high = middle;
@@ -39,20 +38,12 @@ std::size_t StreamStatistics::windowSize() const {
 /// Between the oldest and the newest sample of the window; zero before the second.
 log::Duration StreamStatistics::span() const {
     const std::size_t size = windowSize();
-    return size < 2 ? log::Duration::zero() : arrival(0).stamp - arrival(size - 1).stamp;
+    return size < 2 ? log::Duration::zero() : arrival(0) - arrival(size - 1);
 }
 
 double StreamStatistics::rateHz() const {
     const auto mean = static_cast<double>(span().count()) / static_cast<double>(windowSize() - 1);
     return span() > log::Duration::zero() ? kNsPerSecond / mean : 0;
-}
-
-double StreamStatistics::bytesPerSecond() const {
-    if (span() <= log::Duration::zero()) {
-        return 0;
-    }
-    const std::uint64_t bytes = arrival(0).bytesSoFar - arrival(windowSize() - 1).bytesSoFar;
-    return static_cast<double>(bytes) * kNsPerSecond / static_cast<double>(span().count());
 }
 
 std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {

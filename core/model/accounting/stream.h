@@ -14,30 +14,23 @@ namespace posewire::model {
 class StreamStatistics {
 public:
     /// Adds a datagram; `beginsSample` is true for the first one of a sample.
-    void add(log::Stamp stamp, std::size_t bytes, bool beginsSample);
+    void add(log::Stamp stamp, bool beginsSample);
 
     /// Samples a second over the window of the newest samples (at most 256 and at most about 2 s before the
     /// newest); 0 before the second sample.
     [[nodiscard]] double rateHz() const;
-    /// Bytes a second over the same window.
-    [[nodiscard]] double bytesPerSecond() const;
 
 private:
     static constexpr std::size_t kMostSamples = 256;
-    struct Arrival {
-        log::Stamp stamp;
-        std::uint64_t bytesSoFar;
-    };
     [[nodiscard]] std::size_t windowSize() const;
     [[nodiscard]] log::Duration span() const;
-    [[nodiscard]] const Arrival& arrival(std::size_t back) const {
+    [[nodiscard]] log::Stamp arrival(std::size_t back) const {
         return m_arrivals[(m_samples - 1 - back) % kMostSamples];
     }
 
-    std::uint64_t m_bytes = 0;
     std::uint64_t m_samples = 0;
     log::Stamp m_lastStamp{};
-    std::array<Arrival, kMostSamples> m_arrivals{};
+    std::array<log::Stamp, kMostSamples> m_arrivals{};
 };
 
 /// One message type of one character of one sender.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/ingest.h"
 
-#include "core/log/time.h"
+#include "core/model/body/null_pose.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -32,6 +32,13 @@ std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
         }
     }
     return text;
+}
+
+/// Null where the key is not known.
+template <class Places, class Items>
+auto* itemAt(const Places& places, const typename Places::key_type& key, Items& items) {
+    const auto found = places.find(key);
+    return found == places.end() ? nullptr : &items[found->second];
 }
 
 } // namespace
@@ -166,7 +173,7 @@ bool Ingest::takeHeader(Observation& seen) {
         return false;
     }
     m_index.add(packet, header);
-    m_streams[*seen.stream].statistics.add(packet.stamp, packet.bytes.size(), header.datagramIndex() == 0);
+    m_streams[*seen.stream].statistics.add(packet.stamp, header.datagramIndex() == 0);
     m_follower.takeDatagram(packet, header);
     seen.character->lastStamp = packet.stamp;
     seen.character->lastPacket = packet.number;
@@ -205,7 +212,9 @@ void Ingest::takeContent(const Observation& seen) {
 
 void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     const log::Packet& packet = seen.packet;
-    NullPoseHistory& history = m_nullPoses[seen.character->key];
+    std::shared_ptr<NullPoseHistory>& kept = m_nullPoses[seen.character->key];
+    kept = kept != nullptr ? kept : std::make_shared<NullPoseHistory>();
+    NullPoseHistory& history = *kept;
     const log::Stamp changed = history.record(packet.number).changed;
     history.add(part, seen.header->datagramCounter, packet.number, packet.stamp);
     const NullPoseRecord record = history.record(packet.number);
@@ -215,8 +224,8 @@ void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
 }
 
 Sender* Ingest::senderOf(const log::Packet& packet) {
-    if (const auto found = m_senderPlaces.find(packet.sender); found != m_senderPlaces.end()) {
-        return &m_senders[found->second];
+    if (Sender* known = itemAt(m_senderPlaces, packet.sender, m_senders)) {
+        return known;
     }
     const log::SenderInfo* info = m_log.senders().find(packet.sender);
     if (info == nullptr) {
@@ -234,8 +243,8 @@ Sender* Ingest::senderOf(const log::Packet& packet) {
 }
 
 Character* Ingest::characterOf(const CharacterKey& key, std::uint64_t packetNumber) {
-    if (const auto found = m_characterPlaces.find(key); found != m_characterPlaces.end()) {
-        return &m_characters[found->second];
+    if (Character* known = itemAt(m_characterPlaces, key, m_characters)) {
+        return known;
     }
     if (m_characters.size() == kMostCharacters) {
         return nullptr;
@@ -282,19 +291,17 @@ std::optional<CharacterKey> Ingest::lastOfSameHost(const CharacterKey& key) cons
 }
 
 void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) {
-    if (const auto found = m_senderPlaces.find(sender); found != m_senderPlaces.end()) {
-        m_senders[found->second].overrides = overrides;
+    if (Sender* known = itemAt(m_senderPlaces, sender, m_senders)) {
+        known->overrides = overrides;
     }
 }
 
 const Sender* Ingest::find(log::SenderId id) const {
-    const auto found = m_senderPlaces.find(id);
-    return found == m_senderPlaces.end() ? nullptr : &m_senders[found->second];
+    return itemAt(m_senderPlaces, id, m_senders);
 }
 
 const Character* Ingest::find(const CharacterKey& key) const {
-    const auto found = m_characterPlaces.find(key);
-    return found == m_characterPlaces.end() ? nullptr : &m_characters[found->second];
+    return itemAt(m_characterPlaces, key, m_characters);
 }
 
 std::optional<std::size_t> Ingest::placeOf(const log::StreamKey& key) const {
@@ -303,18 +310,17 @@ std::optional<std::size_t> Ingest::placeOf(const log::StreamKey& key) const {
 }
 
 const Stream* Ingest::find(const log::StreamKey& key) const {
-    const auto place = placeOf(key);
-    return place ? &m_streams[*place] : nullptr;
+    return itemAt(m_streamPlaces, key, m_streams);
 }
 
 const NullPoseHistory* Ingest::nullPoses(const CharacterKey& key) const {
     const auto found = m_nullPoses.find(key);
-    return found == m_nullPoses.end() ? nullptr : &found->second;
+    return found == m_nullPoses.end() ? nullptr : found->second.get();
 }
 
 const Message* Ingest::newest(const log::StreamKey& key) const {
-    const auto place = placeOf(key);
-    return place && m_newest[*place].packet != UINT64_MAX ? &m_newest[*place] : nullptr;
+    const Message* newest = itemAt(m_streamPlaces, key, m_newest);
+    return newest != nullptr && newest->packet != UINT64_MAX ? newest : nullptr;
 }
 
 } // namespace posewire::model

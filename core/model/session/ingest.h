@@ -8,16 +8,25 @@
 #include "core/model/accounting/event_follower.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
-#include "core/model/body/null_pose.h"
-#include "core/model/session/message.h"
 #include "core/model/session/sender.h"
 
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
 namespace posewire::model {
+
+class NullPoseHistory;
+
+/// A complete message, decoded. Items of a sample that came in several datagrams are joined.
+struct Message {
+    wire::Datagram datagram;
+    log::Stamp stamp{};
+    std::uint64_t packet = UINT64_MAX; ///< its number in the log; of the last of several datagrams
+    log::SenderId sender{};
+};
 
 /// Follows a PacketLog: who sends, which streams there are, what is missing of them and why, what happened.
 /// Every packet is observed once, in the order of the log, and passes one stage after the other; its body is
@@ -105,7 +114,7 @@ private:
     std::deque<Stream> m_streams;
     std::deque<Message> m_newest; ///< of each stream: what its datagrams are decoded into
     Message m_unplaced;           ///< the same for a datagram whose stream is not known yet
-    std::map<CharacterKey, NullPoseHistory> m_nullPoses;
+    std::map<CharacterKey, std::shared_ptr<NullPoseHistory>> m_nullPoses;
     Attribution m_attribution{m_streams};
     EventFollower m_follower;
     bool m_isLive = false; ///< packets have come as they were stamped

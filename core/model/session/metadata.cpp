@@ -11,16 +11,13 @@
 namespace posewire::model {
 
 const MetadataTag::Value* MetadataTag::at(std::uint64_t packet) const {
-    const auto after =
-        std::upper_bound(values.begin(), values.end(), packet,
-                         [](std::uint64_t number, const Value& value) { return number < value.packet; });
+    const auto after = std::ranges::upper_bound(values, packet, {}, &Value::packet);
     return after == values.begin() ? nullptr : &*std::prev(after);
 }
 
 void Metadata::add(const wire::MetaData& message, std::uint64_t packet, log::Stamp stamp) {
     for (const wire::Tag& tag : wire::parseTags(message.text).tags) {
-        auto found = std::find_if(m_tags.begin(), m_tags.end(),
-                                  [&](const auto& known) { return known.name == tag.name; });
+        auto found = std::ranges::find(m_tags, tag.name, &MetadataTag::name);
         if (found == m_tags.end()) {
             if (m_tags.size() == kMaxTags) {
                 continue;
@@ -39,8 +36,7 @@ void Metadata::add(const wire::MetaData& message, std::uint64_t packet, log::Sta
 }
 
 const MetadataTag* Metadata::find(std::string_view name) const {
-    const auto found =
-        std::find_if(m_tags.begin(), m_tags.end(), [&](const auto& tag) { return tag.name == name; });
+    const auto found = std::ranges::find(m_tags, name, &MetadataTag::name);
     return found == m_tags.end() ? nullptr : &*found;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/time.h"
-#include "core/model/session/ingest.h"
 #include "core/model/session/session_view.h"
 
 namespace posewire::model {

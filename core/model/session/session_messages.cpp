@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
-#include "core/model/session/ingest.h"
 #include "core/model/session/session_view.h"
 #include "core/wire/message_parts.h"
 
@@ -172,10 +170,6 @@ const CharacterPose* SessionView::pose(const CharacterKey& key) const {
         decoded.unit = unit;
     }
     return decoded.isValid ? &decoded.pose : nullptr;
-}
-
-const NullPoseHistory* SessionView::nullPoses(const CharacterKey& key) const {
-    return m_ingest.nullPoses(key);
 }
 
 const NullPose* SessionView::nullPose(const CharacterKey& key) const {

@@ -1,81 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/session_view.h"
 
-#include "core/log/time.h"
-#include "core/model/session/ingest.h"
-
 #include <algorithm>
 
 /// What the view counts and names; messages and poses are in session_messages.cpp.
 namespace posewire::model {
-
-const std::deque<Sender>& SessionView::senders() const {
-    return m_ingest.senders();
-}
-
-const std::deque<Character>& SessionView::characters() const {
-    return m_ingest.characters();
-}
-
-const std::deque<Stream>& SessionView::streams() const {
-    return m_ingest.streams();
-}
-
-const Sender* SessionView::find(log::SenderId id) const {
-    return m_ingest.find(id);
-}
-
-const Character* SessionView::find(const CharacterKey& key) const {
-    return m_ingest.find(key);
-}
-
-const Stream* SessionView::find(const log::StreamKey& key) const {
-    return m_ingest.find(key);
-}
-
-const Events& SessionView::events() const {
-    return m_ingest.follower().events();
-}
-
-const Thresholds& SessionView::thresholds() const {
-    return m_ingest.follower().thresholds();
-}
-
-const std::deque<Gap>& SessionView::gaps() const {
-    return m_ingest.attribution().gaps();
-}
-
-const Gap* SessionView::gapEndedBy(std::uint64_t packet) const {
-    return m_ingest.attribution().endedBy(packet);
-}
-
-const PacketDigests& SessionView::digests() const {
-    return m_ingest.digests();
-}
-
-std::uint64_t SessionView::end() const {
-    return m_ingest.end();
-}
-
-std::uint64_t SessionView::begin() const {
-    return m_ingest.begin();
-}
-
-log::Stamp SessionView::now() const {
-    return m_ingest.now();
-}
-
-log::Stamp SessionView::firstStamp() const {
-    return m_ingest.firstStamp();
-}
-
-const log::PacketLog& SessionView::log() const {
-    return m_ingest.log();
-}
-
-std::optional<log::Packet> SessionView::packet(std::uint64_t number) const {
-    return m_ingest.reader().packet(number);
-}
 
 StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
     StreamCounts sum;

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/packet_log.h"
-#include "core/log/stream_key.h"
-#include "core/log/time.h"
-#include "core/model/accounting/events.h"
-#include "core/model/accounting/packet_digest.h"
-#include "core/model/accounting/stream.h"
-#include "core/model/accounting/thresholds.h"
 #include "core/model/session/choices.h"
-#include "core/model/session/sender.h"
+#include "core/model/session/ingest.h"
 
 #include <deque>
 #include <functional>
@@ -20,58 +13,57 @@
 
 namespace posewire::model {
 
-class Ingest;
-class NullPoseHistory;
 struct BodyOrigins;
 struct CharacterPose;
-struct Gap;
-struct Message;
 struct NullPose;
 struct NullPoseEvidence;
 
 /// The session as panels, exports and the viewport read it: what was received, at the operator's cursor, and
 /// what the operator chose. It changes nothing but its own memory of what it decoded. One thread.
 ///
-/// Poses, messages, gaps and the like are declared here and defined in headers of their own, which only those
-/// include who look into them: body/character_pose.h, body/null_pose.h, body/reference_body.h, message.h,
-/// accounting/attribution.h.
+/// Poses and bodies are declared here and defined in headers of their own, which only those include who look
+/// into them: body/character_pose.h, body/null_pose.h, body/null_pose_findings.h, body/reference_body.h.
 class SessionView {
 public:
     SessionView(const SessionView&) = delete;
     SessionView& operator=(const SessionView&) = delete;
 
     // What was received, whatever the cursor.
-    [[nodiscard]] const std::deque<Sender>& senders() const;
-    [[nodiscard]] const std::deque<Character>& characters() const;
-    [[nodiscard]] const std::deque<Stream>& streams() const;
-    [[nodiscard]] const Sender* find(log::SenderId id) const;
-    [[nodiscard]] const Character* find(const CharacterKey& key) const;
-    [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
+    [[nodiscard]] const std::deque<Sender>& senders() const { return m_ingest.senders(); }
+    [[nodiscard]] const std::deque<Character>& characters() const { return m_ingest.characters(); }
+    [[nodiscard]] const std::deque<Stream>& streams() const { return m_ingest.streams(); }
+    [[nodiscard]] const Sender* find(log::SenderId id) const { return m_ingest.find(id); }
+    [[nodiscard]] const Character* find(const CharacterKey& key) const { return m_ingest.find(key); }
+    [[nodiscard]] const Stream* find(const log::StreamKey& key) const { return m_ingest.find(key); }
 
     /// What came in a range of time in all streams of a character, without what makes no sense of several.
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
 
     /// What happened, in the time of the log; with conditions that last.
-    [[nodiscard]] const Events& events() const;
-    [[nodiscard]] const Thresholds& thresholds() const;
+    [[nodiscard]] const Events& events() const { return m_ingest.follower().events(); }
+    [[nodiscard]] const Thresholds& thresholds() const { return m_ingest.follower().thresholds(); }
     /// Every gap in a stream with whose loss it was; the newest ones, oldest first.
-    [[nodiscard]] const std::deque<Gap>& gaps() const;
+    [[nodiscard]] const std::deque<Gap>& gaps() const { return m_ingest.attribution().gaps(); }
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
-    [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const;
+    [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const {
+        return m_ingest.attribution().endedBy(packet);
+    }
     /// One for every packet from begin() to end().
-    [[nodiscard]] const PacketDigests& digests() const;
+    [[nodiscard]] const PacketDigests& digests() const { return m_ingest.digests(); }
 
     /// Packets followed so far: one past the newest packet number.
-    [[nodiscard]] std::uint64_t end() const;
-    [[nodiscard]] std::uint64_t begin() const;
-    [[nodiscard]] log::Stamp now() const;
+    [[nodiscard]] std::uint64_t end() const { return m_ingest.end(); }
+    [[nodiscard]] std::uint64_t begin() const { return m_ingest.begin(); }
+    [[nodiscard]] log::Stamp now() const { return m_ingest.now(); }
     /// Of the first packet that was followed, also where the log has dropped it; 0 before there is one.
-    [[nodiscard]] log::Stamp firstStamp() const;
+    [[nodiscard]] log::Stamp firstStamp() const { return m_ingest.firstStamp(); }
     [[nodiscard]] log::LogFigures figures() const { return log().figures(); }
     /// For readers on other threads.
-    [[nodiscard]] const log::PacketLog& log() const;
+    [[nodiscard]] const log::PacketLog& log() const { return m_ingest.log(); }
     /// Nothing where the log has dropped it. The bytes are valid until the session follows the log again.
-    [[nodiscard]] std::optional<log::Packet> packet(std::uint64_t number) const;
+    [[nodiscard]] std::optional<log::Packet> packet(std::uint64_t number) const {
+        return m_ingest.reader().packet(number);
+    }
     /// The first packet from a stamp on; end() where there is none. Stamps are taken to grow.
     [[nodiscard]] std::uint64_t packetFrom(log::Stamp stamp) const;
     /// The newest packet that had been received by then; the oldest there is where all came later.
@@ -131,7 +123,9 @@ public:
     /// The scale message; null where none was received.
     [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
     /// All scale messages of the character itself; null where none was received.
-    [[nodiscard]] const NullPoseHistory* nullPoses(const CharacterKey& key) const;
+    [[nodiscard]] const NullPoseHistory* nullPoses(const CharacterKey& key) const {
+        return m_ingest.nullPoses(key);
+    }
     /// What the scale messages of a character are judged by, or those of its predecessor where it has sent
     /// none itself. Valid until the session follows the log again.
     [[nodiscard]] NullPoseEvidence nullPoseEvidence(const CharacterKey& key) const;

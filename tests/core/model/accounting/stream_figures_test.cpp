@@ -29,7 +29,7 @@ Stream streamOf(std::uint8_t type, std::uint32_t count, std::uint32_t every, std
             header.datagramCounter = 0x80;
             header.timeCode = i * timeCodeStep;
             addTo(stream.accounting, kStart + i * 10ms, 760, header);
-            stream.statistics.add(kStart + i * 10ms, 760, true);
+            stream.statistics.add(kStart + i * 10ms, true);
         }
     }
     return stream;
