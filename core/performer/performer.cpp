@@ -21,10 +21,6 @@ constexpr bool kIsInformation =
     std::is_same_v<T, wire::ScaleInformation> || std::is_same_v<T, wire::PropInformation> ||
     std::is_same_v<T, wire::MetaData> || std::is_same_v<T, wire::NullPose>;
 
-bool has(std::span<const std::uint8_t> types, std::uint8_t type) {
-    return std::ranges::find(types, type) != types.end();
-}
-
 bool isOfE(const wire::TypeInfo& info) {
     return info.firstRevision() == 'E';
 }
@@ -130,7 +126,7 @@ Performer::Performer(PerformerSettings settings)
 }
 
 bool Performer::sends(std::uint8_t type) const {
-    return has(m_types, type);
+    return std::ranges::find(m_types, type) != m_types.end();
 }
 
 void Performer::add(const Character& character, wire::Body body, std::vector<wire::Datagram>& into) const {

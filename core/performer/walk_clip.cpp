@@ -129,14 +129,6 @@ WalkClip::WalkClip(const model::ReferenceBody& body, const WalkStyle& style) : m
     m_root = PeriodicSpline<Vector3d>(std::move(path.roots));
 }
 
-double WalkClip::sidePhase(Side side, double phase) {
-    return fraction(side == Side::Left ? phase + 0.5 : phase);
-}
-
-Vector3d WalkClip::footCorrection(Side side, double phase) const {
-    return m_footCorrections[side == Side::Right ? 0 : 1].at(phase);
-}
-
 LocalRotations WalkClip::rotations(double phase) const {
     LocalRotations rotations;
     const GaitAngles right = gaitAngles(phase);

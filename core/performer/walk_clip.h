@@ -64,10 +64,14 @@ public:
 
     /// Added to the foot's position from rotations() and root(), it keeps the foot still on the floor while
     /// it bears weight and clear of it while it swings. `phase` is that of the clip.
-    Eigen::Vector3d footCorrection(model::Side side, double phase) const;
+    Eigen::Vector3d footCorrection(model::Side side, double phase) const {
+        return m_footCorrections[side == model::Side::Right ? 0 : 1].at(phase);
+    }
 
     /// The phase of that side's own cycle, 0 at its heel strike.
-    static double sidePhase(model::Side side, double phase);
+    static double sidePhase(model::Side side, double phase) {
+        return fraction(side == model::Side::Left ? phase + 0.5 : phase);
+    }
 
 private:
     void setLeg(model::Side side, const GaitAngles& gait, double phase, LocalRotations& rotations) const;

@@ -18,8 +18,7 @@ constexpr std::size_t kMostStreams = 64;
 constexpr std::size_t kMostBack = 1'024;
 
 bool isBetween(std::uint32_t sample, const Gap& gap) {
-    return static_cast<std::int32_t>(sample - gap.fromSample) > 0 &&
-           static_cast<std::int32_t>(gap.toSample - sample) > 0;
+    return distance(sample, gap.fromSample) > 0 && distance(gap.toSample, sample) > 0;
 }
 
 /// Adds a value; the oldest goes where there are too many.

@@ -19,25 +19,16 @@ constexpr std::size_t kAgreeingClosely = 8;
 // expected place.
 constexpr std::size_t kAgreeingAnyhow = 32;
 
-std::int32_t away(std::uint32_t sample, std::uint32_t from) {
-    return static_cast<std::int32_t>(sample - from);
-}
-
 /// Whether datagrams with these counters may have been on their way for long.
 bool mayBeLate(const SampleLedger& ledger, std::uint32_t low, std::uint32_t high, log::Stamp stamp) {
     constexpr std::int32_t kBefore = 4'096;
     constexpr std::int32_t kNear = 100;
-    const auto isIn = [&](const SampleSequence& sequence, std::int32_t below, std::int32_t above) {
-        return !sequence.empty() && away(high, sequence.window()[0].sample) >= -below &&
-               away(low, sequence.highest()) <= above;
-    };
-    return isIn(ledger.present(), kBefore, 0) ||
-           (ledger.hasBefore(stamp) && isIn(ledger.before(), kNear, kNear));
+    return ledger.present().overlaps(low, high, kBefore, 0) ||
+           (ledger.hasBefore(stamp) && ledger.before().overlaps(low, high, kNear, kNear));
 }
 
 bool isMissing(const SampleSequence& sequence, const SampleLedger::Datagram& datagram) {
-    if (sequence.empty() || away(datagram.sample, sequence.window()[0].sample) < 0 ||
-        away(datagram.sample, sequence.highest()) > 0) {
+    if (!sequence.overlaps(datagram.sample, datagram.sample, 0, 0)) {
         return false;
     }
     const auto place = sequence.window().find(datagram.sample);
@@ -63,7 +54,7 @@ bool Probation::isExpected(const SampleLedger& ledger, const SampleLedger::Datag
     if (ledger.present().empty()) {
         return true;
     }
-    const std::int32_t moved = away(datagram.sample, ledger.present().highest());
+    const std::int32_t moved = distance(datagram.sample, ledger.present().highest());
     return moved >= -kMostBack && moved <= forwardLimit(ledger, datagram);
 }
 
@@ -107,9 +98,9 @@ void Probation::takeUnexpected(const Waiting& waiting, std::size_t near, const S
     if (group.count == 0) {
         group.low = group.high = sample;
     }
-    group.highest = away(sample, group.highest) > 0 ? sample : group.highest;
-    group.low = away(sample, group.low) < 0 ? sample : group.low;
-    group.high = away(sample, group.high) > 0 ? sample : group.high;
+    group.highest = distance(sample, group.highest) > 0 ? sample : group.highest;
+    group.low = distance(sample, group.low) < 0 ? sample : group.low;
+    group.high = distance(sample, group.high) > 0 ? sample : group.high;
     if (!waiting.isRepeat) {
         ++group.count;
         group.filling += isMissing(ledger.present(), waiting.datagram) ? 1 : 0;
@@ -123,24 +114,24 @@ void Probation::scan(const SampleLedger& ledger, Scan& scan) const {
     const auto reach = static_cast<std::int32_t>(kMostBack * std::clamp(ledger.present().step(), 1U, 30U));
     for (std::size_t i = 0; i < m_waiting.size(); ++i) {
         const std::uint32_t sample = m_waiting[i].datagram.sample;
-        const std::int32_t fromExpected = away(sample, scan.highest);
+        const std::int32_t fromExpected = distance(sample, scan.highest);
         const std::int32_t limit = forwardLimit(ledger, m_waiting[i].datagram);
         std::size_t near = scan.groupCount;
-        std::int32_t distance =
+        std::int32_t nearest =
             fromExpected >= -kMostBack && fromExpected <= limit ? std::abs(fromExpected) : INT32_MAX;
-        const bool isExplained = distance != INT32_MAX;
+        const bool isExplained = nearest != INT32_MAX;
         for (std::size_t g = 0; g < scan.groupCount; ++g) {
-            const std::int32_t from = away(sample, scan.groups[g].highest);
+            const std::int32_t from = distance(sample, scan.groups[g].highest);
             // Late arrivals are behind the expected place, what follows a long loss is ahead of it.
-            const bool isOneSide = (away(scan.groups[g].highest, scan.highest) > 0) == (fromExpected > 0);
+            const bool isOneSide = (distance(scan.groups[g].highest, scan.highest) > 0) == (fromExpected > 0);
             // A group that an advance has emptied does not take what the expected place explains.
             const bool isRefuted = isExplained && scan.groups[g].count == 0;
-            if (isOneSide && !isRefuted && from >= -kMostBack && from <= reach && std::abs(from) < distance) {
+            if (isOneSide && !isRefuted && from >= -kMostBack && from <= reach && std::abs(from) < nearest) {
                 near = g;
-                distance = std::abs(from);
+                nearest = std::abs(from);
             }
         }
-        if (near == scan.groupCount && distance != INT32_MAX) {
+        if (near == scan.groupCount && nearest != INT32_MAX) {
             scan.labels[i] = kExpected;
             if (fromExpected > 0) {
                 scan.highest = sample;
@@ -192,7 +183,7 @@ void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decisio
     if (found.newest != kExpected) {
         const Group& group = found.groups[found.newest];
         if (isSettled(group, ledger, m_waiting.back().datagram.stamp, isEnd)) {
-            const std::int32_t jump = away(group.low, found.highest);
+            const std::int32_t jump = distance(group.low, found.highest);
             settle(m_waiting.size(), found.newest,
                    jump > 0 && jump <= kMostForward ? Outcome::Begun : Outcome::Restarted);
             return;

@@ -5,15 +5,6 @@
 #include <utility>
 
 namespace posewire::model {
-namespace {
-
-bool isWithin(const SampleSequence& sequence, std::uint32_t sample, std::int32_t below, std::int32_t above) {
-    return !sequence.empty() && static_cast<std::int32_t>(sample - sequence.window()[0].sample) >= -below &&
-           static_cast<std::int32_t>(sample - sequence.highest()) <= above;
-}
-
-} // namespace
-
 Placement SampleLedger::count(const Placement& placement, log::Stamp stamp, CountHistory* history) {
     const bool isDuplicate = placement.kind == Placement::Kind::Duplicate;
     const bool isLate = placement.isReordered && placement.late > kLateAfter;
@@ -49,10 +40,10 @@ Placement SampleLedger::placeBefore(const Datagram& datagram, CountHistory* hist
 Placement SampleLedger::placeAlone(const Datagram& datagram, CountHistory* history) {
     constexpr std::int32_t kNear = 100;
     // The first samples of a stream may come late too.
-    if (isWithin(m_present, datagram.sample, kNear, 0)) {
+    if (m_present.overlaps(datagram.sample, datagram.sample, kNear, 0)) {
         return place(datagram, history);
     }
-    return hasBefore(datagram.stamp) && isWithin(m_before, datagram.sample, kNear, kNear)
+    return hasBefore(datagram.stamp) && m_before.overlaps(datagram.sample, datagram.sample, kNear, kNear)
                ? placeBefore(datagram, history)
                : Placement{};
 }

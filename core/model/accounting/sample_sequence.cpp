@@ -98,6 +98,11 @@ SampleSequence::Run& SampleSequence::runFor(std::int64_t position) {
     return m_past;
 }
 
+bool SampleSequence::overlaps(std::uint32_t low, std::uint32_t high, std::int32_t below,
+                              std::int32_t above) const {
+    return !empty() && distance(high, m_window[0].sample) >= -below && distance(low, highest()) <= above;
+}
+
 Placement SampleSequence::place(const Datagram& datagram, CountHistory* history) {
     if (m_window.empty()) {
         begin(datagram);

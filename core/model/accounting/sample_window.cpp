@@ -8,26 +8,22 @@ namespace {
 
 constexpr std::size_t kFirstCapacity = 64;
 
-bool isBelow(std::uint32_t a, std::uint32_t b) {
-    return static_cast<std::int32_t>(a - b) < 0;
-}
-
 } // namespace
 
 SampleWindow::Slot SampleWindow::find(std::uint32_t sample) const {
-    if (m_size == 0 || isBelow(back().sample, sample)) {
+    if (m_size == 0 || distance(back().sample, sample) < 0) {
         return {m_size, false};
     }
     // Most late arrivals are near the end: the search widens from there.
     std::size_t high = m_size - 1;
     std::size_t low = high;
-    for (std::size_t reach = 1; low > 0 && isBelow(sample, (*this)[low].sample); reach *= 2) {
+    for (std::size_t reach = 1; low > 0 && distance(sample, (*this)[low].sample) < 0; reach *= 2) {
         high = low;
         low = low > reach ? low - reach : 0;
     }
     while (low < high) {
         const std::size_t middle = (low + high) / 2;
-        if (isBelow((*this)[middle].sample, sample)) {
+        if (distance((*this)[middle].sample, sample) < 0) {
             low = middle + 1;
         } else {
             high = middle;

@@ -10,6 +10,11 @@
 
 namespace posewire::model {
 
+/// How far a sample counter is ahead of another, modulo 2^32.
+[[nodiscard]] constexpr std::int32_t distance(std::uint32_t to, std::uint32_t from) {
+    return static_cast<std::int32_t>(to - from);
+}
+
 /// The newest samples of a stream that arrived, in the order of their counters, with what arrived of each.
 /// Counters are compared modulo 2^32. Memory grows with the samples up to kKept of them.
 class SampleWindow {

@@ -210,12 +210,9 @@ void StreamAccounting::addMalformed(log::Stamp stamp) {
 std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,
                                                               const TimeRange& when) const {
     const SampleWindow& window = m_ledger.present().window();
-    const auto isBelow = [](std::uint32_t a, std::uint32_t b) {
-        return static_cast<std::int32_t>(a - b) < 0;
-    };
     for (std::size_t i = window.find(from + 1).index; i < window.size(); ++i) {
         const SampleWindow::Entry& entry = window[i];
-        if (!isBelow(entry.sample, to) || !isBelow(from, entry.sample)) {
+        if (distance(entry.sample, to) >= 0 || distance(from, entry.sample) >= 0) {
             break;
         }
         if (entry.stamp >= when.from && entry.stamp < when.to) {

@@ -1,10 +1,53 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/session_view.h"
 
-#include <algorithm>
+#include "core/model/body/character_pose.h"
+#include "core/model/body/null_pose_findings.h"
+#include "core/model/body/null_pose_measures.h"
+#include "core/model/body/reference_body.h"
+#include "core/wire/message_parts.h"
 
-/// What the view counts and names; messages and poses are in session_messages.cpp.
+#include <algorithm>
+#include <array>
+
 namespace posewire::model {
+namespace {
+
+constexpr log::Duration kPoseTie = std::chrono::milliseconds(250);
+constexpr std::array<std::uint8_t, 3> kPoseTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType,
+                                                 wire::PoseUnity::kType};
+
+/// Entries that are looked at for the parts of one sample: 128 indices, each at most twice.
+constexpr std::size_t kPartSearch = 256;
+
+} // namespace
+
+/// Bounded by the streams and characters of the session; what is asked for again while the cursor is where it
+/// was is not decoded again.
+struct SessionView::Decoded {
+    struct OfStream {
+        std::uint64_t packet = UINT64_MAX; ///< the newest datagram it was made from
+        bool isValid = false;
+        Message message;
+    };
+    struct OfCharacter {
+        std::uint64_t packet = UINT64_MAX; ///< of the pose, and the unit it was read in
+        LengthUnit unit = LengthUnit::Metre;
+        bool isValid = false;
+        CharacterPose pose;
+        std::uint64_t nullPosePacket = UINT64_MAX; ///< of the origins; UINT64_MAX for the reference body
+        std::optional<BodyOrigins> origins;
+    };
+    std::unordered_map<log::StreamKey, OfStream> messages;
+    std::map<CharacterKey, OfCharacter> characters;
+    Message part;
+    Message visited;
+};
+
+SessionView::SessionView(Ingest& ingest, const Choices& choices)
+    : m_ingest(ingest), m_choices(choices), m_decoded(std::make_unique<Decoded>()) {}
+
+SessionView::~SessionView() = default;
 
 StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
     StreamCounts sum;
@@ -162,6 +205,179 @@ double SessionView::ageSeconds(const CharacterKey& key) const {
         }
     }
     return std::max(0.0, log::secondsOf(cursorStamp() - newest));
+}
+
+/// Entries of packets that the cursor has reached.
+std::size_t SessionView::visibleCount(const log::StreamEntries& entries) const {
+    const std::uint64_t end = visibleEnd();
+    if (end == 0) {
+        return 0;
+    }
+    const auto newest = entries.atOrBeforePacket(end - 1);
+    return newest ? *newest + 1 : 0;
+}
+
+bool SessionView::readWhole(const log::StreamEntry& entry, Message& message) const {
+    const auto packet = this->packet(entry.packet);
+    if (!packet || !wire::decodeInto(packet->bytes, message.datagram)) {
+        return false;
+    }
+    message.stamp = packet->stamp;
+    message.packet = entry.packet;
+    message.sender = packet->sender;
+    return true;
+}
+
+/// The newest sample among the first `count` entries whose datagrams are all there.
+bool SessionView::readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const {
+    const std::size_t oldest = count > kPartSearch ? count - kPartSearch : 0;
+    for (std::size_t i = count; i-- > oldest;) {
+        const log::StreamEntry& last = entries[i];
+        if (!last.isLast) {
+            continue;
+        }
+        if (last.datagram == 0) {
+            return readWhole(last, message);
+        }
+        std::array<std::size_t, 128> places{};
+        std::size_t present = 0;
+        const std::size_t end = std::min(count, i + kPartSearch);
+        for (std::size_t k = oldest; k < end; ++k) {
+            if (entries[k].sample == last.sample && entries[k].datagram <= last.datagram) {
+                std::size_t& place = places[entries[k].datagram];
+                present += place == 0 ? 1 : 0;
+                place = k + 1;
+            }
+        }
+        if (present != last.datagram + std::size_t{1} || !readWhole(entries[places[0] - 1], message)) {
+            continue;
+        }
+        for (std::size_t part = 1; part <= last.datagram; ++part) {
+            if (readWhole(entries[places[part] - 1], m_decoded->part)) {
+                appendPart(message.datagram, m_decoded->part.datagram);
+            }
+        }
+        message.packet = last.packet;
+        message.stamp = last.stamp;
+        return true;
+    }
+    return false;
+}
+
+const Message* SessionView::message(const CharacterKey& key, std::uint8_t type) const {
+    const log::StreamKey streamKey{key.sender, key.character, type};
+    const log::StreamEntries* stream = m_ingest.index().find(streamKey);
+    const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
+    if (count == 0) {
+        const Character* before = predecessor(key);
+        return before != nullptr ? message(before->key, type) : nullptr;
+    }
+    const log::StreamEntry& newest = (*stream)[count - 1];
+    if (newest.isLast && newest.datagram == 0) {
+        const Message* ingested = m_ingest.newest(streamKey);
+        if (ingested != nullptr && ingested->packet == newest.packet) {
+            return ingested;
+        }
+    }
+    Decoded::OfStream& decoded = m_decoded->messages[streamKey];
+    if (decoded.packet != newest.packet) {
+        decoded.isValid = readMessage(*stream, count, decoded.message);
+        decoded.packet = newest.packet;
+    }
+    return decoded.isValid ? &decoded.message : nullptr;
+}
+
+std::size_t SessionView::visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
+                               const std::function<void(const Message&)>& visitor) const {
+    const log::StreamEntries* stream = m_ingest.index().find(key);
+    const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
+    if (count == 0) {
+        return 0;
+    }
+    const auto before = stream->atOrBeforeStamp(fromStamp - log::Duration(1));
+    const std::size_t first = std::max(before ? *before + 1 : 0, count > most ? count - most : 0);
+    std::size_t visited = 0;
+    for (std::size_t i = first; i < count; ++i) {
+        const log::StreamEntry& entry = (*stream)[i];
+        if (entry.isLast && entry.datagram == 0 && readWhole(entry, m_decoded->visited)) {
+            visitor(m_decoded->visited);
+            ++visited;
+        }
+    }
+    return visited;
+}
+
+const CharacterPose* SessionView::pose(const CharacterKey& key) const {
+    const Message* best = nullptr;
+    for (const std::uint8_t type : kPoseTypes) {
+        const Message* candidate = message(key, type);
+        if (candidate != nullptr && (best == nullptr || candidate->stamp > best->stamp + kPoseTie)) {
+            best = candidate;
+        }
+    }
+    if (best == nullptr) {
+        return nullptr;
+    }
+    Decoded::OfCharacter& decoded = m_decoded->characters[key];
+    const std::uint8_t type = best->datagram.header.type();
+    const Sender* sender = find(best->sender);
+    const LengthUnit unit = sender != nullptr ? sender->positionUnit(type) : LengthUnit::Metre;
+    if (decoded.packet != best->packet || decoded.unit != unit) {
+        decoded.isValid = poseFromMessage(best->datagram, bodyOrigins(key).places, unit, decoded.pose);
+        decoded.packet = decoded.pose.packet = best->packet;
+        decoded.pose.stamp = best->stamp;
+        decoded.unit = unit;
+    }
+    return decoded.isValid ? &decoded.pose : nullptr;
+}
+
+const NullPose* SessionView::nullPose(const CharacterKey& key) const {
+    const NullPoseHistory* history = nullPoses(key);
+    const std::uint64_t end = visibleEnd();
+    const NullPose* pose = history != nullptr && end != 0 ? history->at(end - 1) : nullptr;
+    const Character* before = pose == nullptr ? predecessor(key) : nullptr;
+    return before != nullptr ? nullPose(before->key) : pose;
+}
+
+NullPoseEvidence SessionView::nullPoseEvidence(const CharacterKey& key) const {
+    NullPoseEvidence evidence;
+    evidence.now = cursorStamp();
+    const std::uint64_t end = visibleEnd();
+    for (const Character* character = find(key); character != nullptr && evidence.record.messages == 0;
+         character = predecessor(character->key)) {
+        if (const NullPoseHistory* history = nullPoses(character->key)) {
+            evidence.record = history->record(end == 0 ? 0 : end - 1);
+        }
+    }
+    if (const Message* sent = message(key, wire::ScaleInformation::kType)) {
+        evidence.scale = std::get_if<wire::ScaleInformation>(&sent->datagram.body);
+    }
+    if (const CharacterPose* newest = pose(key)) {
+        evidence.layout = newest->layout;
+        if (const Stream* stream = find(log::StreamKey{key.sender, key.character, newest->type})) {
+            evidence.poseSeconds = log::secondsOf(newest->stamp - stream->accounting.firstStamp());
+        }
+    }
+    return evidence;
+}
+
+const BodyOrigins& SessionView::bodyOrigins(const CharacterKey& key) const {
+    const NullPose* pose = nullPose(key);
+    Decoded::OfCharacter& decoded = m_decoded->characters[key];
+    const std::uint64_t packet = pose != nullptr ? pose->packet : UINT64_MAX;
+    if (decoded.origins && decoded.nullPosePacket == packet) {
+        return *decoded.origins;
+    }
+    decoded.nullPosePacket = packet;
+    decoded.origins = BodyOrigins{referenceOrigins()};
+    BodyOrigins& origins = *decoded.origins;
+    if (pose != nullptr && pose->segments.size() >= origins.places.size()) {
+        const BodyPlaces places = bodyPlaces(*pose);
+        for (std::size_t i = 0; i < origins.places.size(); ++i) {
+            origins.places[i] = originOf(*pose, places, static_cast<int>(i)).value_or(origins.places[i]);
+        }
+    }
+    return origins;
 }
 
 } // namespace posewire::model
