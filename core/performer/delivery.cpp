@@ -135,7 +135,7 @@ Delivery::Judgement Delivery::judge(Sending& sending, bool isAtEnd) {
         return begin(front, sending, sample);
     }
     if (!front.isNative) {
-        // How many apart the samples of such a stream should be, nobody could say.
+        // The step of such a stream is not defined.
         return moved == 0 ? Judgement::Deliver : Judgement::GiveUp;
     }
     front.epoch = std::max(front.epoch, origin.epoch);

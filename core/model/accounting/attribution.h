@@ -70,7 +70,7 @@ public:
     void takeSampled(log::SenderId sender, log::Stamp stamp);
     /// One that has a header and cannot be decoded.
     void takeMalformed(const log::Packet& packet, const wire::Header& header);
-    /// What the accounting of a stream says.
+    /// A verdict of the stream's accounting.
     void takeVerdict(std::size_t stream, const Verdict& verdict);
 
     /// The newest ones, oldest first.

@@ -121,8 +121,8 @@ void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& ver
     }
 }
 
-/// A time code that moves differently from our clock while the counter runs on. What came out of order says
-/// nothing about it.
+/// A time code that moves differently from our clock while the counter runs on. What came out of order is
+/// no evidence.
 void EventFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
     Character& character = m_characters[{stream.sender, stream.character}];
     const bool isFirst = character.stamp == log::Stamp();
@@ -213,7 +213,7 @@ std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key,
         return event->sender != key.sender || event->character.value_or(key.character) != key.character ||
                event->severity() == EventSeverity::Info;
     });
-    // What happened says more than the limit that it broke.
+    // What happened is more specific than the limit that it broke.
     const auto rank = [](const Event* event) {
         return std::tuple(event->severity(), event->group() != EventGroup::Limit, event->number);
     };

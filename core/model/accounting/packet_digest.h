@@ -25,8 +25,8 @@ enum class PacketKind : std::uint8_t {
 };
 
 /// What is known about a packet without its bytes at hand: enough to list it, to colour it and to find
-/// problems among millions. How it relates to the packets of its stream before it is what the accounting of
-/// the stream says: known when it came, or a few packets later where its sample counter was unexpected.
+/// problems among millions. How it relates to the packets of its stream before it is the verdict of the
+/// stream's accounting: known when it came, or a few packets later where its sample counter was unexpected.
 struct PacketDigest {
     float deltaS = -1;     ///< seconds since the packet before it in its stream, -1 for the first of a stream
     std::uint32_t gap = 0; ///< samples that are missing just before it, counted in the stream's own step
@@ -51,12 +51,12 @@ static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the l
 /// What a packet shows by itself. `datagram` is what it was decoded to, null where that failed.
 [[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
 
-/// Puts in what the accounting of its stream says.
+/// Copies what a digest has of its verdict.
 void applyVerdict(const Verdict& verdict, PacketDigest& digest);
 
-/// Adds the packet of a digest to the accounting of its stream and puts in what that says now. One that must
-/// wait for a verdict counts as a restart where the doubt began with it; the verdicts on those before it are
-/// among those returned.
+/// Adds the packet of a digest to the accounting of its stream and copies the verdict, if there is one yet.
+/// One that must wait for a verdict counts as a restart where the doubt began with it; the verdicts on those
+/// before it are among those returned.
 std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Header& header,
                                      StreamAccounting& accounting, PacketDigest& digest);
 

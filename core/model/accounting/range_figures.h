@@ -37,8 +37,8 @@ struct RangeFigures {
     std::array<std::uint64_t, kLossCauses> lostByCause{}; ///< samples, by LossCause
 };
 
-/// What the accounting of a stream says, all there is where no range is given. Without rates the cost does
-/// not depend on the range.
+/// The figures that a stream's accounting keeps, of all its time where no range is given. Without rates the
+/// cost does not depend on the range.
 [[nodiscard]] RangeFigures countedFigures(const StreamAccounting& stream,
                                           const std::optional<TimeRange>& range);
 /// With all rates but those of now and of whole samples.

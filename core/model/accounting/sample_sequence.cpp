@@ -130,7 +130,7 @@ void SampleSequence::begin(const Datagram& datagram) {
 }
 
 /// Counts the datagram of a sample that is in the window, and in its run where it is the sample's first.
-/// `isSteady` says that nothing is lost between it and the sample before.
+/// `isSteady`: nothing is lost between it and the sample before.
 Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, CountHistory* history,
                                bool isSteady) {
     Placement placement;

@@ -54,7 +54,7 @@ struct ClockSkew {
 /// parts of the time: the network only ever adds to what the clocks differ by. O(1) memory.
 class ClockFit {
 public:
-    /// All that will be added spans so much time.
+    /// `span`: from the first to the last that will be added.
     explicit ClockFit(log::Duration span);
 
     /// In the order of time.

@@ -209,7 +209,7 @@ double wholeRate(const Stream& stream, const StreamCounts& counts, const std::op
     const double seconds = log::secondsOf(to - from);
     const bool isSampled = countsSamples(stream.key.type);
     const std::uint64_t count = isSampled ? counts.samples : counts.datagrams;
-    // Messages come seldom and in several datagrams at once: a moment says nothing about how often.
+    // Messages come seldom and in several datagrams at once: a moment is no measure of how often.
     const double least = isSampled ? 0 : 1;
     return count > 1 && seconds > least ? static_cast<double>(count - 1) / seconds : 0;
 }

@@ -77,7 +77,7 @@ enum class FigureSum : std::uint8_t {
 /// What a figure above zero means.
 enum class FigureTrouble : std::uint8_t { None, Odd, Warning, Error };
 
-/// What a figure says something of: only streams that count samples, or messages (types 10 to 13) as well.
+/// What a figure applies to: only streams that count samples, or messages (types 10 to 13) as well.
 enum class FigureScope : std::uint8_t { Samples, Messages };
 
 /// Decimals: of JSON, of reports and of the window. A share counts as percent in the last two.

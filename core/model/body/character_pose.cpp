@@ -8,12 +8,9 @@ namespace {
 
 constexpr std::size_t kBody = kBodySegmentCount;
 
-bool isFinite(const SegmentPose& pose) {
-    return pose.position.allFinite() && pose.orientation.coeffs().allFinite();
-}
-
 void place(CharacterPose& pose, std::size_t index, const SegmentPose& segment) {
-    if (index < pose.segments.size() && isFinite(segment)) {
+    if (index < pose.segments.size() && segment.position.allFinite() &&
+        segment.orientation.coeffs().allFinite()) {
         pose.segments[index] = segment;
         pose.isPresent[index] = true;
     }
@@ -28,28 +25,19 @@ void prepare(CharacterPose& pose, const wire::Header& header, std::size_t items)
     pose.timeCode = header.timeCode;
 }
 
-bool read(const wire::PoseEuler& message, const wire::Header& header, LengthUnit unit, CharacterPose& pose) {
-    prepare(pose, header, message.segments.size());
-    for (std::size_t i = 0; i < message.segments.size(); ++i) {
-        const wire::SegmentEuler& item = message.segments[i];
-        place(pose, i, poseFromEuler({item.position, item.rotation}, unit));
-    }
-    return true;
-}
-
-bool read(const wire::PoseQuaternion& message, const wire::Header& header, LengthUnit unit,
-          CharacterPose& pose) {
-    prepare(pose, header, message.segments.size());
-    for (std::size_t i = 0; i < message.segments.size(); ++i) {
-        const wire::SegmentQuaternion& item = message.segments[i];
-        place(pose, i, poseFromQuaternion({item.position, item.orientation}, unit));
+/// Items in their order, each placed by `toPose(item)`.
+template <class Items, class ToPose>
+bool read(const Items& items, const wire::Header& header, CharacterPose& pose, ToPose toPose) {
+    prepare(pose, header, items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        place(pose, i, toPose(items[i]));
     }
     return true;
 }
 
 /// Chains the local rotations from the pelvis outward over the null pose, parents before children.
-bool read(const wire::PoseUnity& message, const wire::Header& header,
-          std::span<const Eigen::Vector3d> origins, LengthUnit unit, CharacterPose& pose) {
+bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
+               std::span<const Eigen::Vector3d> origins, LengthUnit unit, CharacterPose& pose) {
     prepare(pose, header, kBody);
     if (message.segments.size() < kBody || origins.size() < kBody) {
         return false;
@@ -86,13 +74,17 @@ SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
 bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
                      LengthUnit unit, CharacterPose& pose) {
     if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {
-        return read(*euler, datagram.header, unit, pose);
+        return read(euler->segments, datagram.header, pose, [unit](const wire::SegmentEuler& item) {
+            return poseFromEuler({item.position, item.rotation}, unit);
+        });
     }
     if (const auto* quaternion = std::get_if<wire::PoseQuaternion>(&datagram.body)) {
-        return read(*quaternion, datagram.header, unit, pose);
+        return read(quaternion->segments, datagram.header, pose, [unit](const wire::SegmentQuaternion& item) {
+            return poseFromQuaternion({item.position, item.orientation}, unit);
+        });
     }
     if (const auto* unity = std::get_if<wire::PoseUnity>(&datagram.body)) {
-        return read(*unity, datagram.header, nullPose, unit, pose);
+        return readUnity(*unity, datagram.header, nullPose, unit, pose);
     }
     return false;
 }

@@ -13,7 +13,7 @@
 
 namespace posewire::model {
 
-/// How a scale message came, whether it said anything new or not.
+/// How a scale message came, whether it differs from the one before or not.
 struct NullPoseMessage {
     std::uint64_t firstPacket = 0; ///< number of the part that came first
     log::Stamp firstStamp{};       ///< its stamp
@@ -79,8 +79,8 @@ private:
 /// What was known of a character's null pose at one moment. Valid until the history grows.
 struct NullPoseRecord {
     const NullPose* pose = nullptr;          ///< null where there was none by then
-    const NullPose* before = nullptr;        ///< the newest that said something else, null where none did
-    log::Stamp changed{};                    ///< when `pose` was said first
+    const NullPose* before = nullptr;        ///< the newest that differs, null where none does
+    log::Stamp changed{};                    ///< when `pose` came first
     const NullPoseMessage* newest = nullptr; ///< the newest message, maybe still arriving
     std::uint64_t messages = 0;              ///< begun so far
     std::size_t incompleteMessages = 0;      ///< of the newest 64, without the newest

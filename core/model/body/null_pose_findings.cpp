@@ -62,7 +62,7 @@ void findDuplicateNames(const NullPose& pose, Findings& findings) {
         if (!isNew) {
             findings.push_back(
                 {NullPoseFault::NameTwice, Severity::Error, findBodySegment(entry->first).value_or(-1),
-                 "The name " + quoted(entry->first) + " stands twice: for segments " +
+                 "The name " + quoted(entry->first) + " occurs twice: for segments " +
                      std::to_string(entry->second + 1) + " and " + std::to_string(place + 1) + ".",
                  "Receivers that go by names mix the two up; Posewire goes by the order."});
         }

@@ -198,7 +198,7 @@ void findPointIds(const NullPose& pose, Findings& findings) {
             twice.push_back(idText(point));
         }
     }
-    // As long as segments are on their way, nothing can be said about where points belong.
+    // As long as segments are on their way, it is not known where points belong.
     if (!lost.empty() && count > 0) {
         findings.push_back({NullPoseFault::PointWithoutSegment, Severity::Error, -1,
                             counted(lost.size(), "point") + " on segments that do not exist: " +
@@ -314,7 +314,7 @@ void findAboutChange(const NullPoseRecord& record, Findings& findings) {
         findings.push_back(
             {NullPoseFault::LengthChanged, Severity::Warning, first,
              counted(changed.size(), "length") + " changed in mid-stream: " + listed(changed) + ".",
-             "The sender was calibrated anew or loaded another body. Poses before and after belong to "
+             "The sender was recalibrated or loaded another body. Poses before and after belong to "
              "bodies of different size: do not compare or join them without rescaling."});
     }
 }

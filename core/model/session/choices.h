@@ -12,9 +12,9 @@
 
 namespace posewire::model {
 
-/// The time that figures are of: all of it, so much before the cursor, or between two stamps.
+/// The time that figures are of: all of it, a length of time before the cursor, or between two stamps.
 struct RangeChoice {
-    log::Duration last{}; ///< above 0: so much before the cursor
+    log::Duration last{}; ///< above 0: this long before the cursor
     std::optional<TimeRange> fixed{};
 
     [[nodiscard]] bool isAll() const { return last <= log::Duration::zero() && !fixed; }

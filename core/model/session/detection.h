@@ -13,7 +13,7 @@
 
 namespace posewire::model {
 
-/// Which revision of the specification a sender follows, as far as its datagrams tell.
+/// Which revision of the specification a sender follows, as far as its datagrams show.
 enum class Revision : std::uint8_t { Unknown, E, JOrK, N };
 [[nodiscard]] std::string_view revisionName(Revision revision);
 
@@ -29,7 +29,7 @@ struct Detection {
     std::string unitEvidence; ///< of positionUnit: "pelvis at 1.05", empty before a pose came
 };
 
-/// What the operator says about a sender; what is empty is left to detection.
+/// What the operator declares about a sender; what is empty is left to detection.
 struct SenderOverride {
     std::optional<Revision> revision{}; ///< never Unknown
     std::optional<LengthUnit> positionUnit{};
@@ -51,8 +51,8 @@ public:
     explicit UnitFinder(LengthUnit usual) : m_unit(usual) {}
 
     /// Height of the pelvis and how far the other segments reach from it, in the wire's unit; a height up to
-    /// 0.05 and a reach up to 0.1 say nothing. What contradicts itself (somebody who sends centimetres lies
-    /// on the floor) is no evidence.
+    /// 0.05 and a reach up to 0.1 are no evidence. What contradicts itself (somebody who sends centimetres
+    /// lies on the floor) is no evidence.
     void add(double height, double reach);
 
     [[nodiscard]] LengthUnit unit() const { return m_unit; }
@@ -72,7 +72,7 @@ private:
 class Detector {
 public:
     void addHeader(const wire::Header& header);
-    /// Types 01, 02 and 21 say in which unit the sender's positions are; others nothing.
+    /// Types 01, 02 and 21 show the unit of the sender's positions; others nothing.
     void addBody(const wire::Body& body);
 
     [[nodiscard]] Detection result() const {

@@ -22,7 +22,7 @@ bool isSameHost(const log::SenderInfo& a, const log::SenderInfo& b) {
     return a.transport == b.transport && a.transport != log::Transport::File && hostOf(a) == hostOf(b);
 }
 
-/// What a packet changed, tag by tag; empty where it said nothing else than what was known.
+/// What a packet changed, tag by tag; empty where it brought nothing new.
 std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
     std::string text;
     for (const MetadataTag& tag : metadata.tags()) {

@@ -32,7 +32,7 @@ struct MetadataTag {
     [[nodiscard]] const Value* at(std::uint64_t packet) const;
 };
 
-/// Everything that type 12 messages said about one character. A packet may carry any of the tags (§2.6.3), so
+/// The type 12 messages of one character. A packet may carry any of the tags (§2.6.3), so
 /// values are kept until they change. Bounded: at most kMaxTags tags of kMaxValues values; older values go
 /// first.
 class Metadata {

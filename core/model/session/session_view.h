@@ -84,7 +84,7 @@ public:
     /// What is wrong with a character or its sender at the cursor, worst first.
     [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const;
     /// How a character does at the cursor: the one rule for all who show it. By the worst of its troubles;
-    /// else by its silence, or a warning where what its sender says does not fit together.
+    /// else by its silence, or a warning where its sender contradicts itself.
     [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
 
     /// A sender that is restarted has another port, and some senders use a port for each kind of message. So
@@ -104,7 +104,7 @@ public:
     [[nodiscard]] Colour colour(const CharacterKey& key) const;
     /// Seconds since the newest datagram of the character, against cursorStamp().
     [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
-    /// What type 12 messages said about a character, or about its predecessor where it has sent none itself.
+    /// From the type 12 messages of a character, or of its predecessor where it has sent none itself.
     /// The character must be one of this session.
     [[nodiscard]] const Metadata& metadata(const CharacterKey& key) const;
 

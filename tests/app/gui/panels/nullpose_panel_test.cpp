@@ -135,11 +135,11 @@ TEST_F(NullPosePanelTest, ContradictionsStandAtTheTopAndAreCounted) {
     open();
     auto* notices = m_panel->findChild<NullPoseNotices*>();
     EXPECT_TRUE(notices->isVisible());
-    EXPECT_TRUE(notices->toPlainText().contains("\"Pelvis\" stands twice"));
+    EXPECT_TRUE(notices->toPlainText().contains("\"Pelvis\" occurs twice"));
     EXPECT_TRUE(m_panel->summary().contains("1 error, 2 warnings")) << m_panel->summary().toStdString();
     send(Stage::kStart + 1s);
     refresh();
-    EXPECT_FALSE(notices->toPlainText().contains("stands twice"));
+    EXPECT_FALSE(notices->toPlainText().contains("occurs twice"));
 }
 
 TEST_F(NullPosePanelTest, GhostButtonAsksForTheGhostAndShowsItsState) {
