@@ -8,11 +8,6 @@
 namespace posewire::model {
 namespace {
 
-log::Stamp aligned(log::Stamp stamp, log::Duration width) {
-    const log::Duration rest = stamp.time_since_epoch() % width;
-    return stamp - (rest < log::Duration::zero() ? rest + width : rest);
-}
-
 using Counters = CountHistory::Counters;
 
 constexpr std::array kCounters{&Counters::datagrams,  &Counters::samples,   &Counters::lost,
@@ -29,18 +24,23 @@ void add(Counters& counters, const Counters& change) {
 
 } // namespace
 
+log::Stamp roundedDown(log::Stamp stamp, log::Duration width) {
+    const log::Duration rest = stamp.time_since_epoch() % width;
+    return stamp - (rest < log::Duration::zero() ? rest + width : rest);
+}
+
 /// The newest bucket, made where the stamp is beyond it; an earlier stamp makes none.
 CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
     if (m_buckets.empty()) {
         Bucket& first = m_buckets.emplace_back();
-        first.start = aligned(stamp, m_width);
+        first.start = roundedDown(stamp, m_width);
     } else if (stamp >= m_buckets.back().start + m_width) {
         if (m_buckets.size() == kMostBuckets) {
             halve();
         }
         if (stamp >= m_buckets.back().start + m_width) {
             Bucket next = m_buckets.back();
-            next.start = aligned(stamp, m_width);
+            next.start = roundedDown(stamp, m_width);
             next.longestGap = 0;
             next.leastMs = next.mostMs = 0;
             next.hasArrivals = next.hasDifference = false;
@@ -74,7 +74,7 @@ void CountHistory::halve() {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < m_buckets.size(); ++i) {
             Bucket bucket = m_buckets[i];
-            bucket.start = aligned(bucket.start, m_width);
+            bucket.start = roundedDown(bucket.start, m_width);
             if (kept != 0 && m_buckets[kept - 1].start == bucket.start) {
                 merge(bucket, m_buckets[kept - 1]);
                 --kept;

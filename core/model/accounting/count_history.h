@@ -11,6 +11,9 @@
 
 namespace posewire::model {
 
+/// The beginning of the bucket of a width that a stamp is in.
+[[nodiscard]] log::Stamp roundedDown(log::Stamp stamp, log::Duration width);
+
 /// Counts of a stream so far at the ends of buckets of time, so that those of any range are the difference of
 /// two. Bounded: buckets begin with 0.1 s and double their width whenever there are too many.
 class CountHistory {

@@ -80,11 +80,11 @@ std::string limitText(const Event& event, const char* what, const char* unit, in
 
 } // namespace
 
-EventSeverity severityOf(EventKind kind) {
+EventSeverity Event::severity() const {
     return factsOf(kind).severity;
 }
 
-EventGroup groupOf(EventKind kind) {
+EventGroup Event::group() const {
     return factsOf(kind).group;
 }
 
@@ -156,16 +156,11 @@ std::vector<const Event*> Events::current() const {
 }
 
 std::vector<const Event*> Events::currentAt(log::Stamp stamp) const {
-    const auto wentOn = [stamp](const Event& event) {
-        if (event.firstStamp > stamp) {
-            return false;
-        }
-        return factsOf(event.kind).lasts ? event.isCurrent || event.lastStamp > stamp
-                                         : event.lastStamp + kQuiet > stamp;
-    };
     std::vector<const Event*> events;
     for (const Event& event : m_events) {
-        if (wentOn(event)) {
+        const bool hasLasted = factsOf(event.kind).lasts ? event.isCurrent || event.lastStamp > stamp
+                                                         : event.lastStamp + kQuiet > stamp;
+        if (event.firstStamp <= stamp && hasLasted) {
             events.push_back(&event);
         }
     }
@@ -178,13 +173,9 @@ const Event* Events::find(std::uint64_t number) const {
 }
 
 const Event* Events::findCurrent(const Event& like) const {
-    for (auto number = m_current.rbegin(); number != m_current.rend(); ++number) {
-        const Event& event = at(*number);
-        if (isSameEpisode(event, like)) {
-            return &event;
-        }
-    }
-    return nullptr;
+    const auto found = std::find_if(m_current.rbegin(), m_current.rend(),
+                                    [&](std::uint64_t number) { return isSameEpisode(at(number), like); });
+    return found == m_current.rend() ? nullptr : &at(*found);
 }
 
 void Events::report(const Event& event) {
@@ -233,8 +224,7 @@ void Events::forget() {
     if (m_events.size() <= kMost) {
         return;
     }
-    auto oldest =
-        std::find_if(m_events.begin(), m_events.end(), [](const Event& event) { return !event.isCurrent; });
+    auto oldest = std::ranges::find(m_events, false, &Event::isCurrent);
     oldest = oldest == m_events.end() ? m_events.begin() : oldest;
     std::erase(m_current, oldest->number);
     m_events.erase(oldest);

@@ -41,8 +41,6 @@ enum class EventSeverity : std::uint8_t { Info, Warning, Error };
 
 enum class EventGroup : std::uint8_t { Sender, Loss, Content, Limit };
 
-[[nodiscard]] EventSeverity severityOf(EventKind kind);
-[[nodiscard]] EventGroup groupOf(EventKind kind);
 /// "source up", "gap" and so on.
 [[nodiscard]] std::string_view nameOf(EventKind kind);
 
@@ -68,8 +66,8 @@ struct Event {
     /// One that happened once, at one moment.
     [[nodiscard]] static Event of(EventKind kind, log::SenderId sender, log::Stamp stamp,
                                   std::uint64_t packet = 0);
-    [[nodiscard]] EventSeverity severity() const { return severityOf(kind); }
-    [[nodiscard]] EventGroup group() const { return groupOf(kind); }
+    [[nodiscard]] EventSeverity severity() const;
+    [[nodiscard]] EventGroup group() const;
     /// One line, without who and when.
     [[nodiscard]] std::string text() const;
 };

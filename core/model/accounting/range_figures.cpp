@@ -19,11 +19,6 @@ log::Stamp roundedUp(log::Stamp stamp, log::Duration unit) {
     return log::Stamp(roundedUp(stamp.time_since_epoch(), unit));
 }
 
-log::Stamp roundedDown(log::Stamp stamp, log::Duration unit) {
-    const log::Duration rest = stamp.time_since_epoch() % unit;
-    return stamp - (rest < log::Duration::zero() ? rest + unit : rest);
-}
-
 std::uint64_t unitsOf(const StreamCounts& counts) {
     return counts.samples + counts.incomplete != 0 ? counts.samples + counts.incomplete : counts.datagrams;
 }

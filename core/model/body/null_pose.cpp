@@ -10,23 +10,6 @@
 namespace posewire::model {
 namespace {
 
-constexpr std::size_t kMaxParts = 128; ///< what the 7-bit datagram index can tell apart
-
-bool isBeginning(std::size_t index, const wire::NullPose& part, const std::vector<bool>& present) {
-    return index == 0 && !part.segments.empty() &&
-           std::find(present.begin(), present.end(), true) != present.end();
-}
-
-std::vector<unsigned> missingOf(const std::vector<bool>& present) {
-    std::vector<unsigned> missing;
-    for (std::size_t i = 0; i < present.size(); ++i) {
-        if (!present[i]) {
-            missing.push_back(static_cast<unsigned>(i));
-        }
-    }
-    return missing;
-}
-
 log::Duration median(std::vector<log::Duration> values) {
     if (values.empty()) {
         return {};
@@ -57,7 +40,6 @@ bool isDifferentBody(const NullPose& a, const NullPose& b) {
 void NullPoseAssembler::begin(std::uint64_t packet, log::Stamp stamp) {
     const std::uint64_t message = m_arriving.message + 1;
     m_parts.clear();
-    m_present.clear();
     m_arriving = {};
     m_arriving.message = message;
     m_arriving.firstPacket = packet;
@@ -67,24 +49,25 @@ void NullPoseAssembler::begin(std::uint64_t packet, log::Stamp stamp) {
 void NullPoseAssembler::add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
                             log::Stamp stamp) {
     const std::size_t index = datagramCounter & 0x7fU;
-    if (index < m_parts.size() && m_present[index] && stamp - m_arriving.stamp < kDuplicate &&
-        m_parts[index] == part) {
+    if (index < m_parts.size() && m_parts[index] == part && stamp - m_arriving.stamp < kDuplicate) {
         return;
     }
-    if (m_arriving.message == 0 || isBeginning(index, part, m_present) || m_arriving.isComplete()) {
+    const bool isBeginning = index == 0 && !part.segments.empty() && m_arriving.partsReceived != 0;
+    if (m_arriving.message == 0 || isBeginning || m_arriving.isComplete()) {
         begin(packet, stamp);
     }
-    if (index >= m_parts.size() && index < kMaxParts) {
-        m_parts.resize(index + 1);
-        m_present.resize(index + 1);
-    }
+    m_parts.resize(std::max(m_parts.size(), index + 1));
     m_parts[index] = part;
-    m_present[index] = true;
     if ((datagramCounter & 0x80U) != 0) {
         m_arriving.partsExpected = static_cast<unsigned>(index + 1);
     }
-    m_arriving.partsReceived = static_cast<unsigned>(std::count(m_present.begin(), m_present.end(), true));
-    m_arriving.missingParts = missingOf(m_present);
+    m_arriving.missingParts.clear();
+    for (std::size_t place = 0; place < m_parts.size(); ++place) {
+        if (!m_parts[place]) {
+            m_arriving.missingParts.push_back(static_cast<unsigned>(place));
+        }
+    }
+    m_arriving.partsReceived = static_cast<unsigned>(m_parts.size() - m_arriving.missingParts.size());
     m_arriving.stamp = stamp;
     m_arriving.packet = packet;
     settle();
@@ -93,27 +76,25 @@ void NullPoseAssembler::add(const wire::NullPose& part, std::uint8_t datagramCou
 void NullPoseAssembler::settle() {
     m_arriving.segments.clear();
     m_arriving.points.clear();
-    for (const wire::NullPose& part : m_parts) {
-        for (const wire::NullPoseSegment& segment : part.segments) {
+    for (const auto& part : m_parts) {
+        if (!part) {
+            continue;
+        }
+        for (const wire::NullPoseSegment& segment : part->segments) {
             m_arriving.segments.push_back({segment.name, toVector(segment.position)});
         }
-        for (const wire::NullPosePoint& point : part.points) {
+        for (const wire::NullPosePoint& point : part->points) {
             m_arriving.points.push_back(
                 {point.segment, point.point, point.name, point.flags, toVector(point.position)});
         }
     }
     // A part that is lost must not keep the segments of a new performer from being used.
-    if (m_arriving.isComplete() || (!m_settled.isComplete() && !m_arriving.segments.empty()) ||
-        m_arriving.segments.size() != m_settled.segments.size() || hasMoved()) {
-        if (!m_arriving.segments.empty()) {
-            m_settled = m_arriving;
-        }
+    const bool isElsewhere =
+        !std::ranges::equal(m_arriving.segments, m_settled.segments,
+                            [](const auto& a, const auto& b) { return a.position == b.position; });
+    if (!m_arriving.segments.empty() && (m_arriving.isComplete() || !m_settled.isComplete() || isElsewhere)) {
+        m_settled = m_arriving;
     }
-}
-
-bool NullPoseAssembler::hasMoved() const {
-    return !std::equal(m_arriving.segments.begin(), m_arriving.segments.end(), m_settled.segments.begin(),
-                       [](const auto& a, const auto& b) { return a.position == b.position; });
 }
 
 const NullPose* NullPoseAssembler::newest() const {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,12 +69,10 @@ public:
 private:
     void begin(std::uint64_t packet, log::Stamp stamp);
     void settle();
-    [[nodiscard]] bool hasMoved() const;
 
     NullPose m_arriving;
     NullPose m_settled;
-    std::vector<wire::NullPose> m_parts;
-    std::vector<bool> m_present;
+    std::vector<std::optional<wire::NullPose>> m_parts; ///< by place
 };
 
 /// What was known of a character's null pose at one moment. Valid until the history grows.
