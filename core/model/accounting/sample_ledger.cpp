@@ -5,6 +5,16 @@
 #include <utility>
 
 namespace posewire::model {
+namespace {
+
+void addTotals(const SampleSequence& sequence, StreamCounts& counts) {
+    const auto totals = sequence.totals();
+    counts.samples += totals.samples;
+    counts.incomplete += totals.incomplete;
+    counts.lost += totals.lost;
+}
+
+} // namespace
 Placement SampleLedger::count(const Placement& placement, log::Stamp stamp, CountHistory* history) {
     const bool isDuplicate = placement.kind == Placement::Kind::Duplicate;
     const bool isLate = placement.isReordered && placement.late > kLateAfter;
@@ -13,11 +23,9 @@ Placement SampleLedger::count(const Placement& placement, log::Stamp stamp, Coun
         m_settled.reordered += placement.isReordered ? 1 : 0;
         m_settled.late += isLate ? 1 : 0;
         if (history != nullptr) {
-            CountHistory::Counters change;
-            change.duplicates = isDuplicate ? 1 : 0;
-            change.reordered = placement.isReordered ? 1 : 0;
-            change.late = isLate ? 1 : 0;
-            history->add(stamp, change);
+            history->add(stamp, {.duplicates = isDuplicate ? 1U : 0U,
+                                 .reordered = placement.isReordered ? 1U : 0U,
+                                 .late = isLate ? 1U : 0U});
         }
     }
     return placement;
@@ -52,10 +60,7 @@ void SampleLedger::restart(log::Stamp stamp, CountHistory* history) {
     if (!m_before.empty()) {
         // A straggler may have been the first sample of all.
         m_firstSample = m_settled.restarts == 1 ? m_before.first() : m_firstSample;
-        const auto totals = m_before.totals();
-        m_settled.samples += totals.samples;
-        m_settled.incomplete += totals.incomplete;
-        m_settled.lost += totals.lost;
+        addTotals(m_before, m_settled);
         m_longestGap = std::max(m_longestGap, m_before.longestGap());
         m_before.clear(history);
     }
@@ -66,9 +71,7 @@ void SampleLedger::restart(log::Stamp stamp, CountHistory* history) {
     m_restart = stamp;
     ++m_settled.restarts;
     if (history != nullptr) {
-        CountHistory::Counters change;
-        change.restarts = 1;
-        history->add(stamp, change);
+        history->add(stamp, {.restarts = 1});
     }
 }
 
@@ -76,10 +79,7 @@ StreamCounts SampleLedger::counts() const {
     StreamCounts counts = m_settled;
     counts.longestGapSamples = m_longestGap;
     for (const SampleSequence* sequence : {&m_before, &m_present}) {
-        const auto totals = sequence->totals();
-        counts.samples += totals.samples;
-        counts.incomplete += totals.incomplete;
-        counts.lost += totals.lost;
+        addTotals(*sequence, counts);
         if (!sequence->empty()) {
             counts.longestGapSamples = std::max(counts.longestGapSamples, sequence->longestGap());
         }

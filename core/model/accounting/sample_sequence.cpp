@@ -33,11 +33,9 @@ constexpr std::size_t kLeastOfRun = 8;
 
 void noteBurst(const std::optional<LossBursts::Burst>& burst, CountHistory* history) {
     if (burst && history != nullptr) {
-        CountHistory::Counters change;
-        change.bursts = 1;
-        change.burstLost = static_cast<std::uint32_t>(burst->lost);
-        change.burstSamples = static_cast<std::uint32_t>(burst->samples);
-        history->add(burst->end, change);
+        history->add(burst->end, {.bursts = 1,
+                                  .burstLost = static_cast<std::uint32_t>(burst->lost),
+                                  .burstSamples = static_cast<std::uint32_t>(burst->samples)});
     }
 }
 
@@ -166,11 +164,10 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
         m_pastLost = std::max<std::int64_t>(0, m_pastLost - 1);
     }
     if (history != nullptr) {
-        CountHistory::Counters change;
-        change.samples = isCompleting ? 1 : 0;
-        change.incomplete = static_cast<std::uint32_t>(incomplete);
-        change.lost = mayChangeLost ? static_cast<std::uint32_t>(lostNow() - lostBefore) : 0;
-        history->add(due, change);
+        const std::int64_t lost = mayChangeLost ? lostNow() - lostBefore : 0;
+        history->add(due, {.samples = isCompleting ? 1U : 0U,
+                           .lost = static_cast<std::uint32_t>(lost),
+                           .incomplete = static_cast<std::uint32_t>(incomplete)});
     }
     return placement;
 }
@@ -249,17 +246,15 @@ void SampleSequence::reconsiderStep(CountHistory* history) {
     }
     // What seemed lost, or did not, is corrected at the time when it seemed so.
     const LostByEntry after = lostAfter(first);
-    CountHistory::Counters correction;
     for (std::size_t i = 0; i < differences.size; ++i) {
         if (after[i] != before[i]) {
-            correction.lost = static_cast<std::uint32_t>(after[i] - before[i]);
-            rest -= after[i] - before[i];
-            history->add(dueStamp(first + 1 + i), correction);
+            const std::int64_t lost = after[i] - before[i];
+            rest -= lost;
+            history->add(dueStamp(first + 1 + i), {.lost = static_cast<std::uint32_t>(lost)});
         }
     }
     if (rest != 0) {
-        correction.lost = static_cast<std::uint32_t>(rest);
-        history->add(m_window.back().stamp, correction);
+        history->add(m_window.back().stamp, {.lost = static_cast<std::uint32_t>(rest)});
     }
 }
 

@@ -36,9 +36,7 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     m_lastStamp = packet.stamp;
     ++m_datagrams;
     m_bytes += packet.bytes.size();
-    CountHistory::Counters change;
-    change.datagrams = 1;
-    change.bytes = packet.bytes.size();
+    CountHistory::Counters change{.bytes = packet.bytes.size(), .datagrams = 1};
     if (m_countsSamples) {
         m_history.add(packet.stamp, change);
         takeSample({{packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
@@ -201,10 +199,8 @@ ClockFigures StreamAccounting::clock() const {
 }
 
 void StreamAccounting::addMalformed(log::Stamp stamp) {
-    CountHistory::Counters change;
-    change.malformed = 1;
     ++m_malformed;
-    m_history.add(stamp, change);
+    m_history.add(stamp, {.malformed = 1});
 }
 
 std::optional<std::uint32_t> StreamAccounting::arrivedBetween(std::uint32_t from, std::uint32_t to,

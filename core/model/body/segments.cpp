@@ -134,8 +134,8 @@ std::string_view segmentName(const SegmentLayout& layout, int position) {
     if (!place) {
         return {};
     }
-    static const auto kLeft = handNames("Left");
-    static const auto kRight = handNames("Right");
+    static const auto leftNames = handNames("Left");
+    static const auto rightNames = handNames("Right");
     const auto index = static_cast<std::size_t>(place->index);
     switch (place->kind) {
     case SegmentKind::Body:
@@ -143,9 +143,9 @@ std::string_view segmentName(const SegmentLayout& layout, int position) {
     case SegmentKind::Prop:
         return kPropNames[index];
     case SegmentKind::LeftFinger:
-        return kLeft[index];
+        return leftNames[index];
     case SegmentKind::RightFinger:
-        return kRight[index];
+        return rightNames[index];
     }
     return {};
 }

@@ -9,10 +9,8 @@
 namespace posewire::model {
 
 void Sender::takeMalformed(log::Stamp stamp) {
-    CountHistory::Counters change;
-    change.malformed = 1;
     ++malformed;
-    history.add(stamp, change);
+    history.add(stamp, {.malformed = 1});
 }
 
 void Sender::takeForeign(wire::Bytes datagram) {
