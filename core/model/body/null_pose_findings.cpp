@@ -258,7 +258,7 @@ void findAboutScale(const NullPoseEvidence& evidence, Findings& findings) {
 std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence) {
     Findings findings;
     findAboutParts(evidence, findings);
-    if (const NullPose* pose = evidence.record.pose) {
+    if (evidence.record.pose != nullptr) {
         findAboutNames(evidence, findings);
         findInShape(evidence.record, findings);
     }
