@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/ingest.h"
 
+#include "core/model/accounting/attribution.h"
+#include "core/model/accounting/event_follower.h"
 #include "core/model/body/null_pose.h"
 #include "core/wire/type_table.h"
 
@@ -43,7 +45,17 @@ auto* itemAt(const Places& places, const typename Places::key_type& key, Items& 
 
 } // namespace
 
-Ingest::Ingest(const log::PacketLog& log) : m_log(log), m_reader(log) {}
+Ingest::Ingest(const log::PacketLog& log)
+    : m_log(log),
+      m_reader(log),
+      m_attribution(std::make_unique<Attribution>(m_streams)),
+      m_follower(std::make_unique<EventFollower>()) {}
+
+Ingest::~Ingest() = default;
+
+void Ingest::setThresholds(const Thresholds& thresholds) {
+    m_follower->setThresholds(thresholds);
+}
 
 bool Ingest::follow(log::Stamp now, std::size_t most) {
     m_now = now;
@@ -62,7 +74,7 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
         m_isLive = newest && now - newest->stamp < kLive && newest->stamp - now < kLive;
     }
     if (m_isLive && to == m_reader.end()) {
-        m_follower.advance(now);
+        m_follower->advance(now);
     }
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
@@ -76,7 +88,7 @@ void Ingest::followFile() {
     }
     m_now = now;
     m_isLive = false;
-    m_follower.endFile();
+    m_follower->endFile();
 }
 
 void Ingest::take(const log::Packet& packet) {
@@ -124,12 +136,12 @@ void Ingest::countPacket(const Observation& seen) {
     sender.kernelDrops += seen.packet.kernelDropsBefore;
     sender.bytes += seen.packet.bytes.size();
     sender.datagrams += seen.digest.kind == PacketKind::Skipped ? 0 : 1;
-    m_follower.takePacket(seen.packet, seen.digest, m_streams);
+    m_follower->takePacket(seen.packet, seen.digest, m_streams);
 }
 
 void Ingest::judgeGaps(const Observation& seen) {
-    for (const Gap& gap : m_attribution.takePacket(seen.packet, seen.sender->info.localPort)) {
-        m_follower.takeGap(gap);
+    for (const Gap& gap : m_attribution->takePacket(seen.packet, seen.sender->info.localPort)) {
+        m_follower->takeGap(gap);
     }
 }
 
@@ -141,7 +153,7 @@ void Ingest::countFaulty(const Observation& seen) {
     case PacketKind::Malformed:
         sender.takeMalformed(seen.packet.stamp);
         if (seen.header) {
-            m_attribution.takeMalformed(seen.packet, *seen.header);
+            m_attribution->takeMalformed(seen.packet, *seen.header);
         }
         if (seen.stream) {
             m_streams[*seen.stream].accounting.addMalformed(seen.packet.stamp);
@@ -174,7 +186,7 @@ bool Ingest::takeHeader(Observation& seen) {
     }
     m_index.add(packet, header);
     m_streams[*seen.stream].statistics.add(packet.stamp, header.datagramIndex() == 0);
-    m_follower.takeDatagram(packet, header);
+    m_follower->takeDatagram(packet, header);
     seen.character->lastStamp = packet.stamp;
     seen.character->lastPacket = packet.number;
     return true;
@@ -183,15 +195,15 @@ bool Ingest::takeHeader(Observation& seen) {
 void Ingest::account(Observation& seen) {
     const log::Packet& packet = seen.packet;
     if (countsSamples(seen.digest.type)) {
-        m_attribution.takeSampled(packet.sender, packet.stamp);
+        m_attribution->takeSampled(packet.sender, packet.stamp);
     }
     Stream& stream = m_streams[*seen.stream];
     for (const Verdict& verdict : addToStream(packet, *seen.header, stream.accounting, seen.digest)) {
         if (verdict.packet != packet.number) {
             m_digests.amend(verdict);
         }
-        m_attribution.takeVerdict(*seen.stream, verdict);
-        m_follower.takeVerdict(stream.key, verdict);
+        m_attribution->takeVerdict(*seen.stream, verdict);
+        m_follower->takeVerdict(stream.key, verdict);
     }
 }
 
@@ -201,7 +213,7 @@ void Ingest::takeContent(const Observation& seen) {
         Metadata& metadata = seen.character->metadata;
         metadata.add(*message, packet.number, packet.stamp);
         if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
-            m_follower.takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
+            m_follower->takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
         }
     } else if (const auto* part = std::get_if<wire::NullPose>(&seen.datagram->body)) {
         takeNullPose(*part, seen);
@@ -219,7 +231,7 @@ void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     history.add(part, seen.header->datagramCounter, packet.number, packet.stamp);
     const NullPoseRecord record = history.record(packet.number);
     if (record.before != nullptr && record.changed != changed) {
-        m_follower.takeChange(EventKind::ScaleChange, seen.character->key, packet, {});
+        m_follower->takeChange(EventKind::ScaleChange, seen.character->key, packet, {});
     }
 }
 
@@ -272,7 +284,7 @@ std::optional<std::size_t> Ingest::addStream(const log::StreamKey& key, const Se
     m_streamPlaces.emplace(key, place);
     m_streams.emplace_back(key);
     m_newest.emplace_back();
-    m_attribution.addStream(place, sender.info);
+    m_attribution->addStream(place, sender.info);
     return place;
 }
 

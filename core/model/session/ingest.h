@@ -4,8 +4,6 @@
 #include "core/log/packet_log.h"
 #include "core/log/stream_index.h"
 #include "core/log/time.h"
-#include "core/model/accounting/attribution.h"
-#include "core/model/accounting/event_follower.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/session/sender.h"
@@ -18,7 +16,10 @@
 
 namespace posewire::model {
 
+class Attribution;
+class EventFollower;
 class NullPoseHistory;
+struct Thresholds;
 
 /// A complete message, decoded. Items of a sample that came in several datagrams are joined.
 struct Message {
@@ -38,13 +39,14 @@ struct Message {
 class Ingest {
 public:
     explicit Ingest(const log::PacketLog& log);
+    ~Ingest();
 
     /// Reads at most `most` new packets; true if there were any.
     bool follow(log::Stamp now, std::size_t most);
     /// Reads all new packets as those of a file that has ended: nobody in it is expected to send on.
     void followFile();
 
-    void setThresholds(const Thresholds& thresholds) { m_follower.setThresholds(thresholds); }
+    void setThresholds(const Thresholds& thresholds);
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
 
     [[nodiscard]] const std::deque<Sender>& senders() const { return m_senders; }
@@ -58,8 +60,8 @@ public:
     /// The newest datagram of a stream as it was decoded; null where it was malformed or is of no known type.
     [[nodiscard]] const Message* newest(const log::StreamKey& key) const;
 
-    [[nodiscard]] const EventFollower& follower() const { return m_follower; }
-    [[nodiscard]] const Attribution& attribution() const { return m_attribution; }
+    [[nodiscard]] const EventFollower& follower() const { return *m_follower; }
+    [[nodiscard]] const Attribution& attribution() const { return *m_attribution; }
     [[nodiscard]] const PacketDigests& digests() const { return m_digests; }
     [[nodiscard]] const log::StreamIndex& index() const { return m_index; }
     [[nodiscard]] const log::PacketLog& log() const { return m_log; }
@@ -115,8 +117,8 @@ private:
     std::deque<Message> m_newest; ///< of each stream: what its datagrams are decoded into
     Message m_unplaced;           ///< the same for a datagram whose stream is not known yet
     std::map<CharacterKey, std::shared_ptr<NullPoseHistory>> m_nullPoses;
-    Attribution m_attribution{m_streams};
-    EventFollower m_follower;
+    std::unique_ptr<Attribution> m_attribution;
+    std::unique_ptr<EventFollower> m_follower;
     bool m_isLive = false; ///< packets have come as they were stamped
     std::map<CharacterKey, std::size_t> m_characterPlaces;
     std::unordered_map<log::StreamKey, std::size_t> m_streamPlaces;

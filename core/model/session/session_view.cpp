@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/session_view.h"
 
+#include "core/model/accounting/attribution.h"
+#include "core/model/accounting/event_follower.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
@@ -48,6 +50,22 @@ SessionView::SessionView(Ingest& ingest, const Choices& choices)
     : m_ingest(ingest), m_choices(choices), m_decoded(std::make_unique<Decoded>()) {}
 
 SessionView::~SessionView() = default;
+
+const Events& SessionView::events() const {
+    return m_ingest.follower().events();
+}
+
+const Thresholds& SessionView::thresholds() const {
+    return m_ingest.follower().thresholds();
+}
+
+const std::deque<Gap>& SessionView::gaps() const {
+    return m_ingest.attribution().gaps();
+}
+
+const Gap* SessionView::gapEndedBy(std::uint64_t packet) const {
+    return m_ingest.attribution().endedBy(packet);
+}
 
 StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
     StreamCounts sum;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/model/accounting/events.h"
 #include "core/model/session/choices.h"
 #include "core/model/session/ingest.h"
 
@@ -15,14 +16,16 @@ namespace posewire::model {
 
 struct BodyOrigins;
 struct CharacterPose;
+struct Gap;
 struct NullPose;
 struct NullPoseEvidence;
+struct Thresholds;
 
 /// The session as panels, exports and the viewport read it: what was received, at the operator's cursor, and
 /// what the operator chose. It changes nothing but its own memory of what it decoded. One thread.
 ///
-/// Poses and bodies are declared here and defined in headers of their own, which only those include who look
-/// into them: body/character_pose.h, body/null_pose.h, body/null_pose_findings.h, body/reference_body.h.
+/// Poses, bodies and gaps are declared here and defined in headers of their own, which only those
+/// include who look into them.
 class SessionView {
 public:
     SessionView(const SessionView&) = delete;
@@ -40,14 +43,12 @@ public:
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
 
     /// What happened, in the time of the log; with conditions that last.
-    [[nodiscard]] const Events& events() const { return m_ingest.follower().events(); }
-    [[nodiscard]] const Thresholds& thresholds() const { return m_ingest.follower().thresholds(); }
+    [[nodiscard]] const Events& events() const;
+    [[nodiscard]] const Thresholds& thresholds() const;
     /// Every gap in a stream with whose loss it was; the newest ones, oldest first.
-    [[nodiscard]] const std::deque<Gap>& gaps() const { return m_ingest.attribution().gaps(); }
+    [[nodiscard]] const std::deque<Gap>& gaps() const;
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
-    [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const {
-        return m_ingest.attribution().endedBy(packet);
-    }
+    [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const;
     /// One for every packet from begin() to end().
     [[nodiscard]] const PacketDigests& digests() const { return m_ingest.digests(); }
 

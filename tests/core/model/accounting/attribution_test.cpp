@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/accounting/attribution.h"
 #include "tests/core/model/session/session_fixture.h"
 
 namespace posewire::model {
