@@ -4,7 +4,7 @@
 #include "app/cli/input.h"
 #include "app/cli/record_filter.h"
 #include "core/export/json.h"
-#include "core/log/raw_file.h"
+#include "core/log/recording_file.h"
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
@@ -31,7 +31,7 @@ public:
         if (!m_out.isWanted()) {
             return;
         }
-        if (record.isSkipped) {
+        if (record.flags.skipped) {
             skip(record);
             return;
         }
@@ -54,7 +54,9 @@ public:
             return;
         }
         const exporting::DatagramPlace place{m_index++, m_skippedFrom, std::nullopt, std::nullopt};
-        if (m_filter && !m_filter->matches({m_skippedFrom, m_firstSkipped, true, {}, {}}, place.index)) {
+        if (m_filter &&
+            !m_filter->matches({.offset = m_skippedFrom, .bytes = m_firstSkipped, .flags = {.skipped = true}},
+                               place.index)) {
             return;
         }
         m_out.write(m_asJson

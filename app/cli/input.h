@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/log/byte_source.h"
+#include "core/log/byte_io.h"
 
 #include <iostream>
 

@@ -2,8 +2,8 @@
 #include "app/cli/datagram_pacer.h"
 #include "app/cli/input.h"
 #include "app/cli/monitor_run.h"
-#include "core/log/raw_file.h"
-#include "core/log/recorder.h"
+#include "core/log/recording_file.h"
+#include "core/log/recording.h"
 
 #include <filesystem>
 

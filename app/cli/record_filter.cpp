@@ -20,12 +20,12 @@ bool RecordFilter::matches(const log::FileRecord& record, std::uint64_t index) {
     packet.number = index;
     packet.bytes = record.bytes;
     packet.stamp = record.stamp.value_or(log::Stamp());
-    packet.flags = log::arrivalOf(record, {}, {}).flags;
+    packet.flags = record.flags;
     packet.kernelDropsBefore = record.kernelDropsBefore;
     packet.sender = m_senders.intern(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
     m_firstStamp = m_firstStamp.value_or(packet.stamp);
     const auto decoded =
-        record.isSkipped ? tl::unexpected(wire::WireError{}) : wire::decodeInto(record.bytes, m_datagram);
+        record.flags.skipped ? tl::unexpected(wire::WireError{}) : wire::decodeInto(record.bytes, m_datagram);
     const wire::Datagram* datagram = decoded ? &m_datagram : nullptr;
     const model::PacketDigest digest = m_digester.add(packet, datagram);
     return m_filter.matches({packet, digest, datagram,

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/filter/filter.h"
-#include "core/log/raw_file.h"
+#include "core/log/recording_file.h"
 #include "core/log/sender_table.h"
 #include "core/log/time.h"
 

@@ -3,7 +3,7 @@
 #include "app/cli/input.h"
 #include "app/cli/send_options.h"
 #include "app/net/send_schedule.h"
-#include "core/log/raw_file.h"
+#include "core/log/recording_file.h"
 
 namespace posewire::cli {
 namespace {
@@ -23,7 +23,7 @@ public:
         if (m_isDone) {
             return;
         }
-        if (record.isSkipped) {
+        if (record.flags.skipped) {
             m_skipped += record.bytes.size();
             return;
         }

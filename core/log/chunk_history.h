@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/chunk.h"
+#include "core/log/packet.h"
+#include "core/log/time.h"
 
 #include <atomic>
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -13,6 +15,91 @@
 #include <vector>
 
 namespace posewire::log {
+
+/// What the log keeps of a packet besides its bytes.
+struct Record {
+    const std::byte* data;
+    Stamp stamp;
+    std::uint32_t size;
+    SenderId sender;
+    std::uint32_t kernelDropsBefore;
+    PacketFlags flags;
+};
+static_assert(sizeof(Record) == 32);
+
+/// One piece of memory of the log: records grow from its front, packet bytes from its back, until they meet,
+/// so that it is used up alike by many small and by few large packets. The writer fills it; readers see
+/// records once published.
+class Chunk {
+public:
+    /// Aligned like the pages that Linux may back it with: a chunk of 8 MiB then costs four page faults and
+    /// not 2,048.
+    static constexpr std::size_t kAlignment = std::size_t{2} << 20;
+
+    explicit Chunk(std::size_t size);
+    ~Chunk();
+    Chunk(const Chunk&) = delete;
+    Chunk& operator=(const Chunk&) = delete;
+
+    /// Makes the system provide all of the memory now. The first touch of fresh memory costs more than
+    /// everything else that is done with a packet.
+    void touch();
+
+    /// Forgets everything; the memory stays.
+    void clear() {
+        m_recordCount = 0;
+        m_bytesBegin = m_size;
+    }
+
+    [[nodiscard]] std::size_t room() const { return m_bytesBegin - m_recordCount * sizeof(Record); }
+
+    /// `size` bytes, 8-byte aligned. The caller has made sure of the room.
+    [[nodiscard]] std::byte* take(std::size_t size) { return m_memory + (m_bytesBegin -= size); }
+
+    void addRecord(const Record& record);
+
+    [[nodiscard]] const Record& record(std::size_t index) const {
+        return *reinterpret_cast<const Record*>(m_memory + index * sizeof(Record));
+    }
+
+private:
+    std::byte* m_memory;
+    std::size_t m_size;
+    std::size_t m_recordCount = 0;
+    std::size_t m_bytesBegin;
+};
+
+/// Chunks that nobody holds any more, to be used again: memory stays flat, and its pages are there already.
+/// While it still grows a thread gets the next chunk ready. Safe from any thread; a chunk may come back from
+/// a reader's.
+class ChunkPool : public std::enable_shared_from_this<ChunkPool> {
+public:
+    /// Makes no more than `limit` chunks, as long as readers do not hold on to old ones.
+    ChunkPool(std::size_t chunkSize, std::size_t limit) : m_chunkSize(chunkSize), m_limit(limit) {}
+
+    /// An empty chunk, used or made ready before where there is one; comes back by itself with its last
+    /// owner.
+    [[nodiscard]] std::shared_ptr<Chunk> take();
+
+    /// What the thread does: has a spare chunk ready whenever the last one was taken. Returns after close().
+    void keepReady();
+    void close();
+
+    /// Chunks that exist: in the log, held by readers, spare.
+    [[nodiscard]] std::size_t existing() const;
+
+private:
+    void give(std::unique_ptr<Chunk> chunk);
+
+    const std::size_t m_chunkSize;
+    const std::size_t m_limit;
+    mutable std::mutex m_mutex; ///< guards all that follows
+    std::condition_variable m_changed;
+    std::vector<std::unique_ptr<Chunk>> m_spare;
+    std::size_t m_existing = 0;
+    bool m_isMakingSpare = false;
+    bool m_isClosed = false;
+};
 
 struct LogLimits {
     std::size_t memoryCap = std::size_t{512} << 20; ///< bytes; at least two chunks are kept whatever it says

@@ -3,8 +3,6 @@
 
 #include "core/log/time.h"
 
-#include <atomic>
-
 namespace posewire::log {
 
 /// The only way to the time. Both calls are safe from any thread.
@@ -20,27 +18,12 @@ public:
 
 class SystemClock final : public Clock {
 public:
-    [[nodiscard]] Stamp wall() const override;
-    [[nodiscard]] Moment monotonic() const override;
-};
-
-/// Stands still until it is moved.
-class ManualClock final : public Clock {
-public:
-    explicit ManualClock(Stamp wall = {}, Moment monotonic = {}) : m_wall(wall), m_monotonic(monotonic) {}
-
-    void advance(Duration duration) {
-        m_wall = m_wall.load() + duration;
-        m_monotonic = m_monotonic.load() + duration;
+    [[nodiscard]] Stamp wall() const override {
+        return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
     }
-    void setWall(Stamp wall) { m_wall = wall; }
-
-    [[nodiscard]] Stamp wall() const override { return m_wall; }
-    [[nodiscard]] Moment monotonic() const override { return m_monotonic; }
-
-private:
-    std::atomic<Stamp> m_wall;
-    std::atomic<Moment> m_monotonic;
+    [[nodiscard]] Moment monotonic() const override {
+        return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
+    }
 };
 
 } // namespace posewire::log

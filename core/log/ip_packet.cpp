@@ -20,17 +20,12 @@ std::uint16_t wordAt(Frame frame, std::size_t place) {
     return wire::load16(frame.data() + place);
 }
 
-/// Where the network layer begins.
-struct Network {
-    std::size_t offset;
-};
-
-/// Follows the EtherType at `place`, over VLAN tags.
-std::optional<Network> afterEtherType(Frame frame, std::size_t place) {
+/// Where the network layer begins: after the EtherType at `place`, over VLAN tags.
+std::optional<std::size_t> afterEtherType(Frame frame, std::size_t place) {
     while (frame.size() >= place + 2) {
         const std::uint16_t type = wordAt(frame, place);
         if (type == kIpv4 || type == kIpv6) {
-            return Network{place + 2};
+            return place + 2;
         }
         if (type != 0x8100 && type != 0x88a8) {
             return std::nullopt;
@@ -40,12 +35,12 @@ std::optional<Network> afterEtherType(Frame frame, std::size_t place) {
     return std::nullopt;
 }
 
-/// LINKTYPE_ values as registered for pcap and pcapng.
-std::optional<Network> networkOf(std::uint32_t linkType, Frame frame) {
+/// Where the network layer begins, by LINKTYPE_ values as registered for pcap and pcapng.
+std::optional<std::size_t> networkOf(std::uint32_t linkType, Frame frame) {
     switch (linkType) {
     case 0:   // BSD loopback: an address family of four bytes; the version of IP says the rest
     case 108: // OpenBSD loopback
-        return Network{4};
+        return 4;
     case 1: // Ethernet
         return afterEtherType(frame, 12);
     case 12: // raw IP, by three numbers
@@ -53,57 +48,16 @@ std::optional<Network> networkOf(std::uint32_t linkType, Frame frame) {
     case 101:
     case 228: // IPv4
     case 229: // IPv6
-        return Network{0};
+        return 0;
     case 113: // Linux cooked
         return afterEtherType(frame, 14);
     case 276: // Linux cooked, version 2
         return frame.size() >= 20 && (wordAt(frame, 0) == kIpv4 || wordAt(frame, 0) == kIpv6)
-                   ? std::optional(Network{20})
+                   ? std::optional<std::size_t>(20)
                    : std::nullopt;
     default:
         return std::nullopt;
     }
-}
-
-std::string ipv4Text(Frame address) {
-    std::string text = std::to_string(byteAt(address, 0));
-    for (std::size_t i = 1; i < 4; ++i) {
-        text.append(1, '.').append(std::to_string(byteAt(address, i)));
-    }
-    return text;
-}
-
-/// RFC 5952: small letters, the longest run of two or more zero groups left out.
-std::string bracedIpv6Text(Frame address) {
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::size_t longestStart = 8;
-    std::size_t longest = 1;
-    for (std::size_t i = 0; i < 8; ++i) {
-        std::size_t end = i;
-        while (end < 8 && wordAt(address, 2 * end) == 0) {
-            ++end;
-        }
-        if (end - i > longest) {
-            longest = end - i;
-            longestStart = i;
-        }
-    }
-    std::string text = "[";
-    for (std::size_t i = 0; i < 8; ++i) {
-        if (i == longestStart) {
-            text += "::";
-            i += longest - 1;
-            continue;
-        }
-        text += text.size() == 1 || text.back() == ':' ? "" : ":";
-        const unsigned group = wordAt(address, 2 * i);
-        for (int shift = 12; shift >= 0; shift -= 4) {
-            if (shift == 0 || group >> shift != 0) {
-                text += digits[group >> shift & 15U];
-            }
-        }
-    }
-    return text + ']';
 }
 
 IpAddress addressAt(Frame packet, std::size_t place, bool isIpv6) {
@@ -126,14 +80,16 @@ std::optional<IpPacket> throughIpv4(Frame frame, std::size_t start) {
     // A total size of 0 is what a card leaves there that cuts the packet itself.
     const std::size_t size = totalSize >= headerSize ? std::min(totalSize, packet.size()) : packet.size();
     const unsigned flags = wordAt(packet, 6);
-    return IpPacket{addressAt(packet, 12, false),
-                    addressAt(packet, 16, false),
-                    byteAt(packet, 9),
-                    start + headerSize,
-                    packet.subspan(headerSize, size - headerSize),
-                    wordAt(packet, 4),
-                    (flags & 0x1fffU) * 8,
-                    (flags & 0x2000U) != 0};
+    IpPacket found;
+    found.sender = addressAt(packet, 12, false);
+    found.target = addressAt(packet, 16, false);
+    found.protocol = byteAt(packet, 9);
+    found.offset = start + headerSize;
+    found.bytes = packet.subspan(headerSize, size - headerSize);
+    found.identity = wordAt(packet, 4);
+    found.fragmentOffset = (flags & 0x1fffU) * 8;
+    found.hasMoreFragments = (flags & 0x2000U) != 0;
+    return found;
 }
 
 std::optional<IpPacket> throughIpv6(Frame frame, std::size_t start) {
@@ -171,25 +127,159 @@ std::optional<IpPacket> throughIpv6(Frame frame, std::size_t start) {
     return found;
 }
 
-} // namespace
+constexpr std::size_t kUdpHeader = 8;
+constexpr std::size_t kLongest = 0xffff;
 
-std::string addressText(const IpAddress& address) {
-    return address.isIpv6 ? bracedIpv6Text(address.bytes) : ipv4Text(address.bytes);
+/// Appends a number in network order.
+void append(std::vector<std::byte>& out, std::size_t value, int size) {
+    for (int shift = 8 * (size - 1); shift >= 0; shift -= 8) {
+        out.push_back(static_cast<std::byte>(value >> shift & 0xffU));
+    }
 }
 
-std::optional<IpPacket> ipPacketOf(std::uint32_t linkType, Frame frame) {
-    const auto network = networkOf(linkType, frame);
-    if (!network || frame.size() <= network->offset) {
+void append(std::vector<std::byte>& out, const IpAddress& address) {
+    out.insert(out.end(), address.bytes.begin(), address.bytes.begin() + (address.isIpv6 ? 16 : 4));
+}
+
+/// The sum of 16-bit words that a checksum is made of; an odd last byte counts as if a zero followed.
+std::uint64_t sumOf(Frame bytes) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+        sum += wordAt(bytes, i);
+    }
+    return bytes.size() % 2 != 0 ? sum + (std::uint64_t{byteAt(bytes, bytes.size() - 1)} << 8) : sum;
+}
+
+/// RFC 1071.
+std::uint16_t checksumOf(std::uint64_t sum) {
+    while (sum >> 16 != 0) {
+        sum = (sum >> 16) + (sum & 0xffffU);
+    }
+    return static_cast<std::uint16_t>(~sum);
+}
+
+void appendIpv4(std::vector<std::byte>& out, const IpAddress& sender, const IpAddress& target,
+                std::size_t size) {
+    constexpr std::size_t headerSize = 20;
+    const std::size_t start = out.size();
+    append(out, 0x4500, 2);
+    append(out, headerSize + size, 2);
+    append(out, 0x4000, 4); // one piece
+    append(out, 64, 1);
+    append(out, kUdp, 1);
+    append(out, 0, 2);
+    append(out, sender);
+    append(out, target);
+    wire::store16(out.data() + start + 10, checksumOf(sumOf(std::span(out).subspan(start))));
+}
+
+void appendIpv6(std::vector<std::byte>& out, const IpAddress& sender, const IpAddress& target,
+                std::size_t size) {
+    constexpr unsigned hopByHop = 0;
+    const bool isJumbo = size > kLongest;
+    append(out, 0x60000000, 4);
+    append(out, isJumbo ? 0 : size, 2);
+    append(out, isJumbo ? hopByHop : kUdp, 1);
+    append(out, 64, 1);
+    append(out, sender);
+    append(out, target);
+    if (isJumbo) {
+        append(out, std::size_t{kUdp} << 8, 2);
+        append(out, 0xc204, 2);
+        append(out, kUdpHeader + size, 4);
+    }
+}
+
+void appendUdp(std::vector<std::byte>& out, const IpEndpoint& sender, const IpEndpoint& target,
+               std::span<const std::byte> payload) {
+    const std::size_t start = out.size();
+    const std::size_t size = kUdpHeader + payload.size();
+    append(out, sender.port, 2);
+    append(out, target.port, 2);
+    append(out, size > kLongest ? 0 : size, 2);
+    append(out, 0, 2);
+    out.insert(out.end(), payload.begin(), payload.end());
+    // Of an IPv4 address the rest is zeros.
+    const std::uint64_t pseudoHeader =
+        sumOf(sender.address.bytes) + sumOf(target.address.bytes) + kUdp + (size >> 16) + (size & 0xffffU);
+    const std::uint16_t value = checksumOf(pseudoHeader + sumOf(std::span(out).subspan(start)));
+    wire::store16(out.data() + start + 6, value != 0 ? value : std::uint16_t{0xffff});
+}
+
+IpEndpoint mapped(const IpEndpoint& endpoint) {
+    IpEndpoint result{{{}, true}, endpoint.port};
+    result.address.bytes[10] = result.address.bytes[11] = std::byte{0xff};
+    std::copy_n(endpoint.address.bytes.begin(), 4, result.address.bytes.begin() + 12);
+    return result;
+}
+
+} // namespace
+
+std::optional<IpPacket> ipPacketOf(const CapturedFrame& frame) {
+    const auto start = networkOf(frame.linkType, frame.bytes);
+    if (!start || frame.bytes.size() <= *start) {
         return std::nullopt;
     }
-    switch (byteAt(frame, network->offset) >> 4) {
-    case 4:
-        return throughIpv4(frame, network->offset);
-    case 6:
-        return throughIpv6(frame, network->offset);
-    default:
+    const unsigned version = byteAt(frame.bytes, *start) >> 4;
+    std::optional<IpPacket> packet;
+    if (version == 4) {
+        packet = throughIpv4(frame.bytes, *start);
+    } else if (version == 6) {
+        packet = throughIpv6(frame.bytes, *start);
+    }
+    if (packet) {
+        packet->offset += frame.offset;
+        packet->stamp = frame.stamp;
+    }
+    return packet;
+}
+
+std::optional<UdpPayload> udpPayloadOf(const IpPacket& packet) {
+    if (packet.protocol != kUdp || packet.bytes.size() < kUdpHeader) {
         return std::nullopt;
     }
+    // A size of 0 is what a card leaves there that cuts the packet itself, as in the header of IP.
+    const std::size_t announced = wordAt(packet.bytes, 4);
+    const std::size_t size =
+        announced >= kUdpHeader ? std::min(announced, packet.bytes.size()) : packet.bytes.size();
+    return UdpPayload{packet.offset + kUdpHeader, packet.bytes.subspan(kUdpHeader, size - kUdpHeader),
+                      wordAt(packet.bytes, 0), wordAt(packet.bytes, 2)};
+}
+
+std::optional<TcpSegment> tcpSegmentOf(const IpPacket& packet) {
+    constexpr std::size_t shortest = 20;
+    if (packet.bytes.size() < shortest) {
+        return std::nullopt;
+    }
+    const unsigned flags = byteAt(packet.bytes, 13);
+    const std::size_t size = (std::size_t{byteAt(packet.bytes, 12)} >> 4) * 4;
+    if (size < shortest || size > packet.bytes.size()) {
+        return std::nullopt;
+    }
+    const bool begins = (flags & 2U) != 0;
+    return TcpSegment{wordAt(packet.bytes, 0),
+                      wordAt(packet.bytes, 2),
+                      wire::load32(packet.bytes.data() + 4) + (begins ? 1U : 0U),
+                      packet.bytes.subspan(size),
+                      packet.offset + size,
+                      packet.stamp,
+                      begins,
+                      (flags & 5U) != 0};
+}
+
+void appendUdpFrame(std::vector<std::byte>& out, const IpEndpoint& sender, const IpEndpoint& target,
+                    std::span<const std::byte> payload) {
+    const std::size_t size = kUdpHeader + payload.size();
+    constexpr std::size_t ipv4Header = 20;
+    if (sender.address.isIpv6) {
+        appendIpv6(out, sender.address, target.address, size);
+    } else if (size + ipv4Header <= kLongest) {
+        appendIpv4(out, sender.address, target.address, size);
+    } else {
+        appendUdpFrame(out, mapped(sender), mapped(target), payload);
+        return;
+    }
+    appendUdp(out, sender, target, payload);
 }
 
 } // namespace posewire::log

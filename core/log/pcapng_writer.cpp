@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/pcapng_writer.h"
 
-#include "core/log/pcapng_block.h"
-#include "core/log/recorded_origin.h"
-#include "core/log/udp_frame.h"
+#include "core/log/ip_packet.h"
+#include "core/log/pcapng_format.h"
 #include "core/wire/header.h"
 
 #include <algorithm>
@@ -15,7 +14,73 @@ namespace {
 constexpr std::size_t kLongestText = 65'000; ///< the length of an option has 16 bits
 constexpr std::uint16_t kRawIp = 101;        ///< LINKTYPE_RAW
 
-/// At most so much of a text, cut between characters of UTF-8.
+/// Builds one block in a buffer that is used again and again; little-endian.
+class PcapngBlock {
+public:
+    /// Begins the block; `buffer` is cleared.
+    PcapngBlock(std::vector<std::byte>& buffer, PcapngBlockType type) : m_buffer(buffer) {
+        m_buffer.clear();
+        number(static_cast<std::uint32_t>(type), 4);
+        number(0, 4); // the length, once it is known
+    }
+
+    void number(std::uint64_t value, std::size_t size) {
+        for (std::size_t i = 0; i < size; ++i) {
+            m_buffer.push_back(static_cast<std::byte>(value >> 8 * i & 0xffU));
+        }
+    }
+    /// A stamp, or any number of 64 bits of which the upper half comes first.
+    void halves(std::uint64_t value) {
+        number(value >> 32, 4);
+        number(value & 0xffffffffU, 4);
+    }
+    /// Followed by what is missing to a multiple of four bytes.
+    void padded(std::span<const std::byte> bytes) {
+        m_buffer.insert(m_buffer.end(), bytes.begin(), bytes.end());
+        m_buffer.resize((m_buffer.size() + 3) / 4 * 4);
+    }
+
+    void option(PcapngOption code, std::span<const std::byte> bytes) {
+        beginOption(code, bytes.size());
+        padded(bytes);
+    }
+    /// Nothing where `text` is empty.
+    void option(PcapngOption code, std::string_view text) {
+        if (!text.empty()) {
+            option(code, std::as_bytes(std::span(text)));
+        }
+    }
+    void option(PcapngOption code, std::uint64_t value) {
+        beginOption(code, 8);
+        number(value, 8);
+    }
+    void halvesOption(PcapngOption code, std::uint64_t value) {
+        beginOption(code, 8);
+        halves(value);
+    }
+
+    /// Ends the list of options, if there were any, and the block.
+    void finish() {
+        if (m_hasOptions) {
+            number(0, 4);
+        }
+        const std::size_t length = m_buffer.size() + 4;
+        number(length, 4);
+        std::copy(m_buffer.end() - 4, m_buffer.end(), m_buffer.begin() + 4);
+    }
+
+private:
+    void beginOption(PcapngOption code, std::size_t size) {
+        m_hasOptions = true;
+        number(static_cast<std::uint16_t>(code), 2);
+        number(size, 2);
+    }
+
+    std::vector<std::byte>& m_buffer;
+    bool m_hasOptions = false;
+};
+
+/// At most kLongestText bytes of a text, cut between characters of UTF-8.
 std::string_view clipped(std::string_view text) {
     std::size_t most = kLongestText;
     if (text.size() <= most) {
@@ -46,16 +111,11 @@ Ends endsOf(const SenderInfo& info) {
     return ends;
 }
 
-/// Whether headers alone would give back the packet.
-bool isPlain(const RecordedOrigin& origin, const Packet& packet) {
-    return origin == RecordedOrigin{} && wire::startsWithMagic(packet.bytes);
-}
-
 RecordedOrigin originOf(const Packet& packet, const SenderInfo& sender, const Ends& ends) {
     constexpr std::size_t ipv4Most = 65'507;
     const bool isMapped = !ends.sender.address.isIpv6 && packet.bytes.size() > ipv4Most;
-    const bool isTold = !isMapped && endpointText(ends.sender) == sender.address;
-    return {sender.transport, packet.flags, isTold ? std::nullopt : std::optional(sender.address)};
+    const bool isInHeaders = !isMapped && endpointText(ends.sender) == sender.address;
+    return {sender.transport, packet.flags, isInHeaders ? std::nullopt : std::optional(sender.address)};
 }
 
 } // namespace
@@ -101,7 +161,8 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     const RecordedOrigin origin = originOf(packet, sender, ends);
     const bool isMistakable =
         std::ranges::any_of(comments, [](const std::string& text) { return parseOrigin(text).has_value(); });
-    if (!isPlain(origin, packet) || isMistakable) {
+    const bool headersAreEnough = origin == RecordedOrigin{} && wire::startsWithMagic(packet.bytes);
+    if (!headersAreEnough || isMistakable) {
         block.option(PcapngOption::Comment, clipped(originText(origin)));
     }
     for (const std::string& comment : comments) {
@@ -121,12 +182,11 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
 PcapngWriter::Result PcapngWriter::finish() {
     const auto last = static_cast<std::uint64_t>(nanosecondsOf(m_lastStamp));
     const auto first = m_packets != 0 ? static_cast<std::uint64_t>(nanosecondsOf(m_firstStamp)) : last;
-    const auto stamp = [](std::uint64_t value) { return value >> 32 | value << 32; }; // upper half first
     PcapngBlock block(m_block, PcapngBlockType::InterfaceStatistics);
     block.number(0, 4);
     block.halves(last);
-    block.option(PcapngOption::StartTime, stamp(first));
-    block.option(PcapngOption::EndTime, stamp(last));
+    block.halvesOption(PcapngOption::StartTime, first);
+    block.halvesOption(PcapngOption::EndTime, last);
     block.option(PcapngOption::Received, m_packets + m_kernelDrops);
     block.option(PcapngOption::DroppedBySystem, m_kernelDrops);
     block.option(PcapngOption::Delivered, m_packets);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/byte_sink.h"
+#include "core/log/byte_io.h"
 #include "core/log/packet.h"
 #include "core/log/time.h"
 

@@ -1,90 +1,251 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/reassembly.h"
 
-#include "core/log/ip_endpoint.h"
-#include "core/log/udp_payload.h"
-#include "core/wire/byte_order.h"
 #include "core/wire/header.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::log {
 namespace {
 
-/// The header of a TCP segment (RFC 9293 section 3.1).
-struct TcpHeader {
-    std::uint16_t sourcePort = 0;
-    std::uint16_t targetPort = 0;
-    std::uint32_t sequence = 0;
-    std::size_t size = 0;
-    bool begins = false; ///< SYN
-    bool ends = false;   ///< FIN or RST
-};
+/// No IP packet is larger.
+constexpr std::uint32_t kLargest = 65535;
 
-std::optional<TcpHeader> tcpHeaderOf(std::span<const std::byte> segment) {
-    if (segment.size() < 20) {
-        return std::nullopt;
-    }
-    const auto flags = std::to_integer<unsigned>(segment[13]);
-    const std::size_t size = std::to_integer<std::size_t>(segment[12] >> 4) * 4;
-    if (size < 20 || size > segment.size()) {
-        return std::nullopt;
-    }
-    return TcpHeader{wire::load16(segment.data()),
-                     wire::load16(segment.data() + 2),
-                     wire::load32(segment.data() + 4),
-                     size,
-                     (flags & 2U) != 0,
-                     (flags & 5U) != 0};
+bool belongTogether(const IpPacket& first, const IpPacket& second) {
+    return first.identity == second.identity && first.protocol == second.protocol &&
+           first.sender == second.sender && first.target == second.target;
 }
 
-FileRecord recordOf(const WholePacket& whole, const UdpPayload& payload) {
-    return {whole.fileOffset + payload.offset, payload.bytes, false, whole.stamp,
-            SenderInfo{endpointText({whole.packet.sender, payload.sourcePort}), Transport::Udp,
-                       payload.targetPort}};
+/// What it costs to keep a segment, so that many small ones are few enough too.
+std::size_t costOf(std::span<const std::byte> bytes) {
+    constexpr std::size_t overhead = 128;
+    return bytes.size() + overhead;
+}
+
+FileRecord recordOf(const IpPacket& packet, const UdpPayload& payload) {
+    return {
+        payload.offset, payload.bytes, packet.stamp,
+        SenderInfo{endpointText({packet.sender, payload.sourcePort}), Transport::Udp, payload.targetPort}};
 }
 
 } // namespace
 
+void IpFragments::add(const IpPacket& fragment) {
+    if (fragment.bytes.empty() || fragment.fragmentOffset + fragment.bytes.size() > kLargest) {
+        return;
+    }
+    Pending& pending = pendingOf(fragment);
+    if (!fragment.hasMoreFragments) {
+        pending.size = fragment.fragmentOffset + static_cast<std::uint32_t>(fragment.bytes.size());
+    }
+    // Fragments that overlap without end are nobody's honest packet.
+    if (pending.kept + fragment.bytes.size() <= std::size_t{2} * kLargest) {
+        const auto [piece, isNew] =
+            pending.pieces.try_emplace(fragment.fragmentOffset, fragment.bytes.begin(), fragment.bytes.end());
+        pending.kept += isNew ? fragment.bytes.size() : 0;
+        if (isNew && fragment.fragmentOffset == 0) {
+            pending.packet = fragment;
+        }
+    }
+    pending.packet.stamp = fragment.stamp;
+    if (isWhole(pending)) {
+        give(pending);
+        std::erase_if(m_pending, [&](const Pending& one) { return &one == &pending; });
+    }
+}
+
+void IpFragments::finish() {
+    for (const Pending& pending : m_pending) {
+        give(pending);
+    }
+    m_pending.clear();
+}
+
+IpFragments::Pending& IpFragments::pendingOf(const IpPacket& fragment) {
+    const auto found = std::ranges::find_if(
+        m_pending, [&](const Pending& pending) { return belongTogether(pending.packet, fragment); });
+    if (found != m_pending.end()) {
+        return *found;
+    }
+    if (m_pending.size() == kMostPending) {
+        give(m_pending.front());
+        m_pending.pop_front();
+    }
+    return m_pending.emplace_back(Pending{fragment, {}, 0, {}});
+}
+
+bool IpFragments::isWhole(const Pending& pending) {
+    std::size_t reached = 0;
+    for (const auto& [offset, bytes] : pending.pieces) {
+        if (offset > reached) {
+            return false;
+        }
+        reached = std::max(reached, offset + bytes.size());
+    }
+    return pending.size && reached >= *pending.size;
+}
+
+/// As far as it goes without a hole; of bytes that came twice the first count.
+void IpFragments::give(const Pending& pending) const {
+    if (pending.pieces.empty() || pending.pieces.begin()->first != 0) {
+        return;
+    }
+    std::vector<std::byte> bytes;
+    for (const auto& [offset, piece] : pending.pieces) {
+        if (offset > bytes.size()) {
+            break;
+        }
+        const std::size_t known = bytes.size() - offset;
+        if (known < piece.size()) {
+            bytes.insert(bytes.end(), piece.begin() + static_cast<std::ptrdiff_t>(known), piece.end());
+        }
+    }
+    IpPacket whole = pending.packet;
+    whole.bytes = bytes;
+    m_visit(whole);
+}
+
+void TcpStream::add(const TcpSegment& segment) {
+    if (segment.bytes.empty()) {
+        return;
+    }
+    const auto ahead = static_cast<std::int32_t>(segment.sequence - m_expected);
+    const auto farthest = static_cast<std::int32_t>(2 * kMostWaiting);
+    if (ahead > farthest || ahead < -farthest) {
+        restart(segment.sequence); // no window is so wide: another connection between the same ports
+    } else if (ahead > 0) {
+        const auto [place, isNew] = m_waiting.try_emplace(
+            m_expectedPosition + static_cast<std::uint32_t>(ahead),
+            Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.stamp});
+        m_waitingSize += isNew ? costOf(segment.bytes) : 0;
+        if (m_waitingSize > kMostWaiting || hasWaitedTooLong(segment)) {
+            passOver();
+        }
+        return;
+    }
+    append(segment.sequence, segment.bytes, segment.offset, segment.stamp);
+    appendWaiting(segment.stamp);
+    if (hasWaitedTooLong(segment)) {
+        passOver();
+    }
+}
+
+void TcpStream::finish() {
+    while (!m_waiting.empty()) {
+        passOver();
+    }
+    endPart();
+}
+
+void TcpStream::restart(std::uint32_t firstSequence) {
+    finish();
+    m_expected = firstSequence;
+}
+
+/// Hands on what is new of a segment that begins at the expected byte or before it.
+void TcpStream::append(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t fileOffset,
+                       std::optional<Stamp> stamp) {
+    const std::size_t known = m_expected - sequence;
+    if (known >= bytes.size()) {
+        return;
+    }
+    const auto added = bytes.subspan(known);
+    m_places.push_back({m_given, fileOffset + known});
+    m_given += added.size();
+    m_expected += static_cast<std::uint32_t>(added.size());
+    m_expectedPosition += added.size();
+    m_stamp = stamp;
+    m_framer.push(added, [this](const TcpFramer::Piece& piece) { visit(piece); });
+    while (m_places.size() > 1 && m_places[1].position <= m_given - m_framer.kept()) {
+        m_places.pop_front();
+    }
+}
+
+/// Hands on what has waited for the bytes before it. Without a stamp each keeps its own.
+void TcpStream::appendWaiting(std::optional<Stamp> stamp) {
+    while (!m_waiting.empty() && m_waiting.begin()->first <= m_expectedPosition) {
+        const auto node = m_waiting.extract(m_waiting.begin());
+        const Waiting& waiting = node.mapped();
+        m_waitingSize -= costOf(waiting.bytes);
+        const auto behind = static_cast<std::uint32_t>(m_expectedPosition - node.key());
+        append(m_expected - behind, waiting.bytes, waiting.fileOffset, stamp ? stamp : waiting.stamp);
+    }
+}
+
+/// Continues behind the gap.
+void TcpStream::passOver() {
+    endPart();
+    const std::uint64_t position = m_waiting.begin()->first;
+    m_expected += static_cast<std::uint32_t>(position - m_expectedPosition);
+    m_expectedPosition = position;
+    appendWaiting(std::nullopt);
+}
+
+/// What the framer has been given is all that there is before a gap or the end.
+void TcpStream::endPart() {
+    m_framer.finish([this](const TcpFramer::Piece& piece) { visit(piece); });
+    m_places.clear();
+    m_given = 0;
+}
+
+bool TcpStream::hasWaitedTooLong(const TcpSegment& segment) const {
+    if (m_waiting.empty()) {
+        return false;
+    }
+    const auto since = m_waiting.begin()->second.stamp;
+    return since && segment.stamp && *segment.stamp - *since > kLongestWait;
+}
+
+void TcpStream::visit(const TcpFramer::Piece& piece) {
+    while (m_places.size() > 1 && m_places[1].position <= piece.offset) {
+        m_places.pop_front();
+    }
+    const Place& place = m_places.front();
+    m_visit({place.fileOffset + (piece.offset - place.position),
+             piece.bytes,
+             m_stamp,
+             m_sender,
+             {.skipped = piece.kind == TcpFramer::Kind::Skipped}});
+}
+
 void Reassembly::add(const CapturedFrame& frame) {
-    const auto packet = ipPacketOf(frame.linkType, frame.bytes);
+    const auto packet = ipPacketOf(frame);
     if (!packet || (packet->protocol != kUdp && packet->protocol != kTcp)) {
         return;
     }
-    const std::uint64_t offset = frame.offset + packet->offset;
     if (packet->isFragment()) {
-        m_fragments.add(*packet, offset, frame.stamp, [&](const WholePacket& whole) { addPacket(whole); });
+        m_fragments.add(*packet);
     } else {
-        addPacket({*packet, packet->bytes, offset, frame.stamp});
+        addPacket(*packet);
     }
 }
 
 void Reassembly::addRecorded(const CapturedFrame& frame) {
-    const auto packet = ipPacketOf(frame.linkType, frame.bytes);
-    const auto payload = packet ? udpPayloadOf(*packet, packet->bytes) : std::nullopt;
-    if (payload) {
-        m_visit(recordOf({*packet, packet->bytes, frame.offset + packet->offset, frame.stamp}, *payload));
+    const auto packet = ipPacketOf(frame);
+    if (const auto payload = packet ? udpPayloadOf(*packet) : std::nullopt) {
+        m_visit(recordOf(*packet, *payload));
     }
 }
 
 void Reassembly::finish() {
-    m_fragments.finish([&](const WholePacket& whole) { addPacket(whole); });
+    m_fragments.finish();
     for (auto& [direction, followed] : m_streams) {
-        followed.stream->finish(m_visit);
+        followed.stream.finish();
     }
     m_streams.clear();
 }
 
-void Reassembly::addPacket(const WholePacket& whole) {
-    if (whole.packet.protocol == kUdp) {
-        addUdp(whole);
+void Reassembly::addPacket(const IpPacket& packet) {
+    if (packet.protocol == kUdp) {
+        addUdp(packet);
     } else {
-        addTcp(whole);
+        addTcp(packet);
     }
 }
 
-void Reassembly::addUdp(const WholePacket& whole) {
-    const auto payload = udpPayloadOf(whole.packet, whole.bytes);
+void Reassembly::addUdp(const IpPacket& packet) {
+    const auto payload = udpPayloadOf(packet);
     if (!payload) {
         return;
     }
@@ -93,37 +254,36 @@ void Reassembly::addUdp(const WholePacket& whole) {
     } else if (!m_ports.contains(payload->targetPort)) {
         return;
     }
-    m_visit(recordOf(whole, *payload));
+    m_visit(recordOf(packet, *payload));
 }
 
-void Reassembly::addTcp(const WholePacket& whole) {
-    const auto header = tcpHeaderOf(whole.bytes);
-    if (!header) {
+void Reassembly::addTcp(const IpPacket& packet) {
+    const auto segment = tcpSegmentOf(packet);
+    if (!segment) {
         return;
     }
-    const auto bytes = whole.bytes.subspan(header->size);
-    const std::uint32_t sequence = header->sequence + (header->begins ? 1U : 0U);
-    const Direction direction{whole.packet.sender, whole.packet.target, header->sourcePort,
-                              header->targetPort};
+    const Direction direction{packet.sender, packet.target, segment->sourcePort, segment->targetPort};
     auto found = m_streams.find(direction);
     if (found == m_streams.end()) {
-        const bool mayCarry = header->targetPort == kDefaultPort && (header->begins || !bytes.empty());
-        if (!mayCarry && !wire::startsDatagram(bytes)) {
+        const bool mayCarry =
+            segment->targetPort == kDefaultPort && (segment->begins || !segment->bytes.empty());
+        if (!mayCarry && !wire::startsDatagram(segment->bytes)) {
             return;
         }
         endOldest();
-        SenderInfo sender{endpointText({direction.sender, direction.sourcePort}), Transport::Tcp,
-                          direction.targetPort};
-        Followed added{std::make_unique<TcpStream>(std::move(sender), sequence), 0};
+        SenderInfo sender{endpointText({packet.sender, segment->sourcePort}), Transport::Tcp,
+                          segment->targetPort};
+        Followed added{TcpStream(std::move(sender), segment->sequence, m_visit)};
         found = m_streams.emplace(direction, std::move(added)).first;
-    } else if (header->begins && found->second.stream->expected() != sequence) {
-        found->second.stream->restart(sequence, m_visit);
+    } else if (segment->begins && found->second.stream.expected() != segment->sequence) {
+        found->second.stream.restart(segment->sequence);
     }
-    TcpStream& stream = *found->second.stream;
+    TcpStream& stream = found->second.stream;
     found->second.lastUse = ++m_uses;
-    stream.add({sequence, bytes, whole.fileOffset + header->size, whole.stamp}, m_visit);
-    if (header->ends && stream.expected() == sequence + static_cast<std::uint32_t>(bytes.size())) {
-        stream.finish(m_visit);
+    stream.add(*segment);
+    const auto end = segment->sequence + static_cast<std::uint32_t>(segment->bytes.size());
+    if (segment->ends && stream.expected() == end) {
+        stream.finish();
         m_streams.erase(found);
     }
 }
@@ -135,7 +295,7 @@ void Reassembly::endOldest() {
     }
     const auto oldest =
         std::ranges::min_element(m_streams, {}, [](const auto& entry) { return entry.second.lastUse; });
-    oldest->second.stream->finish(m_visit);
+    oldest->second.stream.finish();
     m_streams.erase(oldest);
 }
 

@@ -1,21 +1,102 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/ip_fragments.h"
-#include "core/log/tcp_stream.h"
-#include "core/log/time.h"
+#include "core/log/ip_packet.h"
+#include "core/log/recording_file.h"
+#include "core/log/tcp_framer.h"
 
-#include <memory>
+#include <deque>
+#include <list>
+#include <map>
 #include <set>
 
+/// From captured frames to the datagrams that a listener would have received.
 namespace posewire::log {
 
-/// A captured frame and where it is in the file.
-struct CapturedFrame {
-    std::uint32_t linkType = 0;
-    std::span<const std::byte> bytes;
-    std::uint64_t offset = 0;
-    std::optional<Stamp> stamp;
+/// Puts IP fragments together (RFC 791, RFC 8200 section 4.5), in whatever order and however often they come.
+class IpFragments {
+public:
+    using Visitor = std::function<void(const IpPacket&)>;
+
+    /// At most this many packets may be incomplete at a time; the oldest is given up first.
+    static constexpr std::size_t kMostPending = 32;
+
+    /// The visitor gets a packet when it is complete, or given up: then its beginning, if that was there.
+    explicit IpFragments(Visitor visit) : m_visit(std::move(visit)) {}
+
+    void add(const IpPacket& fragment);
+
+    /// Gives up what is incomplete.
+    void finish();
+
+private:
+    struct Pending {
+        IpPacket packet; ///< the first fragment's headers; its bytes are gone
+        std::map<std::uint32_t, std::vector<std::byte>> pieces; ///< by offset
+        std::size_t kept = 0;                                   ///< bytes of all pieces
+        std::optional<std::uint32_t> size;                      ///< known from the last fragment
+    };
+
+    Pending& pendingOf(const IpPacket& fragment);
+    static bool isWhole(const Pending& pending);
+    void give(const Pending& pending) const;
+
+    Visitor m_visit;
+    std::list<Pending> m_pending; ///< oldest first
+};
+
+/// One direction of a captured TCP connection: puts segments in order, leaves out what came before, cuts the
+/// bytes into datagrams. What the capture has missed is waited for and then passed over: the datagram that it
+/// was part of comes out cut off, and the bytes up to the next one as skipped.
+class TcpStream {
+public:
+    /// How much may wait for a missing segment, and how long.
+    static constexpr std::size_t kMostWaiting = std::size_t{256} << 10;
+    static constexpr Duration kLongestWait = std::chrono::seconds(1);
+
+    /// Records carry the offset in the file of their first byte and the stamp of the frame that completed
+    /// them. `visit` must outlive the stream.
+    TcpStream(SenderInfo sender, std::uint32_t firstSequence, const FileVisitor& visit)
+        : m_visit(visit), m_sender(std::move(sender)), m_expected(firstSequence) {}
+
+    void add(const TcpSegment& segment);
+
+    /// The connection has ended, or starts again with another sequence number.
+    void finish();
+    void restart(std::uint32_t firstSequence);
+
+    /// The sequence number that is expected next.
+    [[nodiscard]] std::uint32_t expected() const { return m_expected; }
+
+private:
+    struct Waiting {
+        std::vector<std::byte> bytes;
+        std::uint64_t fileOffset = 0;
+        std::optional<Stamp> stamp;
+    };
+    struct Place {
+        std::uint64_t position = 0; ///< in what the framer has been given
+        std::uint64_t fileOffset = 0;
+    };
+
+    void append(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t fileOffset,
+                std::optional<Stamp> stamp);
+    void appendWaiting(std::optional<Stamp> stamp);
+    void passOver();
+    void endPart();
+    [[nodiscard]] bool hasWaitedTooLong(const TcpSegment& segment) const;
+    void visit(const TcpFramer::Piece& piece);
+
+    const FileVisitor& m_visit;
+    SenderInfo m_sender;
+    TcpFramer m_framer;
+    std::uint32_t m_expected;
+    std::uint64_t m_expectedPosition = 0;       ///< the same, without wrapping around
+    std::map<std::uint64_t, Waiting> m_waiting; ///< by position
+    std::size_t m_waitingSize = 0;
+    std::deque<Place> m_places; ///< where in the file the bytes are that the framer may still give out
+    std::uint64_t m_given = 0;
+    std::optional<Stamp> m_stamp; ///< of the bytes given last
 };
 
 /// Finds what a listener for MXTP would have received in captured frames: one datagram to a UDP packet, which
@@ -47,17 +128,17 @@ private:
         friend auto operator<=>(const Direction&, const Direction&) = default;
     };
     struct Followed {
-        std::unique_ptr<TcpStream> stream;
+        TcpStream stream;
         std::uint64_t lastUse = 0;
     };
 
-    void addPacket(const WholePacket& whole);
-    void addUdp(const WholePacket& whole);
-    void addTcp(const WholePacket& whole);
+    void addPacket(const IpPacket& packet);
+    void addUdp(const IpPacket& packet);
+    void addTcp(const IpPacket& packet);
     void endOldest();
 
     const FileVisitor& m_visit;
-    IpFragments m_fragments;
+    IpFragments m_fragments{[this](const IpPacket& whole) { addPacket(whole); }};
     std::map<Direction, Followed> m_streams;
     std::set<std::uint16_t> m_ports{kDefaultPort}; ///< UDP ports where other datagrams are foreign
     std::uint64_t m_uses = 0;

@@ -3,8 +3,6 @@
 
 namespace posewire::log {
 
-SenderTable::SenderTable() = default;
-
 SenderId SenderTable::intern(const SenderInfo& info) {
     if (const auto known = m_ids.find(info); known != m_ids.end()) {
         return known->second;

@@ -20,8 +20,6 @@ public:
     /// the last entry.
     static constexpr std::size_t kCapacity = 4096;
 
-    SenderTable();
-
     /// The id of `info`, new if need be. Writer's thread only.
     SenderId intern(const SenderInfo& info);
 

@@ -64,39 +64,12 @@ void StreamEntries::dropBefore(std::uint64_t packet, Spare& spare) {
     }
 }
 
-bool StreamIndex::follow(LogReader& reader, std::uint64_t packetLimit) {
-    dropBefore(reader.begin());
-    const std::uint64_t from = std::max(m_end, reader.begin());
-    const std::uint64_t to = reader.end() - from > packetLimit ? from + packetLimit : reader.end();
-    for (std::uint64_t number = from; number < to; ++number) {
-        if (const auto packet = reader.packet(number)) {
-            add(*packet);
-        }
-    }
-    m_end = std::max(m_end, to);
-    return to == reader.end();
-}
-
-void StreamIndex::add(const Packet& packet) {
-    m_end = packet.number + 1;
-    if (packet.flags.skipped) {
-        return;
-    }
-    if (const auto header = wire::decodeHeader(packet.bytes)) {
-        add(packet, *header);
-    }
-}
-
 void StreamIndex::add(const Packet& packet, const wire::Header& header) {
-    m_end = packet.number + 1;
-    StreamEntries* entries = entriesFor({packet.sender, header.character, header.type()});
-    if (entries == nullptr) {
-        ++m_unindexed;
-        return;
+    if (StreamEntries* entries = entriesFor({packet.sender, header.character, header.type()})) {
+        entries->append(
+            {packet.number, packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
+            m_spare);
     }
-    entries->append(
-        {packet.number, packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
-        m_spare);
 }
 
 void StreamIndex::dropBefore(std::uint64_t begin) {
@@ -104,15 +77,12 @@ void StreamIndex::dropBefore(std::uint64_t begin) {
         return;
     }
     m_begin = begin;
-    const std::size_t streamsBefore = m_streams.size();
-    std::erase_if(m_streams, [&](auto& stream) {
+    const std::size_t gone = std::erase_if(m_streams, [&](auto& stream) {
         stream.second->dropBefore(begin, m_spare);
         return stream.second->empty();
     });
-    if (m_streams.size() != streamsBefore) {
-        std::erase_if(m_keys, [&](const StreamKey& key) { return !m_streams.contains(key); });
+    if (gone != 0) {
         m_lastEntries = nullptr;
-        ++m_version;
     }
 }
 
@@ -131,8 +101,6 @@ StreamEntries* StreamIndex::entriesFor(const StreamKey& key) {
             return nullptr;
         }
         found = m_streams.emplace(key, std::make_unique<StreamEntries>()).first;
-        m_keys.push_back(key);
-        ++m_version;
     }
     m_lastKey = key;
     m_lastEntries = found->second.get();

@@ -1,20 +1,42 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/log_reader.h"
 #include "core/log/packet.h"
-#include "core/log/stream_key.h"
 #include "core/log/time.h"
 #include "core/wire/header.h"
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <unordered_map>
 #include <vector>
+
+namespace posewire::log {
+
+/// A stream is what one sender sends of one character in one message type. In order of these.
+struct StreamKey {
+    SenderId sender{};
+    std::uint8_t character = 0;
+    std::uint8_t type = 0; ///< the two digits as a decimal number
+
+    friend auto operator<=>(const StreamKey&, const StreamKey&) = default;
+};
+
+} // namespace posewire::log
+
+/// Senders are numbered densely from 0: multiplying spreads the bits over all buckets.
+template <>
+struct std::hash<posewire::log::StreamKey> {
+    std::size_t operator()(const posewire::log::StreamKey& key) const noexcept {
+        const auto sender = static_cast<std::uint64_t>(key.sender);
+        return static_cast<std::size_t>(
+            (sender << 16 | std::uint64_t{key.character} << 8 | key.type) * 0x9e3779b97f4a7c15U >> 13);
+    }
+};
 
 namespace posewire::log {
 
@@ -58,50 +80,30 @@ private:
     std::size_t m_size = 0;
 };
 
-/// Finds the datagrams of each stream by time. Follows a log through a reader and forgets with it; belongs to
-/// the thread of that reader. Memory is bounded by that of the log, whatever a sender does.
+/// Finds the datagrams of each stream by time. Belongs to one thread, which takes in what the log gets and
+/// forgets what it drops. Memory is bounded by that of the log, whatever a sender does.
 class StreamIndex {
 public:
-    /// A sender that makes up characters and types must not grow the index for ever: of further streams only
-    /// the datagrams are counted.
+    /// A sender that makes up characters and types must not grow the index for ever: further streams are left
+    /// out.
     static constexpr std::size_t kStreamLimit = 4096;
 
-    /// Takes in what is new in `reader` since the last call and drops what the log has dropped. The caller
-    /// has called reader.refresh(). At most `packetLimit` packets are read, so that a long file need not be
-    /// indexed in one go. True where nothing is left to be read.
-    bool follow(LogReader& reader, std::uint64_t packetLimit = UINT64_MAX);
-
-    /// Takes in one packet: for whoever walks over the packets anyway. Numbers must grow.
-    void add(const Packet& packet);
-    /// The same for one whose header was read already.
+    /// Takes in one datagram of the log. Numbers must grow.
     void add(const Packet& packet, const wire::Header& header);
     /// Forgets entries of packets below `begin`, and streams of which nothing is left.
     void dropBefore(std::uint64_t begin);
 
-    /// Streams in the order in which they appeared; changes with version().
-    [[nodiscard]] std::span<const StreamKey> streams() const { return m_keys; }
-    [[nodiscard]] std::uint64_t version() const { return m_version; }
-
-    /// Null where there is no such stream. Valid until the next follow(), add() or dropBefore().
+    /// Null where there is no such stream. Valid until the next add() or dropBefore().
     [[nodiscard]] const StreamEntries* find(const StreamKey& key) const;
-
-    /// One past the last packet that was taken in.
-    [[nodiscard]] std::uint64_t end() const { return m_end; }
-    /// Datagrams of streams beyond the limit.
-    [[nodiscard]] std::uint64_t unindexed() const { return m_unindexed; }
 
 private:
     StreamEntries* entriesFor(const StreamKey& key);
 
     std::unordered_map<StreamKey, std::unique_ptr<StreamEntries>> m_streams;
-    std::vector<StreamKey> m_keys;
     StreamEntries::Spare m_spare;
     StreamKey m_lastKey;
     StreamEntries* m_lastEntries = nullptr;
     std::uint64_t m_begin = 0;
-    std::uint64_t m_end = 0;
-    std::uint64_t m_version = 0;
-    std::uint64_t m_unindexed = 0;
 };
 
 } // namespace posewire::log

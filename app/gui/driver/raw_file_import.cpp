@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/raw_file_import.h"
 
-#include "core/log/raw_file.h"
+#include "core/log/recording_file.h"
 #include "core/log/time.h"
 #include "core/wire/header.h"
 
@@ -22,7 +22,7 @@ class TimeCodeStamps {
 public:
     log::Duration next(const log::FileRecord& record) {
         const auto header = wire::decodeHeader(record.bytes);
-        if (!record.isSkipped && header) {
+        if (!record.flags.skipped && header) {
             const auto timeCode = static_cast<std::int64_t>(header->timeCode);
             const log::Duration step = std::chrono::milliseconds(m_timeCode ? timeCode - *m_timeCode : 0);
             m_time += step > log::Duration::zero() && step <= kGreatestStep ? step : log::Duration::zero();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/log/byte_sink.h"
+#include "core/log/byte_io.h"
 #include "core/log/pcapng_writer.h"
 #include "core/log/time.h"
 #include "core/wire/codec.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/send_schedule.h"
 
+#include "tests/support/manual_clock.h"
+
 #include <gtest/gtest.h>
 
 namespace posewire::net {

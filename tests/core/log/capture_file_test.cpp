@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/capture_file.h"
+#include "core/log/ip_packet.h"
+#include "core/log/recording_file.h"
 
-#include "core/log/udp_payload.h"
 #include "tests/core/log/capture_fixture.h"
 
 #include <gmock/gmock.h>
@@ -43,7 +43,7 @@ std::vector<Seen> seenIn(std::span<const std::byte> file, bool isSound = true) {
     std::vector<Seen> all;
     MemorySource source(file, 7);
     const auto result = readFile(source, [&](const FileRecord& record) {
-        EXPECT_FALSE(record.isSkipped);
+        EXPECT_FALSE(record.flags.skipped);
         all.push_back({record.offset,
                        {record.bytes.begin(), record.bytes.end()},
                        record.stamp,
@@ -146,7 +146,7 @@ TEST(CaptureFile, NamesThePlaceOfDamage) {
     ByteVector blocks = joined({sectionHeader(false), interfaceBlock(1, 6, false)});
     blocks[sectionHeader(false).size() + 4] = std::byte{3};
     MemorySource source(blocks);
-    const auto result = readCaptureFile(source, [](const FileRecord&) {});
+    const auto result = readFile(source, [](const FileRecord&) {});
     ASSERT_FALSE(result);
     EXPECT_THAT(result.error().text, testing::HasSubstr("test.pcap: is damaged at byte 32"));
 }
@@ -162,7 +162,7 @@ TEST(CaptureFile, SurvivesDamageAnywhere) {
             damaged[4 + random() % (damaged.size() - 4)] = static_cast<std::byte>(random());
         }
         MemorySource source(damaged);
-        static_cast<void>(readCaptureFile(source, [&](const FileRecord& record) {
+        static_cast<void>(readFile(source, [&](const FileRecord& record) {
             EXPECT_LE(record.offset + record.bytes.size(), damaged.size());
         }));
     }
@@ -189,37 +189,37 @@ TEST(IpPacket, IsFoundBehindEveryLinkType) {
         {113, after(14, 0x86dd, six)},
         {276, joined({CaptureBytes().number(0x0800, 2).zeros(18).all(), four})}};
     for (const auto& [linkType, frame] : frames) {
-        const auto packet = ipPacketOf(linkType, frame);
+        const auto packet = ipPacketOf({linkType, frame});
         ASSERT_TRUE(packet) << linkType;
-        const auto payload = udpPayloadOf(*packet, packet->bytes);
+        const auto payload = udpPayloadOf(*packet);
         ASSERT_TRUE(payload) << linkType;
         EXPECT_EQ(ByteVector(payload->bytes.begin(), payload->bytes.end()), poseDatagram(1, 1)) << linkType;
-        EXPECT_EQ(packet->offset + payload->offset, frame.size() - poseDatagram(1, 1).size()) << linkType;
+        EXPECT_EQ(payload->offset, frame.size() - poseDatagram(1, 1).size()) << linkType;
         EXPECT_EQ(payload->targetPort, 9763);
-        EXPECT_THAT(addressText(packet->sender), testing::AnyOf("10.0.0.2", "[fe80::1]"));
+        EXPECT_THAT(endpointText({packet->sender, 1}), testing::AnyOf("10.0.0.2:1", "[fe80::1]:1"));
     }
-    EXPECT_FALSE(ipPacketOf(999, four));
+    EXPECT_FALSE(ipPacketOf({999, four}));
 }
 
 TEST(UdpPayload, LeavesOutThePaddingOfShortFrames) {
     const ByteVector frame = CaptureBytes().bytes(ethernet(ipv4(udp(textBytes("MXTP"))))).zeros(14).all();
-    const auto packet = ipPacketOf(1, frame);
-    EXPECT_EQ(udpPayloadOf(*packet, packet->bytes)->bytes.size(), 4U);
+    const auto packet = ipPacketOf({1, frame});
+    EXPECT_EQ(udpPayloadOf(*packet)->bytes.size(), 4U);
 }
 
 TEST(IpPacket, TellsFragments) {
     const ByteVector content = udp(poseDatagram(1));
-    EXPECT_FALSE(ipPacketOf(101, ipv4(content))->isFragment());
-    EXPECT_TRUE(ipPacketOf(101, ipv4(content, 0x2000))->hasMoreFragments);
-    EXPECT_EQ(ipPacketOf(101, ipv4(content, 0x00b9))->fragmentOffset, 8U * 0xb9);
+    EXPECT_FALSE(ipPacketOf({101, ipv4(content)})->isFragment());
+    EXPECT_TRUE(ipPacketOf({101, ipv4(content, 0x2000)})->hasMoreFragments);
+    EXPECT_EQ(ipPacketOf({101, ipv4(content, 0x00b9)})->fragmentOffset, 8U * 0xb9);
 }
 
 TEST(IpPacket, SurvivesAFrameCutAnywhere) {
     for (const ByteVector& frame :
          {ethernet(ipv4(udp(textBytes("MXTP02")))), ethernet(ipv6(udp(textBytes("MXTP02"))), 0x86dd)}) {
         for (std::size_t size = 0; size < frame.size(); ++size) {
-            const auto packet = ipPacketOf(1, std::span(frame).first(size));
-            const auto payload = packet ? udpPayloadOf(*packet, packet->bytes) : std::nullopt;
+            const auto packet = ipPacketOf({1, std::span(frame).first(size)});
+            const auto payload = packet ? udpPayloadOf(*packet) : std::nullopt;
             EXPECT_TRUE(!payload || payload->bytes.size() < 6) << size;
         }
     }

@@ -15,17 +15,5 @@ TEST(Clock, SystemClockIsInThisCenturyAndDoesNotGoBack) {
     EXPECT_GE(clock.monotonic(), before);
 }
 
-TEST(Clock, ManualClockMovesOnlyWhenTold) {
-    ManualClock clock(Stamp(100ns), Moment(7ns));
-    EXPECT_EQ(clock.wall(), Stamp(100ns));
-    EXPECT_EQ(clock.monotonic(), Moment(7ns));
-    clock.advance(5ns);
-    EXPECT_EQ(clock.wall(), Stamp(105ns));
-    EXPECT_EQ(clock.monotonic(), Moment(12ns));
-    clock.setWall(Stamp(-3ns));
-    EXPECT_EQ(clock.wall(), Stamp(-3ns));
-    EXPECT_EQ(clock.monotonic(), Moment(12ns));
-}
-
 } // namespace
 } // namespace posewire::log

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/pcapng_writer.h"
 
-#include "core/log/pcapng_block.h"
-#include "core/log/recorded_origin.h"
-#include "core/log/udp_frame.h"
+#include "core/log/ip_packet.h"
+#include "core/log/pcapng_format.h"
 #include "core/wire/byte_order.h"
 #include "tests/core/log/recording_fixture.h"
 

@@ -58,7 +58,7 @@ private:
     FileVisitor m_visit = [this](const FileRecord& record) {
         m_seen.push_back({record.offset,
                           {record.bytes.begin(), record.bytes.end()},
-                          record.isSkipped,
+                          record.flags.skipped,
                           record.stamp,
                           record.sender->address,
                           record.sender->transport});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/recorder.h"
+#include "core/log/recording.h"
 
 #include "tests/core/log/log_fixture.h"
 #include "tests/core/log/recording_fixture.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/byte_sink.h"
-#include "core/log/capture_file.h"
 #include "core/log/pcapng_writer.h"
+#include "core/log/recording_file.h"
 #include "core/log/time.h"
 #include "tests/core/log/datagram_fixture.h"
 
@@ -49,7 +48,6 @@ public:
         flushed = bytes.size();
         return {};
     }
-    [[nodiscard]] std::string name() const override { return "memory"; }
 
     ByteVector bytes;
     std::size_t flushed = 0;

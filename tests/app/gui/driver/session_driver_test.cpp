@@ -4,6 +4,7 @@
 #include "app/net/datagram_sender.h"
 #include "app/net/udp_binding.h"
 #include "tests/app/gui/models/stage.h"
+#include "tests/support/manual_clock.h"
 
 #include <QFile>
 #include <QSignalSpy>

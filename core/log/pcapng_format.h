@@ -3,11 +3,43 @@
 
 #include "core/log/packet.h"
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
 namespace posewire::log {
+
+enum class PcapngBlockType : std::uint32_t {
+    SectionHeader = 0x0a0d0d0a,
+    Interface = 1,
+    SimplePacket = 3,
+    InterfaceStatistics = 5,
+    EnhancedPacket = 6,
+};
+
+/// Option codes; most count only within their type of block.
+enum class PcapngOption : std::uint16_t {
+    End = 0,
+    Comment = 1,
+
+    Hardware = 2, ///< of a section header
+    System = 3,
+    Application = 4,
+
+    InterfaceName = 2,
+    InterfaceDescription = 3,
+    StampResolution = 9,
+    StampOffset = 14,
+
+    DropCount = 4, ///< of an enhanced packet: lost between the packet before it and this one
+
+    StartTime = 2, ///< of interface statistics
+    EndTime = 3,
+    Received = 4,
+    DroppedBySystem = 7,
+    Delivered = 8,
+};
 
 /// What a recording says about a packet besides what its IP and UDP headers can. It is in the first
 /// comment of the packet, in words: "Posewire: TCP; stamped on reading; from [fe80::1%eth0]:40001".

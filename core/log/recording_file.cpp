@@ -1,47 +1,56 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/capture_file.h"
+#include "core/log/recording_file.h"
 
-#include "core/log/pcapng_block.h"
+#include "core/log/pcapng_format.h"
 #include "core/log/reassembly.h"
-#include "core/log/recorded_origin.h"
+#include "core/log/tcp_framer.h"
 #include "core/wire/byte_order.h"
 
 #include <algorithm>
-#include <cstring>
-#include <string>
+#include <array>
 #include <utility>
 #include <vector>
 
 namespace posewire::log {
 namespace {
 
+using Bytes = std::span<const std::byte>;
+
 /// No packet and no block of a sound file is longer.
 constexpr std::uint32_t kLongestBlock = 16U << 20;
 
-/// Takes a file apart into pieces of known size.
+/// Fills `into`, unless the source ends before.
+tl::expected<std::size_t, FileError> readFully(ByteSource& source, std::span<std::byte> into) {
+    std::size_t filled = 0;
+    while (filled < into.size()) {
+        const auto count = source.read(into.subspan(filled));
+        if (!count) {
+            return count;
+        }
+        if (*count == 0) {
+            break;
+        }
+        filled += *count;
+    }
+    return filled;
+}
+
+/// Takes a capture apart into pieces of known size, after its first four bytes.
 class PieceReader {
 public:
     explicit PieceReader(ByteSource& source) : m_source(source) {}
 
     bool bigEndian = false;
 
-    /// `size` bytes, valid until the next call; fewer only at the end of the file.
-    tl::expected<std::span<const std::byte>, FileError> take(std::size_t size) {
+    /// `size` bytes, valid until the next call; nothing where the file ends before or cannot be read.
+    std::optional<Bytes> take(std::size_t size) {
         m_offset += m_bytes.size();
         m_bytes.resize(size);
-        std::size_t filled = 0;
-        while (filled < size) {
-            const auto count = m_source.read(std::span(m_bytes).subspan(filled));
-            if (!count) {
-                return tl::unexpected(count.error());
-            }
-            if (*count == 0) {
-                break;
-            }
-            filled += *count;
+        const auto filled = readFully(m_source, m_bytes);
+        if (!filled) {
+            m_result = tl::unexpected(filled.error());
         }
-        m_bytes.resize(filled);
-        return std::span<const std::byte>(m_bytes);
+        return filled == size ? std::optional<Bytes>(m_bytes) : std::nullopt;
     }
     /// In the file, of the first byte of the piece taken last.
     [[nodiscard]] std::uint64_t offset() const { return m_offset; }
@@ -54,51 +63,44 @@ public:
         const std::uint32_t value = wire::load32(from);
         return bigEndian ? value : __builtin_bswap32(value);
     }
-    [[nodiscard]] tl::unexpected<FileError> damaged(const char* what) const {
-        return tl::unexpected(FileError{m_source.name() + ": is damaged at byte " + std::to_string(m_offset) +
-                                        " (" + what + "); what comes before it was read"});
+    /// Nothing more can be read.
+    void reportDamage(const char* what) {
+        m_result =
+            tl::unexpected(FileError{m_source.name() + ": is damaged at byte " + std::to_string(m_offset) +
+                                     " (" + what + "); what comes before it was read"});
     }
+    /// Why reading ended, unless at the end of the file.
+    [[nodiscard]] const tl::expected<void, FileError>& result() const { return m_result; }
 
 private:
     ByteSource& m_source;
     std::vector<std::byte> m_bytes;
-    std::uint64_t m_offset = 0;
+    std::uint64_t m_offset = 4;
+    tl::expected<void, FileError> m_result;
 };
 
-tl::expected<void, FileError> readPcap(PieceReader& reader, std::uint32_t magic, Reassembly& reassembly) {
+void readPcap(PieceReader& reader, std::uint32_t magic, Reassembly& reassembly) {
     const auto header = reader.take(20); // after the magic number
     if (!header) {
-        return tl::unexpected(header.error());
-    }
-    if (header->size() < 20) {
-        return {};
+        return;
     }
     reader.bigEndian = magic == 0xa1b2c3d4U || magic == 0xa1b23c4dU;
     const bool hasNanoseconds = magic == 0xa1b23c4dU || magic == 0x4d3cb2a1U;
     const std::uint32_t linkType =
         reader.read32(header->data() + 16) & 0x0fffffffU; // the top bits are about checksums
-    while (true) {
-        const auto record = reader.take(16);
-        if (!record) {
-            return tl::unexpected(record.error());
-        }
-        if (record->size() < 16) {
-            return {};
-        }
+    while (const auto record = reader.take(16)) {
         const std::int64_t seconds = reader.read32(record->data());
         const std::int64_t fraction = reader.read32(record->data() + 4);
         const std::uint32_t size = reader.read32(record->data() + 8);
         if (size > kLongestBlock) {
-            return reader.damaged("a packet of impossible length");
-        }
-        const auto bytes = reader.take(size);
-        if (!bytes) {
-            return tl::unexpected(bytes.error());
-        }
-        if (bytes->size() < size) {
-            return {};
+            reader.reportDamage("a packet of impossible length");
+            return;
         }
         const Stamp stamp(std::chrono::seconds(seconds) + Duration(fraction * (hasNanoseconds ? 1 : 1000)));
+        const auto bytes = reader.take(size);
+        if (!bytes) {
+            return;
+        }
         reassembly.add({linkType, *bytes, reader.offset(), stamp});
     }
 }
@@ -122,17 +124,11 @@ public:
         constexpr std::uint64_t most = UINT32_MAX;
         record.kernelDropsBefore = static_cast<std::uint32_t>(std::min(std::exchange(m_drops, 0), most));
         record.comments = m_comments;
-        record.isStampedByKernel = record.stamp.has_value();
-        if (!m_origin) {
-            return;
-        }
-        record.isTruncated = m_origin->flags.truncated;
-        record.isSkipped = m_origin->flags.skipped;
-        record.isDropRecord = m_origin->flags.isDropRecord;
-        record.isStampedByKernel = m_origin->flags.stampedByKernel;
-        record.sender->transport = m_origin->transport;
-        if (m_origin->address) {
-            record.sender->address = *m_origin->address;
+        record.flags.stampedByKernel = record.stamp.has_value();
+        if (m_origin) {
+            record.flags = m_origin->flags;
+            record.sender->transport = m_origin->transport;
+            record.sender->address = m_origin->address.value_or(record.sender->address);
         }
     }
 
@@ -166,7 +162,8 @@ Stamp stampOf(std::uint64_t stamp, const Interface& interface) {
         perSecond <= 1'000'000'000U && 1'000'000'000U % perSecond == 0
             ? Duration(static_cast<std::int64_t>(stamp % perSecond * (1'000'000'000U / perSecond)))
             : durationOf(rest);
-    return Stamp(Duration(static_cast<std::int64_t>(static_cast<std::uint64_t>(seconds) * 1'000'000'000U)) + fraction);
+    return Stamp(Duration(static_cast<std::int64_t>(static_cast<std::uint64_t>(seconds) * 1'000'000'000U)) +
+                 fraction);
 }
 
 class PcapngReader {
@@ -175,43 +172,37 @@ public:
         : m_reader(reader), m_reassembly(reassembly), m_notes(notes) {}
 
     /// The first four bytes, a section header's type, have been taken.
-    tl::expected<void, FileError> read() {
-        auto more = readSectionHeader();
-        while (more && *more) {
-            more = readBlock();
+    void read() {
+        bool hasMore = readSectionHeader();
+        while (hasMore) {
+            hasMore = readBlock();
         }
-        return more ? tl::expected<void, FileError>{} : tl::unexpected(more.error());
     }
 
 private:
-    using More = tl::expected<bool, FileError>; ///< false at the end of the file
+    // The functions that read are false where there is nothing more to be read.
 
-    More readBlock() {
-        const auto type = m_reader.take(4);
-        if (!type || type->size() < 4) {
-            return type ? More(false) : tl::unexpected(type.error());
-        }
+    bool readBlock() {
         constexpr std::uint32_t sectionHeader = 0x0a0d0d0a; // reads the same in both byte orders
-        const std::uint32_t number = m_reader.read32(type->data());
+        const auto type = m_reader.take(4);
+        const std::uint32_t number = type ? m_reader.read32(type->data()) : 0;
         if (number == sectionHeader) {
             return readSectionHeader();
         }
-        const auto length = m_reader.take(4);
-        if (!length || length->size() < 4) {
-            return length ? More(false) : tl::unexpected(length.error());
-        }
-        return readBody(number, m_reader.read32(length->data()), 8);
+        const auto length = type ? m_reader.take(4) : std::nullopt;
+        return length && readBody(number, m_reader.read32(length->data()), 8);
     }
 
     /// A new section: byte order and interfaces are its own.
-    More readSectionHeader() {
+    bool readSectionHeader() {
         const auto start = m_reader.take(8);
-        if (!start || start->size() < 8) {
-            return start ? More(false) : tl::unexpected(start.error());
+        if (!start) {
+            return false;
         }
         const std::uint32_t order = wire::load32(start->data() + 4);
         if (order != 0x1a2b3c4dU && order != 0x4d3c2b1aU) {
-            return m_reader.damaged("no byte order");
+            m_reader.reportDamage("no byte order");
+            return false;
         }
         m_reader.bigEndian = order == 0x1a2b3c4dU;
         m_interfaces.clear();
@@ -219,13 +210,14 @@ private:
     }
 
     /// What is left of a block of `length` bytes after the first `taken`.
-    More readBody(std::uint32_t type, std::uint32_t length, std::uint32_t taken) {
+    bool readBody(std::uint32_t type, std::uint32_t length, std::uint32_t taken) {
         if (length < taken + 4 || length % 4 != 0 || length > kLongestBlock) {
-            return m_reader.damaged("a block of impossible length");
+            m_reader.reportDamage("a block of impossible length");
+            return false;
         }
         const auto rest = m_reader.take(length - taken);
-        if (!rest || rest->size() < length - taken) {
-            return rest ? More(false) : tl::unexpected(rest.error());
+        if (!rest) {
+            return false;
         }
         const auto body = rest->first(rest->size() - 4); // the length is repeated at the end
         switch (static_cast<PcapngBlockType>(type)) {
@@ -244,11 +236,11 @@ private:
         return true;
     }
 
-    void addInterface(std::span<const std::byte> body) {
+    void addInterface(Bytes body) {
         Interface interface;
         if (body.size() >= 8) {
             interface.linkType = m_reader.read16(body.data());
-            visitOptions(body.subspan(8), [&](PcapngOption code, std::span<const std::byte> value) {
+            visitOptions(body.subspan(8), [&](PcapngOption code, Bytes value) {
                 if (code == PcapngOption::StampResolution && !value.empty()) {
                     interface.resolution = std::to_integer<std::uint8_t>(value[0]);
                 } else if (code == PcapngOption::StampOffset && value.size() >= 8) {
@@ -266,7 +258,7 @@ private:
     }
 
     template <class Visitor>
-    void visitOptions(std::span<const std::byte> options, Visitor&& visitor) const {
+    void visitOptions(Bytes options, Visitor&& visitor) const {
         while (options.size() >= 4) {
             const auto code = static_cast<PcapngOption>(m_reader.read16(options.data()));
             const std::size_t length = m_reader.read16(options.data() + 2);
@@ -279,7 +271,7 @@ private:
         }
     }
 
-    void visitSimple(std::span<const std::byte> body) {
+    void visitSimple(Bytes body) {
         m_notes.setComments({});
         if (body.size() >= 4 && !m_interfaces.empty()) {
             const std::size_t size = std::min<std::size_t>(m_reader.read32(body.data()), body.size() - 4);
@@ -288,7 +280,7 @@ private:
         }
     }
 
-    void visitEnhanced(std::span<const std::byte> body) {
+    void visitEnhanced(Bytes body) {
         const std::size_t fixed = 20;
         if (body.size() < fixed || m_reader.read32(body.data()) >= m_interfaces.size()) {
             return;
@@ -308,9 +300,9 @@ private:
         }
     }
 
-    void readNotes(std::span<const std::byte> options) {
+    void readNotes(Bytes options) {
         std::vector<std::string> comments;
-        visitOptions(options, [&](PcapngOption code, std::span<const std::byte> value) {
+        visitOptions(options, [&](PcapngOption code, Bytes value) {
             if (code == PcapngOption::Comment) {
                 comments.emplace_back(reinterpret_cast<const char*>(value.data()), value.size());
             } else if (code == PcapngOption::DropCount && value.size() >= 8) {
@@ -326,26 +318,8 @@ private:
     std::vector<Interface> m_interfaces;
 };
 
-tl::expected<void, FileError> readFrames(ByteSource& source, Reassembly& reassembly, FrameNotes& notes) {
-    PieceReader reader(source);
-    const auto magic = reader.take(4);
-    if (!magic) {
-        return tl::unexpected(magic.error());
-    }
-    switch (fileFormat(*magic)) {
-    case FileFormat::Pcap:
-        return readPcap(reader, wire::load32(magic->data()), reassembly);
-    case FileFormat::Pcapng:
-        return PcapngReader(reader, reassembly, notes).read();
-    case FileFormat::Raw:
-        break;
-    }
-    return tl::unexpected(FileError{source.name() + ": is no packet capture; pcap and pcapng are known"});
-}
-
-} // namespace
-
-tl::expected<void, FileError> readCaptureFile(ByteSource& source, const FileVisitor& visit) {
+tl::expected<void, FileError> readCapture(ByteSource& source, FileFormat format, Bytes magic,
+                                          const FileVisitor& visit) {
     FrameNotes notes;
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
@@ -353,10 +327,65 @@ tl::expected<void, FileError> readCaptureFile(ByteSource& source, const FileVisi
         visit(complete);
     };
     Reassembly reassembly(noted);
-    auto result = readFrames(source, reassembly, notes);
+    PieceReader reader(source);
+    if (format == FileFormat::Pcap) {
+        readPcap(reader, wire::load32(magic.data()), reassembly);
+    } else {
+        PcapngReader(reader, reassembly, notes).read();
+    }
     notes.setComments({});
     reassembly.finish();
-    return result;
+    return reader.result();
+}
+
+/// `front` has been read to find out the format.
+tl::expected<void, FileError> readRaw(ByteSource& source, Bytes front, const FileVisitor& visit) {
+    TcpFramer framer;
+    const TcpFramer::Visitor pass = [&](const TcpFramer::Piece& piece) {
+        visit({.offset = piece.offset,
+               .bytes = piece.bytes,
+               .flags = {.skipped = piece.kind == TcpFramer::Kind::Skipped}});
+    };
+    framer.push(front, pass);
+    std::vector<std::byte> buffer(std::size_t{64} << 10);
+    auto count = source.read(buffer);
+    while (count && *count != 0) {
+        framer.push(std::span(buffer).first(*count), pass);
+        count = source.read(buffer);
+    }
+    framer.finish(pass);
+    return count ? tl::expected<void, FileError>() : tl::unexpected(count.error());
+}
+
+} // namespace
+
+FileFormat fileFormat(std::span<const std::byte> firstBytes) {
+    if (firstBytes.size() < 4) {
+        return FileFormat::Raw;
+    }
+    switch (wire::load32(firstBytes.data())) {
+    case 0xa1b2c3d4: // microseconds, either byte order
+    case 0xd4c3b2a1:
+    case 0xa1b23c4d: // nanoseconds
+    case 0x4d3cb2a1:
+        return FileFormat::Pcap;
+    case 0x0a0d0d0a:
+        return FileFormat::Pcapng;
+    default:
+        return FileFormat::Raw;
+    }
+}
+
+tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit) {
+    std::array<std::byte, 4> first{};
+    const auto count = readFully(source, first);
+    if (!count) {
+        return tl::unexpected(count.error());
+    }
+    const Bytes front = std::span(first).first(*count);
+    const FileFormat format = fileFormat(front);
+    return format == FileFormat::Raw ? readRaw(source, front, visit)
+                                     : readCapture(source, format, front, visit);
 }
 
 } // namespace posewire::log

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/ip_endpoint.h"
+#include "core/log/ip_address.h"
 
 #include "core/wire/byte_order.h"
 
@@ -10,11 +10,48 @@
 namespace posewire::log {
 namespace {
 
+std::string ipv4Text(const IpAddress& address) {
+    std::string text = std::to_string(std::to_integer<unsigned>(address.bytes[0]));
+    for (std::size_t i = 1; i < 4; ++i) {
+        text.append(1, '.').append(std::to_string(std::to_integer<unsigned>(address.bytes[i])));
+    }
+    return text;
+}
+
+/// RFC 5952: small letters, the longest run of two or more zero groups left out.
+std::string bracedIpv6Text(const IpAddress& address) {
+    std::size_t longestStart = 8;
+    std::size_t longest = 1;
+    for (std::size_t i = 0; i < 8; ++i) {
+        std::size_t end = i;
+        while (end < 8 && wire::load16(address.bytes.data() + 2 * end) == 0) {
+            ++end;
+        }
+        if (end - i > longest) {
+            longest = end - i;
+            longestStart = i;
+        }
+    }
+    std::string text = "[";
+    for (std::size_t i = 0; i < 8; ++i) {
+        if (i == longestStart) {
+            text += "::";
+            i += longest - 1;
+            continue;
+        }
+        text += text.size() == 1 || text.back() == ':' ? "" : ":";
+        const unsigned group = wire::load16(address.bytes.data() + 2 * i);
+        std::array<char, 4> digits{};
+        text.append(digits.data(), std::to_chars(digits.begin(), digits.end(), group, 16).ptr);
+    }
+    return text + ']';
+}
+
 std::optional<std::uint16_t> parseNumber(std::string_view text, int base, unsigned most) {
     unsigned value = 0;
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value, base);
-    if (text.empty() || stop != end || error != std::errc() || value > most) {
+    if (stop != end || error != std::errc() || value > most) {
         return std::nullopt;
     }
     return static_cast<std::uint16_t>(value);
@@ -79,7 +116,9 @@ std::optional<IpAddress> parseIpv6(std::string_view text) {
 } // namespace
 
 std::string endpointText(const IpEndpoint& endpoint) {
-    return addressText(endpoint.address) + ':' + std::to_string(endpoint.port);
+    const IpAddress& address = endpoint.address;
+    return (address.isIpv6 ? bracedIpv6Text(address) : ipv4Text(address)) + ':' +
+           std::to_string(endpoint.port);
 }
 
 std::optional<IpEndpoint> parseIpEndpoint(std::string_view text) {

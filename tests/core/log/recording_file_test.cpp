@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/raw_file.h"
+#include "core/log/recording_file.h"
 
 #include "tests/core/log/datagram_fixture.h"
 #include "tests/support/paths.h"
@@ -50,14 +50,14 @@ struct Seen {
 std::vector<Seen> records(ByteSource& source, tl::expected<void, FileError>& result) {
     std::vector<Seen> seen;
     result = readFile(source, [&](const FileRecord& record) {
-        seen.push_back({record.offset, record.bytes.size(), record.isSkipped});
+        seen.push_back({record.offset, record.bytes.size(), record.flags.skipped});
         EXPECT_FALSE(record.stamp.has_value());
         EXPECT_FALSE(record.sender.has_value());
     });
     return seen;
 }
 
-TEST(RawFile, TellsFormatsByContent) {
+TEST(RecordingFile, TellsFormatsByContent) {
     EXPECT_EQ(fileFormat(textBytes("MXTP02")), FileFormat::Raw);
     EXPECT_EQ(fileFormat({}), FileFormat::Raw);
     EXPECT_EQ(fileFormat(textBytes("\xd4\xc3\xb2\xa1")), FileFormat::Pcap);
@@ -65,7 +65,7 @@ TEST(RawFile, TellsFormatsByContent) {
     EXPECT_EQ(fileFormat(textBytes("\x0a\x0d\x0d\x0a")), FileFormat::Pcapng);
 }
 
-TEST(RawFile, GivesDatagramsWithTheirPlaces) {
+TEST(RecordingFile, GivesDatagramsWithTheirPlaces) {
     std::istringstream stream(textOf(joined({poseDatagram(1), textBytes("gap"), poseDatagram(2)})));
     tl::expected<void, FileError> result;
     const auto seen = records(*readingFrom(stream, "standard input"), result);
@@ -73,7 +73,7 @@ TEST(RawFile, GivesDatagramsWithTheirPlaces) {
     EXPECT_EQ(seen, (std::vector<Seen>{{0, 760, false}, {760, 3, true}, {763, 760, false}}));
 }
 
-TEST(RawFile, FilesShorterThanAFormatMarkAreRead) {
+TEST(RecordingFile, FilesShorterThanAFormatMarkAreRead) {
     for (const std::string text : {"", "M", "abc"}) {
         std::istringstream stream(text);
         tl::expected<void, FileError> result;
@@ -83,7 +83,7 @@ TEST(RawFile, FilesShorterThanAFormatMarkAreRead) {
     }
 }
 
-TEST(RawFile, LongFileIsReadInPieces) {
+TEST(RecordingFile, LongFileIsReadInPieces) {
     std::vector<ByteVector> parts;
     for (std::uint32_t i = 0; i < 500; ++i) {
         parts.push_back(poseDatagram(i));
@@ -93,7 +93,7 @@ TEST(RawFile, LongFileIsReadInPieces) {
     EXPECT_EQ(records(*readingFrom(stream, "x"), result).size(), 500U);
 }
 
-TEST(RawFile, KeepsWhatCameBeforeAFailure) {
+TEST(RecordingFile, KeepsWhatCameBeforeAFailure) {
     FailingSource source(poseDatagram(1));
     tl::expected<void, FileError> result;
     const auto seen = records(source, result);
@@ -102,7 +102,7 @@ TEST(RawFile, KeepsWhatCameBeforeAFailure) {
     EXPECT_EQ(seen.size(), 1U);
 }
 
-TEST(RawFile, ADamagedCaptureIsNamedNotMisread) {
+TEST(RecordingFile, ADamagedCaptureIsNamedNotMisread) {
     std::istringstream stream("\x0a\x0d\x0d\x0a and more of the same");
     tl::expected<void, FileError> result;
     EXPECT_TRUE(records(*readingFrom(stream, "walk.pcapng"), result).empty());
@@ -110,7 +110,7 @@ TEST(RawFile, ADamagedCaptureIsNamedNotMisread) {
     EXPECT_THAT(result.error().text, HasSubstr("walk.pcapng: is damaged"));
 }
 
-TEST(RawFile, MissingFileAndFolderAreClearErrors) {
+TEST(RecordingFile, MissingFileAndFolderAreClearErrors) {
     const auto missing = openFile("no/such/file.bin");
     ASSERT_FALSE(missing.has_value());
     EXPECT_THAT(missing.error().text, HasSubstr("no/such/file.bin: no such file"));
@@ -119,7 +119,7 @@ TEST(RawFile, MissingFileAndFolderAreClearErrors) {
     EXPECT_THAT(folder.error().text, HasSubstr("folder"));
 }
 
-TEST(RawFile, ReadsTheCapturedDatagrams) {
+TEST(RecordingFile, ReadsTheCapturedDatagrams) {
     const std::filesystem::path folder = test::capturesFolder();
     if (!std::filesystem::exists(folder)) {
         GTEST_SKIP() << "the captured datagrams are not here: " << folder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/ip_endpoint.h"
+#include "core/log/ip_address.h"
 
 #include <gmock/gmock.h>
 

@@ -11,7 +11,7 @@
 
 namespace posewire::log {
 
-/// Why a file cannot be read: what, where and what to do, in one line for the user.
+/// Why a file cannot be read or written: what, where and what to do, in one line for the user.
 struct FileError {
     std::string text;
 };
@@ -33,5 +33,20 @@ tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string&
 
 /// Reads from a stream that belongs to the caller: standard input, a string in a test.
 std::unique_ptr<ByteSource> readingFrom(std::istream& stream, std::string name);
+
+/// Where bytes go in order. After a failure nothing more is to be written.
+class ByteSink {
+public:
+    virtual ~ByteSink() = default;
+
+    virtual tl::expected<void, FileError> write(std::span<const std::byte> bytes) = 0;
+
+    /// What was written is in the hands of the system: it survives the end of this process.
+    virtual tl::expected<void, FileError> flush() = 0;
+};
+
+/// A file that is written from the start. Fails where it cannot be; later failures, such as a full disk, come
+/// from write() and flush().
+tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string& path);
 
 } // namespace posewire::log

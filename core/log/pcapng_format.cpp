@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/recorded_origin.h"
+#include "core/log/pcapng_format.h"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 
 namespace posewire::log {
+
 namespace {
 
 constexpr std::string_view kSignature = "Posewire: ";
 constexpr std::array<std::string_view, 4> kTransports{"UDP", "TCP", "file", "performer"};
-constexpr std::string_view kTruncated = "; truncated";
-constexpr std::string_view kSkipped = "; between datagrams";
-constexpr std::string_view kDropsAlone = "; news of drops";
+constexpr std::array<std::pair<bool PacketFlags::*, std::string_view>, 3> kFlags{
+    {{&PacketFlags::truncated, "; truncated"},
+     {&PacketFlags::skipped, "; between datagrams"},
+     {&PacketFlags::isDropRecord, "; news of drops"}}};
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kFrom = "; from ";
 
@@ -20,23 +24,14 @@ bool takes(std::string_view& text, std::string_view prefix) {
     return isThere;
 }
 
-std::optional<Transport> takeTransport(std::string_view& text) {
-    for (std::size_t i = 0; i < kTransports.size(); ++i) {
-        if (takes(text, kTransports[i])) {
-            return static_cast<Transport>(i);
-        }
-    }
-    return std::nullopt;
-}
-
 } // namespace
 
 std::string originText(const RecordedOrigin& origin) {
     std::string text(kSignature);
     text += kTransports[static_cast<std::size_t>(origin.transport)];
-    text += origin.flags.truncated ? kTruncated : "";
-    text += origin.flags.skipped ? kSkipped : "";
-    text += origin.flags.isDropRecord ? kDropsAlone : "";
+    for (const auto& [flag, words] : kFlags) {
+        text += origin.flags.*flag ? words : "";
+    }
     text += origin.flags.stampedByKernel ? "" : kStampedOnReading;
     if (origin.address) {
         text.append(kFrom).append(*origin.address); // last, as it may hold anything
@@ -49,14 +44,15 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
     if (!takes(comment, kSignature)) {
         return std::nullopt;
     }
-    const auto transport = takeTransport(comment);
-    if (!transport) {
+    const auto transport =
+        std::ranges::find_if(kTransports, [&](std::string_view name) { return takes(comment, name); });
+    if (transport == kTransports.end()) {
         return std::nullopt;
     }
-    origin.transport = *transport;
-    origin.flags.truncated = takes(comment, kTruncated);
-    origin.flags.skipped = takes(comment, kSkipped);
-    origin.flags.isDropRecord = takes(comment, kDropsAlone);
+    origin.transport = static_cast<Transport>(transport - kTransports.begin());
+    for (const auto& [flag, words] : kFlags) {
+        origin.flags.*flag = takes(comment, words);
+    }
     origin.flags.stampedByKernel = !takes(comment, kStampedOnReading);
     if (takes(comment, kFrom)) {
         origin.address = comment;

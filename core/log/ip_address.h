@@ -1,11 +1,21 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/ip_packet.h"
-
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace posewire::log {
+
+/// An IPv4 address in the first four bytes, or an IPv6 address.
+struct IpAddress {
+    std::array<std::byte, 16> bytes{};
+    bool isIpv6 = false;
+    friend auto operator<=>(const IpAddress&, const IpAddress&) = default;
+};
 
 struct IpEndpoint {
     IpAddress address;
@@ -13,7 +23,7 @@ struct IpEndpoint {
     friend bool operator==(const IpEndpoint&, const IpEndpoint&) = default;
 };
 
-/// "10.0.0.2:40001", "[fe80::1]:40001".
+/// "10.0.0.2:40001", "[fe80::1]:40001" (RFC 5952).
 [[nodiscard]] std::string endpointText(const IpEndpoint& endpoint);
 
 /// The inverse. A zone of an IPv6 address ("%eth0") is passed over; names are not known.

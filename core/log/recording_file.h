@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/byte_io.h"
+#include "core/log/packet.h"
+#include "core/log/time.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+
+namespace posewire::log {
+
+/// What a file is by its first bytes, whatever its name. Fewer than four bytes are Raw.
+enum class FileFormat : std::uint8_t { Raw, Pcap, Pcapng };
+[[nodiscard]] FileFormat fileFormat(std::span<const std::byte> firstBytes);
+
+/// One datagram of a file, or bytes between datagrams. A run of those that is longer than 64 KiB comes in
+/// several records.
+struct FileRecord {
+    std::uint64_t offset = 0;           ///< of the first byte in the file
+    std::span<const std::byte> bytes;   ///< valid during the call
+    std::optional<Stamp> stamp{};       ///< since 1970-01-01 UTC; raw files have none
+    std::optional<SenderInfo> sender{}; ///< raw files know none
+    PacketFlags flags{};
+    std::uint32_t kernelDropsBefore = 0;     ///< as in Arrival; known to recordings, see PcapngWriter
+    std::span<const std::string> comments{}; ///< UTF-8, valid during the call; of recordings
+};
+
+/// What the log keeps of a record of `sender`. `stamp` is for records without a stamp.
+[[nodiscard]] inline Arrival arrivalOf(const FileRecord& record, SenderId sender, Stamp stamp) {
+    return {record.stamp.value_or(stamp), sender, record.kernelDropsBefore, record.flags};
+}
+
+using FileVisitor = std::function<void(const FileRecord&)>;
+
+/// Reads a file of any format that is known, found by its content: datagrams back to back, as on TCP; pcap
+/// (microseconds or nanoseconds, either byte order); pcapng. In captures it finds what Reassembly finds. A
+/// capture that is cut off is read up to its last whole packet. What PcapngWriter has written comes back as
+/// it was.
+tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit);
+
+} // namespace posewire::log
