@@ -2,7 +2,6 @@
 #include "app/cli/datagram_pacer.h"
 #include "app/cli/input.h"
 #include "app/cli/send_options.h"
-#include "app/net/send_schedule.h"
 #include "core/log/recording_file.h"
 
 namespace posewire::cli {

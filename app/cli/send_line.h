@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/net/datagram_sender.h"
-#include "app/net/send_schedule.h"
 #include "core/log/time.h"
 #include "core/performer/faults.h"
 #include "core/performer/truth.h"

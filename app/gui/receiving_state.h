@@ -5,7 +5,7 @@
 #include "app/gui/options.h"
 #include "app/net/connection_help.h"
 #include "app/net/input.h"
-#include "app/net/local_addresses.h"
+#include "app/net/addresses.h"
 #include "core/log/time.h"
 
 #include <QString>

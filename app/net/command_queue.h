@@ -3,20 +3,33 @@
 
 #include <atomic>
 #include <functional>
+#include <future>
 #include <mutex>
 #include <vector>
 
 namespace posewire::net {
 
-/// Calls that other threads queue for one thread to make. Checking for calls costs one load.
+/// Calls that other threads have one thread make. Checking for calls costs one load.
 class CommandQueue {
 public:
     using Command = std::function<void()>;
 
-    void push(Command command) {
-        const std::lock_guard lock(m_mutex);
-        m_commands.push_back(std::move(command));
-        m_isEmpty.store(false, std::memory_order_release);
+    /// `wake` makes the thread look.
+    explicit CommandQueue(Command wake = {}) : m_wake(std::move(wake)) {}
+
+    /// Returns once the thread has made the call.
+    void call(const Command& command) {
+        std::promise<void> promise;
+        {
+            const std::lock_guard lock(m_mutex);
+            m_commands.emplace_back([&] {
+                command();
+                promise.set_value();
+            });
+            m_isEmpty.store(false, std::memory_order_release);
+        }
+        m_wake();
+        promise.get_future().wait();
     }
 
     /// Makes the queued calls in order. Only from the one thread.
@@ -36,6 +49,7 @@ public:
     }
 
 private:
+    const Command m_wake;
     std::mutex m_mutex;
     std::vector<Command> m_commands;
     std::atomic<bool> m_isEmpty = true;

@@ -4,10 +4,31 @@
 #include "app/net/foreign_protocol.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 
 namespace posewire::net {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+bool hasLine(const fs::path& file, const std::string& wanted) {
+    std::ifstream stream(file);
+    std::string line;
+    while (std::getline(stream, line)) {
+        if (line == wanted) {
+            return true;
+        }
+    }
+    return false;
+}
+
+bool isThere(const fs::path& path) {
+    std::error_code fault;
+    return fs::exists(fs::symlink_status(path, fault));
+}
 
 using Kind = Finding::Kind;
 using Findings = std::vector<Finding>;
@@ -153,7 +174,7 @@ void findTransport(const ConnectionFacts& facts, Findings& findings) {
          std::string("check Protocol in MVN's Network Streamer, or listen for ") + other + " as well"});
 }
 
-void findFirewall(const ConnectionFacts& facts, Findings& findings) {
+void findBlocked(const ConnectionFacts& facts, Findings& findings) {
     if (!facts.firewall || facts.mxtpDatagrams != 0 || facts.silence < kSilence || facts.inputs.empty()) {
         return;
     }
@@ -175,9 +196,26 @@ void findFirewall(const ConnectionFacts& facts, Findings& findings) {
 
 } // namespace
 
+std::optional<Firewall> findFirewall(const std::string& root) {
+    const fs::path base(root);
+    if (hasLine(base / "etc/ufw/ufw.conf", "ENABLED=yes")) {
+        return Firewall{"ufw", "sudo ufw allow PORT/udp"};
+    }
+    if (isThere(base / "run/firewalld.pid") || isThere(base / "run/firewalld")) {
+        return Firewall{"firewalld", "sudo firewall-cmd --add-port=PORT/udp"};
+    }
+    if (isThere(base / "etc/systemd/system/sysinit.target.wants/nftables.service")) {
+        return Firewall{"nftables", "ask the administrator to accept PORT/udp in /etc/nftables.conf"};
+    }
+    if (hasLine(base / "proc/net/ip_tables_names", "filter")) {
+        return Firewall{"iptables", "sudo iptables -I INPUT -p udp --dport PORT -j ACCEPT"};
+    }
+    return std::nullopt;
+}
+
 std::vector<Finding> connectionHelp(const ConnectionFacts& facts) {
     Findings findings;
-    for (const auto find : {findFailed, findForeign, findPeers, findSilence, findTransport, findFirewall}) {
+    for (const auto find : {findFailed, findForeign, findPeers, findSilence, findTransport, findBlocked}) {
         find(facts, findings);
     }
     return findings;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/datagram_sender.h"
 
-#include "app/net/host_lookup.h"
+#include "app/net/addresses.h"
 
 #include <QHostAddress>
 #include <QTcpSocket>
 #include <QUdpSocket>
+
+#include <thread>
 
 namespace posewire::net {
 
@@ -15,11 +17,28 @@ constexpr int kPatienceMs = 5000;
 /// Once this much is unsent, a TCP receiver that reads nothing makes the sender wait.
 constexpr qint64 kMostUnsent = 1 << 20;
 
-std::string textOf(const QHostAddress& address, quint16 port) {
+std::string addressOf(const QHostAddress& address, quint16 port) {
     return net::textOf(Endpoint{address.toString().toStdString(), port});
 }
 
 } // namespace
+
+SendSchedule::SendSchedule(const log::Clock& clock, Sleep sleep)
+    : m_clock(clock), m_sleep(std::move(sleep)), m_start(clock.monotonic()) {
+    if (!m_sleep) {
+        m_sleep = [](log::Duration duration) { std::this_thread::sleep_for(duration); };
+    }
+}
+
+log::Duration SendSchedule::waitUntil(log::Duration afterStart) {
+    while (true) {
+        const log::Duration late = elapsed() - afterStart;
+        if (late >= log::Duration::zero()) {
+            return late;
+        }
+        m_sleep(-late);
+    }
+}
 
 /// One target.
 class DatagramSender::Channel {
@@ -48,7 +67,7 @@ public:
         QUdpSocket probe;
         probe.connectToHost(m_address, m_port);
         const QHostAddress address = probe.waitForConnected(0) ? probe.localAddress() : QHostAddress();
-        return textOf(address.isNull() ? m_socket.localAddress() : address, m_socket.localPort());
+        return addressOf(address.isNull() ? m_socket.localAddress() : address, m_socket.localPort());
     }
 
 private:
@@ -96,7 +115,7 @@ public:
     }
 
     [[nodiscard]] std::string localAddress() const override {
-        return textOf(m_socket.localAddress(), m_socket.localPort());
+        return addressOf(m_socket.localAddress(), m_socket.localPort());
     }
 
 private:

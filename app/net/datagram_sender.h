@@ -3,15 +3,37 @@
 
 #include "app/net/endpoint.h"
 #include "app/net/net_error.h"
+#include "core/log/clock.h"
+#include "core/log/time.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace posewire::net {
+
+/// When to send: every deadline counts from one start, so late wake-ups never add up to drift.
+class SendSchedule {
+public:
+    using Sleep = std::function<void(log::Duration)>;
+
+    /// Starts now. `sleep` is for tests; by default the thread sleeps.
+    explicit SendSchedule(const log::Clock& clock, Sleep sleep = {});
+
+    /// Sleeps until that long after the start, or not at all if it has passed. Returns how late it is.
+    log::Duration waitUntil(log::Duration afterStart);
+
+    [[nodiscard]] log::Duration elapsed() const { return m_clock.monotonic() - m_start; }
+
+private:
+    const log::Clock& m_clock;
+    Sleep m_sleep;
+    log::Moment m_start;
+};
 
 struct SendTarget {
     enum class Transport : std::uint8_t {

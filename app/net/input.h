@@ -72,13 +72,17 @@ struct InputStatus {
 /// An input as its threads share it.
 class Input {
 public:
-    Input(InputId id, InputKind kind, Endpoint endpoint, std::vector<std::string> groups = {})
-        : m_id(id), m_kind(kind), m_groups(std::move(groups)), m_endpoint(std::move(endpoint)) {}
+    Input(InputId id, InputKind kind, const Endpoint& endpoint, std::vector<std::string> groups = {})
+        : m_id(id), m_kind(kind) {
+        m_status.id = id;
+        m_status.kind = kind;
+        m_status.endpoint = endpoint;
+        m_status.groups = std::move(groups);
+    }
 
     [[nodiscard]] InputId id() const { return m_id; }
     [[nodiscard]] InputKind kind() const { return m_kind; }
     [[nodiscard]] InputCounters& counters() { return m_counters; }
-    [[nodiscard]] const InputCounters& counters() const { return m_counters; }
 
     // From any thread.
     void setEndpoint(const Endpoint& endpoint);
@@ -89,14 +93,9 @@ public:
 private:
     const InputId m_id;
     const InputKind m_kind;
-    const std::vector<std::string> m_groups;
     InputCounters m_counters;
-    mutable std::mutex m_mutex; ///< guards the members below
-    Endpoint m_endpoint;
-    InputState m_state = InputState::Listening;
-    std::string m_text;
-    std::vector<Peer> m_peers;
-    std::uint64_t m_refusedPeers = 0;
+    mutable std::mutex m_mutex; ///< guards m_status
+    InputStatus m_status;       ///< but for the counters
 };
 
 } // namespace posewire::net

@@ -26,13 +26,9 @@ public:
     explicit PacketQueue(std::function<void()> onFilled = {}, std::size_t byteLimit = kByteLimit)
         : m_onFilled(std::move(onFilled)), m_byteLimit(byteLimit) {}
 
-    /// False if the queue is full: the packet is lost and counted, and the log gets a record of the loss
-    /// after the queued packets. `arrival.sender` is set when the packet reaches the log. From any thread.
+    /// Waits for room. `arrival.sender` is set when the packet reaches the log. False once the queue is
+    /// closed. From any thread.
     bool push(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
-
-    /// Waits for room. False once the queue is closed.
-    bool pushWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
-                     const log::Arrival& arrival);
 
     /// The queue is no longer emptied: releases those who wait.
     void close();
@@ -42,7 +38,6 @@ public:
     std::size_t moveTo(log::PacketLog& log);
 
     [[nodiscard]] bool isEmpty() const { return m_isEmpty.load(std::memory_order_acquire); }
-    [[nodiscard]] std::uint64_t refused() const { return m_refused.load(std::memory_order_relaxed); }
 
 private:
     using Sender = std::shared_ptr<const log::SenderInfo>;
@@ -51,16 +46,7 @@ private:
         Sender sender; ///< shared, since packets arrive in runs from one sender
         log::Arrival arrival;
     };
-    struct Loss {
-        log::SenderInfo sender;
-        log::Stamp stamp;
-        std::uint32_t count;
-    };
-
     [[nodiscard]] bool hasRoomFor(std::size_t bytes) const;
-    bool place(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
-    void remember(const log::SenderInfo& sender, log::Stamp stamp);
-    void appendLosses(log::PacketLog& log);
 
     const std::function<void()> m_onFilled;
     const std::size_t m_byteLimit;
@@ -68,14 +54,11 @@ private:
     std::condition_variable m_hasRoom;
     std::vector<Entry> m_entries;
     std::vector<std::byte> m_bytes;
-    std::vector<Loss> m_losses;
     Sender m_lastSender;
     bool m_isClosed = false;
     std::vector<Entry> m_takenEntries; ///< swapped with the above, so that both keep their memory
     std::vector<std::byte> m_takenBytes;
-    std::vector<Loss> m_takenLosses;
     std::atomic<bool> m_isEmpty = true;
-    std::atomic<std::uint64_t> m_refused = 0;
 };
 
 } // namespace posewire::net

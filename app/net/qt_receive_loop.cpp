@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/qt_receive_loop.h"
-
-#include "app/net/address_text.h"
+#include "app/net/addresses.h"
+#include "app/net/receive_loop.h"
 #include "app/net/udp_binding.h"
 
 #include <QEventLoop>
@@ -148,8 +147,7 @@ bool QtReceiveLoop::takeOne(Socket& socket) {
 
 log::SenderId QtReceiveLoop::senderOf(Socket& socket, const QHostAddress& address, quint16 port) {
     if (!socket.last || socket.last->port != port || socket.last->address != address) {
-        const log::SenderInfo info{textOf(Endpoint{addressText(address), port}), log::Transport::Udp,
-                                   socket.socket->localPort()};
+        const log::SenderInfo info{textOf(address, port), log::Transport::Udp, socket.socket->localPort()};
         socket.last = Last{address, port, m_context.log.senders().intern(info)};
     }
     return socket.last->id;
@@ -162,6 +160,15 @@ void QtReceiveLoop::close() {
 }
 
 } // namespace
+
+std::unique_ptr<ReceiveLoop> makeReceiveLoop(const ReceiveContext& context) {
+#ifdef __linux__
+    if (context.options.path == ReceivePath::Native) {
+        return makeRecvmmsgLoop(context);
+    }
+#endif
+    return makeQtReceiveLoop(context);
+}
 
 std::unique_ptr<ReceiveLoop> makeQtReceiveLoop(const ReceiveContext& context) {
     return std::make_unique<QtReceiveLoop>(context);

@@ -55,8 +55,15 @@ private:
     std::atomic<bool> m_isStopping = false;
 };
 
-/// The loop of this path on this system.
+/// The loop of this path on this system: one of those below.
 [[nodiscard]] std::unique_ptr<ReceiveLoop> makeReceiveLoop(const ReceiveContext& context);
+
+/// Receives with Qt Network alone, on any system: no stamps and no drop counters from the kernel.
+[[nodiscard]] std::unique_ptr<ReceiveLoop> makeQtReceiveLoop(const ReceiveContext& context);
+
+/// Linux: many datagrams per system call, written by the kernel straight into the log, with its stamps and
+/// its drop counter.
+[[nodiscard]] std::unique_ptr<ReceiveLoop> makeRecvmmsgLoop(const ReceiveContext& context);
 
 /// Adds to a counter that only this thread writes: cheaper than an atomic addition.
 template <typename Number>

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/receiver.h"
 
+#include "app/net/listen_error.h"
 #include "app/net/receive_loop.h"
 #include "app/net/tcp_thread.h"
-#include "app/net/thread_time.h"
-#include "app/net/udp_binding.h"
 
 #include <algorithm>
-#include <future>
+
+#if __has_include(<pthread.h>) && __has_include(<unistd.h>)
+#include <ctime>
+
+#include <pthread.h>
+#include <unistd.h>
+#endif
 
 namespace posewire::net {
 
@@ -15,6 +20,7 @@ Receiver::Receiver(log::PacketLog& log, const log::Clock& clock, const ReceiverO
     : m_log(log),
       m_clock(clock),
       m_queue([this] { m_loop->wake(); }),
+      m_commands([this] { m_loop->wake(); }),
       m_loop(makeReceiveLoop({log, clock, m_queue, m_commands, m_counters, options})) {
     m_thread = std::thread([this] { m_loop->run(); });
 }
@@ -45,21 +51,11 @@ TcpThread& Receiver::tcp() {
     return *m_tcp;
 }
 
-void Receiver::callAndWait(const CommandQueue::Command& command) {
-    std::promise<void> promise;
-    m_commands.push([&] {
-        command();
-        promise.set_value();
-    });
-    m_loop->wake();
-    promise.get_future().wait();
-}
-
 NetResult<InputId> Receiver::addUdp(const UdpInput& where) {
     // Qt's sockets belong to the thread that makes them, so the receiving thread has to open them.
     const auto input = makeInput(InputKind::Udp, where.endpoint, where.groups);
     NetResult<void> result;
-    callAndWait([&] { result = m_loop->add(input, where); });
+    m_commands.call([&] { result = m_loop->add(input, where); });
     if (!result) {
         return tl::unexpected(withHolder(result.error(), where.endpoint.port, false));
     }
@@ -97,7 +93,7 @@ bool Receiver::remove(InputId id) {
         m_inputs.erase(place);
     }
     if (input->kind() == InputKind::Udp) {
-        callAndWait([&] { m_loop->remove(id); });
+        m_commands.call([&] { m_loop->remove(id); });
     } else {
         tcp().remove(id);
     }
@@ -105,7 +101,7 @@ bool Receiver::remove(InputId id) {
 }
 
 void Receiver::flush() {
-    callAndWait([&] { m_queue.moveTo(m_log); });
+    m_commands.call([&] { m_queue.moveTo(m_log); });
 }
 
 std::vector<InputStatus> Receiver::inputs() const {
@@ -123,7 +119,6 @@ ReceiveTotals Receiver::totals() const {
     totals.datagrams = m_counters.datagrams + m_tcpTotals.datagrams;
     totals.bytes = m_counters.bytes + m_tcpTotals.bytes;
     totals.kernelDropped = m_counters.kernelDropped;
-    totals.queueDropped = m_queue.refused();
     totals.longestDelay = m_counters.longestDelay;
     const std::lock_guard lock(m_mutex);
     for (const auto& input : m_inputs) {
@@ -137,7 +132,15 @@ ReceiveTotals Receiver::totals() const {
 }
 
 std::optional<double> Receiver::cpuSeconds() {
-    return net::cpuSeconds(m_thread);
+#if defined(_POSIX_THREAD_CPUTIME) && _POSIX_THREAD_CPUTIME >= 0
+    clockid_t clock{};
+    timespec time{};
+    if (::pthread_getcpuclockid(m_thread.native_handle(), &clock) == 0 &&
+        ::clock_gettime(clock, &time) == 0) {
+        return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+    }
+#endif
+    return std::nullopt;
 }
 
 std::optional<double> Receiver::takeBufferFill() {
@@ -153,11 +156,6 @@ std::optional<double> Receiver::takeBufferFill() {
 bool Receiver::submit(std::span<const std::byte> bytes, const log::SenderInfo& sender,
                       const log::Arrival& arrival) {
     return m_queue.push(bytes, sender, arrival);
-}
-
-bool Receiver::submitWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
-                             const log::Arrival& arrival) {
-    return m_queue.pushWaiting(bytes, sender, arrival);
 }
 
 } // namespace posewire::net

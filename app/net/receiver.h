@@ -45,8 +45,8 @@ struct ReceiverOptions {
 struct ReceiveCounters {
     std::atomic<std::uint64_t> datagrams = 0;
     std::atomic<std::uint64_t> bytes = 0;
-    std::atomic<std::uint64_t> kernelDropped =
-        0; ///< datagrams lost on this computer because the buffer was full
+    /// Datagrams lost on this computer because the buffer was full.
+    std::atomic<std::uint64_t> kernelDropped = 0;
     /// Largest fill in thousandths since it was last read; -1 before the first look.
     std::atomic<std::int32_t> bufferFill = -1;
     std::atomic<log::Duration> longestDelay{}; ///< the longest time between two looks at the sockets
@@ -57,7 +57,6 @@ struct ReceiveTotals {
     std::uint64_t datagrams = 0; ///< UDP and TCP, without what submit() brought
     std::uint64_t bytes = 0;
     std::uint64_t kernelDropped = 0;     ///< see ReceiveCounters
-    std::uint64_t queueDropped = 0;      ///< refused by submit() because the queue was full
     std::int64_t receiveBufferBytes = 0; ///< the smallest granted to an open UDP input; 0 if none is open
     log::Duration longestDelay{};
 };
@@ -104,13 +103,9 @@ public:
     /// and after each delay; empty where the system does not report it or no UDP input is open.
     [[nodiscard]] std::optional<double> takeBufferFill();
 
-    /// Queues a packet for the log; `arrival.sender` need not be set. False if the queue is full: the packet
-    /// is lost, and the log records the loss.
+    /// Queues a packet for the log, once there is room; `arrival.sender` need not be set. False only when the
+    /// receiver stops.
     bool submit(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
-
-    /// The same, but waits for room. False only when the receiver stops.
-    bool submitWaiting(std::span<const std::byte> bytes, const log::SenderInfo& sender,
-                       const log::Arrival& arrival);
 
     /// Returns once everything submitted before is in the log.
     void flush();
@@ -122,7 +117,6 @@ private:
                                      std::vector<std::string> groups = {});
     void keep(const std::shared_ptr<Input>& input);
     TcpThread& tcp();
-    void callAndWait(const CommandQueue::Command& command);
 
     log::PacketLog& m_log;
     const log::Clock& m_clock;

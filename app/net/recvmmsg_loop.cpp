@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/recvmmsg_loop.h"
-
-#include "app/net/message_batch.h"
-#include "app/net/sender_cache.h"
+#include "app/net/kernel_socket.h"
+#include "app/net/receive_loop.h"
 #include "app/net/udp_binding.h"
 
 #include <QEventLoop>
 
 #include <fcntl.h>
-#include <linux/sock_diag.h>
-#include <netinet/in.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <thread>
 
 namespace posewire::net {
@@ -34,23 +28,6 @@ constexpr std::size_t kBufferPerDatagram = 2304;
 constexpr int kBatchesPerTurn = 256;
 /// Rounds between two reads of the kernel's drop counters: about ten reads a second.
 constexpr int kRoundsPerDropCheck = 16;
-
-/// A descriptor that its owner closes.
-class Descriptor {
-public:
-    explicit Descriptor(int descriptor = -1) : m_descriptor(descriptor) {}
-    Descriptor(Descriptor&& other) noexcept : m_descriptor(std::exchange(other.m_descriptor, -1)) {}
-    Descriptor& operator=(Descriptor&&) = delete;
-    ~Descriptor() {
-        if (m_descriptor >= 0) {
-            ::close(m_descriptor);
-        }
-    }
-    [[nodiscard]] int get() const { return m_descriptor; }
-
-private:
-    int m_descriptor;
-};
 
 struct Socket {
     std::shared_ptr<Input> input;
@@ -105,24 +82,6 @@ private:
     log::Moment m_looked{}; ///< when the sockets were last looked at
 };
 
-/// If the kernel refuses, stamps come from the clock.
-void enable(int descriptor, int option) {
-    const int on = 1;
-    ::setsockopt(descriptor, SOL_SOCKET, option, &on, sizeof on);
-}
-
-/// Qt asks the kernel for the interface and hop count of each datagram. Nobody here reads them, and they cost
-/// a fifteenth of the receiving time.
-void disableWhatQtAsksFor(int descriptor) {
-    const int off = 0;
-    for (const int option : {IP_PKTINFO, IP_RECVTTL}) {
-        ::setsockopt(descriptor, IPPROTO_IP, option, &off, sizeof off);
-    }
-    for (const int option : {IPV6_RECVPKTINFO, IPV6_RECVHOPLIMIT}) {
-        ::setsockopt(descriptor, IPPROTO_IPV6, option, &off, sizeof off);
-    }
-}
-
 NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
     const QEventLoop dispatcher; // Qt's sockets need one in their thread, if only to open
     const auto bound = bindUdp(where, m_context.options.bufferBytes);
@@ -135,9 +94,7 @@ NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const Udp
     for (const auto& socket : *bound) {
         // A descriptor of our own, without Qt's notifiers; Qt closes its own at the end of this turn.
         Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
-        disableWhatQtAsksFor(descriptor.get());
-        enable(descriptor.get(), SO_TIMESTAMPNS);
-        enable(descriptor.get(), SO_RXQ_OVFL);
+        prepare(descriptor.get());
         m_sockets.push_back(std::unique_ptr<Socket>(
             new Socket{input, std::move(descriptor), SenderCache(m_context.log.senders(), port)}));
     }
@@ -282,12 +239,10 @@ void RecvmmsgLoop::recordDrops(Socket& socket, std::uint32_t drops) {
 
 /// A packet reports loss only once the next one arrives; the socket knows at once.
 void RecvmmsgLoop::checkDrops(Socket& socket) {
-    std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
-    socklen_t size = sizeof info;
-    if (::getsockopt(socket.descriptor.get(), SOL_SOCKET, SO_MEMINFO, info.data(), &size) == 0) {
-        countDrops(socket, info[SK_MEMINFO_DROPS]);
+    if (const auto memory = memoryOf(socket.descriptor.get())) {
+        countDrops(socket, memory->drops);
         if (socket.isEmpty) {
-            recordDrops(socket, info[SK_MEMINFO_DROPS]);
+            recordDrops(socket, memory->drops);
         }
     }
 }
@@ -296,12 +251,9 @@ void RecvmmsgLoop::checkDrops(Socket& socket) {
 void RecvmmsgLoop::measureFill() {
     m_isDelayed = false;
     for (const auto& socket : m_sockets) {
-        std::array<std::uint32_t, SK_MEMINFO_VARS> info{};
-        socklen_t size = sizeof info;
-        if (::getsockopt(socket->descriptor.get(), SOL_SOCKET, SO_MEMINFO, info.data(), &size) == 0 &&
-            info[SK_MEMINFO_RCVBUF] != 0) {
-            const auto fill = static_cast<std::int32_t>(std::uint64_t{info[SK_MEMINFO_RMEM_ALLOC]} * 1000 /
-                                                        info[SK_MEMINFO_RCVBUF]);
+        if (const auto memory = memoryOf(socket->descriptor.get()); memory && memory->bufferBytes != 0) {
+            const auto fill =
+                static_cast<std::int32_t>(std::uint64_t{memory->usedBytes} * 1000 / memory->bufferBytes);
             std::atomic<std::int32_t>& most = m_context.counters.bufferFill;
             most.store(std::max(most.load(std::memory_order_relaxed), fill), std::memory_order_relaxed);
         }

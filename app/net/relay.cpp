@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/relay.h"
 
-#include "app/net/host_lookup.h"
-#include "app/net/local_addresses.h"
+#include "app/net/addresses.h"
 #include "app/net/receive_loop.h"
 
 #include <QEventLoop>
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <future>
 
 namespace posewire::net {
 
@@ -94,7 +92,7 @@ Relay::Relay(const log::PacketLog& log, const log::Clock& clock)
 
 Relay::~Relay() {
     // As a command: a thread that saw a flag earlier would end before a queued command and never answer it.
-    call([this] { m_isStopping = true; });
+    m_commands.call([this] { m_isStopping = true; });
     m_thread.join();
 }
 
@@ -109,7 +107,7 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
     auto added = std::make_shared<Target>();
     added->endpoint = target;
     added->address = *address;
-    call([&] {
+    m_commands.call([&] {
         const std::lock_guard lock(m_mutex);
         added->id = RelayId{m_nextId++};
         if (m_targets.empty()) {
@@ -131,7 +129,7 @@ std::optional<NetError> Relay::problemWith(RelayId id, const std::vector<InputSt
 
 bool Relay::remove(RelayId id) {
     bool isRemoved = false;
-    call([&] {
+    m_commands.call([&] {
         const std::lock_guard lock(m_mutex);
         isRemoved = std::erase_if(m_targets, [id](const auto& target) { return target->id == id; }) != 0;
     });
@@ -149,18 +147,12 @@ std::vector<RelayTarget> Relay::targets() const {
     return result;
 }
 
-void Relay::call(const CommandQueue::Command& command) {
-    std::promise<void> promise;
-    m_commands.push([&] {
-        command();
-        promise.set_value();
-    });
+void Relay::wake() {
     {
         const std::lock_guard lock(m_wakeMutex);
         m_isWoken = true;
     }
     m_wake.notify_one();
-    promise.get_future().wait();
 }
 
 void Relay::run() {
@@ -192,7 +184,9 @@ bool Relay::forwardSome() {
     const std::uint64_t end = std::min(m_reader.end(), m_next + kAtOnce);
     for (; m_next < end; ++m_next) {
         if (const auto packet = m_reader.packet(m_next); packet && isForwarded(*packet)) {
-            forward(*packet);
+            for (const auto& target : m_targets) {
+                sendTo(*target, *packet);
+            }
         }
     }
     if (m_next == m_reader.end()) {
@@ -240,12 +234,6 @@ Relay::Verdict Relay::judge(log::SenderId sender) const {
     return hasOurPort && isOfThisComputer(QHostAddress(QString::fromStdString(endpoint->host)))
                ? Verdict::Ignore
                : Verdict::Forward;
-}
-
-void Relay::forward(const log::Packet& packet) {
-    for (const auto& target : m_targets) {
-        sendTo(*target, packet);
-    }
 }
 
 void Relay::sendTo(Target& target, const log::Packet& packet) {

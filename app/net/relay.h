@@ -62,17 +62,16 @@ private:
     enum class Verdict : std::uint8_t { Unknown, Forward, Ignore };
 
     void run();
+    void wake();
     bool forwardSome();
     void skipWhatIsOld();
-    void forward(const log::Packet& packet);
     void sendTo(Target& target, const log::Packet& packet);
     [[nodiscard]] bool isForwarded(const log::Packet& packet);
     [[nodiscard]] Verdict judge(log::SenderId sender) const;
-    void call(const CommandQueue::Command& command);
 
     const log::PacketLog& m_log;
     const log::Clock& m_clock;
-    CommandQueue m_commands;
+    CommandQueue m_commands{[this] { wake(); }};
     std::mutex m_wakeMutex;
     std::condition_variable m_wake;
     bool m_isWoken = false;    ///< guarded by m_wakeMutex

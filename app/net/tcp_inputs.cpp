@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/tcp_inputs.h"
 
+#include "app/net/addresses.h"
+#include "app/net/listen_error.h"
+#include "app/net/receive_loop.h"
 #include "app/net/receiver.h"
 
 #include <QHostAddress>
 #include <QNetworkProxy>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 namespace posewire::net {
@@ -25,26 +29,64 @@ std::string secondsText(log::Duration duration) {
     return text.data();
 }
 
-NetError listenError(const QTcpServer& server, const Endpoint& endpoint) {
-    using Kind = NetError::Kind;
-    const std::string port = "TCP port " + std::to_string(endpoint.port) +
-                             (endpoint.host.empty() ? std::string() : " of " + endpoint.host);
-    switch (server.serverError()) {
-    case QAbstractSocket::AddressInUseError:
-        return {Kind::PortInUse,
-                port + " is in use by another program; close that program or choose another port"};
-    case QAbstractSocket::SocketAccessError:
-        return {Kind::NoPermission, port + " needs administrator rights; choose a port from 1024 up"};
-    case QAbstractSocket::SocketAddressNotAvailableError:
-        return {Kind::AddressNotHere, endpoint.host + " is not an address of this computer; leave it out to "
-                                                      "listen on all addresses"};
-    default:
-        return {Kind::Other, "cannot listen on " + port + ": " + server.errorString().toStdString() +
-                                 "; choose another port or address"};
+} // namespace
+
+TcpPeer::TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::unique_ptr<QTcpSocket> socket,
+                 std::uint16_t localPort)
+    : m_context(context),
+      m_input(std::move(input)),
+      m_socket(std::move(socket)),
+      m_sender{textOf(m_socket->peerAddress(), m_socket->peerPort()), log::Transport::Tcp, localPort},
+      m_status{m_sender.address, context.clock.wall()} {
+    m_socket->setReadBufferSize(kReadBuffer);
+    m_socket->setSocketOption(QAbstractSocket::KeepAliveOption, 1);
+}
+
+bool TcpPeer::read() {
+    std::array<char, std::size_t{64} << 10> buffer; // uninitialized: most of it is never used
+    const qint64 size = m_socket->read(buffer.data(), static_cast<qint64>(buffer.size()));
+    if (size <= 0) {
+        return false;
+    }
+    const auto bytes = static_cast<std::uint64_t>(size);
+    m_stamp = m_context.clock.wall();
+    m_status.bytes += bytes;
+    increase<std::uint64_t>(m_input->counters().bytes, bytes);
+    increase<std::uint64_t>(m_context.totals.bytes, bytes);
+    m_framer.push(std::as_bytes(std::span(buffer).first(static_cast<std::size_t>(size))),
+                  [this](const log::TcpFramer::Piece& piece) { take(piece); });
+    return m_socket->bytesAvailable() > 0;
+}
+
+bool TcpPeer::hasEnded() const {
+    return m_socket->state() == QAbstractSocket::UnconnectedState && m_socket->bytesAvailable() == 0;
+}
+
+void TcpPeer::drain() {
+    while (read()) {
     }
 }
 
-} // namespace
+void TcpPeer::finish() {
+    m_stamp = m_context.clock.wall();
+    m_framer.finish([this](const log::TcpFramer::Piece& piece) { take(piece); });
+}
+
+void TcpPeer::take(const log::TcpFramer::Piece& piece) {
+    log::Arrival arrival;
+    arrival.stamp = m_stamp;
+    arrival.flags.skipped = piece.kind == log::TcpFramer::Kind::Skipped;
+    if (arrival.flags.skipped) {
+        m_status.skippedBytes += piece.bytes.size();
+        increase<std::uint64_t>(m_input->counters().skippedBytes, piece.bytes.size());
+        increase<std::uint64_t>(m_context.totals.skippedBytes, piece.bytes.size());
+    } else {
+        ++m_status.datagrams;
+        increase<std::uint64_t>(m_input->counters().datagrams, 1);
+        increase<std::uint64_t>(m_context.totals.datagrams, 1);
+    }
+    m_context.queue.push(piece.bytes, m_sender, arrival);
+}
 
 TcpListener::TcpListener(const TcpContext& context, std::shared_ptr<Input> input)
     : TcpInput(std::move(input)), m_context(context) {
@@ -52,15 +94,12 @@ TcpListener::TcpListener(const TcpContext& context, std::shared_ptr<Input> input
 }
 
 NetResult<void> TcpListener::listen(const Endpoint& endpoint) {
-    const QHostAddress address = endpoint.host.empty() ? QHostAddress(QHostAddress::Any)
-                                                       : QHostAddress(QString::fromStdString(endpoint.host));
-    if (address.isNull()) {
-        return netError(NetError::Kind::BadEndpoint,
-                        "\"" + endpoint.host +
-                            "\" is not an IP address to listen on; write one, or leave it out");
+    const auto address = listenAddress(endpoint.host);
+    if (!address) {
+        return tl::unexpected(address.error());
     }
-    if (!m_server.listen(address, endpoint.port)) {
-        return tl::unexpected(listenError(m_server, endpoint));
+    if (!m_server.listen(*address, endpoint.port)) {
+        return tl::unexpected(listenError("TCP", endpoint, m_server.serverError(), m_server.errorString()));
     }
     m_input->setEndpoint({endpoint.host, m_server.serverPort()});
     publish();

@@ -7,7 +7,6 @@
 #include <QTimer>
 
 #include <algorithm>
-#include <future>
 #include <optional>
 #include <vector>
 
@@ -75,19 +74,9 @@ void TcpThread::wake() {
     }
 }
 
-void TcpThread::callAndWait(const CommandQueue::Command& command) {
-    std::promise<void> promise;
-    m_commands.push([&] {
-        command();
-        promise.set_value();
-    });
-    wake();
-    promise.get_future().wait();
-}
-
 NetResult<void> TcpThread::listen(const std::shared_ptr<Input>& input, const Endpoint& endpoint) {
     NetResult<void> result;
-    callAndWait([&] {
+    m_commands.call([&] {
         auto listener = std::make_unique<TcpListener>(m_inside->context, input);
         result = listener->listen(endpoint);
         if (result) {
@@ -98,12 +87,12 @@ NetResult<void> TcpThread::listen(const std::shared_ptr<Input>& input, const End
 }
 
 void TcpThread::connect(const std::shared_ptr<Input>& input, const Endpoint& endpoint) {
-    callAndWait(
+    m_commands.call(
         [&] { m_inside->inputs.push_back(std::make_unique<TcpDialer>(m_inside->context, input, endpoint)); });
 }
 
 void TcpThread::remove(InputId id) {
-    callAndWait([&] {
+    m_commands.call([&] {
         const auto place = std::ranges::find(m_inside->inputs, id, &TcpInput::id);
         if (place != m_inside->inputs.end()) {
             (*place)->drain();

@@ -40,12 +40,11 @@ private:
 
     void run();
     void wake();
-    void callAndWait(const CommandQueue::Command& command);
 
     const log::Clock& m_clock;
     PacketQueue& m_queue;
     InputCounters& m_totals;
-    CommandQueue m_commands;
+    CommandQueue m_commands{[this] { wake(); }};
     std::atomic<bool> m_isStopping = false;
     std::mutex m_mutex; ///< guards m_eventLoop
     std::unique_ptr<QEventLoop> m_eventLoop;

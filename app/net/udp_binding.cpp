@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/udp_binding.h"
 
-#include "app/net/port_holder.h"
+#include "app/net/listen_error.h"
 
-#include <QHostAddress>
 #include <QNetworkInterface>
 #include <QVariant>
 
@@ -15,36 +14,11 @@ namespace {
 
 using Kind = NetError::Kind;
 
-std::string portText(const Endpoint& endpoint) {
-    const std::string port = "UDP port " + std::to_string(endpoint.port);
-    return endpoint.host.empty() ? port : port + " of " + endpoint.host;
-}
-
-tl::unexpected<NetError> bindError(const QUdpSocket& socket, const Endpoint& endpoint) {
-    switch (socket.error()) {
-    case QAbstractSocket::AddressInUseError:
-        return netError(Kind::PortInUse, portText(endpoint) +
-                                             " is in use by another program; close that program or choose "
-                                             "another port");
-    case QAbstractSocket::SocketAccessError:
-        return netError(Kind::NoPermission,
-                        portText(endpoint) + " needs administrator rights; choose a port from 1024 up");
-    case QAbstractSocket::SocketAddressNotAvailableError:
-        return netError(Kind::AddressNotHere, endpoint.host +
-                                                  " is not an address of this computer; leave it out to "
-                                                  "listen on all addresses");
-    default:
-        return netError(Kind::Other, "cannot listen on " + portText(endpoint) + ": " +
-                                         socket.errorString().toStdString() +
-                                         "; choose another port or address");
-    }
-}
-
 NetResult<std::unique_ptr<QUdpSocket>> bindOne(const QHostAddress& address, const Endpoint& endpoint,
                                                int bufferBytes) {
     auto socket = std::make_unique<QUdpSocket>();
     if (!socket->bind(address, endpoint.port, QUdpSocket::DontShareAddress)) {
-        return bindError(*socket, endpoint);
+        return tl::unexpected(listenError("UDP", endpoint, socket->error(), socket->errorString()));
     }
     socket->setSocketOption(QAbstractSocket::ReceiveBufferSizeSocketOption, bufferBytes);
     return socket;
@@ -113,20 +87,16 @@ NetResult<UdpSockets> bindGroups(Endpoint endpoint, const std::vector<QHostAddre
 } // namespace
 
 NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes) {
-    const QHostAddress address = where.endpoint.host.empty()
-                                     ? QHostAddress(QHostAddress::Any)
-                                     : QHostAddress(QString::fromStdString(where.endpoint.host));
-    if (address.isNull()) {
-        return netError(Kind::BadEndpoint,
-                        "\"" + where.endpoint.host +
-                            "\" is not an IP address to listen on; write one, or leave it out");
+    const auto address = listenAddress(where.endpoint.host);
+    if (!address) {
+        return tl::unexpected(address.error());
     }
     auto groups = groupsOf(where);
     if (!groups) {
         return tl::unexpected(groups.error());
     }
-    if (address.isMulticast()) {
-        groups->push_back(address);
+    if (address->isMulticast()) {
+        groups->push_back(*address);
         return bindGroups({{}, where.endpoint.port}, *groups, bufferBytes);
     }
     if (!groups->empty() && !where.endpoint.host.empty()) {
@@ -137,25 +107,13 @@ NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes) {
     if (!groups->empty()) {
         return bindGroups(where.endpoint, *groups, bufferBytes);
     }
-    auto socket = bindOne(address, where.endpoint, bufferBytes);
+    auto socket = bindOne(*address, where.endpoint, bufferBytes);
     if (!socket) {
         return tl::unexpected(socket.error());
     }
     UdpSockets sockets;
     sockets.push_back(std::move(*socket));
     return sockets;
-}
-
-NetError withHolder(NetError error, std::uint16_t port, bool isTcp) {
-    constexpr std::string_view unknown = "by another program";
-    const std::size_t place = error.text.find(unknown);
-    if (error.kind == Kind::PortInUse && place != std::string::npos) {
-        if (const auto holder = isTcp ? holderOfTcpPort(port) : holderOfUdpPort(port)) {
-            error.text.replace(place, unknown.size(),
-                               "by " + holder->name + " (process " + std::to_string(holder->id) + ")");
-        }
-    }
-    return error;
 }
 
 int receiveBufferBytes(QUdpSocket& socket) {

@@ -19,9 +19,6 @@ using UdpSockets = std::vector<std::unique_ptr<QUdpSocket>>;
 /// and joined their groups. Every error says what to do about it.
 [[nodiscard]] NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes);
 
-/// The error with the port's holder named, if the port is in use and the system reveals who has it.
-[[nodiscard]] NetError withHolder(NetError error, std::uint16_t port, bool isTcp);
-
 /// The granted receive buffer in the bytes that were requested: Linux adds its own overhead and reports
 /// double.
 [[nodiscard]] int receiveBufferBytes(QUdpSocket& socket);

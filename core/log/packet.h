@@ -40,9 +40,8 @@ struct PacketFlags {
 struct Arrival {
     Stamp stamp{};
     SenderId sender{};
-    /// Datagrams that this computer lost for want of room (SO_RXQ_OVFL of the socket, or the receiver's
-    /// queue) on the socket of this packet since the packet before it from that socket. Kept in the log so
-    /// that a replay shows the same drops.
+    /// Datagrams that this computer lost for want of room (SO_RXQ_OVFL) on the socket of this packet since
+    /// the packet before it from that socket. Kept in the log so that a replay shows the same drops.
     std::uint32_t kernelDropsBefore = 0;
     PacketFlags flags{};
 };

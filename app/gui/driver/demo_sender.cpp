@@ -2,7 +2,6 @@
 #include "app/gui/driver/demo_sender.h"
 
 #include "app/net/datagram_sender.h"
-#include "app/net/send_schedule.h"
 #include "core/log/time.h"
 #include "core/performer/performer.h"
 #include "core/wire/codec.h"

@@ -141,7 +141,7 @@ QString Receiving::openFile(const QString& path) {
     const QString problem = importRawFile(
         path,
         [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival) {
-            m_receiver.submitWaiting(bytes, sender, arrival);
+            m_receiver.submit(bytes, sender, arrival);
         },
         m_clock.wall());
     m_receiver.flush();
@@ -154,7 +154,7 @@ QString Receiving::openFile(const QString& path) {
 void Receiving::measure(log::Stamp now) {
     readStatus();
     const net::ReceiveTotals figures = m_receiver.totals();
-    m_state.kernelDropped = figures.kernelDropped + figures.queueDropped;
+    m_state.kernelDropped = figures.kernelDropped;
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
     m_state.longestDelay = figures.longestDelay;
     const Totals totals{now, figures.datagrams, figures.bytes};

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/options.h"
-#include "app/net/local_addresses.h"
+#include "app/net/addresses.h"
 
 #include <QWidget>
 

@@ -38,45 +38,6 @@ TEST(PacketQueue, HandsPacketsOverInOrderWithAllThatIsKnownOfThem) {
     }
 }
 
-TEST(PacketQueue, RefusesAndCountsWhatDoesNotFit) {
-    PacketQueue queue({}, 4000);
-    log::PacketLog log;
-    std::size_t taken = 0;
-    while (queue.push(numbered(760, taken), kSender, {})) {
-        ++taken;
-    }
-    EXPECT_GT(taken, 0U);
-    EXPECT_LE(taken * 760, 4000U);
-    EXPECT_EQ(queue.refused(), 1U);
-    EXPECT_EQ(queue.moveTo(log), taken);
-    EXPECT_TRUE(queue.push(numbered(760, 0), kSender, {}));
-}
-
-TEST(PacketQueue, LossesReachTheLogAfterWhatWasQueuedBefore) {
-    PacketQueue queue({}, 4000);
-    log::PacketLog log;
-    std::size_t taken = 0;
-    while (queue.push(numbered(760, taken), kSender, {.stamp = log::stampOf(5)})) {
-        ++taken;
-    }
-    const log::SenderInfo other{"10.0.0.6:50000", log::Transport::Tcp, 9763};
-    EXPECT_FALSE(queue.push(numbered(760, 0), kSender, {.stamp = log::stampOf(6)}));
-    EXPECT_FALSE(queue.push(numbered(760, 0), other, {.stamp = log::stampOf(7)}));
-    queue.moveTo(log);
-
-    log::LogReader reader(log);
-    ASSERT_EQ(reader.end(), taken + 2);
-    const auto first = reader.packet(taken);
-    EXPECT_TRUE(first->flags.isDropRecord);
-    EXPECT_TRUE(first->flags.skipped);
-    EXPECT_TRUE(first->bytes.empty());
-    EXPECT_EQ(first->kernelDropsBefore, 2U);
-    EXPECT_EQ(first->stamp, log::stampOf(6));
-    EXPECT_EQ(*log.senders().find(first->sender), kSender);
-    EXPECT_EQ(reader.packet(taken + 1)->kernelDropsBefore, 1U);
-    EXPECT_EQ(*log.senders().find(reader.packet(taken + 1)->sender), other);
-}
-
 TEST(PacketQueue, TellsOnceThatItIsNotEmptyAnyMore) {
     int told = 0;
     PacketQueue queue([&] { ++told; });
@@ -95,7 +56,7 @@ TEST(PacketQueue, WaitingForRoomLosesNothingAndEndsWithTheQueue) {
     log::PacketLog log;
     std::atomic<std::size_t> pushed = 0;
     std::thread pushing([&] {
-        while (queue.pushWaiting(numbered(760, 1), kSender, {})) {
+        while (queue.push(numbered(760, 1), kSender, {})) {
             ++pushed;
         }
     });
@@ -107,12 +68,11 @@ TEST(PacketQueue, WaitingForRoomLosesNothingAndEndsWithTheQueue) {
     pushing.join();
     moved += queue.moveTo(log);
     EXPECT_EQ(moved, pushed);
-    EXPECT_EQ(queue.refused(), 0U);
 }
 
 TEST(PacketQueue, AnEmptyOneTakesWhatIsLargerThanItsLimit) {
     PacketQueue queue({}, 100);
-    EXPECT_TRUE(queue.pushWaiting(numbered(760, 1), kSender, {}));
+    EXPECT_TRUE(queue.push(numbered(760, 1), kSender, {}));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/port_holder.h"
+#include "app/net/listen_error.h"
 #include "app/net/receiver.h"
 #include "tests/app/net/net_fixture.h"
 
@@ -98,11 +98,11 @@ TEST(PortHolder, NothingForAPortThatNobodyHolds) {
         const Receiving receiving;
         port = receiving.endpoint().port;
 #ifdef __linux__
-        ASSERT_TRUE(holderOfUdpPort(port).has_value());
-        EXPECT_EQ(holderOfUdpPort(port)->id, ::getpid());
+        ASSERT_TRUE(holderOfPort(port, false).has_value());
+        EXPECT_EQ(holderOfPort(port, false)->id, ::getpid());
 #endif
     }
-    EXPECT_FALSE(holderOfUdpPort(port).has_value());
+    EXPECT_FALSE(holderOfPort(port, false).has_value());
 }
 
 TEST(PortHolder, TellsWhoListensByTcp) {
@@ -110,10 +110,10 @@ TEST(PortHolder, TellsWhoListensByTcp) {
     ASSERT_TRUE(receiving.receiver->addTcpListener({"127.0.0.1", 0}));
     const std::uint16_t port = receiving.endpoint().port;
 #ifdef __linux__
-    ASSERT_TRUE(holderOfTcpPort(port).has_value());
-    EXPECT_EQ(holderOfTcpPort(port)->id, ::getpid());
+    ASSERT_TRUE(holderOfPort(port, true).has_value());
+    EXPECT_EQ(holderOfPort(port, true)->id, ::getpid());
 #endif
-    EXPECT_FALSE(holderOfUdpPort(port).has_value());
+    EXPECT_FALSE(holderOfPort(port, false).has_value());
 }
 
 } // namespace

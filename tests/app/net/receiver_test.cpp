@@ -230,30 +230,6 @@ TEST_P(ReceiverTest, TellsTheReceiveBufferItGot) {
     EXPECT_EQ(receiving.totals().receiveBufferBytes, 65'536);
 }
 
-TEST_P(ReceiverTest, LossesOfTheQueueAreInTheLog) {
-    Receiving receiving(options());
-    const log::SenderInfo sender{"demo", log::Transport::Performer, 0};
-    const auto packet = numbered(60'000, 0);
-    std::atomic<std::uint64_t> submitted = 0;
-    std::vector<std::thread> threads; // several fill the queue faster than one thread empties it
-    for (int i = 0; i < 4; ++i) {
-        threads.emplace_back([&] {
-            while (receiving.totals().queueDropped == 0 && submitted < 1'000'000) {
-                receiving.receiver->submit(packet, sender, {.stamp = log::stampOf(7)});
-                ++submitted;
-            }
-        });
-    }
-    for (std::thread& thread : threads) {
-        thread.join();
-    }
-    receiving.receiver->flush();
-    EXPECT_GT(receiving.totals().queueDropped, 0U);
-    EXPECT_EQ(receiving.dropsInLog(), receiving.totals().queueDropped);
-    log::LogReader reader(receiving.log);
-    EXPECT_EQ(reader.end() - receiving.dropRecords() + receiving.totals().queueDropped, submitted);
-}
-
 INSTANTIATE_TEST_SUITE_P(Paths, ReceiverTest, ::testing::Values(ReceivePath::Native, ReceivePath::Portable),
                          &pathName);
 

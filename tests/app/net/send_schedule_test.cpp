@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/send_schedule.h"
+#include "app/net/datagram_sender.h"
 
 #include "tests/support/manual_clock.h"
 

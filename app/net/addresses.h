@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/net/endpoint.h"
+#include "app/net/net_error.h"
+
 #include <string>
 #include <vector>
 
+class QHostAddress;
+
 namespace posewire::net {
+
+/// The address of a host, IPv4 if it has both; this computer's if the host is empty. Blocks while a name is
+/// resolved.
+[[nodiscard]] NetResult<QHostAddress> lookUp(const Endpoint& endpoint);
+
+/// "10.0.0.5:50123", as the operator writes it: IPv4 in its own form even where an IPv6 socket received it.
+[[nodiscard]] std::string textOf(const QHostAddress& address, std::uint16_t port);
 
 /// An address that this computer has.
 struct LocalAddress {

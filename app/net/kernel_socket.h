@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/log/log_writer.h"
+#include "core/log/sender_table.h"
+#include "core/log/time.h"
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <utility>
+
+/// A UDP socket of Linux as the receiving thread uses it.
+namespace posewire::net {
+
+/// A descriptor that its owner closes.
+class Descriptor {
+public:
+    explicit Descriptor(int descriptor = -1) : m_descriptor(descriptor) {}
+    Descriptor(Descriptor&& other) noexcept : m_descriptor(std::exchange(other.m_descriptor, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    ~Descriptor() {
+        if (m_descriptor >= 0) {
+            ::close(m_descriptor);
+        }
+    }
+    [[nodiscard]] int get() const { return m_descriptor; }
+
+private:
+    int m_descriptor;
+};
+
+/// Has the kernel give stamps and its drop counter with each datagram; where it refuses, stamps come from the
+/// clock.
+void prepare(int descriptor);
+
+/// What the kernel says about a socket's receive buffer.
+struct SocketMemory {
+    std::uint32_t drops = 0; ///< datagrams lost since it was opened, modulo 2³²
+    std::uint32_t usedBytes = 0;
+    std::uint32_t bufferBytes = 0;
+};
+[[nodiscard]] std::optional<SocketMemory> memoryOf(int descriptor);
+
+/// What the kernel reports about one datagram besides its bytes.
+struct Received {
+    std::size_t size = 0;
+    log::Stamp stamp{}; ///< the kernel's; log::Stamp() if it gave none
+    /// Datagrams the socket had dropped when this one was queued, modulo 2³²; 0 where none.
+    std::uint32_t drops = 0;
+    bool isTruncated = false;
+};
+
+/// The arguments of recvmmsg for the lanes of a log, and its results. One for each socket, so that addresses
+/// that it leaves unwritten stay zero.
+class MessageBatch {
+public:
+    MessageBatch();
+    MessageBatch(const MessageBatch&) = delete;
+    MessageBatch& operator=(const MessageBatch&) = delete;
+
+    /// Receives what has arrived, at most one datagram per lane, without blocking. Returns the number of
+    /// datagrams, 0 on an error too.
+    std::size_t receive(int descriptor, std::span<const log::LogWriter::Lane> lanes);
+
+    [[nodiscard]] Received received(std::size_t index) const;
+    [[nodiscard]] const sockaddr_in6& sender(std::size_t index) const { return m_senders[index]; }
+
+private:
+    static constexpr std::size_t kControlSize =
+        CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
+    struct alignas(cmsghdr) Control {
+        std::array<std::byte, kControlSize> bytes;
+    };
+
+    std::array<mmsghdr, log::LogWriter::kLaneLimit> m_messages{};
+    std::array<std::array<iovec, 2>, log::LogWriter::kLaneLimit> m_parts{};
+    std::array<sockaddr_in6, log::LogWriter::kLaneLimit> m_senders{};
+    std::array<Control, log::LogWriter::kLaneLimit> m_controls{};
+};
+
+/// Maps the kernel's form of an address to the sender's id, without formatting text for recent senders. One
+/// for each socket.
+class SenderCache {
+public:
+    SenderCache(log::SenderTable& table, std::uint16_t localPort) : m_table(&table), m_localPort(localPort) {}
+
+    /// `address` is IPv4 or IPv6; all other families count as one sender.
+    log::SenderId idOf(const sockaddr_in6& address) {
+        return std::memcmp(&m_last.address, &address, sizeof address) == 0 ? m_last.id : look(address);
+    }
+
+private:
+    struct Entry {
+        sockaddr_in6 address{};
+        log::SenderId id{};
+    };
+
+    log::SenderId look(const sockaddr_in6& address);
+
+    log::SenderTable* m_table;
+    std::uint16_t m_localPort;
+    Entry m_last;
+    std::array<Entry, 64> m_entries; ///< one slot for each hash; a newcomer replaces the old entry
+};
+
+} // namespace posewire::net

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/endpoint.h"
+#include "app/net/net_error.h"
+
+#include <QAbstractSocket>
+#include <QHostAddress>
+
+#include <optional>
+
+/// Why a socket cannot listen, and what to do about it: the same words for UDP and TCP.
+namespace posewire::net {
+
+/// The address to listen on; every one of this computer where the host is empty.
+[[nodiscard]] NetResult<QHostAddress> listenAddress(const std::string& host);
+
+/// `protocol` is "UDP" or "TCP", `systemText` what the system says about errors that are not expected.
+[[nodiscard]] NetError listenError(const std::string& protocol, const Endpoint& endpoint,
+                                   QAbstractSocket::SocketError error, const QString& systemText);
+
+struct Process {
+    std::string name;
+    std::int64_t id = 0;
+};
+
+/// The process that listens on a port of this computer. Empty where the system does not reveal it: off Linux,
+/// and for other users' processes.
+[[nodiscard]] std::optional<Process> holderOfPort(std::uint16_t port, bool isTcp);
+
+/// The error with the port's holder named, if the port is in use and the system reveals who has it.
+[[nodiscard]] NetError withHolder(NetError error, std::uint16_t port, bool isTcp);
+
+} // namespace posewire::net
