@@ -1,15 +1,120 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/field_listing.h"
-#include "app/cli/input.h"
-#include "app/cli/record_filter.h"
 #include "core/export/json.h"
+#include "core/filter/filter.h"
 #include "core/log/recording_file.h"
+#include "core/log/sender_table.h"
 #include "core/wire/codec.h"
+#include "core/wire/field_tree.h"
 #include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <memory>
+#include <optional>
 
 namespace posewire::cli {
 namespace {
+
+void pad(std::string& text, std::size_t width) {
+    text.append(text.size() < width ? width - text.size() : 0, ' ');
+}
+
+/// Line ends and other control characters of the sender must not reach the terminal.
+std::string printable(const std::string& value) {
+    std::string text;
+    for (const char character : value) {
+        if (character == '\n') {
+            text += "\\n";
+        } else {
+            text += static_cast<unsigned char>(character) < 0x20 || character == 0x7f ? '.' : character;
+        }
+    }
+    return text;
+}
+
+std::string row(const wire::FieldNode& node, std::size_t depth) {
+    constexpr std::size_t offsetWidth = 8;
+    constexpr std::size_t nameWidth = 30;
+    std::string line = std::to_string(node.offset);
+    line.insert(0, line.size() < offsetWidth ? offsetWidth - line.size() : 0, ' ');
+    line.append(2 + 2 * depth, ' ').append(node.name);
+    if (!node.value.empty()) {
+        pad(line, offsetWidth + 2 + nameWidth);
+        line.append("  ").append(printable(node.value));
+        line.append(wire::unitSymbol(node.unit).empty() ? "" : "  ").append(wire::unitSymbol(node.unit));
+    }
+    return line + '\n';
+}
+
+/// Every field of a datagram with its offset, value and unit, one per line, then notices and errors.
+std::string fieldListing(wire::Bytes bytes) {
+    const wire::FieldTree tree = wire::fieldTree(bytes);
+    std::string text;
+    std::vector<std::size_t> depths;
+    for (const wire::FieldNode& node : tree.nodes) {
+        depths.push_back(node.parent < 0 ? 0 : depths[static_cast<std::size_t>(node.parent)] + 1);
+        text += row(node, depths.back());
+    }
+    for (const wire::Notice& notice : tree.notices) {
+        text += "  notice: " + wire::noticeText(notice) + '\n';
+    }
+    if (tree.fault) {
+        text += "  error: " + wire::errorText(*tree.fault) + '\n';
+    }
+    return text;
+}
+
+/// A filter over the records of one file, in order. In a file without stamps all records have the same time.
+class RecordFilter {
+public:
+    explicit RecordFilter(filter::Filter filter) : m_filter(std::move(filter)) {}
+
+    /// `index` is the number in the output; runs of skipped bytes count too.
+    [[nodiscard]] bool matches(const log::FileRecord& record, std::uint64_t index) {
+        log::Packet packet;
+        packet.number = index;
+        packet.bytes = record.bytes;
+        packet.stamp = record.stamp.value_or(log::Stamp());
+        packet.flags = record.flags;
+        packet.kernelDropsBefore = record.kernelDropsBefore;
+        packet.sender =
+            m_senders.intern(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
+        m_firstStamp = m_firstStamp.value_or(packet.stamp);
+        const auto decoded = record.flags.skipped ? tl::unexpected(wire::WireError{})
+                                                  : wire::decodeInto(record.bytes, m_datagram);
+        const wire::Datagram* datagram = decoded ? &m_datagram : nullptr;
+        const model::PacketDigest digest = m_digester.add(packet, datagram);
+        return m_filter.matches({packet, digest, datagram,
+                                 record.sender ? m_senders.find(packet.sender) : nullptr, *m_firstStamp,
+                                 decoded ? nullptr : &decoded.error()});
+    }
+
+private:
+    filter::Filter m_filter;
+    model::PacketDigester m_digester;
+    log::SenderTable m_senders;
+    wire::Datagram m_datagram;
+    std::optional<log::Stamp> m_firstStamp;
+};
+
+/// Counts characters, not bytes, so that the caret is in the right place.
+std::size_t charactersOf(std::string_view text) {
+    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
+        return (static_cast<unsigned char>(byte) & 0xc0) != 0x80;
+    }));
+}
+
+/// Why a filter was rejected, in three lines: the reason, the filter, and a caret under the place.
+std::string markedError(std::string_view text, const filter::FilterError& error) {
+    std::string line(text);
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
+    const std::size_t before = charactersOf(text.substr(0, error.offset));
+    const std::size_t marked =
+        std::max<std::size_t>(1, charactersOf(text.substr(error.offset, error.length)));
+    return "--filter: " + error.text + "\n  " + line + "\n  " + std::string(before, ' ') +
+           std::string(marked, '^');
+}
 
 struct DecodeOptions {
     std::vector<std::string> files;
@@ -122,15 +227,13 @@ ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, con
                       Console& console) {
     const auto file = openInput(path);
     if (!file) {
-        console.complain(file.error().text);
-        return ExitStatus::Unusable;
+        return console.unusable(file.error().text);
     }
     RecordWriter writer(console.out, options.asJson, filter);
     const auto result = log::readFile(**file, std::ref(writer));
     writer.endSkipped();
     if (!result) {
-        console.complain(result.error().text);
-        return ExitStatus::Unusable;
+        return console.unusable(result.error().text);
     }
     const std::string complaint = writer.complaint((*file)->name());
     if (complaint.empty()) {
@@ -143,8 +246,7 @@ ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, con
 ExitStatus decode(const DecodeOptions& options, Console& console) {
     const auto filter = filter::Filter::compile(options.filter);
     if (!filter) {
-        console.complain(markedError(options.filter, filter.error()));
-        return ExitStatus::Unusable;
+        return console.unusable(markedError(options.filter, filter.error()));
     }
     ExitStatus status = ExitStatus::Fine;
     for (const std::string& path : options.files) {

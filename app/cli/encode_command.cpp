@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/input.h"
-#include "app/cli/line_reader.h"
 #include "core/export/json.h"
 
 namespace posewire::cli {
@@ -57,8 +55,7 @@ ExitStatus encodeLines(log::ByteSource& source, Output& out, Console& console) {
     while (out.isWanted()) {
         const auto line = lines.next();
         if (!line) {
-            console.complain(line.error().text);
-            return ExitStatus::Unusable;
+            return console.unusable(line.error().text);
         }
         if (!*line) {
             break;
@@ -67,8 +64,7 @@ ExitStatus encodeLines(log::ByteSource& source, Output& out, Console& console) {
     }
     const ExitStatus status = encoder.conclude();
     if (const auto finished = out.finish(); !finished) {
-        console.complain(finished.error());
-        return ExitStatus::Unusable;
+        return console.unusable(finished.error());
     }
     return status;
 }
@@ -76,13 +72,11 @@ ExitStatus encodeLines(log::ByteSource& source, Output& out, Console& console) {
 ExitStatus encode(const EncodeOptions& options, Console& console) {
     const auto source = openInput(options.input);
     if (!source) {
-        console.complain(source.error().text);
-        return ExitStatus::Unusable;
+        return console.unusable(source.error().text);
     }
     auto out = Output::open(options.output);
     if (!out) {
-        console.complain(out.error());
-        return ExitStatus::Unusable;
+        return console.unusable(out.error());
     }
     return encodeLines(**source, *out, console);
 }

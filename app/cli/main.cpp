@@ -1,6 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/program.h"
+#include "app/cli/command.h"
+
+#include <algorithm>
+#include <csignal>
+#include <iostream>
+
+namespace posewire::cli {
+namespace {
+
+ExitStatus run(const Command& command) {
+    Output out = Output::standard();
+    const std::string name = "posewire-cli " + command.name + ": ";
+    Console console{out, [&](const std::string& line) { std::cerr << name << line << '\n'; }};
+    const ExitStatus status = command.run(console);
+    if (const auto finished = out.finish(); !finished) {
+        return console.unusable(finished.error());
+    }
+    return status;
+}
+
+} // namespace
+} // namespace posewire::cli
 
 int main(int argumentCount, char** arguments) {
-    return posewire::cli::runProgram(argumentCount, arguments);
+    using namespace posewire::cli;
+#ifdef SIGPIPE
+    // When the reader closes the pipe, the failed write ends the program in good order.
+    std::signal(SIGPIPE, SIG_IGN);
+#endif
+    std::ios::sync_with_stdio(false);
+    CommandLine program(
+        "posewire-cli", "Decodes, encodes, sends and watches MXTP motion-capture datagrams.",
+        "posewire-cli " POSEWIRE_VERSION,
+        "Exit status: 0 fine; 1 the input had faults, or a limit was exceeded; 2 wrong usage, or "
+        "a file or port that cannot be opened.");
+    const std::vector<Command> commands{addDecodeCommand(program), addEncodeCommand(program),
+                                        addSendCommand(program),   addMonitorCommand(program),
+                                        addReportCommand(program), addReferenceCommand(program)};
+    const CommandLine::Parsed parsed = program.parse(argumentCount, arguments);
+    if (parsed.kind == CommandLine::Parsed::Kind::Answer) {
+        std::cout << parsed.text;
+        return static_cast<int>(ExitStatus::Fine);
+    }
+    const auto chosen = std::ranges::find(commands, parsed.text, &Command::name);
+    if (parsed.kind == CommandLine::Parsed::Kind::Command && chosen != commands.end()) {
+        return static_cast<int>(run(*chosen));
+    }
+    std::cerr << parsed.text << '\n';
+    return static_cast<int>(ExitStatus::Unusable);
 }

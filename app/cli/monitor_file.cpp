@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/datagram_pacer.h"
-#include "app/cli/input.h"
 #include "app/cli/monitor_run.h"
-#include "core/log/recording_file.h"
 #include "core/log/recording.h"
+#include "core/log/recording_file.h"
 
 #include <filesystem>
 
@@ -99,14 +98,12 @@ tl::expected<RecordFile, log::FileError> recordFile(const std::string& path, Mon
 ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     const auto file = openInput(options.file);
     if (!file) {
-        console.complain(file.error().text);
-        return ExitStatus::Unusable;
+        return console.unusable(file.error().text);
     }
     MonitorRun run(options, console);
     auto recording = recordFile(options.record, run);
     if (!recording) {
-        console.complain(recording.error().text);
-        return ExitStatus::Unusable;
+        return console.unusable(recording.error().text);
     }
     Replay replay(options, run, recording->recorder.get());
     const auto read = log::readFile(**file, std::ref(replay));

@@ -88,10 +88,7 @@ double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& rec
 } // namespace
 
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
-    const auto unusable = [&](const std::string& complaint) {
-        console.complain(complaint);
-        return ExitStatus::Unusable;
-    };
+    const auto unusable = [&](const std::string& complaint) { return console.unusable(complaint); };
     const auto places = placesOf(options);
     if (!places) {
         return unusable(places.error());

@@ -2,12 +2,32 @@
 #pragma once
 
 #include "app/cli/command.h"
-#include "app/cli/monitor_limits.h"
 #include "app/net/receiver.h"
+#include "core/model/accounting/stream_figures.h"
 
-#include <tl/expected.hpp>
+#include <array>
 
 namespace posewire::cli {
+
+/// A figure that may be limited: `--max-NAME`.
+struct Limit {
+    std::string_view name;
+    model::Figure figure;
+    std::string_view help;
+};
+inline constexpr std::array<Limit, 3> kLimits{
+    {{"loss", model::Figure::LossShare, "samples lost or incomplete"},
+     {"jitter", model::Figure::Jitter, "jitter as in RFC 3550"},
+     {"gap", model::Figure::SpacingMost, "time between successive samples"}}};
+
+/// " %" or " ms", as it follows a number.
+[[nodiscard]] std::string unitOf(const Limit& limit);
+
+/// The most that a stream may have of each of kLimits; nothing: anything.
+struct Limits {
+    std::array<std::optional<double>, kLimits.size()> most;
+    [[nodiscard]] bool isAny() const;
+};
 
 /// What `monitor` was asked for, as typed.
 struct MonitorOptions {

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/monitor_run.h"
 
+#include "core/export/html.h"
+#include "core/export/session_reading.h"
 #include "core/export/stream_report.h"
+#include "core/wire/type_table.h"
 
 #include <QString>
 #include <QSysInfo>
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <csignal>
 
 namespace posewire::cli {
 namespace {
@@ -27,7 +32,67 @@ std::string limitText(const std::optional<double>& limit, const std::string& uni
                  : "none";
 }
 
+std::string placeOf(const model::SessionView& session, const log::StreamKey& key) {
+    const model::Sender* sender = session.find(key.sender);
+    return (sender != nullptr ? sender->info.address : std::string("unknown source")) + ", " +
+           session.displayName({key.sender, key.character}) + ", type " + wire::typeTitle(key.type);
+}
+
+/// One line for each limit that a stream exceeds; one if nothing was received although there are limits.
+std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits) {
+    std::vector<std::string> lines;
+    if (limits.isAny() && session.streams().empty()) {
+        lines.emplace_back(
+            "no datagram was received, so no limit is kept; is the sender on, and does it send here?");
+    }
+    for (const model::Stream& stream : session.streams()) {
+        if (!wire::isSampled(stream.key.type)) {
+            continue; // sent again now and then: its gaps mean nothing
+        }
+        const model::StreamFigures figures = exporting::figuresOf(session, stream);
+        for (std::size_t i = 0; i < kLimits.size(); ++i) {
+            const double value = figures[kLimits[i].figure];
+            if (limits.most[i] && value > *limits.most[i]) {
+                lines.push_back(placeOf(session, stream.key) + ": " + std::string(kLimits[i].name) + ' ' +
+                                exporting::fixed(value, 3) + unitOf(kLimits[i]) + " is above the limit of " +
+                                exporting::fixed(*limits.most[i], 3) + unitOf(kLimits[i]));
+            }
+        }
+    }
+    return lines;
+}
+
+volatile std::sig_atomic_t hasInterruptionCome = 0;
+
+extern "C" void rememberInterruption(int signal) {
+    hasInterruptionCome = 1;
+    std::signal(signal, SIG_DFL);
+}
+
 } // namespace
+
+bool Limits::isAny() const {
+    return std::ranges::any_of(most, [](const auto& limit) { return limit.has_value(); });
+}
+
+std::string unitOf(const Limit& limit) {
+    return std::string(" ") + model::rowOf(limit.figure).style.unit;
+}
+
+Interruption::Interruption() {
+    hasInterruptionCome = 0;
+    std::signal(SIGINT, rememberInterruption);
+    std::signal(SIGTERM, rememberInterruption);
+}
+
+Interruption::~Interruption() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+}
+
+bool Interruption::hasCome() const {
+    return hasInterruptionCome != 0;
+}
 
 MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
     : m_options(options), m_console(console), m_nextShow(std::chrono::steady_clock::now()) {}
@@ -80,17 +145,8 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     }
     options.settings.emplace_back(m_options.file.empty() ? "Source" : "File",
                                   m_options.file.empty() ? "network" : m_options.file);
-    auto out = Output::open(m_options.report);
-    if (!out) {
-        m_console.complain(out.error());
-        return ExitStatus::Unusable;
-    }
-    out->write(exporting::streamReport(m_session, options));
-    if (const auto finished = out->finish(); !finished) {
-        m_console.complain(finished.error());
-        return ExitStatus::Unusable;
-    }
-    return ExitStatus::Fine;
+    const auto written = Output::writeFile(m_options.report, exporting::streamReport(m_session, options));
+    return written ? ExitStatus::Fine : m_console.unusable(written.error());
 }
 
 log::RecordingInfo recordingInfo() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/cli/interruption.h"
 #include "app/cli/live_table.h"
 #include "app/cli/monitor_options.h"
 #include "core/export/monitor_report.h"
@@ -13,6 +12,18 @@
 #include <chrono>
 
 namespace posewire::cli {
+
+/// During its lifetime the first Ctrl+C (or SIGTERM) is only remembered; a second one ends the program. One
+/// object at a time.
+class Interruption {
+public:
+    Interruption();
+    ~Interruption();
+    Interruption(const Interruption&) = delete;
+    Interruption& operator=(const Interruption&) = delete;
+
+    [[nodiscard]] bool hasCome() const;
+};
 
 /// What monitoring the network and monitoring a file have in common: a log, a session that follows it, what
 /// is shown meanwhile and what is said at the end.

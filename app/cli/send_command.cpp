@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
 #include "app/cli/send_options.h"
-#include "app/cli/send_truth.h"
 #include "core/performer/motion.h"
+#include "core/wire/codec.h"
 
 #include <QCoreApplication>
 
+#include <cmath>
+#include <limits>
+
 namespace posewire::cli {
 namespace {
-
-ExitStatus unusable(Console& console, const std::string& complaint) {
-    console.complain(complaint);
-    return ExitStatus::Unusable;
-}
 
 /// The sockets of all senders, each with its own random faults.
 tl::expected<std::vector<SendLine>, Complaint> linesOf(const SendOptions& options,
@@ -39,7 +37,7 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
     std::uint64_t refused = 0;
     for (SendLine& line : lines) {
         if (const auto finished = line.finish(); !finished) {
-            return unusable(console, finished.error().text);
+            return console.unusable(finished.error().text);
         }
         for (const SendLine::Sender& sender : line.senders()) {
             sent += sender.sender.sent();
@@ -53,21 +51,73 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
     }
     if (!options.truth.empty()) {
         if (const auto written = writeTruth(options.truth, lines, options.durationSeconds); !written) {
-            return unusable(console, written.error());
+            return console.unusable(written.error());
         }
     }
     console.out.write("sent " + std::to_string(sent) + (sent == 1 ? " datagram\n" : " datagrams\n"));
     return ExitStatus::Fine;
 }
 
+/// Further characters of the same numbers, each with a performance of its own.
+std::vector<performer::Performer> performersOf(const performer::PerformerSettings& settings,
+                                               std::size_t count) {
+    std::vector<performer::Performer> performers;
+    for (std::size_t number = 0; number < count; ++number) {
+        performer::PerformerSettings own = settings;
+        own.seed += number;
+        performers.emplace_back(std::move(own));
+    }
+    return performers;
+}
+
+void offer(const std::vector<wire::Datagram>& frame, log::Duration due, performer::Faults& faults) {
+    for (const wire::Datagram& datagram : frame) {
+        // The performer makes nothing that does not fit.
+        if (auto bytes = wire::encode(datagram)) {
+            faults.offer(std::move(*bytes), due);
+        }
+    }
+}
+
+/// Until it is through or `durationSeconds` have passed.
+ExitStatus sendPerformance(const SendOptions& options, const performer::PerformerSettings& settings,
+                           std::vector<SendLine>& lines, Console& console) {
+    std::vector<performer::Performer> performers = performersOf(settings, lines.size());
+    std::vector<wire::Datagram> frame;
+    const log::SystemClock clock;
+    net::SendSchedule schedule(clock);
+    SendRound round(lines, schedule);
+    const auto due = [&](std::uint64_t index) {
+        return log::Duration(static_cast<std::int64_t>(static_cast<double>(index) * 1e9 / settings.rateHz));
+    };
+    const double frames = options.durationSeconds > 0.0
+                              ? std::round(options.durationSeconds * settings.rateHz)
+                              : std::numeric_limits<double>::infinity();
+    net::NetResult<void> sent;
+    for (std::uint64_t index = 0; sent && static_cast<double>(index) < frames; ++index) {
+        for (std::size_t line = 0; line < lines.size(); ++line) {
+            performers[line].frameInto(index, frame);
+            offer(frame, due(index), lines[line].faults());
+        }
+        sent = round.sendUntil(due(index + 1));
+    }
+    if (sent) {
+        sent = round.sendRest();
+    }
+    if (!sent) {
+        return console.unusable(sent.error().text);
+    }
+    return ExitStatus::Fine;
+}
+
 ExitStatus send(const SendOptions& options, Console& console) {
     const auto targets = targetsOf(options);
     if (!targets) {
-        return unusable(console, targets.error());
+        return console.unusable(targets.error());
     }
     const auto settings = performerOf(options);
     if (!settings) {
-        return unusable(console, settings.error());
+        return console.unusable(settings.error());
     }
     // Qt's sockets need an application object.
     std::string name = "posewire-cli";
@@ -76,7 +126,7 @@ ExitStatus send(const SendOptions& options, Console& console) {
     const QCoreApplication application(argumentCount, arguments.data());
     auto lines = linesOf(options, *targets);
     if (!lines) {
-        return unusable(console, lines.error());
+        return console.unusable(lines.error());
     }
     const ExitStatus status = options.file.empty() ? sendPerformance(options, *settings, *lines, console)
                                                    : sendFile(options, *lines, console);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/datagram_pacer.h"
-#include "app/cli/input.h"
 #include "app/cli/send_options.h"
 #include "core/log/recording_file.h"
 
@@ -82,8 +81,7 @@ tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSende
 
 ExitStatus conclude(const std::string& path, const RecordSender& sender, Console& console) {
     if (!sender.failure().empty()) {
-        console.complain(sender.failure());
-        return ExitStatus::Unusable;
+        return console.unusable(sender.failure());
     }
     if (sender.datagrams() == 0) {
         console.complain(path + ": no datagrams found; is it a recording of MXTP?");
@@ -105,8 +103,7 @@ ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Co
     while (isToBegin) {
         const std::uint64_t before = records.datagrams();
         if (const auto result = sendOnce(options.file, records); !result) {
-            console.complain(result.error().text);
-            return ExitStatus::Unusable;
+            return console.unusable(result.error().text);
         }
         const bool hadSome = records.datagrams() != before;
         isToBegin = options.loops && hadSome && !records.isDone() && options.file != "-";

@@ -44,6 +44,10 @@ private:
     bool m_keepsTruth;
 };
 
+/// What was really sent, as JSON with the names of the report of `monitor`. Fails with one line for the user.
+tl::expected<void, std::string> writeTruth(const std::string& path, const std::vector<SendLine>& lines,
+                                           double durationSeconds);
+
 /// Sends what the lines have due, on time.
 class SendRound {
 public:

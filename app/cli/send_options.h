@@ -39,9 +39,7 @@ using Complaint = std::string;
 
 [[nodiscard]] tl::expected<performer::FaultSettings, Complaint> faultsOf(const SendOptions& options);
 
-/// Both send until they are through or `durationSeconds` have passed.
-ExitStatus sendPerformance(const SendOptions& options, const performer::PerformerSettings& settings,
-                           std::vector<SendLine>& lines, Console& console);
+/// Sends until the recording is through or `durationSeconds` have passed.
 ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Console& console);
 
 } // namespace posewire::cli

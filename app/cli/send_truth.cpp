@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/send_truth.h"
-
-#include "app/cli/output.h"
+#include "app/cli/input_output.h"
+#include "app/cli/send_line.h"
 #include "core/export/json_value.h"
+#include "core/model/accounting/stream_figures.h"
 #include "core/wire/type_table.h"
 
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -13,21 +14,29 @@ namespace {
 
 using exporting::JsonValue;
 
-JsonValue jsonOf(std::uint8_t type, const performer::SentFigures& figures) {
-    JsonValue json{{"type", wire::typeDigits(type)}, {"datagrams", figures.datagrams}};
-    if (wire::isSampled(type)) {
-        json["samples"] = figures.samples;
-        json["lost"] = figures.lost;
-        json["duplicates"] = figures.duplicates;
-        json["reordered"] = figures.reordered;
-        json["late"] = figures.late;
-    }
-    json["incomplete"] = figures.incomplete;
-    if (wire::isSampled(type)) {
-        json["restarts"] = figures.restarts;
-        json["step"] = figures.step;
-        json["firstSample"] = figures.firstSample;
-        json["lastSample"] = figures.lastSample;
+/// What `monitor` has to count of a stream, in the order of its report.
+std::array<std::pair<model::Figure, std::uint64_t>, 11> valuesOf(const performer::SentFigures& sent) {
+    using enum model::Figure;
+    return {{{Datagrams, sent.datagrams},
+             {Samples, sent.samples},
+             {Lost, sent.lost},
+             {Duplicates, sent.duplicates},
+             {Reordered, sent.reordered},
+             {Late, sent.late},
+             {Incomplete, sent.incomplete},
+             {Restarts, sent.restarts},
+             {Step, sent.step},
+             {FirstSample, sent.firstSample},
+             {LastSample, sent.lastSample}}};
+}
+
+JsonValue jsonOf(std::uint8_t type, const performer::SentFigures& sent) {
+    JsonValue json{{"type", wire::typeDigits(type)}};
+    for (const auto& [figure, value] : valuesOf(sent)) {
+        const model::FigureRow& row = model::rowOf(figure);
+        if (wire::isSampled(type) || row.scope == model::FigureScope::Messages) {
+            json[row.key] = value;
+        }
     }
     return json;
 }
@@ -87,12 +96,7 @@ tl::expected<void, std::string> writeTruth(const std::string& path, const std::v
     }
     const JsonValue report{
         {"durationS", durationSeconds}, {"foreignDatagrams", foreign}, {"sources", std::move(senders)}};
-    auto file = Output::open(path);
-    if (!file) {
-        return tl::unexpected(file.error());
-    }
-    file->write(report.text(2) + "\n");
-    return file->finish();
+    return Output::writeFile(path, report.text(2) + "\n");
 }
 
 } // namespace posewire::cli

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/line_reader.h"
+#include "app/cli/input_output.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/command_line.h"
+#include "app/cli/command.h"
 
 #include <CLI/CLI.hpp>
 
@@ -135,17 +135,13 @@ void Arguments::beginGroup(const std::string& title) {
     m_parser->option_defaults()->group(title);
 }
 
-CommandLine::CommandLine(const std::string& name, const std::string& text)
-    : m_parser(std::make_unique<CLI::App>(text, name)) {}
+CommandLine::CommandLine(const std::string& name, const std::string& text, const std::string& version,
+                         const std::string& footer)
+    : m_parser(std::make_unique<CLI::App>(text, name)) {
+    m_parser->set_version_flag("--version", version, "Print the version and exit");
+    m_parser->footer(footer);
+}
 CommandLine::~CommandLine() = default;
-
-void CommandLine::setVersion(const std::string& text) {
-    m_parser->set_version_flag("--version", text, "Print the version and exit");
-}
-
-void CommandLine::setFooter(const std::string& text) {
-    m_parser->footer(text);
-}
 
 Arguments CommandLine::addCommand(const std::string& name, const std::string& text) {
     return Arguments(*m_parser->add_subcommand(name, text));
