@@ -9,11 +9,11 @@ net::NetResult<SendLine> SendLine::open(const std::vector<net::SendTarget>& targ
                                         const performer::FaultSettings& faults, bool keepsTruth) {
     SendLine line(faults, keepsTruth);
     for (const net::SendTarget& target : targets) {
-        auto sender = net::DatagramSender::connect({target});
+        auto sender = net::DatagramSender::connect(target);
         if (!sender) {
             return tl::unexpected(sender.error());
         }
-        std::string address = sender->localAddresses().front();
+        std::string address = sender->localAddress();
         const bool isTcp = target.transport == net::SendTarget::Transport::Tcp;
         line.m_senders.push_back({std::move(address), isTcp, std::move(*sender), {}, {}});
     }

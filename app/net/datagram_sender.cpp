@@ -40,7 +40,7 @@ log::Duration SendSchedule::waitUntil(log::Duration afterStart) {
     }
 }
 
-/// One target.
+/// By UDP or by TCP.
 class DatagramSender::Channel {
 public:
     virtual ~Channel() = default;
@@ -97,28 +97,28 @@ public:
             return ended();
         }
         m_socket.flush();
-        while (m_socket.bytesToWrite() > kMostUnsent) {
-            if (!m_socket.waitForBytesWritten(kPatienceMs)) {
-                return ended();
-            }
+        if (const auto written = waitUntilUnsent(kMostUnsent); !written) {
+            return tl::unexpected(written.error());
         }
         return m_socket.state() == QAbstractSocket::ConnectedState ? NetResult<bool>(true) : ended();
     }
 
-    NetResult<void> flush() override {
-        while (m_socket.bytesToWrite() > 0) {
-            if (!m_socket.waitForBytesWritten(kPatienceMs)) {
-                return ended();
-            }
-        }
-        return {};
-    }
+    NetResult<void> flush() override { return waitUntilUnsent(0); }
 
     [[nodiscard]] std::string localAddress() const override {
         return addressOf(m_socket.localAddress(), m_socket.localPort());
     }
 
 private:
+    /// Waits until at most this many bytes are unsent.
+    NetResult<void> waitUntilUnsent(qint64 most) {
+        while (m_socket.bytesToWrite() > most) {
+            if (!m_socket.waitForBytesWritten(kPatienceMs)) {
+                return ended();
+            }
+        }
+        return {};
+    }
     [[nodiscard]] tl::unexpected<NetError> ended() const {
         return netError(NetError::Kind::NotConnected, "the TCP connection to " + net::textOf(m_endpoint) +
                                                           " ended: " + m_socket.errorString().toStdString() +
@@ -134,53 +134,40 @@ DatagramSender::DatagramSender(DatagramSender&&) noexcept = default;
 DatagramSender& DatagramSender::operator=(DatagramSender&&) noexcept = default;
 DatagramSender::~DatagramSender() = default;
 
-NetResult<DatagramSender> DatagramSender::connect(const std::vector<SendTarget>& targets) {
-    DatagramSender sender;
-    for (const SendTarget& target : targets) {
-        const auto address = lookUp(target.endpoint);
-        if (!address) {
-            return tl::unexpected(address.error());
-        }
-        if (target.transport == SendTarget::Transport::Udp) {
-            sender.m_channels.push_back(std::make_unique<UdpChannel>(*address, target.endpoint.port));
-            continue;
-        }
-        auto channel = std::make_unique<TcpChannel>(target.endpoint);
-        if (auto connected = channel->connect(*address); !connected) {
-            return tl::unexpected(connected.error());
-        }
-        sender.m_channels.push_back(std::move(channel));
+NetResult<DatagramSender> DatagramSender::connect(const SendTarget& target) {
+    const auto address = lookUp(target.endpoint);
+    if (!address) {
+        return tl::unexpected(address.error());
     }
+    DatagramSender sender;
+    if (target.transport == SendTarget::Transport::Udp) {
+        sender.m_channel = std::make_unique<UdpChannel>(*address, target.endpoint.port);
+        return sender;
+    }
+    auto channel = std::make_unique<TcpChannel>(target.endpoint);
+    if (auto connected = channel->connect(*address); !connected) {
+        return tl::unexpected(connected.error());
+    }
+    sender.m_channel = std::move(channel);
     return sender;
 }
 
 NetResult<void> DatagramSender::send(std::span<const std::byte> datagram) {
-    const char* bytes = reinterpret_cast<const char*>(datagram.data());
-    for (const auto& channel : m_channels) {
-        const auto taken = channel->send(bytes, static_cast<qint64>(datagram.size()));
-        if (!taken) {
-            return tl::unexpected(taken.error());
-        }
-        ++(*taken ? m_sent : m_refused);
+    const auto taken =
+        m_channel->send(reinterpret_cast<const char*>(datagram.data()), static_cast<qint64>(datagram.size()));
+    if (!taken) {
+        return tl::unexpected(taken.error());
     }
+    ++(*taken ? m_sent : m_refused);
     return {};
 }
 
 NetResult<void> DatagramSender::flush() {
-    for (const auto& channel : m_channels) {
-        if (auto flushed = channel->flush(); !flushed) {
-            return flushed;
-        }
-    }
-    return {};
+    return m_channel->flush();
 }
 
-std::vector<std::string> DatagramSender::localAddresses() const {
-    std::vector<std::string> addresses;
-    for (const auto& channel : m_channels) {
-        addresses.push_back(channel->localAddress());
-    }
-    return addresses;
+std::string DatagramSender::localAddress() const {
+    return m_channel->localAddress();
 }
 
 } // namespace posewire::net

@@ -12,7 +12,6 @@
 #include <memory>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace posewire::net {
 
@@ -44,28 +43,28 @@ struct SendTarget {
     Transport transport = Transport::Udp;
 };
 
-/// Sends datagrams to one or more places. Belongs to the thread that created it; the process needs a
+/// Sends datagrams to one place. Belongs to the thread that created it; the process needs a
 /// QCoreApplication, but its event loop need not run.
 class DatagramSender {
 public:
-    /// Resolves names and connects, waiting at most five seconds for each target. Returns the first error.
-    static NetResult<DatagramSender> connect(const std::vector<SendTarget>& targets);
+    /// Resolves the name and connects, waiting at most five seconds.
+    static NetResult<DatagramSender> connect(const SendTarget& target);
 
     DatagramSender(DatagramSender&&) noexcept;
     DatagramSender& operator=(DatagramSender&&) noexcept;
     ~DatagramSender();
 
-    /// Sends to all targets in order. Blocks while a TCP receiver has not read earlier data. A datagram that
+    /// Blocks while a TCP receiver has not read earlier data. A datagram that
     /// UDP refuses is counted, not an error; a closed TCP connection is an error.
     NetResult<void> send(std::span<const std::byte> datagram);
 
     /// Waits at most five seconds for TCP to send everything.
     NetResult<void> flush();
 
-    /// The address that each target sees as the sender's, in order: "127.0.0.1:40001".
-    [[nodiscard]] std::vector<std::string> localAddresses() const;
+    /// The address that the target sees as the sender's: "127.0.0.1:40001".
+    [[nodiscard]] std::string localAddress() const;
 
-    [[nodiscard]] std::uint64_t sent() const { return m_sent; }       ///< datagrams, counted for each target
+    [[nodiscard]] std::uint64_t sent() const { return m_sent; }       ///< datagrams
     [[nodiscard]] std::uint64_t refused() const { return m_refused; } ///< datagrams that the system refused
 
 private:
@@ -75,7 +74,7 @@ private:
 
     DatagramSender();
 
-    std::vector<std::unique_ptr<Channel>> m_channels;
+    std::unique_ptr<Channel> m_channel;
     std::uint64_t m_sent = 0;
     std::uint64_t m_refused = 0;
 };

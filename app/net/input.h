@@ -6,9 +6,9 @@
 
 #include <atomic>
 #include <cstdint>
-#include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace posewire::net {
@@ -85,10 +85,30 @@ public:
     [[nodiscard]] InputCounters& counters() { return m_counters; }
 
     // From any thread.
-    void setEndpoint(const Endpoint& endpoint);
-    void setState(InputState state, std::string text);
-    void setPeers(std::vector<Peer> peers, std::uint64_t refused);
-    [[nodiscard]] InputStatus status() const;
+    void setEndpoint(const Endpoint& endpoint) {
+        const std::lock_guard lock(m_mutex);
+        m_status.endpoint = endpoint;
+    }
+    void setState(InputState state, std::string text) {
+        const std::lock_guard lock(m_mutex);
+        m_status.state = state;
+        m_status.text = std::move(text);
+    }
+    void setPeers(std::vector<Peer> peers, std::uint64_t refused) {
+        const std::lock_guard lock(m_mutex);
+        m_status.peers = std::move(peers);
+        m_status.refusedPeers = refused;
+    }
+    [[nodiscard]] InputStatus status() const {
+        const std::lock_guard lock(m_mutex);
+        InputStatus status = m_status;
+        status.datagrams = m_counters.datagrams.load(std::memory_order_relaxed);
+        status.bytes = m_counters.bytes.load(std::memory_order_relaxed);
+        status.skippedBytes = m_counters.skippedBytes.load(std::memory_order_relaxed);
+        status.kernelDropped = m_counters.kernelDropped.load(std::memory_order_relaxed);
+        status.receiveBufferBytes = m_counters.receiveBufferBytes.load(std::memory_order_relaxed);
+        return status;
+    }
 
 private:
     const InputId m_id;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/addresses.h"
 #include "app/net/receive_loop.h"
+#include "app/net/thread_events.h"
 #include "app/net/udp_binding.h"
 
-#include <QEventLoop>
-
-#include <algorithm>
-#include <mutex>
 #include <optional>
 
 namespace posewire::net {
@@ -20,7 +17,7 @@ public:
     NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) override;
     void remove(InputId id) override;
     void run() override;
-    void wake() override;
+    void wake() override { m_events.wake(); }
 
 private:
     struct Last {
@@ -37,25 +34,14 @@ private:
     void drain(Socket& socket);
     bool takeOne(Socket& socket);
     log::SenderId senderOf(Socket& socket, const QHostAddress& address, quint16 port);
-    void ensureEventLoop();
-    void close();
 
     ReceiveContext m_context;
-    std::mutex m_mutex; ///< guards m_eventLoop against a wake() before or after its life
-    std::unique_ptr<QEventLoop> m_eventLoop;
+    ThreadEvents m_events;
     std::vector<Socket> m_sockets;
 };
 
-/// Sockets need the event dispatcher of their thread.
-void QtReceiveLoop::ensureEventLoop() {
-    const std::lock_guard lock(m_mutex);
-    if (!m_eventLoop) {
-        m_eventLoop = std::make_unique<QEventLoop>();
-    }
-}
-
 NetResult<void> QtReceiveLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
-    ensureEventLoop();
+    m_events.begin();
     auto sockets = bindUdp(where, m_context.options.bufferBytes);
     if (!sockets) {
         return tl::unexpected(sockets.error());
@@ -78,7 +64,7 @@ void QtReceiveLoop::remove(InputId id) {
 }
 
 void QtReceiveLoop::run() {
-    ensureEventLoop();
+    m_events.begin();
     while (!isStopping()) {
         m_context.commands.run();
         for (Socket& socket : m_sockets) {
@@ -87,20 +73,14 @@ void QtReceiveLoop::run() {
         if (!m_context.queue.isEmpty()) {
             m_context.queue.moveTo(m_context.log);
         }
-        m_eventLoop->processEvents(QEventLoop::WaitForMoreEvents);
+        m_events.process(QEventLoop::WaitForMoreEvents);
     }
     for (Socket& socket : m_sockets) {
         drain(socket);
     }
     m_context.queue.moveTo(m_context.log);
-    close();
-}
-
-void QtReceiveLoop::wake() {
-    const std::lock_guard lock(m_mutex);
-    if (m_eventLoop) {
-        m_eventLoop->wakeUp();
-    }
+    m_sockets.clear();
+    m_events.end();
 }
 
 /// Only what has arrived by now: other sockets are waiting.
@@ -151,12 +131,6 @@ log::SenderId QtReceiveLoop::senderOf(Socket& socket, const QHostAddress& addres
         socket.last = Last{address, port, m_context.log.senders().intern(info)};
     }
     return socket.last->id;
-}
-
-void QtReceiveLoop::close() {
-    m_sockets.clear();
-    const std::lock_guard lock(m_mutex);
-    m_eventLoop.reset();
 }
 
 } // namespace

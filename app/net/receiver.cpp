@@ -46,7 +46,7 @@ void Receiver::keep(const std::shared_ptr<Input>& input) {
 TcpThread& Receiver::tcp() {
     const std::lock_guard lock(m_mutex);
     if (!m_tcp) {
-        m_tcp = std::make_unique<TcpThread>(m_clock, m_queue, m_tcpTotals);
+        m_tcp = std::make_unique<TcpThread>(TcpContext{m_clock, m_queue, m_tcpTotals});
     }
     return *m_tcp;
 }

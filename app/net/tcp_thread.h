@@ -2,28 +2,22 @@
 #pragma once
 
 #include "app/net/command_queue.h"
-#include "app/net/input.h"
-#include "app/net/net_error.h"
-#include "app/net/packet_queue.h"
-#include "core/log/clock.h"
+#include "app/net/tcp_inputs.h"
+#include "app/net/thread_events.h"
 
 #include <atomic>
-#include <memory>
-#include <mutex>
 #include <thread>
 
-class QEventLoop;
+class QTimer;
 
 namespace posewire::net {
-
-class TcpInput;
 
 /// Reads TCP connections and passes their datagrams to the queue; while that is full it waits, and TCP makes
 /// the senders wait. One thread for all connections, separate from the one that receives UDP.
 class TcpThread {
 public:
-    /// All must outlive it. Its thread writes `totals`.
-    TcpThread(const log::Clock& clock, PacketQueue& queue, InputCounters& totals);
+    /// What `context` names must outlive it. Its thread writes the totals.
+    explicit TcpThread(const TcpContext& context);
 
     /// Ends all connections. The queue must be emptied meanwhile, or be closed.
     ~TcpThread();
@@ -36,19 +30,14 @@ public:
     void remove(InputId id);
 
 private:
-    struct Inside;
-
     void run();
-    void wake();
+    bool turn(QTimer& timer);
 
-    const log::Clock& m_clock;
-    PacketQueue& m_queue;
-    InputCounters& m_totals;
-    CommandQueue m_commands{[this] { wake(); }};
+    const TcpContext m_context;
+    ThreadEvents m_events;
+    CommandQueue m_commands{[this] { m_events.wake(); }};
     std::atomic<bool> m_isStopping = false;
-    std::mutex m_mutex; ///< guards m_eventLoop
-    std::unique_ptr<QEventLoop> m_eventLoop;
-    std::unique_ptr<Inside> m_inside; ///< of the thread alone
+    std::vector<std::unique_ptr<TcpInput>> m_inputs; ///< of the thread alone
     std::thread m_thread;
 };
 

@@ -7,68 +7,39 @@ namespace posewire::log {
 
 namespace {
 
-/// Blocks kept for use again; more go back to the system.
-constexpr std::size_t kSpareLimit = 64;
-
+/// Place of the last entry whose member is not above `limit`.
 template <typename Value, typename Member>
-std::optional<std::size_t> newestAtOrBefore(const StreamEntries& entries, Value limit, Member member) {
-    std::size_t first = 0; // entries before it are not later than the limit
-    for (std::size_t end = entries.size(); first < end;) {
-        const std::size_t middle = first + (end - first) / 2;
-        if (limit < entries[middle].*member) {
-            end = middle;
-        } else {
-            first = middle + 1;
-        }
-    }
-    return first == 0 ? std::nullopt : std::optional(first - 1);
+std::optional<std::size_t> newestAtOrBefore(const std::deque<StreamEntry>& entries, Value limit,
+                                            Member member) {
+    const auto later = std::ranges::upper_bound(entries, limit, {}, member);
+    return later == entries.begin() ? std::nullopt : std::optional<std::size_t>(later - entries.begin() - 1);
 }
 
 } // namespace
 
 std::optional<std::size_t> StreamEntries::atOrBeforePacket(std::uint64_t packet) const {
-    return newestAtOrBefore(*this, packet, &StreamEntry::packet);
+    return newestAtOrBefore(m_entries, packet, &StreamEntry::packet);
 }
 
 std::optional<std::size_t> StreamEntries::atOrBeforeStamp(Stamp stamp) const {
-    return newestAtOrBefore(*this, stamp, &StreamEntry::stamp);
+    return newestAtOrBefore(m_entries, stamp, &StreamEntry::stamp);
 }
 
-void StreamEntries::append(StreamEntry entry, Spare& spare) {
-    if (m_size > 0) {
-        entry.stamp = std::max(entry.stamp, back().stamp);
+void StreamEntries::append(StreamEntry entry) {
+    if (!m_entries.empty()) {
+        entry.stamp = std::max(entry.stamp, m_entries.back().stamp);
     }
-    const std::size_t place = m_front + m_size;
-    if (place == m_blocks.size() * kBlock) {
-        if (spare.empty()) {
-            m_blocks.push_back(std::make_unique<Block>());
-        } else {
-            m_blocks.push_back(std::move(spare.back()));
-            spare.pop_back();
-        }
-    }
-    m_blocks[place / kBlock]->entries[place % kBlock] = entry;
-    ++m_size;
+    m_entries.push_back(entry);
 }
 
-void StreamEntries::dropBefore(std::uint64_t packet, Spare& spare) {
-    const std::size_t dropped = packet == 0 ? 0 : atOrBeforePacket(packet - 1).value_or(SIZE_MAX) + 1;
-    m_front += dropped;
-    m_size -= dropped;
-    while (m_front >= kBlock || (m_size == 0 && !m_blocks.empty())) {
-        if (spare.size() < kSpareLimit) {
-            spare.push_back(std::move(m_blocks.front()));
-        }
-        m_blocks.pop_front();
-        m_front -= std::min(m_front, kBlock);
-    }
+void StreamEntries::dropBefore(std::uint64_t packet) {
+    m_entries.erase(m_entries.begin(), std::ranges::lower_bound(m_entries, packet, {}, &StreamEntry::packet));
 }
 
 void StreamIndex::add(const Packet& packet, const wire::Header& header) {
     if (StreamEntries* entries = entriesFor({packet.sender, header.character, header.type()})) {
         entries->append(
-            {packet.number, packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()},
-            m_spare);
+            {packet.number, packet.stamp, header.sampleCounter, header.datagramIndex(), header.isLast()});
     }
 }
 
@@ -77,18 +48,20 @@ void StreamIndex::dropBefore(std::uint64_t begin) {
         return;
     }
     m_begin = begin;
-    const std::size_t gone = std::erase_if(m_streams, [&](auto& stream) {
-        stream.second->dropBefore(begin, m_spare);
-        return stream.second->empty();
-    });
-    if (gone != 0) {
-        m_lastEntries = nullptr;
+    for (auto stream = m_streams.begin(); stream != m_streams.end();) {
+        stream->second.dropBefore(begin);
+        if (stream->second.empty()) {
+            stream = m_streams.erase(stream);
+            m_lastEntries = nullptr;
+        } else {
+            ++stream;
+        }
     }
 }
 
 const StreamEntries* StreamIndex::find(const StreamKey& key) const {
     const auto found = m_streams.find(key);
-    return found == m_streams.end() ? nullptr : found->second.get();
+    return found == m_streams.end() ? nullptr : &found->second;
 }
 
 StreamEntries* StreamIndex::entriesFor(const StreamKey& key) {
@@ -100,10 +73,10 @@ StreamEntries* StreamIndex::entriesFor(const StreamKey& key) {
         if (m_streams.size() == kStreamLimit) {
             return nullptr;
         }
-        found = m_streams.emplace(key, std::make_unique<StreamEntries>()).first;
+        found = m_streams.try_emplace(key).first;
     }
     m_lastKey = key;
-    m_lastEntries = found->second.get();
+    m_lastEntries = &found->second;
     return m_lastEntries;
 }
 

@@ -10,10 +10,8 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <unordered_map>
-#include <vector>
 
 namespace posewire::log {
 
@@ -49,35 +47,23 @@ struct StreamEntry {
     bool isLast = false;       ///< the last one of its sample
 };
 
-/// The entries of one stream, oldest first. Memory is taken and given back in blocks.
+/// The entries of one stream, oldest first.
 class StreamEntries {
 public:
-    static constexpr std::size_t kBlock = 256;
-    struct Block {
-        StreamEntry entries[kBlock];
-    };
-    using Spare = std::vector<std::unique_ptr<Block>>;
-
-    [[nodiscard]] std::size_t size() const { return m_size; }
-    [[nodiscard]] bool empty() const { return m_size == 0; }
-    [[nodiscard]] const StreamEntry& operator[](std::size_t index) const {
-        const std::size_t place = m_front + index;
-        return m_blocks[place / kBlock]->entries[place % kBlock];
-    }
-    [[nodiscard]] const StreamEntry& back() const { return (*this)[m_size - 1]; }
+    [[nodiscard]] std::size_t size() const { return m_entries.size(); }
+    [[nodiscard]] bool empty() const { return m_entries.empty(); }
+    [[nodiscard]] const StreamEntry& operator[](std::size_t index) const { return m_entries[index]; }
+    [[nodiscard]] const StreamEntry& back() const { return m_entries.back(); }
 
     /// Place of the newest entry at or before a packet or a stamp; nothing where all are later.
     [[nodiscard]] std::optional<std::size_t> atOrBeforePacket(std::uint64_t packet) const;
     [[nodiscard]] std::optional<std::size_t> atOrBeforeStamp(Stamp stamp) const;
 
-    /// `spare` lends blocks that are not in use, and gets them back.
-    void append(StreamEntry entry, Spare& spare);
-    void dropBefore(std::uint64_t packet, Spare& spare);
+    void append(StreamEntry entry);
+    void dropBefore(std::uint64_t packet);
 
 private:
-    std::deque<std::unique_ptr<Block>> m_blocks;
-    std::size_t m_front = 0; ///< place of the first entry in the first block
-    std::size_t m_size = 0;
+    std::deque<StreamEntry> m_entries;
 };
 
 /// Finds the datagrams of each stream by time. Belongs to one thread, which takes in what the log gets and
@@ -99,8 +85,7 @@ public:
 private:
     StreamEntries* entriesFor(const StreamKey& key);
 
-    std::unordered_map<StreamKey, std::unique_ptr<StreamEntries>> m_streams;
-    StreamEntries::Spare m_spare;
+    std::unordered_map<StreamKey, StreamEntries> m_streams;
     StreamKey m_lastKey;
     StreamEntries* m_lastEntries = nullptr;
     std::uint64_t m_begin = 0;

@@ -27,7 +27,7 @@ DemoSender::~DemoSender() {
 }
 
 void DemoSender::run(int characters, std::uint16_t port) {
-    auto sender = net::DatagramSender::connect({{{"127.0.0.1", port}, net::SendTarget::Transport::Udp}});
+    auto sender = net::DatagramSender::connect({{"127.0.0.1", port}, net::SendTarget::Transport::Udp});
     if (!sender) {
         return;
     }

@@ -19,22 +19,22 @@ SendTarget tcp(const QTcpServer& server) {
     return {{"127.0.0.1", server.serverPort()}, SendTarget::Transport::Tcp};
 }
 
-TEST(DatagramSender, ReachesEveryTarget) {
-    Receiving receiving({}, 2);
-    auto sender = DatagramSender::connect({receiving.target(0), receiving.target(1)});
+TEST(DatagramSender, CountsWhatItSends) {
+    Receiving receiving;
+    auto sender = DatagramSender::connect(receiving.target());
     ASSERT_TRUE(sender.has_value());
     for (std::size_t i = 0; i < 10; ++i) {
         ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
     }
-    EXPECT_EQ(sender->sent(), 20U);
+    EXPECT_EQ(sender->sent(), 10U);
     EXPECT_EQ(sender->refused(), 0U);
-    EXPECT_TRUE(eventually([&] { return receiving.packets() == 20; }));
+    EXPECT_TRUE(eventually([&] { return receiving.packets() == 10; }));
 }
 
 TEST(DatagramSender, TcpCarriesDatagramsBackToBack) {
     QTcpServer server;
     ASSERT_TRUE(server.listen(QHostAddress::LocalHost));
-    auto sender = DatagramSender::connect({tcp(server)});
+    auto sender = DatagramSender::connect(tcp(server));
     ASSERT_TRUE(sender.has_value()) << sender.error().text;
     ASSERT_TRUE(server.waitForNewConnection(5000));
     const std::unique_ptr<QTcpSocket> peer(server.nextPendingConnection());
@@ -60,7 +60,7 @@ TEST(DatagramSender, TcpWithoutReceiverIsAClearError) {
         ASSERT_TRUE(server.listen(QHostAddress::LocalHost));
         port = server.serverPort();
     }
-    const auto sender = DatagramSender::connect({{{"127.0.0.1", port}, SendTarget::Transport::Tcp}});
+    const auto sender = DatagramSender::connect({{"127.0.0.1", port}, SendTarget::Transport::Tcp});
     ASSERT_FALSE(sender.has_value());
     EXPECT_EQ(sender.error().kind, NetError::Kind::NotConnected);
     EXPECT_THAT(sender.error().text, HasSubstr("127.0.0.1:" + std::to_string(port)));
@@ -69,7 +69,7 @@ TEST(DatagramSender, TcpWithoutReceiverIsAClearError) {
 TEST(DatagramSender, TcpThatEndedIsAnError) {
     QTcpServer server;
     ASSERT_TRUE(server.listen(QHostAddress::LocalHost));
-    auto sender = DatagramSender::connect({tcp(server)});
+    auto sender = DatagramSender::connect(tcp(server));
     ASSERT_TRUE(sender.has_value());
     ASSERT_TRUE(server.waitForNewConnection(5000));
     delete server.nextPendingConnection();
@@ -83,7 +83,7 @@ TEST(DatagramSender, TcpThatEndedIsAnError) {
 
 TEST(DatagramSender, DatagramTooLongForUdpIsCounted) {
     const Receiving receiving;
-    auto sender = DatagramSender::connect({receiving.target()});
+    auto sender = DatagramSender::connect(receiving.target());
     ASSERT_TRUE(sender->send(numbered(70'000, 1)).has_value());
     EXPECT_EQ(sender->refused(), 1U);
 }

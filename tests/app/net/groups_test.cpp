@@ -52,7 +52,7 @@ TEST_P(GroupsTest, HearsAnIpv4GroupAndUnicastOfBothKindsAtOnePort) {
     EXPECT_TRUE(eventually([&] { return receiving.packets() == 1; }));
     for (const char* host : {"127.0.0.1", "::1"}) {
         const std::uint64_t before = receiving.packets();
-        auto sender = DatagramSender::connect({{{host, receiving.endpoint().port}}});
+        auto sender = DatagramSender::connect({{host, receiving.endpoint().port}});
         ASSERT_TRUE(sender->send(numbered(760, 2)).has_value());
         if (sender->refused() == 0) { // else this computer has no IPv6
             EXPECT_TRUE(eventually([&] { return receiving.packets() == before + 1; })) << host;
@@ -86,7 +86,7 @@ TEST_P(GroupsTest, AGroupAsHostIsJoined) {
 
 TEST_P(GroupsTest, HearsBroadcasts) {
     ASSERT_TRUE(receiving.receiver->addUdp(Endpoint{"", 0}));
-    auto sender = DatagramSender::connect({{{"127.255.255.255", receiving.endpoint().port}}});
+    auto sender = DatagramSender::connect({{"127.255.255.255", receiving.endpoint().port}});
     ASSERT_TRUE(sender);
     ASSERT_TRUE(sender->send(numbered(760, 1)).has_value());
     if (sender->refused() != 0) {

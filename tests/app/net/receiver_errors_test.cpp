@@ -63,7 +63,7 @@ TEST_P(ReceiverErrorsTest, AnInputThatFailsLeavesTheOthersAlone) {
     const Receiving receiving(options());
     ASSERT_FALSE(receiving.receiver->addUdp(receiving.endpoint()));
     EXPECT_EQ(receiving.receiver->inputs().size(), 1U);
-    auto sender = DatagramSender::connect({receiving.target()});
+    auto sender = DatagramSender::connect(receiving.target());
     ASSERT_TRUE(sender->send(numbered(760, 1)).has_value());
     EXPECT_TRUE(eventually([&] { return receiving.packets() == 1; }));
 }

@@ -120,7 +120,7 @@ TEST_F(RelayTest, RefusesThePortsItsMonitorListensOn) {
 TEST_F(RelayTest, WhatItSentItselfDoesNotGoRound) {
     Relay relay(consumer.log, consumer.clock); // a loop that nobody told it of
     ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
-    auto sender = DatagramSender::connect({consumer.target()});
+    auto sender = DatagramSender::connect(consumer.target());
     ASSERT_TRUE(sender->send(numbered(100, 1)).has_value());
     ASSERT_TRUE(eventually([&] { return consumer.packets() == 2; }));
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

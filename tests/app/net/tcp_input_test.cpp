@@ -172,7 +172,7 @@ TEST_P(TcpInputTest, AFloodLosesNothingAndKeepsUdpGoing) {
             send(socket, bytes);
         }
     });
-    auto sender = DatagramSender::connect({udp});
+    auto sender = DatagramSender::connect(udp);
     for (std::size_t i = 0; i < 500; ++i) {
         ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
         std::this_thread::sleep_for(std::chrono::microseconds(200));

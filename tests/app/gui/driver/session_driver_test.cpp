@@ -39,7 +39,7 @@ protected:
         }
         if (!m_sender) {
             auto sender = net::DatagramSender::connect(
-                {{{"127.0.0.1", driver.receiving().openPort()}, net::SendTarget::Transport::Udp}});
+                {{"127.0.0.1", driver.receiving().openPort()}, net::SendTarget::Transport::Udp});
             ASSERT_TRUE(sender);
             m_sender.emplace(std::move(*sender));
         }
@@ -190,7 +190,7 @@ TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
     EXPECT_NE(listening.port, 0);
     EXPECT_EQ(driver.receiving().openPort(), 0) << "the demo sends by UDP";
     auto sender =
-        net::DatagramSender::connect({{{"127.0.0.1", listening.port}, net::SendTarget::Transport::Tcp}});
+        net::DatagramSender::connect({{"127.0.0.1", listening.port}, net::SendTarget::Transport::Tcp});
     ASSERT_TRUE(sender);
     for (const wire::Datagram& datagram : performer.frame(0)) {
         ASSERT_TRUE(sender->send(*wire::encode(datagram)));

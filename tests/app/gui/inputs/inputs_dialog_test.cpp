@@ -171,7 +171,7 @@ TEST_F(InputsDialogTest, TellsWhoHasConnectedByTcp) {
     const InputAddress listener{"127.0.0.1", freePort(), Kind::TcpListen};
     type(listener);
     const auto sender =
-        net::DatagramSender::connect({{{"127.0.0.1", listener.port}, net::SendTarget::Transport::Tcp}});
+        net::DatagramSender::connect({{"127.0.0.1", listener.port}, net::SendTarget::Transport::Tcp});
     ASSERT_TRUE(sender);
     EXPECT_TRUE(
         tickUntil([&] { return inputState(ports()[0]).text.startsWith("connected from 127.0.0.1:"); }));
