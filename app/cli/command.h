@@ -67,8 +67,6 @@ public:
     CommandLine(const std::string& name, const std::string& text, const std::string& version,
                 const std::string& footer);
     ~CommandLine();
-    CommandLine(const CommandLine&) = delete;
-    CommandLine& operator=(const CommandLine&) = delete;
 
     Arguments addCommand(const std::string& name, const std::string& text);
 

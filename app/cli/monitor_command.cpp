@@ -1,40 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/monitor_options.h"
+#include "app/cli/monitor.h"
 
 #include <array>
 #include <memory>
 
 namespace posewire::cli {
 namespace {
-
-using Complaint = std::string;
-
-tl::expected<std::vector<net::Endpoint>, Complaint> endpointsOf(const std::vector<std::string>& texts,
-                                                                const std::string& option) {
-    std::vector<net::Endpoint> endpoints;
-    for (const std::string& text : texts) {
-        auto endpoint = net::parseEndpoint(text);
-        if (!endpoint) {
-            return tl::unexpected(option + ": " + endpoint.error().text);
-        }
-        endpoints.push_back(std::move(*endpoint));
-    }
-    return endpoints;
-}
-
-/// Groups are joined on every port that is heard on all addresses.
-void joinGroups(std::vector<net::UdpInput>& inputs, const std::vector<std::string>& groups) {
-    bool isJoined = groups.empty();
-    for (net::UdpInput& input : inputs) {
-        if (input.endpoint.host.empty()) {
-            input.groups = groups;
-            isJoined = true;
-        }
-    }
-    if (!isJoined) {
-        inputs.push_back({net::Endpoint{}, groups});
-    }
-}
 
 Option addPlace(Arguments arguments, const std::string& name, std::vector<std::string>& texts,
                 const std::string& form, const std::string& what) {
@@ -61,7 +32,7 @@ void addPlaces(Arguments arguments, MonitorOptions& options) {
 
 void addLimits(Arguments arguments, Limits& limits) {
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
-        arguments.add("--max-" + std::string(kLimits[i].name), limits.most[i], std::string(kLimits[i].help))
+        arguments.add("--max-" + std::string(kLimits[i].name), limits[i], std::string(kLimits[i].help))
             .form(unitOf(kLimits[i]) == " %" ? "PERCENT" : "MS")
             .notNegative()
             .group("Limits (of each stream; where one is exceeded the exit status is 1)");
@@ -69,32 +40,6 @@ void addLimits(Arguments arguments, Limits& limits) {
 }
 
 } // namespace
-
-tl::expected<MonitorPlaces, Complaint> placesOf(const MonitorOptions& options) {
-    const auto udp = endpointsOf(options.udp, "--udp");
-    const auto tcpListen = endpointsOf(options.tcpListen, "--tcp-listen");
-    const auto tcp = endpointsOf(options.tcp, "--tcp");
-    for (const auto* list : {&udp, &tcpListen, &tcp}) {
-        if (!*list) {
-            return tl::unexpected(list->error());
-        }
-    }
-    MonitorPlaces places{{}, *tcpListen, *tcp};
-    for (const net::Endpoint& endpoint : *udp) {
-        places.udp.push_back({endpoint, {}});
-    }
-    for (const net::Endpoint& endpoint : places.tcp) {
-        if (endpoint.host.empty()) {
-            return tl::unexpected("--tcp: " + std::to_string(endpoint.port) +
-                                  " has no host; write HOST:PORT, or --tcp-listen to wait for the sender");
-        }
-    }
-    if (udp->empty() && tcpListen->empty() && tcp->empty() && options.multicast.empty()) {
-        places.udp.emplace_back();
-    }
-    joinGroups(places.udp, options.multicast);
-    return places;
-}
 
 Command addMonitorCommand(CommandLine& program) {
     auto options = std::make_shared<MonitorOptions>();

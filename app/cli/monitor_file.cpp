@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/datagram_pacer.h"
-#include "app/cli/monitor_run.h"
+#include "app/cli/monitor.h"
 #include "core/log/recording.h"
 #include "core/log/recording_file.h"
 

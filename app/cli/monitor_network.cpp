@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/monitor_run.h"
+#include "app/cli/monitor.h"
 #include "core/log/recording.h"
 
 #include <QCoreApplication>
@@ -10,7 +10,34 @@
 namespace posewire::cli {
 namespace {
 
-net::NetResult<void> open(net::Receiver& receiver, const MonitorPlaces& places) {
+tl::expected<std::vector<net::Endpoint>, std::string> endpointsOf(const std::vector<std::string>& texts,
+                                                                  const std::string& option) {
+    std::vector<net::Endpoint> endpoints;
+    for (const std::string& text : texts) {
+        auto endpoint = net::parseEndpoint(text);
+        if (!endpoint) {
+            return tl::unexpected(option + ": " + endpoint.error().text);
+        }
+        endpoints.push_back(std::move(*endpoint));
+    }
+    return endpoints;
+}
+
+/// Groups are joined on every port that is heard on all addresses.
+void joinGroups(std::vector<net::UdpInput>& inputs, const std::vector<std::string>& groups) {
+    bool isJoined = groups.empty();
+    for (net::UdpInput& input : inputs) {
+        if (input.endpoint.host.empty()) {
+            input.groups = groups;
+            isJoined = true;
+        }
+    }
+    if (!isJoined) {
+        inputs.push_back({net::Endpoint{}, groups});
+    }
+}
+
+net::NetResult<void> open(net::Receiver& receiver, const Places& places) {
     for (const net::UdpInput& input : places.udp) {
         if (const auto added = receiver.addUdp(input); !added) {
             return tl::unexpected(added.error());
@@ -86,6 +113,32 @@ double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& rec
 }
 
 } // namespace
+
+tl::expected<Places, std::string> placesOf(const MonitorOptions& options) {
+    const auto udp = endpointsOf(options.udp, "--udp");
+    const auto tcpListen = endpointsOf(options.tcpListen, "--tcp-listen");
+    const auto tcp = endpointsOf(options.tcp, "--tcp");
+    for (const auto* list : {&udp, &tcpListen, &tcp}) {
+        if (!*list) {
+            return tl::unexpected(list->error());
+        }
+    }
+    Places places{{}, *tcpListen, *tcp};
+    for (const net::Endpoint& endpoint : *udp) {
+        places.udp.push_back({endpoint, {}});
+    }
+    for (const net::Endpoint& endpoint : places.tcp) {
+        if (endpoint.host.empty()) {
+            return tl::unexpected("--tcp: " + std::to_string(endpoint.port) +
+                                  " has no host; write HOST:PORT, or --tcp-listen to wait for the sender");
+        }
+    }
+    if (udp->empty() && tcpListen->empty() && tcp->empty() && options.multicast.empty()) {
+        places.udp.emplace_back();
+    }
+    joinGroups(places.udp, options.multicast);
+    return places;
+}
 
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     const auto unusable = [&](const std::string& complaint) { return console.unusable(complaint); };

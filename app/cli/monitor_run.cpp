@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/monitor_run.h"
+#include "app/cli/monitor.h"
 
 #include "core/export/html.h"
 #include "core/export/session_reading.h"
@@ -40,8 +40,9 @@ std::string placeOf(const model::SessionView& session, const log::StreamKey& key
 
 /// One line for each limit that a stream exceeds; one if nothing was received although there are limits.
 std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits) {
+    const bool isAny = std::ranges::any_of(limits, [](const auto& most) { return most.has_value(); });
     std::vector<std::string> lines;
-    if (limits.isAny() && session.streams().empty()) {
+    if (isAny && session.streams().empty()) {
         lines.emplace_back(
             "no datagram was received, so no limit is kept; is the sender on, and does it send here?");
     }
@@ -52,10 +53,10 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
         const model::StreamFigures figures = exporting::figuresOf(session, stream);
         for (std::size_t i = 0; i < kLimits.size(); ++i) {
             const double value = figures[kLimits[i].figure];
-            if (limits.most[i] && value > *limits.most[i]) {
+            if (limits[i] && value > *limits[i]) {
                 lines.push_back(placeOf(session, stream.key) + ": " + std::string(kLimits[i].name) + ' ' +
                                 exporting::fixed(value, 3) + unitOf(kLimits[i]) + " is above the limit of " +
-                                exporting::fixed(*limits.most[i], 3) + unitOf(kLimits[i]));
+                                exporting::fixed(*limits[i], 3) + unitOf(kLimits[i]));
             }
         }
     }
@@ -71,31 +72,25 @@ extern "C" void rememberInterruption(int signal) {
 
 } // namespace
 
-bool Limits::isAny() const {
-    return std::ranges::any_of(most, [](const auto& limit) { return limit.has_value(); });
-}
-
 std::string unitOf(const Limit& limit) {
     return std::string(" ") + model::rowOf(limit.figure).style.unit;
 }
 
-Interruption::Interruption() {
+MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
+    : m_options(options), m_console(console), m_nextShow(std::chrono::steady_clock::now()) {
     hasInterruptionCome = 0;
     std::signal(SIGINT, rememberInterruption);
     std::signal(SIGTERM, rememberInterruption);
 }
 
-Interruption::~Interruption() {
+MonitorRun::~MonitorRun() {
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
 }
 
-bool Interruption::hasCome() const {
-    return hasInterruptionCome != 0;
+bool MonitorRun::isOver() const {
+    return hasInterruptionCome != 0 || !m_console.out.isWanted();
 }
-
-MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
-    : m_options(options), m_console(console), m_nextShow(std::chrono::steady_clock::now()) {}
 
 void MonitorRun::follow(log::Stamp now) {
     while (m_session.follow(now)) {
@@ -138,7 +133,7 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
         std::string name(kLimits[i].name);
         name.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(name.front())));
-        options.settings.emplace_back(name, limitText(m_options.limits.most[i], unitOf(kLimits[i])));
+        options.settings.emplace_back(name, limitText(m_options.limits[i], unitOf(kLimits[i])));
     }
     if (facts.receiveBufferBytes != 0) {
         options.settings.emplace_back("Receive buffer", std::to_string(facts.receiveBufferBytes) + " bytes");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
-#include "app/cli/send_options.h"
+#include "app/cli/send.h"
 #include "core/performer/motion.h"
 #include "core/wire/codec.h"
 

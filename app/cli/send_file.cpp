@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/datagram_pacer.h"
-#include "app/cli/send_options.h"
+#include "app/cli/send.h"
 #include "core/log/recording_file.h"
 
 namespace posewire::cli {

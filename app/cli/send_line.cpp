@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/send_line.h"
+#include "app/cli/send.h"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/send_options.h"
+#include "app/cli/send.h"
 
 #include "core/wire/type_table.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/input_output.h"
-#include "app/cli/send_line.h"
+#include "app/cli/send.h"
 #include "core/export/json_value.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/wire/type_table.h"

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -74,5 +75,13 @@ struct Finding {
 /// Advice for an operator who sees nothing, most certain first; empty where all is well. Silence counts after
 /// two seconds.
 [[nodiscard]] std::vector<Finding> connectionHelp(const ConnectionFacts& facts);
+
+/// What the first bytes of a foreign datagram look like, in words an operator knows: "OSC",
+/// "NatNet (OptiTrack Motive)". Empty if they resemble nothing known. Only a guess: these protocols begin
+/// with few fixed bytes.
+[[nodiscard]] std::string protocolThatBegins(std::span<const std::byte> bytes);
+
+/// "4d 58 54 50  MXTP", at most 16 bytes, with dots for unprintable ones.
+[[nodiscard]] std::string shownBytes(std::span<const std::byte> bytes);
 
 } // namespace posewire::net

@@ -10,7 +10,6 @@
 #include <thread>
 
 namespace posewire::net {
-
 namespace {
 
 constexpr int kPatienceMs = 5000;

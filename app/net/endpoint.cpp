@@ -4,7 +4,6 @@
 #include <charconv>
 
 namespace posewire::net {
-
 namespace {
 
 bool parsePort(std::string_view text, std::uint16_t& port) {

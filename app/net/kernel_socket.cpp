@@ -13,7 +13,6 @@
 #include <string>
 
 namespace posewire::net {
-
 namespace {
 
 /// "127.0.0.1:40001"; IPv4 in its own form even where an IPv6 socket received it.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/addresses.h"
+#include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/thread_events.h"
-#include "app/net/udp_binding.h"
 
 #include <optional>
 
 namespace posewire::net {
-
 namespace {
 
 class QtReceiveLoop final : public ReceiveLoop {

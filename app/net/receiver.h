@@ -74,8 +74,6 @@ public:
 
     /// Stops and joins, after logging what had already arrived in the sockets.
     ~Receiver();
-    Receiver(const Receiver&) = delete;
-    Receiver& operator=(const Receiver&) = delete;
 
     /// Listens, or says why not and what to do: for a port in use it names the holder where the system
     /// reveals it.

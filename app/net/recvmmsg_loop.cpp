@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/kernel_socket.h"
+#include "app/net/listening.h"
 #include "app/net/receive_loop.h"
-#include "app/net/udp_binding.h"
 
 #include <QEventLoop>
 
@@ -14,7 +14,6 @@
 #include <thread>
 
 namespace posewire::net {
-
 namespace {
 
 /// After this many naps without a datagram the loop blocks until one arrives, so an idle monitor uses no CPU

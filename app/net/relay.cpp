@@ -12,7 +12,6 @@
 #include <chrono>
 
 namespace posewire::net {
-
 namespace {
 
 /// Packets forwarded before commands get a turn.

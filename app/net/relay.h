@@ -42,8 +42,6 @@ public:
     /// Both must outlive it.
     Relay(const log::PacketLog& log, const log::Clock& clock);
     ~Relay();
-    Relay(const Relay&) = delete;
-    Relay& operator=(const Relay&) = delete;
 
     /// Forwards from now on. Resolves names, which may take seconds. Refuses a port that one of `inputs`
     /// listens on, since every datagram would come back and circulate forever.

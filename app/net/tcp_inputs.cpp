@@ -2,7 +2,7 @@
 #include "app/net/tcp_inputs.h"
 
 #include "app/net/addresses.h"
-#include "app/net/listen_error.h"
+#include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/receiver.h"
 
@@ -14,7 +14,6 @@
 #include <cstdio>
 
 namespace posewire::net {
-
 namespace {
 
 constexpr log::Duration kPublish = std::chrono::milliseconds(100);

@@ -21,8 +21,6 @@ public:
 
     /// Ends all connections. The queue must be emptied meanwhile, or be closed.
     ~TcpThread();
-    TcpThread(const TcpThread&) = delete;
-    TcpThread& operator=(const TcpThread&) = delete;
 
     // From any other thread.
     NetResult<void> listen(const std::shared_ptr<Input>& input, const Endpoint& endpoint);

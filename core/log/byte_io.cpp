@@ -9,7 +9,6 @@
 #include <system_error>
 
 namespace posewire::log {
-
 namespace {
 
 class StreamSource final : public ByteSource {

@@ -9,7 +9,6 @@
 #endif
 
 namespace posewire::log {
-
 namespace {
 
 constexpr std::size_t kSmallestChunk = std::size_t{256} << 10;

@@ -126,8 +126,6 @@ public:
 
     explicit ChunkHistory(LogLimits limits);
     ~ChunkHistory();
-    ChunkHistory(const ChunkHistory&) = delete;
-    ChunkHistory& operator=(const ChunkHistory&) = delete;
 
     /// Writer: the next chunk, which begins at packet `first`; the oldest ones go where the cap demands it.
     std::shared_ptr<Chunk> beginChunk(std::uint64_t first);

@@ -5,7 +5,6 @@
 #include <cstring>
 
 namespace posewire::log {
-
 namespace {
 
 /// Below this many lanes a batch is no batch any more and a new chunk is the better way.

@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace posewire::log {
-
 namespace {
 
 constexpr std::string_view kSignature = "Posewire: ";

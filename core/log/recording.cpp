@@ -8,7 +8,6 @@
 #include <utility>
 
 namespace posewire::log {
-
 namespace {
 
 constexpr std::chrono::milliseconds kPause{50};

@@ -66,8 +66,6 @@ public:
 
     /// Stops as stop() does.
     ~Recording();
-    Recording(const Recording&) = delete;
-    Recording& operator=(const Recording&) = delete;
 
     /// Writes what the log holds and ends the file. Fails with what went wrong since the start; again and
     /// again with the same.

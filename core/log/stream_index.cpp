@@ -4,7 +4,6 @@
 #include <algorithm>
 
 namespace posewire::log {
-
 namespace {
 
 /// Place of the last entry whose member is not above `limit`.

@@ -7,7 +7,6 @@
 #include <cstring>
 
 namespace posewire::log {
-
 namespace {
 
 using Bytes = std::span<const std::byte>;

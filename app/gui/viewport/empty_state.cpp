@@ -2,7 +2,7 @@
 #include "app/gui/viewport/empty_state.h"
 
 #include "app/gui/models/text.h"
-#include "app/net/foreign_protocol.h"
+#include "app/net/connection_help.h"
 
 #include <QCoreApplication>
 

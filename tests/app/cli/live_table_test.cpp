@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/live_table.h"
 
-#include "app/cli/monitor_options.h"
+#include "app/cli/monitor.h"
 
 #include <gmock/gmock.h>
 

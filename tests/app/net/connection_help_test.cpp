@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
-#include "app/net/foreign_protocol.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

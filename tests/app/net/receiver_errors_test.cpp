@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/listen_error.h"
+#include "app/net/listening.h"
 #include "app/net/receiver.h"
 #include "tests/app/net/net_fixture.h"
 

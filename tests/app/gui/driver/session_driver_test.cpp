@@ -2,7 +2,7 @@
 #include "app/gui/driver/session_driver.h"
 
 #include "app/net/datagram_sender.h"
-#include "app/net/udp_binding.h"
+#include "app/net/listening.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/manual_clock.h"
 

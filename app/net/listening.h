@@ -2,14 +2,19 @@
 #pragma once
 
 #include "app/net/endpoint.h"
+#include "app/net/input.h"
 #include "app/net/net_error.h"
 
 #include <QAbstractSocket>
 #include <QHostAddress>
+#include <QUdpSocket>
 
+#include <memory>
 #include <optional>
+#include <vector>
 
 /// Why a socket cannot listen, and what to do about it: the same words for UDP and TCP.
+
 namespace posewire::net {
 
 /// The address to listen on; every one of this computer where the host is empty.
@@ -30,5 +35,17 @@ struct Process {
 
 /// The error with the port's holder named, if the port is in use and the system reveals who has it.
 [[nodiscard]] NetError withHolder(NetError error, std::uint16_t port, bool isTcp);
+
+/// The sockets of one input, all on the same port: one, or one each for IPv4 and IPv6 if there are multicast
+/// groups, since not every system lets a dual-stack socket join IPv4 groups.
+using UdpSockets = std::vector<std::unique_ptr<QUdpSocket>>;
+
+/// Unshared sockets, bound in the calling thread, that have requested a receive buffer of `bufferBytes` each
+/// and joined their groups. Every error says what to do about it.
+[[nodiscard]] NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes);
+
+/// The granted receive buffer in the bytes that were requested: Linux adds its own overhead and reports
+/// double.
+[[nodiscard]] int receiveBufferBytes(QUdpSocket& socket);
 
 } // namespace posewire::net

@@ -2,10 +2,20 @@
 #pragma once
 
 #include "app/cli/command.h"
+#include "app/cli/live_table.h"
 #include "app/net/receiver.h"
+#include "core/export/monitor_report.h"
+#include "core/log/packet_log.h"
+#include "core/log/pcapng_writer.h"
+#include "core/log/time.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/session/session.h"
 
 #include <array>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace posewire::cli {
 
@@ -24,10 +34,7 @@ inline constexpr std::array<Limit, 3> kLimits{
 [[nodiscard]] std::string unitOf(const Limit& limit);
 
 /// The most that a stream may have of each of kLimits; nothing: anything.
-struct Limits {
-    std::array<std::optional<double>, kLimits.size()> most;
-    [[nodiscard]] bool isAny() const;
-};
+using Limits = std::array<std::optional<double>, kLimits.size()>;
 
 /// What `monitor` was asked for, as typed.
 struct MonitorOptions {
@@ -48,17 +55,57 @@ struct MonitorOptions {
 };
 
 /// Where to listen.
-struct MonitorPlaces {
+struct Places {
     std::vector<net::UdpInput> udp;
     std::vector<net::Endpoint> tcpListen;
     std::vector<net::Endpoint> tcp;
 };
 
 /// What was meant, or one line about what is wrong with it. Port 9763 of UDP where nothing is named.
-[[nodiscard]] tl::expected<MonitorPlaces, std::string> placesOf(const MonitorOptions& options);
+[[nodiscard]] tl::expected<Places, std::string> placesOf(const MonitorOptions& options);
 
 /// Both return when there is nothing more to come, or Ctrl+C was pressed.
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console);
 ExitStatus monitorFile(const MonitorOptions& options, Console& console);
+
+/// What monitoring the network and monitoring a file have in common: a log, a session that follows it, what
+/// is shown meanwhile and what is said at the end. During its lifetime the first Ctrl+C (or SIGTERM) is only
+/// remembered; a second one ends the program. One object at a time.
+class MonitorRun {
+public:
+    MonitorRun(const MonitorOptions& options, Console& console);
+    ~MonitorRun();
+    MonitorRun(const MonitorRun&) = delete;
+    MonitorRun& operator=(const MonitorRun&) = delete;
+
+    [[nodiscard]] log::PacketLog& log() { return m_log; }
+
+    /// Takes in everything that is in the log.
+    void follow(log::Stamp now);
+
+    /// Shows the table if it is time to.
+    void show(double elapsedS);
+
+    /// Nobody wants more: Ctrl+C, or the reader of the output has gone.
+    [[nodiscard]] bool isOver() const;
+
+    /// Says it all. `status` is what else went wrong.
+    [[nodiscard]] ExitStatus conclude(exporting::MonitorFacts facts, ExitStatus status);
+
+private:
+    ExitStatus writeReport(const exporting::MonitorFacts& facts);
+
+    const MonitorOptions& m_options;
+    Console& m_console;
+    log::PacketLog m_log;
+    model::Session m_session{m_log};
+    const bool m_isTerminal = LiveDisplay::isOnTerminal();
+    LiveDisplay m_display{m_isTerminal};
+    bool m_isConcluding = false;
+    std::chrono::steady_clock::time_point m_nextShow;
+};
+
+/// What a recording says about where it was made.
+[[nodiscard]] log::RecordingInfo recordingInfo();
 
 } // namespace posewire::cli
