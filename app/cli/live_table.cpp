@@ -79,10 +79,6 @@ std::string row(std::string_view name, Cell cell) {
     return line;
 }
 
-std::string heading() {
-    return row("", [](const Column& column) { return std::string(column.title); });
-}
-
 std::string streamLine(const model::SessionView& session, const model::Stream& stream) {
     const model::StreamFigures figures = exporting::figuresOf(session, stream);
     return row("    " + wire::typeTitle(stream.key.type), [&](const Column& column) {
@@ -135,7 +131,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, double ela
         lines.emplace_back("No MXTP datagram so far.");
         return lines;
     }
-    lines.push_back(heading());
+    lines.push_back(row("", [](const Column& column) { return std::string(column.title); }));
     for (const model::Sender& sender : session.senders()) {
         if (!exporting::hasSentMxtp(sender)) {
             continue;

@@ -89,7 +89,7 @@ public:
     /// Nobody wants more: Ctrl+C, or the reader of the output has gone.
     [[nodiscard]] bool isOver() const;
 
-    /// Says it all. `status` is what else went wrong.
+    /// Writes what was asked for at the end. `status` is what else went wrong.
     [[nodiscard]] ExitStatus conclude(exporting::MonitorFacts facts, ExitStatus status);
 
 private:

@@ -54,7 +54,7 @@ net::NetResult<void> open(net::Receiver& receiver, const Places& places) {
     return {};
 }
 
-/// Tells at once where a recording has failed, and only once.
+/// Reports the failure of a recording at once, and only once.
 class RecordingWatch {
 public:
     RecordingWatch(std::unique_ptr<log::Recording> recording, Console& console)

@@ -13,8 +13,7 @@
 #include <optional>
 #include <vector>
 
-/// Why a socket cannot listen, and what to do about it: the same words for UDP and TCP.
-
+/// Opening sockets that listen. Why one cannot is said in the same words for UDP and TCP.
 namespace posewire::net {
 
 /// The address to listen on; every one of this computer where the host is empty.

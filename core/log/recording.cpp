@@ -94,7 +94,7 @@ tl::expected<void, FileError> Recording::stop() {
     return {};
 }
 
-Recording::Figures Recording::figures() const {
+RecordingFigures Recording::figures() const {
     const std::lock_guard lock(m_mutex);
     return m_figures;
 }
@@ -120,7 +120,7 @@ void Recording::run() {
 /// False where nothing more can be written.
 bool Recording::note(const Recorder::Result& result) {
     const std::lock_guard lock(m_mutex);
-    m_figures = {m_recorder.packets(), m_recorder.bytes(), m_recorder.missed()};
+    m_figures = m_recorder.figures();
     if (!result) {
         m_failure = result.error();
     }

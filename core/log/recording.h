@@ -14,6 +14,14 @@ namespace posewire::log {
 
 class PacketLog;
 
+struct RecordingFigures {
+    std::uint64_t packets = 0;
+    std::uint64_t bytes = 0; ///< of the file so far
+    /// Packets that the log had dropped before they could be written: the disk was too slow. The recording
+    /// shows them as dropped by this computer.
+    std::uint64_t missed = 0;
+};
+
 /// Follows a log and writes it down. One thread; `log` and `sink` must outlive it. After a failure nothing
 /// more is written.
 class Recorder {
@@ -31,12 +39,9 @@ public:
     /// Writes what is new and the statistics that a recording ends with.
     Result finish();
 
-    [[nodiscard]] std::uint64_t packets() const { return m_writer.packets(); }
-    [[nodiscard]] std::uint64_t bytes() const { return m_writer.bytes(); }
-
-    /// Packets that the log had dropped before they could be written: the disk was too slow. The recording
-    /// shows them as dropped by this computer.
-    [[nodiscard]] std::uint64_t missed() const { return m_missed; }
+    [[nodiscard]] RecordingFigures figures() const {
+        return {m_writer.packets(), m_writer.bytes(), m_missed};
+    }
 
 private:
     Result writeNew();
@@ -54,12 +59,6 @@ private:
 /// tenth of a second, also where the process is killed.
 class Recording {
 public:
-    struct Figures {
-        std::uint64_t packets = 0;
-        std::uint64_t bytes = 0;  ///< of the file so far
-        std::uint64_t missed = 0; ///< see Recorder
-    };
-
     /// Records from packet `from` on. Fails where the file cannot be made. `log` must outlive the recording.
     static tl::expected<std::unique_ptr<Recording>, FileError>
     start(const PacketLog& log, const std::string& path, const RecordingInfo& info, std::uint64_t from = 0);
@@ -72,7 +71,7 @@ public:
     tl::expected<void, FileError> stop();
 
     // From any thread.
-    [[nodiscard]] Figures figures() const;
+    [[nodiscard]] RecordingFigures figures() const;
     /// Why nothing more is written: the disk is full, say. Nothing as long as all is well.
     [[nodiscard]] std::optional<FileError> failure() const;
 
@@ -86,7 +85,7 @@ private:
     mutable std::mutex m_mutex;
     std::condition_variable m_changed;
     bool m_isStopping = false;
-    Figures m_figures;
+    RecordingFigures m_figures;
     std::optional<FileError> m_failure;
     std::thread m_thread;
 };

@@ -40,8 +40,8 @@ TEST_F(RecorderTest, WritesWhatTheLogGetsAndHandsItToTheSystemEachTime) {
     }
     ASSERT_TRUE(recorder.finish());
     EXPECT_EQ(recordedIn(m_sink.bytes).size(), 10U);
-    EXPECT_EQ(recorder.packets(), 10U);
-    EXPECT_EQ(recorder.missed(), 0U);
+    EXPECT_EQ(recorder.figures().packets, 10U);
+    EXPECT_EQ(recorder.figures().missed, 0U);
 }
 
 TEST_F(RecorderTest, BeginsWithThePacketThatWasAskedFor) {
@@ -67,9 +67,9 @@ TEST_F(RecorderTest, TellsOfWhatTheLogDroppedBeforeItCouldBeWritten) {
     ASSERT_TRUE(recorder.finish());
     const auto seen = recordedIn(m_sink.bytes);
     ASSERT_GT(seen.size(), 2U);
-    EXPECT_GT(recorder.missed(), 0U);
-    EXPECT_EQ(seen.size() + recorder.missed(), 5000U);
-    EXPECT_EQ(seen[1].kernelDropsBefore, recorder.missed());
+    EXPECT_GT(recorder.figures().missed, 0U);
+    EXPECT_EQ(seen.size() + recorder.figures().missed, 5000U);
+    EXPECT_EQ(seen[1].kernelDropsBefore, recorder.figures().missed);
     EXPECT_EQ(seen[2].kernelDropsBefore, 0U);
 }
 
