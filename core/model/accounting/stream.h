@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/stream_key.h"
+#include "core/log/stream_index.h"
 #include "core/model/accounting/stream_accounting.h"
 
 #include <array>
