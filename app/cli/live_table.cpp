@@ -3,8 +3,8 @@
 
 #include "core/export/html.h"
 #include "core/export/session_reading.h"
+#include "core/wire/text.h"
 #include "core/wire/type_table.h"
-#include "core/wire/utf8.h"
 
 #include <algorithm>
 #include <array>
@@ -137,7 +137,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, double ela
             continue;
         }
         lines.push_back(printable(sender.info.address) + " (" +
-                        std::string(exporting::transportName(sender.info.transport)) + ")");
+                        std::string(log::nameOf(sender.info.transport)) + ")");
         for (const model::Character& character : session.characters()) {
             if (character.key.sender != sender.id) {
                 continue;

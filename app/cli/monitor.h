@@ -4,7 +4,7 @@
 #include "app/cli/command.h"
 #include "app/cli/live_table.h"
 #include "app/net/receiver.h"
-#include "core/export/monitor_report.h"
+#include "core/export/reports.h"
 #include "core/log/packet_log.h"
 #include "core/log/pcapng_writer.h"
 #include "core/log/time.h"

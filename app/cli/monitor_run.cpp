@@ -2,8 +2,8 @@
 #include "app/cli/monitor.h"
 
 #include "core/export/html.h"
+#include "core/export/reports.h"
 #include "core/export/session_reading.h"
-#include "core/export/stream_report.h"
 #include "core/wire/type_table.h"
 
 #include <QString>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
 #include "core/export/protocol_reference.h"
-#include "core/filter/filter_reference.h"
+#include "core/filter/filter.h"
 
 #include <memory>
 

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/formats.h"
 
-#include "core/export/event_sheet.h"
-
-#include <algorithm>
+#include "core/wire/text.h"
 
 namespace posewire::exporting {
-
 namespace {
 
 constexpr const char* kCsv = "Comma-separated values";
 
 constexpr Format<EventSheet> kEvents[] = {
-    {"CSV", kCsv, "csv", [](const EventSheet& sheet) { return eventsCsv(sheet.session, sheet.events); }},
-    {"JSON", "JSON", "json", [](const EventSheet& sheet) { return eventsJson(sheet.session, sheet.events); }},
+    {"CSV", kCsv, "csv", eventsCsv},
+    {"JSON", "JSON", "json", eventsJson},
 };
 
 constexpr Format<NullPoseSheet> kNullPose[] = {
@@ -44,9 +41,8 @@ std::span<const Format<ReportSheet>> formats() {
 }
 
 bool hasSuffix(std::string_view name, std::string_view suffix) {
-    const auto isSame = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
     const std::size_t dot = name.rfind('.');
-    return dot != std::string_view::npos && std::ranges::equal(name.substr(dot + 1), suffix, isSame);
+    return dot != std::string_view::npos && wire::lowered(name.substr(dot + 1)) == suffix;
 }
 
 } // namespace posewire::exporting

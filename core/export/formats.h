@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/export/null_pose_sheet.h"
-#include "core/export/stream_report.h"
+#include "core/export/reports.h"
+#include "core/export/sheets.h"
 
 #include <span>
 #include <string>
@@ -18,12 +18,6 @@ struct Format {
     const char* kind;   ///< "Comma-separated values", for file dialogs
     const char* suffix; ///< without the dot, in small letters
     std::string (*write)(const Subject& subject);
-};
-
-/// Events in the order given.
-struct EventSheet {
-    const model::SessionView& session;
-    std::span<const model::Event* const> events;
 };
 
 struct ReportSheet {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/html.h"
 
-#include "core/wire/utf8.h"
+#include "core/wire/text.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -12,28 +13,167 @@ namespace {
 
 constexpr std::string_view kReplacement = "\xef\xbf\xbd";
 
-/// Length of the well-formed character of UTF-8 at the front, 0 where there is none.
-std::size_t characterLength(std::string_view text) {
-    const auto first = static_cast<unsigned char>(text.front());
-    const std::size_t length = first < 0x80 ? 1 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    return text.size() >= length && wire::firstInvalidUtf8(text.substr(0, length)) == length ? length : 0;
+constexpr std::array<std::pair<char, std::string_view>, 5> kEntities{
+    {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}}};
+
+void addEscaped(char character, std::string& text) {
+    const auto byte = static_cast<unsigned char>(character);
+    const auto entity = std::ranges::find(kEntities, character, &std::pair<char, std::string_view>::first);
+    if (entity != kEntities.end()) {
+        text += entity->second;
+    } else if (byte == 0x7f || (byte < 0x20 && character != '\n' && character != '\t')) {
+        text += kReplacement;
+    } else {
+        text += character;
+    }
 }
 
-std::string_view entityOf(char character) {
-    switch (character) {
-    case '&':
-        return "&amp;";
-    case '<':
-        return "&lt;";
-    case '>':
-        return "&gt;";
-    case '"':
-        return "&quot;";
-    case '\'':
-        return "&#39;";
-    default:
-        return {};
+constexpr double kWidth = 720;
+constexpr double kHeight = 170;
+constexpr double kLeft = 56;
+constexpr double kRight = 712;
+constexpr double kTop = 10;
+constexpr double kBottom = 146;
+
+std::string number(double value) {
+    return fixed(value, 1);
+}
+
+/// 1, 2 or 5 times a power of ten, at least `least`.
+double roundStep(double least) {
+    const double power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double factor : {1.0, 2.0, 5.0}) {
+        if (factor * power >= least * 0.999999) {
+            return factor * power;
+        }
     }
+    return 10 * power;
+}
+
+std::string label(double value, double step) {
+    const int places = step >= 1 ? 0 : std::min(6, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
+    return fixed(value, places);
+}
+
+std::string line(double x1, double y1, double x2, double y2) {
+    return "<line x1=\"" + number(x1) + "\" y1=\"" + number(y1) + "\" x2=\"" + number(x2) + "\" y2=\"" +
+           number(y2) + "\"/>";
+}
+
+std::string text(double x, double y, std::string_view anchor, const std::string& words) {
+    return "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" text-anchor=\"" + std::string(anchor) +
+           "\">" + escaped(words) + "</text>";
+}
+
+std::string colourClass(std::size_t colour) {
+    return "c" + std::to_string(colour % 8);
+}
+
+/// What the axis has to reach.
+double greatest(const SvgPlot& plot) {
+    double top = plot.leastTop;
+    std::vector<double> stack;
+    for (const SvgPlot::Series& series : plot.series) {
+        stack.resize(std::max(stack.size(), series.values.size()));
+        for (std::size_t i = 0; i < series.values.size(); ++i) {
+            const double value = series.values[i];
+            if (std::isfinite(value)) {
+                stack[i] += value;
+                top = std::max(top, plot.form == SvgPlot::Form::StackedBars ? stack[i] : value);
+            }
+        }
+    }
+    return top > 0 ? top : 1;
+}
+
+struct Scale {
+    double top = 1;
+    double step = 1;
+    [[nodiscard]] double y(double value) const { return kBottom - (kBottom - kTop) * value / top; }
+};
+
+/// From 0 to a round number in two to five steps.
+Scale scaleFor(double greatest) {
+    const double step = roundStep(greatest / 4);
+    return {std::ceil(greatest / step - 1e-9) * step, step};
+}
+
+/// Whole steps in a length, one more where only rounding hides it.
+int stepsIn(double length, double step) {
+    constexpr double kMost = 50;
+    return static_cast<int>(std::clamp(length * 1.0001 / step, 0.0, kMost));
+}
+
+std::string axes(const Scale& scale, double durationS) {
+    std::string svg = "<g class=\"grid\">";
+    std::string labels;
+    for (int i = 0; i <= stepsIn(scale.top, scale.step); ++i) {
+        const double value = i * scale.step;
+        svg += line(kLeft, scale.y(value), kRight, scale.y(value));
+        labels += text(kLeft - 6, scale.y(value) + 4, "end", label(value, scale.step));
+    }
+    const double step = durationS > 0 ? roundStep(durationS / 8) : 1;
+    const int steps = stepsIn(durationS, step);
+    for (int i = 0; i <= steps; ++i) {
+        const double time = i * step;
+        const double x = durationS > 0 ? kLeft + (kRight - kLeft) * time / durationS : kLeft;
+        svg += line(x, kBottom, x, kBottom + 4);
+        const bool isLast = i == steps;
+        labels += text(x, kBottom + 18, isLast && x > kRight - 24 ? "end" : "middle",
+                       label(time, step) + (isLast ? " s" : ""));
+    }
+    return svg + "</g>" + labels;
+}
+
+double placeOf(std::size_t step, std::size_t count) {
+    return kLeft + (kRight - kLeft) * static_cast<double>(step) /
+                       static_cast<double>(std::max<std::size_t>(count, 1));
+}
+
+std::string curve(const SvgPlot::Series& series, const Scale& scale) {
+    std::string path;
+    bool isPenDown = false;
+    for (std::size_t i = 0; i < series.values.size(); ++i) {
+        const bool isThere = std::isfinite(series.values[i]);
+        if (isThere) {
+            // Each value stands for its whole step.
+            path += (isPenDown ? "L" : "M") + number(placeOf(i, series.values.size())) + ' ' +
+                    number(scale.y(series.values[i])) + 'L' + number(placeOf(i + 1, series.values.size())) +
+                    ' ' + number(scale.y(series.values[i]));
+        }
+        isPenDown = isThere;
+    }
+    return "<path class=\"curve " + colourClass(series.colour) + "\" d=\"" + path + "\"/>";
+}
+
+std::string bars(const SvgPlot& plot, const Scale& scale) {
+    std::string svg;
+    std::vector<double> below;
+    for (const SvgPlot::Series& series : plot.series) {
+        below.resize(std::max(below.size(), series.values.size()));
+        for (std::size_t i = 0; i < series.values.size(); ++i) {
+            if (!std::isfinite(series.values[i]) || series.values[i] <= 0) {
+                continue;
+            }
+            const double left = placeOf(i, series.values.size());
+            const double width = std::max(placeOf(i + 1, series.values.size()) - left, 1.5);
+            const double top = scale.y(below[i] + series.values[i]);
+            svg += "<rect class=\"bar " + colourClass(series.colour) + "\" x=\"" + number(left) + "\" y=\"" +
+                   number(top) + "\" width=\"" + number(width) + "\" height=\"" +
+                   number(std::max(scale.y(below[i]) - top, 0.5)) + "\"/>";
+            below[i] += series.values[i];
+        }
+    }
+    return svg;
+}
+
+std::string legend(const SvgPlot& plot) {
+    std::string html;
+    for (const SvgPlot::Series& series : plot.series) {
+        html += "<span class=\"key\"><i class=\"" + colourClass(series.colour) + "\"></i>" +
+                escaped(series.name) + "</span>";
+    }
+    return html;
 }
 
 } // namespace
@@ -41,17 +181,12 @@ std::string_view entityOf(char character) {
 std::string escaped(std::string_view text) {
     std::string result;
     while (!text.empty()) {
-        const std::size_t length = characterLength(text);
-        const auto first = static_cast<unsigned char>(text.front());
-        const bool isControl = first == 0x7f || (first < 0x20 && first != '\n' && first != '\t');
-        if (length == 0 || isControl) {
-            result += kReplacement;
-            text.remove_prefix(1);
-            continue;
+        const std::size_t valid = wire::firstInvalidUtf8(text);
+        for (const char character : text.substr(0, valid)) {
+            addEscaped(character, result);
         }
-        const std::string_view entity = entityOf(text.front());
-        result += entity.empty() ? text.substr(0, length) : entity;
-        text.remove_prefix(length);
+        result += valid < text.size() ? kReplacement : "";
+        text.remove_prefix(std::min(valid + 1, text.size()));
     }
     return result;
 }
@@ -91,6 +226,46 @@ std::string HtmlTable::html() const {
         text += escaped(column.title) + "</th>";
     }
     return text + "</tr></thead>\n<tbody>\n" + m_rows + "</tbody>\n</table></div>\n";
+}
+
+std::string svgPlot(const SvgPlot& plot) {
+    const Scale scale = scaleFor(greatest(plot));
+    std::string svg = "<figure><figcaption><b>" + escaped(plot.title) + "</b>" + legend(plot) +
+                      "</figcaption>\n<svg viewBox=\"0 0 " + fixed(kWidth, 0) + ' ' + fixed(kHeight, 0) +
+                      "\" role=\"img\" aria-label=\"" + escaped(plot.title) + "\">";
+    svg += axes(scale, plot.durationS);
+    if (plot.form == SvgPlot::Form::StackedBars) {
+        svg += bars(plot, scale);
+    } else {
+        for (const SvgPlot::Series& series : plot.series) {
+            svg += curve(series, scale);
+        }
+    }
+    return svg + "</svg></figure>\n";
+}
+
+std::string svgSparkline(const std::vector<double>& values, std::size_t colour, double top) {
+    constexpr double width = 90;
+    constexpr double height = 18;
+    double most = top;
+    for (const double value : values) {
+        most = std::isfinite(value) ? std::max(most, value) : most;
+    }
+    const double perValue = most > 0 ? (height - 2) / most : 0;
+    std::string path;
+    bool isPenDown = false;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const bool isThere = std::isfinite(values[i]);
+        if (isThere) {
+            const double x = values.size() > 1
+                                 ? width * static_cast<double>(i) / static_cast<double>(values.size() - 1)
+                                 : 0;
+            path += (isPenDown ? "L" : "M") + number(x) + ' ' + number(height - 1 - values[i] * perValue);
+        }
+        isPenDown = isThere;
+    }
+    return "<svg class=\"spark\" viewBox=\"0 0 90 18\" aria-hidden=\"true\"><path class=\"curve " +
+           colourClass(colour) + "\" d=\"" + path + "\"/></svg>";
 }
 
 } // namespace posewire::exporting

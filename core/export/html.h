@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
-/// What HTML is put together from. Texts are escaped here and nowhere else: whatever came over the wire ends
-/// up as text.
+/// What HTML is put together from: texts, numbers, tables and plots. Texts are escaped here and nowhere else:
+/// whatever came over the wire ends up as text.
 namespace posewire::exporting {
 
 /// Safe in text and in quoted attributes. Control characters and what is no UTF-8 become U+FFFD.
@@ -15,7 +16,7 @@ namespace posewire::exporting {
 
 /// A number as people read it: "12,345".
 [[nodiscard]] std::string grouped(std::uint64_t number);
-/// With so many places after the point; a dash where it is not finite.
+/// With `places` digits after the point; a dash where it is not finite.
 [[nodiscard]] std::string fixed(double number, int places);
 
 /// A table whose cells are HTML already; the first row heads it.
@@ -38,5 +39,28 @@ private:
     std::vector<Column> m_columns;
     std::string m_rows;
 };
+
+/// A picture over time of equal steps, as SVG inside HTML. Colours come from the style sheet: the classes c0
+/// to c7 for curves and bars.
+struct SvgPlot {
+    struct Series {
+        std::string name;           ///< plain text
+        std::size_t colour = 0;     ///< 0 to 7
+        std::vector<double> values; ///< one a step; NaN where there is none
+    };
+    enum class Form { Curves, StackedBars };
+
+    std::string title; ///< plain text, with the unit
+    Form form = Form::Curves;
+    double durationS = 0; ///< of all steps
+    std::vector<Series> series;
+    double leastTop = 0; ///< the axis reaches at least up to this
+};
+
+/// With axes, legend and a text for who cannot see it.
+[[nodiscard]] std::string svgPlot(const SvgPlot& plot);
+
+/// Only the curve, in the height of a line. `top`: the value at its upper edge, 0 for its own greatest.
+[[nodiscard]] std::string svgSparkline(const std::vector<double>& values, std::size_t colour, double top = 0);
 
 } // namespace posewire::exporting

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/json.h"
 
-#include "core/export/hexadecimal.h"
-#include "core/export/json_reading.h"
+#include "core/export/json_fields.h"
 #include "core/wire/codec.h"
-#include "core/wire/forms_of.h"
+#include "core/wire/form.h"
+#include "core/wire/text.h"
 #include "core/wire/walk.h"
 
 namespace posewire::exporting {
 namespace {
 
 /// Adds the header's fields as far as they could be read.
-class HeaderToJson {
+class HeaderToJson : public wire::SilentVisitor {
 public:
-    static constexpr bool kListens = true;
     explicit HeaderToJson(Json& to) : m_object(to) {}
 
     template <class Value>
@@ -51,31 +50,26 @@ void addHeader(Json& object, wire::Bytes bytes) {
     wire::readLayout<wire::Header, wire::Form::Standard>(cursor, header, visitor);
 }
 
-struct BodyToJson {
-    Json operator()(const wire::RawBody& raw) const { return Json{{"raw", hexadecimal(raw.bytes)}}; }
-    template <class T>
-    Json operator()(const T& message) const {
-        return wire::withForm<T>(wire::formOf(message),
-                                 [&]<wire::Form F>() { return objectOf<T, F>(message); });
-    }
-};
-
-Json placed(const DatagramPlace& place, std::uint64_t size) {
+Json bodyOf(const wire::Body& body) {
     Json object = Json::object();
-    object["index"] = place.index;
-    object["offset"] = place.offset;
-    object["size"] = size;
+    if (const auto* raw = std::get_if<wire::RawBody>(&body)) {
+        object["raw"] = wire::hexadecimal(raw->bytes);
+    }
+    wire::visitMessage(body,
+                       [&]<wire::Form F, class T>(const T& message) { object = objectOf<T, F>(message); });
     return object;
 }
 
+Json placed(const DatagramPlace& place, std::uint64_t size) {
+    return {{"index", place.index}, {"offset", place.offset}, {"size", size}};
+}
+
 Json errorOf(const wire::WireError& error) {
-    Json object = Json::object();
-    object["code"] = std::string(wire::errorName(error.code));
-    object["offset"] = error.offset;
-    object["need"] = error.need;
-    object["have"] = error.have;
-    object["text"] = wire::errorText(error);
-    return object;
+    return {{"code", std::string(wire::errorName(error.code))},
+            {"offset", error.offset},
+            {"need", error.need},
+            {"have", error.have},
+            {"text", wire::errorText(error)}};
 }
 
 Json noticesOf(const wire::Datagram& datagram) {
@@ -104,10 +98,10 @@ std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes) {
         object["notices"] = Json::array();
         return object.dump();
     }
-    object["body"] = std::visit(BodyToJson{}, datagram->body);
+    object["body"] = bodyOf(datagram->body);
     object["notices"] = noticesOf(*datagram);
     if (!givesBack(object, bytes)) {
-        object["bytes"] = hexadecimal(bytes);
+        object["bytes"] = wire::hexadecimal(bytes);
     }
     return object.dump();
 }

@@ -36,7 +36,7 @@ struct DatagramPlace {
 struct JsonFault {
     enum class Kind : std::uint8_t {
         NotJson,     ///< not an object, or no JSON at all
-        NotDatagram, ///< stands for skipped bytes or for a datagram with a fault
+        NotDatagram, ///< an object for skipped bytes or for a datagram with a fault
         BadField,    ///< a field is missing, has the wrong type or does not fit on the wire
     };
     Kind kind = Kind::NotJson;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/wire/message_layouts.h"
-#include "core/wire/metadata_text.h"
-#include "core/wire/utf8.h"
+#include "core/export/json.h"
+#include "core/wire/layouts.h"
+#include "core/wire/text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -15,7 +15,7 @@
 namespace posewire::exporting {
 
 /// Keeps the order of keys and computes in 32-bit floats, so that a float is written with as few digits as
-/// tell it from its neighbours.
+/// distinguish it from its neighbours.
 using Json = nlohmann::basic_json<nlohmann::ordered_map, std::vector, std::string, bool, std::int64_t,
                                   std::uint64_t, float>;
 
@@ -33,6 +33,9 @@ struct FieldFault {
         return false;
     }
 };
+
+/// Of a text of tag lines, which is a list of [name, value] pairs.
+inline constexpr const char* kTagsKey = "tags";
 
 /// The length of what follows it is not in JSON: it is known from that.
 inline bool isLength(const wire::About& about) {
@@ -60,7 +63,7 @@ Json jsonOf(const std::array<float, N>& values) {
     return list;
 }
 
-/// Text that is not UTF-8 cannot stand in JSON: each byte out of place becomes a question mark.
+/// Text that is not UTF-8 cannot be in JSON: each byte out of place becomes a question mark.
 inline Json jsonOf(std::string text) {
     for (std::size_t bad = 0; (bad = wire::firstInvalidUtf8(text)) != text.size();) {
         text[bad] = '?';
@@ -89,48 +92,34 @@ Json listOf(const std::vector<Item>& items) {
     return list;
 }
 
-/// Adds a message's or item's fields to an object.
-template <class T>
-struct FieldsToJson {
-    const T& value;
-    Json& object;
+inline Json tagsOf(const std::string& text) {
+    Json tags = Json::array();
+    for (const wire::Tag& tag : wire::parseTags(text).tags) {
+        tags.push_back(Json::array({std::string(tag.name), std::string(tag.value)}));
+    }
+    return tags;
+}
 
-    template <auto Member>
-    void operator()(const wire::Field<Member>& field) const {
-        if (!isLength(field.about)) {
-            object[std::string(field.about.name)] = jsonOf(value.*Member);
-        }
-    }
-    template <auto Member, wire::TextKind Kind>
-    void operator()(const wire::Text<Member, Kind>& field) const {
-        if (field.about.unit != wire::Unit::TagLines) {
-            object[std::string(field.about.name)] = jsonOf(value.*Member);
-            return;
-        }
-        Json tags = Json::array();
-        for (const wire::Tag& tag : wire::parseTags(value.*Member).tags) {
-            tags.push_back(Json::array({std::string(tag.name), std::string(tag.value)}));
-        }
-        object["tags"] = std::move(tags);
-    }
-    template <auto Member, wire::Form ItemForm>
-    void operator()(const wire::Items<Member, ItemForm>& field) const {
-        object[std::string(field.about.name)] = listOf<ItemForm>(value.*Member);
-    }
-    template <auto Member, std::size_t Max>
-    void operator()(const wire::CountedList<Member, Max>& field) const {
-        object[std::string(field.about.name)] = listOf<wire::Form::Standard>(value.*Member);
-    }
-};
-
+/// A message's or item's fields as an object.
 template <class T, wire::Form F>
 Json objectOf(const T& value) {
     Json object = Json::object();
-    wire::forEachField<T, F>(FieldsToJson<T>{value, object});
+    wire::forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
+        const auto& member = value.*FieldType::kMember;
+        const std::string key(field.about.name);
+        if constexpr (requires { FieldType::kItemForm; }) {
+            object[key] = listOf<FieldType::kItemForm>(member);
+        } else if constexpr (requires { FieldType::kKind; }) {
+            const bool isTags = field.about.unit == wire::Unit::TagLines;
+            object[isTags ? kTagsKey : key] = isTags ? tagsOf(member) : jsonOf(member);
+        } else if (!isLength(field.about)) {
+            object[key] = jsonOf(member);
+        }
+    });
     return object;
 }
 
-// JSON to values. False where it does not fit; the fault tells where and what is needed.
+// JSON to values. False where it does not fit; the fault says where and what is needed.
 
 inline bool readJson(const Json& json, float& value, FieldFault& fault) {
     if (json.is_number()) {
@@ -217,72 +206,60 @@ bool readMember(const Json& object, std::string_view key, Value& value, FieldFau
 template <class T, wire::Form F>
 bool readObject(const Json& json, T& value, FieldFault& fault);
 
+template <wire::Form F, class Item>
+bool readList(const Json& object, std::string_view key, std::vector<Item>& items, FieldFault& fault) {
+    const auto list = object.find(std::string(key));
+    if (list == object.end() || !list->is_array()) {
+        return fault.fail("needs a list") || fault.under(key);
+    }
+    items.resize(list->size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (!readObject<Item, F>((*list)[i], items[i], fault)) {
+            return fault.under("[" + std::to_string(i) + "]") || fault.under(key);
+        }
+    }
+    return true;
+}
+
+inline bool readTags(const Json& object, std::string& into, FieldFault& fault) {
+    const auto tags = object.find(kTagsKey);
+    bool isList = tags != object.end() && tags->is_array();
+    std::string text;
+    for (std::size_t i = 0; isList && i < tags->size(); ++i) {
+        const Json& tag = (*tags)[i];
+        isList = tag.is_array() && tag.size() == 2 && tag[0].is_string() && tag[1].is_string();
+        if (isList) {
+            text += tag[0].get<std::string>() + ':' + tag[1].get<std::string>() + '\n';
+        }
+    }
+    into = std::move(text);
+    return isList || fault.fail("needs a list of [name, value] pairs") || fault.under(kTagsKey);
+}
+
 /// Reads a message's or item's fields from an object.
-template <class T>
-struct FieldsFromJson {
-    const Json& object;
-    T& value;
-    FieldFault& fault;
-
-    template <auto Member>
-    bool operator()(const wire::Field<Member>& field) const {
-        return isLength(field.about) || readMember(object, field.about.name, value.*Member, fault);
-    }
-    template <auto Member, wire::TextKind Kind>
-    bool operator()(const wire::Text<Member, Kind>& field) const {
-        return field.about.unit == wire::Unit::TagLines
-                   ? readTags(value.*Member)
-                   : readMember(object, field.about.name, value.*Member, fault);
-    }
-    template <auto Member, wire::Form ItemForm>
-    bool operator()(const wire::Items<Member, ItemForm>& field) const {
-        return readList<ItemForm>(field.about.name, value.*Member);
-    }
-    template <auto Member, std::size_t Max>
-    bool operator()(const wire::CountedList<Member, Max>& field) const {
-        return readList<wire::Form::Standard>(field.about.name, value.*Member);
-    }
-
-private:
-    template <wire::Form F, class Item>
-    bool readList(std::string_view key, std::vector<Item>& items) const {
-        const auto list = object.find(std::string(key));
-        if (list == object.end() || !list->is_array()) {
-            return fault.fail("needs a list") || fault.under(key);
-        }
-        items.resize(list->size());
-        for (std::size_t i = 0; i < items.size(); ++i) {
-            if (!readObject<Item, F>((*list)[i], items[i], fault)) {
-                return fault.under("[" + std::to_string(i) + "]") || fault.under(key);
-            }
-        }
-        return true;
-    }
-    bool readTags(std::string& into) const {
-        const auto tags = object.find("tags");
-        bool isList = tags != object.end() && tags->is_array();
-        std::string text;
-        for (std::size_t i = 0; isList && i < tags->size(); ++i) {
-            const Json& tag = (*tags)[i];
-            isList = tag.is_array() && tag.size() == 2 && tag[0].is_string() && tag[1].is_string();
-            if (isList) {
-                text += tag[0].get<std::string>() + ':' + tag[1].get<std::string>() + '\n';
-            }
-        }
-        into = std::move(text);
-        return isList || fault.fail("needs a list of [name, value] pairs") || fault.under("tags");
-    }
-};
-
 template <class T, wire::Form F>
 bool readObject(const Json& json, T& value, FieldFault& fault) {
     if (!json.is_object()) {
         return fault.fail("needs an object in braces");
     }
-    const FieldsFromJson<T> read{json, value, fault};
+    const auto read = [&]<class FieldType>(const FieldType& field) {
+        auto& member = value.*FieldType::kMember;
+        if constexpr (requires { FieldType::kItemForm; }) {
+            return readList<FieldType::kItemForm>(json, field.about.name, member, fault);
+        } else if constexpr (requires { FieldType::kKind; }) {
+            return field.about.unit == wire::Unit::TagLines
+                       ? readTags(json, member, fault)
+                       : readMember(json, field.about.name, member, fault);
+        } else {
+            return isLength(field.about) || readMember(json, field.about.name, member, fault);
+        }
+    };
     bool isRead = true;
     wire::forEachField<T, F>([&](const auto& field) { isRead = isRead && read(field); });
     return isRead;
 }
+
+/// The bytes of the datagram that an object stands for.
+[[nodiscard]] tl::expected<std::vector<std::byte>, JsonFault> datagramFromObject(const Json& object);
 
 } // namespace posewire::exporting

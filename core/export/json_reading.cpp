@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/json_reading.h"
+#include "core/export/json_fields.h"
 
-#include "core/export/hexadecimal.h"
 #include "core/wire/codec.h"
-#include "core/wire/forms_of.h"
-#include "core/wire/schema.h"
+#include "core/wire/form.h"
+#include "core/wire/text.h"
+#include "core/wire/type_table.h"
 #include "core/wire/write.h"
 
 #include <algorithm>
@@ -14,53 +14,51 @@ namespace {
 
 using Kind = JsonFault::Kind;
 
-/// Fields of the header from an object; what is not there keeps its value.
-struct HeaderFromJson {
-    const Json& object;
-    wire::Header& header;
-    FieldFault& fault;
+/// Reads a member of an object that keeps its value where it is not there.
+template <class Value>
+bool readOptional(const Json& object, std::string_view key, Value& value, FieldFault& fault) {
+    return !object.contains(std::string(key)) || readMember(object, key, value, fault);
+}
 
-    template <auto Member>
-    bool operator()(const wire::Field<Member>& field) const {
-        return readOptional(field.about.name, header.*Member);
+bool readType(const Json& object, wire::Header& header, FieldFault& fault) {
+    std::array<char, 2> digits{};
+    if (!readMember(object, "type", digits, fault)) {
+        return false;
     }
-    bool operator()(const wire::Field<&wire::Header::id>&) const {
-        std::array<char, 2> digits{};
-        const auto isDigit = [](char character) { return character >= '0' && character <= '9'; };
-        if (!readMember(object, "type", digits, fault)) {
-            return false;
-        }
-        if (!isDigit(digits[0]) || !isDigit(digits[1])) {
-            return fault.fail("needs two digits, such as \"02\"") || fault.under("type");
-        }
-        header.id[4] = digits[0];
-        header.id[5] = digits[1];
-        return true;
+    if (!std::ranges::all_of(digits, [](char digit) { return digit >= '0' && digit <= '9'; })) {
+        return fault.fail("needs two digits, such as \"02\"") || fault.under("type");
     }
-    bool operator()(const wire::Field<&wire::Header::datagramCounter>&) const {
-        std::uint8_t index = header.datagramIndex();
-        bool isLast = header.isLast();
-        if (!readOptional("datagram", index) || !readOptional("last", isLast)) {
-            return false;
-        }
-        if (index > 0x7f) {
-            return fault.fail("needs a whole number from 0 to 127") || fault.under("datagram");
-        }
-        header.datagramCounter = static_cast<std::uint8_t>(index | (isLast ? 0x80U : 0U));
-        return true;
-    }
-    /// Not part of the object: where it is in use, the whole datagram is there in "bytes".
-    bool operator()(const wire::Field<&wire::Header::reserved>&) const { return true; }
+    std::ranges::copy(digits, header.id.begin() + 4);
+    return true;
+}
 
-private:
-    template <class Value>
-    bool readOptional(std::string_view key, Value& value) const {
-        return !object.contains(std::string(key)) || readMember(object, key, value, fault);
+bool readCounter(const Json& object, wire::Header& header, FieldFault& fault) {
+    std::uint8_t index = header.datagramIndex();
+    bool isLast = header.isLast();
+    if (!readOptional(object, "datagram", index, fault) || !readOptional(object, "last", isLast, fault)) {
+        return false;
     }
-};
+    if (index > 0x7f) {
+        return fault.fail("needs a whole number from 0 to 127") || fault.under("datagram");
+    }
+    header.datagramCounter = static_cast<std::uint8_t>(index | (isLast ? 0x80U : 0U));
+    return true;
+}
 
+/// The header from an object; what is not there keeps its value. Reserved bytes are not part of the object:
+/// where they are in use, the whole datagram is there in "bytes".
 bool readHeader(const Json& object, wire::Header& header, FieldFault& fault) {
-    const HeaderFromJson read{object, header, fault};
+    const auto read = [&]<auto Member>(const wire::Field<Member>& field) {
+        if constexpr (std::is_same_v<wire::Field<Member>, wire::Field<&wire::Header::id>>) {
+            return readType(object, header, fault);
+        } else if constexpr (std::is_same_v<wire::Field<Member>,
+                                            wire::Field<&wire::Header::datagramCounter>>) {
+            return readCounter(object, header, fault);
+        } else {
+            return field.about.unit == wire::Unit::Reserved ||
+                   readOptional(object, field.about.name, header.*Member, fault);
+        }
+    };
     bool isRead = true;
     wire::forEachField<wire::Header, wire::Form::Standard>(
         [&](const auto& field) { isRead = isRead && read(field); });
@@ -68,16 +66,16 @@ bool readHeader(const Json& object, wire::Header& header, FieldFault& fault) {
 }
 
 /// Bytes of the payload according to the object: from the datagram's size, else from the header.
-std::optional<std::uint64_t> toldPayload(const Json& object) {
-    const auto told = [&](const char* key) -> std::optional<std::uint64_t> {
+std::optional<std::uint64_t> statedPayload(const Json& object) {
+    const auto stated = [&](const char* key) -> std::optional<std::uint64_t> {
         const auto found = object.find(key);
         return found != object.end() && found->is_number_unsigned()
                    ? std::optional(found->get<std::uint64_t>())
                    : std::nullopt;
     };
-    const auto size = told("size");
+    const auto size = stated("size");
     return size && *size >= wire::kHeaderSize ? std::optional(*size - wire::kHeaderSize)
-                                              : told("payloadSize");
+                                              : stated("payloadSize");
 }
 
 /// The first field that the standard form has and the other lacks; null where there is none.
@@ -119,7 +117,7 @@ bool readRaw(const Json& body, wire::RawBody& raw, FieldFault& fault) {
     if (!readMember(body, "raw", text, fault)) {
         return false;
     }
-    auto bytes = fromHexadecimal(text);
+    auto bytes = wire::fromHexadecimal(text);
     if (!bytes) {
         return fault.fail("needs two hexadecimal digits for each byte") || fault.under("raw");
     }
@@ -137,7 +135,7 @@ bool readMessage(const Json& body, std::optional<std::uint64_t> payload, T& mess
     const bool isRead =
         wire::withForm<T>(form, [&]<wire::Form F>() { return readObject<T, F>(body, message, fault); });
     if constexpr (wire::kHasForm<T, wire::Form::Bare>) {
-        message.*wire::Layout<T, wire::Form::Bare>::isStandard = !isBare(message, payload);
+        message.*wire::kIsStandard<T> = !isBare(message, payload);
     }
     return isRead;
 }
@@ -150,7 +148,7 @@ bool readBody(const Json& object, wire::Datagram& datagram, FieldFault& fault) {
     bool isRead = false;
     const bool isKnown = !body->contains("raw") &&
                          wire::withMessage(datagram.body, datagram.header.type(), [&]<class T>(T& message) {
-                             isRead = readMessage(*body, toldPayload(object), message, fault);
+                             isRead = readMessage(*body, statedPayload(object), message, fault);
                          });
     if (!isKnown) {
         isRead = readRaw(*body, datagram.body.emplace<wire::RawBody>(), fault);
@@ -160,13 +158,13 @@ bool readBody(const Json& object, wire::Datagram& datagram, FieldFault& fault) {
 
 /// Fills in what the object leaves out of the header.
 void complete(const Json& object, wire::Datagram& datagram) {
-    const wire::Header told = datagram.header;
+    const wire::Header stated = datagram.header;
     wire::completeHeader(datagram, wire::HeaderEra::Counted);
     if (object.contains("items")) {
-        datagram.header.items = told.items;
+        datagram.header.items = stated.items;
     }
     if (object.contains("payloadSize")) {
-        datagram.header.payloadSize = told.payloadSize;
+        datagram.header.payloadSize = stated.payloadSize;
     }
 }
 
@@ -179,7 +177,7 @@ tl::unexpected<JsonFault> failure(Kind kind, std::string text) {
 tl::expected<std::vector<std::byte>, JsonFault> datagramFromObject(const Json& object) {
     if (const auto bytes = object.find("bytes"); bytes != object.end()) {
         const auto* text = bytes->get_ptr<const std::string*>();
-        auto whole = text != nullptr ? fromHexadecimal(*text) : std::nullopt;
+        auto whole = text != nullptr ? wire::fromHexadecimal(*text) : std::nullopt;
         if (!whole) {
             return failure(Kind::BadField, "bytes: needs two hexadecimal digits for each byte");
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/monitor_report.h"
+#include "core/export/reports.h"
 
 #include "core/export/json_value.h"
 #include "core/export/session_reading.h"
@@ -47,6 +47,12 @@ JsonValue streamsJson(const model::SessionView& session, const model::CharacterK
     return list;
 }
 
+/// The name that was sent; empty where there was none.
+std::string sentName(const model::SessionView& session, const model::CharacterKey& key) {
+    const model::MetadataTag* tag = session.metadata(key).find("name");
+    return tag != nullptr ? tag->values.back().text : std::string();
+}
+
 JsonValue charactersJson(const model::SessionView& session, const model::Sender& sender) {
     std::vector<model::CharacterKey> keys;
     for (const model::Character& character : session.characters()) {
@@ -66,7 +72,7 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
 
 JsonValue senderJson(const model::SessionView& session, const model::Sender& sender) {
     return {{"address", sender.info.address},
-            {"transport", transportName(sender.info.transport)},
+            {"transport", log::nameOf(sender.info.transport)},
             {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
             {"bytes", sender.bytes - sender.skippedBytes - sender.foreignBytes},
             {"malformed", sender.malformed},

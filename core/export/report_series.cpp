@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/report_series.h"
 
+#include "core/model/accounting/attribution.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,11 +25,13 @@ log::Stamp startOf(const ReportSteps& steps, std::size_t step) {
     return steps.first + static_cast<std::int64_t>(step) * steps.width;
 }
 
-/// How much of a step the report covers, in seconds.
-double coveredS(const ReportSteps& steps, std::size_t step) {
+/// Samples a second of a step. A step that the report covers by a sliver says nothing of a rate.
+double rateOf(std::uint64_t samples, const ReportSteps& steps, std::size_t step) {
     const log::Stamp from = std::max(startOf(steps, step), steps.from);
     const log::Stamp to = std::min(startOf(steps, step + 1), steps.to);
-    return log::secondsOf(std::max(to - from, log::Duration::zero()));
+    const double seconds = log::secondsOf(std::max(to - from, log::Duration::zero()));
+    const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.width.count());
+    return isCovered ? static_cast<double>(samples) / seconds : kNothing;
 }
 
 model::StreamCounts countsIn(const model::Stream& stream, const ReportSteps& steps, std::size_t step) {
@@ -60,14 +64,17 @@ CharacterSeries seriesOf(const model::SessionView& session, const model::Charact
                 jitterMs = std::fmax(jitterMs, stream->accounting.jitterMsAt(startOf(steps, step + 1)));
             }
         }
-        // An end that is covered by a sliver tells nothing of a rate.
-        const double seconds = coveredS(steps, step);
-        const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.width.count());
-        series.rate.push_back(isCovered ? static_cast<double>(most) / seconds : kNothing);
+        series.rate.push_back(rateOf(most, steps, step));
         series.loss.push_back(percentLost(sum));
         series.jitter.push_back(jitterMs);
     }
     return series;
+}
+
+/// Three colours and a grey: unknown is no culprit.
+std::size_t colourOf(std::size_t cause) {
+    constexpr std::array<std::size_t, model::kLossCauses> colours{1, 0, 3, 6};
+    return colours[cause];
 }
 
 } // namespace
@@ -119,6 +126,31 @@ std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportStep
     return plots;
 }
 
+std::vector<const model::Gap*> gapsIn(const model::SessionView& session, const ReportSteps& steps) {
+    std::vector<const model::Gap*> gaps;
+    for (const model::Gap& gap : session.gaps()) {
+        if (gap.lost != 0 && gap.toStamp >= steps.from && gap.toStamp <= steps.to) {
+            gaps.push_back(&gap);
+        }
+    }
+    return gaps;
+}
+
+SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
+    const double durationS = log::secondsOf(steps.width) * static_cast<double>(steps.count);
+    SvgPlot plot{"Samples lost, by cause", SvgPlot::Form::StackedBars, durationS, {}, 1};
+    for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
+        plot.series.push_back({std::string(model::nameOf(static_cast<model::LossCause>(cause))),
+                               colourOf(cause), std::vector<double>(steps.count)});
+    }
+    for (const model::Gap* gap : gapsIn(session, steps)) {
+        const std::int64_t step = (gap->toStamp - steps.first) / steps.width;
+        auto& values = plot.series[static_cast<std::size_t>(gap->cause)].values;
+        values[std::min(static_cast<std::size_t>(step), values.size() - 1)] += gap->lost;
+    }
+    return plot;
+}
+
 std::vector<double> lossSeries(const model::Stream& stream, const ReportSteps& steps) {
     std::vector<double> values;
     for (std::size_t step = 0; step < steps.count; ++step) {
@@ -130,10 +162,7 @@ std::vector<double> lossSeries(const model::Stream& stream, const ReportSteps& s
 std::vector<double> rateSeries(const model::Stream& stream, const ReportSteps& steps) {
     std::vector<double> values;
     for (std::size_t step = 0; step < steps.count; ++step) {
-        const double seconds = coveredS(steps, step);
-        const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.width.count());
-        values.push_back(isCovered ? static_cast<double>(countsIn(stream, steps, step).samples) / seconds
-                                   : kNothing);
+        values.push_back(rateOf(countsIn(stream, steps, step).samples, steps, step));
     }
     return values;
 }

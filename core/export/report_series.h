@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/export/html.h"
 #include "core/export/session_reading.h"
-#include "core/export/svg_plot.h"
 #include "core/log/time.h"
 
 namespace posewire::exporting {
@@ -24,6 +24,12 @@ struct ReportSteps {
 
 /// Rate, loss and jitter over time; a curve for each character, of its fastest, all and its worst stream.
 [[nodiscard]] std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportSteps& steps);
+
+/// The gaps with losses that end within the report, in the order of the session.
+[[nodiscard]] std::vector<const model::Gap*> gapsIn(const model::SessionView& session,
+                                                    const ReportSteps& steps);
+/// Samples lost over time, in a colour for each cause.
+[[nodiscard]] SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps);
 
 /// Percent lost of one stream in each step; NaN where nothing was expected.
 [[nodiscard]] std::vector<double> lossSeries(const model::Stream& stream, const ReportSteps& steps);

@@ -56,27 +56,8 @@ std::string figureText(const model::StreamFigures& figures, model::Figure figure
     return fixed(figures.orZero(figure), decimals);
 }
 
-std::string sentName(const model::SessionView& session, const model::CharacterKey& key) {
-    const model::MetadataTag* tag = session.metadata(key).find("name");
-    return tag != nullptr ? tag->values.back().text : std::string();
-}
-
 bool hasSentMxtp(const model::Sender& sender) {
     return sender.datagrams > sender.foreign || sender.skippedBytes != 0;
-}
-
-std::string_view transportName(log::Transport transport) {
-    switch (transport) {
-    case log::Transport::Udp:
-        return "udp";
-    case log::Transport::Tcp:
-        return "tcp";
-    case log::Transport::File:
-        return "file";
-    case log::Transport::Performer:
-        return "performer";
-    }
-    return "unknown";
 }
 
 } // namespace posewire::exporting

@@ -6,7 +6,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 /// What reports and tables read from a session, in the form in which they write it.
@@ -23,13 +22,7 @@ namespace posewire::exporting {
 /// A figure as people read it: "12,345", "2.50". What is not known is 0.
 [[nodiscard]] std::string figureText(const model::StreamFigures& figures, model::Figure figure, int decimals);
 
-/// The name that was sent; empty where there was none.
-[[nodiscard]] std::string sentName(const model::SessionView& session, const model::CharacterKey& key);
-
 /// False where all that came from a sender was something else.
 [[nodiscard]] bool hasSentMxtp(const model::Sender& sender);
-
-/// "udp", "tcp", "file", "performer".
-[[nodiscard]] std::string_view transportName(log::Transport transport);
 
 } // namespace posewire::exporting

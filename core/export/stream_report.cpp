@@ -1,18 +1,196 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/stream_report.h"
+#include "core/export/reports.h"
 
 #include "core/export/html.h"
-#include "core/export/report_events.h"
-#include "core/export/report_gaps.h"
-#include "core/export/report_series.h"
-#include "core/export/report_style.h"
-#include "core/export/report_tables.h"
-#include "core/export/report_verdict.h"
+#include "core/export/report_sections.h"
 
 #include <algorithm>
+#include <chrono>
 
 namespace posewire::exporting {
 namespace {
+
+using enum model::Figure;
+using Severity = model::EventSeverity;
+
+/// The style sheet. Curves: eight colours that people with red-green blindness can tell apart, in both themes
+/// at least 3:1 against the ground.
+constexpr std::string_view kStyle = R"css(
+:root{color-scheme:light dark;--ground:#fff;--panel:#f6f7f9;--line:#d5d9df;--text:#1b1f24;--dim:#5c6570;
+--good:#1a7f37;--warning:#9a6700;--error:#c62828;
+--c0:#0969da;--c1:#bc4c00;--c2:#0f7b6c;--c3:#8250df;--c4:#bf3989;--c5:#7d6400;--c6:#57606a;--c7:#116329}
+@media (prefers-color-scheme:dark){:root{--ground:#16191d;--panel:#1e2227;--line:#363c44;--text:#e4e7eb;--dim:#9aa4b0;
+--good:#4ac26b;--warning:#e0a63a;--error:#ff7b72;
+--c0:#58a6ff;--c1:#f0883e;--c2:#3fc7b2;--c3:#bc8cff;--c4:#f778ba;--c5:#d9b93c;--c6:#a6b0bb;--c7:#56d364}}
+*{box-sizing:border-box}
+body{margin:0 auto;max-width:1260px;padding:28px 24px 48px;background:var(--ground);color:var(--text);
+font:15px/1.5 system-ui,"Segoe UI","Noto Sans",sans-serif;overflow-wrap:anywhere}
+h1{font-size:26px;line-height:1.25;margin:0}h2{font-size:19px;margin:36px 0 10px}h3{font-size:16px;margin:22px 0 8px}
+p{margin:6px 0}.dim{color:var(--dim)}
+.verdict{list-style:none;margin:18px 0 0;padding:14px 18px;background:var(--panel);border:1px solid var(--line);
+border-left-width:5px;border-radius:6px}
+.verdict.good{border-left-color:var(--good)}.verdict.warning{border-left-color:var(--warning)}
+.verdict.error{border-left-color:var(--error)}
+.verdict li{display:flex;gap:10px;padding:2px 0}.verdict li:first-child{font-size:18px;font-weight:600}
+.mark{flex:none;width:1.1em;text-align:center}.good>.mark,td .good{color:var(--good)}
+.warning>.mark,td .warning{color:var(--warning)}.error>.mark,td .error{color:var(--error)}
+.facts{display:grid;grid-template-columns:max-content 1fr;gap:2px 18px;margin:0}
+.facts dt{color:var(--dim)}.facts dd{margin:0;unicode-bidi:isolate}
+.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(460px,100%),1fr));gap:14px}
+figure{margin:0;padding:12px 14px 8px;background:var(--panel);border:1px solid var(--line);border-radius:6px}
+figcaption{display:flex;flex-wrap:wrap;gap:2px 14px;align-items:baseline;font-size:13px}
+.key{display:inline-flex;align-items:center;gap:6px;color:var(--dim)}
+.key i{width:12px;height:4px;border-radius:2px}
+svg{display:block;width:100%;height:auto;margin-top:6px}
+svg text{fill:var(--dim);font:11px system-ui,"Segoe UI","Noto Sans",sans-serif;font-variant-numeric:tabular-nums}
+.grid line{stroke:var(--line);stroke-width:1}
+.curve{fill:none;stroke:currentColor;stroke-width:1.6;stroke-linejoin:round;vector-effect:non-scaling-stroke}
+.bar{fill:currentColor}.key i{background:currentColor}
+.c0{color:var(--c0)}.c1{color:var(--c1)}.c2{color:var(--c2)}.c3{color:var(--c3)}
+.c4{color:var(--c4)}.c5{color:var(--c5)}.c6{color:var(--c6)}.c7{color:var(--c7)}
+svg.spark{width:90px;height:18px;margin:0}
+.scroll{overflow-x:auto;margin-top:10px;border:1px solid var(--line);border-radius:6px}
+table{border-collapse:collapse;width:100%;font-size:13px}
+th,td{padding:5px 7px;text-align:left;vertical-align:top;unicode-bidi:isolate}
+th{background:var(--panel);color:var(--dim);font-weight:600;white-space:nowrap;border-bottom:1px solid var(--line)}
+td:first-child{white-space:nowrap}
+tr+tr td{border-top:1px solid var(--line)}
+.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap;overflow-wrap:normal}
+.swatch{display:inline-block;width:12px;height:12px;border-radius:3px;border:1px solid var(--line);
+vertical-align:-1px;margin-right:7px}
+@media print{:root{color-scheme:light;--ground:#fff;--panel:#fff;--line:#bbb;--text:#000;--dim:#444;
+--good:#1a7f37;--warning:#9a6700;--error:#c62828;
+--c0:#0969da;--c1:#bc4c00;--c2:#0f7b6c;--c3:#8250df;--c4:#bf3989;--c5:#7d6400;--c6:#57606a;--c7:#116329}
+body{max-width:none;padding:0;font-size:11px;print-color-adjust:exact;-webkit-print-color-adjust:exact}
+table{font-size:9px}th,td{padding:2px 4px}.scroll{overflow:visible;border:0}
+figure,tr,.verdict{break-inside:avoid}h2,h3{break-after:avoid}thead{display:table-header-group}
+.plots{grid-template-columns:1fr 1fr}}
+)css";
+
+struct Finding {
+    model::EventSeverity severity = model::EventSeverity::Info;
+    std::string text; ///< one sentence, not escaped
+};
+
+/// From here on a loss is visible in most figures.
+constexpr double kMuchLoss = 0.01;
+
+std::string counted(std::uint64_t count, const std::string& one, const std::string& many) {
+    return grouped(count) + ' ' + (count == 1 ? one : many);
+}
+
+std::string percent(double ratio) {
+    const double value = 100 * ratio;
+    return fixed(value, value >= 10 ? 1 : value >= 0.1 ? 2 : 4) + " %";
+}
+
+Finding lossFinding(const model::StreamFigures& sum) {
+    const std::uint64_t missing = sum.count(Missing);
+    if (missing == 0) {
+        return {Severity::Info, "Good: " + counted(sum.count(Samples), "sample", "samples") +
+                                    " expected, every one of them received."};
+    }
+    const double ratio = sum[Missing] / sum.expected();
+    const std::string where = grouped(missing) + " of " +
+                              counted(sum.count(Samples) + missing, "sample", "samples") + " (" +
+                              percent(ratio) + ")";
+    return ratio >= kMuchLoss ? Finding{Severity::Error, "Not good: " + where + " did not arrive whole."}
+                              : Finding{Severity::Warning, "Some loss: " + where + " did not arrive whole."};
+}
+
+/// One sentence about a count, unless it is 0.
+void addCounted(std::vector<Finding>& findings, std::uint64_t count, const std::string& one,
+                const std::string& many, const std::string& rest = "") {
+    if (count != 0) {
+        findings.push_back({Severity::Warning, counted(count, one, many) + rest});
+    }
+}
+
+/// Whose losses they were, most first.
+void addCauses(std::vector<Finding>& findings, const model::StreamFigures& sum) {
+    struct Share {
+        std::uint64_t lost;
+        std::string words;
+    };
+    std::vector<Share> shares{{sum.count(LostHere), "in this computer, which did not fetch them in time."},
+                              {sum.count(LostOnNetwork), "on the network."},
+                              {sum.count(LostAtSender), "at the sender."},
+                              {sum.count(LostUnknown), "without evidence whose fault it was."}};
+    std::ranges::stable_sort(shares, std::greater{}, &Share::lost);
+    for (const Share& share : shares) {
+        addCounted(findings, share.lost, "sample was lost ", "samples were lost ", share.words);
+    }
+}
+
+void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
+    addCounted(findings, sum.count(Duplicates), "datagram came more than once.",
+               "datagrams came more than once.");
+    addCounted(findings, sum.count(Reordered), "datagram came after a later one.",
+               "datagrams came after later ones.");
+    addCounted(findings, sum.count(Late), "of these was too late to be shown.",
+               "of these were too late to be shown.");
+    addCounted(findings, sum.count(Restarts), "time a sample counter restarted.",
+               "times a sample counter restarted.");
+}
+
+void addSenders(std::vector<Finding>& findings, const model::SessionView& session) {
+    for (const model::Sender& sender : session.senders()) {
+        if (sender.kernelDrops != 0) {
+            findings.push_back(
+                {Severity::Error, "This computer dropped " +
+                                      counted(sender.kernelDrops, "datagram", "datagrams") +
+                                      " at the socket that hears " + sender.info.address +
+                                      ": it was too busy, or its receive buffer is too small."});
+        }
+        const std::string from = " from " + sender.info.address;
+        addCounted(findings, sender.malformed, "datagram", "datagrams", from + " could not be decoded.");
+        addCounted(findings, sender.skippedBytes, "byte", "bytes", from + " belonged to no datagram.");
+        addCounted(findings, sender.foreign, "datagram", "datagrams",
+                   from + " were not MXTP; the newest begins with " + sender.foreignText() + '.');
+    }
+}
+
+/// What all figures together mean: the first sums it up, the others say why.
+std::vector<Finding> verdictOn(const model::SessionView& session,
+                               const std::vector<model::StreamFigures>& streams,
+                               const StreamReportOptions& options) {
+    std::vector<Finding> findings;
+    model::StreamFigures sum;
+    for (const model::StreamFigures& stream : streams) {
+        sum.add(stream);
+    }
+    if (sum.count(Datagrams) == 0) {
+        findings.push_back({Severity::Error, "No MXTP datagram was received."});
+    } else {
+        findings.push_back(lossFinding(sum));
+        addCauses(findings, sum);
+        addOrder(findings, sum);
+    }
+    addSenders(findings, session);
+    for (const std::string& line : options.exceeded) {
+        findings.push_back({Severity::Error, line + '.'});
+    }
+    return findings;
+}
+
+/// With zeros in front.
+std::string padded(std::int64_t number, std::size_t width) {
+    const std::string digits = std::to_string(number);
+    return std::string(width - std::min(width, digits.size()), '0') + digits;
+}
+
+/// "2026-11-21 16:01:32.123 UTC".
+std::string utcText(log::Stamp stamp) {
+    using namespace std::chrono;
+    const auto shown = time_point_cast<milliseconds>(stamp);
+    const auto day = floor<days>(shown);
+    const year_month_day date{day};
+    const hh_mm_ss time{shown - day};
+    return padded(static_cast<int>(date.year()), 4) + '-' + padded(static_cast<unsigned>(date.month()), 2) +
+           '-' + padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(time.hours().count(), 2) + ':' +
+           padded(time.minutes().count(), 2) + ':' + padded(time.seconds().count(), 2) + '.' +
+           padded(time.subseconds().count(), 3) + " UTC";
+}
 
 /// A raw file has no stamps: time codes have taken their place.
 bool hasStamps(const model::SessionView& session) {
@@ -77,7 +255,7 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
     std::string html;
     for (const model::Sender& sender : session.senders()) {
         html += "<h2>" + escaped(sender.info.address) + " <span class=\"dim\">" +
-                escaped(transportName(sender.info.transport)) +
+                escaped(log::nameOf(sender.info.transport)) +
                 (sender.info.localPort != 0 ? " to port " + std::to_string(sender.info.localPort) : "") +
                 "</span></h2>\n<dl class=\"facts\">\n" +
                 fact("Datagrams", grouped(sender.datagrams) + ", " + grouped(sender.bytes) + " bytes") +
@@ -112,7 +290,7 @@ std::string streamReport(const model::SessionView& session, const StreamReportOp
     return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<title>Stream report</title>\n<style>" +
-           std::string(reportStyle()) + "</style>\n</head>\n<body>\n<h1>Stream report</h1>\n" +
+           std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>Stream report</h1>\n" +
            verdictList(verdictOn(session, figures, options)) +
            "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(session, steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +

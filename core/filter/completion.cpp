@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/filter/completion.h"
 
-#include "core/filter/field_lookup.h"
+#include "core/filter/field.h"
 #include "core/filter/lexer.h"
+#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@
 namespace posewire::filter {
 namespace {
 
-/// What a text goes on with.
+/// What may come next.
 enum class Next : std::uint8_t { Field, Operator, Value, SetMember, AfterMember, Join };
 
 struct Context {
@@ -19,10 +20,6 @@ struct Context {
     bool isSet = false;     ///< after `in`
 };
 
-bool isComparison(TokenKind kind) {
-    return kind >= TokenKind::Equal && kind <= TokenKind::Matches;
-}
-
 void advance(Context& context, const Token& token, std::string_view text) {
     const bool isValue = token.kind == TokenKind::Word || token.kind == TokenKind::Quoted;
     if (token.kind == TokenKind::And || token.kind == TokenKind::Or) {
@@ -30,9 +27,9 @@ void advance(Context& context, const Token& token, std::string_view text) {
     } else if (context.next == Next::Field && token.kind == TokenKind::Word) {
         context.next = Next::Operator;
         context.field = token.in(text);
-    } else if (isComparison(token.kind)) {
+    } else if (token.kind == TokenKind::Operator) {
         context.next = Next::Value;
-        context.isSet = token.kind == TokenKind::In;
+        context.isSet = token.op == Operator::In;
     } else if (token.kind == TokenKind::OpenSet || token.kind == TokenKind::Comma) {
         context.next = Next::SetMember;
     } else if (token.kind == TokenKind::Range) {
@@ -53,30 +50,22 @@ bool isOpenEnded(const Token& token, std::string_view text) {
            (last >= 'a' && last <= 'z');
 }
 
-char lower(char character) {
-    return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
-}
-
-std::string lowered(std::string_view text) {
-    std::string all(text);
-    std::transform(all.begin(), all.end(), all.begin(), lower);
-    return all;
-}
-
 /// Collects what fits the word that is being written.
 class Collector {
 public:
-    Collector(Token replaced, std::string_view written) : m_replaced(replaced), m_written(lowered(written)) {
+    Collector(Token replaced, std::string_view written)
+        : m_replaced(replaced), m_written(wire::lowered(written)) {
         if (m_written.starts_with('"')) {
             m_written.erase(0, 1);
         }
     }
 
     void offer(std::string_view text, std::string about) {
-        const std::string known = lowered(text);
+        const std::string known = wire::lowered(text);
         const bool begins = known.starts_with(m_written) || known.starts_with('"' + m_written);
-        const bool isWithin = m_written.size() > 1 && (known.find(m_written) != std::string::npos ||
-                                                       lowered(about).find(m_written) != std::string::npos);
+        const bool isWithin =
+            m_written.size() > 1 && (known.find(m_written) != std::string::npos ||
+                                     wire::lowered(about).find(m_written) != std::string::npos);
         if (begins || isWithin) {
             (begins ? m_first : m_then)
                 .push_back({m_replaced.offset, m_replaced.length, std::string(text), std::move(about)});
@@ -100,34 +89,28 @@ private:
 std::string aboutField(const FieldInfo& field) {
     std::string about(kindWords(field.kind).name);
     about.append(field.unit.empty() ? "" : ", ").append(field.unit).append(": ").append(field.text);
-    for (std::size_t i = 0; i < field.types.size(); ++i) {
-        about.append(i == 0 ? " (" : " ").append(wire::typeDigits(field.types[i]));
-    }
-    return about + (field.types.empty() ? "" : ")");
-}
-
-void offerComponents(const FieldInfo& field, const std::string& name, Collector& into) {
-    for (std::size_t i = 0; i < field.components; ++i) {
-        into.offer(name + '.' + std::string(componentName(field.components, i)), aboutField(field));
-    }
+    return field.types.empty() ? about : about + " (" + typesText(field) + ')';
 }
 
 void offerFields(Collector& into) {
     const bool isQualified = into.written().find('.') != std::string::npos;
     std::vector<std::string> seen;
     for (const FieldInfo& field : fieldTable()) {
-        const std::string name = isQualified && into.written().starts_with(lowered(field.qualifier) + '.')
-                                     ? field.qualifier + '.' + field.name
-                                     : askedName(field);
-        if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
+        const std::string name =
+            isQualified && into.written().starts_with(wire::lowered(field.qualifier) + '.')
+                ? field.qualifier + '.' + field.name
+                : askedName(field);
+        if (std::ranges::find(seen, name) != seen.end()) {
             continue;
         }
         seen.push_back(name);
         into.offer(name, aboutField(field));
-        const std::string base = lowered(name);
+        const std::string base = wire::lowered(name);
         if (field.kind == Kind::Vector &&
             (into.written() == base || into.written().starts_with(base + '.'))) {
-            offerComponents(field, name, into);
+            for (std::size_t i = 0; i < field.components; ++i) {
+                into.offer(name + '.' + std::string(componentName(field.components, i)), aboutField(field));
+            }
         }
     }
     into.offer("tag", "text: names of the metadata tags (12)");
@@ -162,14 +145,8 @@ void offerOperators(std::string_view name, Collector& into) {
     into.offer("||", "or");
 }
 
-void offerTypes(Collector& into) {
-    for (const wire::TypeInfo& info : wire::typeTable()) {
-        into.offer(wire::typeDigits(info.type), std::string(info.name));
-    }
-}
-
-void offerValues(std::string_view name, Collector& into) {
-    const FieldMatch match = findFields(name);
+void offerValues(std::string_view asked, Collector& into) {
+    const FieldMatch match = findFields(asked);
     if (match.isTag && match.tag.empty()) {
         for (const std::string_view tag : {"\"name\"", "\"xmid\"", "\"color\""}) {
             into.offer(tag, "metadata tag");
@@ -180,16 +157,96 @@ void offerValues(std::string_view name, Collector& into) {
     }
     const FieldInfo& field = *match.fields.front();
     if (field.kind == Kind::Type) {
-        offerTypes(into);
+        for (const wire::TypeInfo& info : wire::typeTable()) {
+            into.offer(wire::typeDigits(info.type), std::string(info.name));
+        }
     }
     if (field.kind == Kind::Segment) {
-        for (std::size_t i = 0; i < segmentNames().size(); ++i) {
-            into.offer(segmentNames()[i], "segment");
+        for (const std::string_view name : segmentNames()) {
+            into.offer(name, "segment");
         }
     }
     for (const std::string_view word : field.words) {
         into.offer(word, std::string(kindWords(field.kind).name));
     }
+}
+
+/// A number as a constant; empty where it is none.
+std::string numeral(std::string_view value) {
+    if (value == "nan" || value == "-nan" || value == "NaN") {
+        return "NaN";
+    }
+    return numberOf(value) ? std::string(value) : std::string();
+}
+
+std::string compared(std::string_view field, const std::string& constant) {
+    return constant.empty() ? std::string() : std::string(field) + " == " + constant;
+}
+
+/// Each component of a vector, as the field tree writes it: "1  2  3".
+std::string vectorExpression(std::string_view name, const FieldInfo& field, std::string_view value) {
+    std::string all;
+    for (std::size_t i = 0; i < field.components; ++i) {
+        const std::size_t start = std::min(value.find_first_not_of(' '), value.size());
+        value.remove_prefix(start);
+        const std::string number = numeral(value.substr(0, value.find(' ')));
+        value.remove_prefix(std::min(value.find(' '), value.size()));
+        if (number.empty()) {
+            return {};
+        }
+        all.append(i == 0 ? "" : " && ").append(name).append(".");
+        all.append(componentName(field.components, i)).append(" == ").append(number);
+    }
+    return all;
+}
+
+std::string segmentExpression(std::string_view name, std::string_view value) {
+    constexpr double kBodySegments = 23;
+    const auto id = numberOf(value);
+    if (id && *id >= 1 && *id <= kBodySegments) {
+        return compared(name, std::string(segmentNames()[static_cast<std::size_t>(*id) - 1]));
+    }
+    return compared(name, segmentNumber(value) ? std::string(value) : numeral(value));
+}
+
+const FieldInfo* findField(std::string_view qualifier, std::string_view name) {
+    const auto found = std::ranges::find_if(fieldTable(), [&](const FieldInfo& field) {
+        return field.name == name && field.qualifier == qualifier;
+    });
+    return found != fieldTable().end() ? &*found : nullptr;
+}
+
+/// Type 05 numbers the segments in an order of its own.
+bool isUnityOrdered(const wire::FieldTree& tree) {
+    return std::ranges::any_of(
+        tree.nodes, [](const wire::FieldNode& node) { return node.name == "id" && node.value == "MXTP05"; });
+}
+
+bool isNumeral(std::string_view text) {
+    return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+std::string expressionOf(const FieldInfo& field, bool hasComponent, std::string_view name,
+                         std::string_view value) {
+    switch (field.kind) {
+    case Kind::Text:
+        return compared(name, quoted(value));
+    case Kind::Vector:
+        return hasComponent ? compared(name, numeral(value)) : vectorExpression(name, field, value);
+    case Kind::Flag:
+        return value == "true" || value == "1" ? std::string(name) : '!' + std::string(name);
+    case Kind::Type:
+        return compared(name, numeral(value.substr(0, value.find(' '))));
+    case Kind::Segment:
+        return segmentExpression(name, value);
+    case Kind::Transport:
+        return compared(name, std::string(value));
+    case Kind::Time:
+        return compared(name, numberOf(value) ? std::string(value) : quoted(value));
+    case Kind::Number:
+        break;
+    }
+    return compared(name, numeral(value));
 }
 
 } // namespace
@@ -234,6 +291,59 @@ std::vector<Completion> completions(std::string_view text, std::size_t cursor) {
         break;
     }
     return into.take();
+}
+
+std::string expressionFor(std::string_view name, std::string_view value) {
+    const FieldMatch match = findFields(name);
+    if (match.isTag) {
+        return compared(name, quoted(value));
+    }
+    // Where fields of several kinds have the name, a number is rarely meant as text.
+    for (const bool mayBeText : {false, true}) {
+        for (const FieldInfo* field : match.fields) {
+            const bool isText = field->kind == Kind::Text;
+            const std::string text =
+                isText == mayBeText ? expressionOf(*field, match.hasComponent, name, value) : std::string();
+            if (!text.empty()) {
+                return text;
+            }
+        }
+    }
+    return {};
+}
+
+std::string expressionFor(const wire::FieldTree& tree, std::int32_t index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= tree.nodes.size()) {
+        return {};
+    }
+    const auto at = [&](std::int32_t place) -> const wire::FieldNode* {
+        return place >= 0 ? &tree.nodes[static_cast<std::size_t>(place)] : nullptr;
+    };
+    const wire::FieldNode& node = *at(index);
+    const wire::FieldNode* parent = at(node.parent);
+    constexpr std::string_view kCount = " count";
+    if (node.name.ends_with(kCount)) {
+        return expressionFor(node.name.substr(0, node.name.size() - kCount.size()), node.value);
+    }
+    if (isNumeral(node.name) && parent != nullptr) {
+        const auto first = static_cast<std::size_t>(index) + 1;
+        return first < tree.nodes.size() && tree.nodes[first].parent == index ? expressionFor(tree, index + 1)
+                                                                              : std::string();
+    }
+    // An item is in its list; the header's fields and the message's own are at the top.
+    const bool isInItem = parent != nullptr && isNumeral(parent->name);
+    const wire::FieldNode* group = isInItem ? at(parent->parent) : parent;
+    const std::string_view qualifier = group != nullptr ? std::string_view(group->name) : std::string_view();
+    const FieldInfo* field = findField(qualifier, node.name);
+    if (field == nullptr) {
+        return {};
+    }
+    const bool isList = field->isOfItems() && node.value.empty() && field->kind == Kind::Number;
+    const FieldInfo* segment = isInItem && node.name == "id" ? findField(qualifier, "segment") : nullptr;
+    if (segment != nullptr && qualifier != "points" && !isUnityOrdered(tree)) {
+        return expressionOf(*segment, false, askedName(*segment), node.value);
+    }
+    return isList ? field->name : expressionOf(*field, false, askedName(*field), node.value);
 }
 
 } // namespace posewire::filter

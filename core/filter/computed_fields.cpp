@@ -6,7 +6,6 @@
 namespace posewire::filter {
 namespace {
 
-
 using model::PacketKind;
 
 /// A field that every packet has, one value each.
@@ -39,33 +38,21 @@ bool readType(Subject& subject, std::size_t index, Value& value) {
     return index == 0 && isKnown;
 }
 
-bool readSender(Subject& subject, std::size_t index, Value& value) {
+/// What is known of where the packet came from.
+template <auto Read>
+bool fromSender(Subject& subject, std::size_t index, Value& value) {
     const log::SenderInfo* sender = subject.candidate.sender;
-    value.text = sender != nullptr ? std::string_view(sender->address) : std::string_view();
-    return index == 0 && sender != nullptr;
-}
-
-bool readTransport(Subject& subject, std::size_t index, Value& value) {
-    const log::SenderInfo* sender = subject.candidate.sender;
-    value.text = sender != nullptr ? kTransportNames[static_cast<std::size_t>(sender->transport)] : "";
-    return index == 0 && sender != nullptr;
+    if (sender == nullptr || index != 0) {
+        return false;
+    }
+    value = Read(*sender);
+    return true;
 }
 
 bool readPort(Subject& subject, std::size_t index, Value& value) {
     const log::SenderInfo* sender = subject.candidate.sender;
     value.number = sender != nullptr ? sender->localPort : 0;
     return index == 0 && value.number != 0;
-}
-
-bool readTime(Subject& subject, std::size_t index, Value& value) {
-    const Candidate& candidate = subject.candidate;
-    value.number = log::secondsOf(candidate.packet.stamp - candidate.firstStamp);
-    return index == 0;
-}
-
-bool readUtc(Subject& subject, std::size_t index, Value& value) {
-    value.number = log::secondsOf(subject.candidate.packet.stamp.time_since_epoch());
-    return index == 0;
 }
 
 bool readError(Subject& subject, std::size_t index, Value& value) {
@@ -120,14 +107,21 @@ constexpr auto kProblem = [](const Candidate& c) { return c.digest.isProblem(); 
 constexpr auto kSize = [](const Candidate& c) { return c.packet.bytes.size(); };
 constexpr auto kNumber = [](const Candidate& c) { return c.packet.number; };
 constexpr auto kDrops = [](const Candidate& c) { return c.packet.kernelDropsBefore; };
+constexpr auto kTime = [](const Candidate& c) { return log::secondsOf(c.packet.stamp - c.firstStamp); };
+constexpr auto kUtc = [](const Candidate& c) { return log::secondsOf(c.packet.stamp.time_since_epoch()); };
+constexpr auto kAddress = [](const log::SenderInfo& sender) { return Value{0, sender.address}; };
+constexpr auto kTransport = [](const log::SenderInfo& sender) {
+    return Value{0, log::nameOf(sender.transport)};
+};
 constexpr auto kIndex = [](const wire::Header& header) { return header.datagramIndex(); };
 constexpr auto kLast = [](const wire::Header& header) { return header.isLast(); };
 
 constexpr std::array kRows{
     Row{"type", Kind::Type, "", "message type: 02 and 2 are the same", readType},
-    Row{"source", Kind::Text, "", "where the packet came from: address and port, or file", readSender},
-    Row{"time", Kind::Number, "s", "since the first packet", readTime},
-    Row{"utc", Kind::Time, "s", "when it came: a time such as \"2026-01-31T12:00:00\"", readUtc},
+    Row{"source", Kind::Text, "", "where the packet came from: address and port, or file",
+        fromSender<kAddress>},
+    Row{"time", Kind::Number, "s", "since the first packet", always<kTime>},
+    Row{"utc", Kind::Time, "s", "when it came: a time such as \"2026-01-31T12:00:00\"", always<kUtc>},
     Row{"number", Kind::Number, "", "of the packet, in the order of arrival", always<kNumber>},
     Row{"size", Kind::Number, "bytes", "of the packet", always<kSize>},
     Row{"delta", Kind::Number, "s", "since the packet before it in its stream", readDelta},
@@ -146,9 +140,32 @@ constexpr std::array kRows{
     Row{"truncated", Kind::Flag, "", "was longer than what could be received", always<kTruncated>},
     Row{"datagram", Kind::Number, "", "index of the datagram in its sample, from 0", fromHeader<kIndex>},
     Row{"last", Kind::Flag, "", "the last datagram of its sample", fromHeader<kLast>},
-    Row{"transport", Kind::Transport, "", "udp, tcp, file or performer", readTransport},
+    Row{"transport", Kind::Transport, "", "udp, tcp, file or performer", fromSender<kTransport>},
     Row{"port", Kind::Number, "", "of this computer, that the packet arrived at", readPort},
 };
+
+template <class Code, std::size_t Count>
+std::vector<std::string_view> namesOf(std::string_view (*name)(Code)) {
+    std::vector<std::string_view> names;
+    for (std::size_t code = 0; code < Count; ++code) {
+        names.push_back(name(static_cast<Code>(code)));
+    }
+    return names;
+}
+
+std::vector<std::string_view> wordsOf(const Row& row) {
+    std::vector<std::string_view> words;
+    if (row.kind == Kind::Transport) {
+        words.assign(log::kTransportNames.begin(), log::kTransportNames.end());
+    } else if (row.kind == Kind::Flag) {
+        words = {"true", "false"};
+    } else if (row.read == &readError) {
+        words = namesOf<wire::ErrorCode, wire::kErrorCodeCount>(wire::errorName);
+    } else if (row.read == &readNotice) {
+        words = namesOf<wire::NoticeCode, wire::kNoticeCodeCount>(wire::noticeName);
+    }
+    return words;
+}
 
 } // namespace
 
@@ -165,28 +182,6 @@ const wire::Header* Subject::header() {
     m_isHeaderRead = true;
     return m_header ? &*m_header : nullptr;
 }
-
-namespace {
-
-std::vector<std::string_view> wordsOf(const Row& row) {
-    std::vector<std::string_view> words;
-    if (row.kind == Kind::Transport) {
-        words.assign(kTransportNames.begin(), kTransportNames.end());
-    } else if (row.kind == Kind::Flag) {
-        words = {"true", "false"};
-    } else if (row.read == &readError) {
-        for (std::size_t code = 0; code < wire::kErrorCodeCount; ++code) {
-            words.push_back(wire::errorName(static_cast<wire::ErrorCode>(code)));
-        }
-    } else if (row.read == &readNotice) {
-        for (std::size_t code = 0; code < wire::kNoticeCodeCount; ++code) {
-            words.push_back(wire::noticeName(static_cast<wire::NoticeCode>(code)));
-        }
-    }
-    return words;
-}
-
-} // namespace
 
 std::vector<FieldInfo> computedFields() {
     std::vector<FieldInfo> fields;

@@ -57,7 +57,7 @@ using ReadItem = Value (*)(const wire::Datagram& datagram, std::size_t item, std
 /// Reads the value at `index` of a packet's field; false where there is none. Most have one value at most.
 using ReadPacket = bool (*)(Subject& subject, std::size_t index, Value& value);
 
-/// Where a field of the payload stands: null where it does not.
+/// Where a field of the payload is read: null where there is none.
 using Places = std::array<std::array<ReadItem, kLists>, kShapes>;
 
 /// A field by its name. Several layouts may have one of the same name and kind; the name means all of them.
@@ -75,7 +75,7 @@ struct FieldInfo {
     std::vector<std::uint8_t> types;     ///< message types that have it, in order; empty for packet fields
     ReadPacket readPacket = nullptr;     ///< of a packet field
     Places places{};                     ///< of a field of the payload
-    std::optional<Places> named{};       ///< for segments: reads the number that stands for a name
+    std::optional<Places> named{};       ///< for segments: reads the number that a name means
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr; }
 };
@@ -94,7 +94,41 @@ struct FieldInfo {
 /// All names, in the order of their numbers, from 1.
 [[nodiscard]] std::span<const std::string_view> segmentNames();
 
-/// The words of Kind::Transport, in the order of log::Transport.
-inline constexpr std::array<std::string_view, 4> kTransportNames{"udp", "tcp", "file", "performer"};
+/// What a name in a filter may mean: fields of that name, and one of their components.
+struct FieldMatch {
+    std::vector<const FieldInfo*> fields; ///< those of the packet first
+    bool hasComponent = false;
+    std::size_t component = 0;
+    bool isTag = false;
+    std::string_view tag; ///< of "tag.name": "name"
+};
+
+/// Understands "sample", "position.z", "segments.position.z", "header.sample", "tag", "tag.name". No fields
+/// (and no tag) if nothing has that name.
+[[nodiscard]] FieldMatch findFields(std::string_view name);
+
+/// The names of a vector's components: "x", "y" …; empty beyond its end.
+[[nodiscard]] std::string_view componentName(std::size_t components, std::size_t component);
+
+/// The name to use for `field`: with its qualifier only if another field shares the name.
+[[nodiscard]] std::string askedName(const FieldInfo& field);
+
+/// The field name closest to one that does not exist; empty if none is close.
+[[nodiscard]] std::string nearestField(std::string_view name);
+/// The closest of some words.
+[[nodiscard]] std::string nearestOf(std::string_view word, std::span<const std::string_view> words);
+
+/// What fields of a kind are called, and what can be compared with them, in words.
+struct KindWords {
+    std::string_view name;
+    std::string_view value;
+};
+[[nodiscard]] KindWords kindWords(Kind kind);
+
+/// "02 20": the message types that have the field.
+[[nodiscard]] std::string typesText(const FieldInfo& field);
+
+/// The number that a word spells: decimal, 0x…, with a sign, inf; empty if it is not a number.
+[[nodiscard]] std::optional<double> numberOf(std::string_view word);
 
 } // namespace posewire::filter

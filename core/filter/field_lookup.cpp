@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/field_lookup.h"
+#include "core/filter/field.h"
+
+#include "core/wire/text.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <charconv>
@@ -37,7 +40,7 @@ void collect(std::string_view name, std::optional<std::string_view> component, F
             continue;
         }
         const auto names = componentNames(field.components);
-        const auto found = std::find(names.begin(), names.end(), *component);
+        const auto found = std::ranges::find(names, *component);
         if (found != names.end()) {
             // Vectors and quaternions number their components differently, so only fields of one length
             // combine.
@@ -53,13 +56,12 @@ void collect(std::string_view name, std::optional<std::string_view> component, F
 
 /// Levenshtein, without case.
 std::size_t distance(std::string_view a, std::string_view b) {
-    const auto fold = [](char c) { return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : static_cast<int>(c); };
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
     for (std::size_t i = 1; i <= a.size(); ++i) {
         std::size_t diagonal = std::exchange(row[0], i);
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = diagonal + (fold(a[i - 1]) == fold(b[j - 1]) ? 0 : 1);
+            const std::size_t change = diagonal + (wire::lower(a[i - 1]) == wire::lower(b[j - 1]) ? 0 : 1);
             diagonal = std::exchange(row[j], std::min({change, row[j] + 1, row[j - 1] + 1}));
         }
     }
@@ -91,7 +93,7 @@ std::string_view componentName(std::size_t components, std::size_t component) {
 }
 
 std::string askedName(const FieldInfo& field) {
-    const bool isShared = std::any_of(fieldTable().begin(), fieldTable().end(), [&](const FieldInfo& other) {
+    const bool isShared = std::ranges::any_of(fieldTable(), [&](const FieldInfo& other) {
         return &other != &field && other.name == field.name && other.kind == field.kind &&
                (other.readPacket != nullptr) != (field.readPacket != nullptr);
     });
@@ -147,26 +149,26 @@ std::optional<double> numberOf(std::string_view word) {
     return isNegative ? -value : value;
 }
 
-KindWords kindWords(Kind kind) {
-    switch (kind) {
-    case Kind::Text:
-        return {"text", "text"};
-    case Kind::Flag:
-        return {"true or false", "true or false"};
-    case Kind::Type:
-        return {"message type", "a message type such as 02"};
-    case Kind::Segment:
-        return {"segment", "a segment such as LeftHand or 15"};
-    case Kind::Transport:
-        return {"word", "one of udp, tcp, file and performer"};
-    case Kind::Time:
-        return {"UTC time", "a UTC time such as \"2026-01-31T12:00:00\""};
-    case Kind::Vector:
-        return {"vector", "a number"};
-    case Kind::Number:
-        break;
+std::string typesText(const FieldInfo& field) {
+    std::string text;
+    for (const std::uint8_t type : field.types) {
+        text.append(text.empty() ? "" : " ").append(wire::typeDigits(type));
     }
-    return {"number", "a number"};
+    return text;
+}
+
+KindWords kindWords(Kind kind) {
+    constexpr std::array<KindWords, 8> kWords{{
+        {"number", "a number"},
+        {"text", "text"},
+        {"vector", "a number"},
+        {"true or false", "true or false"},
+        {"message type", "a message type such as 02"},
+        {"segment", "a segment such as LeftHand or 15"},
+        {"word", "one of udp, tcp, file and performer"},
+        {"UTC time", "a UTC time such as \"2026-01-31T12:00:00\""},
+    }};
+    return kWords[static_cast<std::size_t>(kind)];
 }
 
 } // namespace posewire::filter

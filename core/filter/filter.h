@@ -30,7 +30,7 @@ struct Candidate {
     const model::PacketDigest& digest;
     const wire::Datagram* datagram = nullptr; ///< null if not decoded; see needsDatagram
     const log::SenderInfo* sender = nullptr;  ///< null if not known
-    log::Stamp firstStamp{};            ///< of the first packet: where `time` begins
+    log::Stamp firstStamp{};                  ///< of the first packet: where `time` begins
     const wire::WireError* fault = nullptr; ///< why it could not be decoded; null: decoded again to find out
 };
 
@@ -61,5 +61,9 @@ public:
 private:
     std::shared_ptr<const Program> m_program;
 };
+
+/// The language of the display filter on one page, in Markdown; its field tables come from the layouts that
+/// decode the datagrams.
+[[nodiscard]] std::string filterReference();
 
 } // namespace posewire::filter

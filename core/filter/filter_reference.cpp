@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/filter_reference.h"
-
-#include "core/filter/field_lookup.h"
-#include "core/wire/type_table.h"
+#include "core/filter/field.h"
 
 namespace posewire::filter {
 namespace {
@@ -60,33 +57,13 @@ characters; a single word needs none. Constants are compared with the values on 
 )";
 
 std::string_view kindOf(const FieldInfo& field) {
-    switch (field.kind) {
-    case Kind::Number:
-        return "number";
-    case Kind::Text:
-        return "text";
-    case Kind::Vector:
-        return field.components == 3 ? "x, y, z" : field.components == 4 ? "w, x, y, z" : "1 … 9";
-    case Kind::Flag:
-        return "true or false";
-    case Kind::Type:
-        return "type";
-    case Kind::Segment:
-        return "segment";
-    case Kind::Transport:
-        return "word";
-    case Kind::Time:
-        return "UTC time";
+    if (field.kind != Kind::Vector) {
+        return field.kind == Kind::Type ? "type" : kindWords(field.kind).name;
     }
-    return "";
-}
-
-std::string typesOf(const FieldInfo& field) {
-    std::string text;
-    for (const std::uint8_t type : field.types) {
-        text.append(text.empty() ? "" : " ").append(wire::typeDigits(type));
+    if (field.components == 3) {
+        return "x, y, z";
     }
-    return text;
+    return field.components == 4 ? "w, x, y, z" : "1 … 9";
 }
 
 void writeRow(std::string& out, const FieldInfo& field, bool isOfPayload) {
@@ -94,7 +71,7 @@ void writeRow(std::string& out, const FieldInfo& field, bool isOfPayload) {
         isOfPayload && !field.qualifier.empty() ? field.qualifier + '.' + field.name : field.name;
     out.append("| `").append(name).append("` | ").append(kindOf(field)).append(" | ");
     out.append(field.unit).append(" | ").append(field.text);
-    out.append(isOfPayload ? " | " + typesOf(field) : "").append(" |\n");
+    out.append(isOfPayload ? " | " + typesText(field) : "").append(" |\n");
 }
 
 } // namespace

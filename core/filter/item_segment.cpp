@@ -4,6 +4,7 @@
 #include "core/model/body/character_pose.h"
 #include "core/model/body/points.h"
 #include "core/model/body/segments.h"
+#include "core/wire/text.h"
 
 #include <algorithm>
 
@@ -12,10 +13,6 @@ namespace {
 
 constexpr model::SegmentLayout kAll{model::kBodySegmentCount, model::kMaxPropCount,
                                     model::kFingerSegmentCount};
-
-char lower(char character) {
-    return character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
-}
 
 int numberAt(const model::SegmentPlace& place) {
     switch (place.kind) {
@@ -62,15 +59,16 @@ std::span<const std::string_view> segmentNames() {
 
 std::optional<double> segmentNumber(std::string_view name) {
     const auto names = segmentNames();
-    const auto found = std::find_if(names.begin(), names.end(), [&](std::string_view known) {
+    const auto found = std::ranges::find_if(names, [&](std::string_view known) {
         return std::equal(known.begin(), known.end(), name.begin(), name.end(),
-                          [](char a, char b) { return lower(a) == lower(b); });
+                          [](char a, char b) { return wire::lower(a) == wire::lower(b); });
     });
     return found == names.end() ? std::nullopt
                                 : std::optional(static_cast<double>(found - names.begin() + 1));
 }
 
-double namedSegment(const ItemIds& ids, const ItemPlace& place) {
+double namedSegment(const ItemIds& ids, const wire::Header& header, std::size_t place, std::size_t items,
+                    bool hasFootOfE) {
     if (!ids.segment) {
         return ids.name ? segmentNumber(*ids.name).value_or(0) : 0;
     }
@@ -79,15 +77,15 @@ double namedSegment(const ItemIds& ids, const ItemPlace& place) {
     if (ids.isUnityOrder) {
         return isOfBody ? model::unityOrder()[id - 1] + 1 : 0;
     }
-    const bool isAfterFoot = place.item >= kLeftFootPlace && place.item < model::kBodySegmentCount;
-    if (place.hasFootOfE && isAfterFoot && id == place.item + 2) {
-        return static_cast<double>(place.item + 1);
+    const bool isAfterFoot = place >= kLeftFootPlace && place < model::kBodySegmentCount;
+    if (hasFootOfE && isAfterFoot && id == place + 2) {
+        return static_cast<double>(place + 1);
     }
     if (isOfBody) {
         return id;
     }
-    const auto layout = model::segmentLayout(place.header, place.items);
-    const auto at = model::placeOf(layout, static_cast<int>(place.item));
+    const auto layout = model::segmentLayout(header, items);
+    const auto at = model::placeOf(layout, static_cast<int>(place));
     return at && at->kind != model::SegmentKind::Body ? numberAt(*at) : 0;
 }
 

@@ -3,7 +3,7 @@
 
 #include "core/filter/field.h"
 #include "core/model/body/segments.h"
-#include "core/wire/item_layouts.h"
+#include "core/wire/layouts.h"
 
 /// Which segment an item of a message is about, by what its fields refer to.
 namespace posewire::filter {
@@ -52,29 +52,24 @@ ItemIds idsOf(const Item& item) {
 /// The numbers of the left foot and toe are 23 and 24 in revision E, one more than their places.
 inline constexpr std::size_t kLeftFootPlace = model::segment::kLeftFoot;
 
-/// Where an item is.
-struct ItemPlace {
-    const wire::Header& header;
-    std::size_t item;
-    std::size_t items;
-    bool hasFootOfE; ///< the item at the place of the left foot has revision E's number of it
-};
-
 /// Points are numbered 256 × segment + point, in revision E 100 × segment + point. The few ids that could be
 /// either are taken as the first point of the datagram is.
 [[nodiscard]] double pointSegment(std::uint32_t id, std::uint32_t firstId);
 
 /// The number that a name means (see segmentNumber), since the ids of props and fingers differ between
-/// revisions; 0 where the item has no name.
-[[nodiscard]] double namedSegment(const ItemIds& ids, const ItemPlace& place);
+/// revisions; 0 where the item has no name. `place`: of the item in its list of `items`; `hasFootOfE`: the
+/// item at the place of the left foot has revision E's number of it.
+[[nodiscard]] double namedSegment(const ItemIds& ids, const wire::Header& header, std::size_t place,
+                                  std::size_t items, bool hasFootOfE);
 
 /// The wire's own number; items without one count from 1.
 template <wire::Form F, class Item>
 double segmentNumberOf(const std::vector<Item>& items, std::size_t item) {
     const ItemIds ids = idsOf<F>(items[item]);
-    return ids.point     ? pointSegment(*ids.point, *idsOf<F>(items.front()).point)
-           : ids.segment ? *ids.segment
-                         : static_cast<double>(item + 1);
+    if (ids.point) {
+        return pointSegment(*ids.point, *idsOf<F>(items.front()).point);
+    }
+    return ids.segment ? *ids.segment : static_cast<double>(item + 1);
 }
 
 template <wire::Form F, class Item>
@@ -85,7 +80,7 @@ double namedSegment(const wire::Header& header, const std::vector<Item>& items, 
     }
     const bool hasFootOfE = items.size() > kLeftFootPlace && header.countedSegments() == 0 &&
                             idsOf<F>(items[kLeftFootPlace]).segment == kLeftFootPlace + 2;
-    return namedSegment(ids, {header, item, items.size(), hasFootOfE});
+    return namedSegment(ids, header, item, items.size(), hasFootOfE);
 }
 
 } // namespace posewire::filter

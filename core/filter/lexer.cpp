@@ -3,41 +3,36 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace posewire::filter {
 namespace {
 
-using Spelling = std::pair<std::string_view, TokenKind>;
+struct Spelling {
+    std::string_view text;
+    TokenKind kind = TokenKind::Operator;
+    Operator op = Operator::IsThere;
+
+    constexpr Spelling(std::string_view text_, TokenKind kind_) : text(text_), kind(kind_) {}
+    constexpr Spelling(std::string_view text_, Operator op_) : text(text_), op(op_) {}
+};
 
 /// Longer ones first.
-constexpr std::array<Spelling, 16> kSigns{{{"&&", TokenKind::And},
-                                           {"||", TokenKind::Or},
-                                           {"==", TokenKind::Equal},
-                                           {"!=", TokenKind::NotEqual},
-                                           {"<=", TokenKind::LessEqual},
-                                           {">=", TokenKind::GreaterEqual},
-                                           {"..", TokenKind::Range},
-                                           {"<", TokenKind::Less},
-                                           {">", TokenKind::Greater},
-                                           {"!", TokenKind::Not},
-                                           {"(", TokenKind::Open},
-                                           {")", TokenKind::Close},
-                                           {"{", TokenKind::OpenSet},
-                                           {"}", TokenKind::CloseSet},
-                                           {",", TokenKind::Comma},
-                                           {"~", TokenKind::Matches}}};
+constexpr std::array kSigns{
+    Spelling{"&&", TokenKind::And},      Spelling{"||", TokenKind::Or},
+    Spelling{"==", Operator::Equal},     Spelling{"!=", Operator::NotEqual},
+    Spelling{"<=", Operator::LessEqual}, Spelling{">=", Operator::GreaterEqual},
+    Spelling{"..", TokenKind::Range},    Spelling{"<", Operator::Less},
+    Spelling{">", Operator::Greater},    Spelling{"!", TokenKind::Not},
+    Spelling{"(", TokenKind::Open},      Spelling{")", TokenKind::Close},
+    Spelling{"{", TokenKind::OpenSet},   Spelling{"}", TokenKind::CloseSet},
+    Spelling{",", TokenKind::Comma},     Spelling{"~", Operator::Matches},
+};
 
-constexpr std::array<Spelling, 6> kWords{{{"and", TokenKind::And},
-                                          {"or", TokenKind::Or},
-                                          {"not", TokenKind::Not},
-                                          {"in", TokenKind::In},
-                                          {"contains", TokenKind::Contains},
-                                          {"matches", TokenKind::Matches}}};
-
-bool isSpace(char character) {
-    return character == ' ' || character == '\t' || character == '\n' || character == '\r';
-}
+constexpr std::array kWords{
+    Spelling{"and", TokenKind::And},          Spelling{"or", TokenKind::Or},
+    Spelling{"not", TokenKind::Not},          Spelling{"in", Operator::In},
+    Spelling{"contains", Operator::Contains}, Spelling{"matches", Operator::Matches},
+};
 
 bool isDigit(char character) {
     return character >= '0' && character <= '9';
@@ -91,15 +86,13 @@ Token tokenAt(std::string_view text, std::size_t offset) {
         return quotedToken(text, offset);
     }
     if (const std::size_t length = wordLength(rest); length != 0) {
-        const auto word = std::find_if(kWords.begin(), kWords.end(), [&](const Spelling& spelling) {
-            return rest.substr(0, length) == spelling.first;
-        });
-        return {word != kWords.end() ? word->second : TokenKind::Word, offset, length};
+        const auto word = std::ranges::find(kWords, rest.substr(0, length), &Spelling::text);
+        return word != kWords.end() ? Token{word->kind, offset, length, word->op}
+                                    : Token{TokenKind::Word, offset, length};
     }
-    const auto sign = std::find_if(kSigns.begin(), kSigns.end(), [&](const Spelling& spelling) {
-        return rest.starts_with(spelling.first);
-    });
-    return sign != kSigns.end() ? Token{sign->second, offset, sign->first.size()}
+    const auto sign = std::ranges::find_if(
+        kSigns, [&](const Spelling& spelling) { return rest.starts_with(spelling.text); });
+    return sign != kSigns.end() ? Token{sign->kind, offset, sign->text.size(), sign->op}
                                 : Token{TokenKind::Unknown, offset, 1};
 }
 
@@ -108,13 +101,7 @@ Token tokenAt(std::string_view text, std::size_t offset) {
 std::vector<Token> tokens(std::string_view text) {
     std::vector<Token> all;
     std::size_t offset = 0;
-    while (true) {
-        while (offset < text.size() && isSpace(text[offset])) {
-            ++offset;
-        }
-        if (offset == text.size()) {
-            break;
-        }
+    while ((offset = text.find_first_not_of(" \t\n\r", offset)) != std::string_view::npos) {
         all.push_back(tokenAt(text, offset));
         offset = all.back().end();
     }

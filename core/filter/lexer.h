@@ -9,6 +9,19 @@
 
 namespace posewire::filter {
 
+enum class Operator : std::uint8_t {
+    IsThere, ///< the field alone
+    Equal,
+    NotEqual,
+    Less,
+    LessEqual,
+    Greater,
+    GreaterEqual,
+    In,
+    Contains,
+    Matches,
+};
+
 enum class TokenKind : std::uint8_t {
     End,
     Word,   ///< a name, a number, or any other word: 0x1f, LeftHand, 192.168.1.20:4001
@@ -22,15 +35,7 @@ enum class TokenKind : std::uint8_t {
     And,
     Or,
     Not,
-    Equal,
-    NotEqual,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    In,
-    Contains,
-    Matches,
+    Operator,   ///< between a field and a constant
     Unfinished, ///< text without a closing quote
     Unknown,    ///< a character without a meaning here
 };
@@ -40,6 +45,7 @@ struct Token {
     TokenKind kind = TokenKind::End;
     std::size_t offset = 0;
     std::size_t length = 0;
+    Operator op = Operator::IsThere; ///< of TokenKind::Operator
 
     [[nodiscard]] std::size_t end() const { return offset + length; }
     [[nodiscard]] std::string_view in(std::string_view text) const { return text.substr(offset, length); }

@@ -10,38 +10,12 @@ using Failure = tl::unexpected<FilterError>;
 using Parsed = tl::expected<std::uint32_t, FilterError>;
 using Join = Program::Join;
 
-/// The operator that a token spells; empty if it is none.
-std::optional<Operator> operatorOf(TokenKind kind) {
-    switch (kind) {
-    case TokenKind::Equal:
-        return Operator::Equal;
-    case TokenKind::NotEqual:
-        return Operator::NotEqual;
-    case TokenKind::Less:
-        return Operator::Less;
-    case TokenKind::LessEqual:
-        return Operator::LessEqual;
-    case TokenKind::Greater:
-        return Operator::Greater;
-    case TokenKind::GreaterEqual:
-        return Operator::GreaterEqual;
-    case TokenKind::In:
-        return Operator::In;
-    case TokenKind::Contains:
-        return Operator::Contains;
-    case TokenKind::Matches:
-        return Operator::Matches;
-    default:
-        return std::nullopt;
-    }
-}
-
 class Parser {
 public:
     explicit Parser(std::string_view text) : m_text(text), m_tokens(tokens(text)) {}
 
     tl::expected<Program, FilterError> run() {
-        auto root = any(0);
+        auto root = joined(0, TokenKind::Or);
         if (!root) {
             return Failure(root.error());
         }
@@ -75,8 +49,6 @@ private:
         return {token.offset, token.length, std::move(text)};
     }
 
-    Parsed any(std::size_t depth) { return joined(depth, TokenKind::Or); }
-
     /// Operands of ||, or those of && (which bind tighter).
     Parsed joined(std::size_t depth, TokenKind sign) {
         Program::Node node;
@@ -102,7 +74,7 @@ private:
             return operand ? m_program.add({Join::Not, 0, {*operand}, false}) : operand;
         }
         if (take(TokenKind::Open)) {
-            auto inner = any(depth + 1);
+            auto inner = joined(depth + 1, TokenKind::Or);
             if (inner && !take(TokenKind::Close)) {
                 return Failure(unexpected("`)`"));
             }
@@ -119,10 +91,9 @@ private:
         written.field = here();
         written.fieldName = here().in(m_text);
         written.operatorToken = m_tokens[++m_at];
-        if (const auto op = operatorOf(here().kind)) {
-            ++m_at;
-            written.op = *op;
-            auto taken = *op == Operator::In ? members(written) : value(written);
+        written.op = here().op;
+        if (take(TokenKind::Operator)) {
+            auto taken = written.op == Operator::In ? members(written) : member(written, false);
             if (!taken) {
                 return Failure(taken.error());
             }
@@ -149,22 +120,13 @@ private:
                         isQuoted};
     }
 
-    tl::expected<void, FilterError> value(WrittenCondition& written) {
-        auto only = constant();
-        if (!only) {
-            return Failure(only.error());
-        }
-        written.constants.emplace_back(*only, *only);
-        return {};
-    }
-
-    /// One value or range.
-    tl::expected<void, FilterError> member(WrittenCondition& written) {
+    /// One value, or a range.
+    tl::expected<void, FilterError> member(WrittenCondition& written, bool mayBeRange) {
         auto from = constant();
         if (!from) {
             return Failure(from.error());
         }
-        auto to = take(TokenKind::Range) ? constant() : from;
+        auto to = mayBeRange && take(TokenKind::Range) ? constant() : from;
         if (!to) {
             return Failure(to.error());
         }
@@ -178,10 +140,10 @@ private:
             if (here().kind != TokenKind::Word && here().kind != TokenKind::Quoted) {
                 return Failure(unexpected("a set such as {1, 2}, or a range such as 1..5"));
             }
-            return member(written);
+            return member(written, true);
         }
         do {
-            if (auto taken = member(written); !taken) {
+            if (auto taken = member(written, true); !taken) {
                 return taken;
             }
         } while (take(TokenKind::Comma));
@@ -190,8 +152,7 @@ private:
     }
 
     /// Puts conditions on items under AnyItem: those joined by && are about one and the same item, and so is
-    /// an
-    /// || among them; an && in parentheses, or a negation, is about an item of its own.
+    /// an || among them; an && in parentheses, or a negation, is about an item of its own.
     std::uint32_t withItems(std::uint32_t index) {
         Program::Node node = m_program.nodes[index];
         const bool isAnd = node.join == Join::And;

@@ -1,11 +1,76 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/filter/condition.h"
+#include "core/filter/field.h"
+#include "core/filter/lexer.h"
 
-#include <vector>
+#include <utility>
 
+namespace re2 {
+class RE2;
+}
+
+/// A filter as it is written and as it is compiled: conditions, and the tree that joins them.
 namespace posewire::filter {
+
+/// What a value is compared with.
+struct Test {
+    using Range = std::pair<double, double>;
+
+    Operator op = Operator::IsThere;
+    bool comparesText = false;
+    bool comparesNan = false;  ///< Equal and NotEqual: is it a number at all?
+    std::vector<Range> ranges; ///< both ends belong; a single number is a range of one
+    std::vector<std::string> texts;
+    std::shared_ptr<const re2::RE2> pattern;
+
+    [[nodiscard]] bool holds(const Value& value) const;
+    /// What is wrong with the regular expression; empty for nothing.
+    [[nodiscard]] std::string setPattern(const std::string& text);
+
+private:
+    [[nodiscard]] bool holdsNumber(double number) const;
+    [[nodiscard]] bool holdsText(std::string_view text) const;
+};
+
+/// A test of one field: of the packet, of the items of the payload, or of a metadata tag.
+struct Condition {
+    ReadPacket readPacket = nullptr;
+    Places places{}; ///< where readPacket is null and it is no tag
+    std::size_t firstComponent = 0;
+    std::size_t components = 1; ///< any of them will do
+    bool isTag = false;
+    std::string tag; ///< its value is tested; the names of all tags where empty
+    bool needsDatagram = false;
+    Test test;
+
+    [[nodiscard]] bool isOfItems() const { return readPacket == nullptr && !isTag; }
+    [[nodiscard]] bool holds(Subject& subject) const;
+    [[nodiscard]] bool holdsFor(const wire::Datagram& datagram, std::size_t shape, std::size_t list,
+                                std::size_t item) const;
+
+private:
+    [[nodiscard]] bool holdsForTags(const wire::Datagram* datagram) const;
+};
+
+/// A constant as written: `text` is what is in the quotes, or the word.
+struct Constant {
+    Token token;
+    std::string text;
+    bool isQuoted = false;
+};
+
+/// A condition as written.
+struct WrittenCondition {
+    Token field;
+    std::string_view fieldName;
+    Operator op = Operator::IsThere;
+    Token operatorToken;
+    std::vector<std::pair<Constant, Constant>> constants; ///< pairs of the same where it is no range
+};
+
+/// Finds the field and makes the constants fit it.
+[[nodiscard]] tl::expected<Condition, FilterError> understood(const WrittenCondition& written);
 
 /// A compiled filter: a tree of nodes.
 struct Program {

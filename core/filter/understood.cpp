@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "core/filter/condition.h"
-#include "core/filter/field_lookup.h"
-#include "core/filter/utc_time.h"
+#include "core/filter/program.h"
+#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
-#include <re2/re2.h>
-
 #include <algorithm>
+#include <charconv>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -30,6 +29,67 @@ std::optional<double> typeNumber(const Constant& constant) {
         }
     }
     return numberOf(constant.text);
+}
+
+/// Reads a number of that many digits, after `before` unless that is 0.
+bool take(std::string_view& text, char before, std::size_t digits, int& value) {
+    const std::size_t skipped = before != 0 ? 1 : 0;
+    if (text.size() < skipped + digits || (before != 0 && text.front() != before)) {
+        return false;
+    }
+    const char* begin = text.data() + skipped;
+    const bool isNumber =
+        std::from_chars(begin, begin + digits, value).ptr == begin + digits && *begin != '-';
+    text.remove_prefix(skipped + digits);
+    return isNumber;
+}
+
+/// Seconds of "12:00", "12:00:00" or "12:00:00.25".
+std::optional<double> timeOfDay(std::string_view text) {
+    int hour = 0;
+    int minute = 0;
+    int second = 0;
+    double fraction = 0;
+    if (!take(text, 0, 2, hour) || !take(text, ':', 2, minute) || hour > 24 || minute > 59) {
+        return std::nullopt;
+    }
+    if (!text.empty() && (!take(text, ':', 2, second) || second > 60)) {
+        return std::nullopt;
+    }
+    if (text.starts_with('.') && text.size() > 1) {
+        const char* end = text.data() + text.size();
+        const auto format = std::chars_format::fixed;
+        text.remove_prefix(std::from_chars(text.data(), end, fraction, format).ptr == end ? text.size() : 0);
+    }
+    return text.empty() ? std::optional(hour * 3600.0 + minute * 60.0 + second + fraction) : std::nullopt;
+}
+
+/// Seconds since 1970 of "2026-01-31", "2026-01-31T12:00", "2026-01-31 12:00:00.25Z"; empty for other
+/// texts.
+std::optional<double> utcSeconds(std::string_view text) {
+    int year = 0;
+    int month = 0;
+    int day = 0;
+    if (!take(text, 0, 4, year) || !take(text, '-', 2, month) || !take(text, '-', 2, day)) {
+        return std::nullopt;
+    }
+    const std::chrono::year_month_day date{std::chrono::year(year),
+                                           std::chrono::month(static_cast<unsigned>(month)),
+                                           std::chrono::day(static_cast<unsigned>(day))};
+    if (!date.ok()) {
+        return std::nullopt;
+    }
+    const double midnight =
+        static_cast<double>(std::chrono::sys_days(date).time_since_epoch().count()) * 86400.0;
+    if (text.ends_with('Z')) {
+        text.remove_suffix(1);
+    }
+    if (text.empty()) {
+        return midnight;
+    }
+    const bool isSeparated = text.front() == 'T' || text.front() == ' ';
+    const auto seconds = isSeparated ? timeOfDay(text.substr(1)) : std::nullopt;
+    return seconds ? std::optional(midnight + *seconds) : std::nullopt;
 }
 
 /// The number that a constant means for a field; empty if it does not fit.
@@ -77,14 +137,14 @@ bool suits(const FieldInfo& field, bool hasComponent, const WrittenCondition& wr
         return true;
     }
     if (isTextKind(field.kind)) {
-        const bool hasRange = std::any_of(written.constants.begin(), written.constants.end(), [](auto& pair) {
+        const bool hasRange = std::ranges::any_of(written.constants, [](auto& pair) {
             return pair.first.token.offset != pair.second.token.offset;
         });
-        const bool isKnown = field.kind == Kind::Text || needsText(written.op) ||
-                             std::all_of(written.constants.begin(), written.constants.end(), [](auto& pair) {
-                                 return std::find(kTransportNames.begin(), kTransportNames.end(),
-                                                  pair.first.text) != kTransportNames.end();
-                             });
+        const bool isKnown =
+            field.kind == Kind::Text || needsText(written.op) ||
+            std::ranges::all_of(written.constants, [](auto& pair) {
+                return std::ranges::find(log::kTransportNames, pair.first.text) != log::kTransportNames.end();
+            });
         return !ordersOnly(written.op) && !hasRange && isKnown;
     }
     const bool asksNan = (written.op == Operator::Equal || written.op == Operator::NotEqual) &&
@@ -92,7 +152,7 @@ bool suits(const FieldInfo& field, bool hasComponent, const WrittenCondition& wr
     if (asksNan) {
         return field.kind == Kind::Number || field.kind == Kind::Vector;
     }
-    const bool fit = std::all_of(written.constants.begin(), written.constants.end(), [&](const auto& pair) {
+    const bool fit = std::ranges::all_of(written.constants, [&](const auto& pair) {
         return numberFor(field, pair.first) && numberFor(field, pair.second);
     });
     return !needsText(written.op) && (field.kind != Kind::Vector || hasComponent) && fit;
@@ -140,22 +200,13 @@ tl::expected<void, FilterError> setTexts(const WrittenCondition& written, Test& 
         test.texts.push_back(pair.first.text);
     }
     if (written.op == Operator::Contains) {
-        for (char& character : test.texts.front()) {
-            character =
-                character >= 'A' && character <= 'Z' ? static_cast<char>(character - 'A' + 'a') : character;
-        }
+        test.texts.front() = wire::lowered(test.texts.front());
     }
     if (written.op == Operator::Matches) {
-        constexpr std::int64_t kMostMemory = 1 << 20;
-        re2::RE2::Options options;
-        options.set_log_errors(false);
-        options.set_max_mem(kMostMemory);
-        const auto pattern = std::make_shared<const re2::RE2>(test.texts.front(), options);
-        if (!pattern->ok()) {
+        if (const std::string problem = test.setPattern(test.texts.front()); !problem.empty()) {
             return failure(written.constants.front().first.token,
-                           "This regular expression cannot be used: " + pattern->error() + ".");
+                           "This regular expression cannot be used: " + problem + ".");
         }
-        test.pattern = pattern;
     }
     return {};
 }
@@ -249,7 +300,7 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
                                           (near.empty() ? "." : "; did you mean `" + near + "`?"));
     }
     const auto suiting = [&](bool mayReadNumberAsText) {
-        return std::find_if(match.fields.begin(), match.fields.end(), [&](const FieldInfo* field) {
+        return std::ranges::find_if(match.fields, [&](const FieldInfo* field) {
             const bool isFirstChoice = !isTextKind(field->kind) || !isNumber(written);
             return (isFirstChoice || mayReadNumberAsText) && suits(*field, match.hasComponent, written);
         });

@@ -2,7 +2,7 @@
 #include "core/filter/field.h"
 
 #include "core/filter/item_segment.h"
-#include "core/wire/forms_of.h"
+#include "core/wire/form.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -120,7 +120,7 @@ void add(Found& found, const Spot& spot, const wire::About& about, const Reading
         return field.name == about.name && field.qualifier == spot.qualifier && field.kind == reading.kind &&
                field.components == reading.components;
     };
-    auto field = std::find_if(found.fields.begin(), found.fields.end(), isSame);
+    auto field = std::ranges::find_if(found.fields, isSame);
     if (field == found.fields.end()) {
         FieldInfo info;
         info.name = about.name;
@@ -144,109 +144,74 @@ void add(Found& found, const Spot& spot, const wire::About& about, const Reading
     }
 }
 
-template <class T, auto List>
-class ItemWalker {
-public:
-    ItemWalker(Found& found, const Spot& spot) : m_found(found), m_spot(spot) {}
+/// A value of T, or of the items in a list of T.
+template <class V>
+Reading readingOf(ReadItem read) {
+    return {kKindOf<V>, wire::kComponents<V>, read, nullptr, kIsFloat<V>};
+}
 
-    template <auto Member>
-    void operator()(const wire::Field<Member>& field) {
-        addMember<Member>(field.about);
-    }
-    template <auto Member, wire::TextKind TextOf>
-    void operator()(const wire::Text<Member, TextOf>& field) {
-        addMember<Member>(field.about);
-    }
+/// True for items with a field "segment" of their own.
+template <class List>
+constexpr bool namesItsSegment() {
+    bool names = false;
+    wire::forEachValue<typename List::Item, List::kItemForm>(
+        [&](const auto& field) { names = names || field.about.refersTo == wire::RefersTo::Carrier; });
+    return names;
+}
 
-private:
-    template <auto Member>
-    void addMember(const wire::About& about) {
-        using V = wire::MemberValue<Member>;
-        constexpr ReadItem read = &readListed<T, List, Member>;
-        if (about.refersTo == wire::RefersTo::Carrier) {
-            add(m_found, m_spot, about, {Kind::Segment, 1, read, read});
+/// The fields of the items in a list of T, and the segment that each is about.
+template <class T, class List>
+void addItems(Found& found, const Spot& spot) {
+    found.counts[spot.shape][spot.list] = [](const Datagram& datagram) {
+        return (bodyOf<T>(datagram).*List::kMember).size();
+    };
+    wire::forEachField<typename List::Item, List::kItemForm>([&]<class FieldType>(const FieldType& field) {
+        constexpr ReadItem read = &readListed<T, List::kMember, FieldType::kMember>;
+        const bool isSegment = field.about.refersTo == wire::RefersTo::Carrier;
+        add(found, spot, field.about,
+            isSegment ? Reading{Kind::Segment, 1, read, read}
+                      : readingOf<wire::MemberValue<FieldType::kMember>>(read));
+    });
+    if (!namesItsSegment<List>()) {
+        constexpr wire::About segment{"segment", wire::Unit::Identifier,
+                                      "the segment that the item is about, by id or name", ""};
+        add(found, spot, segment,
+            {Kind::Segment, 1, &readSegment<T, List::kItemForm, List::kMember>,
+             &readNamedSegment<T, List::kItemForm, List::kMember>});
+    }
+}
+
+template <class T, Form F>
+void walkForm(Found& found) {
+    Spot own{shapeOf<T, F>(), 0, T::kType, {}};
+    found.counts[own.shape][0] = [](const Datagram&) -> std::size_t { return 1; };
+    std::size_t lists = 0;
+    wire::forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
+        if constexpr (requires { FieldType::kItemForm; }) {
+            const Reading count{Kind::Number, 1, &readCount<T, FieldType::kMember>};
+            add(found, own, field.about, count);
+            Spot spot = own;
+            spot.qualifier = field.about.name;
+            add(found, spot, {"count", wire::Unit::Count, "number of items in the list", ""}, count);
+            spot.list = ++lists;
+            addItems<T, FieldType>(found, spot);
         } else {
-            add(m_found, m_spot, about, {kKindOf<V>, wire::kComponents<V>, read, nullptr, kIsFloat<V>});
+            add(found, own, field.about,
+                readingOf<wire::MemberValue<FieldType::kMember>>(&readOwn<T, FieldType::kMember>));
         }
-    }
-
-    Found& m_found;
-    Spot m_spot;
-};
+    });
+}
 
 template <class T>
-class MessageWalker {
-public:
-    MessageWalker(Found& found, std::size_t shape) : m_found(found), m_spot{shape, 0, T::kType, {}} {
-        m_found.counts[shape][0] = [](const Datagram&) -> std::size_t { return 1; };
+void walkMessage(Found& found) {
+    walkForm<T, Form::Standard>(found);
+    if constexpr (wire::kOtherForm<T> != Form::Standard) {
+        walkForm<T, wire::kOtherForm<T>>(found);
     }
+}
 
-    template <auto Member>
-    void operator()(const wire::Field<Member>& field) {
-        addOwn<Member>(field.about);
-    }
-    template <auto Member, wire::TextKind TextOf>
-    void operator()(const wire::Text<Member, TextOf>& field) {
-        addOwn<Member>(field.about);
-    }
-    template <auto Member, Form ItemForm>
-    void operator()(const wire::Items<Member, ItemForm>& field) {
-        addList<Member, ItemForm>(field.about);
-    }
-    template <auto Member, std::size_t Max>
-    void operator()(const wire::CountedList<Member, Max>& field) {
-        addList<Member, Form::Standard>(field.about);
-    }
-
-private:
-    template <auto Member>
-    void addOwn(const wire::About& about) {
-        using V = wire::MemberValue<Member>;
-        add(m_found, m_spot, about,
-            {kKindOf<V>, wire::kComponents<V>, &readOwn<T, Member>, nullptr, kIsFloat<V>});
-    }
-    template <auto List, Form ItemForm>
-    void addList(const wire::About& about) {
-        using Item = typename wire::MemberValue<List>::value_type;
-        add(m_found, m_spot, about, {Kind::Number, 1, &readCount<T, List>});
-        Spot counted = m_spot;
-        counted.qualifier = about.name;
-        add(m_found, counted, {"count", wire::Unit::Count, "number of items in the list", ""},
-            {Kind::Number, 1, &readCount<T, List>});
-        Spot spot = m_spot;
-        spot.list = ++m_lists;
-        spot.qualifier = about.name;
-        m_found.counts[spot.shape][spot.list] = [](const Datagram& datagram) {
-            return (bodyOf<T>(datagram).*List).size();
-        };
-        wire::forEachField<Item, ItemForm>(ItemWalker<T, List>(m_found, spot));
-        if (!namesItsSegment<Item, ItemForm>()) {
-            constexpr wire::About segment{"segment", wire::Unit::Identifier,
-                                          "the segment that the item is about, by id or name", ""};
-            add(m_found, spot, segment,
-                {Kind::Segment, 1, &readSegment<T, ItemForm, List>, &readNamedSegment<T, ItemForm, List>});
-        }
-    }
-    /// True for items with a field "segment" of their own.
-    template <class Item, Form F>
-    static constexpr bool namesItsSegment() {
-        bool names = false;
-        wire::forEachValue<Item, F>(
-            [&](const auto& field) { names = names || field.about.refersTo == wire::RefersTo::Carrier; });
-        return names;
-    }
-
-    Found& m_found;
-    Spot m_spot;
-    std::size_t m_lists = 0;
-};
-
-class HeaderWalker {
-public:
-    explicit HeaderWalker(Found& found) : m_found(found) {}
-
-    template <auto Member>
-    void operator()(const wire::Field<Member>& field) {
+void walkHeader(Found& found) {
+    wire::forEachField<wire::Header, Form::Standard>([&]<auto Member>(const wire::Field<Member>& field) {
         FieldInfo info;
         info.name = field.about.name;
         info.qualifier = "header";
@@ -254,20 +219,9 @@ public:
         info.unit = wire::unitSymbol(field.about.unit);
         info.text = field.about.text;
         info.readPacket = &readHeader<Member>;
-        m_found.fields.push_back(std::move(info));
-        m_found.said.emplace_back();
-    }
-
-private:
-    Found& m_found;
-};
-
-template <class T>
-void walkMessage(Found& found) {
-    wire::forEachField<T, Form::Standard>(MessageWalker<T>(found, shapeOf<T, Form::Standard>()));
-    if constexpr (constexpr Form other = wire::kOtherForm<T>; other != Form::Standard) {
-        wire::forEachField<T, other>(MessageWalker<T>(found, shapeOf<T, other>()));
-    }
+        found.fields.push_back(std::move(info));
+        found.said.emplace_back();
+    });
 }
 
 /// What the types say, each thing once: "m", or "cm (01), m (02 21)" where they differ.
@@ -293,7 +247,7 @@ std::string together(const std::vector<std::string_view>& said, const std::vecto
 
 Found walkAll() {
     Found found;
-    wire::forEachField<wire::Header, Form::Standard>(HeaderWalker(found));
+    walkHeader(found);
     wire::Messages::forEach([&]<class T>() { walkMessage<T>(found); });
     for (std::size_t i = 0; i < found.fields.size(); ++i) {
         FieldInfo& field = found.fields[i];
@@ -313,16 +267,12 @@ const Found& walked() {
 } // namespace
 
 std::size_t shapeOf(const Datagram& datagram) {
-    return std::visit(
-        [&]<class T>(const T& value) -> std::size_t {
-            if constexpr (std::is_same_v<T, wire::RawBody>) {
-                return 0;
-            } else {
-                const bool isStandard = wire::formOf(value) == Form::Standard;
-                return datagram.body.index() + (isStandard ? 0 : kBodies);
-            }
-        },
-        datagram.body);
+    std::size_t shape = 0;
+    wire::visitMessage(datagram.body, [&]<Form F, class T>(const T&) {
+        constexpr std::size_t own = shapeOf<T, F>();
+        shape = own;
+    });
+    return shape;
 }
 
 std::size_t itemCount(const Datagram& datagram, std::size_t shape, std::size_t list) {

@@ -3,10 +3,12 @@
 
 #include "core/log/time.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace posewire::log {
 
@@ -14,6 +16,12 @@ namespace posewire::log {
 enum class SenderId : std::uint32_t {};
 
 enum class Transport : std::uint8_t { Udp, Tcp, File, Performer };
+
+/// Their names in files and filters, in this order.
+inline constexpr std::array<std::string_view, 4> kTransportNames{"udp", "tcp", "file", "performer"};
+[[nodiscard]] constexpr std::string_view nameOf(Transport transport) {
+    return kTransportNames[static_cast<std::size_t>(transport)];
+}
 
 /// Where packets come from. Two packets have the same SenderId exactly if all three members are equal.
 struct SenderInfo {

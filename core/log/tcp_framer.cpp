@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/tcp_framer.h"
 
-#include "core/wire/extent.h"
+#include "core/wire/header.h"
 
 #include <algorithm>
 #include <cstring>

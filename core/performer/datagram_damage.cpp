@@ -2,7 +2,7 @@
 #include "core/performer/datagram_damage.h"
 
 #include "core/wire/codec.h"
-#include "core/wire/message_parts.h"
+#include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>

@@ -31,20 +31,17 @@ inline void store32(std::byte* to, std::uint32_t value) {
     std::memcpy(to, &value, sizeof value);
 }
 
-inline void loadValue(const std::byte* from, std::uint8_t& value) {
-    value = std::to_integer<std::uint8_t>(*from);
-}
-inline void loadValue(const std::byte* from, std::uint16_t& value) {
-    value = load16(from);
-}
-inline void loadValue(const std::byte* from, std::uint32_t& value) {
-    value = load32(from);
-}
-inline void loadValue(const std::byte* from, std::int32_t& value) {
-    value = static_cast<std::int32_t>(load32(from));
-}
-inline void loadValue(const std::byte* from, float& value) {
-    value = std::bit_cast<float>(load32(from));
+/// Any value of a layout: an integer, a float, an array of floats or of characters.
+template <class Value>
+void loadValue(const std::byte* from, Value& value) {
+    if constexpr (sizeof(Value) == 1) {
+        value = std::to_integer<Value>(*from);
+    } else if constexpr (sizeof(Value) == 2) {
+        value = load16(from);
+    } else {
+        static_assert(sizeof(Value) == 4);
+        value = std::bit_cast<Value>(load32(from));
+    }
 }
 
 template <std::size_t N>
@@ -59,20 +56,16 @@ void loadValue(const std::byte* from, std::array<char, N>& characters) {
     std::memcpy(characters.data(), from, N);
 }
 
-inline void storeValue(std::byte* to, std::uint8_t value) {
-    *to = std::byte{value};
-}
-inline void storeValue(std::byte* to, std::uint16_t value) {
-    store16(to, value);
-}
-inline void storeValue(std::byte* to, std::uint32_t value) {
-    store32(to, value);
-}
-inline void storeValue(std::byte* to, std::int32_t value) {
-    store32(to, static_cast<std::uint32_t>(value));
-}
-inline void storeValue(std::byte* to, float value) {
-    store32(to, std::bit_cast<std::uint32_t>(value));
+template <class Value>
+void storeValue(std::byte* to, Value value) {
+    if constexpr (sizeof(Value) == 1) {
+        *to = std::byte{value};
+    } else if constexpr (sizeof(Value) == 2) {
+        store16(to, value);
+    } else {
+        static_assert(sizeof(Value) == 4);
+        store32(to, std::bit_cast<std::uint32_t>(value));
+    }
 }
 
 template <std::size_t N>

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/checks.h"
-
 #include "core/wire/byte_order.h"
-#include "core/wire/forms_of.h"
-#include "core/wire/metadata_text.h"
-#include "core/wire/schema.h"
+#include "core/wire/payload.h"
+#include "core/wire/text.h"
+#include "core/wire/type_table.h"
 
 #include <cmath>
 
@@ -17,11 +15,10 @@ struct Tally {
     std::uint32_t count = 0;
     std::uint32_t first = 0;
 
-    void add(bool isOdd, std::size_t offset) {
-        if (isOdd) {
-            first = count == 0 ? static_cast<std::uint32_t>(offset) : first;
-            ++count;
-        }
+    /// `places` of them, the first at `offset`.
+    void add(std::uint32_t places, std::size_t offset) {
+        first = count == 0 && places != 0 ? static_cast<std::uint32_t>(offset) : first;
+        count += places;
     }
 };
 
@@ -31,16 +28,13 @@ void report(Datagram& datagram, NoticeCode code, const Tally& tally) {
     }
 }
 
-bool isNotFinite(std::uint32_t bits) {
-    return (bits & 0x7f800000U) == 0x7f800000U;
-}
-
-unsigned nonFinite(float value) {
-    return isNotFinite(std::bit_cast<std::uint32_t>(value)) ? 1 : 0;
+std::uint32_t nonFinite(float value) {
+    constexpr std::uint32_t kExponent = 0x7f800000U;
+    return (std::bit_cast<std::uint32_t>(value) & kExponent) == kExponent ? 1 : 0;
 }
 template <std::size_t N>
-unsigned nonFinite(const std::array<float, N>& values) {
-    unsigned count = 0;
+std::uint32_t nonFinite(const std::array<float, N>& values) {
+    std::uint32_t count = 0;
     for (const float value : values) {
         count += nonFinite(value);
     }
@@ -63,7 +57,7 @@ struct ItemChecks {
 
     template <class Item, Form F>
     void check(const Item& item, std::size_t offset) {
-        unsigned bad = 0;
+        std::uint32_t bad = 0;
         bool isOffUnit = false;
         forEachValue<Item, F>([&]<auto Member>(const Field<Member>& field) {
             using Value = MemberValue<Member>;
@@ -73,14 +67,13 @@ struct ItemChecks {
             if constexpr (kScalar<Value> == Scalar::Float32) {
                 bad += nonFinite(item.*Member);
             } else if constexpr (std::is_unsigned_v<Value>) {
-                segment.add(namesSegment(field.about.refersTo) && item.*Member - 1U >= kMaxSegments, offset);
+                const bool isOutside =
+                    namesSegment(field.about.refersTo) && item.*Member - 1U >= kMaxSegments;
+                segment.add(isOutside ? 1 : 0, offset);
             }
         });
-        if (bad != 0) {
-            infinite.first = infinite.count == 0 ? static_cast<std::uint32_t>(offset) : infinite.first;
-            infinite.count += bad;
-        }
-        quaternion.add(isOffUnit && bad == 0, offset);
+        infinite.add(bad, offset);
+        quaternion.add(isOffUnit && bad == 0 ? 1 : 0, offset);
     }
 };
 
@@ -137,7 +130,7 @@ void checkTags(Datagram& datagram, std::string_view text, std::size_t start) {
     Tally unknown;
     for (const Tag& tag : list.tags) {
         const auto place = static_cast<std::size_t>(tag.name.data() - text.data());
-        unknown.add(!isKnownTag(tag.name), start + place);
+        unknown.add(isKnownTag(tag.name) ? 0 : 1, start + place);
     }
     report(datagram, NoticeCode::UnknownTag, unknown);
     report(datagram, NoticeCode::LineWithoutTag,
@@ -230,14 +223,8 @@ void checkValues(Bytes bytes, Datagram& datagram) {
                                     static_cast<std::uint32_t>(bytes.size() - announced)});
     }
     ItemChecks checks;
-    std::visit(
-        [&]<class T>(const T& message) {
-            if constexpr (!std::is_same_v<T, RawBody>) {
-                withForm<T>(formOf(message),
-                            [&]<Form F>() { checkMessage<T, F>(datagram, checks, message); });
-            }
-        },
-        datagram.body);
+    visitMessage(datagram.body,
+                 [&]<Form F, class T>(const T& message) { checkMessage<T, F>(datagram, checks, message); });
     report(datagram, NoticeCode::NotFinite, checks.infinite);
     report(datagram, NoticeCode::NotUnitQuaternion, checks.quaternion);
     report(datagram, NoticeCode::SegmentOutOfRange, checks.segment);

@@ -1,34 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/codec.h"
 
-#include "core/wire/checks.h"
-#include "core/wire/forms_of.h"
-#include "core/wire/message_parts.h"
 #include "core/wire/payload.h"
 #include "core/wire/write.h"
 
 namespace posewire::wire {
 namespace {
-
-struct Sizes {
-    std::size_t operator()(const RawBody& raw) const { return raw.bytes.size(); }
-    template <class T>
-    std::size_t operator()(const T& value) const {
-        return withForm<T>(formOf(value), [&]<Form F>() { return writtenSize<T, F>(value); });
-    }
-};
-
-void writeBody(std::byte* to, const Body& body) {
-    std::visit(
-        [&]<class T>(const T& value) {
-            if constexpr (std::is_same_v<T, RawBody>) {
-                std::copy(value.bytes.begin(), value.bytes.end(), to);
-            } else {
-                withForm<T>(formOf(value), [&]<Form F>() { writeLayout<T, F>(to, value); });
-            }
-        },
-        body);
-}
 
 /// Every length prefix fits, since the whole datagram does; what is left to check is that no list outgrows
 /// its maximum and no zero-terminated string has a zero inside.
@@ -38,14 +15,9 @@ bool fitsItsCounts(const T& value) {
     forEachField<T, F>([&]<class FieldType>(const FieldType&) {
         const auto& member = value.*FieldType::kMember;
         if constexpr (requires { FieldType::kItemForm; }) {
-            using Item = typename MemberValue<FieldType::kMember>::value_type;
-            std::size_t most = kMaxItems;
-            if constexpr (requires { FieldType::kMax; }) {
-                most = FieldType::kMax;
-            }
-            fits = fits && member.size() <= most;
-            for (const Item& item : member) {
-                fits = fits && fitsItsCounts<Item, FieldType::kItemForm>(item);
+            fits = fits && member.size() <= (FieldType::kIsCounted ? FieldType::kMax : kMaxItems);
+            for (const auto& item : member) {
+                fits = fits && fitsItsCounts<typename FieldType::Item, FieldType::kItemForm>(item);
             }
         } else if constexpr (requires { FieldType::kKind; }) {
             const bool endsAtZero = FieldType::kKind == TextKind::ZeroTerminated;
@@ -55,13 +27,16 @@ bool fitsItsCounts(const T& value) {
     return fits;
 }
 
-bool fitsItsCounts(const Body& body) {
-    return std::visit(
-        []<class T>(const T& value) {
-            if constexpr (std::is_same_v<T, RawBody>) {
-                return true;
-            } else {
-                return withForm<T>(formOf(value), [&]<Form F>() { return fitsItsCounts<T, F>(value); });
+/// Calls f(list, list's kind) for each list of a body; const or not as the body is. Lists are the same in all
+/// forms of a message.
+template <class BodyType, class Function>
+void forEachListOf(BodyType& body, Function&& f) {
+    std::visit(
+        [&]<class Value>(Value& value) {
+            using T = std::remove_const_t<Value>;
+            if constexpr (!std::is_same_v<T, RawBody>) {
+                forEachList<T, Form::Standard>(
+                    [&]<class List>(const List&) { f(value.*List::kMember, List::kIsCounted); });
             }
         },
         body);
@@ -87,41 +62,36 @@ Result<void> decodeInto(Bytes bytes, Datagram& into) {
 
 Result<Datagram> decode(Bytes bytes) {
     Datagram datagram;
-    if (const auto result = decodeInto(bytes, datagram); !result) {
-        return tl::unexpected(result.error());
-    }
-    return datagram;
+    return decodeInto(bytes, datagram).map([&] { return std::move(datagram); });
 }
 
 Result<void> encodeInto(const Datagram& datagram, std::vector<std::byte>& into) {
     const std::size_t size = kHeaderSize + payloadSize(datagram.body);
-    if (size > kMaxDatagramSize || !fitsItsCounts(datagram.body)) {
+    bool fits = size <= kMaxDatagramSize;
+    visitMessage(datagram.body,
+                 [&]<Form F, class T>(const T& message) { fits = fits && fitsItsCounts<T, F>(message); });
+    if (!fits) {
         return tl::unexpected(WireError{ErrorCode::TooLong, datagram.header.type(), 0, kMaxDatagramSize,
                                         static_cast<std::uint32_t>(size)});
     }
     into.resize(size);
-    writeLayout<Header, Form::Standard>(into.data(), datagram.header);
-    writeBody(into.data() + kHeaderSize, datagram.body);
+    const auto payload = putLayout<Header, Form::Standard>(ByteWriter{into.data()}, datagram.header);
+    if (const auto* raw = std::get_if<RawBody>(&datagram.body)) {
+        std::copy(raw->bytes.begin(), raw->bytes.end(), payload.to);
+    }
+    visitMessage(datagram.body,
+                 [&]<Form F, class T>(const T& message) { putLayout<T, F>(payload, message); });
     return {};
 }
 
 Result<std::vector<std::byte>> encode(const Datagram& datagram) {
     std::vector<std::byte> bytes;
-    if (const auto result = encodeInto(datagram, bytes); !result) {
-        return tl::unexpected(result.error());
-    }
-    return bytes;
+    return encodeInto(datagram, bytes).map([&] { return std::move(bytes); });
 }
 
 void completeHeader(Datagram& datagram, HeaderEra era) {
     Header& header = datagram.header;
-    std::visit(
-        [&]<class T>(const T&) {
-            if constexpr (!std::is_same_v<T, RawBody>) {
-                header.setType(T::kType);
-            }
-        },
-        datagram.body);
+    visitMessage(datagram.body, [&]<Form F, class T>(const T&) { header.setType(T::kType); });
     header.items = static_cast<std::uint8_t>(announcedItems(datagram.body));
     if (era == HeaderEra::Counted) {
         header.payloadSize = static_cast<std::uint16_t>(payloadSize(datagram.body));
@@ -132,7 +102,49 @@ void completeHeader(Datagram& datagram, HeaderEra era) {
 }
 
 std::size_t payloadSize(const Body& body) {
-    return std::visit(Sizes{}, body);
+    const auto* raw = std::get_if<RawBody>(&body);
+    std::size_t size = raw != nullptr ? raw->bytes.size() : 0;
+    visitMessage(body, [&]<Form F, class T>(const T& message) { size = writtenSize<T, F>(message); });
+    return size;
+}
+
+std::size_t announcedItems(const Body& body) {
+    bool hasList = std::holds_alternative<RawBody>(body);
+    forEachListOf(body, [&](const auto&, bool) { hasList = true; });
+    return hasList ? dividableItems(body) : 1;
+}
+
+std::size_t dividableItems(const Body& body) {
+    std::size_t items = 0;
+    forEachListOf(body, [&](const auto& list, bool isCounted) { items += isCounted ? 0 : list.size(); });
+    return items;
+}
+
+void keepItems(Body& body, std::size_t from, std::size_t to) {
+    forEachListOf(body, [&](auto& list, bool isCounted) {
+        if (!isCounted) {
+            list.erase(list.begin() + static_cast<std::ptrdiff_t>(to), list.end());
+            list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(from));
+        }
+    });
+}
+
+void appendPart(Datagram& whole, const Datagram& part) {
+    std::visit(
+        [&]<class T>(T& value) {
+            const T* next = std::get_if<T>(&part.body);
+            if constexpr (!std::is_same_v<T, RawBody>) {
+                forEachList<T, Form::Standard>([&]<class List>(const List&) {
+                    if (next != nullptr) {
+                        const auto& items = next->*List::kMember;
+                        auto& list = value.*List::kMember;
+                        list.insert(list.end(), items.begin(), items.end());
+                    }
+                });
+            }
+        },
+        whole.body);
+    whole.notices.insert(whole.notices.end(), part.notices.begin(), part.notices.end());
 }
 
 } // namespace posewire::wire

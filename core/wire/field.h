@@ -3,7 +3,6 @@
 
 #include "core/wire/types.h"
 
-#include <concepts>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,6 +15,7 @@
 /// the field tree, JSON and the protocol reference all walk that tuple, so that a field is written down once.
 namespace posewire::wire {
 
+/// The symbols are in type_table.cpp, in this order.
 enum class Unit : std::uint8_t {
     None,
     Identifier,
@@ -98,10 +98,22 @@ enum class Form : std::uint8_t {
     Raw,      ///< kept as bytes: unknown type, or a type 04 that is not the one of revision E
 };
 
+template <class M>
+struct MemberOf;
+template <class C, class M>
+struct MemberOf<M C::*> {
+    using Value = M;
+};
+template <auto Member>
+using MemberValue = typename MemberOf<decltype(Member)>::Value;
+
+// Each kind of field also says how many bytes it has at least; kIsValue: it always has that many.
+
 /// A value of fixed size: an integer, a float, Vec3, Quat, Mat3 or an array of characters.
 template <auto Member>
 struct Field {
     static constexpr bool kIsValue = true;
+    static constexpr std::size_t kLeastSize = sizeof(MemberValue<Member>);
     static constexpr auto kMember = Member;
     About about;
 };
@@ -112,170 +124,111 @@ enum class TextKind : std::uint8_t {
     ToEnd,          ///< revision E: the rest of the datagram
 };
 
+/// Bytes around the characters of a text: its length, or the zero that ends it.
+constexpr std::size_t frameSize(TextKind kind) {
+    constexpr std::array<std::size_t, 3> kSizes{4, 1, 0};
+    return kSizes[static_cast<std::size_t>(kind)];
+}
+
 /// A string.
 template <auto Member, TextKind Kind>
 struct Text {
     static constexpr TextKind kKind = Kind;
+    static constexpr bool kIsValue = false;
+    static constexpr std::size_t kLeastSize = frameSize(Kind);
     static constexpr auto kMember = Member;
     About about;
 };
 
-/// Items of one layout whose number the header gives ("number of items", §2.4.1.4).
-template <auto Member, Form ItemForm = Form::Standard>
+/// Items of one layout, as many as the header says ("number of items", §2.4.1.4); with Max, after a 32-bit
+/// count of their own, at most Max.
+template <auto Member, Form ItemForm = Form::Standard, std::size_t Max = 0>
 struct Items {
+    using Item = typename MemberValue<Member>::value_type;
     static constexpr Form kItemForm = ItemForm;
-    static constexpr auto kMember = Member;
-    About about;
-};
-
-/// Items of one layout after a 32-bit count of their own, at most Max.
-template <auto Member, std::size_t Max>
-struct CountedList {
-    static constexpr Form kItemForm = Form::Standard;
     static constexpr std::size_t kMax = Max;
+    static constexpr bool kIsCounted = Max != 0;
+    static constexpr bool kIsValue = false;
+    static constexpr std::size_t kLeastSize = kIsCounted ? 4 : 0;
     static constexpr auto kMember = Member;
     About about;
 };
+template <auto Member, std::size_t Max>
+using CountedList = Items<Member, Form::Standard, Max>;
 
-/// Specialised for each item and message: `static constexpr auto fields = std::tuple{…}`. The layout of
-/// another form of a message also names the bool that is false in it: `static constexpr auto isStandard`.
+/// The layout of each item and message, specialised as a tuple of fields; `false`: there is no such form.
 template <class T, Form F = Form::Standard>
-struct Layout;
+inline constexpr auto kLayout = false;
+template <class T>
+inline constexpr auto kLayout<T, Form::Standard> = T::needsALayout;
 
 template <class T, Form F>
-inline constexpr bool kHasForm = requires {
-    Layout<T, F>::fields;
-};
+inline constexpr bool kHasForm = !std::is_same_v<decltype(kLayout<T, F>), const bool>;
 
-template <class M>
-struct MemberOf;
-template <class C, class M>
-struct MemberOf<M C::*> {
-    using Owner = C;
-    using Value = M;
-};
-template <auto Member>
-using MemberValue = typename MemberOf<decltype(Member)>::Value;
+/// Specialised for each message that has a second form: the bool that is false in it.
+template <class T>
+inline constexpr auto kIsStandard = nullptr;
 
 /// Calls f(field) for each field of a layout, in wire order.
 template <class T, Form F, class Function>
 constexpr void forEachField(Function&& f) {
-    std::apply([&](const auto&... field) { (f(field), ...); }, Layout<T, F>::fields);
+    std::apply([&](const auto&... field) { (f(field), ...); }, kLayout<T, F>);
 }
 
 /// Calls f(field) for the fields of a layout that are single values.
 template <class T, Form F, class Function>
 constexpr void forEachValue(Function&& f) {
     forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
-        if constexpr (requires { FieldType::kIsValue; }) {
+        if constexpr (FieldType::kIsValue) {
             f(field);
         }
     });
 }
 
-/// Calls f.template operator()<ItemForm>(field) for the lists of a layout.
+/// Calls f(field) for the lists of a layout.
 template <class T, Form F, class Function>
 constexpr void forEachList(Function&& f) {
     forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
         if constexpr (requires { FieldType::kItemForm; }) {
-            f.template operator()<FieldType::kItemForm>(field);
+            f(field);
         }
     });
 }
 
-namespace detail {
+/// True where every field has a fixed size.
+template <class T, Form F = Form::Standard>
+inline constexpr bool kIsFixed = std::apply([](const auto&... field) { return (field.kIsValue && ...); },
+                                            kLayout<T, F>);
 
-template <class V>
-constexpr Scalar scalarOf(std::type_identity<V>) {
-    if constexpr (std::same_as<V, std::uint8_t>) {
-        return Scalar::Uint8;
-    } else if constexpr (std::same_as<V, std::uint16_t>) {
-        return Scalar::Uint16;
-    } else if constexpr (std::same_as<V, std::uint32_t>) {
-        return Scalar::Uint32;
-    } else if constexpr (std::same_as<V, std::int32_t>) {
-        return Scalar::Int32;
-    } else if constexpr (std::same_as<V, float>) {
-        return Scalar::Float32;
-    } else {
-        static_assert(std::same_as<V, std::string>, "no such value on the wire");
-        return Scalar::Text;
-    }
-}
-template <std::size_t N>
-constexpr Scalar scalarOf(std::type_identity<std::array<float, N>>) {
-    return Scalar::Float32;
-}
-template <std::size_t N>
-constexpr Scalar scalarOf(std::type_identity<std::array<char, N>>) {
-    return Scalar::Characters;
-}
+/// Bytes on the wire of a layout of fixed size; the least number of bytes for others.
+template <class T, Form F = Form::Standard>
+inline constexpr std::size_t
+    kWireSize = std::apply([](const auto&... field) { return (field.kLeastSize + ...); }, kLayout<T, F>);
 
+/// How many numbers the type of a member has: 3 for Vec3.
 template <class V>
 inline constexpr std::uint8_t kComponents = 1;
 template <std::size_t N>
 inline constexpr std::uint8_t kComponents<std::array<float, N>> = N;
 
-template <class T>
-inline constexpr std::size_t kValueSize = sizeof(T);
-
-template <class FieldType>
-struct FixedSize {
-    static constexpr bool isFixed = false;
-    static constexpr std::size_t minimum = 4;
-};
-template <auto Member>
-struct FixedSize<Field<Member>> {
-    static constexpr bool isFixed = true;
-    static constexpr std::size_t minimum = kValueSize<MemberValue<Member>>;
-};
-template <auto Member>
-struct FixedSize<Text<Member, TextKind::ZeroTerminated>> {
-    static constexpr bool isFixed = false;
-    static constexpr std::size_t minimum = 1;
-};
-template <auto Member>
-struct FixedSize<Text<Member, TextKind::ToEnd>> {
-    static constexpr bool isFixed = false;
-    static constexpr std::size_t minimum = 0;
-};
-template <auto Member, Form ItemForm>
-struct FixedSize<Items<Member, ItemForm>> {
-    static constexpr bool isFixed = false;
-    static constexpr std::size_t minimum = 0;
-};
-
-template <class T, Form F>
-constexpr std::size_t minimumSize() {
-    std::size_t sum = 0;
-    forEachField<T, F>(
-        [&](const auto& field) { sum += FixedSize<std::remove_cvref_t<decltype(field)>>::minimum; });
-    return sum;
-}
-
-template <class T, Form F>
-constexpr bool hasFixedSize() {
-    bool fixed = true;
-    forEachField<T, F>([&](const auto& field) {
-        fixed = fixed && FixedSize<std::remove_cvref_t<decltype(field)>>::isFixed;
-    });
-    return fixed;
-}
-
-} // namespace detail
-
-/// True where every field has a fixed size.
-template <class T, Form F = Form::Standard>
-inline constexpr bool kIsFixed = detail::hasFixedSize<T, F>();
-
-/// Bytes on the wire of a layout of fixed size; the least number of bytes for others.
-template <class T, Form F = Form::Standard>
-inline constexpr std::size_t kWireSize = detail::minimumSize<T, F>();
-
-/// What the type of a member is on the wire, and how many of it there are (3 for Vec3).
+/// What the type of a member is on the wire.
 template <class V>
-inline constexpr Scalar kScalar = detail::scalarOf(std::type_identity<V>{});
-template <class V>
-inline constexpr std::uint8_t kComponents = detail::kComponents<V>;
+inline constexpr Scalar kScalar = V::isNoValueOfTheWire;
+template <>
+inline constexpr Scalar kScalar<std::uint8_t> = Scalar::Uint8;
+template <>
+inline constexpr Scalar kScalar<std::uint16_t> = Scalar::Uint16;
+template <>
+inline constexpr Scalar kScalar<std::uint32_t> = Scalar::Uint32;
+template <>
+inline constexpr Scalar kScalar<std::int32_t> = Scalar::Int32;
+template <>
+inline constexpr Scalar kScalar<float> = Scalar::Float32;
+template <std::size_t N>
+inline constexpr Scalar kScalar<std::array<float, N>> = Scalar::Float32;
+template <std::size_t N>
+inline constexpr Scalar kScalar<std::array<char, N>> = Scalar::Characters;
+template <>
+inline constexpr Scalar kScalar<std::string> = Scalar::Text;
 
 } // namespace posewire::wire

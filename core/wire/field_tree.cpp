@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/field_tree.h"
 
-#include "core/wire/checks.h"
 #include "core/wire/payload.h"
 
 #include <charconv>
@@ -44,17 +43,16 @@ std::string hexadecimal(std::uint32_t value) {
 }
 
 /// Writes every field down.
-template <bool kTellsCuts>
 class TreeWriter {
 public:
-    static constexpr bool kListens = true;
-
     TreeWriter(FieldTree& tree, FieldDetail detail)
         : m_tree(tree), m_hasParts(detail == FieldDetail::Parts) {}
 
+    [[nodiscard]] bool wantsCuts() const { return m_hasParts; }
+
     template <class Value>
     void field(const About& about, std::size_t offset, std::size_t size, const Value& value) {
-        FieldNode& node = add(std::string(about.name), about, offset, size);
+        FieldNode& node = add(about, offset, size);
         node.scalar = kScalar<Value>;
         if constexpr (std::is_integral_v<Value>) {
             const bool isFlags = about.unit == Unit::Flags;
@@ -75,24 +73,24 @@ public:
         }
     }
     void count(const About& about, std::size_t offset, std::size_t count) {
-        FieldNode& node = add(std::string(about.name) + " count",
-                              {"", Unit::Count, "number of items that follow", about.section}, offset, 4);
+        FieldNode& node =
+            add({about.name, Unit::Count, "number of items that follow", about.section}, offset, 4);
+        node.name += " count";
         node.scalar = Scalar::Uint32;
         node.value = std::to_string(count);
         node.number = static_cast<double>(count);
     }
-    void cut(const About& about, std::size_t offset, std::size_t present,
-             const WireError& error) requires(kTellsCuts) {
+    void cut(const About& about, std::size_t offset, std::size_t present, const WireError& error) {
         if (m_tree.cutNode >= 0) {
             return;
         }
-        FieldNode& node = add(std::string(about.name), about, offset, present);
+        FieldNode& node = add(about, offset, present);
         node.kind = NodeKind::Cut;
         m_tree.cutNode = static_cast<std::int32_t>(m_tree.nodes.size()) - 1;
         m_tree.cutError = error;
     }
-    void beginGroup(std::string name, const About& about, std::size_t offset) {
-        add(std::move(name), about, offset, 0).kind = NodeKind::Group;
+    void beginGroup(const About& about, std::size_t offset) {
+        add(about, offset, 0).kind = NodeKind::Group;
         m_parents.push_back(static_cast<std::int32_t>(m_tree.nodes.size()) - 1);
     }
     void endGroup(std::size_t offset) {
@@ -103,18 +101,18 @@ public:
     void beginList(const About& about, std::size_t offset, std::size_t count) {
         m_section = about.section;
         m_about = about.refersTo;
-        beginGroup(std::string(about.name), about, offset);
+        beginGroup(about, offset);
         m_tree.nodes.back().index = static_cast<std::uint32_t>(count);
     }
     void endList(std::size_t offset) { endGroup(offset); }
     void beginItem(std::size_t index, std::size_t offset) {
-        beginGroup(std::to_string(index + 1), {"", Unit::None, "", m_section, m_about}, offset);
+        beginGroup({std::to_string(index + 1), Unit::None, "", m_section, m_about}, offset);
         m_tree.nodes.back().kind = NodeKind::Item;
         m_tree.nodes.back().index = static_cast<std::uint32_t>(index);
     }
     void endItem(std::size_t offset) { endGroup(offset); }
     void rest(std::size_t offset, std::size_t size) {
-        FieldNode& node = add("bytes", {"", Unit::None, "no field has these bytes", ""}, offset, size);
+        FieldNode& node = add({"bytes", Unit::None, "no field has these bytes", ""}, offset, size);
         node.value = std::to_string(size);
         node.kind = NodeKind::Unread;
     }
@@ -128,22 +126,22 @@ public:
     /// What a fault left unread, once all groups are closed.
     void unread(std::size_t size) {
         if (m_end < size) {
-            FieldNode& node = add("unread", {"", Unit::None, "not read because of the fault before", ""},
-                                  m_end, size - m_end);
+            FieldNode& node =
+                add({"unread", Unit::None, "not read because of the fault before", ""}, m_end, size - m_end);
             node.value = std::to_string(size - m_end) + " bytes";
             node.kind = NodeKind::Unread;
         }
     }
 
 private:
-    FieldNode& part(std::string name, const About& about, std::size_t offset, std::size_t size) {
-        FieldNode& node = add(std::move(name), about, offset, size);
+    FieldNode& part(const About& about, std::size_t offset, std::size_t size) {
+        FieldNode& node = add(about, offset, size);
         node.kind = NodeKind::Part;
         return node;
     }
     template <class Value>
     void addPart(const FieldPart& declared, const About& about, std::size_t offset, const Value& value) {
-        FieldNode& node = part(std::string(declared.name), {"", declared.unit, declared.text, about.section},
+        FieldNode& node = part({declared.name, declared.unit, declared.text, about.section},
                                offset + declared.offset, declared.size);
         if constexpr (kScalar<Value> == Scalar::Characters) {
             node.scalar = Scalar::Characters;
@@ -159,7 +157,8 @@ private:
     void divide(const About& about, std::size_t offset, std::size_t, const std::array<float, N>& values) {
         m_tree.nodes.back().components = N;
         for (std::size_t i = 0; i < N; ++i) {
-            FieldNode& node = part(std::string(componentNames(N)[i]), about, offset + 4 * i, 4);
+            FieldNode& node = part(about, offset + 4 * i, 4);
+            node.name = componentNames(N)[i];
             node.scalar = Scalar::Float32;
             node.value = shown(values[i]);
             node.number = values[i];
@@ -169,7 +168,7 @@ private:
         std::size_t at = offset;
         if (size == text.size() + 4) {
             FieldNode& length =
-                part("length", {"", Unit::ByteCount, "bytes of the text that follow", about.section}, at, 4);
+                part({"length", Unit::ByteCount, "bytes of the text that follow", about.section}, at, 4);
             length.scalar = Scalar::Int32;
             length.value = std::to_string(text.size());
             length.number = static_cast<double>(text.size());
@@ -182,20 +181,20 @@ private:
             const std::size_t end = std::min(text.find('\n', begin), text.size() - 1) + 1;
             const std::size_t colon = std::min(text.find(':', begin), end);
             const std::size_t stop = text[end - 1] == '\n' ? end - 1 : end;
-            FieldNode& line =
-                part(text.substr(begin, std::min(colon, stop) - begin),
-                     {"", Unit::None, "one tag of the text", about.section}, at + begin, end - begin);
+            FieldNode& line = part({std::string_view(text).substr(begin, std::min(colon, stop) - begin),
+                                    Unit::None, "one tag of the text", about.section},
+                                   at + begin, end - begin);
             line.value = colon < stop ? text.substr(colon + 1, stop - colon - 1) : std::string();
             begin = end;
         }
     }
     void divide(const About&, std::size_t, std::size_t, const auto&) {}
 
-    FieldNode& add(std::string name, const About& about, std::size_t offset, std::size_t size) {
+    FieldNode& add(const About& about, std::size_t offset, std::size_t size) {
         const std::int32_t parent = m_parents.empty() ? -1 : m_parents.back();
         m_end = std::max(m_end, offset + size);
         FieldNode& node = m_tree.nodes.emplace_back();
-        node.name = std::move(name);
+        node.name = about.name;
         node.offset = static_cast<std::uint32_t>(offset);
         node.length = static_cast<std::uint32_t>(size);
         node.parent = parent;
@@ -215,17 +214,15 @@ private:
 };
 
 /// As much of the header as there is.
-template <class Writer>
-void readHeader(Bytes bytes, Writer& writer) {
+void readHeader(Bytes bytes, TreeWriter& writer) {
     Header header;
     Cursor cursor{bytes.first(std::min(bytes.size(), kHeaderSize)), 0, 0, {}};
-    writer.beginGroup("header", {"", Unit::None, "24 bytes, the same for all types", "2.4.1"}, 0);
+    writer.beginGroup({"header", Unit::None, "24 bytes, the same for all types", "2.4.1"}, 0);
     readLayout<Header, Form::Standard>(cursor, header, writer);
     writer.close(cursor.offset);
 }
 
-template <class Writer>
-void writeTree(Bytes bytes, FieldTree& tree, Writer& writer) {
+void writeTree(Bytes bytes, FieldTree& tree, TreeWriter& writer) {
     if (startsDatagram(bytes)) {
         readHeader(bytes, writer);
     }
@@ -276,12 +273,9 @@ std::string FieldTree::path(std::int32_t node) const {
 
 FieldTree fieldTree(Bytes bytes, FieldDetail detail) {
     FieldTree tree;
-    if (detail == FieldDetail::Fields) {
-        TreeWriter<false> writer(tree, detail);
-        writeTree(bytes, tree, writer);
-    } else {
-        TreeWriter<true> writer(tree, detail);
-        writeTree(bytes, tree, writer);
+    TreeWriter writer(tree, detail);
+    writeTree(bytes, tree, writer);
+    if (detail == FieldDetail::Parts) {
         writer.unread(bytes.size());
     }
     return tree;

@@ -2,8 +2,7 @@
 #include "core/wire/form.h"
 
 #include "core/wire/byte_order.h"
-#include "core/wire/forms_of.h"
-#include "core/wire/utf8.h"
+#include "core/wire/text.h"
 
 namespace posewire::wire {
 namespace {

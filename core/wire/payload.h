@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/wire/codec.h"
-#include "core/wire/forms_of.h"
+#include "core/wire/form.h"
 #include "core/wire/walk.h"
 
 namespace posewire::wire {
@@ -23,9 +23,7 @@ bool readRaw(Cursor& cursor, Datagram& into, NoticeCode why, Visitor& visitor) {
     auto* kept = std::get_if<RawBody>(&into.body);
     RawBody& raw = kept != nullptr ? *kept : into.body.emplace<RawBody>();
     raw.bytes.assign(cursor.here(), cursor.here() + cursor.left());
-    if constexpr (Visitor::kListens) {
-        visitor.rest(cursor.offset, cursor.left());
-    }
+    visitor.rest(cursor.offset, cursor.left());
     cursor.offset = cursor.bytes.size();
     into.notices.push_back(
         {why, why == NoticeCode::UnknownType ? 4U : static_cast<std::uint32_t>(kHeaderSize), 1});
@@ -63,11 +61,12 @@ bool readBody(Cursor& cursor, Datagram& into, Visitor& visitor) {
     if (read && cursor.left() != 0) {
         into.notices.push_back({NoticeCode::TrailingBytes, static_cast<std::uint32_t>(cursor.offset),
                                 static_cast<std::uint32_t>(cursor.left())});
-        if constexpr (Visitor::kListens) {
-            visitor.rest(cursor.offset, cursor.left());
-        }
+        visitor.rest(cursor.offset, cursor.left());
     }
     return read;
 }
+
+/// Appends a notice for whatever is odd in the values of a datagram that has been read from `bytes`.
+void checkValues(Bytes bytes, Datagram& datagram);
 
 } // namespace posewire::wire

@@ -1,141 +1,164 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/type_table.h"
 
-#include "core/wire/messages.h"
+#include "core/wire/form.h"
 
-#include <array>
+#include <algorithm>
 
 namespace posewire::wire {
 
 template <>
-constexpr TypeInfo kRow<PoseEuler>{PoseEuler::kType,
-                                   "Pose, Euler",
-                                   Frame::YUp,
-                                   "E–N",
-                                   "2.5.1",
-                                   "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · "
-                                   "(y, z, x) of it. Since N the fingers "
-                                   "of both hands follow body and props.",
-                                   true};
+constexpr auto kRow<PoseEuler> =
+    TypeInfo("Pose, Euler", Frame::YUp, "E–N", "2.5.1",
+             "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it. "
+             "Since N the fingers of both hands follow body and props.");
 template <>
-constexpr TypeInfo kRow<PoseQuaternion>{PoseQuaternion::kType,
-                                        "Pose, quaternion",
-                                        Frame::ZUp,
-                                        "E–N",
-                                        "2.5.2",
-                                        "Metres on the wire, although the text says centimetres. The text "
-                                        "also allows Y-up; no sender is known to use it.",
-                                        true};
+constexpr auto
+    kRow<PoseQuaternion> = TypeInfo("Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
+                                    "Metres on the wire, although the text says centimetres. The text "
+                                    "also allows Y-up; no sender is known to use it.");
 template <>
-constexpr TypeInfo kRow<PointPositions>{PointPositions::kType,
-                                        "Point positions",
-                                        Frame::YUp,
-                                        "E–N",
-                                        "2.5.3",
-                                        "Point IDs are 256 × segment + point, in older revisions 100 × "
-                                        "segment + point. The text says 38 to 46 points; "
-                                        "the usual set has 64.",
-                                        true};
+constexpr auto kRow<PointPositions> =
+    TypeInfo("Point positions", Frame::YUp, "E–N", "2.5.3",
+             "Point IDs are 256 × segment + point, in older revisions 100 × segment + point. The "
+             "text says 38 to 46 points; the usual set has 64.");
 template <>
-constexpr TypeInfo kRow<TagPositions>{TagPositions::kType,
-                                      "Tag positions",
-                                      Frame::YUp,
-                                      "E",
-                                      "E 2.5",
-                                      "Only tags that were updated are sent. Deprecated since J. Newer "
-                                      "programs use the number for a layout that is not published.",
-                                      true};
+constexpr auto
+    kRow<TagPositions> = TypeInfo("Tag positions", Frame::YUp, "E", "E 2.5",
+                                  "Only tags that were updated are sent. Deprecated since J. Newer "
+                                  "programs use the number for a layout that is not published.");
 template <>
-constexpr TypeInfo kRow<PoseUnity>{
-    PoseUnity::kType,
-    "Pose, Unity3D",
-    Frame::Unity,
-    "F–N",
-    "2.5.5",
-    "The pelvis is global, all others are relative to their parents, in an order of their own. "
-    "N says of props both that they are global and that they are not supported: here they are neither named "
-    "nor drawn.",
-    true};
+constexpr auto
+    kRow<PoseUnity> = TypeInfo("Pose, Unity3D", Frame::Unity, "F–N", "2.5.5",
+                               "The pelvis is global, all others are relative to their parents, in an "
+                               "order of their own. N says of props both that they are global and that "
+                               "they are not supported: here they are neither named nor drawn.");
 template <>
-constexpr TypeInfo kRow<ScaleInformation>{
-    ScaleInformation::kType, "Scale (deprecated)", Frame::ZUp, "E", "E 2.6", "Replaced by type 13.", false};
+constexpr auto kRow<ScaleInformation> = TypeInfo("Scale (deprecated)", Frame::ZUp, "E", "E 2.6",
+                                                 "Replaced by type 13.", false);
 template <>
-constexpr TypeInfo kRow<PropInformation>{PropInformation::kType,
-                                         "Props (deprecated)",
-                                         Frame::None,
-                                         "E",
-                                         "E 2.6",
-                                         "Names end with a zero byte. Replaced by type 13.",
-                                         false};
+constexpr auto kRow<PropInformation> = TypeInfo("Props (deprecated)", Frame::None, "E", "E 2.6",
+                                                "Names end with a zero byte. Replaced by type 13.", false);
 template <>
-constexpr TypeInfo kRow<MetaData>{
-    MetaData::kType,
-    "Metadata",
-    Frame::None,
-    "E–N",
-    "2.6.3",
-    "Real senders put a length before the text; revision E has the bare text. The tags count and timeOffset "
-    "are not documented.",
-    false};
+constexpr auto
+    kRow<MetaData> = TypeInfo("Metadata", Frame::None, "E–N", "2.6.3",
+                              "Real senders put a length before the text; revision E has the bare text. "
+                              "The tags count and timeOffset are not documented.",
+                              false);
 template <>
-constexpr TypeInfo kRow<NullPose>{
-    NullPose::kType,
-    "Null pose",
-    Frame::ZUp,
-    "J–N",
-    "2.6.4",
-    "Comes in several datagrams with sample counter 0: segments first, then points. Metres.",
-    false};
+constexpr auto kRow<NullPose> =
+    TypeInfo("Null pose", Frame::ZUp, "J–N", "2.6.4",
+             "Comes in several datagrams with sample counter 0: segments first, then points. Metres.", false);
 template <>
-constexpr TypeInfo kRow<JointAngles>{JointAngles::kType,
-                                     "Joint angles",
-                                     Frame::Isb,
-                                     "J–N",
-                                     "2.7.1",
-                                     "22 joints in the text; real senders add 4 or 6 ergonomic angles (26 or "
-                                     "28 items), two of which have the same "
-                                     "pair of IDs. Angles are about the ISB axes of the joint, although the "
-                                     "text names the axes of the segment.",
-                                     true};
+constexpr auto kRow<JointAngles> =
+    TypeInfo("Joint angles", Frame::Isb, "J–N", "2.7.1",
+             "22 joints in the text; real senders add 4 or 6 ergonomic angles (26 or 28 items), two "
+             "of which have the same pair of IDs. Angles are about the ISB axes of the joint, "
+             "although the text names the axes of the segment.");
 template <>
-constexpr TypeInfo kRow<LinearKinematics>{
-    LinearKinematics::kType, "Linear kinematics", Frame::ZUp, "J–N", "2.7.2", "", true};
+constexpr auto kRow<LinearKinematics> = TypeInfo("Linear kinematics", Frame::ZUp, "J–N", "2.7.2");
 template <>
-constexpr TypeInfo kRow<AngularKinematics>{
-    AngularKinematics::kType, "Angular kinematics", Frame::ZUp, "J–N", "2.7.3", "Radians per second.", true};
+constexpr auto kRow<AngularKinematics> = TypeInfo("Angular kinematics", Frame::ZUp, "J–N", "2.7.3",
+                                                  "Radians per second.");
 template <>
-constexpr TypeInfo kRow<TrackerKinematics>{
-    TrackerKinematics::kType,
-    "Trackers",
-    Frame::ZUp,
-    "J–N",
-    "2.7.4",
-    "68 bytes an item on the wire; 44 in the text since M. The payload size tells.",
-    true};
+constexpr auto kRow<TrackerKinematics> =
+    TypeInfo("Trackers", Frame::ZUp, "J–N", "2.7.4",
+             "68 bytes an item on the wire; 44 in the text since M. The payload size tells.");
 template <>
-constexpr TypeInfo kRow<CentreOfMass>{CentreOfMass::kType,
-                                      "Centre of mass",
-                                      Frame::ZUp,
-                                      "J–N",
-                                      "2.7.5",
-                                      "Recent senders add velocity and acceleration (36 bytes).",
-                                      true};
+constexpr auto kRow<CentreOfMass> = TypeInfo("Centre of mass", Frame::ZUp, "J–N", "2.7.5",
+                                             "Recent senders add velocity and acceleration (36 bytes).");
 template <>
-constexpr TypeInfo kRow<TimeCode>{TimeCode::kType,
-                                  "Time code",
-                                  Frame::None,
-                                  "J–N",
-                                  "2.7.6",
-                                  "Real senders put the length 12 before the text.",
-                                  true};
+constexpr auto kRow<TimeCode> = TypeInfo("Time code", Frame::None, "J–N", "2.7.6",
+                                         "Real senders put the length 12 before the text.");
 
 namespace {
 
 template <class... Message>
-constexpr auto rowsOf(MessageList<Message...>) {
-    return std::array{kRow<Message>...};
+constexpr auto typesOf(MessageList<Message...>) {
+    std::array rows{kRow<Message>...};
+    const std::array types{Message::kType...};
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        rows[i].type = types[i];
+    }
+    return rows;
 }
-constexpr auto kTypes = rowsOf(Messages{});
+constexpr auto kTypes = typesOf(Messages{});
+
+template <class T, Form F>
+constexpr auto rowsOf();
+
+template <class T, Form F>
+constexpr auto kRows = rowsOf<T, F>();
+
+template <auto Member>
+constexpr FieldRow rowOf(const Field<Member>& field) {
+    using Value = MemberValue<Member>;
+    FieldRow row{field.about};
+    row.scalar = kScalar<Value>;
+    row.components = kComponents<Value>;
+    row.size = sizeof(Value);
+    return row;
+}
+template <auto Member, TextKind Kind>
+constexpr FieldRow rowOf(const Text<Member, Kind>& field) {
+    FieldRow row{field.about, FieldRow::Kind::Text};
+    row.textKind = Kind;
+    return row;
+}
+template <auto Member, Form ItemForm, std::size_t Max>
+constexpr FieldRow rowOf(const Items<Member, ItemForm, Max>& field) {
+    using Item = typename MemberValue<Member>::value_type;
+    FieldRow row{field.about, field.kIsCounted ? FieldRow::Kind::CountedItems : FieldRow::Kind::Items};
+    row.least = kWireSize<Item, ItemForm>;
+    row.size = kIsFixed<Item, ItemForm> ? row.least : 0;
+    row.max = Max;
+    row.items = kRows<Item, ItemForm>;
+    return row;
+}
+
+template <class T, Form F>
+constexpr auto rowsOf() {
+    return std::apply([](const auto&... field) { return std::array{rowOf(field)...}; }, kLayout<T, F>);
+}
+
+template <class T, Form F>
+constexpr FormRow kForm{F, kIsFixed<T, F> ? kWireSize<T, F> : 0, kRows<T, F>};
+
+template <class T>
+constexpr auto formsOf() {
+    if constexpr (kOtherForm<T> != Form::Standard) {
+        return std::array{kForm<T, Form::Standard>, kForm<T, kOtherForm<T>>};
+    } else {
+        return std::array{kForm<T, Form::Standard>};
+    }
+}
+template <class T>
+constexpr auto kForms = formsOf<T>();
+
+template <class... Message>
+constexpr auto rowsOf(MessageList<Message...>) {
+    return std::array{MessageRow{Message::kType, kForms<Message>}...};
+}
+constexpr auto kMessages = rowsOf(Messages{});
+
+constexpr bool identifiersReferToSomething(std::span<const FieldRow> rows) {
+    return std::ranges::all_of(rows, [](const FieldRow& row) {
+        const bool refers = row.about.refersTo != RefersTo::Nothing;
+        return (refers || row.about.unit != Unit::Identifier) && identifiersReferToSomething(row.items);
+    });
+}
+static_assert(std::ranges::all_of(kMessages,
+                                  [](const MessageRow& message) {
+                                      return std::ranges::all_of(message.forms, [](const FormRow& form) {
+                                          return identifiersReferToSomething(form.fields);
+                                      });
+                                  }),
+              "an identifier has to say what it refers to");
+
+bool hasList(std::uint8_t type, bool (*isWanted)(const FieldRow&)) {
+    const MessageRow* message = findMessage(type);
+    return message != nullptr && std::ranges::any_of(message->fields(), isWanted);
+}
 
 } // namespace
 
@@ -144,12 +167,8 @@ std::span<const TypeInfo> typeTable() {
 }
 
 const TypeInfo* findType(std::uint8_t type) {
-    for (const TypeInfo& row : kTypes) {
-        if (row.type == type) {
-            return &row;
-        }
-    }
-    return nullptr;
+    const auto found = std::ranges::find(kTypes, type, &TypeInfo::type);
+    return found == kTypes.end() ? nullptr : &*found;
 }
 
 std::string_view frameName(Frame frame) {
@@ -170,6 +189,61 @@ std::string typeTitle(std::uint8_t type) {
 bool isSampled(std::uint8_t type) {
     const TypeInfo* row = findType(type);
     return row == nullptr || row->isSampled;
+}
+
+std::string_view unitSymbol(Unit unit) {
+    constexpr std::array<std::string_view, 17> kSymbols{
+        "", "", "", "bytes", "", "ms", "m", "cm", "°", "m/s", "m/s²", "rad/s", "rad/s²", "a.u.", "", "", ""};
+    return kSymbols[static_cast<std::size_t>(unit)];
+}
+
+std::string_view scalarName(Scalar scalar) {
+    constexpr std::array<std::string_view, 7> names{"uint8",   "uint16",     "uint32", "int32",
+                                                    "float32", "characters", "text"};
+    return names[static_cast<std::size_t>(scalar)];
+}
+
+std::span<const std::string_view> componentNames(std::size_t components) {
+    static constexpr std::array<std::string_view, 3> vector{"x", "y", "z"};
+    static constexpr std::array<std::string_view, 4> quaternion{"re", "i", "j", "k"};
+    static constexpr std::array<std::string_view, 9> matrix{"1,1", "1,2", "1,3", "2,1", "2,2",
+                                                            "2,3", "3,1", "3,2", "3,3"};
+    switch (components) {
+    case vector.size():
+        return vector;
+    case quaternion.size():
+        return quaternion;
+    case matrix.size():
+        return matrix;
+    default:
+        return {};
+    }
+}
+
+std::span<const MessageRow> messageRows() {
+    return kMessages;
+}
+
+const MessageRow* findMessage(std::uint8_t type) {
+    const auto found = std::ranges::find(kMessages, type, &MessageRow::type);
+    return found == kMessages.end() ? nullptr : &*found;
+}
+
+std::span<const FieldRow> headerRows() {
+    return kRows<Header, Form::Standard>;
+}
+
+bool listsSegments(std::uint8_t type) {
+    return hasList(type, [](const FieldRow& row) {
+        return row.kind == FieldRow::Kind::Items &&
+               (row.about.refersTo == RefersTo::Segment || row.about.refersTo == RefersTo::UnitySegment);
+    });
+}
+
+bool countsSegments(std::uint8_t type) {
+    return isSampled(type) && hasList(type, [](const FieldRow& row) {
+               return row.kind == FieldRow::Kind::Items && row.about.refersTo == RefersTo::Segment;
+           });
 }
 
 } // namespace posewire::wire

@@ -10,7 +10,7 @@ namespace posewire::wire {
 
 using Bytes = std::span<const std::byte>;
 
-/// Three 32-bit floats in wire order: x, y, z. The unit stands in the field's table.
+/// Three 32-bit floats in wire order: x, y, z. The unit is in the layout of the field.
 using Vec3 = std::array<float, 3>;
 
 /// Four 32-bit floats in wire order: re, i, j, k (specification §2.5.8).

@@ -2,13 +2,13 @@
 #pragma once
 
 #include "core/wire/byte_order.h"
-#include "core/wire/error.h"
+#include "core/wire/faults.h"
 #include "core/wire/field.h"
-#include "core/wire/utf8.h"
+#include "core/wire/text.h"
 
 #include <algorithm>
 
-/// Reads values by walking their layouts. A visitor hears of every field and its place; decoding passes one
+/// Reads values by walking their layouts. A visitor is shown every field and its place; decoding passes one
 /// that does nothing, the field tree one that writes everything down, so that both always agree.
 namespace posewire::wire {
 
@@ -30,16 +30,18 @@ struct Cursor {
     }
 };
 
-/// Hears nothing.
+/// Takes no notice of anything. What a visitor is shown; `wantsCuts`: also the field for which the bytes did
+/// not suffice, and what there is of an item that is cut off.
 struct SilentVisitor {
-    static constexpr bool kListens = false;
-};
-
-/// A visitor that also wants to know which field the bytes did not suffice for, and what there is of an item
-/// that is cut off.
-template <class Visitor>
-concept HearsCuts = requires(Visitor& visitor, const About& about, const WireError& error) {
-    visitor.cut(about, std::size_t{}, std::size_t{}, error);
+    static constexpr bool wantsCuts() { return false; }
+    void field(const About&, std::size_t, std::size_t, const auto&) {}
+    void count(const About&, std::size_t, std::size_t) {}
+    void cut(const About&, std::size_t, std::size_t, const WireError&) {}
+    void beginList(const About&, std::size_t, std::size_t) {}
+    void endList(std::size_t) {}
+    void beginItem(std::size_t, std::size_t) {}
+    void endItem(std::size_t) {}
+    void rest(std::size_t, std::size_t) {}
 };
 
 template <class T, Form F, class Visitor>
@@ -54,20 +56,18 @@ void readFixed(Cursor& cursor, T& value, Visitor& visitor) {
     std::size_t place = 0;
     const auto readOne = [&]<auto Member>(const Field<Member>& field) {
         loadValue(from + place, value.*Member);
-        if constexpr (Visitor::kListens) {
-            visitor.field(field.about, cursor.offset + place, sizeof(value.*Member), value.*Member);
-        }
+        visitor.field(field.about, cursor.offset + place, sizeof(value.*Member), value.*Member);
         place += sizeof(value.*Member);
     };
     forEachField<T, F>(readOne);
     cursor.offset += kWireSize<T, F>;
 }
 
-/// Tells of the field that reading ended in; `claimed` bytes from `start` are the field's own. Always false.
+/// Shows the field that reading ended in; `claimed` bytes from `start` are the field's own. Always false.
 template <class Visitor>
-bool tellCut(const Cursor& cursor, const About& about, std::size_t start, std::size_t claimed,
+bool showCut(const Cursor& cursor, const About& about, std::size_t start, std::size_t claimed,
              Visitor& visitor) {
-    if constexpr (HearsCuts<Visitor>) {
+    if (visitor.wantsCuts()) {
         visitor.cut(about, start, std::min(claimed, cursor.bytes.size() - start), cursor.error);
     }
     return false;
@@ -78,12 +78,10 @@ bool readField(Cursor& cursor, const Field<Member>& field, T& value, Visitor& vi
     constexpr std::size_t size = sizeof(MemberValue<Member>);
     if (cursor.left() < size) {
         cursor.fail(ErrorCode::FieldTruncated, size, cursor.left());
-        return tellCut(cursor, field.about, cursor.offset, size, visitor);
+        return showCut(cursor, field.about, cursor.offset, size, visitor);
     }
     loadValue(cursor.here(), value.*Member);
-    if constexpr (Visitor::kListens) {
-        visitor.field(field.about, cursor.offset, size, value.*Member);
-    }
+    visitor.field(field.about, cursor.offset, size, value.*Member);
     cursor.offset += size;
     return true;
 }
@@ -129,50 +127,38 @@ bool readField(Cursor& cursor, const Text<Member, Kind>& field, T& value, Visito
     const std::size_t start = cursor.offset;
     if (!readText(cursor, Kind, value.*Member)) {
         // Of a text that runs past the end only its length is certain; of others what was looked at.
-        const bool isLength = cursor.error.code == ErrorCode::BadLength;
-        const bool isSequence = cursor.error.code == ErrorCode::BadSequence;
-        const std::size_t claimed = isLength     ? 4
-                                    : isSequence ? cursor.offset + 1 - start
-                                                 : cursor.bytes.size() - start;
-        return tellCut(cursor, field.about, start, claimed, visitor);
+        std::size_t claimed = cursor.bytes.size() - start;
+        if (cursor.error.code == ErrorCode::BadLength) {
+            claimed = 4;
+        } else if (cursor.error.code == ErrorCode::BadSequence) {
+            claimed = cursor.offset + 1 - start;
+        }
+        return showCut(cursor, field.about, start, claimed, visitor);
     }
-    if constexpr (Visitor::kListens) {
-        visitor.field(field.about, start, cursor.offset - start, value.*Member);
-    }
+    visitor.field(field.about, start, cursor.offset - start, value.*Member);
     return true;
-}
-
-/// Shows the fields that are there of an item that is cut off.
-template <class Item, Form F, class Visitor>
-void tellPartOfItem(Cursor cursor, std::size_t index, Visitor& visitor) {
-    Item item;
-    visitor.beginItem(index, cursor.offset);
-    readLayout<Item, F>(cursor, item, visitor);
 }
 
 /// Reads `count` items into `list`; what was read before a fault stays.
 template <Form ItemForm, class Item, class Visitor>
 bool readItems(Cursor& cursor, const About& about, std::size_t count, std::vector<Item>& list,
                Visitor& visitor) {
-    if constexpr (Visitor::kListens) {
-        visitor.beginList(about, cursor.offset, count);
-    }
+    visitor.beginList(about, cursor.offset, count);
     if constexpr (kIsFixed<Item, ItemForm>) {
         constexpr std::size_t size = kWireSize<Item, ItemForm>;
         const std::size_t whole = std::min(count, cursor.left() / size);
         list.resize(whole);
         for (std::size_t i = 0; i < whole; ++i) {
-            if constexpr (Visitor::kListens) {
-                visitor.beginItem(i, cursor.offset);
-            }
+            visitor.beginItem(i, cursor.offset);
             readFixed<Item, ItemForm>(cursor, list[i], visitor);
-            if constexpr (Visitor::kListens) {
-                visitor.endItem(cursor.offset);
-            }
+            visitor.endItem(cursor.offset);
         }
         if (whole < count) {
-            if constexpr (HearsCuts<Visitor>) {
-                tellPartOfItem<Item, ItemForm>(cursor, whole, visitor);
+            if (visitor.wantsCuts()) { // the fields that are there of the item that is cut off
+                Cursor rest = cursor;
+                Item item;
+                visitor.beginItem(whole, rest.offset);
+                readLayout<Item, ItemForm>(rest, item, visitor);
             }
             return cursor.fail(ErrorCode::ItemsTruncated, (count - whole) * size, cursor.left());
         }
@@ -180,64 +166,44 @@ bool readItems(Cursor& cursor, const About& about, std::size_t count, std::vecto
         list.clear();
         list.reserve(std::min(count, cursor.left() / kWireSize<Item, ItemForm>));
         for (std::size_t i = 0; i < count; ++i) {
-            if constexpr (Visitor::kListens) {
-                visitor.beginItem(i, cursor.offset);
-            }
+            visitor.beginItem(i, cursor.offset);
             if (!readLayout<Item, ItemForm>(cursor, list.emplace_back(), visitor)) {
                 return false;
             }
-            if constexpr (Visitor::kListens) {
-                visitor.endItem(cursor.offset);
-            }
+            visitor.endItem(cursor.offset);
         }
     }
-    if constexpr (Visitor::kListens) {
-        visitor.endList(cursor.offset);
-    }
+    visitor.endList(cursor.offset);
     return true;
 }
 
-template <auto Member, Form ItemForm, class T, class Visitor>
-bool readField(Cursor& cursor, const Items<Member, ItemForm>& field, T& value, Visitor& visitor) {
-    return readItems<ItemForm>(cursor, field.about, cursor.items, value.*Member, visitor);
-}
-
-/// A count that the bytes cannot hold is the fault; who wants to see all there is hears the items up to where
-/// the bytes end, provided that the count could be meant. Always false.
-template <auto Member, std::size_t Max, class T, class Visitor>
-bool tellItemsThatAreThere(Cursor& cursor, const CountedList<Member, Max>& field, std::uint32_t count,
-                           T& value, Visitor& visitor) {
-    if constexpr (HearsCuts<Visitor>) {
-        if (count <= Max) {
-            const WireError fault = cursor.error;
-            visitor.count(field.about, cursor.offset, count);
-            cursor.offset += 4;
-            readItems<Form::Standard>(cursor, field.about, count, value.*Member, visitor);
-            cursor.error = fault;
-            return false;
-        }
+template <auto Member, Form ItemForm, std::size_t Max, class T, class Visitor>
+bool readField(Cursor& cursor, const Items<Member, ItemForm, Max>& field, T& value, Visitor& visitor) {
+    using List = Items<Member, ItemForm, Max>;
+    if constexpr (!List::kIsCounted) {
+        return readItems<ItemForm>(cursor, field.about, cursor.items, value.*Member, visitor);
     }
-    return tellCut(cursor, field.about, cursor.offset, 4, visitor);
-}
-
-template <auto Member, std::size_t Max, class T, class Visitor>
-bool readField(Cursor& cursor, const CountedList<Member, Max>& field, T& value, Visitor& visitor) {
-    using Item = typename MemberValue<Member>::value_type;
     if (cursor.left() < 4) {
         cursor.fail(ErrorCode::FieldTruncated, 4, cursor.left());
-        return tellCut(cursor, field.about, cursor.offset, 4, visitor);
+        return showCut(cursor, field.about, cursor.offset, 4, visitor);
     }
     const std::uint32_t count = load32(cursor.here());
-    const std::size_t room = std::min(Max, (cursor.left() - 4) / kWireSize<Item>);
+    const std::size_t room = std::min(Max, (cursor.left() - 4) / kWireSize<typename List::Item, ItemForm>);
     if (count > room) {
         cursor.fail(ErrorCode::CountTooLarge, count, room);
-        return tellItemsThatAreThere(cursor, field, count, value, visitor);
+        if (count > Max || !visitor.wantsCuts()) {
+            return showCut(cursor, field.about, cursor.offset, 4, visitor);
+        }
     }
-    if constexpr (Visitor::kListens) {
-        visitor.count(field.about, cursor.offset, count);
-    }
+    // A count that the bytes cannot hold is the fault, but who wants cuts is shown the items that are there.
+    const WireError fault = cursor.error;
+    visitor.count(field.about, cursor.offset, count);
     cursor.offset += 4;
-    return readItems<Form::Standard>(cursor, field.about, count, value.*Member, visitor);
+    const bool isRead = readItems<ItemForm>(cursor, field.about, count, value.*Member, visitor);
+    if (count > room) {
+        cursor.error = fault;
+    }
+    return isRead && count <= room;
 }
 
 } // namespace detail

@@ -4,104 +4,82 @@
 #include "core/wire/byte_order.h"
 #include "core/wire/field.h"
 
-/// Writes values by walking their layouts, the mirror image of walk.h.
+#include <algorithm>
+
+/// Writes values by walking their layouts, the mirror image of walk.h. A sink takes the values: one counts
+/// their bytes, one writes them, so that both always agree.
 namespace posewire::wire {
 
-template <class T, Form F>
-[[nodiscard]] std::size_t writtenSize(const T& value);
-template <class T, Form F>
-std::byte* writeLayout(std::byte* to, const T& value);
+/// Counts bytes.
+struct ByteCounter {
+    std::size_t size = 0;
+
+    void put(const auto& value) { size += sizeof value; }
+    void put(std::string_view text) { size += text.size(); }
+};
+
+/// Writes bytes; the caller has made the room.
+struct ByteWriter {
+    std::byte* to;
+
+    void put(const auto& value) {
+        storeValue(to, value);
+        to += sizeof value;
+    }
+    void put(std::string_view text) {
+        to = std::copy_n(reinterpret_cast<const std::byte*>(text.data()), text.size(), to);
+    }
+};
+
+template <class T, Form F, class Sink>
+Sink putLayout(Sink sink, const T& value);
 
 namespace detail {
 
-template <auto Member, class T>
-std::size_t sizeOfField(const Field<Member>&, const T&) {
-    return sizeof(MemberValue<Member>);
+template <auto Member, class T, class Sink>
+Sink putField(Sink sink, const Field<Member>&, const T& value) {
+    sink.put(value.*Member);
+    return sink;
 }
 
-template <auto Member, TextKind Kind, class T>
-std::size_t sizeOfField(const Text<Member, Kind>&, const T& value) {
-    const std::size_t frame = Kind == TextKind::Prefixed ? 4 : Kind == TextKind::ZeroTerminated ? 1 : 0;
-    return frame + (value.*Member).size();
-}
-
-template <Form F, class Item>
-std::size_t sizeOfItems(const std::vector<Item>& list) {
-    if constexpr (kIsFixed<Item, F>) {
-        return list.size() * kWireSize<Item, F>;
-    } else {
-        std::size_t sum = 0;
-        for (const Item& item : list) {
-            sum += writtenSize<Item, F>(item);
-        }
-        return sum;
-    }
-}
-
-template <auto Member, Form ItemForm, class T>
-std::size_t sizeOfField(const Items<Member, ItemForm>&, const T& value) {
-    return sizeOfItems<ItemForm>(value.*Member);
-}
-
-template <auto Member, std::size_t Max, class T>
-std::size_t sizeOfField(const CountedList<Member, Max>&, const T& value) {
-    return 4 + sizeOfItems<Form::Standard>(value.*Member);
-}
-
-template <auto Member, class T>
-std::byte* writeField(std::byte* to, const Field<Member>&, const T& value) {
-    storeValue(to, value.*Member);
-    return to + sizeof(MemberValue<Member>);
-}
-
-template <auto Member, TextKind Kind, class T>
-std::byte* writeField(std::byte* to, const Text<Member, Kind>&, const T& value) {
+template <auto Member, TextKind Kind, class T, class Sink>
+Sink putField(Sink sink, const Text<Member, Kind>&, const T& value) {
     const std::string& text = value.*Member;
     if constexpr (Kind == TextKind::Prefixed) {
-        store32(to, static_cast<std::uint32_t>(text.size()));
-        to += 4;
+        sink.put(static_cast<std::uint32_t>(text.size()));
     }
-    to = std::copy_n(reinterpret_cast<const std::byte*>(text.data()), text.size(), to);
+    sink.put(std::string_view(text));
     if constexpr (Kind == TextKind::ZeroTerminated) {
-        *to++ = std::byte{0};
+        sink.put(std::uint8_t{0});
     }
-    return to;
+    return sink;
 }
 
-template <Form F, class Item>
-std::byte* writeItems(std::byte* to, const std::vector<Item>& list) {
-    for (const Item& item : list) {
-        to = writeLayout<Item, F>(to, item);
+template <auto Member, Form ItemForm, std::size_t Max, class T, class Sink>
+Sink putField(Sink sink, const Items<Member, ItemForm, Max>&, const T& value) {
+    const auto& list = value.*Member;
+    if constexpr (Max != 0) {
+        sink.put(static_cast<std::uint32_t>(list.size()));
     }
-    return to;
-}
-
-template <auto Member, Form ItemForm, class T>
-std::byte* writeField(std::byte* to, const Items<Member, ItemForm>&, const T& value) {
-    return writeItems<ItemForm>(to, value.*Member);
-}
-
-template <auto Member, std::size_t Max, class T>
-std::byte* writeField(std::byte* to, const CountedList<Member, Max>&, const T& value) {
-    store32(to, static_cast<std::uint32_t>((value.*Member).size()));
-    return writeItems<Form::Standard>(to + 4, value.*Member);
+    for (const auto& item : list) {
+        sink = putLayout<typename MemberValue<Member>::value_type, ItemForm>(sink, item);
+    }
+    return sink;
 }
 
 } // namespace detail
 
-/// Bytes that writeLayout will write.
-template <class T, Form F>
-std::size_t writtenSize(const T& value) {
-    std::size_t sum = 0;
-    forEachField<T, F>([&](const auto& field) { sum += detail::sizeOfField(field, value); });
-    return sum;
+/// Puts one value into a sink, field by field. Sinks go by value, so that what is written cannot alias them.
+template <class T, Form F, class Sink>
+Sink putLayout(Sink sink, const T& value) {
+    forEachField<T, F>([&](const auto& field) { sink = detail::putField(sink, field, value); });
+    return sink;
 }
 
-/// Writes one value and returns the end; the caller has made writtenSize bytes of room.
+/// Bytes that a value is written to.
 template <class T, Form F>
-std::byte* writeLayout(std::byte* to, const T& value) {
-    forEachField<T, F>([&](const auto& field) { to = detail::writeField(to, field, value); });
-    return to;
+[[nodiscard]] std::size_t writtenSize(const T& value) {
+    return putLayout<T, F>(ByteCounter{}, value).size;
 }
 
 } // namespace posewire::wire

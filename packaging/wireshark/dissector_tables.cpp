@@ -4,11 +4,9 @@
 #include "core/model/body/joint_angles.h"
 #include "core/model/body/points.h"
 #include "core/model/body/segments.h"
-#include "core/wire/error.h"
+#include "core/wire/faults.h"
 #include "core/wire/messages.h"
-#include "core/wire/metadata_text.h"
-#include "core/wire/notice.h"
-#include "core/wire/schema.h"
+#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>

@@ -29,29 +29,25 @@ struct Probe {
 
 #ifndef WITHOUT_LAYOUT
 template <>
-struct Layout<ProbeReading> {
-    static constexpr auto fields = std::tuple{
-        Field<&ProbeReading::id>{
-            {"id", Unit::Identifier, "segment that carries the probe", "P 1.2", RefersTo::Segment}},
-        Field<&ProbeReading::temperature>{{"temperature", Unit::ArbitraryUnits, "of the air", "P 1.2"}},
-        Field<&ProbeReading::wind>{{"wind", Unit::MetresPerSecond, "global, Z-up", "P 1.2"}},
-        Field<&ProbeReading::level>{{"level", Unit::None, "above or below the last", "P 1.2"}},
-    };
+inline constexpr auto kLayout<ProbeReading> = std::tuple{
+    Field<&ProbeReading::id>{
+        {"id", Unit::Identifier, "segment that carries the probe", "P 1.2", RefersTo::Segment}},
+    Field<&ProbeReading::temperature>{{"temperature", Unit::ArbitraryUnits, "of the air", "P 1.2"}},
+    Field<&ProbeReading::wind>{{"wind", Unit::MetresPerSecond, "global, Z-up", "P 1.2"}},
+    Field<&ProbeReading::level>{{"level", Unit::None, "above or below the last", "P 1.2"}},
 };
 static_assert(kWireSize<ProbeReading> == 24);
 
 template <>
-struct Layout<Probe> {
-    static constexpr auto fields = std::tuple{
-        Field<&Probe::station>{{"station", Unit::Count, "which station", "P 1.1"}},
-        Items<&Probe::readings>{{"readings", Unit::None, "one a probe", "P 1.1", RefersTo::Segment}},
-    };
+inline constexpr auto kLayout<Probe> = std::tuple{
+    Field<&Probe::station>{{"station", Unit::Count, "which station", "P 1.1"}},
+    Items<&Probe::readings>{{"readings", Unit::None, "one a probe", "P 1.1", RefersTo::Segment}},
 };
 #endif
 
 #ifndef WITHOUT_ROW
 template <>
-inline constexpr TypeInfo kRow<Probe>{Probe::kType, "Probes", Frame::ZUp, "N", "P 1", "Only a test.", true};
+inline constexpr auto kRow<Probe> = TypeInfo("Probes", Frame::ZUp, "N", "P 1", "Only a test.");
 #endif
 
 } // namespace posewire::wire

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/extent.h"
+#include "core/wire/header.h"
 #include "core/wire/field_tree.h"
 
 #include <algorithm>

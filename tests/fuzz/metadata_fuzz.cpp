@@ -2,7 +2,7 @@
 #include "core/filter/filter.h"
 #include "core/model/session/metadata.h"
 #include "core/wire/field_tree.h"
-#include "core/wire/metadata_text.h"
+#include "core/wire/text.h"
 
 #include <cstdlib>
 
@@ -32,7 +32,10 @@ void checkTags(std::string_view text) {
         const auto colour = model::parseColour(tag.value);
         require(!colour || (colour->red >= 0 && colour->red <= 1));
     }
-    const std::string written = wire::joinTags(list.tags);
+    std::string written;
+    for (const wire::Tag& tag : list.tags) {
+        written.append(tag.name).append(":").append(tag.value).append("\n");
+    }
     const wire::TagList again = wire::parseTags(written);
     require(again.tags == list.tags && again.strayLines == 0);
 }

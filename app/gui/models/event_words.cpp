@@ -5,7 +5,7 @@
 #include "app/gui/models/statistics_filter.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/filter/expression_for.h"
+#include "core/filter/completion.h"
 #include "core/wire/type_table.h"
 
 #include <QStringList>

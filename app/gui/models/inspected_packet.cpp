@@ -4,7 +4,6 @@
 #include "app/gui/models/shown_character.h"
 #include "core/model/session/ingest.h"
 #include "core/wire/messages.h"
-#include "core/wire/schema.h"
 #include "core/wire/type_table.h"
 
 namespace posewire::gui {

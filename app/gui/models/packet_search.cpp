@@ -2,8 +2,8 @@
 #include "app/gui/models/packet_search.h"
 
 #include "app/gui/theme/words.h"
-#include "core/export/hexadecimal.h"
 #include "core/log/log_reader.h"
+#include "core/wire/text.h"
 
 #include <QRegularExpression>
 
@@ -35,7 +35,7 @@ tl::expected<BytePattern, QString> parsePattern(const QString& text, bool isHexa
     static const QRegularExpression between(QStringLiteral("0[xX]|[\\s,;:]"));
     QString digits = text;
     digits.remove(between);
-    auto bytes = exporting::fromHexadecimal(digits.toStdString());
+    auto bytes = wire::fromHexadecimal(digits.toStdString());
     if (!bytes) {
         return tl::unexpected(tr("Write whole bytes, two digits 0–9 and a–f each, such as 4d 58 54 50."));
     }

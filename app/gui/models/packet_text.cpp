@@ -2,10 +2,10 @@
 #include "app/gui/models/packet_text.h"
 
 #include "app/gui/models/packet_model.h"
-#include "core/export/csv.h"
-#include "core/export/hexadecimal.h"
+#include "core/export/sheets.h"
 #include "core/export/json.h"
-#include "core/filter/expression_for.h"
+#include "core/filter/completion.h"
+#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -106,7 +106,7 @@ QString packetBytesText(model::SessionView& view, std::uint64_t number, ByteForm
     case ByteFormat::Text:
         return hexText(packet->bytes);
     case ByteFormat::Raw:
-        return QString::fromStdString(exporting::hexadecimal(packet->bytes));
+        return QString::fromStdString(wire::hexadecimal(packet->bytes));
     case ByteFormat::CArray:
         return cArray(packet->bytes, number);
     case ByteFormat::Json:

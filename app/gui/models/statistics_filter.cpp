@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/statistics_filter.h"
 
-#include "core/filter/expression_for.h"
+#include "core/filter/completion.h"
 #include "core/wire/type_table.h"
 
 #include <QCoreApplication>

@@ -2,7 +2,7 @@
 #include "app/gui/panels/field_menu.h"
 
 #include "app/gui/models/field_text.h"
-#include "core/filter/expression_for.h"
+#include "core/filter/completion.h"
 
 #include <QCoreApplication>
 #include <QMenu>

@@ -3,7 +3,7 @@
 
 #include "app/gui/theme/theme.h"
 #include "app/gui/window/dialogs.h"
-#include "core/export/reference_overview.h"
+#include "core/export/protocol_reference.h"
 
 #include <QAbstractTextDocumentLayout>
 #include <QEvent>

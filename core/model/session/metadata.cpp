@@ -2,7 +2,7 @@
 #include "core/model/session/metadata.h"
 
 #include "core/wire/messages.h"
-#include "core/wire/metadata_text.h"
+#include "core/wire/text.h"
 
 #include <algorithm>
 #include <array>

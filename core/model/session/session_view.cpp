@@ -7,7 +7,7 @@
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
-#include "core/wire/message_parts.h"
+#include "core/wire/codec.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/csv.h"
+#include "core/export/sheets.h"
 
 #include <gtest/gtest.h>
 

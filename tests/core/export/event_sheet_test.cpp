@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/event_sheet.h"
+#include "core/export/sheets.h"
 #include "core/model/session/session.h"
 
 #include <gmock/gmock.h>
@@ -41,7 +41,7 @@ protected:
 
 TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
     const std::vector<const model::Event*> events{&gap, &down};
-    const std::string csv = eventsCsv(session, events);
+    const std::string csv = eventsCsv({session, events});
     EXPECT_THAT(csv, StartsWith("number,severity,group,event,source,character,type,from,to,"));
     EXPECT_THAT(csv, HasSubstr("\r\n7,warning,loss,gap,,1,02,1700000000.000000001,1700000003.500000000,10,12,"
                                "2,3,network,yes,\"3 samples lost in 2 gaps, cause: network. "
@@ -52,7 +52,7 @@ TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
 
 TEST_F(EventSheetTest, WritesObjectsThatCanBeRead) {
     const std::vector<const model::Event*> events{&gap, &down};
-    const auto json = nlohmann::json::parse(eventsJson(session, events));
+    const auto json = nlohmann::json::parse(eventsJson({session, events}));
     ASSERT_EQ(json.size(), 2U);
     EXPECT_EQ(json[0]["event"], "gap");
     EXPECT_EQ(json[0]["type"], "02");
@@ -66,8 +66,8 @@ TEST_F(EventSheetTest, WritesObjectsThatCanBeRead) {
 }
 
 TEST_F(EventSheetTest, WritesNothingButTitlesWithoutEvents) {
-    EXPECT_EQ(nlohmann::json::parse(eventsJson(session, {})).size(), 0U);
-    EXPECT_THAT(eventsCsv(session, {}), EndsWith("current,text\r\n"));
+    EXPECT_EQ(nlohmann::json::parse(eventsJson({session, {}})).size(), 0U);
+    EXPECT_THAT(eventsCsv({session, {}}), EndsWith("current,text\r\n"));
 }
 
 } // namespace

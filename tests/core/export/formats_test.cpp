@@ -2,7 +2,7 @@
 #include "core/export/formats.h"
 #include "core/model/session/session.h"
 
-#include "core/export/event_sheet.h"
+#include "core/export/sheets.h"
 #include "core/log/packet_log.h"
 
 #include <gtest/gtest.h>
@@ -44,8 +44,8 @@ TEST(Formats, WithoutAKnownSuffixItIsTheUsualOne) {
 TEST(Formats, WriteWhatTheirWritersWrite) {
     log::PacketLog log;
     model::Session session(log);
-    EXPECT_EQ(formatFor<EventSheet>("a.csv").write({session, {}}), eventsCsv(session, {}));
-    EXPECT_EQ(formatFor<EventSheet>("a.json").write({session, {}}), eventsJson(session, {}));
+    EXPECT_EQ(formatFor<EventSheet>("a.csv").write({session, {}}), eventsCsv({session, {}}));
+    EXPECT_EQ(formatFor<EventSheet>("a.json").write({session, {}}), eventsJson({session, {}}));
     EXPECT_EQ(formatFor<NullPoseSheet>("a.json").write({}), nullPoseJson({}));
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/html.h"
 
-#include "core/export/svg_plot.h"
-
 #include <gmock/gmock.h>
 
 #include <limits>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/null_pose_sheet.h"
+#include "core/export/sheets.h"
 
 #include "core/model/body/spaces.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/protocol_reference.h"
 
-#include "core/export/reference_overview.h"
 #include "core/wire/type_table.h"
 
 #include <gmock/gmock.h>
@@ -79,10 +78,7 @@ TEST(ProtocolReference, TellsWhatDiffersBetweenRevisions) {
                 HasSubstr("| header, bytes 17 to 23 | reserved, zero | reserved, zero | counts"));
     EXPECT_THAT(differences, HasSubstr("| type 23, bytes an item | – | 68 | 44 in the text"));
     EXPECT_THAT(differences, HasSubstr("| type 12 | the bare text |"));
-    for (const RevisionDifference& row : revisionDifferences()) {
-        EXPECT_FALSE(row.topic.empty() || row.e.empty() || row.jAndK.empty() || row.later.empty())
-            << row.topic;
-    }
+    EXPECT_THAT(differences, testing::Not(HasSubstr("|  |"))); // a difference that says nothing
 }
 
 TEST(ProtocolReference, ExplainsTransportCountersAndTags) {

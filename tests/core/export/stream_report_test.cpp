@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/stream_report.h"
+#include "core/export/reports.h"
 
-#include "core/export/monitor_report.h"
 #include "core/model/accounting/stream_figures.h"
 #include "tests/core/model/session/session_fixture.h"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/filter/completion.h"
-#include "core/filter/expression_for.h"
-#include "core/filter/filter_reference.h"
+#include "core/filter/filter.h"
 #include "tests/core/filter/filter_fixture.h"
 
 #include <gmock/gmock.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/spaces.h"
 #include "core/wire/codec.h"
-#include "core/wire/metadata_text.h"
+#include "core/wire/text.h"
 #include "tests/support/golden.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/error.h"
-#include "core/wire/notice.h"
+#include "core/wire/faults.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/extent.h"
+#include "core/wire/header.h"
 #include "tests/core/wire/expected_datagrams.h"
 #include "tests/core/wire/golden_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/metadata_text.h"
+#include "core/wire/text.h"
 
 #include "core/wire/codec.h"
 
@@ -38,11 +38,6 @@ TEST(MetadataText, GivesANoticeWithThePlaceOfALineWithoutATag) {
     EXPECT_EQ(noticeText(decoded->notices[0]), "line that is not \"tag:value\" (byte 35, 2 lines)");
     EXPECT_EQ(noticeText({NoticeCode::LineWithoutTag, 28, 1}),
               "line that is not \"tag:value\" (byte 28, 1 line)");
-}
-
-TEST(MetadataText, IsJoinedToTheTextItWasSplitFrom) {
-    const std::string text = "name:J\u00f6rg: take 2\nxmid:\ncolor:e96417\n";
-    EXPECT_EQ(joinTags(parseTags(text).tags), text);
 }
 
 TEST(MetadataText, KnowsTheTagsOfRealSenders) {

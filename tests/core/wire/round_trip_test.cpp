@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/codec.h"
-#include "core/wire/forms_of.h"
+#include "core/wire/form.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <concepts>
 #include <limits>
 #include <random>
 
@@ -35,13 +36,9 @@ private:
             text += pieces[random() % pieces.size()];
         }
     }
-    template <class T, auto Member, Form ItemForm>
-    void fillField(T& value, const Items<Member, ItemForm>&) {
-        fillList<ItemForm>(value.*Member, 1 + random() % 67);
-    }
-    template <class T, auto Member, std::size_t Max>
-    void fillField(T& value, const CountedList<Member, Max>&) {
-        fillList<Form::Standard>(value.*Member, random() % 30);
+    template <class T, auto Member, Form ItemForm, std::size_t Max>
+    void fillField(T& value, const Items<Member, ItemForm, Max>&) {
+        fillList<ItemForm>(value.*Member, Max != 0 ? random() % 30 : 1 + random() % 67);
     }
     template <Form F, class Item>
     void fillList(std::vector<Item>& list, std::size_t count) {

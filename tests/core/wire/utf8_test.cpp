@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/utf8.h"
+#include "core/wire/text.h"
 
 #include <gtest/gtest.h>
 

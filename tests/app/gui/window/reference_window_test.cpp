@@ -3,7 +3,6 @@
 
 #include "app/gui/theme/theme.h"
 #include "core/export/protocol_reference.h"
-#include "core/export/reference_overview.h"
 #include "core/wire/type_table.h"
 
 #include <QAbstractTextDocumentLayout>

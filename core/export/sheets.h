@@ -2,15 +2,39 @@
 #pragma once
 
 #include "core/model/body/null_pose.h"
-#include "core/wire/messages.h"
+#include "core/model/session/session_view.h"
 
+#include <span>
 #include <string>
 
-/// The scale messages of one character as a file: what was sent, nothing computed. Floats are written with as
-/// few digits as tell each from its neighbours, so that they read back to the same 32 bits.
+/// Tables that are saved as CSV or JSON.
 namespace posewire::exporting {
 
-/// What is written; what was not sent is null.
+/// One line of a table of comma-separated values (RFC 4180): cells in quotation marks where they need them,
+/// CR LF at the end.
+[[nodiscard]] std::string csvLine(std::span<const std::string> cells);
+
+/// Events of a session, in the order given.
+struct EventSheet {
+    const model::SessionView& session;
+    std::span<const model::Event* const> events;
+};
+
+/// One table (RFC 4180, UTF-8, lines end with CR LF) with the columns
+///
+///     number,severity,group,event,source,character,type,from,to,firstPacket,lastPacket,count,samples,cause,
+///     current,text
+///
+/// from and to are seconds since 1970 UTC with nine decimals. Cells of what an event is not about are empty.
+[[nodiscard]] std::string eventsCsv(const EventSheet& sheet);
+
+/// An array with one object for each event, one on a line, with the keys of the columns but "fromNs" and
+/// "toNs" (nanoseconds since 1970 UTC) for from and to. Keys of what an event is not about are missing.
+[[nodiscard]] std::string eventsJson(const EventSheet& sheet);
+
+/// The scale messages of one character: what was sent, nothing computed; what was not sent is null. Floats
+/// are written with as few digits as distinguish each from its neighbours, so that they read back to the same
+/// 32 bits.
 struct NullPoseSheet {
     std::string character; ///< its name
     const model::NullPose* pose = nullptr;

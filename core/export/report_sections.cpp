@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/report_sections.h"
+
+#include "core/export/html.h"
+#include "core/model/accounting/attribution.h"
+#include "core/wire/text.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::exporting {
+namespace {
+
+// More of them nobody reads.
+constexpr std::size_t kMostEvents = 300;
+constexpr std::size_t kMostGaps = 100;
+
+/// "The newest 300 of 1,234 events.", or "12 events." where all are listed.
+std::string listed(const std::string& which, std::size_t count, std::size_t all, const std::string& what) {
+    const std::string text =
+        count < all ? "The " + which + ' ' + grouped(count) + " of " + grouped(all) : grouped(all);
+    return "<p class=\"dim\">" + text + ' ' + what + (all == 1 ? "" : "s") + ".</p>\n";
+}
+
+/// Sender, character and type, as far as the event is about them.
+std::string whose(const model::SessionView& session, const model::Event& event) {
+    const model::Sender* sender = session.find(event.sender);
+    std::string text = sender != nullptr ? sender->info.address : "";
+    if (event.character) {
+        text += ", " + session.displayName({event.sender, *event.character});
+    }
+    if (event.type) {
+        text += ", " + wire::typeTitle(*event.type);
+    }
+    return text;
+}
+
+std::string secondsAfter(log::Stamp stamp, const ReportSteps& steps) {
+    return fixed(log::secondsOf(stamp - steps.from), 3);
+}
+
+std::vector<std::string> cellsOf(const model::SessionView& session, const model::Gap& gap,
+                                 const ReportSteps& steps) {
+    const model::CharacterKey key{gap.stream.sender, gap.stream.character};
+    return {fixed(log::millisecondsOf(gap.fromStamp - steps.from) * 1e-3, 3),
+            escaped(session.displayName(key)) + ", " + escaped(wire::typeTitle(gap.stream.type)),
+            grouped(gap.lost),
+            std::to_string(gap.fromSample) + "–" + std::to_string(gap.toSample),
+            fixed(log::millisecondsOf(gap.toStamp - gap.fromStamp), 1),
+            escaped(model::nameOf(gap.cause)),
+            escaped(gap.evidenceText())};
+}
+
+std::string cssColour(const model::Colour& colour) {
+    std::array<std::byte, 3> bytes{};
+    std::ranges::transform(std::array{colour.red, colour.green, colour.blue}, bytes.begin(), [](float part) {
+        return static_cast<std::byte>(std::clamp(std::lround(part * 255), 0L, 255L));
+    });
+    return '#' + wire::hexadecimal(bytes);
+}
+
+using enum model::Figure;
+
+constexpr std::array kRate{RateWhole, Datagrams, Samples, Lost, Incomplete, LossShare};
+constexpr std::array kOrder{Duplicates, Reordered, Late, Restarts};
+constexpr std::array kTiming{Jitter, SpacingMean, SpacingLeast, SpacingMost, SpacingDeviation,
+                             Skew,   Drift,       LongestGap,   Bursts,      BurstDensity,
+                             Step,   FirstSample, LastSample};
+
+void addColumns(std::vector<HtmlTable::Column>& columns, std::span<const model::Figure> figures) {
+    for (const model::Figure figure : figures) {
+        columns.push_back({model::rowOf(figure).title, true, model::rowOf(figure).help});
+    }
+}
+
+std::vector<HtmlTable::Column> deliveryColumns() {
+    std::vector<HtmlTable::Column> columns{{"What arrived", false, ""},
+                                           {"Over time", false, "samples per second"}};
+    addColumns(columns, kRate);
+    columns.push_back({"Over time", false, "percent lost"});
+    addColumns(columns, kOrder);
+    return columns;
+}
+
+/// Empty where a figure says nothing.
+std::string cellOf(const model::StreamFigures& figures, model::Figure figure) {
+    const model::FigureRow& row = model::rowOf(figure);
+    const double value = figures[figure];
+    const bool isOnlyWithLoss = figure == BurstDensity || (figure == RateWhole && !figures.isSampled());
+    const bool isOnlyWithTimeCode = row.style.form == model::FigureForm::Signed;
+    if (!figures.has(figure) || (isOnlyWithLoss && value == 0) ||
+        (isOnlyWithTimeCode && !figures.isFromTimeCode())) {
+        return {};
+    }
+    return figure == LossShare && value == 0 ? "0" : figureText(figures, figure, row.style.digits.report);
+}
+
+void addCells(std::vector<std::string>& cells, const model::StreamFigures& figures,
+              std::span<const model::Figure> shown) {
+    for (const model::Figure figure : shown) {
+        const std::string text = cellOf(figures, figure);
+        const bool isTrouble = !text.empty() && figures.trouble(figure) != model::FigureTrouble::None;
+        cells.push_back(isTrouble ? "<span class=\"warning\">" + text + "</span>" : text);
+    }
+}
+
+/// Types 10 to 13 are sent again and again: only how often, and whether whole, says anything.
+std::vector<std::string> deliveryCells(const model::StreamFigures& figures, const model::Stream& stream,
+                                       const ReportSteps& steps) {
+    const bool isSampled = figures.isSampled();
+    std::vector<std::string> cells{escaped(wire::typeTitle(stream.key.type)),
+                                   isSampled ? svgSparkline(rateSeries(stream, steps), 0) : ""};
+    addCells(cells, figures, kRate);
+    cells.push_back(isSampled && figures[Missing] > 0 ? svgSparkline(lossSeries(stream, steps), 1) : "");
+    addCells(cells, figures, kOrder);
+    return cells;
+}
+
+std::vector<std::string> timingCells(const model::StreamFigures& figures) {
+    std::vector<std::string> cells{escaped(wire::typeTitle(figures.key().type))};
+    for (const model::Figure figure : kTiming) {
+        cells.push_back(cellOf(figures, figure));
+    }
+    return cells;
+}
+
+} // namespace
+
+std::string_view severityName(model::EventSeverity severity) {
+    constexpr std::array<std::string_view, 3> names{"good", "warning", "error"};
+    return names[static_cast<std::size_t>(severity)];
+}
+
+std::string_view severityMark(model::EventSeverity severity) {
+    constexpr std::array<std::string_view, 3> marks{"●", "▲", "■"};
+    return marks[static_cast<std::size_t>(severity)];
+}
+
+std::string streamTable(const model::SessionView& session, const model::CharacterKey& key,
+                        const std::vector<model::StreamFigures>& figures, const ReportSteps& steps) {
+    HtmlTable delivery(deliveryColumns());
+    std::vector<HtmlTable::Column> columns{{"When it arrived", false, ""}};
+    addColumns(columns, kTiming);
+    HtmlTable timing(columns);
+    for (const model::Stream* stream : streamsByType(session, key)) {
+        const auto own = std::ranges::find(figures, stream->key, &model::StreamFigures::key);
+        if (own == figures.end()) {
+            continue; // nothing in the range
+        }
+        delivery.add(deliveryCells(*own, *stream, steps));
+        if (own->isSampled()) {
+            timing.add(timingCells(*own));
+        }
+    }
+    return delivery.html() + (timing.isEmpty() ? "" : timing.html());
+}
+
+std::string metadataList(const model::SessionView& session, const model::CharacterKey& key) {
+    std::string html;
+    for (const model::MetadataTag& tag : session.metadata(key).tags()) {
+        const std::string& value = tag.values.back().text;
+        const auto colour = tag.name == "color" ? model::parseColour(value) : std::nullopt;
+        html += "<dt>" + escaped(tag.name) + "</dt><dd>" +
+                (colour ? "<i class=\"swatch\" style=\"background:" + cssColour(*colour) + "\"></i>" : "") +
+                escaped(value) + "</dd>\n";
+    }
+    return html.empty() ? html : "<dl class=\"facts\">\n" + html + "</dl>\n";
+}
+
+std::string gapSection(const model::SessionView& session, const ReportSteps& steps) {
+    std::vector<const model::Gap*> gaps = gapsIn(session, steps);
+    if (gaps.empty()) {
+        return {};
+    }
+    const std::size_t all = gaps.size();
+    std::ranges::stable_sort(gaps, std::greater{}, [](const model::Gap* gap) { return gap->lost; });
+    gaps.resize(std::min(all, kMostGaps));
+    std::ranges::stable_sort(gaps, {}, [](const model::Gap* gap) { return gap->fromStamp; });
+    HtmlTable table({{"At s", true, "seconds since the report's beginning"},
+                     {"Stream", false, ""},
+                     {"Lost", true, "samples"},
+                     {"Between", true, "the samples around it, which came"},
+                     {"Lasted ms", true, "between the arrivals of the samples around it"},
+                     {"Whose loss", false, ""},
+                     {"Evidence", false, ""}});
+    for (const model::Gap* gap : gaps) {
+        table.add(cellsOf(session, *gap, steps));
+    }
+    return "<h2>Gaps</h2>\n" + listed("longest", gaps.size(), all, "gap") + table.html();
+}
+
+std::string eventSection(const model::SessionView& session, const ReportSteps& steps) {
+    std::vector<const model::Event*> events;
+    for (const model::Event& event : session.events().all()) {
+        if (event.lastStamp >= steps.from && event.firstStamp <= steps.to) {
+            events.push_back(&event);
+        }
+    }
+    if (events.empty()) {
+        return {};
+    }
+    const std::size_t all = events.size();
+    const auto left = static_cast<std::ptrdiff_t>(all - std::min(all, kMostEvents));
+    HtmlTable table({{"From s", true, "seconds since the report's beginning"},
+                     {"To s", true, "seconds since the report's beginning"},
+                     {"What", false, ""},
+                     {"Whose", false, ""},
+                     {"Times", true, "how often it happened in this episode"},
+                     {"In words", false, ""}});
+    std::for_each(events.begin() + left, events.end(), [&](const model::Event* event) {
+        const std::string name(severityName(event->severity()));
+        const std::string mark = event->severity() == model::EventSeverity::Info
+                                     ? ""
+                                     : "<span class=\"" + name + "\" aria-label=\"" + name + "\">" +
+                                           std::string(severityMark(event->severity())) + "</span> ";
+        table.add({secondsAfter(event->firstStamp, steps), secondsAfter(event->lastStamp, steps),
+                   mark + escaped(model::nameOf(event->kind)), escaped(whose(session, *event)),
+                   grouped(event->count), escaped(event->text())});
+    });
+    return "<h2>Events</h2>\n" + listed("newest", std::min(all, kMostEvents), all, "event") + table.html();
+}
+
+} // namespace posewire::exporting

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/sheets.h"
+
+#include "core/export/json_fields.h"
+#include "core/export/json_value.h"
+#include "core/model/body/spaces.h"
+#include "core/wire/byte_order.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace posewire::exporting {
+namespace {
+
+void addCell(const std::string& content, std::string& line) {
+    if (content.find_first_of(",\"\r\n") == std::string::npos) {
+        line += content;
+        return;
+    }
+    line += '"';
+    for (const char letter : content) {
+        line.append(letter == '"' ? 2 : 1, letter);
+    }
+    line += '"';
+}
+
+using model::Event;
+
+constexpr std::string_view kEventHeader =
+    "number,severity,group,event,source,character,type,from,to,firstPacket,lastPacket,count,samples,cause,"
+    "current,text\r\n";
+
+std::string_view nameOf(model::EventSeverity severity) {
+    constexpr std::array<std::string_view, 3> kNames{"info", "warning", "error"};
+    return kNames[static_cast<std::size_t>(severity)];
+}
+
+std::string_view nameOf(model::EventGroup group) {
+    constexpr std::array<std::string_view, 4> kNames{"source", "loss", "content", "limit"};
+    return kNames[static_cast<std::size_t>(group)];
+}
+
+std::string addressOf(const model::SessionView& session, const Event& event) {
+    const model::Sender* sender = session.find(event.sender);
+    return sender == nullptr ? std::string() : sender->info.address;
+}
+
+std::string secondsText(log::Stamp stamp) {
+    constexpr std::chrono::seconds kSecond(1);
+    const log::Duration time = stamp.time_since_epoch();
+    const std::string decimals = std::to_string((time % kSecond).count());
+    return std::to_string(time / kSecond) + '.' + std::string(9 - decimals.size(), '0') + decimals;
+}
+
+JsonValue objectOf(const model::SessionView& session, const Event& event) {
+    JsonValue object{{"number", event.number},
+                     {"severity", nameOf(event.severity())},
+                     {"group", nameOf(event.group())},
+                     {"event", model::nameOf(event.kind)},
+                     {"source", addressOf(session, event)}};
+    if (event.character) {
+        object["character"] = *event.character;
+    }
+    if (event.type) {
+        object["type"] = wire::typeDigits(*event.type);
+    }
+    object["fromNs"] = log::nanosecondsOf(event.firstStamp);
+    object["toNs"] = log::nanosecondsOf(event.lastStamp);
+    object["firstPacket"] = event.firstPacket;
+    object["lastPacket"] = event.lastPacket;
+    object["count"] = event.count;
+    object["samples"] = event.samples;
+    if (event.cause) {
+        object["cause"] = model::nameOf(*event.cause);
+    }
+    object["current"] = event.isCurrent;
+    object["text"] = event.text();
+    return object;
+}
+
+constexpr std::string_view kNullPoseHeader =
+    "kind,segment,point,name,flags,x,y,z,m11,m12,m13,m21,m22,m23,m31,m32,m33\r\n";
+constexpr std::size_t kNullPoseColumns = 17;
+
+std::string numberText(float value) {
+    if (std::isnan(value)) {
+        return "NaN";
+    }
+    if (std::isinf(value)) {
+        return value > 0 ? "Infinity" : "-Infinity";
+    }
+    std::array<char, 32> digits{};
+    const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+    return {digits.data(), end};
+}
+
+std::string flagsText(std::uint32_t flags) {
+    std::array<std::byte, 4> bytes{};
+    wire::store32(bytes.data(), flags);
+    return "0x" + wire::hexadecimal(bytes);
+}
+
+/// A line with these cells and numbers; the rest is empty.
+std::string nullPoseLine(std::vector<std::string> cells, std::span<const float> values,
+                         std::span<const float> further = {}) {
+    for (const std::span<const float> numbers : {values, further}) {
+        std::ranges::transform(numbers, std::back_inserter(cells), numberText);
+    }
+    cells.resize(kNullPoseColumns);
+    return csvLine(cells);
+}
+
+void addPoseRows(const model::NullPose& pose, std::string& text) {
+    int id = 0;
+    for (const auto& segment : pose.segments) {
+        text += nullPoseLine({"segment", std::to_string(++id), "", segment.name, ""},
+                             model::toFloats(segment.position));
+    }
+    for (const auto& point : pose.points) {
+        text += nullPoseLine({"point", std::to_string(point.segment), std::to_string(point.id), point.name,
+                              flagsText(point.flags)},
+                             model::toFloats(point.position));
+    }
+}
+
+void addPose(const model::NullPose& pose, Json& object) {
+    object["stampNs"] = log::nanosecondsOf(pose.stamp);
+    object["packet"] = pose.packet;
+    object["partsReceived"] = pose.partsReceived;
+    object["partsExpected"] = pose.partsExpected;
+    Json segments = Json::array();
+    for (std::size_t i = 0; i < pose.segments.size(); ++i) {
+        const auto& segment = pose.segments[i];
+        segments.push_back({{"id", static_cast<std::uint64_t>(i + 1)},
+                            {"name", jsonOf(segment.name)},
+                            {"position", jsonOf(model::toFloats(segment.position))}});
+    }
+    object["segments"] = std::move(segments);
+    Json points = Json::array();
+    for (const auto& point : pose.points) {
+        points.push_back({{"segment", point.segment},
+                          {"point", point.id},
+                          {"name", jsonOf(point.name)},
+                          {"flags", point.flags},
+                          {"position", jsonOf(model::toFloats(point.position))}});
+    }
+    object["points"] = std::move(points);
+}
+
+Json scaleOf(const wire::ScaleInformation& scale) {
+    Json list = Json::array();
+    for (const wire::SegmentScale& segment : scale.segments) {
+        list.push_back(
+            {{"id", segment.id}, {"offset", jsonOf(segment.offset)}, {"matrix", jsonOf(segment.matrix)}});
+    }
+    return list;
+}
+
+Json propsOf(const wire::PropInformation& props) {
+    Json list = Json::array();
+    for (const wire::Prop& prop : props.props) {
+        list.push_back({{"id", prop.id}, {"name", jsonOf(prop.name)}});
+    }
+    return list;
+}
+
+} // namespace
+
+std::string csvLine(std::span<const std::string> cells) {
+    std::string line;
+    for (const std::string& cell : cells) {
+        line += &cell == cells.data() ? "" : ",";
+        addCell(cell, line);
+    }
+    return line + "\r\n";
+}
+
+std::string eventsCsv(const EventSheet& sheet) {
+    std::string text(kEventHeader);
+    for (const Event* event : sheet.events) {
+        const std::array<std::string, 16> cells{
+            std::to_string(event->number),
+            std::string(nameOf(event->severity())),
+            std::string(nameOf(event->group())),
+            std::string(model::nameOf(event->kind)),
+            addressOf(sheet.session, *event),
+            event->character ? std::to_string(*event->character) : std::string(),
+            event->type ? wire::typeDigits(*event->type) : std::string(),
+            secondsText(event->firstStamp),
+            secondsText(event->lastStamp),
+            std::to_string(event->firstPacket),
+            std::to_string(event->lastPacket),
+            std::to_string(event->count),
+            std::to_string(event->samples),
+            event->cause ? std::string(model::nameOf(*event->cause)) : std::string(),
+            event->isCurrent ? "yes" : "no",
+            event->text()};
+        text += csvLine(cells);
+    }
+    return text;
+}
+
+std::string eventsJson(const EventSheet& sheet) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < sheet.events.size(); ++i) {
+        text += (i == 0 ? "\n" : ",\n") + objectOf(sheet.session, *sheet.events[i]).text();
+    }
+    return text + "\n]\n";
+}
+
+std::string nullPoseCsv(const NullPoseSheet& sheet) {
+    std::string text(kNullPoseHeader);
+    if (sheet.pose != nullptr) {
+        addPoseRows(*sheet.pose, text);
+    }
+    if (sheet.scale != nullptr) {
+        for (const wire::SegmentScale& segment : sheet.scale->segments) {
+            text += nullPoseLine({"scale", std::to_string(segment.id), "", "", ""}, segment.offset,
+                                 segment.matrix);
+        }
+    }
+    if (sheet.props != nullptr) {
+        for (const wire::Prop& prop : sheet.props->props) {
+            text += nullPoseLine({"prop", std::to_string(prop.id), "", prop.name}, {});
+        }
+    }
+    return text;
+}
+
+std::string nullPoseJson(const NullPoseSheet& sheet) {
+    Json object = Json::object();
+    object["character"] = jsonOf(sheet.character);
+    if (sheet.pose != nullptr) {
+        addPose(*sheet.pose, object);
+    }
+    if (sheet.scale != nullptr) {
+        object["scale"] = scaleOf(*sheet.scale);
+    }
+    if (sheet.props != nullptr) {
+        object["props"] = propsOf(*sheet.props);
+    }
+    return object.dump(2) + "\n";
+}
+
+} // namespace posewire::exporting
