@@ -166,6 +166,9 @@ void offerValues(std::string_view asked, Collector& into) {
             into.offer(name, "segment");
         }
     }
+    if (field.kind == Kind::Vector && !match.hasComponent) {
+        into.offer("NaN", "one of its components is not a number");
+    }
     for (const std::string_view word : field.words) {
         into.offer(word, std::string(kindWords(field.kind).name));
     }

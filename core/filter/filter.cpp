@@ -155,12 +155,16 @@ bool Program::holds(Subject& subject, std::uint32_t index) const {
     case Join::Not:
         return !isTrue(node.children.front());
     case Join::AnyItem:
-        return holdsForAnyItem(subject.candidate.datagram, node.children.front());
+        return holdsForAnyItem(subject, node.children.front());
     }
     return false;
 }
 
-bool Program::holdsForAnyItem(const wire::Datagram* datagram, std::uint32_t node) const {
+bool Program::holdsForAnyItem(Subject& subject, std::uint32_t node) const {
+    if (!nodes[node].isOfItems && holdsForItem(subject, nullptr, node)) {
+        return true;
+    }
+    const wire::Datagram* datagram = subject.candidate.datagram;
     if (datagram == nullptr) {
         return false;
     }
@@ -168,7 +172,8 @@ bool Program::holdsForAnyItem(const wire::Datagram* datagram, std::uint32_t node
     for (std::size_t list = 0; list < kLists; ++list) {
         const std::size_t count = itemCount(*datagram, shape, list);
         for (std::size_t item = 0; item < count; ++item) {
-            if (holdsForItem({*datagram, shape, list, item}, node)) {
+            const ItemAt at{*datagram, shape, list, item};
+            if (holdsForItem(subject, &at, node)) {
                 return true;
             }
         }
@@ -176,12 +181,17 @@ bool Program::holdsForAnyItem(const wire::Datagram* datagram, std::uint32_t node
     return false;
 }
 
-bool Program::holdsForItem(const ItemAt& at, std::uint32_t index) const {
+bool Program::holdsForItem(Subject& subject, const ItemAt* at, std::uint32_t index) const {
     const Node& node = nodes[index];
-    const auto isTrue = [&](std::uint32_t child) { return holdsForItem(at, child); };
+    const auto isTrue = [&](std::uint32_t child) { return holdsForItem(subject, at, child); };
     switch (node.join) {
-    case Join::Condition:
-        return conditions[node.condition].holdsFor(at.datagram, at.shape, at.list, at.item);
+    case Join::Condition: {
+        const Condition& condition = conditions[node.condition];
+        if (!condition.isOfItems()) {
+            return condition.holds(subject);
+        }
+        return at != nullptr && condition.holdsFor(at->datagram, at->shape, at->list, at->item);
+    }
     case Join::And:
         return std::ranges::all_of(node.children, isTrue);
     default:

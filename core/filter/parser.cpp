@@ -54,14 +54,22 @@ private:
         Program::Node node;
         node.join = sign == TokenKind::Or ? Join::Or : Join::And;
         node.isOfItems = true;
+        bool isOfConditions = sign == TokenKind::Or;
+        bool hasItems = false;
         do {
             auto operand = sign == TokenKind::Or ? joined(depth, TokenKind::And) : one(depth);
             if (!operand) {
                 return operand;
             }
-            node.isOfItems = node.isOfItems && m_program.nodes[*operand].isOfItems;
+            const Program::Node& below = m_program.nodes[*operand];
+            // An && within an && stood in parentheses: a group of its own.
+            const bool isGroup = node.join == Join::And && below.join == Join::And;
+            node.isOfItems = node.isOfItems && below.isOfItems && !isGroup;
+            isOfConditions = isOfConditions && below.join == Join::Condition;
+            hasItems = hasItems || below.isOfItems;
             node.children.push_back(*operand);
         } while (take(sign));
+        node.isMixed = isOfConditions && hasItems && !node.isOfItems;
         return node.children.size() == 1 ? node.children.front() : m_program.add(std::move(node));
     }
 
@@ -71,7 +79,7 @@ private:
         }
         if (take(TokenKind::Not)) {
             auto operand = one(depth + 1);
-            return operand ? m_program.add({Join::Not, 0, {*operand}, false}) : operand;
+            return operand ? m_program.add({Join::Not, 0, {*operand}}) : operand;
         }
         if (take(TokenKind::Open)) {
             auto inner = joined(depth + 1, TokenKind::Or);
@@ -157,13 +165,14 @@ private:
         Program::Node node = m_program.nodes[index];
         const bool isAnd = node.join == Join::And;
         if (node.isOfItems && !isAnd) {
-            return m_program.add({Join::AnyItem, 0, {index}, false});
+            return m_program.add({Join::AnyItem, 0, {index}});
         }
         Program::Node gathered{Join::And, 0, {}, true};
         std::vector<std::uint32_t> children;
         for (const std::uint32_t child : node.children) {
             const Program::Node& below = m_program.nodes[child];
-            if (isAnd && below.isOfItems && below.join != Join::And) {
+            if (isAnd && ((below.isOfItems && below.join != Join::And) || below.isMixed)) {
+                gathered.isOfItems = gathered.isOfItems && below.isOfItems;
                 gathered.children.push_back(child);
             } else {
                 children.push_back(withItems(child));
@@ -171,7 +180,7 @@ private:
         }
         if (!gathered.children.empty()) {
             const std::uint32_t all = m_program.add(std::move(gathered));
-            children.push_back(m_program.add({Join::AnyItem, 0, {all}, false}));
+            children.push_back(m_program.add({Join::AnyItem, 0, {all}}));
         }
         m_program.nodes[index].children = std::move(children);
         return index;

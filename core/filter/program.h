@@ -86,6 +86,7 @@ struct Program {
         std::uint32_t condition = 0;
         std::vector<std::uint32_t> children;
         bool isOfItems = false; ///< only conditions on items below, and no Not
+        bool isMixed = false;   ///< an Or of conditions, some on items and some on the packet
     };
 
     std::vector<Condition> conditions;
@@ -101,14 +102,15 @@ struct Program {
     }
 
 private:
-    [[nodiscard]] bool holdsForAnyItem(const wire::Datagram* datagram, std::uint32_t node) const;
+    [[nodiscard]] bool holdsForAnyItem(Subject& subject, std::uint32_t node) const;
     struct ItemAt {
         const wire::Datagram& datagram;
         std::size_t shape;
         std::size_t list;
         std::size_t item;
     };
-    [[nodiscard]] bool holdsForItem(const ItemAt& at, std::uint32_t node) const;
+    /// Without an item no condition on items holds.
+    [[nodiscard]] bool holdsForItem(Subject& subject, const ItemAt* at, std::uint32_t node) const;
 };
 
 /// The tree of a text, with its conditions on items gathered under AnyItem.

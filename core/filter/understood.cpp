@@ -61,6 +61,9 @@ std::optional<double> timeOfDay(std::string_view text) {
         const auto format = std::chars_format::fixed;
         text.remove_prefix(std::from_chars(text.data(), end, fraction, format).ptr == end ? text.size() : 0);
     }
+    if (hour == 24 && minute + second + fraction > 0) {
+        return std::nullopt;
+    }
     return text.empty() ? std::optional(hour * 3600.0 + minute * 60.0 + second + fraction) : std::nullopt;
 }
 
