@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/event_sheet.h"
+#include "core/export/sheets.h"
 #include "core/model/session/session.h"
 
 #include <gmock/gmock.h>
@@ -84,8 +84,8 @@ protected:
 };
 
 TEST_F(EveryEvent, IsTheSameInTheTableAndInTheObjects) {
-    const auto table = tableOf(eventsCsv(m_session, m_shown));
-    const Json objects = Json::parse(eventsJson(m_session, m_shown));
+    const auto table = tableOf(eventsCsv({m_session, m_shown}));
+    const Json objects = Json::parse(eventsJson({m_session, m_shown}));
     ASSERT_EQ(table.size(), m_events.size() + 1);
     ASSERT_EQ(objects.size(), m_events.size());
     const Row& titles = table.front();
@@ -106,8 +106,8 @@ TEST_F(EveryEvent, IsTheSameInTheTableAndInTheObjects) {
 }
 
 TEST_F(EveryEvent, KeepsItsStampsToTheNanosecond) {
-    const auto table = tableOf(eventsCsv(m_session, m_shown));
-    const Json objects = Json::parse(eventsJson(m_session, m_shown));
+    const auto table = tableOf(eventsCsv({m_session, m_shown}));
+    const Json objects = Json::parse(eventsJson({m_session, m_shown}));
     for (std::size_t i = 0; i < m_events.size(); ++i) {
         const std::string& from = table[i + 1][7];
         const std::size_t point = from.find('.');
@@ -134,17 +134,11 @@ TEST_F(EveryEvent, SaysWhatItIsOnOneLine) {
     EXPECT_EQ(names.size(), model::kEventKinds) << "two kinds of one name";
 }
 
-TEST_F(EveryEvent, BelongsToOneGroupWithOneSeverity) {
-    for (std::size_t i = 0; i < model::kEventKinds; ++i) {
-        const auto kind = static_cast<model::EventKind>(i);
-        EXPECT_FALSE(nameOf(model::groupOf(kind)).empty());
-        EXPECT_FALSE(nameOf(model::severityOf(kind)).empty());
-        const bool isLimit = model::nameOf(kind).ends_with("limit");
-        EXPECT_EQ(model::groupOf(kind) == model::EventGroup::Limit, isLimit) << model::nameOf(kind);
+TEST_F(EveryEvent, IsOfTheGroupOfLimitsWhereItsNameSaysSo) {
+    for (const model::Event& event : m_events) {
+        const bool isLimit = model::nameOf(event.kind).ends_with("limit");
+        EXPECT_EQ(event.group() == model::EventGroup::Limit, isLimit) << model::nameOf(event.kind);
     }
-    EXPECT_EQ(model::severityOf(model::EventKind::SenderUp), model::EventSeverity::Info);
-    EXPECT_EQ(model::severityOf(model::EventKind::SenderDown), model::EventSeverity::Error);
-    EXPECT_EQ(model::groupOf(model::EventKind::Gap), model::EventGroup::Loss);
 }
 
 } // namespace

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/export/monitor_report.h"
-#include "core/export/stream_report.h"
+#include "core/export/reports.h"
 #include "core/model/session/session.h"
 #include "tests/core/performer/faulty_performance.h"
 
