@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/loss_bursts.h"
+#include "core/model/accounting/message_rounds.h"
+
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <random>
+#include <set>
+#include <vector>
+
+namespace posewire::model {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr log::Stamp at(log::Duration time) {
+    return log::Stamp(time);
+}
+
+/// Bursts of a sequence of samples, true for one that arrived: from a loss to a loss with fewer than 16
+/// received in a row between, and more than one loss (RFC 3611 §4.7.2).
+BurstCounts referenceBursts(const std::vector<bool>& arrived) {
+    BurstCounts sum;
+    for (std::size_t i = 0; i < arrived.size();) {
+        if (arrived[i]) {
+            ++i;
+            continue;
+        }
+        std::size_t last = i;
+        std::uint64_t lost = 0;
+        std::uint64_t receivedInARow = 0;
+        std::size_t k = i;
+        for (; k < arrived.size() && receivedInARow < 16; ++k) {
+            receivedInARow = arrived[k] ? receivedInARow + 1 : 0;
+            lost += arrived[k] ? 0 : 1;
+            last = arrived[k] ? last : k;
+        }
+        if (lost > 1) {
+            ++sum.bursts;
+            sum.lost += lost;
+            sum.samples += last - i + 1;
+        }
+        i = last + 1;
+    }
+    return sum;
+}
+
+void take(const std::optional<LossBursts::Burst>& burst, BurstCounts& sum) {
+    if (burst) {
+        ++sum.bursts;
+        sum.lost += burst->lost;
+        sum.samples += burst->samples;
+    }
+}
+
+BurstCounts burstsOf(const std::vector<bool>& arrived) {
+    LossBursts bursts;
+    BurstCounts sum;
+    std::uint64_t lost = 0;
+    for (const bool hasArrived : arrived) {
+        lost += hasArrived ? 0 : 1;
+        if (hasArrived) {
+            take(bursts.add(lost, {}), sum);
+            lost = 0;
+        }
+    }
+    take(bursts.endRun(), sum);
+    return sum;
+}
+
+TEST(LossBursts, AreThoseOfThePlainDefinitionOnRandomStreams) {
+    std::mt19937 random(31);
+    std::uint64_t found = 0;
+    for (int round = 0; round < 300; ++round) {
+        const std::uint32_t lossPercent = 1 + random() % 30;
+        std::vector<bool> arrived(1 + random() % 600);
+        for (std::size_t i = 0; i < arrived.size(); ++i) {
+            arrived[i] = random() % 100 >= lossPercent;
+        }
+        arrived.back() = true; // what is lost after the last sample is not known
+        const BurstCounts expected = referenceBursts(arrived);
+        const BurstCounts bursts = burstsOf(arrived);
+        ASSERT_EQ(bursts.bursts, expected.bursts) << round;
+        ASSERT_EQ(bursts.lost, expected.lost) << round;
+        ASSERT_EQ(bursts.samples, expected.samples) << round;
+        found += bursts.bursts;
+    }
+    EXPECT_GT(found, 500U);
+}
+
+TEST(LossBursts, EndWithSixteenReceivedInARow) {
+    for (const std::size_t between : {15U, 16U}) {
+        std::vector<bool> arrived{true, false};
+        arrived.insert(arrived.end(), between, true);
+        arrived.push_back(false);
+        arrived.push_back(true);
+        const BurstCounts bursts = burstsOf(arrived);
+        EXPECT_EQ(bursts.bursts, between == 15 ? 1U : 0U) << "two single losses are no burst";
+        EXPECT_EQ(bursts.samples, between == 15 ? 17U : 0U);
+    }
+}
+
+TEST(LossBursts, DoNotReachOverTheEndOfARun) {
+    LossBursts bursts;
+    EXPECT_FALSE(bursts.add(3, at(1s)));
+    const auto over = bursts.endRun();
+    ASSERT_TRUE(over.has_value());
+    EXPECT_EQ(over->lost, 3U);
+    EXPECT_EQ(over->end, at(1s));
+    EXPECT_FALSE(bursts.add(1, at(2s)));
+    EXPECT_FALSE(bursts.endRun()) << "one alone, in a run of its own";
+}
+
+TEST(MessageRounds, CountEveryOrderOfAllPartsWhole) {
+    for (const auto& order : {std::vector{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}, {1, 3, 0, 2}}) {
+        MessageRounds rounds;
+        log::Stamp stamp = at(1s);
+        for (const int part : order) {
+            rounds.add(stamp += 1ms, static_cast<std::uint8_t>(part), part == 3);
+        }
+        EXPECT_EQ(rounds.incomplete(), 0U);
+        EXPECT_FALSE(rounds.isPartial());
+    }
+}
+
+TEST(MessageRounds, BelongTogetherWithinAQuarterOfASecondInEitherDirection) {
+    for (const auto& [apart, isTogether] : {std::pair<log::Duration, bool>{250ms, true},
+                                            {-250ms, true},
+                                            {250ms + 1ns, false},
+                                            {-250ms - 1ns, false}}) {
+        MessageRounds rounds;
+        EXPECT_TRUE(rounds.add(at(10s), 0, false));
+        EXPECT_EQ(rounds.add(at(10s) + apart, 1, true), !isTogether) << apart.count();
+        EXPECT_EQ(rounds.incomplete(), isTogether ? 0U : 2U) << apart.count();
+    }
+}
+
+TEST(MessageRounds, KnowNoWholeMessageWithoutItsLastPart) {
+    MessageRounds rounds;
+    rounds.add(at(1s), 0, false);
+    rounds.add(at(1s), 1, false);
+    EXPECT_TRUE(rounds.isPartial());
+    EXPECT_EQ(rounds.incomplete(), 1U);
+    rounds.add(at(1s), 2, true);
+    EXPECT_FALSE(rounds.isPartial());
+    EXPECT_EQ(rounds.incomplete(), 0U);
+}
+
+TEST(MessageRounds, TellThePartsOfBothHalvesOfTheIndexApart) {
+    // Indices have 7 bits: 0 and 64 are different parts, and 128 of them make the longest message.
+    MessageRounds rounds;
+    for (unsigned part = 0; part < 128; ++part) {
+        EXPECT_EQ(rounds.add(at(1s), static_cast<std::uint8_t>(part), part == 127), part == 0) << part;
+        EXPECT_EQ(rounds.incomplete(), part == 127 ? 0U : 1U);
+    }
+}
+
+TEST(MessageRounds, CountRandomMessagesAsAPlainListDoes) {
+    std::mt19937 random(8);
+    for (int round = 0; round < 50; ++round) {
+        MessageRounds rounds;
+        std::uint64_t incomplete = 0;
+        log::Stamp stamp = at(1s);
+        for (int message = 0; message < 40; ++message) {
+            stamp += 1s;
+            const unsigned parts = 1 + random() % 6;
+            std::set<unsigned> arrived;
+            for (unsigned part = 0; part < parts; ++part) {
+                if (random() % 5 != 0) {
+                    arrived.insert(part);
+                    rounds.add(stamp, static_cast<std::uint8_t>(part), part + 1 == parts);
+                }
+            }
+            incomplete += !arrived.empty() && arrived.size() < parts ? 1 : 0;
+        }
+        ASSERT_EQ(rounds.incomplete(), incomplete);
+    }
+}
+
+} // namespace
+} // namespace posewire::model

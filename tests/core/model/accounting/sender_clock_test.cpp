@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/clock_skew.h"
+#include "core/model/accounting/sender_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace posewire::model {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr log::Stamp at(log::Duration time) {
+    return log::Stamp(time);
+}
+
+/// J(i) = J(i-1) + (|D(i-1,i)| - J(i-1)) / 16 with D the difference of transit times (RFC 3550 §6.4.1).
+double referenceJitter(const std::vector<SenderClock::Sample>& samples) {
+    double jitter = 0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double received = log::millisecondsOf(samples[i].stamp - samples[i - 1].stamp);
+        const double sent = static_cast<std::int32_t>(samples[i].timeCode - samples[i - 1].timeCode);
+        jitter += (std::abs(received - sent) - jitter) / 16;
+    }
+    return jitter;
+}
+
+/// 100 samples a second, each up to 8 ms under way.
+std::vector<SenderClock::Sample> jitteryStream(std::uint32_t firstTimeCode, std::size_t count) {
+    std::mt19937 random(21);
+    std::vector<SenderClock::Sample> samples;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto number = static_cast<std::uint32_t>(i);
+        const log::Duration delay = std::chrono::microseconds(random() % 8'000);
+        samples.push_back({at(10s + number * 10ms + delay), 500 + number, firstTimeCode + number * 10});
+    }
+    return samples;
+}
+
+SenderClock clockOf(const std::vector<SenderClock::Sample>& samples) {
+    SenderClock clock;
+    for (const SenderClock::Sample& sample : samples) {
+        clock.add(sample);
+    }
+    return clock;
+}
+
+TEST(SenderClock, HasTheJitterOfRfc3550) {
+    const auto samples = jitteryStream(36'000'000, 500);
+    const SenderClock clock = clockOf(samples);
+    EXPECT_TRUE(clock.isFromTimeCode());
+    EXPECT_NEAR(clock.jitterMs(), referenceJitter(samples), 1e-9);
+    EXPECT_GT(clock.jitterMs(), 1);
+}
+
+TEST(SenderClock, HasNoneOfASingleSampleOrOfASteadyStream) {
+    SenderClock clock;
+    EXPECT_EQ(clock.jitterMs(), 0);
+    clock.add({at(1s), 7, 100});
+    EXPECT_EQ(clock.jitterMs(), 0);
+    EXPECT_FALSE(clock.isFromTimeCode()) << "one sample does not show it";
+    for (std::uint32_t i = 1; i < 200; ++i) {
+        clock.add({at(1s + i * 10ms), 7 + i, 100 + i * 10});
+    }
+    EXPECT_NEAR(clock.jitterMs(), 0, 1e-9);
+    EXPECT_NEAR(clock.differenceMs(), 0, 1e-9);
+}
+
+TEST(SenderClock, PassesTheWrapAroundOfTheTimeCode) {
+    const auto plain = clockOf(jitteryStream(1'000, 500));
+    const auto wrapped = clockOf(jitteryStream(0xfffffc00U, 500));
+    EXPECT_DOUBLE_EQ(wrapped.jitterMs(), plain.jitterMs());
+    EXPECT_DOUBLE_EQ(wrapped.differenceMs(), plain.differenceMs());
+    EXPECT_EQ(wrapped.generation(), 0U);
+}
+
+TEST(SenderClock, TakesTheCounterWhereTheTimeCodeIsFrozen) {
+    auto samples = jitteryStream(1'000, 500);
+    for (SenderClock::Sample& sample : samples) {
+        sample.timeCode = 77;
+    }
+    const SenderClock clock = clockOf(samples);
+    EXPECT_FALSE(clock.isFromTimeCode());
+    // The counter times its own period is the same clock, once the period is known.
+    EXPECT_NEAR(clock.jitterMs(), referenceJitter(jitteryStream(1'000, 500)), 0.1);
+}
+
+TEST(SenderClock, TakesTheCounterWhereTheTimeCodeRunsBackwards) {
+    auto samples = jitteryStream(1'000'000, 100);
+    for (SenderClock::Sample& sample : samples) {
+        sample.timeCode = 2'000'000 - sample.timeCode;
+    }
+    EXPECT_FALSE(clockOf(samples).isFromTimeCode());
+}
+
+TEST(SenderClock, BeginsAnotherGenerationWhereTheTimeCodeJumpsByMoreThanAMinute) {
+    for (const std::int32_t jumpMs : {60'000, -60'000, 60'001, -60'001, 3'600'000}) {
+        SenderClock clock;
+        clock.add({at(10s), 1, 5'000'000});
+        clock.add({at(10s), 2, 5'000'000 + static_cast<std::uint32_t>(jumpMs)});
+        EXPECT_EQ(clock.generation(), std::abs(jumpMs) > 60'000 ? 1U : 0U) << jumpMs;
+    }
+}
+
+TEST(SenderClock, KeepsItsJitterThroughAJumpOfTheTimeCode) {
+    auto samples = jitteryStream(5'000'000, 400);
+    SenderClock clock = clockOf(samples);
+    const double before = clock.jitterMs();
+    clock.add({at(15s), 10'000, 90'000'000});
+    EXPECT_EQ(clock.jitterMs(), before);
+    EXPECT_EQ(clock.differenceMs(), 0);
+    clock.add({at(15'010ms), 10'001, 90'000'010});
+    EXPECT_NEAR(clock.jitterMs(), before * 15 / 16, 1e-9);
+}
+
+TEST(SenderClock, ForgetsTheDifferenceAtARestart) {
+    SenderClock clock;
+    clock.add({at(1s), 1, 0});
+    clock.add({at(2s), 2, 990});
+    EXPECT_NEAR(clock.differenceMs(), 10, 1e-9);
+    clock.restart();
+    EXPECT_EQ(clock.differenceMs(), 0);
+    EXPECT_EQ(clock.generation(), 1U);
+    clock.add({at(3s), 1, 12'345});
+    clock.add({at(4s), 2, 13'350});
+    EXPECT_NEAR(clock.differenceMs(), -5, 1e-9);
+}
+
+TEST(SenderClock, TakesASampleThatComesAgainForNoEvidence) {
+    SenderClock clock;
+    clock.add({at(1s), 5, 50});
+    clock.add({at(1s + 1ms), 5, 50});
+    EXPECT_FALSE(clock.isFromTimeCode());
+    clock.add({at(1s + 10ms), 6, 60});
+    EXPECT_TRUE(clock.isFromTimeCode());
+}
+
+/// Differences of a clock that gains `ppm` and whose samples are up to 20 ms under way.
+ClockSkew fitted(double ppm, log::Duration span, log::Duration apart) {
+    std::mt19937 random(3);
+    ClockFit fit(span);
+    for (log::Duration time{}; time <= span; time += apart) {
+        const double delayMs = random() % 4 == 0 ? 0.0 : static_cast<double>(random() % 20'000) / 1'000;
+        fit.add(at(50s + time), 123.0 + delayMs - ppm * 1e-3 * log::secondsOf(time));
+    }
+    return fit.skew();
+}
+
+TEST(ClockFit, FindsTheSkewBelowTheDelays) {
+    for (const double ppm : {-400.0, -20.0, 0.0, 50.0, 1'000.0}) {
+        const ClockSkew skew = fitted(ppm, 120s, 10ms);
+        EXPECT_NEAR(skew.skewPpm, ppm, 5) << ppm;
+        EXPECT_NEAR(skew.driftMs, ppm * 0.12, 1) << ppm;
+    }
+}
+
+TEST(ClockFit, SaysNothingOfTheFirstSeconds) {
+    // Eight parts of 250 ms at least.
+    EXPECT_EQ(fitted(500, 1'500ms, 10ms).skewPpm, 0);
+    EXPECT_EQ(fitted(500, 1'500ms, 10ms).driftMs, 0);
+    EXPECT_NE(fitted(500, 2'500ms, 10ms).skewPpm, 0);
+}
+
+TEST(ClockFit, SaysNothingWithoutTime) {
+    EXPECT_EQ(ClockFit(10s).skew().skewPpm, 0);
+    ClockFit one(10s);
+    one.add(at(1s), 5);
+    EXPECT_EQ(one.skew().skewPpm, 0);
+    ClockFit still(10s);
+    for (int i = 0; i < 100; ++i) {
+        still.add(at(1s), i);
+    }
+    EXPECT_EQ(still.skew().skewPpm, 0);
+    EXPECT_EQ(still.skew().driftMs, 0);
+}
+
+} // namespace
+} // namespace posewire::model
