@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "tests/core/model/session/session_fixture.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace posewire::model {
+
+/// A session that is sent poses 10 ms apart, and its events.
+class EventsTest : public SessionTest {
+protected:
+    void pose(std::uint32_t sample, const std::string& address = "127.0.0.1:40001") {
+        wire::Datagram datagram;
+        datagram.body = standingAt(0);
+        datagram.header.sampleCounter = sample;
+        datagram.header.timeCode =
+            static_cast<std::uint32_t>((m_at + m_timeCodeOff).time_since_epoch() / 1ms);
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at, address);
+    }
+    void poses(std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10ms) {
+            pose(sample);
+        }
+    }
+    std::vector<Event> of(EventKind kind) {
+        follow();
+        std::vector<Event> found;
+        std::ranges::copy_if(m_session.events().all(), std::back_inserter(found),
+                             [&](const Event& event) { return event.kind == kind; });
+        return found;
+    }
+    log::Stamp m_at{100s};
+    log::Duration m_timeCodeOff{};
+};
+
+} // namespace posewire::model

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/thresholds.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <deque>
+#include <vector>
+
+namespace posewire::model {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr log::Stamp at(log::Duration time) {
+    return log::Stamp(time);
+}
+
+/// Streams of 100 samples a second that are held to their limits twice a second, as a session does.
+class Limits : public testing::Test {
+protected:
+    void SetUp() override { addStream(2); }
+
+    void addStream(std::uint8_t type) {
+        m_streams.emplace_back(log::StreamKey{static_cast<log::SenderId>(1), 0, type});
+    }
+    void sendOne() {
+        wire::Header header;
+        header.sampleCounter = m_sample;
+        header.timeCode = static_cast<std::uint32_t>(m_stamp.time_since_epoch() / 1ms);
+        m_streams.front().accounting.add(m_stamp, 100, header);
+    }
+    void step(log::Duration apart = 10ms) {
+        ++m_sample;
+        m_stamp += apart;
+        if (m_stamp >= m_nextCheck) {
+            check();
+            m_nextCheck = m_stamp + 500ms;
+        }
+    }
+    void check() {
+        m_watch.check(m_streams, m_stamp, m_events);
+        m_events.advance(m_stamp);
+    }
+    /// Sends for a while and loses `lost` of every 1,000 samples, evenly.
+    void sendFor(log::Duration time, std::uint32_t lost = 0) {
+        for (const log::Stamp end = m_stamp + time; m_stamp < end; step()) {
+            if (m_sample * lost % 1'000 >= lost) {
+                sendOne();
+            }
+        }
+    }
+    [[nodiscard]] std::vector<Event> of(EventKind kind) const {
+        std::vector<Event> found;
+        std::ranges::copy_if(m_events.all(), std::back_inserter(found),
+                             [kind](const Event& event) { return event.kind == kind; });
+        return found;
+    }
+    [[nodiscard]] bool isAlert(EventKind kind) const {
+        return std::ranges::any_of(m_events.current(), [kind](const Event* e) { return e->kind == kind; });
+    }
+    void hold(Thresholds limits) { m_watch.set(limits); }
+
+    std::deque<Stream> m_streams;
+    ThresholdWatch m_watch;
+    Events m_events;
+    std::uint32_t m_sample = 1'000;
+    log::Stamp m_stamp = at(100s);
+    log::Stamp m_nextCheck{};
+};
+
+TEST_F(Limits, AreSilentForASteadyStream) {
+    sendFor(60s);
+    EXPECT_TRUE(m_events.all().empty());
+}
+
+TEST_F(Limits, OfLossAreOfWhatWasExpectedInTheWindow) {
+    sendFor(30s, 5); // half of the limit of 1 %
+    EXPECT_FALSE(isAlert(EventKind::LossLimit));
+    sendFor(30s, 30);
+    EXPECT_TRUE(isAlert(EventKind::LossLimit));
+    ASSERT_EQ(of(EventKind::LossLimit).size(), 1U);
+    EXPECT_NEAR(of(EventKind::LossLimit).back().value, 3, 0.5);
+    EXPECT_EQ(of(EventKind::LossLimit).back().limit, 1);
+    sendFor(10s);
+    EXPECT_FALSE(isAlert(EventKind::LossLimit)) << "the window has passed it";
+}
+
+TEST_F(Limits, EndOnlyBelowTheirHysteresis) {
+    Thresholds limits;
+    limits.lossPercent = 10;
+    limits.hysteresis = 0.5;
+    limits.gapMs = limits.jitterMs = limits.ratePercent = 0;
+    hold(limits);
+    sendFor(20s, 200);
+    EXPECT_TRUE(isAlert(EventKind::LossLimit));
+    sendFor(20s, 70); // below the limit, above half of it
+    EXPECT_TRUE(isAlert(EventKind::LossLimit));
+    sendFor(20s, 200);
+    EXPECT_EQ(of(EventKind::LossLimit).size(), 1U) << "a figure that hovers alerts once";
+    sendFor(20s, 30);
+    EXPECT_FALSE(isAlert(EventKind::LossLimit));
+    sendFor(20s, 200);
+    EXPECT_EQ(of(EventKind::LossLimit).size(), 2U);
+    EXPECT_EQ(of(EventKind::LossLimit)[0].count, 1U);
+}
+
+TEST_F(Limits, OfZeroAreNone) {
+    Thresholds limits;
+    limits.lossPercent = limits.jitterMs = limits.gapMs = limits.ageS = limits.ratePercent = 0;
+    hold(limits);
+    sendFor(10s, 500);
+    step(20s);
+    sendFor(10s);
+    check();
+    EXPECT_TRUE(m_events.all().empty());
+}
+
+TEST_F(Limits, ThatAreSwitchedOffEndTheirAlerts) {
+    sendFor(20s, 200);
+    EXPECT_TRUE(isAlert(EventKind::LossLimit));
+    Thresholds limits;
+    limits.lossPercent = 0;
+    hold(limits);
+    sendFor(1s, 200);
+    EXPECT_FALSE(isAlert(EventKind::LossLimit));
+}
+
+TEST_F(Limits, OfAGapAreOfTimeBetweenSamples) {
+    for (const log::Duration apart : {250ms, 251ms}) {
+        SetUp();
+        m_streams.pop_front();
+        m_events = Events();
+        sendFor(10s);
+        m_sample -= 1; // no sample is lost meanwhile
+        step(apart - 10ms);
+        sendFor(2s);
+        EXPECT_EQ(isAlert(EventKind::GapLimit), apart > 250ms) << apart.count();
+        EXPECT_FALSE(isAlert(EventKind::LossLimit));
+        sendFor(6s);
+        EXPECT_FALSE(isAlert(EventKind::GapLimit)) << "the window has passed it";
+    }
+}
+
+TEST_F(Limits, OfAgeAreOfSilenceAndNeedNoSamples) {
+    sendFor(10s);
+    m_stamp = m_streams.front().accounting.lastStamp() + 1s;
+    check();
+    EXPECT_FALSE(isAlert(EventKind::AgeLimit));
+    m_stamp += 1ms;
+    check();
+    EXPECT_TRUE(isAlert(EventKind::AgeLimit));
+    m_stamp += 1h;
+    check();
+    ASSERT_EQ(of(EventKind::AgeLimit).size(), 1U);
+    EXPECT_NEAR(of(EventKind::AgeLimit)[0].value, 3'601, 0.1);
+    EXPECT_EQ(severityOf(EventKind::AgeLimit), EventSeverity::Error);
+    m_nextCheck = {};
+    sendFor(2s);
+    EXPECT_FALSE(isAlert(EventKind::AgeLimit));
+}
+
+TEST_F(Limits, OfJitterAreOfRfc3550) {
+    sendFor(10s);
+    for (std::uint32_t i = 0; i < 300; ++i) { // every other sample is 30 ms under way
+        wire::Header header;
+        header.sampleCounter = m_sample;
+        header.timeCode = static_cast<std::uint32_t>(m_stamp.time_since_epoch() / 1ms);
+        m_streams.front().accounting.add(m_stamp + (i % 2 == 0 ? 0ms : 30ms), 100, header);
+        step(40ms);
+    }
+    EXPECT_TRUE(isAlert(EventKind::JitterLimit));
+    EXPECT_NEAR(of(EventKind::JitterLimit).front().value, 30, 3);
+    sendFor(10s);
+    EXPECT_FALSE(isAlert(EventKind::JitterLimit));
+}
+
+TEST_F(Limits, OfTheRateKnowWhatWasUsual) {
+    sendFor(30s);
+    for (const log::Stamp end = m_stamp + 6s; m_stamp < end; step(12ms)) { // 83 Hz: 17 % less
+        sendOne();
+    }
+    EXPECT_FALSE(isAlert(EventKind::RateLimit));
+    for (const log::Stamp end = m_stamp + 6s; m_stamp < end; step(20ms)) {
+        sendOne();
+    }
+    EXPECT_TRUE(isAlert(EventKind::RateLimit));
+    for (const log::Stamp end = m_stamp + 300s; m_stamp < end; step(20ms)) {
+        sendOne();
+    }
+    EXPECT_FALSE(isAlert(EventKind::RateLimit)) << "what lasts becomes usual";
+    EXPECT_EQ(of(EventKind::RateLimit).size(), 1U);
+}
+
+TEST_F(Limits, OfTheRateSayNothingBeforeAWholeWindow) {
+    for (const log::Stamp end = m_stamp + 2s; m_stamp < end; step(2ms)) {
+        sendOne();
+    }
+    sendFor(2s);
+    EXPECT_FALSE(isAlert(EventKind::RateLimit));
+}
+
+TEST_F(Limits, HoldEveryStreamOnItsOwn) {
+    addStream(21);
+    m_streams.back().accounting.add(m_stamp, 100, wire::Header());
+    sendFor(5s); // of the first stream alone
+    ASSERT_EQ(m_events.all().size(), 1U);
+    EXPECT_EQ(m_events.all().front().kind, EventKind::AgeLimit);
+    EXPECT_EQ(m_events.all().front().type, 21);
+    EXPECT_EQ(m_events.all().front().character, 0);
+}
+
+TEST_F(Limits, LeaveMessagesThatAreRepeatedAlone) {
+    // Types 10 to 13 are outside sample accounting: they have no age, no rate and no loss.
+    m_streams.clear();
+    addStream(12);
+    addStream(13);
+    for (Stream& stream : m_streams) {
+        wire::Header header;
+        header.datagramCounter = 0; // the first part of more that never come
+        stream.accounting.add(m_stamp, 100, header);
+    }
+    for (int i = 0; i < 100; ++i) {
+        m_stamp += 500ms;
+        check();
+    }
+    EXPECT_TRUE(m_events.all().empty());
+}
+
+} // namespace
+} // namespace posewire::model
