@@ -46,14 +46,20 @@ void NullPoseAssembler::begin(std::uint64_t packet, log::Stamp stamp) {
     m_arriving.firstStamp = stamp;
 }
 
+/// Whether the first part of the message that is arriving has not come, and may come now.
+bool NullPoseAssembler::isOvertaken(log::Stamp stamp) const {
+    return !m_parts.empty() && !m_parts[0] &&
+           std::chrono::abs(stamp - m_arriving.firstStamp) <= kTogether;
+}
+
 void NullPoseAssembler::add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
                             log::Stamp stamp) {
     const std::size_t index = datagramCounter & 0x7fU;
     if (index < m_parts.size() && m_parts[index] == part && stamp - m_arriving.stamp < kDuplicate) {
         return;
     }
-    const bool isBeginning = index == 0 && !part.segments.empty() && m_arriving.partsReceived != 0;
-    if (m_arriving.message == 0 || isBeginning || m_arriving.isComplete()) {
+    if (m_arriving.message == 0 || m_arriving.isComplete() ||
+        (index == 0 && !part.segments.empty() && !isOvertaken(stamp))) {
         begin(packet, stamp);
     }
     m_parts.resize(std::max(m_parts.size(), index + 1));

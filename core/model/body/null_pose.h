@@ -48,10 +48,12 @@ struct NullPose : NullPoseMessage {
     std::uint64_t packet = 0;  ///< number of the newest part
 };
 
-/// Puts parts together. A message begins with datagram 0; parts may come in any order and more than once; a
-/// part without segments adds to what is there.
+/// Puts parts together. Datagram 0 begins a message, unless others of the same message have overtaken it;
+/// parts may come in any order and more than once; a part without segments adds to what is there.
 class NullPoseAssembler {
 public:
+    /// Parts that come before datagram 0 are of its message if they come within this time of it.
+    static constexpr log::Duration kTogether = std::chrono::milliseconds(250);
     /// A part that is repeated within this time is the network's doing and no new message.
     static constexpr log::Duration kDuplicate = std::chrono::milliseconds(100);
 
@@ -68,6 +70,7 @@ public:
 
 private:
     void begin(std::uint64_t packet, log::Stamp stamp);
+    [[nodiscard]] bool isOvertaken(log::Stamp stamp) const;
     void settle();
 
     NullPose m_arriving;
