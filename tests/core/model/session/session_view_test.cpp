@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: MIT
+#include "tests/core/model/session/session_fixture.h"
+
+#include "core/model/accounting/attribution.h"
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+/// What the session shows where its cursor is.
+namespace posewire::model {
+namespace {
+
+class ViewTest : public SessionTest {
+protected:
+    void pauseAt(std::uint64_t packet) { m_session.setCursor({Cursor::Mode::Paused, packet}); }
+    void goOn() { m_session.setCursor({}); }
+
+    void sendFrom(const std::string& address, wire::Body body, std::uint32_t sample, log::Stamp stamp,
+                  std::uint8_t character = 0) {
+        wire::Datagram datagram{{}, std::move(body), {}};
+        datagram.header.sampleCounter = sample;
+        datagram.header.character = character;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), stamp, address);
+    }
+    /// `count` poses 10 ms apart from a time on.
+    void poses(std::uint32_t first, std::uint32_t count, log::Stamp from) {
+        for (std::uint32_t i = 0; i < count; ++i) {
+            send(standingAt(static_cast<float>(first + i)), first + i, from + i * 10ms);
+        }
+    }
+    double pelvisX() { return m_session.pose(key())->segments[0].position.x(); }
+};
+
+TEST_F(ViewTest, IsEmptyBeforeAnythingComes) {
+    m_session.follow(at(5s));
+    EXPECT_EQ(m_session.begin(), m_session.end());
+    EXPECT_EQ(m_session.now(), at(5s));
+    EXPECT_EQ(m_session.firstStamp(), log::Stamp());
+    EXPECT_EQ(m_session.cursorStamp(), at(5s));
+    EXPECT_TRUE(m_session.currentCharacters().empty());
+    EXPECT_EQ(m_session.countsBetween({at(0s), at(9s)}), StreamCounts{});
+    EXPECT_EQ(m_session.ageSeconds(key()), 0);
+    EXPECT_EQ(m_session.packet(0), std::nullopt);
+    EXPECT_EQ(m_session.message(key(), 2), nullptr);
+    EXPECT_EQ(m_session.pose(key()), nullptr);
+    EXPECT_EQ(m_session.nullPose(key()), nullptr);
+    EXPECT_EQ(m_session.nullPoses(key()), nullptr);
+    EXPECT_EQ(m_session.visit({sender(), 0, 2}, at(0s), 10, [](const Message&) { FAIL(); }), 0U);
+    pauseAt(7);
+    EXPECT_EQ(m_session.cursorStamp(), at(5s)) << "there is no such packet";
+    EXPECT_EQ(m_session.message(key(), 2), nullptr);
+    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
+}
+
+TEST_F(ViewTest, FindsPacketsByTimeAsAWalkDoes) {
+    std::mt19937 random(6);
+    std::vector<log::Stamp> stamps;
+    log::Stamp stamp = at(100s);
+    for (std::uint32_t i = 0; i < 300; ++i) {
+        stamp += std::chrono::milliseconds(random() % 4); // several may have the same stamp
+        stamps.push_back(stamp);
+        send(wire::CentreOfMass{}, i, stamp);
+    }
+    follow();
+    for (log::Stamp asked = at(100s) - 3ms; asked < stamp + 5ms; asked += 500us) {
+        std::uint64_t from = 0;
+        while (from < stamps.size() && stamps[from] < asked) {
+            ++from;
+        }
+        ASSERT_EQ(m_session.packetFrom(asked), from) << asked.time_since_epoch().count();
+        std::uint64_t newest = 0;
+        for (std::uint64_t i = 0; i < stamps.size(); ++i) {
+            newest = stamps[i] <= asked ? i : newest;
+        }
+        ASSERT_EQ(m_session.packetAt(asked), newest) << asked.time_since_epoch().count();
+    }
+}
+
+TEST_F(ViewTest, ShowsTheStateOfEveryPacketWhateverTheOrderOfLooking) {
+    poses(1, 100, at(1s));
+    follow();
+    std::mt19937 random(2);
+    for (int i = 0; i < 200; ++i) {
+        const std::uint64_t packet = random() % 130; // beyond the newest counts as the newest
+        pauseAt(packet);
+        ASSERT_EQ(pelvisX(), 1.0 + static_cast<double>(std::min<std::uint64_t>(packet, 99))) << packet;
+    }
+    goOn();
+    EXPECT_EQ(pelvisX(), 100);
+}
+
+TEST_F(ViewTest, KnowsTheStateOfATypeThatIsSentRarely) {
+    send(wire::MetaData{true, "name:Ana\n"}, 0, at(1s));
+    poses(1, 50, at(2s));
+    send(wire::MetaData{true, "name:Berta\ncolor:ff0000\n"}, 0, at(3s));
+    poses(51, 50, at(4s));
+    follow();
+    pauseAt(50);
+    EXPECT_EQ(m_session.displayName(key()), "Ana");
+    EXPECT_EQ(m_session.colour(key()), defaultColour(0)) << "its own was sent later";
+    const Message* message = m_session.message(key(), wire::MetaData::kType);
+    ASSERT_NE(message, nullptr);
+    EXPECT_EQ(message->packet, 0U);
+    pauseAt(51);
+    EXPECT_EQ(m_session.displayName(key()), "Berta");
+    EXPECT_EQ(m_session.colour(key()), (Colour{1, 0, 0}));
+}
+
+TEST_F(ViewTest, MeasuresAgeAtTheCursorFromWhatHadComeByThen) {
+    send(standingAt(0), 1, at(1s));
+    sendFrom("127.0.0.1:40001", standingAt(0), 1, at(3s), 1); // another character
+    sendFrom("10.0.0.7:1", standingAt(0), 1, at(4s));         // another host
+    send(wire::CentreOfMass{}, 1, at(6s));
+    follow();
+    m_session.follow(at(10s));
+    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 4) << "any datagram of the character counts";
+    pauseAt(2);
+    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 3);
+    pauseAt(3);
+    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 0);
+    pauseAt(0);
+    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 0);
+    EXPECT_DOUBLE_EQ(m_session.ageSeconds({sender(), 9}), 0) << "there is none";
+    goOn();
+    m_session.follow(at(5s)); // the clock was set back
+    EXPECT_DOUBLE_EQ(m_session.ageSeconds(key()), 0);
+}
+
+TEST_F(ViewTest, KeepsAChosenRangeAtTheCursor) {
+    poses(1, 100, at(1s));
+    follow();
+    EXPECT_TRUE(m_session.rangeChoice().isAll());
+    EXPECT_EQ(m_session.range(), std::nullopt);
+    m_session.setRange({.last = 500ms});
+    EXPECT_FALSE(m_session.rangeChoice().isAll());
+    ASSERT_TRUE(m_session.range().has_value());
+    // What arrives at this very moment belongs to it.
+    EXPECT_EQ(m_session.range()->to, m_session.now() + 1ns);
+    EXPECT_DOUBLE_EQ(m_session.range()->seconds(), 0.5);
+    pauseAt(20);
+    EXPECT_EQ(m_session.range()->to, at(1'200ms) + 1ns);
+    const TimeRange fixed{at(1'100ms), at(1'300ms)};
+    m_session.setRange({.last = 500ms, .fixed = fixed});
+    EXPECT_EQ(m_session.range(), fixed) << "wherever the cursor is";
+    m_session.setRange({.last = -1ns});
+    EXPECT_TRUE(m_session.rangeChoice().isAll());
+    EXPECT_EQ(m_session.range(), std::nullopt);
+}
+
+TEST_F(ViewTest, SumsWhatItsStreamsCount) {
+    for (std::uint32_t sample = 1; sample <= 200; ++sample) {
+        const log::Stamp stamp = at(10s) + sample * 10ms;
+        if (sample % 20 != 0) {
+            send(standingAt(0), sample, stamp);
+        }
+        sendFrom("127.0.0.1:40001", wire::CentreOfMass{}, sample, stamp, 1);
+        sendFrom("10.0.0.7:1", standingAt(0), sample, stamp);
+        sendFrom("10.0.0.7:1", standingAt(0), sample, stamp); // twice
+    }
+    follow();
+    const CharacterKey other{sender("10.0.0.7:1"), 0};
+    EXPECT_EQ(m_session.countsOf(key()).samples, 190U);
+    EXPECT_EQ(m_session.countsOf(key()).lost, 9U) << "the last one is not missed yet";
+    EXPECT_EQ(m_session.countsOf({sender(), 1}).samples, 200U);
+    EXPECT_EQ(m_session.countsOf(sender()).samples, 390U);
+    EXPECT_EQ(m_session.countsOf(sender()).lost, 9U);
+    EXPECT_EQ(m_session.countsOf(other).duplicates, 200U);
+    EXPECT_EQ(m_session.countsOf(sender("10.0.0.8:1")), StreamCounts{});
+    const TimeRange all{at(0s), at(100s)};
+    EXPECT_EQ(m_session.countsBetween(all).datagrams, m_session.end());
+    EXPECT_EQ(m_session.countsBetween(all).samples, 590U);
+    EXPECT_EQ(m_session.countsOf(sender(), all).lost, 9U);
+    EXPECT_EQ(m_session.countsOf(other, {at(11s), at(12s)}).samples, 100U);
+    EXPECT_EQ(m_session.countsOf(other, {at(13s), at(14s)}).samples, 0U);
+}
+
+TEST_F(ViewTest, VisitsNoMoreThanItWasAskedFor) {
+    poses(1, 50, at(1s));
+    follow();
+    const log::StreamKey stream{sender(), 0, 2};
+    std::vector<std::uint32_t> seen;
+    const auto visit = [&](log::Stamp from, std::size_t most) {
+        seen.clear();
+        return m_session.visit(stream, from, most, [&](const Message& message) {
+            seen.push_back(message.datagram.header.sampleCounter);
+        });
+    };
+    EXPECT_EQ(visit(at(1'100ms), 1'000), 40U);
+    EXPECT_EQ(seen.front(), 11U) << "the one at this very stamp belongs to it";
+    EXPECT_EQ(visit(at(1'100ms) + 1ns, 1'000), 39U);
+    EXPECT_EQ(visit(at(1'100ms), 3), 3U);
+    EXPECT_EQ(seen, (std::vector<std::uint32_t>{48, 49, 50})) << "the newest of them, oldest first";
+    EXPECT_EQ(visit(at(1s), 0), 0U);
+    EXPECT_EQ(visit(at(9s), 10), 0U);
+    pauseAt(4);
+    EXPECT_EQ(visit(at(0s), 3), 3U);
+    EXPECT_EQ(seen, (std::vector<std::uint32_t>{3, 4, 5}));
+    EXPECT_EQ(m_session.visit({sender(), 0, 21}, at(0s), 10, [](const Message&) {}), 0U);
+}
+
+TEST_F(ViewTest, VisitsNoPartsAndNothingMalformed) {
+    poses(1, 3, at(1s));
+    wire::PoseQuaternion half;
+    half.segments.assign(12, {1, {}, {1, 0, 0, 0}});
+    send(half, 4, at(2s), 0x00);
+    send(half, 4, at(2s), 0x81);
+    poses(5, 2, at(3s));
+    follow();
+    std::vector<std::uint32_t> seen;
+    EXPECT_EQ(m_session.visit(
+                  {sender(), 0, 2}, at(0s), 100,
+                  [&](const Message& message) { seen.push_back(message.datagram.header.sampleCounter); }),
+              5U);
+    EXPECT_EQ(seen, (std::vector<std::uint32_t>{1, 2, 3, 5, 6}));
+}
+
+TEST_F(ViewTest, KnowsTheGapThatAPacketEnded) {
+    poses(1, 50, at(10s));
+    poses(54, 50, at(11s)); // three are lost
+    poses(110, 50, at(12s));
+    follow();
+    ASSERT_EQ(m_session.gaps().size(), 2U);
+    EXPECT_EQ(m_session.gapEndedBy(49), nullptr);
+    ASSERT_NE(m_session.gapEndedBy(50), nullptr);
+    EXPECT_EQ(m_session.gapEndedBy(50)->lost, 3U);
+    EXPECT_EQ(m_session.gapEndedBy(50)->fromSample, 50U);
+    EXPECT_EQ(m_session.gapEndedBy(51), nullptr);
+    EXPECT_EQ(m_session.gapEndedBy(100)->lost, 6U);
+    EXPECT_EQ(m_session.gapEndedBy(1'000), nullptr);
+    EXPECT_EQ(m_session.digests().nextProblem(0), 50U);
+    EXPECT_EQ(m_session.digests().nextProblem(50), 100U);
+}
+
+TEST_F(ViewTest, ShowsEveryCharacterOnceWhoeverSendsIt) {
+    sendFrom("10.0.0.5:1000", standingAt(0), 1, at(1s), 0);
+    sendFrom("10.0.0.5:1000", standingAt(0), 1, at(1s), 1);
+    sendFrom("10.0.0.5:1001", standingAt(0), 1, at(2s), 0); // restarted
+    sendFrom("10.0.0.6:1000", standingAt(0), 1, at(3s), 0);
+    follow();
+    EXPECT_EQ(m_session.characters().size(), 4U);
+    const auto keysShown = [this] {
+        std::vector<CharacterKey> keys;
+        for (const Character* character : m_session.currentCharacters()) {
+            keys.push_back(character->key);
+        }
+        return keys;
+    };
+    const CharacterKey old{sender("10.0.0.5:1000"), 0};
+    const CharacterKey second{sender("10.0.0.5:1000"), 1};
+    const CharacterKey restarted{sender("10.0.0.5:1001"), 0};
+    const CharacterKey elsewhere{sender("10.0.0.6:1000"), 0};
+    EXPECT_EQ(keysShown(), (std::vector{second, restarted, elsewhere}));
+    EXPECT_EQ(m_session.current(old), restarted);
+    EXPECT_EQ(m_session.conditionOf(old).level, Condition::Level::Good) << "silent, and no trouble";
+    EXPECT_EQ(m_session.colour(old), m_session.colour(restarted));
+    pauseAt(1);
+    EXPECT_EQ(m_session.current(old), old);
+    EXPECT_EQ(m_session.current({sender(), 77}), (CharacterKey{sender(), 77}));
+}
+
+TEST_F(ViewTest, FollowsALogInPortions) {
+    poses(1, 10, at(1s));
+    EXPECT_TRUE(m_session.follow(m_now, 4));
+    EXPECT_EQ(m_session.end(), 4U);
+    EXPECT_EQ(pelvisX(), 4);
+    EXPECT_TRUE(m_session.follow(m_now, 100));
+    EXPECT_EQ(m_session.end(), 10U);
+    EXPECT_FALSE(m_session.follow(m_now, 100));
+    EXPECT_EQ(m_session.firstStamp(), at(1s));
+}
+
+TEST_F(ViewTest, PrefersAPoseThatIsNewerByMoreThanAQuarterOfASecond) {
+    wire::PoseEuler euler;
+    euler.segments.push_back({1, {0, 104, 0}, {}});
+    send(standingAt(0), 1, at(1s));
+    send(euler, 1, at(1'250ms));
+    follow();
+    EXPECT_EQ(m_session.pose(key())->type, wire::PoseQuaternion::kType);
+    send(euler, 2, at(1'250ms) + 1ns);
+    follow();
+    EXPECT_EQ(m_session.pose(key())->type, wire::PoseEuler::kType);
+}
+
+TEST_F(ViewTest, ShowsNoSegmentOfADatagramWithoutSegments) {
+    send(wire::PoseQuaternion{}, 1, at(1s));
+    follow();
+    EXPECT_NE(m_session.message(key(), 2), nullptr);
+    const CharacterPose* pose = m_session.pose(key());
+    EXPECT_EQ(pose == nullptr ? 0 : std::ranges::count(pose->isPresent, true), 0);
+}
+
+TEST_F(ViewTest, KeepsWhatTheOperatorChose) {
+    EXPECT_EQ(m_session.cursor().mode, Cursor::Mode::Following);
+    EXPECT_EQ(m_session.selection(), Selection{});
+    Selection selection;
+    selection.sender = sender();
+    selection.character = key();
+    selection.segment = 7;
+    selection.packet = 99;
+    m_session.setSelection(selection);
+    EXPECT_EQ(m_session.selection(), selection);
+    m_session.setDisplayFilter("type == 02");
+    EXPECT_EQ(m_session.displayFilter(), "type == 02");
+    Thresholds limits;
+    limits.lossPercent = 7;
+    m_session.setThresholds(limits);
+    EXPECT_EQ(m_session.thresholds(), limits);
+}
+
+TEST_F(ViewTest, KeepsMarksAndCommentsByPacketNumber) {
+    m_session.setMarked(5, true);
+    m_session.setMarked(5, true);
+    m_session.setMarked(9, true);
+    EXPECT_EQ(m_session.annotations().marks, (std::set<std::uint64_t>{5, 9}));
+    m_session.setMarked(5, false);
+    m_session.setMarked(77, false); // was not marked
+    EXPECT_EQ(m_session.annotations().marks, (std::set<std::uint64_t>{9}));
+    m_session.setComment(3, "odd");
+    m_session.setComment(3, "Ton ab, zweiter Versuch …");
+    m_session.setComment(4, "x");
+    EXPECT_EQ(m_session.annotations().comments.size(), 2U);
+    EXPECT_EQ(m_session.annotations().comments.at(3), "Ton ab, zweiter Versuch …");
+    m_session.setComment(3, "");
+    m_session.setComment(8, ""); // had none
+    EXPECT_EQ(m_session.annotations().comments, (std::map<std::uint64_t, std::string>{{4, "x"}}));
+}
+
+} // namespace
+} // namespace posewire::model
