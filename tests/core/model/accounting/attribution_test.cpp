@@ -1,58 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/attribution.h"
-#include "tests/core/model/session/session_fixture.h"
+#include "tests/core/model/accounting/attribution_fixture.h"
 
 namespace posewire::model {
 namespace {
-
-/// Streams of one sender at 250 Hz, of which single datagrams fail to come.
-class AttributionTest : public SessionTest {
-protected:
-    struct Sent {
-        std::uint8_t type = 2;
-        std::uint32_t drops = 0;
-        log::Transport transport = log::Transport::Udp;
-        bool isTruncated = false;
-        std::uint8_t datagramCounter = 0x80;
-    };
-
-    void put(std::uint32_t sample, const Sent& sent) {
-        wire::Datagram datagram;
-        if (sent.type == 2) {
-            datagram.body = wire::PoseQuaternion{{{1, {0, 0, 1}, {1, 0, 0, 0}}}};
-        } else {
-            datagram.body = wire::CentreOfMass{};
-        }
-        datagram.header.sampleCounter = sample;
-        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
-        datagram.header.datagramCounter = sent.datagramCounter;
-        wire::completeHeader(datagram, wire::HeaderEra::Counted);
-        auto bytes = *wire::encode(datagram);
-        if (sent.isTruncated) {
-            bytes.resize(bytes.size() - 4);
-        }
-        log::Arrival arrival;
-        arrival.stamp = m_at;
-        arrival.sender = m_log.senders().intern({"127.0.0.1:40001", sent.transport, 9763});
-        arrival.kernelDropsBefore = sent.drops;
-        m_log.writer().append(bytes, arrival);
-        m_log.writer().publish();
-        m_now = m_at;
-    }
-    void frames(std::uint32_t first, std::uint32_t last) { frames(first, last, Sent()); }
-    void frames(std::uint32_t first, std::uint32_t last, const Sent& sent) {
-        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 4ms) {
-            put(sample, sent);
-        }
-    }
-    const Gap& onlyGap() {
-        follow();
-        EXPECT_EQ(m_session.gaps().size(), 1U);
-        return m_session.gaps().front();
-    }
-
-    log::Stamp m_at{10s};
-};
 
 TEST_F(AttributionTest, BlamesThisComputerWhereItsCounterRose) {
     frames(1, 50);

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "tests/core/model/accounting/attribution_fixture.h"
+
+#include <numeric>
+#include <string>
+
+/// The bounds of what a gap's cause rests on, and how it is said.
+namespace posewire::model {
+namespace {
+
+class GapTest : public AttributionTest {
+protected:
+    std::uint64_t sumOfGaps() {
+        follow();
+        return std::accumulate(m_session.gaps().begin(), m_session.gaps().end(), std::uint64_t{0},
+                               [](std::uint64_t sum, const Gap& gap) { return sum + gap.lost; });
+    }
+    std::array<std::uint64_t, kLossCauses> causes() {
+        follow();
+        return m_session.streams().front().lostByCause();
+    }
+    /// A stream is silent for so long, and its time code moves by as much and some more.
+    LossCause causeOfSilence(log::Duration silence, log::Duration more) {
+        log::PacketLog log;
+        Session session(log);
+        const auto sender = log.senders().intern({"10.0.0.1:1", log::Transport::Udp, 9763});
+        log::Stamp stamp = at(10s);
+        const auto silent = static_cast<std::uint32_t>(silence / 4ms) - 1;
+        for (std::uint32_t sample = 1; sample <= 300 + silent; ++sample, stamp += 4ms) {
+            if (sample > 100 && sample <= 100 + silent) {
+                continue;
+            }
+            const log::Duration shown = stamp.time_since_epoch() + (sample > 100 ? more : log::Duration());
+            wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
+            datagram.header.sampleCounter = sample;
+            datagram.header.timeCode = static_cast<std::uint32_t>(shown / 1ms);
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            log.writer().append(*wire::encode(datagram), {.stamp = stamp, .sender = sender});
+        }
+        log.writer().publish();
+        session.follow(stamp);
+        EXPECT_EQ(session.gaps().size(), 1U);
+        return session.gaps().empty() ? LossCause::ThisComputer : session.gaps().front().cause;
+    }
+};
+
+TEST_F(GapTest, IsNotJudgedBeforeLateArrivalsHadTheirTime) {
+    frames(1, 50);
+    put(52, {});
+    const log::Stamp end = m_at;
+    m_at = end + Attribution::kPatience - 1ns;
+    put(53, {});
+    EXPECT_FALSE(onlyGap().isJudged);
+    EXPECT_EQ(onlyGap().evidenceText(), "Late arrivals are still waited for.");
+    EXPECT_EQ(causes()[static_cast<std::size_t>(LossCause::Unknown)], 1U) << "not known yet";
+    m_at = end + Attribution::kPatience;
+    put(54, {});
+    EXPECT_TRUE(onlyGap().isJudged);
+}
+
+TEST_F(GapTest, HasACauseForEverySampleThatIsLost) {
+    std::uint32_t random = 5;
+    for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 4ms) {
+        random = random * 1'664'525 + 1'013'904'223;
+        const std::uint32_t kind = random >> 24;
+        if (kind > 20 || sample == 2'000) {
+            put(sample, {.drops = kind < 40 ? 1U : 0U, .isTruncated = kind >= 250});
+        }
+        if (kind > 10) {
+            put(sample, {.type = 24});
+        }
+    }
+    frames(2'001, 2'100);
+    const StreamCounts counts = (follow(), m_session.streams().front().accounting.counts());
+    const auto byCause = causes();
+    EXPECT_GT(counts.lost, 100U);
+    EXPECT_EQ(std::accumulate(byCause.begin(), byCause.end(), std::uint64_t{0}),
+              counts.lost + counts.incomplete);
+    EXPECT_GT(byCause[static_cast<std::size_t>(LossCause::ThisComputer)], 0U);
+    EXPECT_GT(byCause[static_cast<std::size_t>(LossCause::Network)], 0U);
+}
+
+TEST_F(GapTest, IsTheSameAcrossTheWrapAroundOfTheCounter) {
+    frames(0xffffff80U, 0xfffffffeU);
+    m_at += 12ms; // 0xffffffff, 0 and 1 are lost; another stream brought one of them
+    put(0, {.type = 24});
+    frames(2, 100);
+    follow();
+    ASSERT_FALSE(m_session.gaps().empty());
+    const Gap& gap = m_session.gaps().front();
+    EXPECT_EQ(gap.fromSample, 0xfffffffeU);
+    EXPECT_EQ(gap.toSample, 2U);
+    EXPECT_EQ(gap.lost, 3U);
+    EXPECT_EQ(gap.cause, LossCause::Network);
+    EXPECT_EQ(gap.evidence, Gap::Evidence::OtherStream);
+    EXPECT_EQ(gap.figure, 0U);
+    EXPECT_EQ(gap.evidenceText(), "Type 24 of the same source brought sample 0, which is missing here.");
+}
+
+TEST_F(GapTest, IsAPauseFromAQuarterOfASecondWhereTheTimeCodeMovedWithIt) {
+    EXPECT_EQ(causeOfSilence(400ms, 0ms), LossCause::Sender);
+    EXPECT_EQ(causeOfSilence(248ms, 0ms), LossCause::Unknown) << "too short for a pause";
+    EXPECT_EQ(causeOfSilence(252ms, 0ms), LossCause::Sender);
+    EXPECT_EQ(causeOfSilence(400ms, 50ms), LossCause::Sender);
+    EXPECT_EQ(causeOfSilence(400ms, -51ms), LossCause::Unknown) << "a time code that moved otherwise";
+    EXPECT_EQ(causeOfSilence(2s, 199ms), LossCause::Sender) << "a tenth of it";
+    EXPECT_EQ(causeOfSilence(2s, 202ms), LossCause::Unknown);
+}
+
+TEST_F(GapTest, IsCountedOnceHoweverManyOfItsSamplesComeLate) {
+    frames(1, 50);
+    m_at += 40ms;
+    frames(61, 70);
+    EXPECT_EQ(sumOfGaps(), 10U);
+    for (const std::uint32_t late : {55U, 51U, 60U, 55U}) {
+        put(late, {});
+    }
+    EXPECT_EQ(sumOfGaps(), 7U);
+    frames(71, 200); // it is judged meanwhile
+    EXPECT_EQ(sumOfGaps(), 7U);
+    put(52, {});
+    frames(201, 210);
+    EXPECT_EQ(sumOfGaps(), 6U) << "later than anybody waits";
+    for (const std::uint32_t late : {53U, 54U, 56U, 57U, 58U, 59U}) {
+        put(late, {});
+    }
+    frames(211, 220);
+    EXPECT_EQ(sumOfGaps(), 0U);
+    EXPECT_EQ(m_session.streams().front().accounting.counts().lost, 0U);
+    const auto byCause = causes();
+    EXPECT_EQ(std::accumulate(byCause.begin(), byCause.end(), std::uint64_t{0}), 0U);
+}
+
+TEST(GapTexts, SayOneAndMany) {
+    Gap gap;
+    gap.isJudged = true;
+    gap.toStamp = log::Stamp(3s);
+    gap.fromStamp = log::Stamp(1s);
+    gap.fromPacket = 10;
+    gap.toPacket = 12;
+    gap.lost = 1;
+    EXPECT_EQ(gap.evidenceText(), "Nothing was dropped here, and nothing else of the source shows where "
+                                  "1 sample went in 2000 ms.");
+    gap.evidence = Gap::Evidence::Reliable;
+    EXPECT_EQ(gap.evidenceText(), "TCP loses nothing: 1 sample was not sent.");
+    gap.lost = 4;
+    EXPECT_EQ(gap.evidenceText(), "TCP loses nothing: 4 samples were not sent.");
+    gap.evidence = Gap::Evidence::Dropped;
+    gap.figure = 1;
+    EXPECT_EQ(gap.evidenceText(), "This computer dropped 1 datagram of the port between packets 10 and 12.");
+    gap.figure = 30;
+    EXPECT_EQ(gap.evidenceText(),
+              "This computer dropped 30 datagrams of the port between packets 10 and 12.");
+    gap.evidence = Gap::Evidence::Damaged;
+    EXPECT_EQ(gap.evidenceText(), "Sample 30 came truncated or damaged.");
+    gap.evidence = Gap::Evidence::Partial;
+    EXPECT_EQ(gap.evidenceText(), "Of sample 30, next to the gap, only a part came.");
+    gap.evidence = Gap::Evidence::Paused;
+    gap.timeCodeMoved = 1'990;
+    gap.figure = 2;
+    EXPECT_EQ(gap.evidenceText(), "All 2 streams of the source paused together for 2000 ms, and the time "
+                                  "code moved by 1990 ms.");
+    EXPECT_EQ(nameOf(LossCause::ThisComputer), "this computer");
+    EXPECT_EQ(nameOf(LossCause::Unknown), "unknown");
+}
+
+} // namespace
+} // namespace posewire::model

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/body/character_pose.h"
+#include "core/model/body/points.h"
+#include "core/model/body/reference_body.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+
+/// Which item of a pose datagram is which segment, whatever counts a sender gives.
+namespace posewire::model {
+namespace {
+
+wire::Header headerOf(std::uint8_t body, std::uint8_t props, std::uint8_t fingers) {
+    wire::Header header;
+    header.bodySegments = body;
+    header.props = props;
+    header.fingerSegments = fingers;
+    return header;
+}
+
+wire::Datagram poseOf(std::size_t items) {
+    wire::PoseQuaternion pose;
+    for (std::uint32_t i = 0; i < items; ++i) {
+        pose.segments.push_back({i + 1, {static_cast<float>(i), 0, 1}, {1, 0, 0, 0}});
+    }
+    return {{}, std::move(pose), {}};
+}
+
+TEST(LayoutOfPose, IsThatOfTheHeaderWhereItsCountsAddUp) {
+    EXPECT_EQ(segmentLayout(headerOf(23, 0, 0), 23), (SegmentLayout{23, 0, 0}));
+    EXPECT_EQ(segmentLayout(headerOf(23, 4, 40), 67), (SegmentLayout{23, 4, 40}));
+    EXPECT_EQ(segmentLayout(headerOf(23, 1, 20), 44), (SegmentLayout{23, 1, 20}));
+    EXPECT_EQ(segmentLayout(headerOf(3, 0, 0), 3), (SegmentLayout{3, 0, 0})) << "tracked objects";
+}
+
+TEST(LayoutOfPose, IsThatOfOlderSendersWhereTheHeaderSaysNothingOrTheWrong) {
+    for (const wire::Header& header : {headerOf(0, 0, 0), headerOf(23, 0, 0), headerOf(5, 5, 5)}) {
+        EXPECT_EQ(segmentLayout(header, 25), (SegmentLayout{23, 2, 0}));
+        EXPECT_EQ(segmentLayout(header, 63), (SegmentLayout{23, 0, 40}));
+        EXPECT_EQ(segmentLayout(header, 65), (SegmentLayout{23, 2, 40}));
+        EXPECT_EQ(segmentLayout(header, 7), (SegmentLayout{7, 0, 0}));
+        EXPECT_EQ(segmentLayout(header, 0), (SegmentLayout{0, 0, 0}));
+    }
+}
+
+TEST(LayoutOfPose, CountsAllItemsOfAnyLegalDatagramOnce) {
+    for (std::size_t items = 0; items <= static_cast<std::size_t>(kMaxSegmentCount); ++items) {
+        const SegmentLayout layout = segmentLayout(headerOf(0, 0, 0), items);
+        ASSERT_EQ(layout.count(), static_cast<int>(items));
+        std::set<std::string_view> names;
+        for (int position = 0; position < layout.count(); ++position) {
+            names.insert(segmentName(layout, position));
+            const int parent = segmentParent(layout, position);
+            ASSERT_LT(parent, position) << "parents come before their children";
+            ASSERT_EQ(segmentDisplayName(layout, position).empty(), segmentName(layout, position).empty());
+        }
+        if (layout.props <= kMaxPropCount) {
+            ASSERT_EQ(names.size(), items) << "each has a name of its own";
+        }
+        EXPECT_EQ(placeOf(layout, layout.count()), std::nullopt);
+        EXPECT_EQ(placeOf(layout, -1), std::nullopt);
+        EXPECT_TRUE(segmentName(layout, layout.count()).empty());
+        EXPECT_TRUE(segmentDisplayName(layout, layout.count()).empty());
+        EXPECT_EQ(segmentParent(layout, layout.count()), -1);
+    }
+}
+
+TEST(LayoutOfPose, HangsHandsOnNothingWhereTheBodyHasNone) {
+    const SegmentLayout hands{1, 0, 40};
+    EXPECT_EQ(segmentName(hands, 1), "LeftCarpus");
+    EXPECT_EQ(segmentParent(hands, 1), -1);
+    EXPECT_EQ(segmentName(hands, 21), "RightCarpus");
+    EXPECT_EQ(segmentParent(hands, 21), -1);
+    EXPECT_EQ(segmentParent(hands, 2), 1) << "but within the hand as ever";
+}
+
+TEST(DisplayNames, AreWordsOfTheSameSegments) {
+    const SegmentLayout layout{23, 4, 40};
+    EXPECT_EQ(segmentDisplayName(layout, 8), "Right Upper Arm");
+    std::set<std::string_view> names;
+    for (int position = 0; position < layout.count(); ++position) {
+        std::string joined(segmentDisplayName(layout, position));
+        std::erase(joined, ' ');
+        EXPECT_FALSE(joined.empty());
+        names.insert(segmentDisplayName(layout, position));
+        if (position < 23) {
+            const auto isSame = [](char a, char b) { return std::tolower(a) == std::tolower(b); };
+            EXPECT_TRUE(std::ranges::equal(joined, segmentName(layout, position), isSame)) << joined;
+            EXPECT_EQ(findBodySegment(segmentName(layout, position)), position);
+        } else {
+            EXPECT_EQ(findBodySegment(segmentName(layout, position)), std::nullopt);
+        }
+    }
+    EXPECT_EQ(names.size(), 67U);
+}
+
+TEST(CharacterPoses, LeaveOutItemsThatAreNotFinite) {
+    wire::Datagram datagram = poseOf(23);
+    auto& segments = std::get<wire::PoseQuaternion>(datagram.body).segments;
+    segments[3].position[2] = std::numeric_limits<float>::quiet_NaN();
+    segments[4].position[0] = std::numeric_limits<float>::infinity();
+    segments[5].orientation = {0, 0, 0, 0}; // cannot be normalized: the identity
+    CharacterPose pose;
+    ASSERT_TRUE(poseFromMessage(datagram, referenceOrigins(), LengthUnit::Metre, pose));
+    for (std::size_t i = 0; i < 23; ++i) {
+        EXPECT_EQ(pose.isPresent[i], i != 3 && i != 4) << i;
+        EXPECT_TRUE(pose.segments[i].position.allFinite());
+    }
+    EXPECT_EQ(pose.segments[5].orientation.w(), 1);
+}
+
+TEST(CharacterPoses, AreReadInTheUnitOfTheSender) {
+    CharacterPose pose;
+    ASSERT_TRUE(poseFromMessage(poseOf(23), referenceOrigins(), LengthUnit::Centimetre, pose));
+    EXPECT_DOUBLE_EQ(pose.segments[10].position.x(), 0.1);
+    EXPECT_DOUBLE_EQ(pose.segments[10].position.z(), 0.01);
+}
+
+TEST(CharacterPoses, CarryWhatTheHeaderSays) {
+    wire::Datagram datagram = poseOf(23);
+    datagram.header.sampleCounter = 0xfffffffeU;
+    datagram.header.timeCode = 51'451'758;
+    datagram.header.setType(2);
+    CharacterPose pose;
+    pose.segments.resize(99); // of a pose before
+    ASSERT_TRUE(poseFromMessage(datagram, referenceOrigins(), LengthUnit::Metre, pose));
+    EXPECT_EQ(pose.type, 2);
+    EXPECT_EQ(pose.sample, 0xfffffffeU);
+    EXPECT_EQ(pose.timeCode, 51'451'758U);
+    EXPECT_EQ(pose.segments.size(), 23U);
+}
+
+TEST(CharacterPoses, NeedAllSegmentsOfType05) {
+    wire::PoseUnity unity;
+    for (std::uint32_t i = 0; i < 22; ++i) {
+        unity.segments.push_back({i + 1, {}, {1, 0, 0, 0}});
+    }
+    CharacterPose pose;
+    wire::Datagram datagram{{}, unity, {}};
+    EXPECT_FALSE(poseFromMessage(datagram, referenceOrigins(), LengthUnit::Metre, pose));
+    unity.segments.push_back({23, {}, {1, 0, 0, 0}});
+    datagram.body = unity;
+    EXPECT_TRUE(poseFromMessage(datagram, referenceOrigins(), LengthUnit::Metre, pose));
+    const std::span<const Eigen::Vector3d> tooFew(referenceOrigins().data(), 22);
+    EXPECT_FALSE(poseFromMessage(datagram, tooFew, LengthUnit::Metre, pose));
+    EXPECT_FALSE(
+        poseFromMessage({{}, wire::CentreOfMass{}, {}}, referenceOrigins(), LengthUnit::Metre, pose));
+}
+
+TEST(CharacterPoses, OfType05HangOnTheNullPoseBoneByBone) {
+    wire::PoseUnity unity;
+    for (std::uint32_t i = 0; i < 23; ++i) { // the wire's positions may be anything but the pelvis'
+        unity.segments.push_back({i + 1, {9, 9, 9}, {1, 0, 0, 0}});
+    }
+    unity.segments[0].position = {-2, 1, 3}; // Unity: (-y, z, x)
+    CharacterPose pose;
+    ASSERT_TRUE(poseFromMessage({{}, unity, {}}, referenceOrigins(), LengthUnit::Metre, pose));
+    const auto& origins = referenceOrigins();
+    const Eigen::Vector3d pelvis(3, 2, 1);
+    for (std::size_t i = 0; i < 23; ++i) {
+        EXPECT_LT((pose.segments[i].position - (pelvis + origins[i] - origins[0])).norm(), 1e-6) << i;
+    }
+}
+
+TEST(PointIds, ComeBackFromBothCodings) {
+    for (const PointIdCoding coding : {PointIdCoding::By256, PointIdCoding::By100}) {
+        for (const AnatomicalPoint& point : anatomicalPoints()) {
+            const PointReference reference{point.segment + 1, point.localId};
+            const auto id = encodePointId(coding, reference);
+            EXPECT_EQ(decodePointId(coding, id), reference);
+            EXPECT_EQ(knownPoint(coding, id), reference) << point.name;
+        }
+    }
+    EXPECT_EQ(encodePointId(PointIdCoding::By256, {1, 13}), 269U) << "pSacrum, as in the specification";
+    EXPECT_EQ(encodePointId(PointIdCoding::By100, {1, 13}), 113U);
+    EXPECT_EQ(encodePointId(PointIdCoding::Unknown, {1, 13}), 0U);
+    EXPECT_EQ(decodePointId(PointIdCoding::Unknown, 269), std::nullopt);
+}
+
+TEST(PointIds, AreUnknownOutsideTheTables) {
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 256 * 1 + 15), std::nullopt) << "the pelvis has 14";
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 256 * 2 + 4), std::nullopt) << "L5 has 3";
+    EXPECT_TRUE(knownPoint(PointIdCoding::By256, 256 * 67 + 14).has_value()) << "a finger may have any";
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 256 * 67 + 15), std::nullopt);
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 256 * 68 + 1), std::nullopt);
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 7), std::nullopt) << "there is no segment 0";
+    EXPECT_TRUE(knownPoint(PointIdCoding::By100, 100 * 28 + 14).has_value());
+    EXPECT_EQ(knownPoint(PointIdCoding::By100, 100 * 29 + 1), std::nullopt);
+    EXPECT_EQ(knownPoint(PointIdCoding::By256, 0xffffffffU), std::nullopt);
+    EXPECT_EQ(findPoint(0, 99), nullptr);
+    EXPECT_EQ(findPoint("pNobody"), nullptr);
+}
+
+} // namespace
+} // namespace posewire::model
