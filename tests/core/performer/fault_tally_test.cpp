@@ -2,7 +2,7 @@
 #include "tests/core/performer/receiving.h"
 
 #include "core/log/tcp_framer.h"
-#include "core/performer/streamed_truth.h"
+#include "core/performer/truth.h"
 
 #include <gtest/gtest.h>
 

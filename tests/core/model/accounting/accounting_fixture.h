@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "tests/core/model/accounting/arrivals.h"
+
 #include "core/model/accounting/stream_accounting.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +25,7 @@ struct Accounting : testing::Test {
         header.sampleCounter = sample;
         header.datagramCounter = datagramCounter;
         header.timeCode = static_cast<std::uint32_t>(stamp.time_since_epoch() / 1ms);
-        const auto verdicts = stream.add(stamp, 760, header);
+        const auto verdicts = addTo(stream, stamp, 760, header);
         stamp += 4ms;
         return verdicts;
     }

@@ -21,7 +21,7 @@ constexpr log::Stamp at(log::Duration time) {
 /// What was added, all of it.
 struct Added {
     log::Stamp stamp;
-    CountHistory::Change change;
+    CountHistory::Counters change;
 };
 
 /// Sums of what was added in [from, to).
@@ -29,25 +29,25 @@ StreamCounts sumOf(const std::vector<Added>& all, log::Stamp from, log::Stamp to
     StreamCounts sum;
     for (const auto& [stamp, change] : all) {
         if (stamp >= from && stamp < to) {
-            sum.datagrams += static_cast<std::uint64_t>(change.datagrams);
-            sum.bytes += static_cast<std::uint64_t>(change.bytes);
-            sum.samples += static_cast<std::uint64_t>(change.samples);
-            sum.lost += static_cast<std::uint64_t>(change.lost);
-            sum.duplicates += static_cast<std::uint64_t>(change.duplicates);
-            sum.reordered += static_cast<std::uint64_t>(change.reordered);
-            sum.late += static_cast<std::uint64_t>(change.late);
-            sum.incomplete += static_cast<std::uint64_t>(change.incomplete);
-            sum.restarts += static_cast<std::uint64_t>(change.restarts);
+            sum.datagrams += change.datagrams;
+            sum.bytes += change.bytes;
+            sum.samples += change.samples;
+            sum.lost += change.lost;
+            sum.duplicates += change.duplicates;
+            sum.reordered += change.reordered;
+            sum.late += change.late;
+            sum.incomplete += change.incomplete;
+            sum.restarts += change.restarts;
         }
     }
     return sum;
 }
 
-CountHistory::Change randomChange(std::mt19937& random) {
+CountHistory::Counters randomChange(std::mt19937& random) {
     const auto upTo = [&random](std::uint32_t most) {
-        return static_cast<std::int32_t>(random() % (most + 1));
+        return static_cast<std::uint32_t>(random() % (most + 1));
     };
-    CountHistory::Change change;
+    CountHistory::Counters change;
     change.datagrams = upTo(3);
     change.bytes = upTo(2'168);
     change.samples = upTo(3);
@@ -75,7 +75,7 @@ protected:
         }
         m_end = stamp;
     }
-    void add(log::Stamp stamp, const CountHistory::Change& change) {
+    void add(log::Stamp stamp, const CountHistory::Counters& change) {
         m_history.add(stamp, change);
         m_added.push_back({stamp, change});
     }
@@ -165,7 +165,7 @@ TEST(CountHistory, TakesBackWhatWasNoLoss) {
     history.add(at(1s), {.samples = 1, .lost = 9});
     history.add(at(2s), {.samples = 1});
     history.add(at(3s), {.samples = 1});
-    history.add(at(1s), {.lost = -4});
+    history.add(at(1s), {.lost = 0U - 4U});
     EXPECT_EQ(history.countsBetween(at(1s), at(2s)).lost, 5U);
     EXPECT_EQ(history.countsBetween(at(2s), at(4s)).lost, 0U);
     EXPECT_EQ(history.countsBetween(at(0s), at(4s)).lost, 5U);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/loss_bursts.h"
-#include "core/model/accounting/message_rounds.h"
+#include "core/model/accounting/stream_accounting.h"
+#include "core/model/accounting/stream_counts.h"
 
 #include <gtest/gtest.h>
 

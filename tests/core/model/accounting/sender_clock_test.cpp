@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/clock_skew.h"
 #include "core/model/accounting/sender_clock.h"
 
 #include <gtest/gtest.h>

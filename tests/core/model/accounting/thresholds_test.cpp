@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/thresholds.h"
 
+#include "tests/core/model/accounting/arrivals.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,7 +30,7 @@ protected:
         wire::Header header;
         header.sampleCounter = m_sample;
         header.timeCode = static_cast<std::uint32_t>(m_stamp.time_since_epoch() / 1ms);
-        m_streams.front().accounting.add(m_stamp, 100, header);
+        addTo(m_streams.front().accounting, m_stamp, 100, header);
     }
     void step(log::Duration apart = 10ms) {
         ++m_sample;
@@ -154,7 +156,7 @@ TEST_F(Limits, OfAgeAreOfSilenceAndNeedNoSamples) {
     check();
     ASSERT_EQ(of(EventKind::AgeLimit).size(), 1U);
     EXPECT_NEAR(of(EventKind::AgeLimit)[0].value, 3'601, 0.1);
-    EXPECT_EQ(severityOf(EventKind::AgeLimit), EventSeverity::Error);
+    EXPECT_EQ(of(EventKind::AgeLimit)[0].severity(), EventSeverity::Error);
     m_nextCheck = {};
     sendFor(2s);
     EXPECT_FALSE(isAlert(EventKind::AgeLimit));
@@ -166,7 +168,7 @@ TEST_F(Limits, OfJitterAreOfRfc3550) {
         wire::Header header;
         header.sampleCounter = m_sample;
         header.timeCode = static_cast<std::uint32_t>(m_stamp.time_since_epoch() / 1ms);
-        m_streams.front().accounting.add(m_stamp + (i % 2 == 0 ? 0ms : 30ms), 100, header);
+        addTo(m_streams.front().accounting, m_stamp + (i % 2 == 0 ? 0ms : 30ms), 100, header);
         step(40ms);
     }
     EXPECT_TRUE(isAlert(EventKind::JitterLimit));
@@ -202,7 +204,7 @@ TEST_F(Limits, OfTheRateSayNothingBeforeAWholeWindow) {
 
 TEST_F(Limits, HoldEveryStreamOnItsOwn) {
     addStream(21);
-    m_streams.back().accounting.add(m_stamp, 100, wire::Header());
+    addTo(m_streams.back().accounting, m_stamp, 100, wire::Header());
     sendFor(5s); // of the first stream alone
     ASSERT_EQ(m_events.all().size(), 1U);
     EXPECT_EQ(m_events.all().front().kind, EventKind::AgeLimit);
@@ -218,7 +220,7 @@ TEST_F(Limits, LeaveMessagesThatAreRepeatedAlone) {
     for (Stream& stream : m_streams) {
         wire::Header header;
         header.datagramCounter = 0; // the first part of more that never come
-        stream.accounting.add(m_stamp, 100, header);
+        addTo(stream.accounting, m_stamp, 100, header);
     }
     for (int i = 0; i < 100; ++i) {
         m_stamp += 500ms;

@@ -181,36 +181,45 @@ TEST(NullPoseParts, WithPositionsThatAreNoNumbersAreKeptAsSent) {
     }
 }
 
-TEST(DifferentBody, IsOneWithOtherSegmentsOrPoints) {
-    const auto poseOf = [](const std::vector<wire::NullPose>& message) {
-        NullPoseAssembler assembler;
-        for (std::size_t part = 0; part < message.size(); ++part) {
-            assembler.add(message[part], counterOf(part, message.size()), part, at(1s));
+/// Whether a history takes the second of two whole messages for another body.
+bool isChange(const std::vector<wire::NullPose>& first, const std::vector<wire::NullPose>& second) {
+    NullPoseHistory history;
+    std::uint64_t packet = 0;
+    log::Stamp stamp = at(1s);
+    for (const auto* message : {&first, &second}) {
+        for (std::size_t part = 0; part < message->size(); ++part) {
+            history.add((*message)[part], counterOf(part, message->size()), packet++, stamp);
         }
-        return *assembler.newest();
-    };
+        stamp += 5s;
+    }
+    const NullPoseRecord record = history.record(packet);
+    EXPECT_EQ(record.messages, 2U);
+    EXPECT_EQ(record.changed, record.before == nullptr ? at(1s) : at(6s));
+    return record.before != nullptr;
+}
+
+TEST(DifferentBody, IsOneWithOtherSegmentsOrPoints) {
     const auto plain = messageOf(1, 3);
-    const NullPose pose = poseOf(plain);
-    EXPECT_FALSE(isDifferentBody(pose, pose));
+    EXPECT_FALSE(isChange(plain, plain));
     auto other = plain;
     other[2].points[4].position[0] += 0.001F;
-    EXPECT_TRUE(isDifferentBody(pose, poseOf(other)));
+    EXPECT_TRUE(isChange(plain, other));
     other = plain;
     other[1].points[0].name = "elsewhere";
-    EXPECT_TRUE(isDifferentBody(pose, poseOf(other)));
+    EXPECT_TRUE(isChange(plain, other));
     other = plain;
     other[1].points[0].flags = 1;
-    EXPECT_TRUE(isDifferentBody(pose, poseOf(other)));
+    EXPECT_TRUE(isChange(plain, other));
     other = plain;
     other[0].segments.pop_back();
-    EXPECT_TRUE(isDifferentBody(pose, poseOf(other)));
+    EXPECT_TRUE(isChange(plain, other));
     other = plain;
     other[0].segments[22].name = "Tail";
-    EXPECT_TRUE(isDifferentBody(pose, poseOf(other)));
+    EXPECT_TRUE(isChange(plain, other));
     other = plain;
     other[2].points.clear(); // the points of one message alone: parts get lost
-    EXPECT_FALSE(isDifferentBody(pose, poseOf(other)));
-    EXPECT_FALSE(isDifferentBody(poseOf(other), pose));
+    EXPECT_FALSE(isChange(plain, other));
+    EXPECT_FALSE(isChange(other, plain));
 }
 
 } // namespace

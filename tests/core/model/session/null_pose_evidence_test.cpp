@@ -3,7 +3,6 @@
 
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/points.h"
-#include "core/model/session/null_pose_evidence.h"
 
 #include <limits>
 #include <string>
@@ -47,18 +46,18 @@ protected:
     }
     NullPoseEvidence evidence() {
         follow();
-        return nullPoseEvidence(m_session, key());
+        return m_session.nullPoseEvidence(key());
     }
     NullPoseEvidence evidenceAt(std::uint64_t packet) {
         follow();
         m_session.setCursor({Cursor::Mode::Paused, packet});
-        return nullPoseEvidence(m_session, key());
+        return m_session.nullPoseEvidence(key());
     }
 };
 
 TEST_F(EvidenceTest, IsNothingOfAnUnknownCharacter) {
     m_session.follow(at(7s));
-    const NullPoseEvidence none = nullPoseEvidence(m_session, key());
+    const NullPoseEvidence none = m_session.nullPoseEvidence(key());
     EXPECT_EQ(none.record.pose, nullptr);
     EXPECT_EQ(none.record.messages, 0U);
     EXPECT_EQ(none.scale, nullptr);
@@ -115,9 +114,9 @@ TEST_F(EvidenceTest, KnowsThePartsThatAreMissing) {
     ASSERT_NE(evidence().record.newest, nullptr);
     EXPECT_EQ(evidence().record.newest->missingParts, (std::vector<unsigned>{1}));
     m_session.follow(at(1s) + 500ms);
-    EXPECT_TRUE(findContradictions(nullPoseEvidence(m_session, key())).empty()) << "it may still come";
+    EXPECT_TRUE(findContradictions(m_session.nullPoseEvidence(key())).empty()) << "it may still come";
     m_session.follow(at(3s));
-    const auto findings = findContradictions(nullPoseEvidence(m_session, key()));
+    const auto findings = findContradictions(m_session.nullPoseEvidence(key()));
     ASSERT_EQ(findings.size(), 1U);
     EXPECT_EQ(findings[0].fault, NullPoseFault::MissingPart);
     send(pointsOf(1), 0, at(4s), 0x01);

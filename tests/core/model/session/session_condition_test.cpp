@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/model/session/session_fixture.h"
 
+#include "core/model/accounting/thresholds.h"
+
 #include <string>
 
 /// How a character does, in one word and one sentence; and what the session keeps of the wildest input.

@@ -2,6 +2,8 @@
 #include "tests/core/model/session/session_fixture.h"
 
 #include "core/model/accounting/attribution.h"
+#include "core/model/accounting/stream_figures.h"
+#include "core/model/accounting/thresholds.h"
 
 #include <algorithm>
 #include <random>
@@ -41,7 +43,7 @@ TEST_F(ViewTest, IsEmptyBeforeAnythingComes) {
     EXPECT_EQ(m_session.firstStamp(), log::Stamp());
     EXPECT_EQ(m_session.cursorStamp(), at(5s));
     EXPECT_TRUE(m_session.currentCharacters().empty());
-    EXPECT_EQ(m_session.countsBetween({at(0s), at(9s)}), StreamCounts{});
+    EXPECT_EQ(m_session.countsOf(key(), {at(0s), at(9s)}), StreamCounts{});
     EXPECT_EQ(m_session.ageSeconds(key()), 0);
     EXPECT_EQ(m_session.packet(0), std::nullopt);
     EXPECT_EQ(m_session.message(key(), 2), nullptr);
@@ -162,17 +164,23 @@ TEST_F(ViewTest, SumsWhatItsStreamsCount) {
     }
     follow();
     const CharacterKey other{sender("10.0.0.7:1"), 0};
-    EXPECT_EQ(m_session.countsOf(key()).samples, 190U);
-    EXPECT_EQ(m_session.countsOf(key()).lost, 9U) << "the last one is not missed yet";
-    EXPECT_EQ(m_session.countsOf({sender(), 1}).samples, 200U);
-    EXPECT_EQ(m_session.countsOf(sender()).samples, 390U);
-    EXPECT_EQ(m_session.countsOf(sender()).lost, 9U);
-    EXPECT_EQ(m_session.countsOf(other).duplicates, 200U);
-    EXPECT_EQ(m_session.countsOf(sender("10.0.0.8:1")), StreamCounts{});
+    EXPECT_EQ(m_session.countsOf(key(), kAllTime).samples, 190U);
+    EXPECT_EQ(m_session.countsOf(key(), kAllTime).lost, 9U) << "the last one is not missed yet";
+    EXPECT_EQ(m_session.countsOf({sender(), 1}, kAllTime).samples, 200U);
+    EXPECT_EQ(m_session.countsOf(other, kAllTime).duplicates, 200U);
+    EXPECT_EQ(m_session.countsOf({sender("10.0.0.8:1"), 0}, kAllTime), StreamCounts{});
     const TimeRange all{at(0s), at(100s)};
-    EXPECT_EQ(m_session.countsBetween(all).datagrams, m_session.end());
-    EXPECT_EQ(m_session.countsBetween(all).samples, 590U);
-    EXPECT_EQ(m_session.countsOf(sender(), all).lost, 9U);
+    StreamCounts ofSender;
+    StreamCounts inAll;
+    for (const Stream& stream : m_session.streams()) {
+        ofSender += stream.key.sender == sender() ? stream.accounting.counts() : StreamCounts{};
+        inAll += stream.accounting.countsBetween(all.from, all.to);
+    }
+    EXPECT_EQ(ofSender.samples, 390U);
+    EXPECT_EQ(ofSender.lost, 9U);
+    EXPECT_EQ(inAll.datagrams, m_session.end());
+    EXPECT_EQ(inAll.samples, 590U);
+    EXPECT_EQ(m_session.countsOf(key(), all).lost, 9U);
     EXPECT_EQ(m_session.countsOf(other, {at(11s), at(12s)}).samples, 100U);
     EXPECT_EQ(m_session.countsOf(other, {at(13s), at(14s)}).samples, 0U);
 }

@@ -52,8 +52,10 @@ TEST_F(SplitMessages, AreWholeInWhateverOrderTheirPartsCome) {
         const auto& body = std::get<wire::PoseQuaternion>(message->datagram.body);
         EXPECT_EQ(body, standingAt(static_cast<float>(sample)));
     } while (std::ranges::next_permutation(order).found);
-    EXPECT_EQ(m_session.countsOf(key()).samples, 6U);
-    EXPECT_EQ(m_session.countsOf(key()).incomplete, 0U);
+    const StreamCounts counts =
+        m_session.find({sender(), 0, wire::PoseQuaternion::kType})->accounting.counts();
+    EXPECT_EQ(counts.samples, 6U);
+    EXPECT_EQ(counts.incomplete, 0U);
 }
 
 TEST_F(SplitMessages, AreShownAsAPlainModelShowsThemWhereSomeAreLostOrCome) {
