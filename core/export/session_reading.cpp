@@ -8,24 +8,35 @@
 
 namespace posewire::exporting {
 
+std::array<std::uint64_t, model::kLossCauses> lostByCause(const model::SessionView& session,
+                                                          const model::Stream& stream,
+                                                          const std::optional<model::TimeRange>& range) {
+    if (!range) {
+        return stream.lostByCause();
+    }
+    const model::StreamCounts counts = stream.accounting.countsBetween(range->from, range->to);
+    std::array<std::uint64_t, model::kLossCauses> lost{};
+    std::uint64_t unknown = counts.lost + counts.incomplete;
+    for (const model::Gap& gap : session.gaps()) {
+        if (gap.stream == stream.key && gap.toStamp >= range->from && gap.toStamp < range->to &&
+            gap.cause != model::LossCause::Unknown) {
+            lost[static_cast<std::size_t>(gap.cause)] += gap.lost;
+            unknown -= std::min<std::uint64_t>(gap.lost, unknown);
+        }
+    }
+    lost[static_cast<std::size_t>(model::LossCause::Unknown)] = unknown;
+    return lost;
+}
+
 model::StreamFigures figuresOf(const model::SessionView& session, const model::Stream& stream,
                                const std::optional<model::TimeRange>& range) {
     using enum model::Figure;
     model::StreamFigures figures = model::figuresOf(stream, range);
-    if (!range) {
-        return figures;
+    constexpr std::array kCauses{LostHere, LostOnNetwork, LostAtSender, LostUnknown};
+    const auto lost = lostByCause(session, stream, range);
+    for (std::size_t cause = 0; cause < kCauses.size(); ++cause) {
+        figures.set(kCauses[cause], static_cast<double>(lost[cause]));
     }
-    constexpr std::array kCauses{LostHere, LostOnNetwork, LostAtSender};
-    double unknown = figures[LostUnknown];
-    for (const model::Gap& gap : session.gaps()) {
-        if (gap.stream == stream.key && gap.toStamp >= range->from && gap.toStamp < range->to &&
-            gap.cause != model::LossCause::Unknown) {
-            const model::Figure cause = kCauses[static_cast<std::size_t>(gap.cause)];
-            figures.set(cause, figures[cause] + gap.lost);
-            unknown -= gap.lost;
-        }
-    }
-    figures.set(LostUnknown, std::max(unknown, 0.0));
     return figures;
 }
 

@@ -3,8 +3,8 @@
 // ms a frame (30 frames a second), 16 ms to select, 2 s to filter a million in the background. What the
 // window's own thread does while a filter runs, and to find the next problem in a filtered list, must not be
 // felt.
-#include "app/gui/models/packet_filter_run.h"
 #include "app/gui/models/packet_model.h"
+#include "app/gui/models/packet_search.h"
 #include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/theme.h"

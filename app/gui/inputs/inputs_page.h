@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/driver/receiving.h"
-#include "app/gui/models/input_model.h"
+#include "app/gui/models/receiving_models.h"
 
 #include <QWidget>
 

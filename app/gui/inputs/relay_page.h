@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/driver/relaying.h"
-#include "app/gui/models/relay_model.h"
+#include "app/gui/models/receiving_models.h"
 
 #include <QWidget>
 

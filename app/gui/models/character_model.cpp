@@ -15,25 +15,13 @@ namespace posewire::gui {
 
 namespace {
 
-model::CharacterKey characterOf(const log::StreamKey& key) {
-    return {key.sender, key.character};
-}
-
 QString transportName(log::Transport transport) {
-    switch (transport) {
-    case log::Transport::Udp:
-        return QStringLiteral("UDP");
-    case log::Transport::Tcp:
-        return QStringLiteral("TCP");
-    case log::Transport::File:
-        return tr("file");
-    case log::Transport::Performer:
-        return tr("demo");
-    }
-    return {};
+    const std::array names{QStringLiteral("UDP"), QStringLiteral("TCP"), tr("file"),
+                           tr("demo")}; // by Transport
+    return names[static_cast<std::size_t>(transport)];
 }
 
-/// What tells how fast a character comes: its pose, or else the fastest of its streams.
+/// Shows how fast a character comes: its pose, or else the fastest of its streams.
 const model::Stream* leadingStream(model::SessionView& view, const model::CharacterKey& key) {
     for (const std::uint8_t type : std::array<std::uint8_t, 3>{2, 1, 5}) {
         if (const auto* stream = view.find(log::StreamKey{key.sender, key.character, type})) {
@@ -85,61 +73,33 @@ std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) con
 }
 
 std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel& model) {
-    const auto state = [&model](const StreamRow& row) { return model.stateOf(row); };
-    return {
-        {.title = tr("Character, stream"),
-         .text = [&model](const StreamRow& row) { return model.nameOf(row); },
-         .toolTip =
-             [&model](const StreamRow& row) {
-                 return row.kind == Kind::Character
-                            ? tr("Character ID %1. Check mark: shown in the viewport. Double click: frame in "
-                                 "the viewport.")
-                                  .arg(model.view().characters()[row.entry].key.character)
-                            : QString();
-             },
-         .more = [&model](const StreamRow& row, int role) { return model.marksOf(row, role); }},
-        {.title = tr("Hz"),
-         .isNumber = true,
-         .text = [&model](const StreamRow& row) { return model.rateOf(row); },
-         .colour =
-             [](const StreamRow& row) {
-                 return row.kind == Kind::Sender ? QVariant(theme().dim) : QVariant();
-             },
-         .toolTip = [&model](const StreamRow& row) { return model.rateHelp(row); }},
-        valueColumn(TableColumn<StreamRow>{.title = tr("Lost"),
-                                           .help = tr("Samples that did not come; or what is wrong"),
-                                           .isNumber = true},
-                    state),
+    using Column = TableColumn<StreamRow>;
+    const auto help = [&model](const StreamRow& row) {
+        return row.kind == Kind::Character ? tr("Character ID %1. Check mark: shown in the viewport. Double "
+                                                "click: frame in the viewport.")
+                                                 .arg(model.view().characters()[row.entry].key.character)
+                                           : QString();
     };
-}
-
-QString CharacterModel::nameOf(const StreamRow& row) const {
-    switch (row.kind) {
-    case Kind::Sender:
-        return QString::fromStdString(view().senders()[row.entry].info.address);
-    case Kind::Character:
-        return characterName(view(), view().characters()[row.entry].key);
-    case Kind::Stream:
-        break;
-    }
-    return QString::fromStdString(wire::typeTitle(view().streams()[row.entry].key.type));
-}
-
-QVariant CharacterModel::marksOf(const StreamRow& row, int role) const {
-    if (row.kind != Kind::Character) {
-        return {};
-    }
-    const model::CharacterKey& key = view().characters()[row.entry].key;
-    switch (role) {
-    case kSuffixRole:
-        return QStringLiteral("· %1").arg(key.character);
-    case kDotRole:
-        return characterColour(view(), key);
-    case Qt::CheckStateRole:
-        return view().isHidden(key) ? Qt::Unchecked : Qt::Checked;
-    default:
-        return {};
-    }
+    Column name = Column::words(tr("Character, stream"), {}, [&model](const auto& row) {
+                      return model.nameOf(row);
+                  }).withToolTip(help);
+    name.more = [&model](const StreamRow& row, int role) {
+        if (role == Qt::CheckStateRole && row.kind == Kind::Character) {
+            const bool isHidden = model.view().isHidden(model.view().characters()[row.entry].key);
+            return QVariant(isHidden ? Qt::Unchecked : Qt::Checked);
+        }
+        return model.marksOf(row, role);
+    };
+    return {
+        name,
+        Column::numbers(tr("Hz"), {}, [&model](const auto& row) { return model.rateOf(row); })
+            .withColour([](const StreamRow& row) {
+                return row.kind == Kind::Sender ? QVariant(theme().dim) : QVariant();
+            })
+            .withToolTip([&model](const auto& row) { return model.rateHelp(row); }),
+        valueColumn(Column::numbers(tr("Lost"), tr("Samples that did not come; or what is wrong"), {}),
+                    [&model](const StreamRow& row) { return model.stateOf(row); }),
+    };
 }
 
 QString CharacterModel::rateOf(const StreamRow& row) const {

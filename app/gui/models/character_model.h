@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/models/nominal_rate.h"
+#include "app/gui/models/clock_history.h"
 #include "app/gui/models/stream_tree_model.h"
 
 #include <optional>
@@ -19,7 +19,7 @@ public:
 
     void refresh();
 
-    /// Rate of a stream by the sender's own clock, where it can be told.
+    /// Rate of a stream by the sender's own clock, where that is known.
     [[nodiscard]] std::optional<double> nominalHz(const model::Stream& stream) const;
 
     bool setData(const QModelIndex& index, const QVariant& value, int role) override;
@@ -30,8 +30,6 @@ private:
 
     /// Read the model only where a cell is asked for.
     [[nodiscard]] static std::vector<TableColumn<StreamRow>> columns(const CharacterModel& model);
-    [[nodiscard]] QString nameOf(const StreamRow& row) const;
-    [[nodiscard]] QVariant marksOf(const StreamRow& row, int role) const;
     [[nodiscard]] QString rateOf(const StreamRow& row) const;
     [[nodiscard]] QString rateHelp(const StreamRow& row) const;
     [[nodiscard]] PropertyValue stateOf(const StreamRow& row) const;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/clock_history.h"
 
+#include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/session/ingest.h"
 
 #include <algorithm>
@@ -11,6 +13,11 @@
 namespace posewire::gui {
 
 namespace {
+
+constexpr std::uint32_t kLeastSpanMs = 500;
+constexpr std::uint32_t kBaseSpanMs = 10'000;
+constexpr std::uint32_t kLongestStepMs = 5'000;
+constexpr double kJumpMs = 100;
 
 constexpr log::Duration kWindow = std::chrono::seconds(60);
 constexpr std::size_t kMostReadings = 20'000;
@@ -48,6 +55,41 @@ std::optional<double> millisecondsOf(std::string_view text) {
 }
 
 } // namespace
+
+bool NominalRate::continues(const Mark& mark) const {
+    const auto samples = static_cast<std::int32_t>(mark.sample - m_newest.sample);
+    const auto milliseconds = static_cast<std::int32_t>(mark.timeCode - m_newest.timeCode);
+    if (samples < 0 || milliseconds < 0 || milliseconds > static_cast<std::int32_t>(kLongestStepMs)) {
+        return false;
+    }
+    const auto hz = frameHz();
+    return !hz || std::abs(milliseconds - samples * 1000.0 / *hz) < kJumpMs;
+}
+
+void NominalRate::add(std::uint32_t sample, std::uint32_t timeCode) {
+    const Mark mark{sample, timeCode};
+    if (!m_hasMarks || !continues(mark)) {
+        m_base = m_nextBase = mark;
+        m_hasMarks = true;
+    }
+    m_newest = mark;
+    if (mark.timeCode - m_nextBase.timeCode >= kBaseSpanMs) {
+        m_base = m_nextBase;
+        m_nextBase = mark;
+    }
+}
+
+std::optional<double> NominalRate::frameHz() const {
+    const std::uint32_t milliseconds = m_newest.timeCode - m_base.timeCode;
+    const std::uint32_t samples = m_newest.sample - m_base.sample;
+    if (!m_hasMarks || milliseconds < kLeastSpanMs || samples == 0) {
+        return std::nullopt;
+    }
+    const double hz = samples * 1000.0 / milliseconds;
+    // Either end is cut to a whole millisecond.
+    const double uncertainty = hz * 1.0 / milliseconds;
+    return std::abs(hz - std::round(hz)) <= uncertainty ? std::round(hz) : hz;
+}
 
 void ClockHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key) {
     const std::uint8_t type = key ? clockType(view, *key) : std::uint8_t{0};
@@ -118,15 +160,11 @@ std::optional<std::uint32_t> ClockHistory::headerMs() const {
     return m_readings.empty() ? std::nullopt : std::optional(m_readings.back().timeCode);
 }
 
-double ClockHistory::observedSeconds() const {
-    return m_readings.empty() ? 0.0 : log::secondsOf(m_readings.back().stamp - m_readings.front().stamp);
-}
-
 std::optional<ClockHistory::Drift> ClockHistory::fitDrift() const {
-    if (observedSeconds() < kLeastDriftSeconds) {
+    const Reading& first = m_readings.front();
+    if (log::secondsOf(m_readings.back().stamp - first.stamp) < kLeastDriftSeconds) {
         return std::nullopt;
     }
-    const Reading& first = m_readings.front();
     double meanX = 0;
     double meanY = 0;
     const auto x = [&](const Reading& r) { return log::secondsOf(r.stamp - first.stamp); };
@@ -151,6 +189,79 @@ std::optional<ClockHistory::Drift> ClockHistory::fitDrift() const {
     const double slope = xy / xx;
     const double variance = std::max(0.0, yy - slope * xy) / std::max(1.0, count - 2);
     return Drift{slope * 1e6, std::sqrt(variance / xx) * 1e6};
+}
+
+namespace {
+
+PropertyValue header(const ClockHistory& clock) {
+    const auto milliseconds = clock.headerMs();
+    return {milliseconds ? tr("%1 · %2 ms").arg(milliClock(*milliseconds), grouped(*milliseconds)) : dash(),
+            Health::Unknown,
+            tr("Time code of every header: since the start of a recording, or the sender's time "
+               "of day when live")};
+}
+
+PropertyValue type25(const ClockHistory& clock) {
+    return {clock.type25() ? QString::fromStdString(*clock.type25()) : tr("not on the air"), Health::Unknown,
+            tr("Wall clock that the sender sends as text. In MVN: Network Streamer > Time Code (type 25)")};
+}
+
+PropertyValue offset(const ClockHistory& clock) {
+    return {clock.offsetMs() ? clockDifference(*clock.offsetMs()) : dash(), Health::Unknown,
+            tr("Type 25 minus the header time code of the same datagram")};
+}
+
+PropertyValue drift(const ClockHistory& clock) {
+    const QString toolTip =
+        tr("How much faster the sender's header clock runs than this computer's: slope over "
+           "the last minute of time code against receive stamps, ± its standard error");
+    if (const auto found = clock.drift()) {
+        return {tr("%1 ± %2 ppm").arg(signedFixed(found->ppm, 1), fixed(found->error, 1)), Health::Unknown,
+                toolTip};
+    }
+    if (!clock.headerMs()) {
+        return {dash(), Health::Unknown, toolTip};
+    }
+    return {tr("after %1 s").arg(static_cast<int>(ClockHistory::kLeastDriftSeconds)), Health::Unknown,
+            toolTip};
+}
+
+PropertyValue frameRate(const ClockHistory& clock) {
+    const auto hz = clock.frameHz();
+    return {hz ? tr("%1 Hz").arg(fixed(*hz, 2)) : dash(), Health::Unknown,
+            tr("How far the sample counter moves on in a second of the sender's time code")};
+}
+
+PropertyValue lastJump(const ClockHistory& clock) {
+    const QString toolTip =
+        tr("The newest place where the time code did not go on as its samples did, and when it "
+           "was received");
+    if (!clock.lastJump()) {
+        return {clock.headerMs() ? tr("none") : dash(), Health::Unknown, toolTip};
+    }
+    return {tr("%1 at %2")
+                .arg(clockDifference(clock.lastJump()->milliseconds),
+                     timeOfDay(clock.lastJump()->stamp).chopped(4)),
+            Health::Warning, toolTip};
+}
+
+} // namespace
+
+QString clockText(const ClockHistory& clock, ClockChoice choice) {
+    const QString none = QStringLiteral("--:--:--.---");
+    if (choice == ClockChoice::Type25) {
+        return clock.type25() ? QString::fromStdString(*clock.type25()) : none;
+    }
+    return clock.headerMs() ? milliClock(*clock.headerMs()) : none;
+}
+
+std::vector<Property> clockFacts(const ClockHistory& clock) {
+    return propertiesOf(clock, {{tr("Header"), header},
+                                {tr("Type 25"), type25},
+                                {tr("Offset"), offset},
+                                {tr("Drift"), drift},
+                                {tr("Frame rate"), frameRate},
+                                {tr("Last jump"), lastJump}});
 }
 
 } // namespace posewire::gui

@@ -1,21 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/nominal_rate.h"
+#include "app/gui/models/column.h"
 #include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
 
 namespace posewire::gui {
 
+/// The sender's own frame rate: how far its time code advances with its sample counter. Receive times play no
+/// part, so it is the rate that should be, beside the measured one. Rests on the last 10 to 20 s;
+/// O(1).
+class NominalRate {
+public:
+    /// Sample counter and header time code (ms) of a message, oldest first. A jump of either starts over.
+    void add(std::uint32_t sample, std::uint32_t timeCode);
+
+    /// Samples of the capture a second; nothing before the time code has advanced by half a second. A whole
+    /// number where the resolution of the time code cannot tell the difference.
+    [[nodiscard]] std::optional<double> frameHz() const;
+
+private:
+    struct Mark {
+        std::uint32_t sample = 0;
+        std::uint32_t timeCode = 0;
+    };
+    [[nodiscard]] bool continues(const Mark& mark) const;
+
+    bool m_hasMarks = false;
+    Mark m_base;
+    Mark m_nextBase;
+    Mark m_newest;
+};
+
 /// How the sender's clocks run: header time code against sample counter and receive stamps, and the wall
 /// clock of type 25 beside it. Reads at the cursor, at most the last minute.
 class ClockHistory {
 public:
-    /// Takes in what is new for a character; begins anew where the character changes or the cursor went back.
+    /// Takes in what is new for a character; starts over where the character changes or the cursor went back.
     void follow(model::SessionView& view, const std::optional<model::CharacterKey>& key);
 
     /// Header time code of the newest sample; nothing before the first.
@@ -37,7 +63,6 @@ public:
     };
     static constexpr double kLeastDriftSeconds = 10;
     [[nodiscard]] const std::optional<Drift>& drift() const { return m_drift; }
-    [[nodiscard]] double observedSeconds() const;
 
     /// The newest place where the time code did not go on as its samples did.
     struct Jump {
@@ -71,5 +96,14 @@ private:
     std::optional<std::string> m_type25;
     std::optional<double> m_offsetMs;
 };
+
+/// Which clock of the sender the large figures show.
+enum class ClockChoice { Header, Type25 };
+
+/// "00:10:39.175", or dashes where there is none.
+[[nodiscard]] QString clockText(const ClockHistory& clock, ClockChoice choice);
+
+/// Both clocks side by side, their offset, drift, frame rate, last jump.
+[[nodiscard]] std::vector<Property> clockFacts(const ClockHistory& clock);
 
 } // namespace posewire::gui

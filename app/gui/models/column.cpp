@@ -1,29 +1,52 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/column.h"
 
+#include "app/gui/theme/words.h"
+
+#include <array>
+
 namespace posewire::gui {
+
+namespace {
+
+QString healthWord(Health health) {
+    const std::array words{tr("good"), tr("warning"), tr("error"), QString()}; // by Health
+    return words[static_cast<std::size_t>(health)];
+}
+
+} // namespace
+
+QString PropertyValue::display() const {
+    return health == Health::Unknown ? text : (healthSymbol(health) + QLatin1Char(' ') + text).trimmed();
+}
+
+QString PropertyValue::spoken() const {
+    const QString word = healthWord(health);
+    return word.isEmpty() || text.isEmpty() ? word + text : word + QLatin1String(", ") + text;
+}
+
+QVariant PropertyValue::colour() const {
+    return health == Health::Unknown ? QVariant() : healthColour(health);
+}
 
 QVariant numberAlignment() {
     return int{Qt::AlignRight | Qt::AlignVCenter};
-}
-
-QVariant headerCell(const QString& title, const QString& help, bool isNumber, int role) {
-    switch (role) {
-    case Qt::DisplayRole:
-        return title;
-    case Qt::ToolTipRole:
-        return help.isEmpty() ? QVariant() : help;
-    case Qt::TextAlignmentRole:
-        return isNumber ? numberAlignment() : QVariant();
-    default:
-        return {};
-    }
 }
 
 QString cellText(const QModelIndex& index) {
     const QString text = index.data(Qt::DisplayRole).toString();
     const QString suffix = index.data(kSuffixRole).toString();
     return suffix.isEmpty() ? text : text + QLatin1Char(' ') + suffix;
+}
+
+PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
+    : TableModel({TableColumn<Property>::words(tr("Property"), {}, &Property::label)
+                      .withColour([](const Property&) { return QVariant(theme().dim); })
+                      .withToolTip([](const Property& row) { return row.read().toolTip; }),
+                  valueColumn(TableColumn<Property>{.title = tr("Value"), .isNumber = true},
+                              [](const Property& row) { return row.read(); })},
+                 parent) {
+    setRows(std::move(properties));
 }
 
 } // namespace posewire::gui

@@ -1,23 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/property_value.h"
-#include "app/gui/models/roles.h"
+#include "app/gui/theme/theme.h"
 
 #include <QAbstractTableModel>
+#include <QString>
+#include <QVariant>
 
 #include <functional>
+#include <initializer_list>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace posewire::gui {
 
+/// What a cell may have besides its text; CellDelegate paints it.
+inline constexpr int kDotRole = Qt::UserRole + 1;    ///< QColor: a filled circle before the text
+inline constexpr int kSwatchRole = Qt::UserRole + 2; ///< QColor: a square before the text
+inline constexpr int kSuffixRole = Qt::UserRole + 3; ///< QString: dim text after the text
+/// bool: the text of the cell before stretches over this one too.
+inline constexpr int kSpanRole = Qt::UserRole + 5;
+inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it
+/// QList<float>: where the curve is to be marked, as many as it has values; 0 for no mark.
+inline constexpr int kMarksRole = Qt::UserRole + 6;
+
+/// What one cell says, made whenever it is painted: in shape, colour and text.
+struct PropertyValue {
+    QString text{};
+    Health health = Health::Unknown; ///< other than Unknown: shown with its symbol and colour
+    QString toolTip{};
+
+    /// "▲ 31", or the text alone where health is unknown.
+    [[nodiscard]] QString display() const;
+    /// The same without a symbol, for screen readers: "warning, 31".
+    [[nodiscard]] QString spoken() const;
+    /// Of the health; nothing where it is unknown.
+    [[nodiscard]] QVariant colour() const;
+};
+
 /// For cells and headers of numbers: to the right, so that digits line up.
 [[nodiscard]] QVariant numberAlignment();
-
-/// What is over a column. `help` is the tooltip; empty for none.
-[[nodiscard]] QVariant headerCell(const QString& title, const QString& help, bool isNumber, int role);
 
 /// The text of a cell as it is copied: with its suffix.
 [[nodiscard]] QString cellText(const QModelIndex& index);
@@ -26,15 +49,32 @@ namespace posewire::gui {
 /// or read. What is left out stays empty, as on a line of text.
 template <class Row>
 struct TableColumn {
+    using Words = std::function<QString(const Row&)>;
+    using Colour = std::function<QVariant(const Row&)>;
+
     QString title{};
     QString help{}; ///< tooltip of the title
     bool isNumber = false;
-    std::function<QString(const Row&)> text{};
-    std::function<QVariant(const Row&)> colour{};  ///< nothing for the usual one
-    std::function<QString(const Row&)> toolTip{};  ///< empty for none
-    std::function<QVariant(const Row&)> sortKey{}; ///< the text where it is left out
-    std::function<QString(const Row&)> spoken{};   ///< for screen readers; the text where it is left out
+    Words text{};
+    Colour colour{}; ///< nothing for the usual one
+    Words toolTip{}; ///< empty for none
+    Words spoken{};  ///< for screen readers; the text where it is left out
     std::function<QVariant(const Row&, int role)> more{}; ///< the other roles
+
+    [[nodiscard]] static TableColumn words(const QString& title, const QString& help, Words text) {
+        return {.title = title, .help = help, .text = std::move(text)};
+    }
+    [[nodiscard]] static TableColumn numbers(const QString& title, const QString& help, Words text) {
+        return {.title = title, .help = help, .isNumber = true, .text = std::move(text)};
+    }
+    [[nodiscard]] TableColumn withColour(Colour read) && {
+        colour = std::move(read);
+        return std::move(*this);
+    }
+    [[nodiscard]] TableColumn withToolTip(Words read) && {
+        toolTip = std::move(read);
+        return std::move(*this);
+    }
 };
 
 /// A cell whose text and colour follow from one judgement.
@@ -78,8 +118,6 @@ template <class Row>
         return orNothing(column.toolTip);
     case Qt::AccessibleTextRole:
         return orNothing(column.spoken);
-    case kSortRole:
-        return column.sortKey ? column.sortKey(row) : cellData(column, row, Qt::DisplayRole);
     default:
         return column.more ? column.more(row, role) : QVariant();
     }
@@ -99,7 +137,16 @@ public:
             return {};
         }
         const TableColumn<Row>& column = m_columns[static_cast<std::size_t>(section)];
-        return headerCell(column.title, column.help, column.isNumber, role);
+        switch (role) {
+        case Qt::DisplayRole:
+            return column.title;
+        case Qt::ToolTipRole:
+            return column.help.isEmpty() ? QVariant() : column.help;
+        case Qt::TextAlignmentRole:
+            return column.isNumber ? numberAlignment() : QVariant();
+        default:
+            return {};
+        }
     }
 
 protected:
@@ -159,6 +206,33 @@ protected:
 
 private:
     std::vector<Row> m_rows;
+};
+
+/// A row with a fixed label and a value that is read whenever it is painted.
+struct Property {
+    QString label;
+    std::function<PropertyValue()> read;
+};
+
+/// Properties that are read from `source`, which must outlive them.
+template <class Source>
+[[nodiscard]] std::vector<Property> propertiesOf(
+    Source& source,
+    std::initializer_list<std::pair<QString, PropertyValue (*)(std::type_identity_t<Source>&)>> rows) {
+    std::vector<Property> properties;
+    for (const auto& [label, read] : rows) {
+        properties.push_back({label, [&source, read = read] { return read(source); }});
+    }
+    return properties;
+}
+
+/// A small table of two columns: labels, dim and at the left, and values at the right.
+class PropertyModel : public TableModel<Property> {
+public:
+    explicit PropertyModel(std::vector<Property> properties, QObject* parent = nullptr);
+
+    /// Announces that all values may have changed.
+    void refresh() { announceChange(0, rowCount() - 1); }
 };
 
 } // namespace posewire::gui

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/event_model.h"
 
-#include "app/gui/models/event_words.h"
+#include "app/gui/models/display_filter.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
 
@@ -11,71 +13,141 @@ namespace posewire::gui {
 
 namespace {
 
+using model::EventKind;
+
+QString lossWords(const model::Event& event) {
+    const QString lost = tr("%1 lost").arg(grouped(event.samples));
+    return event.cause && *event.cause != model::LossCause::Unknown
+               ? lost + QStringLiteral(" · ") + fromUtf8(model::nameOf(*event.cause))
+               : lost;
+}
+
+/// Conditions that last are found by the clock: no packet is theirs.
+bool hasPacket(EventKind kind) {
+    return kind != EventKind::SenderDown && kind < EventKind::LossLimit;
+}
+
+} // namespace
+
+Health healthOf(model::EventSeverity severity) {
+    constexpr std::array kHealths{Health::Good, Health::Warning, Health::Error}; // by EventSeverity
+    return kHealths[static_cast<std::size_t>(severity)];
+}
+
+QString severityWord(model::EventSeverity severity) {
+    const std::array words{tr("note"), tr("warning"), tr("error")}; // by EventSeverity
+    return words[static_cast<std::size_t>(severity)];
+}
+
+QString groupWord(model::EventGroup group) {
+    const std::array words{tr("Sender"), tr("Loss"), tr("Content"), tr("Limit")}; // by EventGroup
+    return words[static_cast<std::size_t>(group)];
+}
+
+QString whoseWords(model::SessionView& view, const model::Event& event) {
+    if (!event.character) {
+        const model::Sender* sender = view.find(event.sender);
+        return sender == nullptr ? QString() : QString::fromStdString(sender->info.address);
+    }
+    const QString name = characterName(view, {event.sender, *event.character});
+    return event.type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*event.type))
+                      : name;
+}
+
+QString briefWords(const model::Event& event) {
+    switch (event.kind) {
+    case EventKind::Gap:
+    case EventKind::Burst:
+        return lossWords(event);
+    case EventKind::Malformed:
+        return tr("%1 malformed").arg(grouped(event.count));
+    case EventKind::Foreign:
+        return tr("%1 foreign").arg(grouped(event.count));
+    case EventKind::Dropped:
+        return tr("%1 dropped here").arg(grouped(event.samples));
+    case EventKind::TimeCodeJump:
+        return tr("time code %1 ms").arg(signedFixed(event.value, 0));
+    case EventKind::CharacterConflict:
+        return tr("two senders");
+    case EventKind::SenderDown:
+    case EventKind::Stale:
+    case EventKind::AgeLimit:
+        return tr("stale");
+    case EventKind::LossLimit:
+        return tr("loss %1 %").arg(fixed(event.value, 1));
+    case EventKind::JitterLimit:
+        return tr("jitter %1 ms").arg(fixed(event.value, 1));
+    case EventKind::GapLimit:
+        return tr("gap %1 ms").arg(fixed(event.value, 0));
+    case EventKind::RateLimit:
+        return tr("rate off %1 %").arg(fixed(event.value, 0));
+    default:
+        return fromUtf8(model::nameOf(event.kind));
+    }
+}
+
+std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Event& event) {
+    if (!hasPacket(event.kind)) {
+        const std::uint64_t first = view.packetFrom(event.firstStamp);
+        return first == view.begin() ? std::nullopt : std::optional(first - 1);
+    }
+    return event.lastPacket >= view.begin() && event.lastPacket < view.end() ? std::optional(event.lastPacket)
+                                                                             : std::nullopt;
+}
+
+bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Event& event) {
+    const auto packet = eventPacket(view, event);
+    if (!packet) {
+        return false;
+    }
+    commands.setDisplayFilter(packetFilterOf(view, event));
+    commands.selectPacket(*packet);
+    commands.showDock(QStringLiteral("packets"));
+    return true;
+}
+
+namespace {
+
 using EventColumn = TableColumn<model::Event>;
 
 QString lasted(const model::Event& event) {
-    return event.isCurrent ? tr("goes on") : duration(log::secondsOf(event.lastStamp - event.firstStamp));
+    return event.isCurrent ? tr("lasts") : duration(log::secondsOf(event.lastStamp - event.firstStamp));
 }
 
 QString fromTo(const model::Event& event) {
     return tr("From %1 to %2")
         .arg(timeOfDay(event.firstStamp),
-             event.isCurrent ? tr("now: it goes on, or may") : timeOfDay(event.lastStamp));
+             event.isCurrent ? tr("now: it lasts, or may last") : timeOfDay(event.lastStamp));
 }
 
 EventColumn severityColumn() {
-    return {
-        .title = tr("Severity"),
-        .text =
-            [](const model::Event& event) {
-                return PropertyValue{severityWord(event.severity()), healthOf(event.severity())}.display();
-            },
-        .colour =
-            [](const model::Event& event) {
-                return QVariant(event.severity() == model::EventSeverity::Info
-                                    ? theme().dim
-                                    : healthColour(healthOf(event.severity())));
-            },
-        .sortKey = [](const model::Event& event) { return QVariant(static_cast<int>(event.severity())); },
-        .spoken = [](const model::Event& event) { return severityWord(event.severity()); }};
+    EventColumn column = EventColumn::words(tr("Severity"), {}, [](const model::Event& event) {
+        return PropertyValue{severityWord(event.severity()), healthOf(event.severity())}.display();
+    });
+    column.colour = [](const model::Event& event) {
+        const bool isNote = event.severity() == model::EventSeverity::Info;
+        return QVariant(isNote ? theme().dim : healthColour(healthOf(event.severity())));
+    };
+    column.spoken = [](const model::Event& event) { return severityWord(event.severity()); };
+    return column;
 }
 
 /// Reads the model only where a cell is asked for.
 std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel& events) {
     const auto whose = [&view](const model::Event& event) { return whoseWords(view, event); };
-    const auto words = [](const model::Event& event) { return QString::fromStdString(event.text()); };
+    const auto words = [](const auto& event) { return QString::fromStdString(event.text()); };
     std::vector<EventColumn> columns{
         severityColumn(),
-        {.title = tr("Time"),
-         .help = tr("When it began"),
-         .isNumber = true,
-         .text = [](const model::Event& event) { return timeOfDay(event.firstStamp); },
-         .toolTip = fromTo,
-         .sortKey =
-             [](const model::Event& event) {
-                 return QVariant::fromValue(log::nanosecondsOf(event.firstStamp));
-             }},
-        {.title = tr("Whose"),
-         .help = tr("Character and type, or the sender"),
-         .text = whose,
-         .toolTip = whose},
-        {.title = tr("Text"), .text = words, .toolTip = words},
-        {.title = tr("Count"),
-         .help = tr("How often it happened in this episode"),
-         .isNumber = true,
-         .text = [](const model::Event& event) { return grouped(event.count); },
-         .sortKey = [](const model::Event& event) { return QVariant::fromValue(event.count); }},
-        {.title = tr("Event"),
-         .text = [](const model::Event& event) { return fromUtf8(nameOf(event.kind)); }},
-        {.title = tr("Group"), .text = [](const model::Event& event) { return groupWord(event.group()); }},
-        {.title = tr("Lasted"),
-         .help = tr("From the first to the last of this episode"),
-         .isNumber = true,
-         .text = lasted,
-         .sortKey =
-             [](const model::Event& event) {
-                 return QVariant::fromValue((event.lastStamp - event.firstStamp).count());
-             }},
+        EventColumn::numbers(tr("Time"), tr("When it began"),
+                             [](const auto& event) { return timeOfDay(event.firstStamp); })
+            .withToolTip(fromTo),
+        EventColumn::words(tr("Whose"), tr("Character and type, or the sender"), whose).withToolTip(whose),
+        EventColumn::words(tr("Text"), {}, words).withToolTip(words),
+        EventColumn::numbers(tr("Count"), tr("How often it happened in this episode"),
+                             [](const auto& event) { return grouped(event.count); }),
+        EventColumn::words(tr("Event"), {}, [](const auto& event) { return fromUtf8(nameOf(event.kind)); }),
+        EventColumn::words(tr("Group"), {}, [](const auto& event) { return groupWord(event.group()); }),
+        EventColumn::numbers(tr("Lasted"), tr("From the first to the last of this episode"), lasted),
     };
     for (EventColumn& column : columns) {
         if (!column.colour) {
@@ -216,15 +288,9 @@ EventModel::Counts EventModel::counts() const {
     return counts;
 }
 
-const model::Event* EventModel::find(std::uint64_t number) const {
-    const auto& all = m_view.events().all();
-    const auto found = std::ranges::lower_bound(all, number, {}, &model::Event::number);
-    return found != all.end() && found->number == number ? &*found : nullptr;
-}
-
 const model::Event* EventModel::event(const QModelIndex& index) const {
     return index.isValid() && index.row() < rowCount()
-               ? find(m_rows[static_cast<std::size_t>(index.row())].number)
+               ? m_view.events().find(m_rows[static_cast<std::size_t>(index.row())].number)
                : nullptr;
 }
 
@@ -236,7 +302,7 @@ int EventModel::rowOf(std::uint64_t number) const {
 std::vector<const model::Event*> EventModel::listed() const {
     std::vector<const model::Event*> events;
     for (const Row& row : m_rows) {
-        if (const model::Event* event = find(row.number)) {
+        if (const model::Event* event = m_view.events().find(row.number)) {
             events.push_back(event);
         }
     }

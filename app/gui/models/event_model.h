@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/commands.h"
 #include "app/gui/models/column.h"
 #include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace posewire::gui {
@@ -71,7 +73,6 @@ private:
     };
     [[nodiscard]] static Row rowFor(const model::Event& event);
     [[nodiscard]] bool matches(const model::Event& event) const;
-    [[nodiscard]] const model::Event* find(std::uint64_t number) const;
     void show(std::vector<Row> rows);
     void showSame(std::vector<Row> rows);
 
@@ -81,5 +82,24 @@ private:
     std::uint64_t m_version = 0; ///< of the events when last shown
     std::uint64_t m_seenEnd = 0; ///< events before this number have been seen
 };
+
+[[nodiscard]] Health healthOf(model::EventSeverity severity);
+/// "error", "warning", "note".
+[[nodiscard]] QString severityWord(model::EventSeverity severity);
+[[nodiscard]] QString groupWord(model::EventGroup group);
+
+/// Whose event it is: "Mira Lin · 02", "Factory", or the address where it is of no character.
+[[nodiscard]] QString whoseWords(model::SessionView& view, const model::Event& event);
+
+/// A few words for a cell or a chip: "31 lost · network", "jitter 12.1 ms", "stale".
+[[nodiscard]] QString briefWords(const model::Event& event);
+
+/// The packet where the newest of it is to be seen: its own, or the last one before where it has none.
+/// Nothing where the log has dropped it.
+[[nodiscard]] std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Event& event);
+
+/// Selects that packet and brings the dock of packets to the front, with its like. False where the log has
+/// dropped it.
+bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Event& event);
 
 } // namespace posewire::gui

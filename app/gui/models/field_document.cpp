@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/field_document.h"
 
-#include "app/gui/models/field_problems.h"
+#include "app/gui/models/field_text.h"
+#include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/joint_angles.h"
 
@@ -29,6 +31,92 @@ Health worse(Health a, Health b) {
     return rank(b) > rank(a) ? b : a;
 }
 
+// What is wrong, in sentences that an operator can act on.
+
+/// "Segment 16 · Left Upper Leg, orientation".
+QString place(const FieldDocument& document, std::int32_t node) {
+    const std::int32_t item = document.itemOf(node);
+    const QString field = fieldTitle(document, node);
+    return item < 0 || item == node ? field : tr("%1, %2").arg(fieldTitle(document, item), field.toLower());
+}
+
+/// What the field that reading ended in lacks.
+QString cutText(const FieldDocument& document) {
+    const wire::FieldTree& tree = document.tree();
+    const wire::WireError& error = tree.cutError;
+    if (tree.cutNode < 0) {
+        return {};
+    }
+    const QString where = place(document, tree.cutNode);
+    const auto length = static_cast<std::int32_t>(error.need);
+    switch (error.code) {
+    case wire::ErrorCode::FieldTruncated:
+        return error.have == 0 ? tr("%1 needs %2 bytes, none is left").arg(where, grouped(error.need))
+                               : tr("%1 needs %2 bytes, %3 are there")
+                                     .arg(where, grouped(error.need), grouped(error.have));
+    case wire::ErrorCode::BadLength:
+        return length < 0 ? tr("the length of %1 is negative (%2)").arg(where).arg(length)
+                          : tr("%1 is announced with %2 bytes, %3 are left")
+                                .arg(where, grouped(error.need), grouped(error.have));
+    case wire::ErrorCode::CountTooLarge:
+        return tr("%1 is %2, the rest can hold at most %3")
+            .arg(where, grouped(error.need), grouped(error.have));
+    case wire::ErrorCode::BadSequence:
+        return tr("%1 is not UTF-8").arg(where);
+    case wire::ErrorCode::UnterminatedText:
+        return tr("%1 has no terminating zero byte").arg(where);
+    default:
+        return {};
+    }
+}
+
+QString datagramText(const FieldDocument& document) {
+    const wire::WireError& fault = *document.tree().fault;
+    const QString size = grouped(document.bytes().size());
+    switch (fault.code) {
+    case wire::ErrorCode::HeaderTruncated:
+        return tr("the datagram ends at byte %1, within its header of 24").arg(size);
+    case wire::ErrorCode::PayloadTruncated:
+        return tr("the datagram ends at byte %1, its header announces %2").arg(size, grouped(fault.need));
+    case wire::ErrorCode::ItemsTruncated:
+        return tr("the %1 announced items do not fit, %2 bytes are missing")
+            .arg(grouped(document.header().items), grouped(fault.need - fault.have));
+    case wire::ErrorCode::BadType:
+        return tr("MXTP is not followed by two digits");
+    case wire::ErrorCode::TooLong:
+        return tr("longer than any datagram can be");
+    default:
+        return {};
+    }
+}
+
+QString faultText(const FieldDocument& document) {
+    const QString whole = datagramText(document);
+    const QString near = cutText(document);
+    const std::int32_t cut = document.tree().cutNode;
+    const std::uint32_t offset = cut >= 0 ? document.node(cut).offset : document.tree().fault->offset;
+    const QString both = whole.isEmpty() || near.isEmpty() ? whole + near : tr("%1; %2").arg(whole, near);
+    return tr("malformed: %1 (byte %2)").arg(both, grouped(offset));
+}
+
+/// How far it was read.
+QString unreadText(const FieldDocument& document) {
+    const wire::FieldNode& rest = document.tree().nodes.back();
+    return tr("%1 bytes from byte %2 are unread").arg(grouped(rest.length), grouped(rest.offset));
+}
+
+/// What bytes are that are no datagram.
+QString outsideText(const FieldDocument& document) {
+    return document.kind() == model::PacketKind::Skipped
+               ? tr("skipped: bytes of a byte stream that belong to no datagram")
+               : tr("foreign: does not begin with MXTP, so no sender of motion capture data sent this");
+}
+
+QString cutByReceiverText(const FieldDocument& document) {
+    return tr("longer than what could be received: only the first %1 bytes are here")
+        .arg(grouped(document.bytes().size()));
+}
+
 } // namespace
 
 FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit unit)
@@ -53,27 +141,13 @@ FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit unit)
         m_hasHeader = true;
         m_header = *header;
     }
-    arrange();
+    m_children.resize(m_tree.nodes.size() + 1);
+    for (std::int32_t i = 0; i < count(); ++i) {
+        m_children[at(node(i).parent + 1)].push_back(i);
+    }
     readContext();
     findProblems(packet);
     markNodes();
-}
-
-/// Sorts the nodes by parent, which keeps them in wire order.
-void FieldDocument::arrange() {
-    const std::size_t nodes = m_tree.nodes.size();
-    m_firstChild.assign(nodes + 2, 0);
-    for (const FieldNode& node : m_tree.nodes) {
-        ++m_firstChild[at(node.parent + 1) + 1];
-    }
-    for (std::size_t i = 1; i < m_firstChild.size(); ++i) {
-        m_firstChild[i] += m_firstChild[i - 1];
-    }
-    m_children.resize(nodes);
-    std::vector<std::uint32_t> next(m_firstChild.begin(), m_firstChild.end() - 1);
-    for (std::size_t i = 0; i < nodes; ++i) {
-        m_children[next[at(m_tree.nodes[i].parent + 1)]++] = static_cast<std::int32_t>(i);
-    }
 }
 
 void FieldDocument::readContext() {
@@ -118,11 +192,7 @@ std::optional<model::PointReference> FieldDocument::pointOf(std::uint32_t id) co
 }
 
 std::span<const std::int32_t> FieldDocument::children(std::int32_t node) const {
-    if (m_firstChild.empty()) {
-        return {};
-    }
-    const std::uint32_t first = m_firstChild[at(node + 1)];
-    return {m_children.data() + first, m_firstChild[at(node + 2)] - first};
+    return m_children.empty() ? std::span<const std::int32_t>() : m_children[at(node + 1)];
 }
 
 std::int32_t FieldDocument::itemOf(std::int32_t node) const {
@@ -140,7 +210,7 @@ std::int32_t FieldDocument::nodeAt(std::uint32_t offset) const {
 }
 
 std::int32_t FieldDocument::find(const std::string& path) const {
-    // From the top down: only what stands beside the way has its path built.
+    // From the top down: only nodes beside the way have their path built.
     std::int32_t around = kNone;
     for (bool isDeeper = true; isDeeper;) {
         isDeeper = false;
@@ -203,11 +273,11 @@ std::int32_t FieldDocument::nodeOfSegment(int segment) const {
 void FieldDocument::findProblems(const log::Packet& packet) {
     const auto whole = static_cast<std::uint32_t>(m_bytes.size());
     if (m_kind == model::PacketKind::Skipped || m_kind == model::PacketKind::Foreign) {
-        m_problems.push_back({Health::Error, outsideText(*this), 0, whole, count() > 0 ? 0 : kNone});
+        m_problems.push_back({Health::Error, outsideText(*this), 0, whole, count() > 0 ? 0 : -1});
         return;
     }
     if (packet.flags.truncated) {
-        m_problems.push_back({Health::Error, cutByReceiverText(*this), whole, 0, kNone});
+        m_problems.push_back({Health::Error, cutByReceiverText(*this), whole, 0, -1});
     }
     if (m_tree.fault) {
         addFault();
@@ -259,7 +329,8 @@ bool FieldDocument::isAffected(wire::NoticeCode code, std::int32_t index) const 
 
 void FieldDocument::addNotice(const wire::Notice& notice) {
     const std::size_t before = m_problems.size();
-    FieldProblem problem{Health::Warning, noticeWords(notice), notice.offset, 0, nodeAt(notice.offset)};
+    FieldProblem problem{Health::Warning, QString::fromStdString(wire::noticeText(notice)), notice.offset, 0,
+                         nodeAt(notice.offset)};
     for (std::int32_t i = 0; i < count(); ++i) {
         if (isAffected(notice.code, i)) {
             m_problems.push_back(problem);

@@ -84,7 +84,6 @@ public:
     [[nodiscard]] bool hasSameRows(const FieldDocument& other) const;
 
 private:
-    void arrange();
     void readContext();
     void findProblems(const log::Packet& packet);
     void addFault();
@@ -103,8 +102,7 @@ private:
     model::PointIdCoding m_coding = model::PointIdCoding::By256;
     model::SegmentLayout m_layout;
     wire::FieldTree m_tree;
-    std::vector<std::int32_t> m_children;
-    std::vector<std::uint32_t> m_firstChild; ///< of each node in m_children; one more, for the top, in front
+    std::vector<std::vector<std::int32_t>> m_children; ///< in wire order; the first element is of the top
     std::vector<FieldProblem> m_problems;
     std::vector<Health> m_own;
     std::vector<Health> m_within;

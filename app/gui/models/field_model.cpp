@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/field_model.h"
 
-#include "app/gui/models/columns.h"
 #include "app/gui/models/field_text.h"
-#include "app/gui/models/roles.h"
+#include "app/gui/theme/words.h"
 
 #include <unordered_map>
 
@@ -12,26 +11,6 @@ namespace posewire::gui {
 namespace {
 
 using wire::NodeKind;
-
-constexpr std::array<ColumnText, FieldModel::kColumnCount> kColumns{{
-    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Field"), "", false},
-    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Value"),
-     QT_TRANSLATE_NOOP("posewire::gui::FieldModel",
-                       "Z-up metres, degrees, clocks and names, whatever the wire has"),
-     true},
-    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "On the wire"),
-     QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "As sent: shortest digits that read back the same"),
-     true},
-    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Other"),
-     QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "The same field of the packet to compare with"), true},
-    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Difference"),
-     QT_TRANSLATE_NOOP("posewire::gui::FieldModel",
-                       "This less other; of vectors the distance, of orientations the angle"),
-     true},
-    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Meaning"), "", false},
-    {QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Section"),
-     QT_TRANSLATE_NOOP("posewire::gui::FieldModel", "Of the specification"), false},
-}};
 
 std::size_t at(std::int32_t node) {
     return static_cast<std::size_t>(node);
@@ -43,8 +22,38 @@ bool isStructure(NodeKind kind) {
 
 } // namespace
 
-FieldModel::FieldModel(QObject* parent) : QAbstractItemModel(parent) {
+FieldModel::FieldModel(QObject* parent) : ColumnModel(columns(*this), parent) {
     arrange();
+}
+
+std::vector<TableColumn<std::int32_t>> FieldModel::columns(const FieldModel& model) {
+    using Text = QString (*)(const FieldDocument&, std::int32_t);
+    const auto here = [&model](Text text) {
+        return [&model, text](std::int32_t node) { return text(*model.m_document, node); };
+    };
+    using Cells = TableColumn<std::int32_t>;
+    const auto difference = [&model](std::int32_t node) {
+        const bool isCompared = model.m_other && !isStructure(model.m_document->node(node).kind);
+        return isCompared ? model.differenceText(node) : QString();
+    };
+    std::vector<Cells> columns{
+        Cells::words(tr("Field"), {}, [&model](std::int32_t node) { return model.titleOf(node); }),
+        Cells::numbers(tr("Value"), tr("Z-up metres, degrees, clocks and names, whatever the wire has"),
+                       here(convertedValue)),
+        Cells::numbers(tr("On the wire"), tr("As sent: shortest digits that read back the same"),
+                       here(wireValue)),
+        Cells::numbers(tr("Other"), tr("The same field of the packet to compare with"),
+                       [&model](std::int32_t node) { return model.otherText(node); }),
+        Cells::numbers(tr("Difference"),
+                       tr("This less other; of vectors the distance, of orientations the angle"), difference),
+        Cells::words(tr("Meaning"), {}, here(fieldMeaning)),
+        Cells::words(tr("Section"), tr("Of the specification"), here(fieldSection))};
+    for (int column = 0; column < kColumnCount; ++column) {
+        Cells& each = columns[static_cast<std::size_t>(column)];
+        each.colour = [&model, column](std::int32_t node) { return model.colour(node, column); };
+        each.toolTip = [&model](std::int32_t node) { return model.helpOf(node); };
+    }
+    return columns;
 }
 
 void FieldModel::setDocument(std::shared_ptr<const FieldDocument> document) {
@@ -140,38 +149,28 @@ int FieldModel::rowCount(const QModelIndex& parent) const {
     return parent.column() > 0 ? 0 : static_cast<int>(m_rows[at(node(parent) + 1)].size());
 }
 
-int FieldModel::columnCount(const QModelIndex&) const {
-    return kColumnCount;
-}
-
 QString FieldModel::differenceText(std::int32_t node) const {
     const std::int32_t other = m_counterparts[at(node)];
     return other < 0 ? tr("only here") : difference(*m_document, node, *m_other, other);
 }
 
-QString FieldModel::text(std::int32_t node, int column) const {
-    switch (column) {
-    case kField: {
-        const QString title = fieldTitle(*m_document, node);
-        const Health health = m_document->worstWithin(node);
-        return health == Health::Unknown ? title : healthSymbol(health) + QLatin1Char(' ') + title;
-    }
-    case kValue:
-        return convertedValue(*m_document, node);
-    case kWire:
-        return wireValue(*m_document, node);
-    case kOther:
-        return m_other == nullptr || m_counterparts[at(node)] < 0
-                   ? QString()
-                   : convertedValue(*m_other, m_counterparts[at(node)]);
-    case kDifference:
-        return m_other == nullptr || isStructure(m_document->node(node).kind) ? QString()
-                                                                              : differenceText(node);
-    case kMeaning:
-        return fieldMeaning(*m_document, node);
-    default:
-        return fieldSection(*m_document, node);
-    }
+QString FieldModel::titleOf(std::int32_t node) const {
+    const QString title = fieldTitle(*m_document, node);
+    const Health health = m_document->worstWithin(node);
+    return health == Health::Unknown ? title : healthSymbol(health) + QLatin1Char(' ') + title;
+}
+
+QString FieldModel::otherText(std::int32_t node) const {
+    return m_other == nullptr || m_counterparts[at(node)] < 0
+               ? QString()
+               : convertedValue(*m_other, m_counterparts[at(node)]);
+}
+
+QString FieldModel::helpOf(std::int32_t node) const {
+    return tr("%1\n%2\n%3")
+        .arg(
+            QString::fromStdString(m_document->tree().path(node)), fieldPlace(*m_document, node),
+            (fieldMeaning(*m_document, node) + QLatin1Char(' ') + fieldSection(*m_document, node)).trimmed());
 }
 
 QVariant FieldModel::colour(std::int32_t node, int column) const {
@@ -190,30 +189,8 @@ QVariant FieldModel::colour(std::int32_t node, int column) const {
 }
 
 QVariant FieldModel::data(const QModelIndex& index, int role) const {
-    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
-        return {};
-    }
-    const std::int32_t node = this->node(index);
-    switch (role) {
-    case Qt::DisplayRole:
-        return text(node, index.column());
-    case Qt::ForegroundRole:
-        return colour(node, index.column());
-    case Qt::TextAlignmentRole:
-        return kColumns[static_cast<std::size_t>(index.column())].isNumber ? numberAlignment() : QVariant();
-    case Qt::ToolTipRole:
-        return tr("%1\n%2\n%3")
-            .arg(QString::fromStdString(m_document->tree().path(node)), fieldPlace(*m_document, node),
-                 (fieldMeaning(*m_document, node) + QLatin1Char(' ') + fieldSection(*m_document, node))
-                     .trimmed());
-    default:
-        return {};
-    }
-}
-
-QVariant FieldModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    return orientation == Qt::Horizontal ? columnHeader(kColumns, "posewire::gui::FieldModel", section, role)
-                                         : QVariant();
+    return checkIndex(index, CheckIndexOption::IndexIsValid) ? cell(node(index), index.column(), role)
+                                                             : QVariant();
 }
 
 } // namespace posewire::gui

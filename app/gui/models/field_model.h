@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/column.h"
 #include "app/gui/models/field_document.h"
-
-#include <QAbstractItemModel>
 
 #include <memory>
 
@@ -11,9 +10,7 @@ namespace posewire::gui {
 
 /// The fields of one packet as a tree, or of two packets beside each other. The rows stay as they are where
 /// another packet has the same fields on the same bytes.
-class FieldModel : public QAbstractItemModel {
-    Q_OBJECT
-
+class FieldModel : public ColumnModel<std::int32_t, QAbstractItemModel> {
 public:
     enum Column { kField, kValue, kWire, kOther, kDifference, kMeaning, kSection, kColumnCount };
 
@@ -37,16 +34,17 @@ public:
 
     [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
     [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override;
-    using QObject::parent;
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
     [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
-    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
 
 private:
     void match();
     void arrange();
-    [[nodiscard]] QString text(std::int32_t node, int column) const;
+    /// Read the model only where a cell is asked for.
+    [[nodiscard]] static std::vector<TableColumn<std::int32_t>> columns(const FieldModel& model);
+    [[nodiscard]] QString titleOf(std::int32_t node) const;
+    [[nodiscard]] QString otherText(std::int32_t node) const;
+    [[nodiscard]] QString helpOf(std::int32_t node) const;
     [[nodiscard]] QVariant colour(std::int32_t node, int column) const;
     [[nodiscard]] QString differenceText(std::int32_t node) const;
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/field_names.h"
-
+#include "app/gui/models/field_text.h"
+#include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/model/body/joint_angles.h"
-
-#include <QCoreApplication>
 
 #include <cmath>
 
@@ -14,16 +13,8 @@ namespace {
 using wire::FieldNode;
 using wire::RefersTo;
 
-QString tr(const char* text) {
-    return QCoreApplication::translate("FieldNames", text);
-}
-
-QString textOf(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
-
 QString withName(const QString& id, std::string_view name) {
-    return name.empty() ? id : id + QStringLiteral(" · ") + textOf(name);
+    return name.empty() ? id : id + QStringLiteral(" · ") + fromUtf8(name);
 }
 
 /// The number that an item is known by; its place where it has none.
@@ -76,21 +67,6 @@ QString pointTitle(const FieldDocument& document, std::int32_t item) {
 }
 
 } // namespace
-
-QString spacedName(std::string_view name) {
-    QString text;
-    for (const QChar character : textOf(name)) {
-        if (text.isEmpty()) {
-            text += name.size() > 1 ? character.toUpper() : character;
-        } else if (character.isUpper()) {
-            text += QLatin1Char(' ');
-            text += character.toLower();
-        } else {
-            text += character;
-        }
-    }
-    return text == QStringLiteral("Id") ? QStringLiteral("ID") : text;
-}
 
 QString itemTitle(const FieldDocument& document, std::int32_t item) {
     const FieldNode& node = document.node(item);

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/field_text.h"
 
-#include "app/gui/models/field_names.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "core/wire/type_table.h"
-
-#include <QCoreApplication>
 
 #include <cmath>
 
@@ -16,14 +14,6 @@ namespace {
 using wire::FieldNode;
 using wire::NodeKind;
 using wire::Unit;
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("FieldText", text);
-}
-
-QString textOf(std::string_view text) {
-    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
-}
 
 /// The wire's vector in the frame above the wire, without a change of unit.
 Eigen::Vector3d zUpOf(std::uint8_t type, const Eigen::Vector3d& sent) {
@@ -130,14 +120,8 @@ QString datagramCounterText(std::uint8_t counter) {
 }
 
 QString flagsText(double number) {
-    const auto bits = static_cast<std::uint32_t>(number);
-    QStringList set;
-    for (int bit = 0; bit < 32; ++bit) {
-        if ((bits >> bit & 1U) != 0) {
-            set += QString::number(bit);
-        }
-    }
-    return set.isEmpty() ? tr("no bit set") : tr("bits %1").arg(set.join(QLatin1Char(' ')));
+    const QStringList bits = setBits(static_cast<std::uint32_t>(number));
+    return bits.isEmpty() ? tr("no bit set") : tr("bits %1").arg(bits.join(QLatin1Char(' ')));
 }
 
 QString headerText(const FieldDocument& document, std::int32_t index) {
@@ -149,7 +133,7 @@ QString headerText(const FieldDocument& document, std::int32_t index) {
         return tr("not sent");
     }
     if (node.kind == NodeKind::Part) {
-        return node.unit == Unit::Identifier ? textOf(wire::typeTitle(document.type())) : QString();
+        return node.unit == Unit::Identifier ? fromUtf8(wire::typeTitle(document.type())) : QString();
     }
     if (node.kind == NodeKind::Field && !document.children(index).empty()) {
         return node.scalar == wire::Scalar::Characters
@@ -168,6 +152,22 @@ QString printable(const std::string& value) {
     return text;
 }
 
+/// "freeAcceleration" as "Free acceleration".
+QString spacedName(std::string_view name) {
+    QString text;
+    for (const QChar character : fromUtf8(name)) {
+        if (text.isEmpty()) {
+            text += name.size() > 1 ? character.toUpper() : character;
+        } else if (character.isUpper()) {
+            text += QLatin1Char(' ');
+            text += character.toLower();
+        } else {
+            text += character;
+        }
+    }
+    return text == QStringLiteral("Id") ? QStringLiteral("ID") : text;
+}
+
 } // namespace
 
 QString documentTitle(const FieldDocument& document) {
@@ -175,7 +175,7 @@ QString documentTitle(const FieldDocument& document) {
         return tr("Skipped bytes");
     }
     if (document.hasHeader()) {
-        return textOf(wire::typeTitle(document.type()));
+        return fromUtf8(wire::typeTitle(document.type()));
     }
     return document.kind() == model::PacketKind::Foreign ? tr("Foreign datagram") : tr("Malformed datagram");
 }
@@ -190,10 +190,10 @@ QStringList documentLines(const FieldDocument& document) {
         tr("%1 · sample %2 · %3")
             .arg(size, grouped(header.sampleCounter), datagramCounterText(header.datagramCounter))};
     if (const wire::TypeInfo* type = wire::findType(document.type())) {
-        QStringList about{textOf(wire::frameName(type->frame)), textOf(type->remark)};
+        QStringList about{fromUtf8(wire::frameName(type->frame)), fromUtf8(type->remark)};
         about.removeAll(QString());
         lines += about.join(QStringLiteral(" · "));
-        lines += tr("Revisions %1 · § %2").arg(textOf(type->revisions), textOf(type->section));
+        lines += tr("Revisions %1 · § %2").arg(fromUtf8(type->revisions), fromUtf8(type->section));
         lines.removeAll(QString());
     }
     return lines;
@@ -209,7 +209,8 @@ QString fieldTitle(const FieldDocument& document, std::int32_t index) {
                : document.hasHeader()                         ? tr("Unread")
                                                               : tr("Bytes");
     case NodeKind::Part:
-        return document.node(node.parent).unit == Unit::TagLines ? textOf(node.name) : spacedName(node.name);
+        return document.node(node.parent).unit == Unit::TagLines ? fromUtf8(node.name)
+                                                                 : spacedName(node.name);
     default:
         return spacedName(node.name);
     }
@@ -226,7 +227,7 @@ QString wireValue(const FieldDocument& document, std::int32_t index) {
     const Unit unit = node.kind == NodeKind::Part && node.unit == Unit::None && node.parent >= 0
                           ? document.node(node.parent).unit
                           : node.unit;
-    const QString symbol = textOf(wire::unitSymbol(unit));
+    const QString symbol = fromUtf8(wire::unitSymbol(unit));
     const QString value = printable(node.value);
     return value.isEmpty() || symbol.isEmpty() || node.kind == NodeKind::Unread
                ? value
@@ -284,18 +285,18 @@ QString fieldMeaning(const FieldDocument& document, std::int32_t index) {
     if (node.kind == NodeKind::Unread && !document.hasHeader()) {
         return tr("no datagram of this protocol");
     }
-    return textOf(node.text);
+    return fromUtf8(node.text);
 }
 
 QString fieldSection(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
-    return node.section.empty() ? QString() : QStringLiteral("§ ") + textOf(node.section);
+    return node.section.empty() ? QString() : QStringLiteral("§ ") + fromUtf8(node.section);
 }
 
 QString fieldPlace(const FieldDocument& document, std::int32_t index) {
     const FieldNode& node = document.node(index);
     const bool isNumber = node.scalar != wire::Scalar::Text && node.scalar != wire::Scalar::Characters;
-    const QString scalar = textOf(wire::scalarName(node.scalar));
+    const QString scalar = fromUtf8(wire::scalarName(node.scalar));
     const QString kind = !isNumber              ? tr("%1 bytes").arg(node.length)
                          : node.components != 0 ? tr("%1 × %2").arg(node.components).arg(scalar)
                                                 : scalar;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/metadata_model.h"
 
-#include "app/gui/models/character_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/body/null_pose.h"
 
 #include <algorithm>
 
@@ -13,10 +14,6 @@ namespace posewire::gui {
 namespace {
 
 constexpr quintptr kTop = ~quintptr{0}; ///< internal id of rows at the top; of others, the row above them
-
-QString textOf(const std::string& text) {
-    return QString::fromStdString(text);
-}
 
 QString changesText(std::size_t changes) {
     return changes == 1 ? tr("· 1 change") : tr("· %1 changes").arg(changes);
@@ -41,29 +38,26 @@ QString suffixOf(const MetadataRow& row) {
     return changes.isEmpty() ? tr("· unknown") : tr("· unknown %1").arg(changes);
 }
 
+QString labelOf(const MetadataRow& row) {
+    if (row.fact != nullptr) {
+        return row.fact->label;
+    }
+    return row.isEarlier ? tr("before") : QString::fromStdString(row.tag->name);
+}
+
 MetadataColumn nameColumn() {
-    return {.title = tr("Tag"),
-            .text =
-                [](const MetadataRow& row) {
-                    return row.fact != nullptr ? row.fact->label
-                           : row.isEarlier     ? tr("before")
-                                               : textOf(row.tag->name);
-                },
-            .colour = dim,
-            .toolTip =
-                [](const MetadataRow& row) {
-                    const bool isUnknown = row.tag != nullptr && !row.isEarlier && !row.tag->isKnown;
-                    return isUnknown
-                               ? tr("Neither in the specification nor known from real senders; kept and "
-                                    "shown as sent")
-                               : QString();
-                },
-            .more =
-                [](const MetadataRow& row, int role) {
-                    const bool isTag = row.tag != nullptr && !row.isEarlier;
-                    const QString suffix = isTag && role == kSuffixRole ? suffixOf(row) : QString();
-                    return suffix.isEmpty() ? QVariant() : suffix;
-                }};
+    MetadataColumn column = MetadataColumn::words(tr("Tag"), {}, labelOf).withColour(dim);
+    const auto isTag = [](const MetadataRow& row) { return row.tag != nullptr && !row.isEarlier; };
+    column.toolTip = [isTag](const MetadataRow& row) {
+        return isTag(row) && !row.tag->isKnown
+                   ? tr("Neither in the specification nor known from real senders; kept and shown as sent")
+                   : QString();
+    };
+    column.more = [isTag](const MetadataRow& row, int role) {
+        const QString suffix = isTag(row) && role == kSuffixRole ? suffixOf(row) : QString();
+        return suffix.isEmpty() ? QVariant() : suffix;
+    };
+    return column;
 }
 
 PropertyValue shownValue(const MetadataRow& row) {
@@ -75,33 +69,30 @@ PropertyValue shownValue(const MetadataRow& row) {
     if (row.value == nullptr) {
         return {tr("not sent yet")};
     }
-    return {textOf(row.value->text), Health::Unknown,
+    return {QString::fromStdString(row.value->text), Health::Unknown,
             row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(row.value->stamp))};
 }
 
 MetadataColumn sentColumn(model::SessionView& view) {
-    return {.title = tr("Sent"),
-            .isNumber = true,
-            .text =
-                [&view](const MetadataRow& row) {
-                    if (row.fact != nullptr) {
-                        return QString();
-                    }
-                    const double age = log::secondsOf(view.cursorStamp() - row.tag->lastSeen);
-                    return row.isEarlier ? timeOfDay(row.value->stamp) : duration(std::max(0.0, age));
-                },
-            .colour = dim,
-            .toolTip =
-                [](const MetadataRow& row) {
-                    return row.tag == nullptr || row.isEarlier
-                               ? QString()
-                               : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
-                                     .arg(timeOfDay(row.tag->lastSeen));
-                },
-            .more =
-                [](const MetadataRow& row, int role) {
-                    return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
-                }};
+    const auto text = [&view](const MetadataRow& row) {
+        if (row.fact != nullptr) {
+            return QString();
+        }
+        const double age = log::secondsOf(view.cursorStamp() - row.tag->lastSeen);
+        return row.isEarlier ? timeOfDay(row.value->stamp) : duration(std::max(0.0, age));
+    };
+    const auto toolTip = [](const MetadataRow& row) {
+        return row.tag == nullptr || row.isEarlier
+                   ? QString()
+                   : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
+                         .arg(timeOfDay(row.tag->lastSeen));
+    };
+    MetadataColumn column =
+        MetadataColumn::numbers(tr("Sent"), {}, text).withColour(dim).withToolTip(toolTip);
+    column.more = [](const MetadataRow& row, int role) {
+        return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
+    };
+    return column;
 }
 
 std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
@@ -114,6 +105,92 @@ std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
                                                            : QVariant();
     };
     return {nameColumn(), std::move(value), sentColumn(view)};
+}
+
+using Key = model::CharacterKey;
+
+QString withEvidence(const QString& conclusion, const std::string& evidence) {
+    return evidence.empty() ? conclusion
+                            : conclusion + QStringLiteral(" · ") + QString::fromStdString(evidence);
+}
+
+/// What was detected about a sender, unless the operator has said something else.
+PropertyValue concluded(const QString& detected, const std::optional<QString>& said, const QString& toolTip) {
+    if (!said) {
+        return {detected, Health::Unknown, toolTip};
+    }
+    return {tr("%1 · as you said").arg(*said), Health::Unknown,
+            toolTip + QLatin1Char('\n') + tr("Detected: %1").arg(detected)};
+}
+
+QString unitText(model::LengthUnit unit) {
+    return unit == model::LengthUnit::Metre ? tr("metres") : tr("centimetres");
+}
+
+PropertyValue revision(const model::Sender& sender) {
+    const model::Detection& found = sender.detector.result();
+    const auto said = sender.overrides.revision
+                          ? std::optional(fromUtf8(model::revisionName(sender.revision())))
+                          : std::nullopt;
+    return concluded(withEvidence(fromUtf8(model::revisionName(found.revision)), found.revisionEvidence),
+                     said, tr("Revision of the specification that this sender follows · the evidence"));
+}
+
+PropertyValue units(const model::Sender& sender) {
+    const model::Detection& found = sender.detector.result();
+    const auto said =
+        sender.overrides.positionUnit ? std::optional(unitText(sender.positionUnit())) : std::nullopt;
+    return concluded(
+        found.unitEvidence.empty() ? tr("not known before type 02")
+                                   : withEvidence(unitText(found.positionUnit), found.unitEvidence),
+        said, tr("Unit of positions in types 02, 21 and 24, judged by what a person can be · the evidence"));
+}
+
+PropertyValue address(const model::Sender& sender) {
+    return {QString::fromStdString(sender.info.address)};
+}
+
+PropertyValue segments(model::SessionView& view, const Key& key) {
+    const model::CharacterPose* pose = view.pose(key);
+    if (pose == nullptr) {
+        return {tr("no pose yet")};
+    }
+    const model::SegmentLayout& layout = pose->layout;
+    return {tr("%1 body · %2 props · %3 fingers").arg(layout.body).arg(layout.props).arg(layout.fingers),
+            Health::Unknown, tr("Items of a pose datagram, from the header's counts or their number")};
+}
+
+PropertyValue nullPose(model::SessionView& view, const Key& key) {
+    const model::NullPose* pose = view.nullPose(key);
+    if (pose == nullptr || pose->segments.empty()) {
+        return {tr("not received · reference body"), Health::Unknown,
+                tr("Type 13 has not arrived: proportions of a reference body are used.")};
+    }
+    const QString expected =
+        pose->partsExpected == 0 ? QStringLiteral("?") : QString::number(pose->partsExpected);
+    const QString text =
+        tr("%1/%2 parts · %3 points").arg(pose->partsReceived).arg(expected).arg(pose->points.size());
+    return {
+        text, pose->isComplete() ? Health::Good : Health::Warning,
+        tr("Datagrams of the scale message (type 13) received of those sent, with %1 segments; last at %2")
+            .arg(pose->segments.size())
+            .arg(timeOfDay(pose->stamp))};
+}
+
+/// What was concluded about a character besides its tags. `key` is read whenever a value is.
+std::vector<Property> characterFacts(model::SessionView& view, const std::optional<Key>& key) {
+    const auto ofSender = [&view, &key](const QString& label, PropertyValue (*read)(const model::Sender&)) {
+        return Property{label, [&view, &key, read] {
+                            const model::Sender* sender = key ? view.find(key->sender) : nullptr;
+                            return sender == nullptr ? PropertyValue{} : read(*sender);
+                        }};
+    };
+    const auto ofCharacter = [&view, &key](const QString& label,
+                                           PropertyValue (*read)(model::SessionView&, const Key&)) {
+        return Property{label, [&view, &key, read] { return key ? read(view, *key) : PropertyValue{}; }};
+    };
+    return {ofSender(tr("Revision"), revision), ofSender(tr("Units"), units), ofSender(tr("Sender"), address),
+            ofCharacter(tr("Segments"), segments), ofCharacter(tr("Null pose"), nullPose)};
 }
 
 } // namespace

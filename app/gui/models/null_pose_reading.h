@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/column.h"
 #include "core/log/time.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
@@ -12,7 +13,7 @@
 namespace posewire::gui {
 
 /// What types 13, 10 and 11 said of the shown character at the cursor, with all that follows from it. Copied,
-/// and worked out anew only where something else was said.
+/// and worked out again only where something else was said.
 class NullPoseReading {
 public:
     explicit NullPoseReading(model::SessionView& view) : m_view(view) {}
@@ -83,5 +84,13 @@ private:
     log::Duration m_repetition{};
     log::Stamp m_scaleStamp{};
 };
+
+/// When and how completely scale messages came, and the size of the body. The reading must outlive them.
+[[nodiscard]] std::vector<Property> nullPoseFacts(const NullPoseReading& reading);
+
+[[nodiscard]] Health healthOf(model::Severity severity);
+
+/// Findings as lines to copy: symbol, what, what it means.
+[[nodiscard]] QString findingsText(const std::vector<model::NullPoseFinding>& findings);
 
 } // namespace posewire::gui

@@ -16,10 +16,6 @@ constexpr double kMillimetres = 1000.0;
 /// What is below this is the wire's own rounding: 32-bit floats of metres.
 constexpr double kVisibleChange = 0.00005;
 
-QString dash() {
-    return QStringLiteral("–");
-}
-
 QString millimetres(const std::optional<double>& metres) {
     return metres ? fixed(*metres * kMillimetres, kMillimetreDecimals) : dash();
 }
@@ -54,33 +50,24 @@ QVariant dim(const Row&) {
 /// One coordinate of a vector.
 template <class Row, class Read>
 TableColumn<Row> coordinateColumn(const QString& title, const QString& help, int axis, Read read) {
-    return {.title = title,
-            .help = help,
-            .isNumber = true,
-            .text = [axis, read](const Row& row) { return fixed(read(row, axis), kMetreDecimals); },
-            .sortKey = [axis, read](const Row& row) { return QVariant(read(row, axis)); }};
+    return TableColumn<Row>::numbers(
+        title, help, [axis, read](const Row& row) { return fixed(read(row, axis), kMetreDecimals); });
 }
 
-} // namespace
-
+/// "31, 2, 0": the bits that are set, highest first; "–" for none.
 QString bitsText(std::uint32_t flags) {
-    QStringList bits;
-    for (int bit = 31; bit >= 0; --bit) {
-        if ((flags >> bit & 1U) != 0) {
-            bits += QString::number(bit);
-        }
-    }
+    QStringList bits = setBits(flags);
+    std::ranges::reverse(bits);
     return bits.isEmpty() ? dash() : bits.join(QStringLiteral(", "));
 }
 
+/// "Right Upper Arm" for 9; "Segment 30" where it is none of the body.
 QString segmentText(int wireId) {
     if (wireId < 1 || wireId > model::kBodySegmentCount) {
         return tr("Segment %1").arg(wireId);
     }
     return fromUtf8(model::bodySegments()[static_cast<std::size_t>(wireId - 1)].displayName);
 }
-
-namespace {
 
 using SegmentRow = NullPoseSegmentRow;
 using PointRow = NullPosePointRow;
@@ -118,31 +105,26 @@ TableColumn<SegmentRow> positionColumn(const QString& title, const QString& help
 
 TableColumn<SegmentRow> distanceColumn(const QString& title, const QString& help,
                                        std::optional<Eigen::Vector3d> SegmentRow::*distance, bool isChange) {
-    return {.title = title,
-            .help = help,
-            .isNumber = true,
-            .text =
-                [distance](const SegmentRow& row) {
-                    return millimetres(row.*distance ? std::optional((row.*distance)->norm()) : std::nullopt);
-                },
-            .colour =
-                [distance, isChange](const SegmentRow& row) {
-                    const bool hasMoved = row.*distance && !((row.*distance)->norm() < kVisibleChange);
-                    return QVariant(isChange && hasMoved ? theme().warning : theme().dim);
-                },
-            .toolTip = [distance](const SegmentRow& row) { return vectorText(row.*distance); }};
+    const auto text = [distance](const SegmentRow& row) {
+        return millimetres(row.*distance ? std::optional((row.*distance)->norm()) : std::nullopt);
+    };
+    const auto colour = [distance, isChange](const SegmentRow& row) {
+        const bool hasMoved = row.*distance && !((row.*distance)->norm() < kVisibleChange);
+        return QVariant(isChange && hasMoved ? theme().warning : theme().dim);
+    };
+    return TableColumn<SegmentRow>::numbers(title, help, text)
+        .withColour(colour)
+        .withToolTip([distance](const SegmentRow& row) { return vectorText(row.*distance); });
 }
 
 std::vector<TableColumn<SegmentRow>> segmentColumns() {
+    using Column = TableColumn<SegmentRow>;
     return {
-        {.title = tr("ID"),
-         .help = tr("Place in the message, from 1: type 13 sends no IDs"),
-         .isNumber = true,
-         .text = [](const SegmentRow& row) { return QString::number(row.place + 1); },
-         .colour = dim<SegmentRow>},
-        {.title = tr("Segment"),
-         .help = tr("Name as sent"),
-         .text = [](const SegmentRow& row) { return QString::fromStdString(row.segment.name); }},
+        Column::numbers(tr("ID"), tr("Place in the message, from 1: type 13 sends no IDs"),
+                        [](const auto& row) { return QString::number(row.place + 1); })
+            .withColour(dim<SegmentRow>),
+        Column::words(tr("Segment"), tr("Name as sent"),
+                      [](const auto& row) { return QString::fromStdString(row.segment.name); }),
         positionColumn(tr("x m"), tr("Origin of the segment: x forward, Z-up"), 0),
         positionColumn(tr("y m"), tr("Origin of the segment: y to the left, Z-up"), 1),
         positionColumn(tr("z m"), tr("Origin of the segment: height over the balls of the feet"), 2),
@@ -158,53 +140,50 @@ std::vector<TableColumn<SegmentRow>> segmentColumns() {
 }
 
 /// Names and what else is sent of a point are red where its segment is missing.
-TableColumn<PointRow> pointColumn(TableColumn<PointRow> column, bool isDim) {
-    column.colour = [isDim](const PointRow& row) {
-        return !row.hasSegment ? QVariant(theme().error) : isDim ? QVariant(theme().dim) : QVariant();
-    };
-    return column;
+QVariant pointColour(const PointRow& row) {
+    return row.hasSegment ? QVariant() : QVariant(theme().error);
+}
+
+QVariant valueColour(const PointRow& row) {
+    return row.hasSegment ? theme().dim : theme().error;
 }
 
 std::vector<TableColumn<PointRow>> pointColumns() {
+    using Column = TableColumn<PointRow>;
+    const auto id = [](const PointRow& row) {
+        return QStringLiteral("%1.%2").arg(row.point.segment).arg(row.point.id);
+    };
     const auto whose = [](const PointRow& row) {
         return tr("Point %1 of %2").arg(row.point.id).arg(segmentText(row.point.segment));
     };
-    const auto position = [](const PointRow& row, int axis) { return row.point.position[axis]; };
-    const QString origin = tr("From the segment's origin, Z-up");
+    const auto coordinate = [](const QString& title, int axis) {
+        return coordinateColumn<PointRow>(title, tr("From the segment's origin, Z-up"), axis,
+                                          [](const PointRow& row, int at) { return row.point.position[at]; })
+            .withColour(pointColour);
+    };
     return {
-        pointColumn({.title = tr("ID"),
-                     .help = tr("Segment and point within it"),
-                     .isNumber = true,
-                     .text =
-                         [](const PointRow& row) {
-                             return QStringLiteral("%1.%2").arg(row.point.segment).arg(row.point.id);
-                         },
-                     .toolTip = whose},
-                    true),
-        pointColumn({.title = tr("Point"),
-                     .help = tr("Name as sent; joints begin with j"),
-                     .text = [](const PointRow& row) { return QString::fromStdString(row.point.name); },
-                     .toolTip = whose},
-                    false),
-        pointColumn(coordinateColumn<PointRow>(tr("x m"), origin, 0, position), false),
-        pointColumn(coordinateColumn<PointRow>(tr("y m"), origin, 1, position), false),
-        pointColumn(coordinateColumn<PointRow>(tr("z m"), origin, 2, position), false),
-        pointColumn(
-            {.title = tr("Flags"),
-             .help = tr("\"Characteristics\" of the point, 32 bits. The specification does not say what "
-                        "they mean."),
-             .isNumber = true,
-             .text =
-                 [](const PointRow& row) {
-                     return QStringLiteral("0x%1").arg(row.point.flags, 8, 16, QLatin1Char('0'));
-                 }},
-            true),
-        pointColumn({.title = tr("Bits"),
-                     .help = tr("Bits of the flags that are set, 0 being the lowest; their meaning is not "
-                                "published"),
-                     .isNumber = true,
-                     .text = [](const PointRow& row) { return bitsText(row.point.flags); }},
-                    true),
+        Column::numbers(tr("ID"), tr("Segment and point within it"), id)
+            .withColour(valueColour)
+            .withToolTip(whose),
+        Column::words(tr("Point"), tr("Name as sent; joints begin with j"),
+                      [](const auto& row) { return QString::fromStdString(row.point.name); })
+            .withColour(pointColour)
+            .withToolTip(whose),
+        coordinate(tr("x m"), 0),
+        coordinate(tr("y m"), 1),
+        coordinate(tr("z m"), 2),
+        Column::numbers(tr("Flags"),
+                        tr("\"Characteristics\" of the point, 32 bits. The specification does not say what "
+                           "they mean."),
+                        [](const PointRow& row) {
+                            return QStringLiteral("0x%1").arg(row.point.flags, 8, 16, QLatin1Char('0'));
+                        })
+            .withColour(valueColour),
+        Column::numbers(tr("Bits"),
+                        tr("Bits of the flags that are set, 0 being the lowest; their meaning is not "
+                           "published"),
+                        [](const PointRow& row) { return bitsText(row.point.flags); })
+            .withColour(valueColour),
     };
 }
 
@@ -219,53 +198,48 @@ QString differenceText(const Length& length) {
 }
 
 std::vector<TableColumn<Length>> lengthColumns() {
+    using Column = TableColumn<Length>;
     const QString extent = tr("From the segment's origin to the next one's, or to its end point");
     return {
-        {.title = tr("Length"), .text = [](const Length& length) { return fromUtf8(length.name); }},
-        {.title = tr("Left mm"),
-         .help = extent,
-         .isNumber = true,
-         .text =
-             [](const Length& length) {
-                 return millimetres(length.left >= 0 ? length.leftMetres : length.rightMetres);
-             }},
-        {.title = tr("Right mm"),
-         .help = extent,
-         .isNumber = true,
-         .text =
-             [](const Length& length) {
-                 return length.left >= 0 ? millimetres(length.rightMetres) : QString();
-             }},
-        {.title = tr("L − R mm"),
-         .help = tr("Left minus right; marked from 5 mm, since bodies that MVN measured are symmetric"),
-         .isNumber = true,
-         .text = differenceText,
-         .colour =
-             [](const Length& length) {
-                 return QVariant(length.isAsymmetric() ? theme().warning : theme().dim);
-             }},
+        Column::words(tr("Length"), {}, [](const auto& length) { return fromUtf8(length.name); }),
+        Column::numbers(tr("Left mm"), extent,
+                        [](const auto& length) {
+                            return millimetres(length.left >= 0 ? length.leftMetres : length.rightMetres);
+                        }),
+        Column::numbers(tr("Right mm"), extent,
+                        [](const auto& length) {
+                            return length.left >= 0 ? millimetres(length.rightMetres) : QString();
+                        }),
+        Column::numbers(
+            tr("L − R mm"),
+            tr("Left minus right; marked from 5 mm, since bodies that MVN measured are symmetric"),
+            differenceText)
+            .withColour([](const Length& length) {
+                return QVariant(length.isAsymmetric() ? theme().warning : theme().dim);
+            }),
     };
 }
 
 std::vector<TableColumn<Scale>> scaleColumns() {
+    using Column = TableColumn<Scale>;
     const auto offset = [](const Scale& segment, int axis) {
         return static_cast<double>(segment.offset[static_cast<std::size_t>(axis)]);
     };
+    const auto matrix = [](const QString& betweenRows) {
+        return [betweenRows](const Scale& segment) { return matrixText(segment.matrix, betweenRows); };
+    };
     const QString help = tr("Offset from the default position; the specification names no unit");
     return {
-        {.title = tr("ID"),
-         .isNumber = true,
-         .text = [](const Scale& segment) { return QString::number(segment.id); },
-         .colour = dim<Scale>},
-        {.title = tr("Segment"),
-         .text = [](const Scale& segment) { return segmentText(static_cast<int>(segment.id)); }},
+        Column::numbers(tr("ID"), {}, [](const auto& segment) { return QString::number(segment.id); })
+            .withColour(dim<Scale>),
+        Column::words(tr("Segment"), {},
+                      [](const auto& segment) { return segmentText(static_cast<int>(segment.id)); }),
         coordinateColumn<Scale>(tr("x"), help, 0, offset),
         coordinateColumn<Scale>(tr("y"), help, 1, offset),
         coordinateColumn<Scale>(tr("z"), help, 2, offset),
-        {.title = tr("Matrix"),
-         .help = tr("Rotation and scale relative to the default, row by row as sent"),
-         .text = [](const Scale& segment) { return matrixText(segment.matrix, QStringLiteral(" ; ")); },
-         .toolTip = [](const Scale& segment) { return matrixText(segment.matrix, QStringLiteral("\n")); }},
+        Column::words(tr("Matrix"), tr("Rotation and scale relative to the default, row by row as sent"),
+                      matrix(QStringLiteral(" ; ")))
+            .withToolTip(matrix(QStringLiteral("\n"))),
     };
 }
 

@@ -70,10 +70,4 @@ public:
     explicit NullPoseScaleModel(const NullPoseReading& reading, QObject* parent = nullptr);
 };
 
-/// "31, 2, 0": the bits that are set, highest first; "–" for none.
-[[nodiscard]] QString bitsText(std::uint32_t flags);
-
-/// "Right Upper Arm" for 9; "Segment 30" where it is none of the body.
-[[nodiscard]] QString segmentText(int wireId);
-
 } // namespace posewire::gui

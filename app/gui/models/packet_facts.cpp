@@ -33,20 +33,15 @@ QString beginning(wire::Bytes bytes) {
     return QString::fromLatin1(data.toHex(' ')) + more + QStringLiteral("  \"") + readable + QLatin1Char('"');
 }
 
-QString fault(const log::Packet& packet) {
+/// Why it cannot be decoded, or what is odd about it.
+QStringList decodedFindings(const log::Packet& packet) {
     const auto decoded = wire::decode(packet.bytes);
-    if (decoded) {
-        return tr("malformed");
+    if (!decoded) {
+        return {tr("malformed: %1").arg(QString::fromStdString(wire::errorText(decoded.error())))};
     }
-    return tr("malformed: %1").arg(QString::fromStdString(wire::errorText(decoded.error())));
-}
-
-QStringList notices(const log::Packet& packet) {
     QStringList texts;
-    if (const auto decoded = wire::decode(packet.bytes)) {
-        for (const wire::Notice& notice : decoded->notices) {
-            texts += QString::fromStdString(wire::noticeText(notice));
-        }
+    for (const wire::Notice& notice : decoded->notices) {
+        texts += QString::fromStdString(wire::noticeText(notice));
     }
     return texts;
 }
@@ -55,8 +50,7 @@ QStringList notices(const log::Packet& packet) {
 QString gapText(model::SessionView& view, std::uint64_t number, std::uint64_t samples) {
     const model::Gap* gap = view.gapEndedBy(number);
     if (gap != nullptr && gap->isJudged && gap->cause != model::LossCause::Unknown) {
-        return tr("%1 lost").arg(grouped(samples)) + dot() +
-               QString::fromLatin1(model::nameOf(gap->cause).data());
+        return tr("%1 lost").arg(grouped(samples)) + dot() + fromUtf8(model::nameOf(gap->cause));
     }
     return samples == 1 ? tr("gap: 1 sample missing") : tr("gap: %1 samples missing").arg(grouped(samples));
 }
@@ -65,7 +59,7 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
     QStringList texts;
     switch (digest.kind) {
     case model::PacketKind::Malformed:
-        texts += fault(packet);
+        texts += decodedFindings(packet);
         break;
     case model::PacketKind::Foreign:
         texts += packet.bytes.empty() ? tr("foreign: empty") : tr("foreign: %1").arg(beginning(packet.bytes));
@@ -89,13 +83,13 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
         texts += tr("reordered");
     }
     if (digest.isRestart) {
-        texts += tr("counter began anew");
+        texts += tr("counter restarted");
     }
     if (digest.isTruncated) {
         texts += tr("cut off when it was received");
     }
     if (digest.hasNotices) {
-        texts += notices(packet);
+        texts += decodedFindings(packet);
     }
     return texts.join(dot());
 }
@@ -121,7 +115,7 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
         texts += gap == nullptr ? missing
                                 : missing + QLatin1Char(' ') +
                                       tr("Cause: %1. %2")
-                                          .arg(QString::fromLatin1(model::nameOf(gap->cause).data()),
+                                          .arg(fromUtf8(model::nameOf(gap->cause)),
                                                QString::fromStdString(gap->evidenceText()));
     }
     if (digest->isDuplicate) {
@@ -131,7 +125,7 @@ QStringList sequenceFindings(model::SessionView& view, std::uint64_t number) {
         texts += tr("Reordered: a later sample of the stream came before it.");
     }
     if (digest->isRestart) {
-        texts += tr("The sample counter of the stream began anew here.");
+        texts += tr("The sample counter of the stream restarted here.");
     }
     return texts;
 }
@@ -142,13 +136,11 @@ std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t n
     if (!packet) {
         return std::nullopt;
     }
-    PacketFacts facts{number, packet->stamp, packet->sender, packet->bytes.size(), *digest, {}, {}, {}};
+    PacketFacts facts{number, packet->stamp, packet->sender, packet->bytes.size(), *digest, {}, {}};
     if (digest->kind == model::PacketKind::Datagram || digest->kind == model::PacketKind::Malformed) {
         if (const auto header = wire::decodeHeader(packet->bytes)) {
             facts.header = *header;
         }
-    } else {
-        facts.firstText = beginning(packet->bytes);
     }
     if (digest->isProblem()) {
         facts.findings = findingsOf(view, *packet, *digest);

@@ -22,8 +22,7 @@ struct PacketFacts {
     std::size_t size = 0;
     model::PacketDigest digest;
     std::optional<wire::Header> header;
-    QString findings;  ///< all that is wrong or odd, in words; empty where nothing is
-    QString firstText; ///< of a foreign packet: how it begins
+    QString findings; ///< all that is wrong or odd, in words; empty where nothing is
 };
 
 /// Nothing where the log has dropped the packet or the session has not followed so far.

@@ -49,38 +49,22 @@ QVariant typeColour(const PacketFacts& facts) {
                                               : QVariant();
 }
 
-PacketColumn numberColumn(const QString& title, const QString& help,
-                          std::uint64_t (*number)(const PacketFacts&)) {
-    return {.title = title,
-            .help = help,
-            .isNumber = true,
-            .text = [number](const PacketFacts& facts) { return grouped(number(facts)); },
-            .sortKey = [number](const PacketFacts& facts) { return QVariant::fromValue(number(facts)); }};
+QVariant noteColour(const PacketFacts& facts) {
+    const Health health = packetHealth(facts);
+    return health == Health::Unknown ? theme().dim : healthColour(health);
 }
 
-PacketColumn characterColumn(std::function<QVariant(const PacketFacts&, int)> mark) {
-    return {.title = tr("Char"),
-            .help = tr("Character ID and name"),
-            .text =
-                [](const PacketFacts& facts) {
-                    return facts.header ? QString::number(facts.header->character) : QString();
-                },
-            .more = std::move(mark)};
+QString characterText(const PacketFacts& facts) {
+    return facts.header ? QString::number(facts.header->character) : QString();
 }
 
-PacketColumn sampleColumn() {
-    return {.title = tr("Sample"),
-            .help = tr("Sample counter"),
-            .isNumber = true,
-            .text =
-                [](const PacketFacts& facts) {
-                    return facts.header ? grouped(facts.header->sampleCounter) : QString();
-                },
-            .colour =
-                [](const PacketFacts& facts) {
-                    const model::PacketDigest& digest = facts.digest;
-                    return warningWhere(digest.isDuplicate || digest.isReordered || digest.isRestart);
-                }};
+QString sampleText(const PacketFacts& facts) {
+    return facts.header ? grouped(facts.header->sampleCounter) : QString();
+}
+
+QVariant sampleColour(const PacketFacts& facts) {
+    const model::PacketDigest& digest = facts.digest;
+    return warningWhere(digest.isDuplicate || digest.isReordered || digest.isRestart);
 }
 
 } // namespace
@@ -92,50 +76,31 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     const auto sender = [&model](const PacketFacts& facts) { return model.senderText(facts); };
     const auto note = [&model](const PacketFacts& facts) { return packetNote(model.m_view, facts); };
     std::vector<PacketColumn> columns{
-        numberColumn(tr("No."), tr("Number in the order of arrival, from 0"),
-                     [](const PacketFacts& facts) { return facts.number; }),
-        {.title = tr("Time s"),
-         .help = tr("When it arrived; the context menu has other ways"),
-         .isNumber = true,
-         .text = [&model](const PacketFacts& facts) { return model.timeText(facts); },
-         .sortKey =
-             [](const PacketFacts& facts) { return QVariant::fromValue(log::nanosecondsOf(facts.stamp)); }},
-        {.title = tr("Δ ms"),
-         .help = tr("Since the packet before it in its stream"),
-         .isNumber = true,
-         .text = [&model](const PacketFacts& facts) { return fixed(model.deltaMs(facts), 2); },
-         .colour =
-             [](const PacketFacts& facts) {
-                 return warningWhere(facts.digest.gap != 0 || facts.digest.followsDrops);
-             },
-         .sortKey = [&model](const PacketFacts& facts) { return QVariant(model.deltaMs(facts)); }},
-        {.title = tr("Sender"),
-         .help = tr("Address and port of the sender"),
-         .text = sender,
-         .toolTip = sender},
-        {.title = tr("Type"),
-         .help = tr("Message type"),
-         .text = packetType,
-         .colour = typeColour,
-         .toolTip = packetType},
-        characterColumn(
-            [&model](const PacketFacts& facts, int role) { return model.characterMark(facts, role); }),
-        sampleColumn(),
-        {.title = tr("Part"),
-         .help = tr("Which of the datagrams of its sample, and of how many"),
-         .isNumber = true,
-         .text = [&model](const PacketFacts& facts) { return packetPart(model.m_view, facts); }},
-        numberColumn(tr("Size"), tr("Bytes of the datagram, header included"),
-                     [](const PacketFacts& facts) { return std::uint64_t{facts.size}; }),
-        {.title = tr("Note"),
-         .help = tr("What is odd about it, and comments"),
-         .text = note,
-         .colour =
-             [](const PacketFacts& facts) {
-                 const Health health = packetHealth(facts);
-                 return QVariant(health == Health::Unknown ? theme().dim : healthColour(health));
-             },
-         .toolTip = note},
+        PacketColumn::numbers(tr("No."), tr("Number in the order of arrival, from 0"),
+                              [](const auto& facts) { return grouped(facts.number); }),
+        PacketColumn::numbers(tr("Time s"), tr("When it arrived; the context menu has other ways"),
+                              [&model](const auto& facts) { return model.timeText(facts); }),
+        PacketColumn::numbers(tr("Δ ms"), tr("Since the packet before it in its stream"),
+                              [&model](const auto& facts) { return fixed(model.deltaMs(facts), 2); })
+            .withColour([](const PacketFacts& facts) {
+                return warningWhere(facts.digest.gap != 0 || facts.digest.followsDrops);
+            }),
+        PacketColumn::words(tr("Sender"), tr("Address and port of the sender"), sender).withToolTip(sender),
+        PacketColumn::words(tr("Type"), tr("Message type"), packetType)
+            .withColour(typeColour)
+            .withToolTip(packetType),
+        PacketColumn::words(tr("Char"), tr("Character ID and name"), characterText),
+        PacketColumn::numbers(tr("Sample"), tr("Sample counter"), sampleText).withColour(sampleColour),
+        PacketColumn::numbers(tr("Part"), tr("Which of the datagrams of its sample, and of how many"),
+                              [&model](const auto& facts) { return packetPart(model.m_view, facts); }),
+        PacketColumn::numbers(tr("Size"), tr("Bytes of the datagram, header included"),
+                              [](const auto& facts) { return grouped(facts.size); }),
+        PacketColumn::words(tr("Note"), tr("What is odd about it, and comments"), note)
+            .withColour(noteColour)
+            .withToolTip(note),
+    };
+    columns[kCharacter].more = [&model](const PacketFacts& facts, int role) {
+        return model.characterMark(facts, role);
     };
     columns[kSize].colour = [](const PacketFacts& facts) {
         return packetHealth(facts) == Health::Error ? QVariant(theme().error) : QVariant();
@@ -164,64 +129,51 @@ void PacketModel::refresh() {
 
 void PacketModel::removeDropped() {
     const std::uint64_t begin = m_view.digests().begin();
+    const int rows = rowFrom(begin);
+    if (rows > 0) {
+        beginRemoveRows({}, 0, rows - 1);
+    }
     if (m_isFiltered) {
-        const auto kept = std::ranges::lower_bound(m_matches, begin);
-        const auto gone = static_cast<std::size_t>(kept - m_matches.begin());
-        const std::size_t rows = std::min(gone, m_matchRows);
-        if (rows > 0) {
-            beginRemoveRows({}, 0, static_cast<int>(rows) - 1);
-        }
-        m_matches.erase(m_matches.begin(), kept);
+        m_matches.erase(m_matches.begin(), std::ranges::lower_bound(m_matches, begin));
         m_problems.erase(m_problems.begin(), std::ranges::lower_bound(m_problems, begin));
-        m_matchRows -= rows;
-        m_removed += rows;
-        if (rows > 0) {
-            endRemoveRows();
-        }
-        return;
+        m_matchRows -= static_cast<std::size_t>(rows);
+    } else {
+        m_begin = std::max(begin, m_begin);
+        m_end = std::max(m_end, m_begin);
     }
-    const std::uint64_t rows = std::min(std::max(begin, m_begin), m_end) - m_begin;
-    if (m_begin == m_end) {
-        m_begin = m_end = std::max(begin, m_begin);
-        return;
-    }
-    if (rows == 0) {
-        return;
-    }
-    beginRemoveRows({}, 0, static_cast<int>(rows) - 1);
-    m_begin += rows;
-    m_removed += rows;
-    endRemoveRows();
-    if (m_begin == m_end) {
-        m_begin = m_end = std::max(begin, m_begin);
+    m_removed += static_cast<std::uint64_t>(rows);
+    if (rows > 0) {
+        endRemoveRows();
     }
 }
 
 void PacketModel::insertNew() {
-    if (m_isFiltered) {
-        const std::size_t rows = std::min<std::size_t>(m_matches.size(), kMostRows);
-        if (rows > m_matchRows) {
-            beginInsertRows({}, static_cast<int>(m_matchRows), static_cast<int>(rows) - 1);
-            m_matchRows = rows;
-            endInsertRows();
-        }
-        return;
-    }
     const std::uint64_t end = std::min(m_view.digests().end(), m_begin + kMostRows);
-    if (end > m_end) {
-        beginInsertRows({}, rowCount(), static_cast<int>(end - m_begin) - 1);
-        m_end = end;
+    const std::uint64_t rows =
+        m_isFiltered ? std::min<std::uint64_t>(m_matches.size(), kMostRows) : end - m_begin;
+    if (rows > static_cast<std::uint64_t>(rowCount())) {
+        beginInsertRows({}, rowCount(), static_cast<int>(rows) - 1);
+        if (m_isFiltered) {
+            m_matchRows = rows;
+        } else {
+            m_end = end;
+        }
         endInsertRows();
     }
 }
 
-void PacketModel::beginMatches() {
+void PacketModel::startAgain(bool isFiltered) {
     beginResetModel();
     m_facts.reset();
-    m_isFiltered = true;
+    m_isFiltered = isFiltered;
     m_matches.clear();
     m_problems.clear();
     m_matchRows = 0;
+    if (!isFiltered) {
+        m_begin = m_view.digests().begin();
+        m_end = std::min(m_view.digests().end(), m_begin + kMostRows);
+        m_removed = m_begin;
+    }
     endResetModel();
 }
 
@@ -231,32 +183,20 @@ void PacketModel::addMatches(const std::vector<std::uint64_t>& numbers,
     m_problems.insert(m_problems.end(), problems.begin(), problems.end());
 }
 
-void PacketModel::endMatches() {
-    beginResetModel();
-    m_facts.reset();
-    m_isFiltered = false;
-    m_matches.clear();
-    m_problems.clear();
-    m_matchRows = 0;
-    m_begin = m_view.digests().begin();
-    m_end = std::min(m_view.digests().end(), m_begin + kMostRows);
-    m_removed = m_begin;
-    endResetModel();
-}
-
 void PacketModel::setTimeMode(TimeMode mode) {
     m_timeMode = mode;
-    emit headerDataChanged(Qt::Horizontal, kTime, kTime);
-    if (rowCount() > 0) {
-        emit dataChanged(index(0, kTime), index(rowCount() - 1, kTime));
-    }
+    announceColumn(kTime);
 }
 
 void PacketModel::setDeltaMode(DeltaMode mode) {
     m_deltaMode = mode;
-    emit headerDataChanged(Qt::Horizontal, kDelta, kDelta);
+    announceColumn(kDelta);
+}
+
+void PacketModel::announceColumn(int column) {
+    emit headerDataChanged(Qt::Horizontal, column, column);
     if (rowCount() > 0) {
-        emit dataChanged(index(0, kDelta), index(rowCount() - 1, kDelta));
+        emit dataChanged(index(0, column), index(rowCount() - 1, column));
     }
 }
 

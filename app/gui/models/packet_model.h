@@ -42,13 +42,13 @@ public:
     void refresh();
 
     /// Lists only what addMatches() gives from now on.
-    void beginMatches();
+    void beginMatches() { startAgain(true); }
     /// Numbers that grow and lie above those given before, and those of them that are problems; they show
     /// with the next refresh().
     void addMatches(const std::vector<std::uint64_t>& numbers,
                     const std::vector<std::uint64_t>& problems = {});
     /// Lists all packets.
-    void endMatches();
+    void endMatches() { startAgain(false); }
     [[nodiscard]] bool isFiltered() const { return m_isFiltered; }
 
     void setTimeMode(TimeMode mode);
@@ -77,6 +77,8 @@ private:
     const PacketFacts* facts(int row) const;
     void removeDropped();
     void insertNew();
+    void startAgain(bool isFiltered);
+    void announceColumn(int column);
     /// Read the model only where a cell is asked for.
     [[nodiscard]] static std::vector<TableColumn<PacketFacts>> columns(const PacketModel& model);
     [[nodiscard]] QString timeText(const PacketFacts& facts) const;

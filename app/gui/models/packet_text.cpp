@@ -2,9 +2,8 @@
 #include "app/gui/models/packet_text.h"
 
 #include "app/gui/models/packet_model.h"
-#include "core/export/sheets.h"
 #include "core/export/json.h"
-#include "core/filter/completion.h"
+#include "core/export/sheets.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
@@ -54,45 +53,6 @@ QString json(model::SessionView& view, const log::Packet& packet) {
     const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
                                                     : exporting::datagramJson(place, packet.bytes);
     return QString::fromStdString(object) + QLatin1Char('\n');
-}
-
-QString expression(const char* field, const QString& value) {
-    return QString::fromStdString(filter::expressionFor(field, value.toStdString()));
-}
-
-QString noteFilter(const model::PacketDigest& digest) {
-    const std::pair<bool, const char*> truths[] = {
-        {digest.kind == model::PacketKind::Malformed, "malformed"},
-        {digest.kind == model::PacketKind::Foreign || digest.kind == model::PacketKind::Skipped, "foreign"},
-        {digest.followsDrops, "drops > 0"},
-        {digest.gap != 0, "gap > 0"},
-        {digest.isDuplicate, "duplicate"},
-        {digest.isReordered, "reordered"},
-        {digest.isRestart, "restart"},
-        {digest.hasNotices, "notice"}};
-    for (const auto& [isTrue, text] : truths) {
-        if (isTrue) {
-            return QLatin1String(text);
-        }
-    }
-    return {};
-}
-
-QString headerFilter(const wire::Header& header, int column) {
-    switch (column) {
-    case PacketModel::kCharacter:
-        return expression("character", QString::number(header.character));
-    case PacketModel::kSample:
-        return expression("sample", QString::number(header.sampleCounter));
-    case PacketModel::kPart:
-        return expression("datagram", QString::number(header.datagramIndex()));
-    case PacketModel::kType: {
-        const auto digits = wire::typeDigits(header.type());
-        return expression("type", QString::fromLatin1(digits.data(), 2));
-    }
-    default:
-        return {};
-    }
 }
 
 } // namespace
@@ -145,59 +105,6 @@ QString packetRowsCsv(const PacketModel& model, std::span<const int> rows) {
         text += exporting::csvLine(cells);
     }
     return QString::fromStdString(text);
-}
-
-QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column) {
-    const auto packet = view.packet(number);
-    const model::PacketDigest* digest = view.digests().find(number);
-    if (!packet || digest == nullptr) {
-        return {};
-    }
-    switch (column) {
-    case PacketModel::kNumber:
-        return expression("number", QString::number(number));
-    case PacketModel::kTime:
-        return QStringLiteral("time >= %1")
-            .arg(std::chrono::duration<double>(packet->stamp - view.firstStamp()).count(), 0, 'f', 6);
-    case PacketModel::kDelta:
-        return digest->deltaS < 0
-                   ? QString()
-                   : QStringLiteral("delta >= %1").arg(static_cast<double>(digest->deltaS), 0, 'f', 6);
-    case PacketModel::kSender: {
-        const log::SenderInfo* sender = view.log().senders().find(packet->sender);
-        return sender == nullptr ? QString() : expression("source", QString::fromStdString(sender->address));
-    }
-    case PacketModel::kSize:
-        return expression("size", QString::number(packet->bytes.size()));
-    case PacketModel::kNote:
-        return noteFilter(*digest);
-    default:
-        break;
-    }
-    if (digest->kind == model::PacketKind::Foreign || digest->kind == model::PacketKind::Skipped) {
-        return column == PacketModel::kType ? QStringLiteral("foreign") : QString();
-    }
-    const auto header = wire::decodeHeader(packet->bytes);
-    return header ? headerFilter(*header, column)
-                  : (column == PacketModel::kType ? QStringLiteral("malformed") : QString());
-}
-
-QString joinedFilter(const QString& filter, const QString& condition, FilterJoin join) {
-    const QString before = filter.trimmed();
-    const QString negated = QStringLiteral("!(%1)").arg(condition);
-    if (before.isEmpty() || join == FilterJoin::Replace) {
-        return join == FilterJoin::AndNot ? negated : condition;
-    }
-    const bool isLoose = before.contains(QLatin1String("||")) || before.contains(QLatin1String(" or "));
-    const QString kept = isLoose ? QStringLiteral("(%1)").arg(before) : before;
-    switch (join) {
-    case FilterJoin::And:
-        return kept + QStringLiteral(" && ") + condition;
-    case FilterJoin::Or:
-        return before + QStringLiteral(" || ") + condition;
-    default:
-        return kept + QStringLiteral(" && ") + negated;
-    }
 }
 
 } // namespace posewire::gui

@@ -30,11 +30,4 @@ enum class ByteFormat {
 /// (RFC 4180).
 [[nodiscard]] QString packetRowsCsv(const PacketModel& model, std::span<const int> rows);
 
-/// A display filter for packets that have in common what stands in a cell; empty where nothing could say it.
-[[nodiscard]] QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column);
-
-/// How a condition joins the filter there is.
-enum class FilterJoin { Replace, And, Or, AndNot };
-[[nodiscard]] QString joinedFilter(const QString& filter, const QString& condition, FilterJoin join);
-
 } // namespace posewire::gui

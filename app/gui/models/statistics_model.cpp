@@ -1,27 +1,193 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/statistics_model.h"
 
-#include "app/gui/models/columns.h"
-#include "app/gui/models/roles.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
+#include "app/gui/models/text.h"
+#include "core/export/sheets.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace posewire::gui {
 
 namespace {
 
+using enum model::Figure;
+
+struct Column {
+    std::optional<model::Figure> figure;
+    const char* sample = "9999.99"; ///< as wide as its content may become
+};
+
+// Settings know columns by their place: new ones belong at the end.
+constexpr std::array<Column, kStatisticsColumns> kColumns{{
+    {std::nullopt, ""},
+    {Rate, "9999.9"},
+    {Jitter, "999.99"},
+    {Lost, "▲ 9999"},
+    {Reordered, "99999"},
+    {std::nullopt, "0000000"},
+    {LossShare, "▲ 99.99"},
+    {Duplicates},
+    {Late},
+    {Incomplete},
+    {Restarts},
+    {Malformed, "■ 9999"},
+    {Bandwidth},
+    {LongestGap},
+    {SpacingMost},
+    {SpacingDeviation},
+    {SpacingMean},
+    {SpacingLeast},
+    {RateMean},
+    {RateLeast},
+    {RateMost},
+    {RateDeviation},
+    {Bursts},
+    {BurstLength},
+    {BurstDensity},
+    {GapDensity},
+    {Skew},
+    {Drift},
+    {Samples, "99 999 999"},
+    {Datagrams, "99 999 999"},
+    {DatagramRate},
+    {Step, "99"},
+}};
+
 /// Shorter parts show the beat of samples and buckets, not the rate.
 constexpr log::Duration kLeastPart = std::chrono::milliseconds(500);
+constexpr log::Duration kLeastOverviewPart = std::chrono::seconds(1);
+
+/// A figure as it is shown; empty where the row has none of that kind.
+QString figureText(const model::StreamFigures& figures, model::Figure figure) {
+    const model::FigureStyle& style = model::rowOf(figure).style;
+    const double value = figures[figure];
+    if (!figures.has(figure)) {
+        return {};
+    }
+    switch (style.form) {
+    case model::FigureForm::Count:
+    case model::FigureForm::Counter:
+        return grouped(figures.count(figure));
+    case model::FigureForm::Share:
+        return fixed(100 * value, style.digits.window);
+    case model::FigureForm::Signed:
+        return signedFixed(value, style.digits.window);
+    case model::FigureForm::Number:
+        break;
+    }
+    return fixed(value, style.digits.window);
+}
+
+/// The same number as programs read it; empty also where it is not known.
+QString figureNumber(const model::StreamFigures& figures, model::Figure figure) {
+    const model::FigureStyle& style = model::rowOf(figure).style;
+    const double value = (style.form == model::FigureForm::Share ? 100 : 1) * figures[figure];
+    if (!figures.has(figure) || !std::isfinite(value)) {
+        return {};
+    }
+    const bool isZero = std::abs(value) * std::pow(10, style.digits.window) < 0.5; // which has no sign
+    return QString::number(isZero ? 0 : value, 'f', style.digits.window);
+}
+
+/// Whether a figure is one to look at. Unknown for all that is neither good nor bad.
+Health figureHealth(const model::StreamFigures& figures, model::Figure figure) {
+    const model::FigureTrouble trouble = figures.trouble(figure);
+    if (trouble == model::FigureTrouble::Error) {
+        return Health::Error;
+    }
+    return trouble == model::FigureTrouble::Warning ? Health::Warning : Health::Unknown;
+}
+
+/// A count of trouble that is zero is dim: nothing to look at.
+QVariant figureColour(const model::StreamFigures& figures, model::Figure figure) {
+    if (const Health health = figureHealth(figures, figure); health != Health::Unknown) {
+        return healthColour(health);
+    }
+    const bool isQuiet = model::rowOf(figure).trouble != model::FigureTrouble::None &&
+                         figures.trouble(figure) == model::FigureTrouble::None;
+    return isQuiet ? QVariant(theme().dim) : QVariant();
+}
 
 } // namespace
 
+std::optional<model::Figure> figureIn(int column) {
+    return kColumns[static_cast<std::size_t>(column)].figure;
+}
+
+int columnOf(model::Figure figure) {
+    const auto* found = std::ranges::find(kColumns, std::optional(figure), &Column::figure);
+    return found == kColumns.end() ? -1 : static_cast<int>(found - kColumns.begin());
+}
+
+QString statisticsSample(int column) {
+    return QString::fromUtf8(kColumns[static_cast<std::size_t>(column)].sample);
+}
+
 StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent)
-    : StreamTreeModel(view, {}, parent) {}
+    : StreamTreeModel(view, columns(*this), parent) {}
+
+std::vector<TableColumn<StreamRow>> StatisticsModel::columns(const StatisticsModel& model) {
+    std::vector<TableColumn<StreamRow>> columns;
+    for (int column = 0; column < kStatisticsColumns; ++column) {
+        const auto figure = figureIn(column);
+        columns.push_back(figure ? figureColumn(model, *figure) : curveColumn(model));
+    }
+    columns = withHelpInCells(std::move(columns));
+    columns[kNameColumn] = {
+        .title = tr("Stream"),
+        .help =
+            tr("Source, character and message type; sources and characters are the sums of their streams"),
+        .text = [&model](const StreamRow& row) { return model.nameOf(row); },
+        .toolTip =
+            [&model](const StreamRow& row) {
+                return row.kind == Kind::Stream ? model.nameOf(row) : QString();
+            },
+        .more = [&model](const StreamRow& row, int role) { return model.marksOf(row, role); }};
+    return columns;
+}
+
+TableColumn<StreamRow> StatisticsModel::figureColumn(const StatisticsModel& model, model::Figure figure) {
+    const model::FigureRow& row = model::rowOf(figure);
+    const QString help = row.packets == nullptr
+                             ? tr(row.help)
+                             : QStringLiteral("%1. %2").arg(
+                                   tr(row.help), tr("Double click: %1").arg(tr(row.packets).toLower()));
+    const auto text = [&model, figure](const StreamRow& row) {
+        const model::StreamFigures& figures = model.figures(model.indexOf(row));
+        const QString shown = figureText(figures, figure);
+        return shown.isEmpty() ? shown : PropertyValue{shown, figureHealth(figures, figure)}.display();
+    };
+    const auto colour = [&model, figure](const StreamRow& row) {
+        return figureColour(model.figures(model.indexOf(row)), figure);
+    };
+    return {.title = tr(row.shortTitle()), .help = help, .isNumber = true, .text = text, .colour = colour};
+}
+
+TableColumn<StreamRow> StatisticsModel::curveColumn(const StatisticsModel& model) {
+    const auto colour = [&model](const StreamRow& row) {
+        const model::Stream* shown = model.stream(model.indexOf(row));
+        return QVariant(shown == nullptr ? theme().dim
+                                         : healthColour(streamState(model.view(), *shown).health));
+    };
+    const auto lists = [&model](const StreamRow& row, int role) {
+        if (role != kSeriesRole && role != kMarksRole) {
+            return QVariant();
+        }
+        const Curve& curve = model.curve(model.indexOf(row));
+        return QVariant::fromValue(role == kSeriesRole ? curve.rates : curve.marks);
+    };
+    return {.title = tr("Curve"),
+            .help = tr("Rate over the range, or over the last two minutes; marked where samples were lost"),
+            .isNumber = true,
+            .colour = colour,
+            .more = lists};
+}
 
 void StatisticsModel::refresh() {
     ++m_turn;
@@ -122,85 +288,61 @@ StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) cons
     return made;
 }
 
-int StatisticsModel::columnCount(const QModelIndex&) const {
-    return kStatisticsColumns;
-}
-
-QVariant StatisticsModel::data(const QModelIndex& index, int role) const {
-    if (!checkIndex(index, CheckIndexOption::IndexIsValid)) {
-        return {};
-    }
-    if (figureIn(index.column())) {
-        return figureData(index, role);
-    }
-    return index.column() == kNameColumn ? nameData(index, role) : curveData(index, role);
-}
-
-QVariant StatisticsModel::nameData(const QModelIndex& index, int role) const {
-    if (const model::Stream* shown = stream(index)) {
-        const QString title = QString::fromStdString(wire::typeTitle(shown->key.type));
-        return role == Qt::DisplayRole || role == Qt::ToolTipRole ? title : QVariant();
-    }
-    const auto key = character(index);
-    if (!key) {
-        const model::Sender& shown = view().senders()[nodeOf(index).entry];
-        return role == Qt::DisplayRole ? QString::fromStdString(shown.info.address) : QVariant();
-    }
-    switch (role) {
-    case Qt::DisplayRole:
-        return characterName(view(), *key);
-    case kSuffixRole:
-        return QStringLiteral("· %1").arg(key->character);
-    case kDotRole:
-        return characterColour(view(), *key);
-    default:
-        return {};
-    }
-}
-
-QVariant StatisticsModel::curveData(const QModelIndex& index, int role) const {
-    switch (role) {
-    case kSeriesRole:
-        return QVariant::fromValue(curve(index).rates);
-    case kMarksRole:
-        return QVariant::fromValue(curve(index).marks);
-    case Qt::ForegroundRole:
-        if (const model::Stream* shown = stream(index)) {
-            return healthColour(streamState(view(), *shown).health);
+std::string StatisticsModel::csvLine(const model::Stream& stream) const {
+    const model::StreamFigures figures = model::figuresOf(stream, m_range);
+    const model::CharacterKey key = characterOf(stream.key);
+    const model::Sender* sender = view().find(key.sender);
+    std::vector<std::string> cells{sender == nullptr ? std::string() : sender->info.address,
+                                   std::to_string(key.character), view().displayName(key),
+                                   wire::typeDigits(stream.key.type)};
+    for (const Column& column : kColumns) {
+        if (column.figure) {
+            cells.push_back(figureNumber(figures, *column.figure).toStdString());
         }
-        return theme().dim;
-    case Qt::ToolTipRole:
-        return headerData(index.column(), Qt::Horizontal, role);
-    default:
-        return role == Qt::TextAlignmentRole ? numberAlignment() : QVariant();
     }
+    return exporting::csvLine(cells);
 }
 
-QVariant StatisticsModel::figureData(const QModelIndex& index, int role) const {
-    const model::Figure figure = *figureIn(index.column());
-    const Health health = statisticsHealth(figures(index), figure);
-    switch (role) {
-    case Qt::DisplayRole: {
-        const QString text = statisticsText(figures(index), figure);
-        return health == Health::Unknown || text.isEmpty() ? text
-                                                           : healthSymbol(health) + QLatin1Char(' ') + text;
+QString StatisticsModel::csv() const {
+    std::vector<std::string> titles;
+    for (const QString& title : {tr("Sender"), tr("Character"), tr("Name"), tr("Type")}) {
+        titles.push_back(title.toStdString());
     }
-    case Qt::ForegroundRole:
-        if (health == Health::Unknown) {
-            return isQuiet(figures(index), figure) ? QVariant(theme().dim) : QVariant();
+    for (const Column& column : kColumns) {
+        if (column.figure) {
+            titles.push_back(tr(model::rowOf(*column.figure).shortTitle()).toStdString());
         }
-        return healthColour(health);
-    case Qt::TextAlignmentRole:
-        return numberAlignment();
-    case Qt::ToolTipRole:
-        return headerData(index.column(), Qt::Horizontal, role);
-    default:
-        return {};
     }
+    std::string text = exporting::csvLine(titles);
+    std::vector<const model::Stream*> streams;
+    addStreams({}, streams);
+    for (const model::Stream* each : streams) {
+        text += csvLine(*each);
+    }
+    return QString::fromStdString(text);
 }
 
-QVariant StatisticsModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    return orientation == Qt::Horizontal ? statisticsHeader(section, role) : QVariant();
+void RangeOverview::refresh() {
+    const log::Stamp end = m_view.cursorStamp();
+    if (m_view.streams().empty() || m_view.firstStamp() == log::Stamp() || end <= m_view.firstStamp()) {
+        return;
+    }
+    using std::chrono::seconds;
+    using std::chrono::time_point_cast;
+    const bool isSameSecond = time_point_cast<seconds>(end) == time_point_cast<seconds>(m_span.to);
+    m_span = {m_view.firstStamp(), end};
+    if (isSameSecond && !empty()) {
+        return;
+    }
+    m_resolution = log::Duration(1);
+    for (const model::Stream& stream : m_view.streams()) {
+        m_resolution = std::max(m_resolution, stream.accounting.resolution());
+    }
+    m_parts = model::partsOf(m_span, kMostParts, kLeastOverviewPart, m_resolution);
+    m_counted.assign(m_parts.count, {});
+    for (const model::Stream& stream : m_view.streams()) {
+        model::addParts(stream.accounting, m_parts, m_counted);
+    }
 }
 
 } // namespace posewire::gui

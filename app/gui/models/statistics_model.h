@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/statistics_columns.h"
 #include "app/gui/models/stream_tree_model.h"
 #include "core/log/time.h"
+#include "core/model/accounting/range_figures.h"
+#include "core/model/accounting/stream_figures.h"
 
 #include <QList>
 
@@ -13,12 +14,25 @@
 
 namespace posewire::gui {
 
+/// The columns of the statistics: the name of a row, then figures, and among them the curve of the rate. The
+/// first are always shown, the others as they fit or are chosen.
+inline constexpr int kStatisticsColumns = 32;
+inline constexpr int kNameColumn = 0;
+inline constexpr int kCurveColumn = 5;
+/// Those before it are shown however narrow the dock is.
+inline constexpr int kFirstOptionalStatistic = kCurveColumn;
+
+/// The figure of a column; nothing for the name and the curve.
+[[nodiscard]] std::optional<model::Figure> figureIn(int column);
+/// -1 for figures that are not shown.
+[[nodiscard]] int columnOf(model::Figure figure);
+/// As long as the content of a column may become.
+[[nodiscard]] QString statisticsSample(int column);
+
 /// Every figure of every stream, with sums for each character and sender, over the range that is chosen.
 /// Without one they keep counting while the display is paused. Figures are made when they are asked for, once
 /// per refresh, and curves once per second.
 class StatisticsModel : public StreamTreeModel {
-    Q_OBJECT
-
 public:
     /// The points of a row's curve, and what it spans where no range is chosen: two minutes.
     static constexpr int kCurvePoints = 120;
@@ -36,10 +50,6 @@ public:
     /// A line for each stream, with titles (RFC 4180): sender, character, type, and every figure.
     [[nodiscard]] QString csv() const;
 
-    [[nodiscard]] int columnCount(const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
-    [[nodiscard]] QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-
 private:
     struct Curve {
         QList<float> rates; ///< NaN where the stream was not there
@@ -56,10 +66,15 @@ private:
     [[nodiscard]] model::StreamFigures sumOf(const QModelIndex& index) const;
     [[nodiscard]] const Curve& curve(const QModelIndex& index) const;
     [[nodiscard]] Curve makeCurve(const QModelIndex& index) const;
+    /// Those of a row and below it, in the order of the rows.
     void addStreams(const QModelIndex& index, std::vector<const model::Stream*>& streams) const;
-    [[nodiscard]] QVariant nameData(const QModelIndex& index, int role) const;
-    [[nodiscard]] QVariant curveData(const QModelIndex& index, int role) const;
-    [[nodiscard]] QVariant figureData(const QModelIndex& index, int role) const;
+    [[nodiscard]] std::string csvLine(const model::Stream& stream) const;
+
+    /// Read the model only where a cell is asked for.
+    [[nodiscard]] static std::vector<TableColumn<StreamRow>> columns(const StatisticsModel& model);
+    [[nodiscard]] static TableColumn<StreamRow> figureColumn(const StatisticsModel& model,
+                                                             model::Figure figure);
+    [[nodiscard]] static TableColumn<StreamRow> curveColumn(const StatisticsModel& model);
 
     std::optional<model::TimeRange> m_range;
     model::RangeChoice m_choice;
@@ -67,6 +82,32 @@ private:
     std::uint64_t m_curveTurn = 1;
     std::chrono::sys_seconds m_curveSecond{};
     mutable std::deque<Cached> m_cache; ///< by the node of the row
+};
+
+/// Datagrams and losses of all streams over the whole history, in parts of equal length; read again once a
+/// second.
+class RangeOverview {
+public:
+    static constexpr std::size_t kMostParts = 240;
+
+    explicit RangeOverview(model::SessionView& view) : m_view(view) {}
+
+    void refresh();
+
+    /// From the first packet to the cursor.
+    [[nodiscard]] const model::TimeRange& span() const { return m_span; }
+    [[nodiscard]] const model::RangeParts& parts() const { return m_parts; }
+    [[nodiscard]] const std::vector<model::RangePart>& counted() const { return m_counted; }
+    [[nodiscard]] bool empty() const { return m_parts.count == 0; }
+    /// The coarsest of the streams: finer ranges make no difference.
+    [[nodiscard]] log::Duration resolution() const { return m_resolution; }
+
+private:
+    model::SessionView& m_view;
+    model::TimeRange m_span;
+    model::RangeParts m_parts;
+    std::vector<model::RangePart> m_counted;
+    log::Duration m_resolution{1};
 };
 
 } // namespace posewire::gui

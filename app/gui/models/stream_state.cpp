@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/stream_state.h"
 
-#include "app/gui/models/event_words.h"
+#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/wire/type_table.h"
@@ -12,31 +12,21 @@ namespace posewire::gui {
 
 namespace {
 
-PropertyValue silent(double age) {
-    return {tr("silent %1").arg(duration(age)), Health::Warning};
-}
-
-PropertyValue stale(double age) {
-    return {tr("stale %1").arg(duration(age)), Health::Error};
-}
-
-/// Slow streams are given the time of two and a half samples before they are silent.
+/// What the time without data says; nothing before a stream is silent. Slow streams are given the time of two
+/// and a half samples.
 PropertyValue ageState(double age, double rateHz) {
     const double patience = rateHz > 0 ? 2.5 / rateHz : 0.0;
     if (age >= std::max(kStaleAge, patience)) {
-        return stale(age);
+        return {tr("stale %1").arg(duration(age)), Health::Error};
     }
     if (age >= std::max(kSilentAge, patience)) {
-        return silent(age);
+        return {tr("silent %1").arg(duration(age)), Health::Warning};
     }
     return {};
 }
 
-PropertyValue countState(std::uint64_t malformed, std::uint64_t lost) {
-    if (malformed != 0) {
-        return {tr("%1 malformed").arg(grouped(malformed)), Health::Error};
-    }
-    return {grouped(lost), lost == 0 ? Health::Good : Health::Warning};
+PropertyValue malformedState(std::uint64_t count) {
+    return {tr("%1 malformed").arg(grouped(count)), Health::Error};
 }
 
 /// Another sender has taken over: nothing is wrong, and nothing more will come.
@@ -55,9 +45,8 @@ std::uint64_t lostOf(model::SessionView& view, const model::CharacterKey& key) {
     return lost;
 }
 
-/// What does not fit together about the sender, in brief; empty where all does.
-QString contradictionOf(model::SessionView& view, const model::CharacterKey& key) {
-    const model::Sender* sender = view.find(key.sender);
+/// What does not fit together about a sender, in brief; empty where all does.
+QString contradictionOf(const model::Sender* sender) {
     const auto found = sender != nullptr ? sender->contradictions() : std::vector<model::Contradiction>();
     return found.empty() ? QString() : QString::fromStdString(found.front().brief);
 }
@@ -75,27 +64,29 @@ bool hasEnded(model::SessionView& view, const model::Sender& sender) {
     return hasCharacters;
 }
 
+/// Seconds; at least 0, also when the cursor lies before it.
 double ageOf(model::SessionView& view, log::Stamp stamp) {
     return std::max(0.0, log::secondsOf(view.cursorStamp() - stamp));
 }
 
 } // namespace
 
-double streamAge(model::SessionView& view, const model::Stream& stream) {
-    return ageOf(view, stream.accounting.lastStamp());
-}
-
 PropertyValue streamState(model::SessionView& view, const model::Stream& stream) {
     if (view.isSuperseded({stream.key.sender, stream.key.character})) {
         return ended();
     }
     if (wire::isSampled(stream.key.type)) {
-        const PropertyValue age = ageState(streamAge(view, stream), stream.statistics.rateHz());
-        if (age.health != Health::Unknown) {
-            return age;
+        const double age = ageOf(view, stream.accounting.lastStamp());
+        const PropertyValue state = ageState(age, stream.statistics.rateHz());
+        if (state.health != Health::Unknown) {
+            return state;
         }
     }
-    return countState(stream.accounting.malformed(), stream.accounting.counts().lost);
+    if (const std::uint64_t malformed = stream.accounting.malformed(); malformed != 0) {
+        return malformedState(malformed);
+    }
+    const std::uint64_t lost = stream.accounting.counts().lost;
+    return {grouped(lost), lost == 0 ? Health::Good : Health::Warning};
 }
 
 PropertyValue characterState(model::SessionView& view, const model::Character& character) {
@@ -114,7 +105,7 @@ PropertyValue characterState(model::SessionView& view, const model::Character& c
     if (const model::Event* event = condition.event ? view.events().find(*condition.event) : nullptr) {
         return {briefWords(*event), health};
     }
-    return {contradictionOf(view, character.key), health};
+    return {contradictionOf(view.find(character.key.sender)), health};
 }
 
 PropertyValue senderState(model::SessionView& view, const model::Sender& sender) {
@@ -129,15 +120,13 @@ PropertyValue senderState(model::SessionView& view, const model::Sender& sender)
         return {tr("%1 dropped here").arg(grouped(sender.kernelDrops)), Health::Error};
     }
     if (sender.malformed != 0) {
-        return {tr("%1 malformed").arg(grouped(sender.malformed)), Health::Error};
+        return malformedState(sender.malformed);
     }
     if (sender.foreign != 0) {
         return {tr("%1 foreign").arg(grouped(sender.foreign)), Health::Warning};
     }
-    if (const auto found = sender.contradictions(); !found.empty()) {
-        return {QString::fromStdString(found.front().brief), Health::Warning};
-    }
-    return {};
+    const QString contradiction = contradictionOf(&sender);
+    return {contradiction, contradiction.isEmpty() ? Health::Unknown : Health::Warning};
 }
 
 bool isLive(model::SessionView& view, const model::Character& character) {

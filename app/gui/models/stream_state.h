@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/property_value.h"
+#include "app/gui/models/column.h"
 #include "core/model/session/session_view.h"
 
 namespace posewire::gui {
@@ -9,9 +9,6 @@ namespace posewire::gui {
 /// Without data for this long a stream is silent, and for the second it is stale (seconds).
 inline constexpr double kSilentAge = model::Condition::kSilentS;
 inline constexpr double kStaleAge = model::Condition::kStaleS;
-
-/// Seconds since the newest datagram of a stream; at least 0, also when the cursor lies before it.
-[[nodiscard]] double streamAge(model::SessionView& view, const model::Stream& stream);
 
 /// Whether a stream is well: age first, then malformed datagrams, then lost samples. Types that are sent now
 /// and then (12, 13) never get stale.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/stream_tree_model.h"
 
+#include "app/gui/models/shown_character.h"
+#include "core/wire/type_table.h"
+
 #include <algorithm>
 
 namespace posewire::gui {
@@ -9,56 +12,31 @@ namespace {
 
 constexpr int kNone = -1;
 
+} // namespace
+
 model::CharacterKey characterOf(const log::StreamKey& key) {
     return {key.sender, key.character};
 }
-
-} // namespace
 
 StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
                                  QObject* parent)
     : ColumnModel(std::move(columns), parent), m_view(view) {}
 
 void StreamTreeModel::insertNew() {
-    m_senderNodes.resize(m_view.senders().size(), kNone);
-    m_characterNodes.resize(m_view.characters().size(), kNone);
-    m_streamNodes.resize(m_view.streams().size(), kNone);
-    if (!insertSenders() && !insertCharacters()) {
-        insertStreams();
+    nodesOf(Kind::Sender).resize(m_view.senders().size(), kNone);
+    nodesOf(Kind::Character).resize(m_view.characters().size(), kNone);
+    nodesOf(Kind::Stream).resize(m_view.streams().size(), kNone);
+    if (!insert(Kind::Sender) && !insert(Kind::Character)) {
+        insert(Kind::Stream);
     }
 }
 
-bool StreamTreeModel::insertSenders() {
-    const std::size_t first = m_roots.size();
-    const std::size_t end = m_senderNodes.size();
-    if (first == end) {
-        return false;
-    }
-    beginInsertRows({}, static_cast<int>(first), static_cast<int>(end) - 1);
-    for (std::size_t entry = first; entry < end; ++entry) {
-        addSender(entry);
-    }
-    endInsertRows();
-    return true;
-}
-
-bool StreamTreeModel::insertCharacters() {
-    return insertChildren(m_characterNodes, &StreamTreeModel::parentOfCharacter,
-                          &StreamTreeModel::addCharacter);
-}
-
-bool StreamTreeModel::insertStreams() {
-    return insertChildren(m_streamNodes, &StreamTreeModel::parentOfStream, &StreamTreeModel::addStream);
-}
-
-bool StreamTreeModel::insertChildren(const std::vector<int>& nodes,
-                                     int (StreamTreeModel::*parentOf)(std::size_t) const,
-                                     void (StreamTreeModel::*add)(std::size_t, int)) {
-    int parent = kNone;
+bool StreamTreeModel::insert(Kind kind) {
+    std::optional<int> parent;
     std::vector<std::size_t> entries;
-    for (std::size_t entry = 0; entry < nodes.size(); ++entry) {
-        const int wanted = nodes[entry] == kNone ? (this->*parentOf)(entry) : kNone;
-        if (wanted != kNone && (parent == kNone || parent == wanted)) {
+    for (std::size_t entry = 0; entry < nodesOf(kind).size(); ++entry) {
+        const auto wanted = nodesOf(kind)[entry] == kNone ? parentOf(kind, entry) : std::nullopt;
+        if (wanted && (!parent || parent == wanted)) {
             parent = wanted;
             entries.push_back(entry);
         }
@@ -66,46 +44,49 @@ bool StreamTreeModel::insertChildren(const std::vector<int>& nodes,
     if (entries.empty()) {
         return false;
     }
-    const int first = static_cast<int>(m_nodes[static_cast<std::size_t>(parent)].children.size());
-    beginInsertRows(indexOfNode(parent), first, first + static_cast<int>(entries.size()) - 1);
+    const int first = static_cast<int>(childrenOf(*parent).size());
+    beginInsertRows(indexOfNode(*parent), first, first + static_cast<int>(entries.size()) - 1);
     for (const std::size_t entry : entries) {
-        (this->*add)(entry, parent);
+        addNode(kind, entry, *parent);
     }
     endInsertRows();
     return true;
 }
 
-int StreamTreeModel::addNode(Kind kind, std::size_t entry, int parent) {
+void StreamTreeModel::addNode(Kind kind, std::size_t entry, int parent) {
     const int node = static_cast<int>(m_nodes.size());
-    std::vector<int>& siblings =
-        parent == kNone ? m_roots : m_nodes[static_cast<std::size_t>(parent)].children;
+    std::vector<int>& siblings = childrenOf(parent);
     const int row = static_cast<int>(siblings.size());
     siblings.push_back(node);
     m_nodes.push_back({kind, entry, parent, row, {}});
-    return node;
-}
-
-void StreamTreeModel::addSender(std::size_t entry) {
-    m_senderNodes[entry] = addNode(Kind::Sender, entry, kNone);
-    for (std::size_t i = 0; i < m_characterNodes.size(); ++i) {
-        if (m_characterNodes[i] == kNone && m_view.characters()[i].key.sender == m_view.senders()[entry].id) {
-            addCharacter(i, m_senderNodes[entry]);
+    nodesOf(kind)[entry] = node;
+    if (kind == Kind::Stream) {
+        return;
+    }
+    const Kind below = kind == Kind::Sender ? Kind::Character : Kind::Stream;
+    for (std::size_t child = 0; child < nodesOf(below).size(); ++child) {
+        if (nodesOf(below)[child] == kNone && parentOf(below, child) == node) {
+            addNode(below, child, node);
         }
     }
 }
 
-void StreamTreeModel::addCharacter(std::size_t entry, int parent) {
-    m_characterNodes[entry] = addNode(Kind::Character, entry, parent);
-    for (std::size_t i = 0; i < m_streamNodes.size(); ++i) {
-        if (m_streamNodes[i] == kNone &&
-            characterOf(m_view.streams()[i].key) == m_view.characters()[entry].key) {
-            addStream(i, m_characterNodes[entry]);
-        }
+std::optional<int> StreamTreeModel::parentOf(Kind kind, std::size_t entry) const {
+    int parent = kNone;
+    if (kind == Kind::Sender) {
+        return kNone;
     }
-}
-
-void StreamTreeModel::addStream(std::size_t entry, int parent) {
-    m_streamNodes[entry] = addNode(Kind::Stream, entry, parent);
+    if (kind == Kind::Character) {
+        const auto& senders = m_view.senders();
+        const auto found =
+            std::ranges::find(senders, m_view.characters()[entry].key.sender, &model::Sender::id);
+        if (found != senders.end()) {
+            parent = nodesOf(Kind::Sender)[static_cast<std::size_t>(found - senders.begin())];
+        }
+    } else if (const auto* character = m_view.find(characterOf(m_view.streams()[entry].key))) {
+        parent = nodesOf(Kind::Character)[character->ordinal];
+    }
+    return parent == kNone ? std::nullopt : std::optional(parent);
 }
 
 const StreamTreeModel::Node& StreamTreeModel::nodeOf(const QModelIndex& index) const {
@@ -118,33 +99,38 @@ QModelIndex StreamTreeModel::indexOfNode(int node) const {
                                        static_cast<quintptr>(static_cast<unsigned>(node)));
 }
 
-int StreamTreeModel::parentOfCharacter(std::size_t entry) const {
-    const log::SenderId sender = m_view.characters()[entry].key.sender;
-    const auto found = std::ranges::find(m_view.senders(), sender, &model::Sender::id);
-    return found == m_view.senders().end()
-               ? kNone
-               : m_senderNodes[static_cast<std::size_t>(found - m_view.senders().begin())];
+QModelIndex StreamTreeModel::indexOf(const Node& node) const {
+    return index(node.row, 0, indexOfNode(node.parent));
 }
 
-int StreamTreeModel::parentOfStream(std::size_t entry) const {
-    const model::Character* character = m_view.find(characterOf(m_view.streams()[entry].key));
-    return character == nullptr ? kNone : m_characterNodes[character->ordinal];
+QString StreamTreeModel::nameOf(const StreamRow& row) const {
+    switch (row.kind) {
+    case Kind::Sender:
+        return QString::fromStdString(m_view.senders()[row.entry].info.address);
+    case Kind::Character:
+        return characterName(m_view, m_view.characters()[row.entry].key);
+    case Kind::Stream:
+        break;
+    }
+    return QString::fromStdString(wire::typeTitle(m_view.streams()[row.entry].key.type));
+}
+
+QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
+    if (row.kind != Kind::Character || (role != kSuffixRole && role != kDotRole)) {
+        return {};
+    }
+    const model::CharacterKey& key = m_view.characters()[row.entry].key;
+    return role == kSuffixRole ? QVariant(QStringLiteral("· %1").arg(key.character))
+                               : characterColour(m_view, key);
 }
 
 std::optional<model::CharacterKey> StreamTreeModel::character(const QModelIndex& index) const {
-    if (!index.isValid()) {
+    if (!index.isValid() || nodeOf(index).kind == Kind::Sender) {
         return std::nullopt;
     }
     const Node& node = nodeOf(index);
-    switch (node.kind) {
-    case Kind::Character:
-        return m_view.characters()[node.entry].key;
-    case Kind::Stream:
-        return characterOf(m_view.streams()[node.entry].key);
-    case Kind::Sender:
-        break;
-    }
-    return std::nullopt;
+    return node.kind == Kind::Character ? m_view.characters()[node.entry].key
+                                        : characterOf(m_view.streams()[node.entry].key);
 }
 
 std::optional<log::SenderId> StreamTreeModel::sender(const QModelIndex& index) const {
@@ -162,9 +148,9 @@ const model::Stream* StreamTreeModel::stream(const QModelIndex& index) const {
 
 QModelIndex StreamTreeModel::indexOf(const model::CharacterKey& key) const {
     const model::Character* found = m_view.find(key);
-    return found == nullptr || found->ordinal >= m_characterNodes.size()
-               ? QModelIndex()
-               : indexOfNode(m_characterNodes[found->ordinal]);
+    const std::vector<int>& nodes = nodesOf(Kind::Character);
+    return found == nullptr || found->ordinal >= nodes.size() ? QModelIndex()
+                                                              : indexOfNode(nodes[found->ordinal]);
 }
 
 QModelIndex StreamTreeModel::index(int row, int column, const QModelIndex& parent) const {

@@ -4,6 +4,7 @@
 #include "app/gui/models/column.h"
 #include "core/model/session/session_view.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct StreamRow {
     int row;
     std::vector<int> children;
 };
+
+[[nodiscard]] model::CharacterKey characterOf(const log::StreamKey& key);
 
 /// The rows of tables that show sender > character > stream, each in the order of first appearance, so that
 /// rows never jump. What they say is up to the columns.
@@ -49,29 +52,34 @@ protected:
     /// Announces that anything may have changed, once, for the senders; views repaint what is under them too.
     void announceChange() { ColumnModel::announceChange(0, rowCount() - 1); }
     [[nodiscard]] const Node& nodeOf(const QModelIndex& index) const;
+    [[nodiscard]] QModelIndex indexOf(const Node& node) const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }
+    /// Address of a sender, name of a character, title of a type.
+    [[nodiscard]] QString nameOf(const StreamRow& row) const;
+    /// Of characters: their colour and, as suffix, their ID.
+    [[nodiscard]] QVariant marksOf(const StreamRow& row, int role) const;
 
 private:
-    bool insertSenders();
-    bool insertCharacters();
-    bool insertStreams();
-    /// Adds the entries without a node that have the same parent as the first of them.
-    bool insertChildren(const std::vector<int>& nodes, int (StreamTreeModel::*parentOf)(std::size_t) const,
-                        void (StreamTreeModel::*add)(std::size_t, int));
-    int addNode(Kind kind, std::size_t entry, int parent);
-    void addSender(std::size_t entry);
-    void addCharacter(std::size_t entry, int parent);
-    void addStream(std::size_t entry, int parent);
+    /// Adds the entries without a node that have the same parent as the first of them. False where none has.
+    bool insert(Kind kind);
+    /// With all that belongs under it.
+    void addNode(Kind kind, std::size_t entry, int parent);
+    /// -1 for the top; nothing where the parent has no node yet.
+    [[nodiscard]] std::optional<int> parentOf(Kind kind, std::size_t entry) const;
+    [[nodiscard]] std::vector<int>& childrenOf(int node) {
+        return node < 0 ? m_roots : m_nodes[static_cast<std::size_t>(node)].children;
+    }
+    /// By place in the session's list; -1 before the row is there.
+    [[nodiscard]] std::vector<int>& nodesOf(Kind kind) { return m_nodesOf[static_cast<std::size_t>(kind)]; }
+    [[nodiscard]] const std::vector<int>& nodesOf(Kind kind) const {
+        return m_nodesOf[static_cast<std::size_t>(kind)];
+    }
     [[nodiscard]] QModelIndex indexOfNode(int node) const;
-    [[nodiscard]] int parentOfCharacter(std::size_t entry) const;
-    [[nodiscard]] int parentOfStream(std::size_t entry) const;
 
     model::SessionView& m_view;
     std::vector<Node> m_nodes;
     std::vector<int> m_roots;
-    std::vector<int> m_senderNodes; ///< by place in the session's list; -1 before the row is there
-    std::vector<int> m_characterNodes;
-    std::vector<int> m_streamNodes;
+    std::array<std::vector<int>, 3> m_nodesOf; ///< by kind
 };
 
 } // namespace posewire::gui

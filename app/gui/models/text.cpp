@@ -37,9 +37,19 @@ QString fixed(double value, int decimals) {
 }
 
 QString signedFixed(double value, int decimals) {
-    const QString text = fixed(value, decimals);
     const bool roundsToZero = std::abs(value) < 0.5 * std::pow(10.0, -decimals);
-    return value > 0 && std::isfinite(value) && !roundsToZero ? QLatin1Char('+') + text : text;
+    const bool hasPlus = value > 0 && std::isfinite(value) && !roundsToZero;
+    return (hasPlus ? QStringLiteral("+") : QString()) + fixed(value, decimals);
+}
+
+QStringList setBits(std::uint32_t flags) {
+    QStringList bits;
+    for (int bit = 0; bit < 32; ++bit) {
+        if ((flags >> bit & 1U) != 0) {
+            bits += QString::number(bit);
+        }
+    }
+    return bits;
 }
 
 QString milliClock(std::int64_t milliseconds) {

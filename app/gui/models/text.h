@@ -4,6 +4,7 @@
 #include "core/log/time.h"
 
 #include <QString>
+#include <QStringList>
 
 #include <cstdint>
 #include <string_view>
@@ -14,6 +15,11 @@ namespace posewire::gui {
 /// UTF-8 of the core as a text of the window.
 [[nodiscard]] QString fromUtf8(std::string_view text);
 
+/// "–": nothing to show.
+[[nodiscard]] inline QString dash() {
+    return QStringLiteral("–");
+}
+
 /// 153402 as "153 402", with narrow no-break spaces.
 [[nodiscard]] QString grouped(std::uint64_t value);
 
@@ -22,6 +28,9 @@ namespace posewire::gui {
 
 /// The same with "+" before values above zero.
 [[nodiscard]] QString signedFixed(double value, int decimals);
+
+/// The bits that are set, the lowest, 0, first.
+[[nodiscard]] QStringList setBits(std::uint32_t flags);
 
 /// Milliseconds as a clock, "00:10:39.175"; hours may exceed 24.
 [[nodiscard]] QString milliClock(std::int64_t milliseconds);

@@ -5,11 +5,145 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/body/segments.h"
+#include "core/model/body/spaces.h"
 #include "core/model/session/ingest.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
 
 namespace posewire::gui {
+
+namespace {
+
+constexpr std::size_t kMostMessages = 5'000;
+constexpr log::Duration kNormSpacing = std::chrono::milliseconds(50);
+constexpr std::size_t kLeastNorms = 20;
+constexpr std::size_t kMostTrackers = wire::kMaxItems;
+/// A pause this long is a gap whatever the counter says.
+constexpr log::Duration kGap = std::chrono::milliseconds(250);
+
+bool reaches(const wire::Vec3& vector, float limit) {
+    return std::ranges::any_of(vector, [limit](float value) { return std::abs(value) > limit; });
+}
+
+} // namespace
+
+float norm(const wire::Vec3& vector) {
+    return std::hypot(vector[0], vector[1], vector[2]);
+}
+
+double dipDegrees(const wire::Tracker& tracker) {
+    const Eigen::Quaterniond worldFromTracker =
+        model::normalizedOrIdentity(model::toQuaternion(tracker.orientation));
+    const Eigen::Vector3d field = worldFromTracker * model::toVector(tracker.magneticField);
+    return std::atan2(-field.z(), field.head<2>().norm()) * model::kDegreesPerRadian;
+}
+
+void TrackerHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key,
+                            std::uint32_t trackerId) {
+    const auto* newest = key ? view.message(*key, wire::TrackerKinematics::kType) : nullptr;
+    const bool wentBack = newest != nullptr && newest->stamp < m_lastStamp;
+    if (key != m_key || wentBack) {
+        *this = {};
+        m_key = key;
+    }
+    if (trackerId != m_trackerId) {
+        m_trackerId = trackerId;
+        m_points.clear();
+        m_lastStamp = {};
+        m_lastSample = 0;
+    }
+    if (newest == nullptr) {
+        return;
+    }
+    const log::StreamKey stream{key->sender, key->character, wire::TrackerKinematics::kType};
+    const model::Stream* figures = view.find(stream);
+    const std::uint32_t step = figures == nullptr ? 0 : figures->accounting.step();
+    const log::Stamp from = std::max(newest->stamp - kPlot, m_lastStamp + log::Duration(1));
+    const std::size_t added =
+        view.visit(stream, from, kMostMessages, [&](const auto& message) { add(message, step); });
+    if (added != 0) {
+        computeMedians();
+    }
+}
+
+void TrackerHistory::add(const model::Message& message, std::uint32_t step) {
+    const auto* body = std::get_if<wire::TrackerKinematics>(&message.datagram.body);
+    if (body == nullptr) {
+        return;
+    }
+    const std::uint32_t advanced = message.datagram.header.sampleCounter - m_lastSample;
+    const bool followsGap = m_lastStamp != log::Stamp() &&
+                            (message.stamp - m_lastStamp > kGap || (step != 0 && advanced > step + step / 2));
+    for (const wire::Tracker& tracker : body->trackers) {
+        if (m_trackers.size() >= kMostTrackers && !m_trackers.contains(tracker.id)) {
+            continue;
+        }
+        Lately& lately = m_trackers[tracker.id];
+        addNorm(lately, message.stamp, norm(tracker.magneticField));
+        if (reaches(tracker.acceleration, kSaturatedAcceleration) ||
+            reaches(tracker.angularVelocity, kSaturatedAngularVelocity)) {
+            lately.saturated = message.stamp;
+        }
+        if (tracker.id == m_trackerId) {
+            addPoint(tracker, message.stamp, followsGap);
+        }
+    }
+    m_lastStamp = message.stamp;
+    m_lastSample = message.datagram.header.sampleCounter;
+}
+
+void TrackerHistory::addPoint(const wire::Tracker& tracker, log::Stamp stamp, bool followsGap) {
+    m_points.push_back({stamp, tracker.freeAcceleration, norm(tracker.magneticField), followsGap});
+    while (stamp - m_points.front().stamp > kPlot || m_points.size() > kMostMessages) {
+        m_points.pop_front();
+    }
+}
+
+void TrackerHistory::addNorm(Lately& lately, log::Stamp stamp, float norm) const {
+    if (!std::isfinite(norm) || (!lately.norms.empty() && stamp - lately.norms.back().stamp < kNormSpacing)) {
+        return;
+    }
+    lately.norms.push_back({stamp, norm});
+    while (stamp - lately.norms.front().stamp > kMedian) {
+        lately.norms.pop_front();
+    }
+}
+
+void TrackerHistory::computeMedians() {
+    std::vector<float> sorted;
+    for (auto& [id, lately] : m_trackers) {
+        sorted.clear();
+        for (const Norm& norm : lately.norms) {
+            sorted.push_back(norm.norm);
+        }
+        lately.hasMedian = sorted.size() >= kLeastNorms;
+        if (lately.hasMedian) {
+            const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+            std::nth_element(sorted.begin(), middle, sorted.end());
+            lately.median = *middle;
+        }
+    }
+}
+
+std::optional<float> TrackerHistory::magneticMedian(std::uint32_t trackerId) const {
+    const auto found = m_trackers.find(trackerId);
+    return found != m_trackers.end() && found->second.hasMedian ? std::optional(found->second.median)
+                                                                : std::nullopt;
+}
+
+bool TrackerHistory::isDisturbed(const wire::Tracker& tracker) const {
+    const auto median = magneticMedian(tracker.id);
+    return median && std::abs(norm(tracker.magneticField) - *median) > kDisturbedShare * *median;
+}
+
+bool TrackerHistory::isSaturated(std::uint32_t trackerId) const {
+    const auto found = m_trackers.find(trackerId);
+    return found != m_trackers.end() && found->second.saturated &&
+           m_lastStamp - *found->second.saturated < kPlot;
+}
 
 namespace {
 
@@ -17,14 +151,9 @@ using TrackerColumn = TableColumn<wire::Tracker>;
 
 TrackerColumn normColumn(const QString& title, const QString& help, wire::Vec3 wire::Tracker::*quantity,
                          std::function<bool()> isSent) {
-    return {.title = title,
-            .help = help,
-            .isNumber = true,
-            .text =
-                [quantity, isSent](const wire::Tracker& tracker) {
-                    return isSent() ? fixed(norm(tracker.*quantity), 2) : QStringLiteral("–");
-                },
-            .sortKey = [quantity](const wire::Tracker& tracker) { return norm(tracker.*quantity); }};
+    return TrackerColumn::numbers(title, help, [quantity, isSent](const wire::Tracker& tracker) {
+        return isSent() ? fixed(norm(tracker.*quantity), 2) : dash();
+    });
 }
 
 /// Reads the model only where a cell is asked for.
@@ -32,8 +161,7 @@ std::vector<TrackerColumn> trackerColumns(const TrackerModel& trackers) {
     const auto always = [] { return true; };
     const auto isInertial = [&trackers] { return trackers.hasInertialData(); };
     return {
-        {.title = tr("Tracker"),
-         .text = [](const wire::Tracker& tracker) { return trackerName(tracker.id); }},
+        TrackerColumn::words(tr("Tracker"), {}, [](const auto& tracker) { return trackerName(tracker.id); }),
         normColumn(tr("|f| m/s²"), tr("Norm of the free acceleration: gravity taken away, global"),
                    &wire::Tracker::freeAcceleration, always),
         normColumn(tr("|a| m/s²"), tr("Norm of the acceleration: 9.81 at rest, in the tracker's axes"),
@@ -100,6 +228,95 @@ PropertyValue TrackerModel::state(const wire::Tracker& tracker) const {
         return {tr("magnetic disturbance"), Health::Warning};
     }
     return {QString(), m_history.magneticMedian(tracker.id) ? Health::Good : Health::Unknown};
+}
+
+namespace {
+
+/// Components in columns of equal width, so that they do not dance.
+QString components(std::span<const float> values, int decimals) {
+    constexpr qsizetype kWidest = 6; // "−0.276", "−180.0", "−39.24"
+    QStringList texts;
+    for (const float value : values) {
+        texts += fixed(value, decimals).rightJustified(texts.isEmpty() ? 0 : kWidest, QChar(0x2007));
+    }
+    return texts.join(QLatin1Char(' '));
+}
+
+/// What was sent, neither good nor bad.
+PropertyValue sent(const QString& text, const QString& toolTip) {
+    return {text, Health::Unknown, toolTip};
+}
+
+QString eulerText(const wire::Tracker& tracker) {
+    const Eigen::Vector3d radians =
+        model::eulerFromQuaternion(model::normalizedOrIdentity(model::toQuaternion(tracker.orientation)));
+    return components(model::toFloats(Eigen::Vector3d(radians * model::kDegreesPerRadian)), 1);
+}
+
+PropertyValue fieldNorm(const TrackerModel& trackers, const wire::Tracker& tracker) {
+    const auto median = trackers.history().magneticMedian(tracker.id);
+    const QString figures =
+        tr("%1 · dip %2°").arg(fixed(norm(tracker.magneticField), 2), fixed(dipDegrees(tracker), 0));
+    const bool isDisturbed = trackers.history().isDisturbed(tracker);
+    const QString toolTip =
+        tr("Dip: angle below the horizontal, by the tracker's orientation. Disturbed where the norm "
+           "is more than 15 % off its median of the last minute%1.")
+            .arg(median ? tr(" (%1)").arg(fixed(*median, 2)) : QString());
+    return {figures, isDisturbed ? Health::Warning : Health::Unknown, toolTip};
+}
+
+PropertyValue flags(const TrackerModel& trackers, const wire::Tracker& tracker) {
+    PropertyValue state = trackers.state(tracker);
+    if (state.text.isEmpty()) {
+        state.text = state.health == Health::Good ? tr("none") : tr("after 1 s");
+    }
+    state.toolTip = trackers.headerData(TrackerModel::kState, Qt::Horizontal, Qt::ToolTipRole).toString();
+    return state;
+}
+
+} // namespace
+
+std::vector<Property> trackerFacts(const TrackerModel& trackers) {
+    const auto row = [&trackers](const QString& label, auto read) {
+        return Property{label, [&trackers, read] {
+                            const wire::Tracker* tracker = trackers.shown();
+                            return tracker == nullptr ? PropertyValue{} : read(*tracker);
+                        }};
+    };
+    const auto inertial = [&trackers](const wire::Vec3& vector) {
+        return trackers.hasInertialData() ? components(vector, 2) : tr("not in the 44-byte form");
+    };
+    return {row(tr("Orientation w x y z"),
+                [](const auto& tracker) {
+                    return sent(components(tracker.orientation, 3),
+                                tr("Quaternion w x y z, world from tracker"));
+                }),
+            row(tr("Euler x y z °"),
+                [](const auto& tracker) {
+                    return sent(eulerText(tracker), tr("About fixed x, then y, then z, in the Z-up world"));
+                }),
+            row(tr("Free acceleration m/s²"),
+                [](const auto& tracker) {
+                    return sent(components(tracker.freeAcceleration, 2),
+                                tr("x y z in the world, gravity taken away"));
+                }),
+            row(tr("Acceleration m/s²"),
+                [inertial](const auto& tracker) {
+                    return sent(inertial(tracker.acceleration),
+                                tr("x y z in the tracker's axes, gravity included"));
+                }),
+            row(tr("Angular velocity rad/s"),
+                [inertial](const auto& tracker) {
+                    return sent(inertial(tracker.angularVelocity), tr("x y z in the tracker's axes"));
+                }),
+            row(tr("Magnetic field"),
+                [](const auto& tracker) {
+                    return sent(components(tracker.magneticField, 2),
+                                tr("x y z in the tracker's axes, without unit"));
+                }),
+            row(tr("Field norm · dip"),
+                [&trackers](const auto& tracker) { return fieldNorm(trackers, tracker); }),
+            row(tr("Flags"), [&trackers](const auto& tracker) { return flags(trackers, tracker); })};
 }
 
 } // namespace posewire::gui

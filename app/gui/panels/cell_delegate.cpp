@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/cell_delegate.h"
 
-#include "app/gui/models/roles.h"
+#include "app/gui/models/column.h"
 #include "app/gui/theme/theme.h"
 
 #include <QApplication>

@@ -6,7 +6,7 @@
 
 namespace posewire::gui {
 
-/// Paints what models/roles.h knows: dots, swatches, dim suffixes, small curves; numbers in tabular figures.
+/// Paints what models/column.h knows: dots, swatches, dim suffixes, small curves; numbers in tabular figures.
 class CellDelegate : public QStyledItemDelegate {
     Q_OBJECT
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/event_bar.h"
 
-#include "app/gui/models/event_words.h"
+#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/command_bar.h"
 #include "app/gui/theme/theme.h"

@@ -2,7 +2,7 @@
 #include "app/gui/panels/events_panel.h"
 
 #include "app/gui/file_filters.h"
-#include "app/gui/models/event_words.h"
+#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/event_bar.h"
 #include "app/gui/panels/line.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a FilterBar offers below its line: completions and filters used before.
-#include "app/gui/models/roles.h"
+#include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/theme/theme.h"

@@ -2,7 +2,7 @@
 #include "app/gui/panels/inspector_panel.h"
 
 #include "app/gui/models/field_text.h"
-#include "app/gui/models/inspected_packet.h"
+#include "app/gui/models/packet_choice.h"
 #include "app/gui/models/packet_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"

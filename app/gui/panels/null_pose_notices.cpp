@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/null_pose_notices.h"
 
-#include "app/gui/models/null_pose_facts.h"
+#include "app/gui/models/null_pose_reading.h"
 #include "app/gui/theme/theme.h"
 
 #include <QEvent>

@@ -2,7 +2,7 @@
 #include "app/gui/panels/nullpose_panel.h"
 
 #include "app/gui/file_filters.h"
-#include "app/gui/models/null_pose_facts.h"
+#include "app/gui/models/null_pose_reading.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"

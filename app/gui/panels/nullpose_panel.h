@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/models/null_pose_table.h"
-#include "app/gui/models/property_model.h"
+#include "app/gui/models/column.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/null_pose_figure.h"
 #include "app/gui/panels/null_pose_notices.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/packet_navigation.h"
 
-#include "app/gui/models/packet_target.h"
+#include "app/gui/models/packet_choice.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/text_prompt.h"
 

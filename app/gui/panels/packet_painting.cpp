@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/column.h"
 #include "app/gui/models/packet_model.h"
-#include "app/gui/models/roles.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/fitting_header.h"
 #include "app/gui/panels/packet_view.h"

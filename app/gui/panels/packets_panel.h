@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/packet_filter_run.h"
+#include "app/gui/models/packet_search.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/packet_finder.h"
 #include "app/gui/panels/selected_packets.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/models/range_overview.h"
+#include "app/gui/models/statistics_model.h"
 #include "core/log/time.h"
 
 #include <QWidget>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/display_filter.h"
 #include "app/gui/models/packet_text.h"
 #include "app/gui/panels/packet_listing.h"
 

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/statistics_panel.h"
 
-#include "app/gui/models/health_facts.h"
-#include "app/gui/models/log_facts.h"
-#include "app/gui/models/loss_facts.h"
-#include "app/gui/models/receiving_facts.h"
+#include "app/gui/models/computer_facts.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/statistics_filter.h"
+#include "app/gui/models/display_filter.h"
 #include "app/gui/panels/line.h"
 
 #include <QJsonArray>
@@ -19,15 +16,6 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kFactsShown = 4;
-
-std::vector<Property> computerFacts(model::SessionView& view, const ProgramView& program) {
-    std::vector<Property> facts = lossFacts(view);
-    for (auto& more : {healthFacts(view, [&program] { return program.monitorHealth(); }),
-                       receivingFacts([&program] { return program.receivingState(); }), logFacts(view)}) {
-        facts.insert(facts.end(), more.begin(), more.end());
-    }
-    return facts;
-}
 
 } // namespace
 

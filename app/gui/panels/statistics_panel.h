@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/property_model.h"
+#include "app/gui/models/column.h"
 #include "app/gui/models/statistics_model.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/range_bar.h"

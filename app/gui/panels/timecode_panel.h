@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/clock_facts.h"
+#include "app/gui/models/clock_history.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/clock_widget.h"
 #include "app/gui/panels/table_view.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/tracker_history.h"
+#include "app/gui/models/tracker_model.h"
 #include "app/gui/plots/time_plot.h"
 
 namespace posewire::gui {

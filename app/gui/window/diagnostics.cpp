@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/diagnostics.h"
 
-#include "app/gui/models/input_model.h"
-#include "app/gui/models/relay_model.h"
+#include "app/gui/models/receiving_models.h"
 
 #include <QGuiApplication>
 #include <QSysInfo>

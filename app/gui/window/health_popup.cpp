@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_popup.h"
 
-#include "app/gui/models/event_words.h"
+#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/dim_label.h"
 #include "app/gui/viewport/character_health.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/clock_facts.h"
 #include "app/gui/models/clock_history.h"
 
 #include "tests/app/gui/models/stage.h"

@@ -25,8 +25,7 @@ public:
                {.title = "Count",
                 .help = "How many there are",
                 .isNumber = true,
-                .text = [](const Fruit& row) { return QString("%1 000").arg(row.count); },
-                .sortKey = [](const Fruit& row) { return QVariant(row.count); }},
+                .text = [](const Fruit& row) { return QString("%1 000").arg(row.count); }},
                valueColumn(TableColumn<Fruit>{.title = "State"}, [](const Fruit& row) {
                    return row.count == 0 ? PropertyValue{"none left", Health::Warning, "Buy some"}
                                          : PropertyValue{"", Health::Good};
@@ -53,8 +52,6 @@ TEST_F(ColumnModelTest, CellsAreTheFunctionsOfTheirColumn) {
     EXPECT_FALSE(cell(0, 0, Qt::TextAlignmentRole).isValid());
     EXPECT_EQ(cell(0, 1, Qt::TextAlignmentRole), numberAlignment());
     EXPECT_FALSE(cell(0, 1, Qt::ToolTipRole).isValid());
-    EXPECT_EQ(cell(0, 1, kSortRole), 3);
-    EXPECT_EQ(cell(0, 0, kSortRole), "plum");
 }
 
 TEST_F(ColumnModelTest, AJudgementIsShapeColourAndWordsAndSpokenWithoutTheShape) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/event_model.h"
 
-#include "app/gui/models/event_words.h"
+#include "app/gui/models/display_filter.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -83,7 +83,7 @@ TEST_F(EventModelTest, ListsOnlyWhatGoesOnIfAskedTo) {
     EXPECT_EQ(rowOfKind(model::EventKind::Gap), -1);
     m_model.setFilter({});
     EXPECT_GE(rowOfKind(model::EventKind::Gap), 0);
-    EXPECT_NE(text(rowOfKind(model::EventKind::Gap), EventModel::kLasted), "goes on");
+    EXPECT_NE(text(rowOfKind(model::EventKind::Gap), EventModel::kLasted), "lasts");
 }
 
 TEST_F(EventModelTest, FiltersBySeverityGroupAndText) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/field_model.h"
 #include "app/gui/models/field_text.h"
-#include "app/gui/models/inspected_packet.h"
+#include "app/gui/models/packet_choice.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/metadata_model.h"
 
-#include "app/gui/models/roles.h"
+#include "app/gui/models/column.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>

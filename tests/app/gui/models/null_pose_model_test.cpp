@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/null_pose_facts.h"
+#include "app/gui/models/null_pose_reading.h"
 #include "app/gui/models/null_pose_table.h"
 #include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_model.h"
 
-#include "app/gui/models/packet_filter_run.h"
-#include "app/gui/models/roles.h"
+#include "app/gui/models/column.h"
+#include "app/gui/models/packet_search.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/golden.h"
 
@@ -87,7 +87,7 @@ TEST_F(PacketModelTest, NotesInWordsHowAPacketRelatesToItsStream) {
     pose(26);
     EXPECT_EQ(lastNote(), QStringLiteral("▲ gap: 1 sample missing"));
     pose(1'000'000);
-    EXPECT_EQ(lastNote(), QStringLiteral("▲ counter began anew"));
+    EXPECT_EQ(lastNote(), QStringLiteral("▲ counter restarted"));
 }
 
 TEST_F(PacketModelTest, NotesInWordsWhatIsWrongWithTheBytes) {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ways to copy, to go to and to find packets.
+#include "app/gui/models/display_filter.h"
 #include "app/gui/models/packet_text.h"
 
+#include "app/gui/models/packet_choice.h"
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
-#include "app/gui/models/packet_target.h"
 #include "core/filter/filter.h"
 #include "tests/app/gui/models/stage.h"
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/statistics_model.h"
 
-#include "app/gui/models/health_facts.h"
-#include "app/gui/models/log_facts.h"
-#include "app/gui/models/loss_facts.h"
-#include "app/gui/models/roles.h"
-#include "app/gui/models/statistics_filter.h"
+#include "app/gui/models/column.h"
+#include "app/gui/models/display_filter.h"
 #include "core/filter/filter.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -201,60 +198,6 @@ TEST_F(StatisticsModelTest, CsvHasTheNumbersThemselvesNotWhatTheTableShows) {
     EXPECT_LT(inCsv(Column::Skew).toDouble(), -1000);
     EXPECT_NEAR(inCsv(Column::Skew).toDouble(), m_model.figures(stream())[Column::Skew], 0.06);
     EXPECT_TRUE(text(stream(), Column::Skew).startsWith(QChar(0x2212)));
-}
-
-TEST(ReceiverFacts, TellsWhatThisComputerDropped) {
-    Stage stage;
-    PropertyModel facts(logFacts(stage.session));
-    QAbstractItemModelTester tester(&facts, QAbstractItemModelTester::FailureReportingMode::Fatal);
-    EXPECT_EQ(facts.index(2, 0).data().toString(), "Dropped here");
-    EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("● 0"));
-    log::Arrival arrival;
-    arrival.stamp = Stage::kStart;
-    arrival.sender = stage.sender();
-    arrival.kernelDropsBefore = 17;
-    wire::Datagram datagram;
-    datagram.body = smallPose();
-    wire::completeHeader(datagram, wire::HeaderEra::Counted);
-    stage.log.writer().append(*wire::encode(datagram), arrival);
-    stage.log.writer().publish();
-    stage.follow();
-    EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("■ 17"));
-}
-
-TEST(LossFacts, TellWhoseLossesTheyWereInTheRange) {
-    Stage stage;
-    PropertyModel facts(lossFacts(stage.session));
-    QAbstractItemModelTester tester(&facts, QAbstractItemModelTester::FailureReportingMode::Fatal);
-    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("● nothing lost"));
-    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("● none"));
-    performer::Performer performer(sending(1, {2}, 100.0));
-    stage.perform(performer, 0, 1000, [](std::uint64_t frame) { return frame < 500 || frame > 503; });
-    stage.follow();
-    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("▲ unknown 4"));
-    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("▲ 4 samples · 40.0 ms"));
-    const auto rangeOf = [](int from, int to) {
-        return model::RangeChoice{0s, model::TimeRange{Stage::kStart + from * 1s, Stage::kStart + to * 1s}};
-    };
-    stage.session.setRange(rangeOf(7, 9));
-    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("● nothing lost"));
-    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("● none"));
-    stage.session.setRange(rangeOf(4, 6));
-    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("▲ unknown 4"));
-}
-
-TEST(HealthFacts, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
-    Stage stage;
-    MonitorHealth health;
-    PropertyModel facts(healthFacts(stage.session, [&health] { return health; }));
-    QAbstractItemModelTester tester(&facts, QAbstractItemModelTester::FailureReportingMode::Fatal);
-    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("● buffer – · dropped 0 · 0 fps"));
-    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("receiving – · program –"));
-    health = {0.61, 0.021, 1.5, std::uint64_t{412} << 20, 0.92, 0.0123, 59.6};
-    EXPECT_EQ(facts.index(0, 1).data().toString(), QStringLiteral("▲ buffer 61 % · dropped 0 · 60 fps"));
-    EXPECT_EQ(facts.index(1, 1).data().toString(), QStringLiteral("receiving 2.1 % · program 150 %"));
-    EXPECT_EQ(facts.index(2, 1).data().toString(), QStringLiteral("0.92 µs a packet · 1.2 %"));
-    EXPECT_TRUE(facts.index(3, 1).data().toString().startsWith("412 MB"));
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/nominal_rate.h"
+#include "app/gui/models/clock_history.h"
 #include "app/gui/models/text.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/input_model.h"
-#include "app/gui/models/relay_model.h"
+#include "app/gui/models/receiving_models.h"
 
 #include <QAbstractItemModelTester>
 #include <QSignalSpy>

@@ -3,9 +3,14 @@
 
 #include "core/model/session/session_view.h"
 
+#include <QString>
+
+#include <tl/expected.hpp>
+
+#include <cstdint>
 #include <optional>
 
-/// Which packet the inspector shows, and what stands around it in its stream.
+/// Which packet is meant: by the selection, by a step along its stream, or by what an operator has written.
 namespace posewire::gui {
 
 /// The selected packet; where none is selected the newest one of the shown character: of poses where a
@@ -17,5 +22,12 @@ namespace posewire::gui {
 /// are no datagram the nearest of their kind. Nothing where there is none.
 [[nodiscard]] std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
                                                              int direction);
+
+/// The packet that an operator means: "1204112" or "1 204 112" is a number, "+100" and "-100" count from the
+/// selected packet (none: the newest one), "12.5 s" is the first packet from so long after the first one on,
+/// "10:42:17.508" the first from that time of day on, on the day of the newest packet. The error says what
+/// may be written, or what there is.
+[[nodiscard]] tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view,
+                                                                const QString& text);
 
 } // namespace posewire::gui

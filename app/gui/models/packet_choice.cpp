@@ -1,17 +1,45 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/models/packet_target.h"
+#include "app/gui/models/packet_choice.h"
 
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/session/ingest.h"
+#include "core/wire/messages.h"
+#include "core/wire/type_table.h"
 
 #include <QDateTime>
 #include <QRegularExpression>
 
 #include <algorithm>
+#include <iterator>
+#include <vector>
 
 namespace posewire::gui {
 
 namespace {
+
+/// The newest packet of the first of these types that has one: the preferred type, unless a segment is
+/// wanted; poses; what else lists segments; whatever there is.
+std::optional<std::uint64_t> newestOf(model::SessionView& view, const model::CharacterKey& key,
+                                      std::uint8_t preferredType, bool wantsSegment) {
+    std::vector<std::uint8_t> types{wire::PoseQuaternion::kType};
+    if (!wantsSegment && preferredType != 0) {
+        types.insert(types.begin(), preferredType);
+    }
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        if (info.isSampled && wire::listsSegments(info.type)) {
+            types.push_back(info.type);
+        }
+    }
+    std::ranges::transform(wire::typeTable(), std::back_inserter(types), &wire::TypeInfo::type);
+    for (const std::uint8_t type : types) {
+        if (const model::Message* message = view.message(key, type)) {
+            return message->packet;
+        }
+    }
+    return std::nullopt;
+}
 
 using std::chrono::milliseconds;
 using Target = tl::expected<std::uint64_t, QString>;
@@ -59,6 +87,43 @@ Target relative(model::SessionView& view, const QString& digits, bool isForward)
 }
 
 } // namespace
+
+std::optional<std::uint64_t> inspectedPacket(model::SessionView& view, std::uint8_t preferredType) {
+    const model::Selection& selection = view.selection();
+    if (selection.packet) {
+        return selection.packet;
+    }
+    if (const auto key = shownCharacter(view)) {
+        if (const auto found = newestOf(view, *key, preferredType, selection.segment >= 0)) {
+            return found;
+        }
+    }
+    return view.end() == 0 ? std::nullopt : std::optional(newestVisiblePacket(view));
+}
+
+std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
+                                               int direction) {
+    const model::PacketDigests& digests = view.digests();
+    const model::PacketDigest* own = digests.find(packet);
+    const auto ownPacket = view.packet(packet);
+    if (own == nullptr || !ownPacket) {
+        return std::nullopt;
+    }
+    const bool isDatagram = own->type != 0;
+    const std::uint64_t last = digests.end();
+    for (std::uint64_t at = packet + static_cast<std::uint64_t>(direction);
+         at >= digests.begin() && at < last; at += static_cast<std::uint64_t>(direction)) {
+        const model::PacketDigest& digest = *digests.find(at);
+        const bool isAlike = isDatagram ? digest.type == own->type && digest.character == own->character
+                                        : digest.kind == own->kind;
+        if (isAlike) {
+            if (const auto found = view.packet(at); found && found->sender == ownPacket->sender) {
+                return at;
+            }
+        }
+    }
+    return std::nullopt;
+}
 
 tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, const QString& text) {
     static const QRegularExpression spaces(QStringLiteral("\\s"));

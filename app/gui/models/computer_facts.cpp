@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/computer_facts.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
+#include "core/export/session_reading.h"
+
+#include <QLocale>
+#include <QStringList>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Fuller than this, a pause of the receiving thread may cost datagrams.
+constexpr double kFullBuffer = 0.5;
+/// Of a core; more than this and the window lags behind.
+constexpr double kMuchFollowing = 0.5;
+/// At the design load, 9,600 datagrams a second, this much lasts for 50 ms without the receiving thread.
+constexpr std::int64_t kSmallBuffer = std::int64_t{1} << 20;
+constexpr log::Duration kLongDelay = std::chrono::milliseconds(100);
+
+struct Source {
+    model::SessionView& view;
+    const ProgramView& program;
+};
+
+QString percent(const std::optional<double>& share, int decimals = 0) {
+    return share ? fixed(*share * 100, decimals) + QStringLiteral(" %") : dash();
+}
+
+std::uint64_t sum(const Source& from, std::uint64_t model::Sender::*count) {
+    std::uint64_t total = 0;
+    for (const model::Sender& sender : from.view.senders()) {
+        total += sender.*count;
+    }
+    return total;
+}
+
+/// A count of what should not happen.
+PropertyValue trouble(const Source& from, std::uint64_t model::Sender::*counted, Health health,
+                      const QString& toolTip) {
+    const std::uint64_t count = sum(from, counted);
+    return {grouped(count), count == 0 ? Health::Good : health, toolTip};
+}
+
+PropertyValue lostByCause(const Source& from) {
+    using enum model::LossCause;
+    std::array<std::uint64_t, model::kLossCauses> lost{};
+    for (const model::Stream& stream : from.view.streams()) {
+        const auto more = exporting::lostByCause(from.view, stream, from.view.range());
+        std::ranges::transform(lost, more, lost.begin(), std::plus());
+    }
+    const QString toolTip =
+        tr("Samples lost, by whose loss it was as far as there is evidence: the network, the sender, this "
+           "computer, or unknown. The packet after a gap says why.");
+    QStringList parts; // those that are nothing only take room
+    const auto add = [&](const QString& text, model::LossCause cause) {
+        if (const std::uint64_t count = lost[static_cast<std::size_t>(cause)]; count != 0) {
+            parts += text.arg(grouped(count));
+        }
+    };
+    add(tr("network %1"), Network);
+    add(tr("sender %1"), Sender);
+    add(tr("here %1"), ThisComputer);
+    add(tr("unknown %1"), Unknown);
+    if (parts.isEmpty()) {
+        return {tr("nothing lost"), Health::Good, toolTip};
+    }
+    const bool isHere = lost[static_cast<std::size_t>(ThisComputer)] != 0;
+    return {parts.join(QStringLiteral(" · ")), isHere ? Health::Error : Health::Warning, toolTip};
+}
+
+PropertyValue longestGap(const Source& from) {
+    const auto range = from.view.range();
+    std::uint64_t longest = 0;
+    double rateHz = 0;
+    for (const model::Stream& stream : from.view.streams()) {
+        const model::StreamCounts counts =
+            range ? stream.accounting.countsBetween(range->from, range->to) : stream.accounting.counts();
+        if (counts.longestGapSamples > longest) {
+            longest = counts.longestGapSamples;
+            rateHz = stream.statistics.rateHz();
+        }
+    }
+    const QString toolTip = tr("Most samples of one stream lost in a row, and how long they would have been "
+                               "at the present rate");
+    if (longest == 0) {
+        return {tr("none"), Health::Good, toolTip};
+    }
+    const QString samples = longest == 1 ? tr("1 sample") : tr("%1 samples").arg(grouped(longest));
+    const QString time =
+        rateHz > 0 ? tr(" · %1 ms").arg(fixed(static_cast<double>(longest) / rateHz * 1000, 1)) : QString();
+    return {samples + time, Health::Warning, toolTip};
+}
+
+PropertyValue computer(const Source& from) {
+    const MonitorHealth health = from.program.monitorHealth();
+    const std::uint64_t dropped = sum(from, &model::Sender::kernelDrops);
+    Health state = health.bufferFill.value_or(0) >= kFullBuffer ? Health::Warning : Health::Good;
+    if (dropped != 0) {
+        state = Health::Error;
+    }
+    return {tr("buffer %1 · dropped %2 · %3 fps")
+                .arg(percent(health.bufferFill), grouped(dropped), fixed(health.framesPerSecond, 0)),
+            state,
+            tr("The most that the receive buffers were filled in the last half second, datagrams that this "
+               "computer lost for want of room, and pictures of the viewport a second")};
+}
+
+PropertyValue processor(const Source& from) {
+    const MonitorHealth health = from.program.monitorHealth();
+    return {
+        tr("receiving %1 · program %2").arg(percent(health.receiverShare, 1), percent(health.processShare)),
+        Health::Unknown, tr("Share of one core that the receiving thread takes, and all threads together")};
+}
+
+PropertyValue accounting(const Source& from) {
+    const MonitorHealth health = from.program.monitorHealth();
+    const QString each =
+        health.followUsPerPacket > 0 ? tr("%1 µs a packet").arg(fixed(health.followUsPerPacket, 2)) : dash();
+    return {tr("%1 · %2").arg(each, percent(health.followShare, 1)),
+            health.followShare > kMuchFollowing ? Health::Warning : Health::Unknown,
+            tr("Time to decode, count and index a packet, and the share of the window's time that takes; "
+               "receiving does not wait for it")};
+}
+
+PropertyValue memory(const Source& from) {
+    const MonitorHealth health = from.program.monitorHealth();
+    const log::LogFigures figures = from.view.figures();
+    const QString own = health.memoryBytes ? megabytes(*health.memoryBytes) : dash();
+    return {tr("%1 · history %2 of %3")
+                .arg(own, grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)),
+            Health::Unknown,
+            tr("Memory of this program, and of it that of the packets kept with its limit; at the limit the "
+               "oldest go")};
+}
+
+PropertyValue buffer(const Source& from) {
+    const std::int64_t bytes = from.program.receivingState().receiveBufferBytes;
+    if (bytes == 0) {
+        return {tr("no UDP port"), Health::Unknown, {}};
+    }
+    const bool isSmall = bytes < kSmallBuffer;
+    const QString advice =
+        isSmall ? tr(" It is small: raise it with sysctl -w net.core.rmem_max=4194304.") : QString();
+    const auto size = static_cast<std::uint64_t>(bytes);
+    return {isSmall ? tr("%1 KB").arg(grouped(size >> 10)) : megabytes(size),
+            isSmall ? Health::Warning : Health::Good,
+            tr("What the system granted each UDP port for datagrams that wait to be read.") + advice};
+}
+
+PropertyValue delay(const Source& from) {
+    const log::Duration longest = from.program.receivingState().longestDelay;
+    const double milliseconds = log::millisecondsOf(longest);
+    return {tr("%1 ms").arg(QLocale().toString(milliseconds, 'f', 1)),
+            longest < kLongDelay ? Health::Good : Health::Warning,
+            tr("The longest time the receiving thread did not come to look at its ports; the buffer has to "
+               "last that long")};
+}
+
+PropertyValue history(const Source& from) {
+    const log::LogFigures figures = from.view.figures();
+    return {tr("%1 of %2").arg(grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)),
+            Health::Unknown, tr("Memory of the packets kept, and its limit; at the limit the oldest go")};
+}
+
+PropertyValue packets(const Source& from) {
+    const log::LogFigures figures = from.view.figures();
+    const QString kept = grouped(figures.end - figures.begin);
+    return {figures.begin == 0 ? kept : tr("%1 of %2").arg(kept, grouped(figures.end)), Health::Unknown,
+            tr("Packets that can be looked back at, of all that were received")};
+}
+
+PropertyValue droppedHere(const Source& from) {
+    return trouble(from, &model::Sender::kernelDrops, Health::Error,
+                   tr("Datagrams that reached this computer and found its receive buffer full "
+                      "(SO_RXQ_OVFL)"));
+}
+
+PropertyValue malformed(const Source& from) {
+    return trouble(from, &model::Sender::malformed, Health::Error,
+                   tr("Datagrams that begin with MXTP and cannot be decoded"));
+}
+
+PropertyValue foreign(const Source& from) {
+    return trouble(from, &model::Sender::foreign, Health::Warning,
+                   tr("Datagrams that do not begin with MXTP: another program sends to this port"));
+}
+
+} // namespace
+
+std::vector<Property> computerFacts(model::SessionView& view, const ProgramView& program) {
+    const auto row = [from = Source{view, program}](const QString& label,
+                                                    PropertyValue (*read)(const Source&)) {
+        return Property{label, [from, read] { return read(from); }};
+    };
+    return {row(tr("Lost by cause"), lostByCause), row(tr("Longest gap"), longestGap),
+            row(tr("This computer"), computer),    row(tr("Processor"), processor),
+            row(tr("Accounting"), accounting),     row(tr("Memory"), memory),
+            row(tr("Receive buffer"), buffer),     row(tr("Longest delay"), delay),
+            row(tr("History"), history),           row(tr("Packets kept"), packets),
+            row(tr("Dropped here"), droppedHere),  row(tr("Malformed"), malformed),
+            row(tr("Foreign datagrams"), foreign)};
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/display_filter.h"
+
+#include "app/gui/models/packet_model.h"
+#include "app/gui/theme/words.h"
+#include "core/filter/completion.h"
+#include "core/model/accounting/thresholds.h"
+#include "core/wire/type_table.h"
+
+#include <QStringList>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+QString expression(const char* field, const std::string& value) {
+    return QString::fromStdString(filter::expressionFor(field, value));
+}
+
+/// Of those that are given.
+QStringList conditionsOf(std::optional<std::uint8_t> type, std::optional<std::uint8_t> character,
+                         const model::Sender* source) {
+    QStringList conditions;
+    if (type) {
+        conditions += expression("type", wire::typeDigits(*type));
+    }
+    if (character) {
+        conditions += expression("character", std::to_string(*character));
+    }
+    if (source != nullptr) {
+        conditions += expression("source", source->info.address);
+    }
+    return conditions;
+}
+
+/// What packets have at which such a thing happened; null where no packet shows it.
+const char* conditionOf(model::EventKind kind) {
+    using model::EventKind;
+    switch (kind) {
+    case EventKind::Gap:
+    case EventKind::Burst:
+    case EventKind::LossLimit:
+        return "gap > 0";
+    case EventKind::Restart:
+        return "restart";
+    case EventKind::Malformed:
+        return "malformed";
+    case EventKind::Foreign:
+        return "foreign";
+    case EventKind::Dropped:
+        return "drops > 0";
+    default:
+        return nullptr;
+    }
+}
+
+/// A limit was exceeded in the window before; what is silent has no packets.
+model::TimeRange rangeOf(model::SessionView& view, const model::Event& event) {
+    const auto window = log::durationOf(view.thresholds().windowS);
+    return {event.firstStamp - window,
+            std::max(event.lastStamp, event.firstStamp + std::chrono::milliseconds(1))};
+}
+
+QString noteFilter(const model::PacketDigest& digest) {
+    const std::pair<bool, const char*> truths[] = {
+        {digest.kind == model::PacketKind::Malformed, "malformed"},
+        {digest.kind == model::PacketKind::Foreign || digest.kind == model::PacketKind::Skipped, "foreign"},
+        {digest.followsDrops, "drops > 0"},
+        {digest.gap != 0, "gap > 0"},
+        {digest.isDuplicate, "duplicate"},
+        {digest.isReordered, "reordered"},
+        {digest.isRestart, "restart"},
+        {digest.hasNotices, "notice"}};
+    for (const auto& [isTrue, text] : truths) {
+        if (isTrue) {
+            return QLatin1String(text);
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+QString rangeFilter(model::SessionView& view, const model::TimeRange& range) {
+    const auto seconds = [&view](log::Stamp stamp) {
+        return QString::number(log::secondsOf(stamp - view.firstStamp()), 'f', 3);
+    };
+    return QStringLiteral("time >= %1 && time < %2").arg(seconds(range.from), seconds(range.to));
+}
+
+QString statisticsFilter(model::SessionView& view, const StatisticsModel& model, const QModelIndex& index) {
+    const auto sender = model.sender(index);
+    const auto character = model.character(index);
+    const model::Stream* stream = model.stream(index);
+    const bool needsSource = !character || view.senders().size() > 1;
+    QStringList conditions = conditionsOf(stream == nullptr ? std::nullopt : std::optional(stream->key.type),
+                                          character ? std::optional(character->character) : std::nullopt,
+                                          sender && needsSource ? view.find(*sender) : nullptr);
+    const auto figure = figureIn(index.column());
+    if (const char* trouble = figure ? model::rowOf(*figure).condition : nullptr) {
+        conditions += QLatin1String(trouble);
+    }
+    if (model.range()) {
+        conditions += rangeFilter(view, *model.range());
+    }
+    return conditions.join(QStringLiteral(" && "));
+}
+
+QString statisticsFilterTitle(int column) {
+    const auto figure = figureIn(column);
+    if (!figure) {
+        return column == kNameColumn ? tr("All packets") : QString();
+    }
+    const char* title = model::rowOf(*figure).packets;
+    return title == nullptr ? QString() : tr(title);
+}
+
+QString packetFilterOf(model::SessionView& view, const model::Event& event) {
+    const char* condition = conditionOf(event.kind);
+    const bool isLimit = event.group() == model::EventGroup::Limit;
+    if (condition == nullptr && !isLimit) {
+        return {};
+    }
+    QStringList conditions = conditionsOf(event.type, event.character,
+                                          view.senders().size() > 1 ? view.find(event.sender) : nullptr);
+    if (condition != nullptr) {
+        conditions.prepend(QLatin1String(condition));
+    }
+    conditions +=
+        isLimit ? rangeFilter(view, rangeOf(view, event))
+                : QStringLiteral("number >= %1 && number <= %2").arg(event.firstPacket).arg(event.lastPacket);
+    return conditions.join(QStringLiteral(" && "));
+}
+
+QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column) {
+    const auto packet = view.packet(number);
+    const model::PacketDigest* digest = view.digests().find(number);
+    if (!packet || digest == nullptr) {
+        return {};
+    }
+    switch (column) {
+    case PacketModel::kNumber:
+        return expression("number", std::to_string(number));
+    case PacketModel::kTime:
+        return QStringLiteral("time >= %1")
+            .arg(std::chrono::duration<double>(packet->stamp - view.firstStamp()).count(), 0, 'f', 6);
+    case PacketModel::kDelta:
+        return digest->deltaS < 0
+                   ? QString()
+                   : QStringLiteral("delta >= %1").arg(static_cast<double>(digest->deltaS), 0, 'f', 6);
+    case PacketModel::kSender: {
+        const log::SenderInfo* sender = view.log().senders().find(packet->sender);
+        return sender == nullptr ? QString() : expression("source", sender->address);
+    }
+    case PacketModel::kSize:
+        return expression("size", std::to_string(packet->bytes.size()));
+    case PacketModel::kNote:
+        return noteFilter(*digest);
+    default:
+        break;
+    }
+    if (digest->kind == model::PacketKind::Foreign || digest->kind == model::PacketKind::Skipped) {
+        return column == PacketModel::kType ? QStringLiteral("foreign") : QString();
+    }
+    const auto header = wire::decodeHeader(packet->bytes);
+    if (!header) {
+        return column == PacketModel::kType ? QStringLiteral("malformed") : QString();
+    }
+    switch (column) {
+    case PacketModel::kCharacter:
+        return expression("character", std::to_string(header->character));
+    case PacketModel::kSample:
+        return expression("sample", std::to_string(header->sampleCounter));
+    case PacketModel::kPart:
+        return expression("datagram", std::to_string(header->datagramIndex()));
+    case PacketModel::kType:
+        return expression("type", wire::typeDigits(header->type()));
+    default:
+        return {};
+    }
+}
+
+QString joinedFilter(const QString& filter, const QString& condition, FilterJoin join) {
+    const QString before = filter.trimmed();
+    const QString negated = QStringLiteral("!(%1)").arg(condition);
+    if (before.isEmpty() || join == FilterJoin::Replace) {
+        return join == FilterJoin::AndNot ? negated : condition;
+    }
+    const bool isLoose = before.contains(QLatin1String("||")) || before.contains(QLatin1String(" or "));
+    const QString kept = isLoose ? QStringLiteral("(%1)").arg(before) : before;
+    switch (join) {
+    case FilterJoin::And:
+        return kept + QStringLiteral(" && ") + condition;
+    case FilterJoin::Or:
+        return before + QStringLiteral(" || ") + condition;
+    default:
+        return kept + QStringLiteral(" && ") + negated;
+    }
+}
+
+} // namespace posewire::gui

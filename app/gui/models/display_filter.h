@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/statistics_model.h"
+
+/// Display filters for the packets behind what the window shows, in the filter language.
+namespace posewire::gui {
+
+/// For packets of a time, such as `time >= 12.3 && time < 14.5`.
+[[nodiscard]] QString rangeFilter(model::SessionView& view, const model::TimeRange& range);
+
+/// For the packets that a cell counts: those of the row, in the range of the figures; in columns of what went
+/// wrong, those at which it did.
+[[nodiscard]] QString statisticsFilter(model::SessionView& view, const StatisticsModel& model,
+                                       const QModelIndex& index);
+/// What the packets of such a filter are, in the words of a menu: "Packets after a gap"; empty for columns
+/// that count nothing that packets could show.
+[[nodiscard]] QString statisticsFilterTitle(int column);
+
+/// For the packets at which an event happened; empty for what no packet shows.
+[[nodiscard]] QString packetFilterOf(model::SessionView& view, const model::Event& event);
+
+/// For packets that have in common what a cell of the packet list says; empty where nothing could say it.
+[[nodiscard]] QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column);
+
+/// How a condition joins the filter there is.
+enum class FilterJoin { Replace, And, Or, AndNot };
+[[nodiscard]] QString joinedFilter(const QString& filter, const QString& condition, FilterJoin join);
+
+} // namespace posewire::gui

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/receiving_models.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+using Kind = InputAddress::Kind;
+using Row = InputRow;
+using InputColumn = TableColumn<Row>;
+
+QString protocolText(const InputAddress& input) {
+    switch (input.kind) {
+    case Kind::Udp:
+        return input.groups.isEmpty() ? tr("UDP") : tr("UDP, multicast");
+    case Kind::TcpListen:
+        return tr("TCP, listening");
+    case Kind::TcpConnect:
+        break;
+    }
+    return tr("TCP, connecting");
+}
+
+QString hostText(const InputAddress& input) {
+    if (!input.groups.isEmpty()) {
+        return input.groups.join(QStringLiteral(", "));
+    }
+    return input.address.isEmpty() ? tr("this computer") : input.address;
+}
+
+PropertyValue peersState(const std::vector<net::Peer>& peers) {
+    QStringList lines;
+    for (const net::Peer& peer : peers) {
+        lines += tr("%1: %2 datagrams").arg(QString::fromStdString(peer.address), grouped(peer.datagrams));
+    }
+    const QString first = QString::fromStdString(peers.front().address);
+    const QString text = peers.size() == 1
+                             ? tr("connected from %1").arg(first)
+                             : tr("connected from %1 and %2 more").arg(first).arg(peers.size() - 1);
+    return {text, Health::Good, lines.join(QLatin1Char('\n'))};
+}
+
+} // namespace
+
+PropertyValue inputState(const PortState& state) {
+    if (!state.problem.isEmpty()) {
+        return {state.problem, state.id ? Health::Warning : Health::Error, state.problem};
+    }
+    const net::InputStatus& status = state.status;
+    if (!status.peers.empty() && state.port.kind == Kind::TcpListen) {
+        return peersState(status.peers);
+    }
+    const bool isReceiving = state.port.kind == Kind::Udp && state.datagramsPerSecond > 0;
+    if (status.state == net::InputState::Connected || isReceiving) {
+        const QString text = status.state == net::InputState::Connected ? QString::fromStdString(status.text)
+                                                                        : tr("receiving");
+        return {text, Health::Good, {}};
+    }
+    if (status.state == net::InputState::Connecting) {
+        return {QString::fromStdString(status.text), Health::Unknown, {}};
+    }
+    return {state.port.kind == Kind::TcpListen ? tr("listening, nobody has connected") : tr("listening"),
+            Health::Unknown,
+            {}};
+}
+
+PropertyValue relayStage(const RelayState& relay) {
+    switch (relay.stage) {
+    case RelayState::Stage::LookingUp:
+        return {tr("looking up %1").arg(relay.target.host)};
+    case RelayState::Stage::Refused:
+        return {relay.problem, Health::Error, relay.problem};
+    case RelayState::Stage::Forwarding:
+        return relay.problem.isEmpty() ? PropertyValue{tr("forwarding"), Health::Good}
+                                       : PropertyValue{relay.problem, Health::Warning, relay.problem};
+    case RelayState::Stage::Off:
+        break;
+    }
+    return {tr("off")};
+}
+
+namespace {
+
+/// A figure of an input that is open; there is none of a file.
+InputColumn figureColumn(const QString& title, const QString& help, QString (*figure)(const PortState&)) {
+    return InputColumn::numbers(title, help, [figure](const Row& row) {
+        return row.file.isEmpty() && row.input.id ? figure(row.input) : dash();
+    });
+}
+
+InputColumn hostColumn() {
+    InputColumn column = InputColumn::words(
+        tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
+        [](const Row& row) { return row.file.isEmpty() ? hostText(row.input.port) : row.file; });
+    column.more = [](const Row& row, int role) {
+        const bool isEvery =
+            row.file.isEmpty() && row.input.port.address.isEmpty() && row.input.port.groups.isEmpty();
+        return role == kSuffixRole && isEvery ? QVariant(tr("· every address")) : QVariant();
+    };
+    return column;
+}
+
+std::vector<InputColumn> inputColumns() {
+    return {
+        InputColumn::words(
+            tr("Protocol"), {},
+            [](const Row& row) { return row.file.isEmpty() ? protocolText(row.input.port) : tr("File"); }),
+        hostColumn(),
+        InputColumn::numbers(tr("Port"), {},
+                             [](const Row& row) {
+                                 return row.file.isEmpty() ? QString::number(row.input.port.port) : dash();
+                             }),
+        valueColumn(InputColumn{.title = tr("State")},
+                    [](const Row& row) {
+                        return row.file.isEmpty() ? inputState(row.input) : PropertyValue{tr("opened")};
+                    }),
+        figureColumn(tr("Datagrams/s"), tr("Over the last second, foreign ones included"),
+                     [](const PortState& input) { return fixed(input.datagramsPerSecond, 0); }),
+        figureColumn(tr("Datagrams"), tr("Since it was opened, foreign ones included"),
+                     [](const PortState& input) { return grouped(input.status.datagrams); }),
+        figureColumn(tr("Dropped here"),
+                     tr("Datagrams that reached this computer and found its receive buffer full; TCP makes "
+                        "the sender wait instead"),
+                     [](const PortState& input) {
+                         return input.port.kind == Kind::Udp ? grouped(input.status.kernelDropped) : dash();
+                     })
+            .withColour([](const Row& row) {
+                return row.input.status.kernelDropped > 0 ? QVariant(theme().error) : QVariant();
+            }),
+    };
+}
+
+using RelayColumn = TableColumn<RelayState>;
+
+RelayColumn countColumn(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
+    return RelayColumn::numbers(title, help, [count](const auto& relay) { return grouped(relay.*count); });
+}
+
+RelayColumn troubleColumn(const QString& title, const QString& help, std::uint64_t RelayState::*count) {
+    return countColumn(title, help, count).withColour([count](const RelayState& relay) {
+        return relay.*count > 0 ? QVariant(theme().warning) : QVariant();
+    });
+}
+
+std::vector<RelayColumn> relayColumns() {
+    RelayColumn host =
+        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; });
+    host.more = [](const RelayState& relay, int role) {
+        return role == Qt::CheckStateRole ? QVariant(relay.target.isOn ? Qt::Checked : Qt::Unchecked)
+                                          : QVariant();
+    };
+    return {
+        host,
+        RelayColumn::numbers(tr("Port"), {},
+                             [](const auto& relay) { return QString::number(relay.target.port); }),
+        valueColumn(RelayColumn{.title = tr("State")}, relayStage),
+        countColumn(tr("Sent"), tr("Datagrams forwarded"), &RelayState::sent),
+        troubleColumn(tr("Refused"),
+                      tr("Datagrams that this system did not take: no way there, or too long for UDP"),
+                      &RelayState::refused),
+        troubleColumn(tr("Skipped"), tr("Datagrams left out because forwarding had fallen too far behind"),
+                      &RelayState::skipped),
+    };
+}
+
+} // namespace
+
+InputModel::InputModel(QObject* parent) : TableModel(inputColumns(), parent) {}
+
+void InputModel::refresh(const ReceivingState& receiving) {
+    std::vector<Row> rows;
+    for (const PortState& state : receiving.ports) {
+        rows.push_back({state, {}});
+    }
+    if (!receiving.file.isEmpty()) {
+        rows.push_back({{}, receiving.file});
+    }
+    setRows(std::move(rows));
+}
+
+std::optional<InputAddress> InputModel::input(int row) const {
+    const bool isInput = row >= 0 && row < rowCount() && rows()[static_cast<std::size_t>(row)].file.isEmpty();
+    return isInput ? std::optional(rows()[static_cast<std::size_t>(row)].input.port) : std::nullopt;
+}
+
+int InputModel::rowOf(const InputAddress& input) const {
+    const auto place = std::ranges::find_if(
+        rows(), [&](const Row& row) { return row.file.isEmpty() && row.input.port == input; });
+    return place == rows().end() ? -1 : static_cast<int>(place - rows().begin());
+}
+
+RelayModel::RelayModel(QObject* parent) : TableModel(relayColumns(), parent) {}
+
+bool RelayModel::setData(const QModelIndex& index, const QVariant& value, int role) {
+    if (role != Qt::CheckStateRole || index.column() != kHost ||
+        !checkIndex(index, CheckIndexOption::IndexIsValid)) {
+        return false;
+    }
+    emit switched(index.row(), value.toInt() == Qt::Checked);
+    return true;
+}
+
+Qt::ItemFlags RelayModel::flags(const QModelIndex& index) const {
+    const Qt::ItemFlags flags = TableModel::flags(index);
+    return index.column() == kHost ? flags | Qt::ItemIsUserCheckable : flags;
+}
+
+} // namespace posewire::gui
