@@ -18,7 +18,8 @@ class Panel : public QWidget {
     Q_OBJECT
 
 public:
-    using QWidget::QWidget;
+    Panel(model::SessionView& view, Commands& commands, QWidget* parent)
+        : QWidget(parent), m_view(view), m_commands(commands) {}
 
     /// What the menus of the window do here; a panel that has entries there hides this by a table of its own.
     [[nodiscard]] static std::span<const ActionInfo> actionTable() { return {}; }
@@ -34,6 +35,10 @@ public:
     [[nodiscard]] virtual QJsonObject state() const { return {}; }
     /// Takes such a state; ignores what it does not understand.
     virtual void restoreState(const QJsonObject& /*state*/) {}
+
+protected:
+    model::SessionView& m_view;
+    Commands& m_commands;
 };
 
 /// One row of the table of docks. To add a dock: a file pair in panels/ and a row in panels.cpp.

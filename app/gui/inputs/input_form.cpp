@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/input_form.h"
 
-#include "app/gui/theme/combo_box.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QEvent>
 #include <QGridLayout>

@@ -3,8 +3,8 @@
 
 #include "app/gui/inputs/input_form.h"
 #include "app/gui/inputs/sender_settings.h"
-#include "app/gui/panels/line.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QHBoxLayout>
 #include <QItemSelectionModel>

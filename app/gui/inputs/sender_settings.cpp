@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/sender_settings.h"
 
-#include "app/gui/theme/dim_label.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QGridLayout>
 #include <QLabel>

@@ -20,10 +20,6 @@ namespace {
 constexpr int kOffsetDigits = 4;
 constexpr int kGroup = 8; ///< bytes between wider spaces
 
-unsigned valueOf(std::byte byte) {
-    return std::to_integer<unsigned>(byte);
-}
-
 } // namespace
 
 ByteView::ByteView(QWidget* parent) : QAbstractScrollArea(parent) {
@@ -34,10 +30,6 @@ ByteView::ByteView(QWidget* parent) : QAbstractScrollArea(parent) {
     viewport()->setCursor(Qt::ArrowCursor);
     setAccessibleName(tr("Bytes of the packet"));
     fit();
-}
-
-std::uint32_t ByteView::size() const {
-    return static_cast<std::uint32_t>(m_document->bytes().size());
 }
 
 void ByteView::setDocument(std::shared_ptr<const FieldDocument> document) {
@@ -100,10 +92,6 @@ void ByteView::scrollTo(std::uint32_t offset) {
     }
 }
 
-QSize ByteView::sizeHint() const {
-    return {static_cast<int>(m_advance * 40), rowHeight() * 8};
-}
-
 int ByteView::rowHeight() const {
     return QFontMetrics(monospaceFont()).height() + 4;
 }
@@ -144,10 +132,6 @@ QRectF ByteView::textCell(std::uint32_t offset) const {
     const QRectF hex = hexCell(offset);
     const int column = static_cast<int>(offset) % m_perRow;
     return {columnLeft(m_perRow) + m_advance * (column + 0.5), hex.top(), m_advance, hex.height()};
-}
-
-QPoint ByteView::centreOf(std::uint32_t offset) const {
-    return hexCell(offset).center().toPoint();
 }
 
 std::int64_t ByteView::byteAt(const QPoint& point) const {
@@ -197,27 +181,23 @@ void ByteView::paintMarks(QPainter& painter, std::uint32_t offset, const QRectF&
         painter.fillRect(inner, theme().selection);
     }
     if (m_hovered.contains(offset)) {
-        QColor wash = theme().accent;
-        wash.setAlphaF(0.22F);
-        painter.fillRect(inner, wash);
+        painter.fillRect(inner, withAlpha(theme().accent, 0.22));
     }
     const Health health = m_health[offset];
     if (health == Health::Unknown) {
         return;
     }
-    QColor wash = healthColour(health);
-    painter.setPen(QPen(wash, 1.6));
+    painter.setPen(QPen(healthColour(health), 1.6));
     painter.drawLine(inner.bottomLeft(), inner.bottomRight());
     if (health == Health::Error && !m_isUnread[offset]) {
-        wash.setAlphaF(0.18F);
-        painter.fillRect(inner, wash);
+        painter.fillRect(inner, withAlpha(healthColour(health), 0.18));
         painter.drawLine(inner.topLeft(), inner.topRight());
     }
 }
 
 void ByteView::paintByte(QPainter& painter, std::uint32_t offset) {
     const std::byte byte = m_document->bytes()[offset];
-    const unsigned value = valueOf(byte);
+    const unsigned value = std::to_integer<unsigned>(byte);
     const bool isDifferent =
         m_other != nullptr && (offset >= m_other->bytes().size() || m_other->bytes()[offset] != byte);
     const Health health = m_health[offset];

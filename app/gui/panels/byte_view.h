@@ -35,11 +35,12 @@ public:
     void scrollTo(std::uint32_t offset);
 
     [[nodiscard]] const ByteRange& selected() const { return m_selected; }
-    [[nodiscard]] int bytesPerRow() const { return m_perRow; }
-    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize sizeHint() const override {
+        return {static_cast<int>(m_advance * 40), rowHeight() * 8};
+    }
 
     /// Middle of the hexadecimal digits of a byte, in the viewport.
-    [[nodiscard]] QPoint centreOf(std::uint32_t offset) const;
+    [[nodiscard]] QPoint centreOf(std::uint32_t offset) const { return hexCell(offset).center().toPoint(); }
     /// The byte under a point of the viewport; -1 for none.
     [[nodiscard]] std::int64_t byteAt(const QPoint& point) const;
 
@@ -69,7 +70,9 @@ private:
     [[nodiscard]] QRectF textCell(std::uint32_t offset) const;
     [[nodiscard]] int rowHeight() const;
     [[nodiscard]] double columnLeft(int column) const;
-    [[nodiscard]] std::uint32_t size() const;
+    [[nodiscard]] std::uint32_t size() const {
+        return static_cast<std::uint32_t>(m_document->bytes().size());
+    }
 
     std::shared_ptr<const FieldDocument> m_document = std::make_shared<FieldDocument>();
     std::shared_ptr<const FieldDocument> m_other;

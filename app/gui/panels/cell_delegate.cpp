@@ -19,21 +19,104 @@ namespace {
 
 /// A steady rate is a flat line, not its noise blown up.
 constexpr float kLeastSpread = 0.2F;
-/// So many values of a curve fill its cell.
+/// Values of a curve that fill its cell.
 constexpr double kPlaces = 120;
-
-bool isNumber(const QModelIndex& index) {
-    return (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
-}
 
 int widthOf(const QStyleOptionViewItem& option, int column) {
     const auto* view = qobject_cast<const QTreeView*>(option.widget);
     return view == nullptr ? 0 : view->header()->sectionSize(column);
 }
 
-/// Paints the mark before the text and returns its width with the space after it.
-int paintMark(QPainter& painter, const QRect& rect, const QColor& colour, bool isDot) {
-    const int side = std::max(7, painter.fontMetrics().ascent() * 3 / 4);
+void paintMarks(QPainter& painter, const QRectF& rect, const QList<float>& marks) {
+    constexpr double kWide = 1.5;
+    const double step = rect.width() / (kPlaces - 1);
+    for (qsizetype i = 0; i < marks.size(); ++i) {
+        if (marks[i] > 0) {
+            const double right = rect.right() - step * static_cast<double>(marks.size() - 1 - i);
+            painter.fillRect(
+                QRectF(right - kWide, rect.bottom() - rect.height() / 3, kWide, rect.height() / 3),
+                theme().warning);
+        }
+    }
+}
+
+void paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& series) {
+    float least = std::numeric_limits<float>::max();
+    float most = 0;
+    for (const float value : series) {
+        if (std::isfinite(value)) {
+            least = std::min(least, value);
+            most = std::max(most, value);
+        }
+    }
+    const float spread = std::max(most - least, std::max(kLeastSpread * most, 1e-6F));
+    const float bottom = (most + least - spread) / 2;
+    // The newest value is at the right edge; a short history leaves the left empty.
+    const double step = rect.width() / (kPlaces - 1);
+    QPainterPath path;
+    bool isDown = false;
+    for (qsizetype i = 0; i < series.size(); ++i) {
+        if (!std::isfinite(series[i])) {
+            isDown = false;
+            continue;
+        }
+        const QPointF point(rect.right() - step * static_cast<double>(series.size() - 1 - i),
+                            rect.bottom() - rect.height() * (series[i] - bottom) / spread);
+        isDown ? path.lineTo(point) : path.moveTo(point);
+        isDown = true;
+    }
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setBrush(Qt::NoBrush);
+    painter.drawPath(path);
+}
+
+void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option, const QModelIndex& index) {
+    const QVariant dot = index.data(kDotRole);
+    const QVariant swatch = index.data(kSwatchRole);
+    const QString suffix = index.data(kSuffixRole).toString();
+    const QFontMetrics metrics = painter.fontMetrics();
+    const bool isSelected = option.state.testFlag(QStyle::State_Selected);
+    const QVariant given = index.data(Qt::ForegroundRole);
+    const QColor colour = given.isValid() ? given.value<QColor>() : theme().text;
+    const QString shown = metrics.elidedText(option.text, Qt::ElideRight, rect.width());
+    const int side = std::max(7, metrics.ascent() * 3 / 4);
+    if (CellDelegate::isNumber(index) && swatch.isValid()) {
+        rect.setLeft(
+            std::max(rect.left(), rect.right() - metrics.horizontalAdvance(shown) - side - side * 2 / 3));
+    }
+    if (dot.isValid() || swatch.isValid()) {
+        const QVariant& mark = dot.isValid() ? dot : swatch;
+        rect.setLeft(rect.left() +
+                     CellDelegate::paintMark(painter, rect, side, mark.value<QColor>(), dot.isValid()));
+    }
+    painter.setPen(isSelected ? onSelection(colour) : colour);
+    if (CellDelegate::isNumber(index)) {
+        painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
+        return;
+    }
+    // A short suffix, such as an ID, distinguishes equal names: the text gives way. A long one gives
+    // way itself.
+    const int suffixWidth = suffix.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + suffix);
+    const int reserved = suffixWidth <= rect.width() / 4 ? suffixWidth : 0;
+    const QString text =
+        metrics.elidedText(option.text, Qt::ElideRight, std::max(0, rect.width() - reserved));
+    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
+    rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
+    if (suffixWidth > 0 && rect.width() > 0) {
+        painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
+        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
+                         metrics.elidedText(suffix, Qt::ElideRight, rect.width()));
+    }
+}
+
+} // namespace
+
+bool CellDelegate::isNumber(const QModelIndex& index) {
+    return (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
+}
+
+int CellDelegate::paintMark(QPainter& painter, const QRect& rect, int side, const QColor& colour,
+                            bool isDot) {
     const QRectF mark(rect.left(), rect.center().y() - side / 2.0 + 0.5, side, side);
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
@@ -47,8 +130,6 @@ int paintMark(QPainter& painter, const QRect& rect, const QColor& colour, bool i
     painter.restore();
     return side + side * 2 / 3;
 }
-
-} // namespace
 
 int CellDelegate::margin(const QFontMetrics& metrics) {
     return std::max(4, metrics.height() * 2 / 5);
@@ -110,88 +191,6 @@ void CellDelegate::paint(QPainter* painter, const QStyleOptionViewItem& given,
         paintText(*painter, rect, option, index);
     }
     painter->restore();
-}
-
-void CellDelegate::paintMarks(QPainter& painter, const QRectF& rect, const QList<float>& marks) const {
-    constexpr double kWide = 1.5;
-    const double step = rect.width() / (kPlaces - 1);
-    for (qsizetype i = 0; i < marks.size(); ++i) {
-        if (marks[i] > 0) {
-            const double right = rect.right() - step * static_cast<double>(marks.size() - 1 - i);
-            painter.fillRect(
-                QRectF(right - kWide, rect.bottom() - rect.height() / 3, kWide, rect.height() / 3),
-                theme().warning);
-        }
-    }
-}
-
-void CellDelegate::paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& series) const {
-    float least = std::numeric_limits<float>::max();
-    float most = 0;
-    for (const float value : series) {
-        if (std::isfinite(value)) {
-            least = std::min(least, value);
-            most = std::max(most, value);
-        }
-    }
-    const float spread = std::max(most - least, std::max(kLeastSpread * most, 1e-6F));
-    const float bottom = (most + least - spread) / 2;
-    // The newest value is at the right edge; a short history leaves the left empty.
-    const double step = rect.width() / (kPlaces - 1);
-    QPainterPath path;
-    bool isDown = false;
-    for (qsizetype i = 0; i < series.size(); ++i) {
-        if (!std::isfinite(series[i])) {
-            isDown = false;
-            continue;
-        }
-        const QPointF point(rect.right() - step * static_cast<double>(series.size() - 1 - i),
-                            rect.bottom() - rect.height() * (series[i] - bottom) / spread);
-        isDown ? path.lineTo(point) : path.moveTo(point);
-        isDown = true;
-    }
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setBrush(Qt::NoBrush);
-    painter.drawPath(path);
-}
-
-void CellDelegate::paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option,
-                             const QModelIndex& index) const {
-    const QVariant dot = index.data(kDotRole);
-    const QVariant swatch = index.data(kSwatchRole);
-    const QString suffix = index.data(kSuffixRole).toString();
-    const QFontMetrics metrics = painter.fontMetrics();
-    const bool isSelected = option.state.testFlag(QStyle::State_Selected);
-    const QVariant given = index.data(Qt::ForegroundRole);
-    const QColor colour = given.isValid() ? given.value<QColor>() : theme().text;
-    const QString shown = metrics.elidedText(option.text, Qt::ElideRight, rect.width());
-    if (isNumber(index) && swatch.isValid()) {
-        const int side = std::max(7, metrics.ascent() * 3 / 4);
-        rect.setLeft(
-            std::max(rect.left(), rect.right() - metrics.horizontalAdvance(shown) - side - side * 2 / 3));
-    }
-    if (dot.isValid() || swatch.isValid()) {
-        const QVariant& mark = dot.isValid() ? dot : swatch;
-        rect.setLeft(rect.left() + paintMark(painter, rect, mark.value<QColor>(), dot.isValid()));
-    }
-    painter.setPen(isSelected ? onSelection(colour) : colour);
-    if (isNumber(index)) {
-        painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
-        return;
-    }
-    // A short suffix, such as an ID, distinguishes equal names: the text gives way. A long one gives
-    // way itself.
-    const int suffixWidth = suffix.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + suffix);
-    const int reserved = suffixWidth <= rect.width() / 4 ? suffixWidth : 0;
-    const QString text =
-        metrics.elidedText(option.text, Qt::ElideRight, std::max(0, rect.width() - reserved));
-    painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
-    rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
-    if (suffixWidth > 0 && rect.width() > 0) {
-        painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
-        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
-                         metrics.elidedText(suffix, Qt::ElideRight, rect.width()));
-    }
 }
 
 } // namespace posewire::gui

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QList>
 #include <QStyledItemDelegate>
 
 namespace posewire::gui {
@@ -19,12 +18,9 @@ public:
     /// Room at the left and the right of a cell's text.
     [[nodiscard]] static int margin(const QFontMetrics& metrics);
     [[nodiscard]] static int rowHeight(const QFontMetrics& metrics);
-
-private:
-    void paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& series) const;
-    void paintMarks(QPainter& painter, const QRectF& rect, const QList<float>& marks) const;
-    void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option,
-                   const QModelIndex& index) const;
+    [[nodiscard]] static bool isNumber(const QModelIndex& index);
+    /// Paints a dot or a square of `side` pixels before a text and returns its width with the space after it.
+    static int paintMark(QPainter& painter, const QRect& rect, int side, const QColor& colour, bool isDot);
 };
 
 } // namespace posewire::gui

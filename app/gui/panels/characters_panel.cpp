@@ -3,9 +3,9 @@
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QItemSelectionModel>
-#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -13,15 +13,11 @@ namespace posewire::gui {
 
 CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
                                  QWidget* parent)
-    : Panel(parent),
-      m_view(view),
-      m_commands(commands),
+    : Panel(view, commands, parent),
       m_program(program),
       m_model(view, commands),
-      m_table(new TableView(tr("Characters"), this)) {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->addWidget(m_table);
+      m_table(new TableView(tr("Characters"), commands, this)) {
+    tightColumn(this)->addWidget(m_table);
     m_table->setModel(&m_model);
     m_table->setRootIsDecorated(true);
     m_table->setColumnSamples({QString(), QStringLiteral("240/239.9"), QStringLiteral("▲ silent 0.9 s")},
@@ -31,8 +27,6 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &CharactersPanel::select);
     connect(m_table, &QAbstractItemView::doubleClicked, this, &CharactersPanel::frame);
-    connect(m_table, &TableView::copyRequested, this,
-            [this](const QString& text) { m_commands.copyText(text); });
 }
 
 void CharactersPanel::showEmptyState() {

@@ -24,8 +24,6 @@ private:
     void select(const QModelIndex& index);
     void frame(const QModelIndex& index);
 
-    model::SessionView& m_view;
-    Commands& m_commands;
     const ProgramView& m_program;
     CharacterModel m_model;
     TableView* m_table;

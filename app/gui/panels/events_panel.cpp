@@ -4,10 +4,9 @@
 #include "app/gui/file_filters.h"
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/event_bar.h"
-#include "app/gui/panels/line.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QEvent>
 #include <QFileDialog>
@@ -18,7 +17,6 @@
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QScrollBar>
-#include <QVBoxLayout>
 
 namespace posewire::gui {
 
@@ -51,15 +49,23 @@ bool isEnd(const QEvent& event) {
 } // namespace
 
 EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent),
-      m_view(view),
-      m_commands(commands),
+    : Panel(view, commands, parent),
       m_events(view),
       m_bar(new EventBar(this)),
-      m_table(new TableView(tr("Events"), this)),
+      m_table(new TableView(tr("Events"), commands, this)),
       m_chip(new QPushButton(m_table)),
       m_message(new PassingMessage(kMessageMs, this)) {
-    layOut();
+    auto* column = tightColumn(this);
+    column->addWidget(m_bar);
+    column->addWidget(new Line(this));
+    column->addWidget(m_table, 1);
+    column->addWidget(m_message);
+    m_chip->setObjectName(QStringLiteral("newestEvent"));
+    m_chip->setFocusPolicy(Qt::NoFocus); // the End key does the same
+    m_chip->setToolTip(tr("Go to the newest event and follow (End)"));
+    m_chip->hide();
+    m_message->setForegroundRole(QPalette::PlaceholderText);
+    m_message->setContentsMargins(10, 3, 10, 4);
     m_table->setModel(&m_events);
     m_table->setColumnSamples(
         {QStringLiteral("▲ warning"), QStringLiteral("10:42:17.508"), QStringLiteral("192.168.10.21:52011"),
@@ -79,22 +85,6 @@ std::span<const ActionInfo> EventsPanel::actionTable() {
     return kActions;
 }
 
-void EventsPanel::layOut() {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins({});
-    column->setSpacing(0);
-    column->addWidget(m_bar);
-    column->addWidget(new Line(this));
-    column->addWidget(m_table, 1);
-    column->addWidget(m_message);
-    m_chip->setObjectName(QStringLiteral("newestEvent"));
-    m_chip->setFocusPolicy(Qt::NoFocus); // the End key does the same
-    m_chip->setToolTip(tr("Go to the newest event and follow (End)"));
-    m_chip->hide();
-    m_message->setForegroundRole(QPalette::PlaceholderText);
-    m_message->setContentsMargins(10, 3, 10, 4);
-}
-
 void EventsPanel::connectParts() {
     connect(m_bar, &EventBar::filterChanged, this, &EventsPanel::applyFilter);
     connect(m_bar, &EventBar::seenRequested, this, &EventsPanel::markSeen);
@@ -102,8 +92,6 @@ void EventsPanel::connectParts() {
     connect(m_bar, &EventBar::left, m_table, qOverload<>(&QWidget::setFocus));
     connect(m_table, &QAbstractItemView::activated, this, &EventsPanel::jump);
     connect(m_table, &TableView::menuRequested, this, &EventsPanel::addActions);
-    connect(m_table, &TableView::copyRequested, this,
-            [this](const QString& text) { m_commands.copyText(text); });
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& index) {
                 const model::Event* event = m_isRefreshing ? nullptr : m_events.event(index);
@@ -200,23 +188,18 @@ void EventsPanel::jump(const QModelIndex& index) {
     }
 }
 
-void EventsPanel::markSeen() {
-    m_events.markSeen();
-}
-
 void EventsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     if (index.isValid()) {
         const QPersistentModelIndex row(index);
-        connect(menu.addAction(tr("Show its packets")), &QAction::triggered, this,
-                [this, row] { jump(row); });
+        menu.addAction(tr("Show its packets"), this, [this, row] { jump(row); });
         menu.addSeparator();
     }
-    connect(menu.addAction(tr("Mark all as seen")), &QAction::triggered, this, &EventsPanel::markSeen);
-    connect(menu.addAction(tr("Export…")), &QAction::triggered, this, &EventsPanel::exportFile);
+    menu.addAction(tr("Mark all as seen"), this, &EventsPanel::markSeen);
+    menu.addAction(tr("Export…"), this, &EventsPanel::exportFile);
     menu.addSeparator();
     for (const auto& format : exporting::formats<exporting::EventSheet>()) {
         const QString text = tr("Copy all as %1").arg(QLatin1String(format.title));
-        connect(menu.addAction(text), &QAction::triggered, this, [this, write = format.write] {
+        menu.addAction(text, this, [this, write = format.write] {
             m_commands.copyText(QString::fromStdString(write({m_view, m_events.listed()})));
         });
     }
@@ -248,7 +231,7 @@ QString EventsPanel::summary() const {
 }
 
 QJsonObject EventsPanel::state() const {
-    QJsonObject state;
+    QJsonObject state = m_table->columns().state();
     const EventModel::Filter& filter = m_events.filter();
     const EventModel::Filter shipped;
     if (filter.onlyCurrent) {
@@ -260,9 +243,6 @@ QJsonObject EventsPanel::state() const {
     if (filter.groups != shipped.groups) {
         state["groups"] = flagsOf(filter.groups);
     }
-    if (const QJsonArray columns = m_table->chosenColumns(); !columns.isEmpty()) {
-        state["columns"] = columns;
-    }
     return state;
 }
 
@@ -272,7 +252,7 @@ void EventsPanel::restoreState(const QJsonObject& state) {
     readFlags(state["severities"], filter.severities);
     readFlags(state["groups"], filter.groups);
     m_bar->setFilter(filter);
-    m_table->setChosenColumns(state["columns"].toArray());
+    m_table->columns().restore(state);
 }
 
 bool EventsPanel::eventFilter(QObject* watched, QEvent* event) {

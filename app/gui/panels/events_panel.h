@@ -3,19 +3,62 @@
 
 #include "app/gui/models/event_model.h"
 #include "app/gui/panel.h"
-#include "app/gui/theme/passing_message.h"
+#include "app/gui/theme/widgets.h"
 
+#include <array>
 #include <optional>
 
+class QLineEdit;
 class QMenu;
 class QPushButton;
+class QToolButton;
 
 namespace posewire::gui {
 
-class EventBar;
+class CommandBar;
 class TableView;
 
-/// Dock `events`: what happened and what is still going on, who caused it, and the way to the packets that
+/// What the events dock lists: now or all that happened, which severities and groups, and a text.
+class EventBar final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit EventBar(QWidget* parent = nullptr);
+
+    [[nodiscard]] const EventModel::Filter& filter() const { return m_filter; }
+    void setFilter(const EventModel::Filter& filter);
+    void showCounts(const EventModel::Counts& counts);
+
+signals:
+    void filterChanged(const EventModel::Filter& filter);
+    void seenRequested();
+    void exportRequested();
+    /// The keyboard is wanted in the list.
+    void left();
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    QToolButton* addButton(const QString& name, const QString& text, const QString& toolTip);
+    void addSeverities();
+    void addCommands();
+    void addGroups(CommandBar& commands);
+    void showFilter();
+    void change();
+    void paintSeverities();
+
+    EventModel::Filter m_filter;
+    QToolButton* m_current = nullptr;
+    QToolButton* m_history = nullptr;
+    std::array<QToolButton*, 3> m_severities{}; ///< by EventSeverity
+    QLineEdit* m_text = nullptr;
+    QAction* m_groupCommand = nullptr;
+    QMenu* m_groups = nullptr;
+};
+
+/// Dock `events`: what happened and what still lasts, who caused it, and the way to the packets that
 /// show it.
 class EventsPanel : public Panel {
     Q_OBJECT
@@ -32,22 +75,21 @@ public:
 
     /// Selects the packet of an event and shows it in the dock of packets, among its like.
     void jump(const QModelIndex& index);
-    /// Saves the listed events in the format that the name's suffix says. The answer is what went wrong,
-    /// empty for nothing.
+    /// Saves the listed events in the format of the name's suffix. Returns what went wrong, empty for
+    /// nothing.
     [[nodiscard]] QString save(const QString& path);
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
     /// What was said last below the list.
     [[nodiscard]] QString message() const { return m_message->said(); }
 
     void exportFile();
-    void markSeen();
+    void markSeen() { m_events.markSeen(); }
     void newest();
 
 protected:
     bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
-    void layOut();
     void connectParts();
     void addActions(QMenu& menu, const QModelIndex& index);
     void applyFilter(const EventModel::Filter& filter);
@@ -56,8 +98,6 @@ private:
     void keepCurrent();
     void showEmptyState();
 
-    model::SessionView& m_view;
-    Commands& m_commands;
     EventModel m_events;
     EventBar* m_bar;
     TableView* m_table;

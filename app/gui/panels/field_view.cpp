@@ -1,18 +1,54 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/field_view.h"
 
+#include "app/gui/models/field_text.h"
+#include "app/gui/models/packet_text.h"
 #include "app/gui/theme/theme.h"
+#include "core/filter/completion.h"
 
 #include <QContextMenuEvent>
-#include <QHeaderView>
-#include <QItemSelectionModel>
+#include <QMenu>
 #include <QPainter>
 #include <QScrollBar>
 
 namespace posewire::gui {
 
-FieldView::FieldView(FieldModel& model, QWidget* parent)
-    : TableView(tr("Fields of the packet"), parent), m_fields(model) {
+namespace {
+
+QString bytesText(const FieldMenu& menu, const QString& prefix, const QString& separator) {
+    const wire::FieldNode& field = menu.document.node(menu.node);
+    QStringList bytes;
+    for (std::uint32_t i = field.offset; i < field.offset + field.length; ++i) {
+        const auto value = std::to_integer<unsigned>(menu.document.bytes()[i]);
+        bytes += prefix + QString::number(value, 16).rightJustified(2, QLatin1Char('0'));
+    }
+    return bytes.join(separator);
+}
+
+void addFilters(QMenu& menu, const FieldMenu& field) {
+    const QString expression =
+        QString::fromStdString(filter::expressionFor(field.document.tree(), field.node));
+    const QString current = QString::fromStdString(field.displayFilter);
+    QMenu* filters = menu.addMenu(FieldView::tr("Apply as filter"));
+    filters->setEnabled(!expression.isEmpty());
+    const auto add = [&](const QString& text, const QString& joined) {
+        Commands* commands = &field.commands;
+        QAction* action =
+            filters->addAction(text, filters, [commands, joined] { commands->setDisplayFilter(joined); });
+        action->setToolTip(joined);
+    };
+    filters->setToolTipsVisible(true);
+    add(expression, expression);
+    add(FieldView::tr("Not this"), joinedFilter({}, expression, FilterJoin::AndNot));
+    add(FieldView::tr("… and this"), joinedFilter(current, expression, FilterJoin::And));
+    add(FieldView::tr("… or this"), joinedFilter(current, expression, FilterJoin::Or));
+    add(FieldView::tr("… and not this"), joinedFilter(current, expression, FilterJoin::AndNot));
+}
+
+} // namespace
+
+FieldView::FieldView(FieldModel& model, Commands& commands, QWidget* parent)
+    : TableView(tr("Fields of the packet"), commands, parent), m_fields(model) {
     setModel(&model);
     setRootIsDecorated(true);
     setExpandsOnDoubleClick(true);
@@ -41,10 +77,6 @@ FieldView::FieldView(FieldModel& model, QWidget* parent)
         m_hovered = {};
     });
     fitToWidth();
-}
-
-std::string FieldView::pathOf(const QModelIndex& index) const {
-    return m_fields.document().tree().path(m_fields.node(index));
 }
 
 std::int32_t FieldView::currentNode() const {
@@ -129,9 +161,7 @@ void FieldView::drawRow(QPainter* painter, const QStyleOptionViewItem& option,
                         const QModelIndex& index) const {
     QTreeView::drawRow(painter, option, index);
     if (m_hovered.isValid() && index.siblingAtColumn(0) == m_hovered) {
-        QColor wash = theme().accent;
-        wash.setAlphaF(0.16F);
-        painter->fillRect(option.rect, wash);
+        painter->fillRect(option.rect, withAlpha(theme().accent, 0.16));
     }
 }
 
@@ -169,11 +199,11 @@ void FieldView::fitToWidth() {
     }
     m_form = form;
     const bool hasMeaning = width >= 120;
-    setColumnHidden(FieldModel::kWire, isComparing || width < 96);
-    setColumnHidden(FieldModel::kOther, !isComparing);
-    setColumnHidden(FieldModel::kDifference, !isComparing);
-    setColumnHidden(FieldModel::kMeaning, !hasMeaning);
-    setColumnHidden(FieldModel::kSection, !hasMeaning);
+    columns().setUseful(FieldModel::kWire, !isComparing && width >= 96);
+    columns().setUseful(FieldModel::kOther, isComparing);
+    columns().setUseful(FieldModel::kDifference, isComparing);
+    columns().setUseful(FieldModel::kMeaning, hasMeaning);
+    columns().setUseful(FieldModel::kSection, hasMeaning);
     // Where there is no room for a vector, its components below it can still be read.
     const QString vector =
         isNarrow ? QStringLiteral("23 × 736 bytes") : QStringLiteral("−0.000  −0.000  −0.000 m");
@@ -188,6 +218,25 @@ void FieldView::fitToWidth() {
     samples[FieldModel::kMeaning] = hasMeaning ? QString() : QStringLiteral("x");
     samples[FieldModel::kSection] = QStringLiteral("§ N 2.5.10");
     setColumnSamples(std::move(samples));
+}
+
+void showFieldMenu(const FieldMenu& field, QWidget* parent, const QPoint& at) {
+    QMenu menu(parent);
+    addFilters(menu, field);
+    menu.addSeparator();
+    const auto addCopy = [&](const QString& text, const QString& copied) {
+        Commands* commands = &field.commands;
+        menu.addAction(text, &menu, [commands, copied] { commands->copyText(copied); })
+            ->setEnabled(!copied.isEmpty());
+    };
+    addCopy(FieldView::tr("Copy value"), convertedValue(field.document, field.node));
+    addCopy(FieldView::tr("Copy value on the wire"),
+            QString::fromStdString(field.document.node(field.node).value));
+    addCopy(FieldView::tr("Copy field path"), QString::fromStdString(field.document.tree().path(field.node)));
+    addCopy(FieldView::tr("Copy bytes as hexadecimal"), bytesText(field, QString(), QStringLiteral(" ")));
+    addCopy(FieldView::tr("Copy bytes as C array"),
+            QStringLiteral("{%1}").arg(bytesText(field, QStringLiteral("0x"), QStringLiteral(", "))));
+    menu.exec(at);
 }
 
 } // namespace posewire::gui

@@ -14,7 +14,7 @@ class FieldView : public TableView {
     Q_OBJECT
 
 public:
-    explicit FieldView(FieldModel& model, QWidget* parent = nullptr);
+    FieldView(FieldModel& model, Commands& commands, QWidget* parent);
 
     /// Marks the row of a node, or the nearest one around it that is open; -1 for none.
     void setHovered(std::int32_t node);
@@ -46,7 +46,9 @@ protected:
 private:
     void fitToWidth();
     void restore(const QModelIndex& parent);
-    [[nodiscard]] std::string pathOf(const QModelIndex& index) const;
+    [[nodiscard]] std::string pathOf(const QModelIndex& index) const {
+        return m_fields.document().tree().path(m_fields.node(index));
+    }
 
     FieldModel& m_fields;
     std::set<std::string> m_open;
@@ -57,5 +59,16 @@ private:
     bool m_isChanging = false;
     bool m_wasReset = false;
 };
+
+/// The field that a menu is about, and what the menu may do.
+struct FieldMenu {
+    const FieldDocument& document;
+    std::int32_t node;
+    const std::string& displayFilter;
+    Commands& commands;
+};
+
+/// Filters and copies. Returns when the menu is closed.
+void showFieldMenu(const FieldMenu& field, QWidget* parent, const QPoint& at);
 
 } // namespace posewire::gui

@@ -1,22 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
-#include "app/gui/panels/command_bar.h"
+#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/text_prompt.h"
-#include "app/gui/theme/icons.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QAction>
 #include <QHBoxLayout>
 #include <QInputMethodEvent>
 #include <QJsonArray>
-#include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QTextCharFormat>
-#include <QVBoxLayout>
 
 namespace posewire::gui {
 
@@ -94,9 +92,7 @@ void FilterBar::layOut() {
     m_problem->setContentsMargins(10, 0, 8, 6);
     m_problem->setWordWrap(true);
     m_problem->hide();
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins({});
-    column->setSpacing(0);
+    auto* column = tightColumn(this);
     column->addLayout(row);
     column->addWidget(m_problem);
     column->addWidget(m_progressRow);
@@ -151,11 +147,8 @@ QString FilterBar::errorText() const {
 void FilterBar::showError() {
     m_problem->setVisible(m_error.has_value());
     if (m_error) {
-        QPalette palette = m_problem->palette();
-        palette.setColor(QPalette::WindowText, theme().error);
-        m_problem->setPalette(palette);
-        m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') +
-                           QString::fromStdString(m_error->text) +
+        setTextColour(*m_problem, theme().error);
+        m_problem->setText(healthText(Health::Error, QString::fromStdString(m_error->text)) +
                            tr(" (at character %1)").arg(placeOf(text(), m_error->offset) + 1));
     }
 }
@@ -179,24 +172,26 @@ void FilterBar::underline() {
 }
 
 void FilterBar::restyle() {
-    const QString text = this->text();
-    const char* state = text.isEmpty() ? "" : m_error ? "wrong" : text == m_appliedText ? "applied" : "right";
-    m_line->setToolTip(m_error                 ? QString::fromStdString(m_error->text)
-                       : text == m_appliedText ? tr("Arrow down: earlier filters")
-                                               : tr("Press Enter to filter"));
     m_line->setFont(monospaceFont());
-    const QColor border = m_error                 ? theme().error
-                          : text.isEmpty()        ? theme().line
-                          : text == m_appliedText ? theme().good
-                                                  : theme().accent;
-    const QColor fill = m_error                 ? tinted(theme().error)
-                        : text.isEmpty()        ? theme().panel
-                        : text == m_appliedText ? tinted(theme().good)
-                                                : theme().panel;
+    const bool isApplied = text() == m_appliedText;
+    QColor border = theme().accent;
+    QColor fill = theme().panel;
+    if (m_error) {
+        border = theme().error;
+        fill = tinted(border);
+    } else if (text().isEmpty()) {
+        border = theme().line;
+    } else if (isApplied) {
+        border = theme().good;
+        fill = tinted(border);
+    }
+    m_line->setToolTip(isApplied ? tr("Arrow down: earlier filters") : tr("Press Enter to filter"));
+    if (m_error) {
+        m_line->setToolTip(QString::fromStdString(m_error->text));
+    }
     const QString sheet =
         QStringLiteral("QLineEdit { border: 1px solid %1; background: %2; }").arg(border.name(), fill.name());
-    if (m_line->property("filterState").toString() != QLatin1String(state) || m_line->styleSheet() != sheet) {
-        m_line->setProperty("filterState", QLatin1String(state));
+    if (m_line->styleSheet() != sheet) {
         m_line->setStyleSheet(sheet);
     }
 }
@@ -250,13 +245,22 @@ void FilterBar::saveCurrent() {
         m_line->setFocus();
         return;
     }
-    TextPrompt prompt(
-        {tr("Save filter"), tr("&Name on the button"), tr("Name"), tr("Save")},
-        [](const QString& name) { return name.isEmpty() ? tr("A button needs a name.") : QString(); }, this);
-    if (prompt.exec() == QDialog::Accepted) {
-        m_saved.push_back({prompt.text().replace(QLatin1Char('&'), QLatin1String("&&")), text()});
+    if (const QString name = askForName(tr("Save filter"), tr("Save"), {}); !name.isEmpty()) {
+        m_saved.push_back({name, text()});
         showSaved();
     }
+}
+
+/// A name for a button; empty where the operator thinks better of it.
+QString FilterBar::askForName(const QString& title, const QString& accept, QString before) {
+    const auto problemOf = [](const QString& name) {
+        return name.isEmpty() ? tr("A button needs a name.") : QString();
+    };
+    before.replace(QLatin1String("&&"), QLatin1String("&"));
+    const TextPrompt words{title, tr("&Name on the button"), tr("Name"), accept, before};
+    return askForText(words, problemOf, this)
+        .value_or(QString())
+        .replace(QLatin1Char('&'), QLatin1String("&&"));
 }
 
 void FilterBar::askAbout(std::size_t index, const QPoint& place) {
@@ -278,13 +282,9 @@ void FilterBar::askAbout(std::size_t index, const QPoint& place) {
 }
 
 void FilterBar::rename(std::size_t index) {
-    QString name = m_saved[index].name;
-    TextPrompt prompt(
-        {tr("Rename filter"), tr("&Name on the button"), tr("Name"), tr("Rename"),
-         name.replace(QLatin1String("&&"), QLatin1String("&"))},
-        [](const QString& text) { return text.isEmpty() ? tr("A button needs a name.") : QString(); }, this);
-    if (prompt.exec() == QDialog::Accepted) {
-        m_saved[index].name = prompt.text().replace(QLatin1Char('&'), QLatin1String("&&"));
+    const QString name = askForName(tr("Rename filter"), tr("Rename"), m_saved[index].name);
+    if (!name.isEmpty()) {
+        m_saved[index].name = name;
         showSaved();
     }
 }

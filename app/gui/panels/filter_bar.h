@@ -15,13 +15,12 @@ class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QStandardItemModel;
-class QToolButton;
 
 namespace posewire::gui {
 
 class CommandBar;
 
-/// The line of the display filter: says while it is written whether it is right, and where it is not; offers
+/// The line of the display filter: shows while it is written whether it is right, and where it is not; offers
 /// what may follow, what was used before (arrow down) and what was saved (the buttons).
 class FilterBar final : public QWidget {
     Q_OBJECT
@@ -88,6 +87,7 @@ private:
     void saveCurrent();
     void askAbout(std::size_t index, const QPoint& place);
     void rename(std::size_t index);
+    [[nodiscard]] QString askForName(const QString& title, const QString& accept, QString before);
 
     QLineEdit* m_line;
     CommandBar* m_buttons;

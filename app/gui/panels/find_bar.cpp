@@ -1,30 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/find_bar.h"
 
-#include "app/gui/theme/combo_box.h"
-#include "app/gui/theme/icons.h"
+#include "app/gui/panels/buttons.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QHBoxLayout>
 #include <QKeyEvent>
-#include <QLabel>
 #include <QLineEdit>
-#include <QToolButton>
 
 namespace posewire::gui {
-
-namespace {
-
-QToolButton* flatButton(const QString& text, const QString& toolTip, QWidget* parent) {
-    auto* button = new QToolButton(parent);
-    button->setProperty("flat", true);
-    button->setText(text);
-    button->setToolTip(toolTip);
-    button->setAccessibleName(toolTip);
-    return button;
-}
-
-} // namespace
 
 FindBar::FindBar(QWidget* parent)
     : QWidget(parent), m_kind(new ComboBox(this)), m_edit(new QLineEdit(this)), m_answer(new QLabel(this)) {
@@ -87,10 +71,8 @@ void FindBar::setHexadecimal(bool isHexadecimal) {
 }
 
 void FindBar::say(const QString& text, bool isProblem) {
-    QPalette palette = m_answer->palette();
-    palette.setColor(QPalette::WindowText, isProblem ? theme().error : theme().dim);
-    m_answer->setPalette(palette);
-    m_answer->setText(isProblem ? healthSymbol(Health::Error) + QLatin1Char(' ') + text : text);
+    setTextColour(*m_answer, isProblem ? theme().error : theme().dim);
+    m_answer->setText(isProblem ? healthText(Health::Error, text) : text);
     m_answer->setToolTip(text);
 }
 

@@ -2,7 +2,6 @@
 #include "app/gui/panels/fitting_header.h"
 
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/panels/packet_view.h"
 
 #include <QMenu>
 #include <QScopedValueRollback>
@@ -11,90 +10,116 @@
 
 namespace posewire::gui {
 
-FittingHeader::FittingHeader(QWidget* table) : QHeaderView(Qt::Horizontal, table) {
+FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*font)(), int room, Kept kept)
+    : QHeaderView(Qt::Horizontal, table), m_table(table), m_font(font), m_room(room), m_kept(kept) {
     setStretchLastSection(false);
     setMinimumSectionSize(0);
     setHighlightSections(false);
     setTextElideMode(Qt::ElideRight);
     setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(this, &QWidget::customContextMenuRequested, this,
-            [this](const QPoint& at) { openMenu(mapToGlobal(at)); });
+    connect(this, &QWidget::customContextMenuRequested, this, [this](const QPoint& at) {
+        QMenu menu(this);
+        addColumnActions(menu);
+        menu.exec(mapToGlobal(at));
+    });
 }
 
-void FittingHeader::setSamples(std::vector<QString> samples) {
+void FittingHeader::setSamples(std::vector<QString> samples, const QString& leastOpen) {
     m_samples = std::move(samples);
-    fit(m_width);
+    m_leastOpen = leastOpen;
+    measure();
 }
 
 void FittingHeader::setUseful(int column, bool isUseful) {
     if (m_useless.contains(column) == isUseful) {
         isUseful ? static_cast<void>(m_useless.removeAll(column)) : m_useless.append(column);
-        fit(m_width);
+        measure();
     }
 }
 
 void FittingHeader::setGivingWay(std::vector<int> columns) {
     m_givingWay = std::move(columns);
-    fit(m_width);
+    setContextMenuPolicy(Qt::CustomContextMenu);
+    measure();
 }
 
-void FittingHeader::setChosen(const QList<int>& columns) {
+void FittingHeader::setChosen(const QJsonArray& columns) {
     m_chosen = columns;
-    fit(m_width);
+    measure();
+}
+
+QJsonObject FittingHeader::state() const {
+    return m_chosen.isEmpty() ? QJsonObject() : QJsonObject{{"columns", m_chosen}};
+}
+
+int FittingHeader::openColumn() const {
+    const auto open = std::ranges::find(m_samples, QString());
+    return open == m_samples.end() ? -1 : static_cast<int>(open - m_samples.begin());
+}
+
+int FittingHeader::textWidth(const QString& text) const {
+    const int margins = 2 * CellDelegate::margin(m_table->fontMetrics()) + m_room;
+    return QFontMetrics(m_font()).horizontalAdvance(text) + margins;
 }
 
 int FittingHeader::sampleWidth(int column) const {
     const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    const int margins = 2 * CellDelegate::margin(parentWidget()->fontMetrics()) + 2;
-    const int text =
-        QFontMetrics(packetFont()).horizontalAdvance(m_samples[static_cast<std::size_t>(column)]);
-    return std::max(text + margins, parentWidget()->fontMetrics().horizontalAdvance(title) + 14);
+    // The style sheet pads header sections by 6 pixels at either side.
+    const int titleWidth = isHidden() ? 0 : m_table->fontMetrics().horizontalAdvance(title) + 14;
+    return std::max(textWidth(m_samples[static_cast<std::size_t>(column)]), titleWidth);
 }
 
 int FittingHeader::leastOpenWidth() const {
-    return parentWidget()->fontMetrics().averageCharWidth() * 22;
+    return m_leastOpen.isEmpty() ? m_table->fontMetrics().averageCharWidth() * 22 : textWidth(m_leastOpen);
 }
 
-std::vector<bool> FittingHeader::shownColumns(int open) const {
-    std::vector<bool> isShown(m_samples.size(), true);
+bool FittingHeader::isWanted(int column) const {
+    const int kept = m_kept == Kept::First ? 0 : openColumn();
+    return column == kept || (m_chosen.isEmpty() ? !m_useless.contains(column) : m_chosen.contains(column));
+}
+
+void FittingHeader::measure() {
+    if (model() == nullptr || m_isFitting) {
+        return; // sections that change their size ask for this again
+    }
+    {
+        const QScopedValueRollback guard(m_isFitting, true);
+        for (int column = 0; column < columns(); ++column) {
+            if (column != openColumn()) {
+                resizeSection(column, sampleWidth(column));
+            }
+        }
+    }
+    fit();
+}
+
+void FittingHeader::fit() {
+    const int open = openColumn();
+    if (model() == nullptr || open < 0 || m_isFitting) {
+        return;
+    }
+    const QScopedValueRollback guard(m_isFitting, true);
+    const int width = m_table->viewport()->width();
+    std::vector<bool> isShown;
     int needed = leastOpenWidth();
-    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
-        const auto place = static_cast<std::size_t>(column);
-        isShown[place] =
-            column == open || (m_chosen.isEmpty() ? !m_useless.contains(column) : m_chosen.contains(column));
-        needed += isShown[place] && column != open ? sampleWidth(column) : 0;
+    for (int column = 0; column < columns(); ++column) {
+        isShown.push_back(isWanted(column));
+        needed += isShown.back() && column != open ? sampleWidth(column) : 0;
     }
     for (const int column : m_givingWay) {
         const auto place = static_cast<std::size_t>(column);
-        if (m_chosen.isEmpty() && needed > m_width && isShown[place]) {
+        if (m_chosen.isEmpty() && needed > width && isShown[place] && column != open) {
             isShown[place] = false;
             needed -= sampleWidth(column);
         }
     }
-    return isShown;
-}
-
-void FittingHeader::fit(int width) {
-    m_width = width;
-    const auto empty = std::ranges::find(m_samples, QString());
-    if (model() == nullptr || empty == m_samples.end() || m_isFitting) {
-        return; // sections that change their size ask for this again
-    }
-    const QScopedValueRollback guard(m_isFitting, true);
-    const auto open = static_cast<int>(empty - m_samples.begin());
-    const std::vector<bool> isShown = shownColumns(open);
-    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
-        const bool isColumnShown = isShown[static_cast<std::size_t>(column)];
-        if (isSectionHidden(column) == isColumnShown) {
-            setSectionHidden(column, !isColumnShown);
-        }
-        if (isColumnShown && column != open) {
-            resizeSection(column, sampleWidth(column));
+    for (int column = 0; column < columns(); ++column) {
+        if (isSectionHidden(column) == isShown[static_cast<std::size_t>(column)]) {
+            setSectionHidden(column, !isSectionHidden(column));
         }
     }
     const int others = length() - sectionSize(open);
-    resizeSection(open, std::max(leastOpenWidth(), m_width - others));
+    resizeSection(open, std::max(leastOpenWidth(), width - others));
 }
 
 int FittingHeader::columnBeside(int column, int direction) const {
@@ -106,34 +131,31 @@ int FittingHeader::columnBeside(int column, int direction) const {
     return column;
 }
 
-void FittingHeader::openMenu(const QPoint& at) {
-    QMenu menu(this);
+void FittingHeader::addColumnActions(QMenu& menu) {
     QAction* fitting = menu.addAction(tr("As many columns as fit"));
     fitting->setCheckable(true);
     fitting->setChecked(m_chosen.isEmpty());
+    connect(fitting, &QAction::triggered, this, [this] { setChosen({}); });
     menu.addSeparator();
-    QList<int> shown;
-    for (int column = 0; column < model()->columnCount(); ++column) {
+    for (int column = m_kept == Kept::First ? 1 : 0; column < columns(); ++column) {
         QAction* action = menu.addAction(model()->headerData(column, Qt::Horizontal).toString());
+        action->setToolTip(model()->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString());
         action->setCheckable(true);
         action->setChecked(!isSectionHidden(column));
-        action->setEnabled(!m_samples[static_cast<std::size_t>(column)].isEmpty());
-        action->setData(column);
-        if (action->isChecked()) {
-            shown.append(column);
+        action->setEnabled(m_kept == Kept::First || column != openColumn());
+        connect(action, &QAction::toggled, this, [this, column](bool isShown) { choose(column, isShown); });
+    }
+    menu.setToolTipsVisible(true);
+}
+
+void FittingHeader::choose(int column, bool isShown) {
+    QJsonArray chosen;
+    for (int each = 0; each < columns(); ++each) {
+        if (each == column ? isShown : !isSectionHidden(each)) {
+            chosen.append(each);
         }
     }
-    const QAction* chosen = menu.exec(at);
-    if (chosen == nullptr) {
-        return;
-    }
-    const int column = chosen->data().toInt();
-    if (chosen == fitting) {
-        shown.clear();
-    } else if (!shown.removeOne(column)) {
-        shown.append(column);
-    }
-    setChosen(shown);
+    setChosen(chosen);
 }
 
 } // namespace posewire::gui

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <QAbstractItemView>
 #include <QHeaderView>
-#include <QList>
+#include <QJsonArray>
+#include <QJsonObject>
 
 #include <vector>
+
+class QMenu;
 
 namespace posewire::gui {
 
@@ -14,34 +18,54 @@ class FittingHeader final : public QHeaderView {
     Q_OBJECT
 
 public:
-    explicit FittingHeader(QWidget* table);
+    /// The column that is always shown: the first, which carries a tree, or the one that takes the room left.
+    enum class Kept { First, Open };
 
-    /// One sample for each column, as long as its content may become; an empty one takes the room left.
-    void setSamples(std::vector<QString> samples);
+    /// `font` is that of the cells; a cell has `room` pixels beside its text and margins.
+    FittingHeader(QAbstractItemView* table, QFont (*font)(), int room, Kept kept);
+
+    /// One sample for each column, as long as its content may become; an empty one takes the room left, but
+    /// never less than `leastOpen` needs, or 22 characters without it.
+    void setSamples(std::vector<QString> samples, const QString& leastOpen = {});
     /// Columns that say nothing are left out altogether.
     void setUseful(int column, bool isUseful);
     /// Where not all columns fit, these give way to the one that takes the room left, the first one first.
+    /// From now on the operator can choose columns.
     void setGivingWay(std::vector<int> columns);
+    [[nodiscard]] bool isChoosable() const { return !m_givingWay.empty(); }
     /// The columns that the operator chose; empty for as many as fit.
-    [[nodiscard]] const QList<int>& chosen() const { return m_chosen; }
-    void setChosen(const QList<int>& columns);
+    void setChosen(const QJsonArray& columns);
+    /// The same as a panel keeps it: "columns", or nothing where the operator chose none.
+    [[nodiscard]] QJsonObject state() const;
+    void restore(const QJsonObject& state) { setChosen(state["columns"].toArray()); }
+    /// One entry for each column that can be chosen.
+    void addColumnActions(QMenu& menu);
 
-    /// Shares a width out among the columns.
-    void fit(int width);
+    /// Makes columns as wide as their samples and shares out the rest.
+    void measure();
+    /// Shares out the width of the table; widths that the operator dragged stay.
+    void fit();
     /// The next column that is shown; the same one at the end.
     [[nodiscard]] int columnBeside(int column, int direction) const;
 
 private:
-    [[nodiscard]] std::vector<bool> shownColumns(int open) const;
-    [[nodiscard]] int leastOpenWidth() const;
+    [[nodiscard]] int columns() const { return static_cast<int>(m_samples.size()); }
+    [[nodiscard]] int openColumn() const;
+    [[nodiscard]] bool isWanted(int column) const;
+    [[nodiscard]] int textWidth(const QString& text) const;
     [[nodiscard]] int sampleWidth(int column) const;
-    void openMenu(const QPoint& at);
+    [[nodiscard]] int leastOpenWidth() const;
+    void choose(int column, bool isShown);
 
+    QAbstractItemView* m_table;
+    QFont (*m_font)();
+    int m_room;
+    Kept m_kept;
     std::vector<QString> m_samples;
+    QString m_leastOpen;
     std::vector<int> m_givingWay;
     QList<int> m_useless;
-    QList<int> m_chosen;
-    int m_width = 0; ///< as it was last shared out
+    QJsonArray m_chosen;
     bool m_isFitting = false;
 };
 

@@ -6,12 +6,10 @@
 #include "app/gui/models/packet_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
+#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/panels/field_menu.h"
 
-#include <QHBoxLayout>
 #include <QMenu>
-#include <QVBoxLayout>
 
 namespace posewire::gui {
 
@@ -26,8 +24,13 @@ model::LengthUnit unitOf(model::SessionView& view, const log::Packet& packet) {
                                                   : sender->positionUnit(digest->type);
 }
 
+/// Plain text in a colour, as rich text.
 QString coloured(const QColor& colour, const QString& text) {
-    return QStringLiteral("<span style=\"color:%1\">%2</span>").arg(colour.name(), text);
+    return QStringLiteral("<span style=\"color:%1\">%2</span>").arg(colour.name(), text.toHtmlEscaped());
+}
+
+void setLines(QLabel& label, const QStringList& richLines) {
+    label.setText(richLines.join(QStringLiteral("<br>")));
 }
 
 ByteRange rangeOf(const FieldDocument& document, std::int32_t node) {
@@ -41,18 +44,16 @@ ByteRange rangeOf(const FieldDocument& document, std::int32_t node) {
 } // namespace
 
 InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent),
-      m_view(view),
-      m_commands(commands),
+    : Panel(view, commands, parent),
       m_title(new ElidedLabel(Qt::AlignLeft, this)),
-      m_previous(addButton(QStringLiteral("‹"), tr("Previous packet of this stream"))),
-      m_next(addButton(QStringLiteral("›"), tr("Next packet of this stream"))),
-      m_hold(addButton(tr("Hold"), tr("Keep showing this packet while the stream continues"))),
-      m_compare(addButton(tr("Compare ▾"), tr("Compare with another packet of the same type"))),
+      m_previous(flatButton(QStringLiteral("‹"), tr("Previous packet of this stream"), this)),
+      m_next(flatButton(QStringLiteral("›"), tr("Next packet of this stream"), this)),
+      m_hold(flatButton(tr("Hold"), tr("Keep showing this packet while the stream continues"), this)),
+      m_compare(flatButton(tr("Compare ▾"), tr("Compare with another packet of the same type"), this)),
       m_problems(new QLabel(this)),
       m_problemLine(new Line(this)),
       m_splitter(new QSplitter(Qt::Vertical, this)),
-      m_fields(new FieldView(m_model, this)),
+      m_fields(new FieldView(m_model, commands, this)),
       m_bytes(new ByteView(this)),
       m_detail(new QLabel(this)) {
     layOut();
@@ -60,21 +61,9 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
     showEmpty();
 }
 
-QToolButton* InspectorPanel::addButton(const QString& text, const QString& toolTip) {
-    auto* button = new QToolButton(this);
-    button->setText(text);
-    button->setToolTip(toolTip);
-    button->setAccessibleName(toolTip);
-    button->setProperty("flat", true);
-    button->setFocusPolicy(Qt::TabFocus);
-    return button;
-}
-
 void InspectorPanel::layOut() {
     const int margin = CellDelegate::margin(fontMetrics());
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->setSpacing(0);
+    auto* layout = tightColumn(this);
     auto* bar = new QHBoxLayout;
     bar->setContentsMargins(margin, 2, margin, 2);
     bar->setSpacing(2);
@@ -84,9 +73,11 @@ void InspectorPanel::layOut() {
     }
     layout->addLayout(bar);
     layout->addWidget(new Line(this));
-    m_problems->setWordWrap(true);
-    m_problems->setTextFormat(Qt::RichText);
-    m_problems->setContentsMargins(margin, margin / 2, margin, margin / 2);
+    for (QLabel* label : {m_problems, m_detail}) {
+        label->setWordWrap(true);
+        label->setTextFormat(Qt::RichText);
+        label->setContentsMargins(margin, margin / 2, margin, margin / 2);
+    }
     m_problems->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
     m_problems->setAccessibleName(tr("What is wrong with the packet"));
     layout->addWidget(m_problems);
@@ -98,10 +89,7 @@ void InspectorPanel::layOut() {
     m_splitter->setStretchFactor(1, 2);
     m_splitter->setHandleWidth(1);
     layout->addWidget(new Line(this));
-    m_detail->setWordWrap(true);
-    m_detail->setTextFormat(Qt::RichText);
     m_detail->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-    m_detail->setContentsMargins(margin, margin / 2, margin, margin / 2);
     m_detail->setFixedHeight(fontMetrics().lineSpacing() * kDetailLines + margin);
     m_detail->setMinimumWidth(1);
     layout->addWidget(m_detail);
@@ -111,8 +99,6 @@ void InspectorPanel::connectParts() {
     connect(m_fields, &FieldView::nodeEntered, this, &InspectorPanel::hover);
     connect(m_fields, &FieldView::nodeSelected, this, &InspectorPanel::select);
     connect(m_fields, &FieldView::menuRequested, this, &InspectorPanel::openMenu);
-    connect(m_fields, &TableView::copyRequested, this,
-            [this](const QString& text) { m_commands.copyText(text); });
     connect(m_bytes, &ByteView::hovered, this, [this](std::int64_t offset) {
         hover(offset < 0 ? -1 : m_document->nodeAt(static_cast<std::uint32_t>(offset)));
     });
@@ -225,10 +211,12 @@ void InspectorPanel::inspect(const log::Packet& packet) {
 
 void InspectorPanel::showComparison() {
     std::shared_ptr<const FieldDocument> other;
-    const auto number = m_comparison == Comparison::Previous
-                            ? neighbourInStream(m_view, m_document->number(), -1)
-                        : m_comparison == Comparison::Reference ? m_reference
-                                                                : std::nullopt;
+    std::optional<std::uint64_t> number;
+    if (m_comparison == Comparison::Previous) {
+        number = neighbourInStream(m_view, m_document->number(), -1);
+    } else if (m_comparison == Comparison::Reference) {
+        number = m_reference;
+    }
     if (const auto packet = number ? m_view.packet(*number) : std::nullopt) {
         other = std::make_shared<FieldDocument>(*packet, unitOf(m_view, *packet));
     }
@@ -287,20 +275,18 @@ void InspectorPanel::describeProblems() {
             continue;
         }
         const bool isRemark = problem.level == Health::Unknown;
-        const QString text = (isRemark ? QString() : healthSymbol(problem.level) + QLatin1Char(' ')) +
-                             problem.text.toHtmlEscaped();
+        const QString text = isRemark ? problem.text : healthText(problem.level, problem.text);
         lines += QStringLiteral("<a href=\"%1\" style=\"color:%2; text-decoration:none\">%3</a>")
                      .arg(i)
-                     .arg(healthColour(problem.level).name(), text);
+                     .arg(healthColour(problem.level).name(), text.toHtmlEscaped());
     }
     for (const QString& text : m_sequence) {
-        lines += coloured(theme().warning,
-                          healthSymbol(Health::Warning) + QLatin1Char(' ') + text.toHtmlEscaped());
+        lines += coloured(theme().warning, healthText(Health::Warning, text));
     }
     if (const QString comparison = comparisonText(); !comparison.isEmpty()) {
-        lines += coloured(theme().dim, comparison.toHtmlEscaped());
+        lines += coloured(theme().dim, comparison);
     }
-    m_problems->setText(lines.join(QStringLiteral("<br>")));
+    setLines(*m_problems, lines);
     m_problems->setVisible(!lines.isEmpty());
     m_problemLine->setVisible(!lines.isEmpty());
 }
@@ -315,9 +301,9 @@ void InspectorPanel::describePacket() {
     QStringList lines{QStringLiteral("<b>%1</b>").arg(documentTitle(*m_document).toHtmlEscaped()),
                       facts.value(0).toHtmlEscaped()};
     for (const QString& fact : facts.mid(1)) {
-        lines += coloured(theme().dim, fact.toHtmlEscaped());
+        lines += coloured(theme().dim, fact);
     }
-    m_detail->setText(lines.join(QStringLiteral("<br>")));
+    setLines(*m_detail, lines);
 }
 
 void InspectorPanel::describe(std::int32_t node) {
@@ -328,7 +314,7 @@ void InspectorPanel::describe(std::int32_t node) {
     const std::int32_t item = m_document->itemOf(node);
     QString title = QStringLiteral("<b>%1</b>").arg(fieldTitle(*m_document, node).toHtmlEscaped());
     if (item >= 0 && item != node) {
-        title += coloured(theme().dim, tr(" of %1").arg(fieldTitle(*m_document, item).toHtmlEscaped()));
+        title += coloured(theme().dim, tr(" of %1").arg(fieldTitle(*m_document, item)));
     }
     const QString wire = wireValue(*m_document, node);
     const QString value = convertedValue(*m_document, node);
@@ -341,8 +327,8 @@ void InspectorPanel::describe(std::int32_t node) {
     QStringList about{fieldPlace(*m_document, node), fieldMeaning(*m_document, node),
                       fieldSection(*m_document, node)};
     about.removeAll(QString());
-    lines += coloured(theme().dim, about.join(QStringLiteral(" · ")).toHtmlEscaped());
-    m_detail->setText(lines.join(QStringLiteral("<br>")));
+    lines += coloured(theme().dim, about.join(QStringLiteral(" · ")));
+    setLines(*m_detail, lines);
 }
 
 void InspectorPanel::describeCurrent() {

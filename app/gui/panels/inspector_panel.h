@@ -5,10 +5,8 @@
 #include "app/gui/panel.h"
 #include "app/gui/panels/byte_view.h"
 #include "app/gui/panels/field_view.h"
-#include "app/gui/panels/line.h"
-#include "app/gui/theme/elided_label.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QLabel>
 #include <QSplitter>
 #include <QToolButton>
 
@@ -41,7 +39,6 @@ protected:
 
 private:
     void layOut();
-    QToolButton* addButton(const QString& text, const QString& toolTip);
     void connectParts();
     void fillCompareMenu();
 
@@ -63,8 +60,6 @@ private:
     void step(int direction);
     void hold(bool isHeld);
 
-    model::SessionView& m_view;
-    Commands& m_commands;
     FieldModel m_model;
     std::shared_ptr<const FieldDocument> m_document = std::make_shared<FieldDocument>();
     std::optional<std::uint64_t> m_reference;

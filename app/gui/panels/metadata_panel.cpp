@@ -2,20 +2,135 @@
 #include "app/gui/panels/metadata_panel.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/panels/buttons.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QVBoxLayout>
+#include <QActionGroup>
+#include <QMenu>
 
 namespace posewire::gui {
 
-MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent),
+namespace {
+
+using model::LengthUnit;
+using model::Revision;
+using model::SenderOverride;
+
+/// Checks what is declared and returns its text, a short one where nothing is.
+template <class Value>
+QString check(const QActionGroup& group, const std::optional<Value>& declared) {
+    QString text = DetectionBar::tr("auto");
+    const auto actions = group.actions();
+    for (QAction* action : actions) {
+        const auto value = action->data().isValid()
+                               ? std::optional(static_cast<Value>(action->data().toInt()))
+                               : std::nullopt;
+        action->setChecked(value == declared);
+        if (declared && value == declared) {
+            text = action->text();
+        }
+    }
+    return text;
+}
+
+} // namespace
+
+DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget* parent)
+    : QWidget(parent),
       m_view(view),
+      m_commands(commands),
+      m_contradictions(new QLabel(this)),
+      m_revision(addChoice(tr("Protocol revision assumed for this sender"))),
+      m_unit(addChoice(tr("Unit assumed for positions of types 02 and 05"))) {
+    const int margin = CellDelegate::margin(fontMetrics());
+    m_contradictions->setWordWrap(true);
+    m_contradictions->setContentsMargins(margin, margin / 2, margin, 0);
+    m_contradictions->setTextInteractionFlags(Qt::TextSelectableByMouse);
+    auto* row = new QHBoxLayout;
+    row->setContentsMargins(margin, margin, margin, margin);
+    row->setSpacing(margin);
+    row->addWidget(m_revision.button);
+    row->addWidget(m_unit.button);
+    row->addStretch(1);
+    auto* column = tightColumn(this);
+    column->addWidget(new Line(this));
+    column->addWidget(m_contradictions);
+    column->addLayout(row);
+
+    const auto addRevision = [this](const QString& text, std::optional<Revision> revision) {
+        addValue(m_revision, text, revision, &SenderOverride::revision);
+    };
+    const auto addUnit = [this](const QString& text, std::optional<LengthUnit> unit) {
+        addValue(m_unit, text, unit, &SenderOverride::positionUnit);
+    };
+    addRevision(tr("automatic"), std::nullopt);
+    addRevision(tr("E"), Revision::E);
+    addRevision(tr("J or K"), Revision::JOrK);
+    addRevision(tr("L to N"), Revision::N);
+    addUnit(tr("automatic"), std::nullopt);
+    addUnit(tr("metres"), LengthUnit::Metre);
+    addUnit(tr("centimetres"), LengthUnit::Centimetre);
+    hide();
+}
+
+DetectionBar::Choice DetectionBar::addChoice(const QString& toolTip) {
+    QToolButton* button = framedButton({}, toolTip, this);
+    button->setPopupMode(QToolButton::InstantPopup);
+    button->setMenu(new QMenu(button));
+    return {button, new QActionGroup(this)};
+}
+
+template <class Value>
+void DetectionBar::addValue(const Choice& choice, const QString& text, std::optional<Value> value,
+                            std::optional<Value> SenderOverride::*declared) {
+    QAction* action = choice.button->menu()->addAction(text);
+    action->setCheckable(true);
+    action->setData(value ? QVariant(static_cast<int>(*value)) : QVariant());
+    choice.group->addAction(action);
+    connect(action, &QAction::triggered, this, [this, value, declared] {
+        if (const model::Sender* sender = m_sender ? m_view.find(*m_sender) : nullptr) {
+            SenderOverride overrides = sender->overrides;
+            overrides.*declared = value;
+            m_commands.setOverride(*m_sender, overrides);
+        }
+    });
+}
+
+void DetectionBar::showSender(std::optional<log::SenderId> sender) {
+    m_sender = sender;
+    const model::Sender* found = sender ? m_view.find(*sender) : nullptr;
+    setVisible(found != nullptr);
+    if (found == nullptr) {
+        return;
+    }
+    const QString revision = check(*m_revision.group, found->overrides.revision);
+    const QString unit = check(*m_unit.group, found->overrides.positionUnit);
+    m_revision.button->setText(tr("Revision: %1").arg(revision) + QStringLiteral(" ▾"));
+    m_unit.button->setText(tr("Units: %1").arg(unit) + QStringLiteral(" ▾"));
+    showContradictions(*found);
+}
+
+void DetectionBar::showContradictions(const model::Sender& sender) {
+    QStringList lines;
+    for (const model::Contradiction& one : sender.contradictions()) {
+        lines += healthText(Health::Warning, QString::fromStdString(one.text));
+    }
+    m_contradictions->setVisible(!lines.isEmpty());
+    const QString text = lines.join(QLatin1Char('\n'));
+    if (text != m_contradictions->text()) {
+        m_contradictions->setText(text);
+        setTextColour(*m_contradictions, healthColour(Health::Warning));
+    }
+}
+
+MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(view, commands, parent),
       m_model(view),
-      m_table(new TableView(tr("Metadata"), this)),
+      m_table(new TableView(tr("Metadata"), commands, this)),
       m_detection(new DetectionBar(view, commands, this)) {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->setSpacing(0);
+    auto* layout = tightColumn(this);
     layout->addWidget(m_table, 1);
     layout->addWidget(m_detection);
     m_table->setModel(&m_model);
@@ -23,8 +138,6 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
     m_table->setColumnSamples({QStringLiteral("name · 22 changes"), QString(), QStringLiteral("99 min")});
     m_table->setEmptyText(
         tr("No character selected.\nMetadata (type 12) appears here as soon as a character arrives."));
-    connect(m_table, &TableView::copyRequested, this,
-            [&commands](const QString& text) { commands.copyText(text); });
 }
 
 void MetadataPanel::refresh() {

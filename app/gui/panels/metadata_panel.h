@@ -3,10 +3,46 @@
 
 #include "app/gui/models/metadata_model.h"
 #include "app/gui/panel.h"
-#include "app/gui/panels/detection_bar.h"
 #include "app/gui/panels/table_view.h"
 
+#include <QToolButton>
+
+class QActionGroup;
+class QLabel;
+
 namespace posewire::gui {
+
+/// Below the metadata: what the operator declares about the sender instead of what was detected, and what
+/// contradicts that or itself.
+class DetectionBar : public QWidget {
+    Q_OBJECT
+
+public:
+    DetectionBar(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    /// `sender` is whom the choices are about; without one the bar is hidden.
+    void showSender(std::optional<log::SenderId> sender);
+
+private:
+    /// A button that opens a menu of values, one of which is declared.
+    struct Choice {
+        QToolButton* button;
+        QActionGroup* group;
+    };
+
+    Choice addChoice(const QString& toolTip);
+    template <class Value>
+    void addValue(const Choice& choice, const QString& text, std::optional<Value> value,
+                  std::optional<Value> model::SenderOverride::*declared);
+    void showContradictions(const model::Sender& sender);
+
+    model::SessionView& m_view;
+    Commands& m_commands;
+    std::optional<log::SenderId> m_sender;
+    QLabel* m_contradictions;
+    Choice m_revision;
+    Choice m_unit;
+};
 
 /// Dock `metadata`: every tag of the shown character, and what was concluded about its sender.
 class MetadataPanel : public Panel {
@@ -19,7 +55,6 @@ public:
     [[nodiscard]] QString summary() const override;
 
 private:
-    model::SessionView& m_view;
     MetadataModel m_model;
     TableView* m_table;
     DetectionBar* m_detection;

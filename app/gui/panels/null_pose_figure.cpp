@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/null_pose_figure.h"
 
-#include "app/gui/models/null_pose_table.h"
-#include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 
 #include <QHelpEvent>
@@ -37,6 +35,15 @@ struct Extent {
     [[nodiscard]] double middle(int axis) const { return (most[axis] + least[axis]) / 2; }
 };
 
+std::optional<Eigen::Vector3d> at(const std::vector<std::optional<Eigen::Vector3d>>& places, int index) {
+    const bool isThere = index >= 0 && index < static_cast<int>(places.size());
+    return isThere ? places[static_cast<std::size_t>(index)] : std::nullopt;
+}
+
+QRectF squareAround(const QPointF& middle, double radius) {
+    return QRectF(middle - QPointF(radius, radius), QSizeF(2 * radius, 2 * radius));
+}
+
 QPen pen(const QColor& colour, double width, Qt::PenStyle style = Qt::SolidLine) {
     return {colour, width, style, Qt::RoundCap, Qt::RoundJoin};
 }
@@ -54,7 +61,7 @@ public:
     void spare(const QRectF& rect) { m_spared.push_back(rect); }
 
     /// Beside the mark, away from the body's middle (pixels) where there is room.
-    bool add(const QPointF& mark, const QString& text, const QColor& colour, double middle) {
+    void add(const QPointF& mark, const QString& text, const QColor& colour, double middle) {
         const QFontMetricsF metrics(m_painter.font());
         const QSizeF size(metrics.horizontalAdvance(text), metrics.height());
         const double away = kSegmentRadius + 3;
@@ -79,11 +86,10 @@ public:
                     m_taken.push_back(rect.adjusted(-3, 0, 3, 0));
                     m_painter.setPen(colour);
                     m_painter.drawText(rect, Qt::AlignCenter | Qt::TextDontClip, text);
-                    return true;
+                    return;
                 }
             }
         }
-        return false;
     }
 
 private:
@@ -107,47 +113,37 @@ NullPoseFigure::NullPoseFigure(const NullPoseReading& reading, QWidget* parent)
 void NullPoseFigure::mark(int segment, int point) {
     m_segment = segment;
     m_point = point;
+    readPlaces();
     setAccessibleDescription(nameOf({segment, point}));
     update();
 }
 
-QSize NullPoseFigure::sizeHint() const {
-    return {fontMetrics().height() * 20, fontMetrics().height() * 15};
-}
-
-QSize NullPoseFigure::minimumSizeHint() const {
-    return {fontMetrics().height() * 8, fontMetrics().height() * 6};
-}
-
-std::optional<Eigen::Vector3d> NullPoseFigure::segmentAt(int place) const {
-    const model::NullPose* pose = m_reading.pose();
-    if (pose == nullptr || place < 0 || place >= static_cast<int>(pose->segments.size())) {
-        return std::nullopt;
+void NullPoseFigure::readPlaces() {
+    for (Places* places : {&m_segments, &m_before, &m_points}) {
+        places->clear();
     }
-    const Eigen::Vector3d& position = pose->segments[static_cast<std::size_t>(place)].position;
-    return position.allFinite() ? std::optional(position) : std::nullopt;
-}
-
-std::optional<Eigen::Vector3d> NullPoseFigure::segmentBefore(int place) const {
-    const auto now = segmentAt(place);
-    const auto& distances = m_reading.fromBefore();
-    const auto index = static_cast<std::size_t>(place);
-    return now && index < distances.size() && distances[index]
-               ? std::optional<Eigen::Vector3d>(*now - *distances[index])
-               : std::nullopt;
-}
-
-std::optional<Eigen::Vector3d> NullPoseFigure::pointAt(int index) const {
     const model::NullPose* pose = m_reading.pose();
-    if (pose == nullptr || index < 0 || index >= static_cast<int>(pose->points.size())) {
-        return std::nullopt;
+    if (pose == nullptr) {
+        return;
     }
-    const model::NullPose::Point& point = pose->points[static_cast<std::size_t>(index)];
-    const bool isBody = point.segment >= 1 && point.segment <= model::kBodySegmentCount;
-    const auto origin = segmentAt(isBody ? m_reading.places()[static_cast<std::size_t>(point.segment - 1)]
-                                         : point.segment - 1);
-    return origin && point.position.allFinite() ? std::optional<Eigen::Vector3d>(*origin + point.position)
-                                                : std::nullopt;
+    const auto known = [](bool isKnown, const Eigen::Vector3d& place) {
+        return isKnown && place.allFinite() ? std::optional(place) : std::nullopt;
+    };
+    const model::Distances& moved = m_reading.fromBefore();
+    for (std::size_t i = 0; i < pose->segments.size(); ++i) {
+        const Eigen::Vector3d& place = pose->segments[i].position;
+        const bool hasBefore = i < moved.size() && moved[i];
+        m_segments.push_back(known(true, place));
+        m_before.push_back(known(hasBefore, hasBefore ? Eigen::Vector3d(place - *moved[i]) : place));
+    }
+    for (const model::NullPose::Point& point : pose->points) {
+        const int segment = point.segment - 1;
+        const bool isBody = segment >= 0 && segment < model::kBodySegmentCount;
+        const auto origin =
+            at(m_segments, isBody ? m_reading.places()[static_cast<std::size_t>(segment)] : segment);
+        m_points.push_back(
+            known(origin.has_value(), origin.value_or(Eigen::Vector3d::Zero()) + point.position));
+    }
 }
 
 QPointF NullPoseFigure::Projection::of(const Eigen::Vector3d& place, View view) const {
@@ -159,14 +155,11 @@ QPointF NullPoseFigure::Projection::of(const Eigen::Vector3d& place, View view) 
 
 NullPoseFigure::Projection NullPoseFigure::projection() const {
     Extent extent;
-    const model::NullPose* pose = m_reading.pose();
-    for (int i = 0; pose != nullptr && i < static_cast<int>(pose->segments.size()); ++i) {
-        extent.add(segmentAt(i).value_or(pose->segments[static_cast<std::size_t>(i)].position));
-        extent.add(segmentBefore(i).value_or(extent.isEmpty() ? Eigen::Vector3d::Zero() : extent.least));
-    }
-    for (int i = 0; pose != nullptr && i < static_cast<int>(pose->points.size()); ++i) {
-        if (const auto place = pointAt(i)) {
-            extent.add(*place);
+    for (const Places* places : {&m_segments, &m_before, &m_points}) {
+        for (const auto& place : *places) {
+            if (place) {
+                extent.add(*place);
+            }
         }
     }
     if (extent.isEmpty()) {
@@ -198,10 +191,7 @@ void NullPoseFigure::paintEvent(QPaintEvent* /*event*/) {
     const Projection shown = projection();
     paintFrame(painter, shown);
     for (const View view : {View::Front, View::Side}) {
-        if (m_reading.hasChanged()) {
-            paintBones(painter, shown, view, true);
-        }
-        paintBones(painter, shown, view, false);
+        paintBones(painter, shown, view);
         paintMarks(painter, shown, view);
     }
     QFont small = tabularFont();
@@ -218,22 +208,32 @@ void NullPoseFigure::paintEvent(QPaintEvent* /*event*/) {
     }
 }
 
+/// Calls `draw` with the ends of each bone that is known and the place of the segment that it begins at, to
+/// which it belongs.
+template <class Draw>
+void NullPoseFigure::forEachBone(const Places& segments, Draw draw) const {
+    const model::BodyPlaces& places = m_reading.places();
+    for (const model::Segment& segment : model::bodySegments()) {
+        const int begin = segment.parent < 0 ? -1 : places[static_cast<std::size_t>(segment.parent)];
+        const auto from = at(segments, begin);
+        const auto to = at(segments, places[static_cast<std::size_t>(segment.id - 1)]);
+        if (from && to) {
+            draw(*from, *to, begin);
+        }
+    }
+}
+
 /// Labels keep off bones: off their middles, since only bones along an axis fill their rectangle.
 void NullPoseFigure::reserveBones(const Projection& projection, Labels& labels) const {
     constexpr int kSteps = 12;
-    const model::BodyPlaces& places = m_reading.places();
-    for (const model::Segment& segment : model::bodySegments()) {
-        const auto to = segmentAt(places[static_cast<std::size_t>(segment.id - 1)]);
-        const auto from =
-            segment.parent < 0 ? std::nullopt : segmentAt(places[static_cast<std::size_t>(segment.parent)]);
+    forEachBone(m_segments, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int) {
         for (const View view : {View::Front, View::Side}) {
-            for (int step = 0; to && from && step < kSteps; ++step) {
+            for (int step = 0; step < kSteps; ++step) {
                 const double share = (step + 0.5) / kSteps;
-                const QPointF middle = projection.of(*from + share * (*to - *from), view);
-                labels.reserve(QRectF(middle - QPointF(2.5, 2.5), QSizeF(5, 5)));
+                labels.reserve(squareAround(projection.of(from + share * (to - from), view), 2.5));
             }
         }
-    }
+    });
 }
 
 /// The floor, and from where one looks.
@@ -256,74 +256,56 @@ void NullPoseFigure::paintFrame(QPainter& painter, const Projection& projection)
     caption(projection.side.x(), tr("side"));
 }
 
-void NullPoseFigure::paintBones(QPainter& painter, const Projection& projection, View view,
-                                bool isBefore) const {
-    const model::BodyPlaces& places = m_reading.places();
-    for (const model::Segment& segment : model::bodySegments()) {
-        if (segment.parent < 0) {
-            continue;
-        }
-        const int place = places[static_cast<std::size_t>(segment.id - 1)];
-        const int parentPlace = places[static_cast<std::size_t>(segment.parent)];
-        const auto to = isBefore ? segmentBefore(place) : segmentAt(place);
-        const auto from = isBefore ? segmentBefore(parentPlace) : segmentAt(parentPlace);
-        if (!to || !from) {
-            continue;
-        }
-        // A bone belongs to the segment that it begins at.
-        const bool isSelected = !isBefore && parentPlace == m_segment;
-        painter.setPen(isBefore     ? pen(theme().warning, 1, Qt::DashLine)
-                       : isSelected ? pen(theme().accent, 3)
-                                    : pen(theme().dim, 2));
-        painter.drawLine(projection.of(*from, view), projection.of(*to, view));
-    }
+void NullPoseFigure::paintBones(QPainter& painter, const Projection& projection, View view) const {
+    painter.setPen(pen(theme().warning, 1, Qt::DashLine));
+    forEachBone(m_before, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int) {
+        painter.drawLine(projection.of(from, view), projection.of(to, view));
+    });
+    forEachBone(m_segments, [&](const Eigen::Vector3d& from, const Eigen::Vector3d& to, int begin) {
+        painter.setPen(begin == m_segment ? pen(theme().accent, 3) : pen(theme().dim, 2));
+        painter.drawLine(projection.of(from, view), projection.of(to, view));
+    });
+}
+
+bool NullPoseFigure::isOfSelected(std::size_t point) const {
+    return m_segment >= 0 && m_reading.pose()->points[point].segment == m_reading.segmentAt(m_segment) + 1;
 }
 
 void NullPoseFigure::paintMarks(QPainter& painter, const Projection& projection, View view) const {
-    const model::NullPose& pose = *m_reading.pose();
-    const int selectedId = m_segment < 0 ? -1 : m_reading.segmentAt(m_segment) + 1;
-    QColor faint = theme().dim;
-    faint.setAlphaF(0.55F);
+    const QColor faint = withAlpha(theme().dim, 0.55);
     painter.setPen(Qt::NoPen);
-    for (int i = 0; i < static_cast<int>(pose.points.size()); ++i) {
-        if (const auto place = pointAt(i)) {
-            const bool isOfSelected = pose.points[static_cast<std::size_t>(i)].segment == selectedId;
-            painter.setBrush(isOfSelected || i == m_point ? theme().accent : faint);
-            const double radius = i == m_point   ? kSegmentRadius + 1.5
-                                  : isOfSelected ? kPointRadius + 0.6
-                                                 : kPointRadius;
-            painter.drawEllipse(projection.of(*place, view), radius, radius);
+    for (std::size_t i = 0; i < m_points.size(); ++i) {
+        if (m_points[i]) {
+            const bool isSelected = static_cast<int>(i) == m_point;
+            painter.setBrush(isOfSelected(i) || isSelected ? theme().accent : faint);
+            double radius = isOfSelected(i) ? kPointRadius + 0.6 : kPointRadius;
+            radius = isSelected ? kSegmentRadius + 1.5 : radius;
+            painter.drawEllipse(projection.of(*m_points[i], view), radius, radius);
         }
     }
-    for (int i = 0; i < static_cast<int>(pose.segments.size()); ++i) {
-        if (const auto place = segmentAt(i)) {
-            const bool isSelected = i == m_segment && m_point < 0;
+    for (std::size_t i = 0; i < m_segments.size(); ++i) {
+        if (m_segments[i]) {
+            const bool isOwn = static_cast<int>(i) == m_segment;
+            const bool isSelected = isOwn && m_point < 0;
             painter.setPen(pen(isSelected ? theme().accent : theme().panel, 1));
-            painter.setBrush(i == m_segment ? theme().accent : theme().text);
+            painter.setBrush(isOwn ? theme().accent : theme().text);
             const double radius = isSelected ? kSegmentRadius + 2 : kSegmentRadius;
-            painter.drawEllipse(projection.of(*place, view), radius, radius);
-            painter.setPen(Qt::NoPen);
+            painter.drawEllipse(projection.of(*m_segments[i], view), radius, radius);
         }
     }
+    painter.setPen(Qt::NoPen);
 }
 
 void NullPoseFigure::paintLabels(QPainter& painter, const Projection& projection, View view,
                                  Labels& labels) const {
-    const model::NullPose& pose = *m_reading.pose();
-    const auto point = pointAt(m_point);
-    const auto segment = segmentAt(m_segment);
-    for (int i = 0; i < static_cast<int>(pose.segments.size()); ++i) {
-        if (const auto place = segmentAt(i)) {
-            const double side = 2 * kSegmentRadius;
-            labels.reserve(
-                QRectF(projection.of(*place, view) - QPointF(side / 2, side / 2), QSizeF(side, side)));
+    for (const auto& place : m_segments) {
+        if (place) {
+            labels.reserve(squareAround(projection.of(*place, view), kSegmentRadius));
         }
     }
-    for (int i = 0; i < static_cast<int>(pose.points.size()); ++i) {
-        if (const auto place = pointAt(i)) {
-            const double side = 2 * kPointRadius;
-            labels.spare(
-                QRectF(projection.of(*place, view) - QPointF(side / 2, side / 2), QSizeF(side, side)));
+    for (const auto& place : m_points) {
+        if (place) {
+            labels.spare(squareAround(projection.of(*place, view), kPointRadius));
         }
     }
     const double middle = (view == View::Front ? projection.front : projection.side).x();
@@ -331,39 +313,31 @@ void NullPoseFigure::paintLabels(QPainter& painter, const Projection& projection
     QFont bold = plain;
     bold.setBold(true);
     painter.setFont(bold);
-    if (point) {
+    if (const auto point = at(m_points, m_point)) {
         labels.add(projection.of(*point, view), nameOf({-1, m_point}), theme().accent, middle);
-    } else if (segment) {
+    } else if (const auto segment = at(m_segments, m_segment)) {
         labels.add(projection.of(*segment, view), nameOf({m_segment, -1}), theme().accent, middle);
     }
     painter.setFont(plain);
     if (view == View::Side) {
         return;
     }
-    const int selectedId = m_segment < 0 ? -1 : m_reading.segmentAt(m_segment) + 1;
-    for (int i = 0; i < static_cast<int>(pose.points.size()); ++i) {
-        const auto place = pointAt(i);
-        if (place && i != m_point && pose.points[static_cast<std::size_t>(i)].segment == selectedId) {
-            labels.add(projection.of(*place, view),
-                       QString::fromStdString(pose.points[static_cast<std::size_t>(i)].name), theme().text,
-                       middle);
+    for (std::size_t i = 0; i < m_points.size(); ++i) {
+        if (m_points[i] && static_cast<int>(i) != m_point && isOfSelected(i)) {
+            labels.add(projection.of(*m_points[i], view),
+                       QString::fromStdString(m_reading.pose()->points[i].name), theme().text, middle);
         }
     }
-    for (int i = 0; i < static_cast<int>(pose.segments.size()); ++i) {
-        const auto place = i == m_segment ? std::nullopt : segmentAt(i);
-        if (place) {
+    for (int i = 0; i < static_cast<int>(m_segments.size()); ++i) {
+        if (const auto place = i == m_segment ? std::nullopt : at(m_segments, i)) {
             labels.add(projection.of(*place, view), QString::number(i + 1), theme().dim, middle);
         }
     }
 }
 
 NullPoseFigure::Hit NullPoseFigure::hitAt(const QPointF& pointer) const {
-    const model::NullPose* pose = m_reading.pose();
-    Hit hit;
-    if (pose == nullptr) {
-        return hit;
-    }
     const Projection shown = projection();
+    Hit hit;
     double nearest = fontMetrics().height() * 0.7;
     const auto consider = [&](const std::optional<Eigen::Vector3d>& place, Hit candidate) {
         for (const View view : {View::Front, View::Side}) {
@@ -376,37 +350,32 @@ NullPoseFigure::Hit NullPoseFigure::hitAt(const QPointF& pointer) const {
             }
         }
     };
-    for (int i = 0; i < static_cast<int>(pose->segments.size()); ++i) {
-        consider(segmentAt(i), {i, -1});
+    for (int i = 0; i < static_cast<int>(m_segments.size()); ++i) {
+        consider(at(m_segments, i), {i, -1});
     }
-    for (int i = 0; i < static_cast<int>(pose->points.size()); ++i) {
-        consider(pointAt(i), {-1, i});
+    for (int i = 0; i < static_cast<int>(m_points.size()); ++i) {
+        consider(at(m_points, i), {-1, i});
     }
     return hit;
 }
 
 QString NullPoseFigure::nameOf(const Hit& hit) const {
-    const model::NullPose* pose = m_reading.pose();
-    if (pose != nullptr && hit.point >= 0 && hit.point < static_cast<int>(pose->points.size())) {
-        const model::NullPose::Point& point = pose->points[static_cast<std::size_t>(hit.point)];
+    if (hit.point >= 0 && hit.point < static_cast<int>(m_points.size())) {
+        const auto& point = m_reading.pose()->points[static_cast<std::size_t>(hit.point)];
         return QStringLiteral("%1.%2 %3")
             .arg(point.segment)
             .arg(point.id)
             .arg(QString::fromStdString(point.name));
     }
-    if (pose != nullptr && hit.segment >= 0 && hit.segment < static_cast<int>(pose->segments.size())) {
-        const std::string& name = pose->segments[static_cast<std::size_t>(hit.segment)].name;
+    if (hit.segment >= 0 && hit.segment < static_cast<int>(m_segments.size())) {
+        const std::string& name = m_reading.pose()->segments[static_cast<std::size_t>(hit.segment)].name;
         return QStringLiteral("%1 %2").arg(hit.segment + 1).arg(QString::fromStdString(name));
     }
     return {};
 }
 
-QPointF NullPoseFigure::placeOfSegment(int segment) const {
-    return projection().of(segmentAt(segment).value_or(Eigen::Vector3d::Zero()), View::Front);
-}
-
-QPointF NullPoseFigure::placeOfPoint(int point) const {
-    return projection().of(pointAt(point).value_or(Eigen::Vector3d::Zero()), View::Front);
+QPointF NullPoseFigure::inFront(const Places& places, int index) const {
+    return projection().of(at(places, index).value_or(Eigen::Vector3d::Zero()), View::Front);
 }
 
 void NullPoseFigure::mousePressEvent(QMouseEvent* event) {
@@ -419,7 +388,7 @@ void NullPoseFigure::mousePressEvent(QMouseEvent* event) {
 }
 
 void NullPoseFigure::keyPressEvent(QKeyEvent* event) {
-    const int count = m_reading.pose() == nullptr ? 0 : static_cast<int>(m_reading.pose()->segments.size());
+    const int count = static_cast<int>(m_segments.size());
     const bool isNext = event->key() == Qt::Key_Right || event->key() == Qt::Key_Down;
     const bool isPrevious = event->key() == Qt::Key_Left || event->key() == Qt::Key_Up;
     if (count == 0 || (!isNext && !isPrevious)) {

@@ -22,12 +22,16 @@ public:
     /// points, −1 for none.
     void mark(int segment, int point);
 
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override;
+    [[nodiscard]] QSize sizeHint() const override {
+        return {fontMetrics().height() * 20, fontMetrics().height() * 15};
+    }
+    [[nodiscard]] QSize minimumSizeHint() const override {
+        return {fontMetrics().height() * 8, fontMetrics().height() * 6};
+    }
 
     /// Where a segment is on the widget, in the view from the front; for tests and scripts.
-    [[nodiscard]] QPointF placeOfSegment(int segment) const;
-    [[nodiscard]] QPointF placeOfPoint(int point) const;
+    [[nodiscard]] QPointF placeOfSegment(int segment) const { return inFront(m_segments, segment); }
+    [[nodiscard]] QPointF placeOfPoint(int point) const { return inFront(m_points, point); }
 
 signals:
     void segmentPicked(int segment);
@@ -53,20 +57,26 @@ private:
         int point = -1;
     };
     class Labels;
+    using Places = std::vector<std::optional<Eigen::Vector3d>>; ///< metres; nothing where unknown
 
+    void readPlaces();
     [[nodiscard]] Projection projection() const;
-    [[nodiscard]] std::optional<Eigen::Vector3d> segmentAt(int place) const;
-    [[nodiscard]] std::optional<Eigen::Vector3d> pointAt(int index) const;
-    [[nodiscard]] std::optional<Eigen::Vector3d> segmentBefore(int place) const;
+    [[nodiscard]] QPointF inFront(const Places& places, int index) const;
     [[nodiscard]] Hit hitAt(const QPointF& pointer) const;
     [[nodiscard]] QString nameOf(const Hit& hit) const;
-    void paintBones(QPainter& painter, const Projection& projection, View view, bool isBefore) const;
+    [[nodiscard]] bool isOfSelected(std::size_t point) const;
+    template <class Draw>
+    void forEachBone(const Places& segments, Draw draw) const;
+    void paintBones(QPainter& painter, const Projection& projection, View view) const;
     void paintMarks(QPainter& painter, const Projection& projection, View view) const;
     void paintLabels(QPainter& painter, const Projection& projection, View view, Labels& labels) const;
     void reserveBones(const Projection& projection, Labels& labels) const;
     void paintFrame(QPainter& painter, const Projection& projection) const;
 
     const NullPoseReading& m_reading;
+    Places m_segments; ///< in the order of the message, as are the others
+    Places m_before;   ///< of segments, in the message before
+    Places m_points;
     int m_segment = -1;
     int m_point = -1;
 };

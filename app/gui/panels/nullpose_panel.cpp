@@ -5,16 +5,16 @@
 #include "app/gui/models/null_pose_reading.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
+#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/panels/line.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QMenu>
 #include <QMessageBox>
-#include <QVBoxLayout>
 
 namespace posewire::gui {
 
@@ -31,10 +31,60 @@ void setCurrentRow(TableView& table, int row) {
 
 } // namespace
 
+NullPoseNotices::NullPoseNotices(QWidget* parent) : QTextBrowser(parent) {
+    setAccessibleName(tr("Contradictions in scale messages"));
+    setFrameShape(QFrame::NoFrame);
+    setStyleSheet(QStringLiteral("QTextBrowser { border: none; border-radius: 0; padding: 0; }"));
+    setOpenLinks(false);
+    setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    document()->setDocumentMargin(fontMetrics().height() * 0.35);
+    connect(this, &QTextBrowser::anchorClicked, this,
+            [this](const QUrl& url) { emit segmentPicked(url.path().toInt()); });
+}
+
+void NullPoseNotices::setFindings(const std::vector<model::NullPoseFinding>& findings) {
+    m_findings = findings;
+    setVisible(!m_findings.empty());
+    write();
+}
+
+void NullPoseNotices::write() {
+    const Theme& colours = theme();
+    QString html;
+    for (const model::NullPoseFinding& finding : m_findings) {
+        const Health health = healthOf(finding.severity);
+        const QColor colour = health == Health::Unknown ? colours.dim : healthColour(health);
+        const QString symbol = health == Health::Unknown ? QStringLiteral("○") : healthSymbol(health);
+        QString what = QString::fromStdString(finding.what).toHtmlEscaped();
+        if (finding.segment >= 0) {
+            what = QStringLiteral("<a href=\"%1\" style=\"color:%2;text-decoration:none\">%3</a>")
+                       .arg(finding.segment)
+                       .arg(colours.text.name(), what);
+        }
+        html += QStringLiteral("<p style=\"margin:0 0 %1px 0\"><span style=\"color:%2\">%3</span> "
+                               "<span style=\"color:%4\">%5</span> <span style=\"color:%6\">%7</span></p>")
+                    .arg(fontMetrics().height() / 3)
+                    .arg(colour.name(), symbol, colours.text.name(), what, colours.dim.name(),
+                         QString::fromStdString(finding.meaning).toHtmlEscaped());
+    }
+    setHtml(html);
+}
+
+void NullPoseNotices::fitHeight(int most) {
+    document()->setTextWidth(viewport()->width());
+    const int needed = static_cast<int>(document()->size().height()) + 2;
+    setFixedHeight(std::clamp(needed, fontMetrics().height(), std::max(most, fontMetrics().height() * 3)));
+}
+
+void NullPoseNotices::changeEvent(QEvent* event) {
+    QTextBrowser::changeEvent(event);
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+        write();
+    }
+}
+
 NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent),
-      m_view(view),
-      m_commands(commands),
+    : Panel(view, commands, parent),
       m_reading(view),
       m_segments(m_reading),
       m_points(m_reading),
@@ -45,14 +95,14 @@ NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidg
       m_splitter(new QSplitter(Qt::Vertical, this)),
       m_overview(new QSplitter(Qt::Horizontal, this)),
       m_figure(new NullPoseFigure(m_reading, this)),
-      m_factTable(new TableView(tr("Scale messages"), this)),
+      m_factTable(new TableView(tr("Scale messages"), commands, this)),
       m_tabs(new QTabWidget(this)),
-      m_segmentTable(new TableView(tr("Segments of the null pose"), this)),
-      m_pointTable(new TableView(tr("Points of the null pose"), this)),
-      m_lengthTable(new TableView(tr("Lengths, left and right"), this)),
-      m_scaleTable(new TableView(tr("Scale information, type 10"), this)),
-      m_ghost(new QToolButton(this)),
-      m_export(new QToolButton(this)),
+      m_segmentTable(new TableView(tr("Segments of the null pose"), commands, this)),
+      m_pointTable(new TableView(tr("Points of the null pose"), commands, this)),
+      m_lengthTable(new TableView(tr("Lengths, left and right"), commands, this)),
+      m_scaleTable(new TableView(tr("Scale information, type 10"), commands, this)),
+      m_ghost(framedButton(tr("Ghost"), tr("Show the null pose over the live figure (Shift+G)"), this)),
+      m_export(framedButton(tr("Export ▾"), tr("Save or copy what was sent, as CSV or JSON"), this)),
       m_comparison(new QLabel(this)),
       m_noticeLine(new Line(this)) {
     makeTables();
@@ -85,9 +135,7 @@ void NullPosePanel::makeTables() {
     m_scaleTable->setModel(&m_scale);
     m_scaleTable->setColumnSamples(
         {QStringLiteral("99"), QStringLiteral("Right Upper Arm"), number, number, number, QString()});
-    m_factTable->setModel(&m_facts);
-    m_factTable->setHeaderHidden(true);
-    m_factTable->setColumnSamples({QStringLiteral("Props (11)"), QString()});
+    m_factTable->showFacts(m_facts, QStringLiteral("Props (11)"));
     const QString widest = QStringLiteral("Props (11)00:00:00 · 99.9 s");
     m_factTable->setMinimumWidth(QFontMetrics(tabularFont()).horizontalAdvance(widest) +
                                  5 * CellDelegate::margin(fontMetrics()));
@@ -108,19 +156,11 @@ void NullPosePanel::makeTables() {
                     selectPlace(static_cast<int>(id) - 1);
                 }
             });
-    for (TableView* table : {m_segmentTable, m_pointTable, m_lengthTable, m_scaleTable, m_factTable}) {
-        connect(table, &TableView::copyRequested, this,
-                [this](const QString& text) { m_commands.copyText(text); });
-    }
 }
 
 void NullPosePanel::makeButtons() {
-    m_ghost->setText(tr("Ghost"));
     m_ghost->setCheckable(true);
-    m_ghost->setToolTip(tr("Show the null pose over the live figure (Shift+G)"));
     connect(m_ghost, &QToolButton::clicked, this, [this](bool isOn) { m_commands.setGhostVisible(isOn); });
-    m_export->setText(tr("Export ▾"));
-    m_export->setToolTip(tr("Save or copy what was sent, as CSV or JSON"));
     m_export->setPopupMode(QToolButton::InstantPopup);
     auto* menu = new QMenu(m_export);
     for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
@@ -136,16 +176,10 @@ void NullPosePanel::makeButtons() {
     menu->addAction(tr("Copy the contradictions"), this,
                     [this] { m_commands.copyText(findingsText(m_reading.findings())); });
     m_export->setMenu(menu);
-    for (QToolButton* button : {m_ghost, m_export}) {
-        button->setProperty("framed", true);
-        button->setFocusPolicy(Qt::TabFocus);
-    }
 }
 
 void NullPosePanel::layOut() {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->setSpacing(0);
+    auto* layout = tightColumn(this);
     auto* buttons = new QWidget(this);
     auto* row = new QHBoxLayout(buttons);
     const int margin = CellDelegate::margin(fontMetrics());
@@ -192,9 +226,7 @@ void NullPosePanel::refresh() {
     }
     m_segmentTable->setEmptyText(emptyText());
     m_facts.refresh();
-    QPalette dim = m_comparison->palette();
-    dim.setColor(QPalette::WindowText, theme().dim);
-    m_comparison->setPalette(dim);
+    setTextColour(*m_comparison, theme().dim);
     m_ghost->setChecked(m_view.isGhostShown());
     followSelection();
     arrange();

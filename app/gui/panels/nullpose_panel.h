@@ -5,16 +5,42 @@
 #include "app/gui/models/column.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/null_pose_figure.h"
-#include "app/gui/panels/null_pose_notices.h"
 #include "app/gui/panels/table_view.h"
 #include "core/export/formats.h"
 
 #include <QLabel>
 #include <QSplitter>
 #include <QTabWidget>
+#include <QTextBrowser>
 #include <QToolButton>
 
 namespace posewire::gui {
+
+/// What contradicts itself in scale messages, in words: gravest first, each with what it means. As high as
+/// its text, up to a share of the dock; selectable, and a finding about a segment is a link to it.
+class NullPoseNotices final : public QTextBrowser {
+    Q_OBJECT
+
+public:
+    explicit NullPoseNotices(QWidget* parent = nullptr);
+
+    void setFindings(const std::vector<model::NullPoseFinding>& findings);
+
+    /// Pixels that the text needs, but not more than `most`.
+    void fitHeight(int most);
+
+signals:
+    /// A body segment.
+    void segmentPicked(int segment);
+
+protected:
+    void changeEvent(QEvent* event) override;
+
+private:
+    void write();
+
+    std::vector<model::NullPoseFinding> m_findings;
+};
 
 /// Dock `nullpose`: the body that scale messages (types 13, 10, 11) describe, what contradicts itself in
 /// them, and what changed.
@@ -27,8 +53,8 @@ public:
     void refresh() override;
     [[nodiscard]] QString summary() const override;
 
-    /// Writes what is shown to a file, in the format that the name's suffix says. The answer is what went
-    /// wrong, empty for nothing.
+    /// Writes what is shown to a file, in the format of the name's suffix. Returns what went wrong, empty for
+    /// nothing.
     [[nodiscard]] QString save(const QString& path) const;
 
 protected:
@@ -49,8 +75,6 @@ private:
     void showContent();
     [[nodiscard]] QString emptyText() const;
 
-    model::SessionView& m_view;
-    Commands& m_commands;
     NullPoseReading m_reading;
     NullPoseSegmentModel m_segments;
     NullPosePointModel m_points;

@@ -16,18 +16,6 @@ namespace posewire::gui {
 
 namespace {
 
-/// Paints the character's dot and returns its width with the space after it.
-int paintDot(QPainter& painter, const QRect& rect, const QColor& colour) {
-    const int side = std::max(7, painter.fontMetrics().ascent() * 2 / 3);
-    painter.save();
-    painter.setRenderHint(QPainter::Antialiasing);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(colour);
-    painter.drawEllipse(QRectF(rect.left(), rect.center().y() - side / 2.0 + 0.5, side, side));
-    painter.restore();
-    return side + side * 2 / 3;
-}
-
 /// Measuring takes longer than drawing: only what may be too long is measured.
 QString fitting(const QFontMetrics& metrics, const QString& text, int width) {
     if (text.size() * metrics.maxWidth() <= width) {
@@ -90,14 +78,15 @@ void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect re
     const QFontMetrics metrics = painter.fontMetrics();
     const QVariant dot = index.data(kDotRole);
     if (dot.isValid()) {
-        rect.setLeft(rect.left() + paintDot(painter, rect, dot.value<QColor>()));
+        const int side = std::max(7, metrics.ascent() * 2 / 3);
+        rect.setLeft(rect.left() + CellDelegate::paintMark(painter, rect, side, dot.value<QColor>(), true));
     }
     const QVariant colour = index.data(Qt::ForegroundRole);
     const QColor pen = colour.isValid() ? colour.value<QColor>() : theme().text;
     painter.setPen(isSelected ? onSelection(pen) : pen);
     const QString shown = fitting(metrics, text, rect.width());
-    const bool isNumber = (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
-    painter.drawText(rect, (isNumber ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter, shown);
+    painter.drawText(
+        rect, (CellDelegate::isNumber(index) ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter, shown);
     const QString suffix = index.data(kSuffixRole).toString();
     if (!suffix.isEmpty()) {
         rect.setLeft(rect.left() + metrics.horizontalAdvance(shown + QLatin1Char(' ')));

@@ -10,7 +10,6 @@
 
 #include <QContextMenuEvent>
 #include <QKeyEvent>
-#include <QPainter>
 #include <QPushButton>
 #include <QScopedValueRollback>
 #include <QScrollBar>
@@ -27,7 +26,9 @@ QFont packetFont() {
 }
 
 PacketView::PacketView(const QString& name, QWidget* parent)
-    : QAbstractItemView(parent), m_header(new FittingHeader(this)), m_newest(new QPushButton(this)) {
+    : QAbstractItemView(parent),
+      m_header(new FittingHeader(this, packetFont, 2, FittingHeader::Kept::Open)),
+      m_newest(new QPushButton(this)) {
     setAccessibleName(name);
     setFrameShape(QFrame::NoFrame);
     setSelectionMode(ExtendedSelection);
@@ -60,7 +61,7 @@ void PacketView::setModel(QAbstractItemModel* model) {
     connect(model, &QAbstractItemModel::rowsRemoved, this,
             [this](const QModelIndex&, int first, int last) { onRowsRemoved(first, last - first + 1); });
     connect(model, &QAbstractItemModel::modelReset, this, &PacketView::onReset);
-    m_header->fit(viewport()->width());
+    m_header->measure();
 }
 
 void PacketView::setEmptyText(const QString& text) {
@@ -130,13 +131,11 @@ void PacketView::onReset() {
 }
 
 void PacketView::noteFollowing(bool isFollowing) {
-    if (isFollowing == m_isFollowing) {
-        return;
+    if (isFollowing != m_isFollowing) {
+        m_isFollowing = isFollowing;
+        m_missed = 0;
+        placeButton();
     }
-    m_isFollowing = isFollowing;
-    m_missed = 0;
-    placeButton();
-    emit followingChanged(isFollowing);
 }
 
 void PacketView::setFollowing(bool isFollowing) {
@@ -226,8 +225,6 @@ QModelIndex PacketView::indexAt(const QPoint& point) const {
     return model()->index(topRow() + point.y() / rowHeight(), std::max(0, column));
 }
 
-void PacketView::keyboardSearch(const QString& /*search*/) {}
-
 bool PacketView::event(QEvent* event) {
     // In the list the End key is the list's, not the window's.
     if (event->type() == QEvent::ShortcutOverride &&
@@ -306,14 +303,6 @@ int PacketView::horizontalOffset() const {
     return m_header->offset();
 }
 
-int PacketView::verticalOffset() const {
-    return 0;
-}
-
-bool PacketView::isIndexHidden(const QModelIndex& /*index*/) const {
-    return false;
-}
-
 void PacketView::setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) {
     const int rows = model() == nullptr ? 0 : model()->rowCount();
     if (rows == 0) {
@@ -354,14 +343,14 @@ void PacketView::scrollContentsBy(int dx, int /*dy*/) {
 
 void PacketView::resizeEvent(QResizeEvent* event) {
     QAbstractItemView::resizeEvent(event);
-    m_header->fit(viewport()->width());
+    m_header->measure();
     updateGeometries();
 }
 
 void PacketView::changeEvent(QEvent* event) {
     QAbstractItemView::changeEvent(event);
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
-        m_header->fit(viewport()->width());
+        m_header->measure();
         updateGeometries();
     }
 }

@@ -15,7 +15,7 @@ class FittingHeader;
 [[nodiscard]] QFont packetFont();
 
 /// A table for tens of millions of rows that all have one height: what it does does not grow with the number
-/// of rows. Follows the last row until it is scrolled away, and then says how many have come since.
+/// of rows. Follows the last row until it is scrolled away, and then shows how many have come since.
 class PacketView : public QAbstractItemView {
     Q_OBJECT
 
@@ -46,10 +46,9 @@ public:
     void scrollTo(const QModelIndex& index, ScrollHint hint = EnsureVisible) override;
     [[nodiscard]] QModelIndex indexAt(const QPoint& point) const override;
     /// Does nothing: rows are found with the pointer and the arrows, not by typing.
-    void keyboardSearch(const QString& search) override;
+    void keyboardSearch(const QString& /*search*/) override {}
 
 signals:
-    void followingChanged(bool isFollowing);
     /// The operator asks for the newest packet: by the button or the End key.
     void newestRequested();
     void copyRequested();
@@ -66,8 +65,8 @@ protected:
     void updateGeometries() override;
     [[nodiscard]] QModelIndex moveCursor(CursorAction action, Qt::KeyboardModifiers modifiers) override;
     [[nodiscard]] int horizontalOffset() const override;
-    [[nodiscard]] int verticalOffset() const override;
-    [[nodiscard]] bool isIndexHidden(const QModelIndex& index) const override;
+    [[nodiscard]] int verticalOffset() const override { return 0; }
+    [[nodiscard]] bool isIndexHidden(const QModelIndex& /*index*/) const override { return false; }
     void setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) override;
     [[nodiscard]] QRegion visualRegionForSelection(const QItemSelection& selection) const override;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the menus do in the list of packets.
 #include "app/gui/panels/filter_bar.h"
+#include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/packets_panel.h"
 
 #include <QMenu>
@@ -24,51 +25,51 @@ struct PacketsPanel::Actions {
     using Navigation = PacketNavigation;
     using Time = PacketModel::TimeMode;
     using Delta = PacketModel::DeltaMode;
-    static constexpr auto kSelected = &PacketsPanel::m_selected;
-    static constexpr auto kNavigation = &PacketsPanel::m_navigation;
-    static constexpr auto kFinder = &PacketsPanel::m_finder;
+    template <auto function, auto... arguments>
+    static constexpr auto onSelected = Do::callIn<&PacketsPanel::m_selected, function, arguments...>;
+    template <auto function, auto... arguments>
+    static constexpr auto navigate = Do::callIn<&PacketsPanel::m_navigation, function, arguments...>;
     static constexpr auto kForward = Direction::Forward;
     static constexpr auto kBackward = Direction::Backward;
 
     static constexpr ActionInfo kTable[] = {
         {"mark", kEdit, QT_TRANSLATE_NOOP("Action", "&Mark packet"), "Ctrl+M",
-         Do::callIn<kSelected, &Selected::toggleMark>},
+         onSelected<&Selected::toggleMark>},
         {"comment", kEdit, QT_TRANSLATE_NOOP("Action", "&Comment on packet…"), "Ctrl+Alt+C",
-         Do::callIn<kSelected, &Selected::editComment>},
+         onSelected<&Selected::editComment>},
         lineIn(kEdit),
         {"copyRows", kCopy, QT_TRANSLATE_NOOP("Action", "&Rows as text"), "",
-         Do::callIn<kSelected, &Selected::copyRows, Selected::RowFormat::Text>},
+         onSelected<&Selected::copyRows, Selected::RowFormat::Text>},
         {"copyCsv", kCopy, QT_TRANSLATE_NOOP("Action", "Rows as C&SV"), "",
-         Do::callIn<kSelected, &Selected::copyRows, Selected::RowFormat::Csv>},
-        {"copyCell", kCopy, QT_TRANSLATE_NOOP("Action", "Ce&ll"), "",
-         Do::callIn<kSelected, &Selected::copyCell>},
+         onSelected<&Selected::copyRows, Selected::RowFormat::Csv>},
+        {"copyCell", kCopy, QT_TRANSLATE_NOOP("Action", "Ce&ll"), "", onSelected<&Selected::copyCell>},
         lineIn(kCopy),
         {"copyBytesText", kCopy, QT_TRANSLATE_NOOP("Action", "Bytes as &hexadecimal text"), "Ctrl+Shift+C",
-         Do::callIn<kSelected, &Selected::copyBytes, ByteFormat::Text>},
+         onSelected<&Selected::copyBytes, ByteFormat::Text>},
         {"copyBytesRaw", kCopy, QT_TRANSLATE_NOOP("Action", "Bytes as ra&w hexadecimal"), "",
-         Do::callIn<kSelected, &Selected::copyBytes, ByteFormat::Raw>},
+         onSelected<&Selected::copyBytes, ByteFormat::Raw>},
         {"copyBytesCArray", kCopy, QT_TRANSLATE_NOOP("Action", "Bytes as C &array"), "",
-         Do::callIn<kSelected, &Selected::copyBytes, ByteFormat::CArray>},
+         onSelected<&Selected::copyBytes, ByteFormat::CArray>},
         {"copyBytesJson", kCopy, QT_TRANSLATE_NOOP("Action", "Packets as &JSON"), "",
-         Do::callIn<kSelected, &Selected::copyBytes, ByteFormat::Json>},
+         onSelected<&Selected::copyBytes, ByteFormat::Json>},
         lineIn(kEdit),
         {"filter", kEdit, QT_TRANSLATE_NOOP("Action", "&Filter packets"), "Ctrl+L",
          Do::callIn<&PacketsPanel::m_filter, &FilterBar::focusLine>},
         {"filterByCell", kCell, QT_TRANSLATE_NOOP("Action", "&Only this"), "Ctrl+Shift+L",
-         Do::callIn<kSelected, &Selected::applyCell, FilterJoin::Replace>},
+         onSelected<&Selected::applyCell, FilterJoin::Replace>},
         {"filterAndCell", kCell, QT_TRANSLATE_NOOP("Action", "… &and"), "",
-         Do::callIn<kSelected, &Selected::applyCell, FilterJoin::And>},
+         onSelected<&Selected::applyCell, FilterJoin::And>},
         {"filterOrCell", kCell, QT_TRANSLATE_NOOP("Action", "… o&r"), "",
-         Do::callIn<kSelected, &Selected::applyCell, FilterJoin::Or>},
+         onSelected<&Selected::applyCell, FilterJoin::Or>},
         {"filterNotCell", kCell, QT_TRANSLATE_NOOP("Action", "… and &not"), "",
-         Do::callIn<kSelected, &Selected::applyCell, FilterJoin::AndNot>},
+         onSelected<&Selected::applyCell, FilterJoin::AndNot>},
         lineIn(kEdit),
         {"find", kEdit, QT_TRANSLATE_NOOP("Action", "Find &bytes or text…"), "Ctrl+F",
-         Do::callIn<kFinder, &PacketFinder::open>},
+         Do::callIn<&PacketsPanel::m_find, &FindBar::open>},
         {"findNext", kEdit, QT_TRANSLATE_NOOP("Action", "Find ne&xt"), "F3",
-         Do::callIn<kFinder, &PacketFinder::find, kForward>},
+         navigate<&Navigation::find, kForward>},
         {"findPrevious", kEdit, QT_TRANSLATE_NOOP("Action", "Find pre&vious"), "Shift+F3",
-         Do::callIn<kFinder, &PacketFinder::find, kBackward>},
+         navigate<&Navigation::find, kBackward>},
 
         {"timeSinceFirst", kTimes, QT_TRANSLATE_NOOP("Action", "Since the &first packet"), "",
          Do::call<&PacketsPanel::setTimeMode, Time::SinceFirst>,
@@ -77,34 +78,34 @@ struct PacketsPanel::Actions {
          Do::call<&PacketsPanel::setTimeMode, Time::TimeOfDay>,
          Do::is<&PacketsPanel::timeMode, Time::TimeOfDay>},
         {"deltaInStream", kTimes, QT_TRANSLATE_NOOP("Action", "Δ to the packet before in its &stream"), "",
-         Do::call<&PacketsPanel::setDeltaMode, Delta::Stream>,
+         Do::callIn<&PacketsPanel::m_packets, &PacketModel::setDeltaMode, Delta::Stream>,
          Do::is<&PacketsPanel::deltaMode, Delta::Stream>},
         {"deltaToRowAbove", kTimes, QT_TRANSLATE_NOOP("Action", "Δ to the row &above"), "",
-         Do::call<&PacketsPanel::setDeltaMode, Delta::RowAbove>,
+         Do::callIn<&PacketsPanel::m_packets, &PacketModel::setDeltaMode, Delta::RowAbove>,
          Do::is<&PacketsPanel::deltaMode, Delta::RowAbove>},
 
         {"goToPacket", kGo, QT_TRANSLATE_NOOP("Action", "&Go to packet…"), "G",
-         Do::callIn<kNavigation, &Navigation::askForPacket>},
+         navigate<&Navigation::askForPacket>},
         lineIn(kGo),
         {"nextProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Next problem"), "N",
-         Do::callIn<kNavigation, &Navigation::goToProblem, kForward>},
+         navigate<&Navigation::goToProblem, kForward>},
         {"previousProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Previous problem"), "Shift+N",
-         Do::callIn<kNavigation, &Navigation::goToProblem, kBackward>},
+         navigate<&Navigation::goToProblem, kBackward>},
         lineIn(kGo),
         {"nextOfStream", kGo, QT_TRANSLATE_NOOP("Action", "Next packet of the &stream"), "Ctrl+.",
-         Do::callIn<kNavigation, &Navigation::goToSameStream, kForward>},
+         navigate<&Navigation::goToSameStream, kForward>},
         {"previousOfStream", kGo, QT_TRANSLATE_NOOP("Action", "Previous packet of the s&tream"), "Ctrl+,",
-         Do::callIn<kNavigation, &Navigation::goToSameStream, kBackward>},
+         navigate<&Navigation::goToSameStream, kBackward>},
         lineIn(kGo),
         {"nextMark", kGo, QT_TRANSLATE_NOOP("Action", "Next &mark"), "Ctrl+Shift+N",
-         Do::callIn<kNavigation, &Navigation::goToMark, kForward>},
+         navigate<&Navigation::goToMark, kForward>},
         {"previousMark", kGo, QT_TRANSLATE_NOOP("Action", "Previous m&ark"), "Ctrl+Shift+B",
-         Do::callIn<kNavigation, &Navigation::goToMark, kBackward>},
+         navigate<&Navigation::goToMark, kBackward>},
         lineIn(kGo),
         {"firstPacket", kGo, QT_TRANSLATE_NOOP("Action", "&First packet"), "Ctrl+Home",
-         Do::callIn<kNavigation, &Navigation::goToFirst>},
+         navigate<&Navigation::goToFirst>},
         {"newestPacket", kGo, QT_TRANSLATE_NOOP("Action", "Ne&west packet, and follow"), "Ctrl+End",
-         Do::callIn<kNavigation, &Navigation::goToNewest>},
+         navigate<&Navigation::goToNewest>},
     };
 };
 

@@ -5,15 +5,10 @@
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/fitting_header.h"
-#include "app/gui/panels/line.h"
-#include "app/gui/panels/packet_view.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QJsonArray>
 #include <QPushButton>
 #include <QScopedValueRollback>
-#include <QVBoxLayout>
-
-#include <algorithm>
 
 namespace posewire::gui {
 
@@ -24,9 +19,7 @@ constexpr int kMessageMs = 6000;
 } // namespace
 
 PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent),
-      m_view(view),
-      m_commands(commands),
+    : Panel(view, commands, parent),
       m_packets(view),
       m_filter(new FilterBar(this)),
       m_find(new FindBar(this)),
@@ -34,9 +27,13 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
       m_clear(new QPushButton(tr("Clear the filter"), m_list)),
       m_message(new PassingMessage(kMessageMs, this)),
       m_selected(listing()),
-      m_navigation(listing()),
-      m_finder(listing(), m_navigation, *m_find) {
-    layOut();
+      m_navigation(listing(), *m_find) {
+    auto* column = tightColumn(this);
+    column->addWidget(m_filter);
+    column->addWidget(m_find);
+    column->addWidget(new Line(this));
+    column->addWidget(m_list, 1);
+    column->addWidget(m_message);
     m_list->setModel(&m_packets);
     m_list->header().setGivingWay(
         {PacketModel::kPart, PacketModel::kSize, PacketModel::kDelta, PacketModel::kTime});
@@ -61,17 +58,6 @@ PacketListing PacketsPanel::listing() {
             [this](const QString& text) { say(text); }};
 }
 
-void PacketsPanel::layOut() {
-    auto* column = new QVBoxLayout(this);
-    column->setContentsMargins({});
-    column->setSpacing(0);
-    column->addWidget(m_filter);
-    column->addWidget(m_find);
-    column->addWidget(new Line(this));
-    column->addWidget(m_list, 1);
-    column->addWidget(m_message);
-}
-
 void PacketsPanel::connectParts() {
     connect(m_list->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &PacketsPanel::selectRow);
@@ -86,8 +72,9 @@ void PacketsPanel::connectParts() {
     connect(m_filter, &FilterBar::cancelRequested, this, &PacketsPanel::cancelFilter);
     connect(m_filter, &FilterBar::left, this, [this] { m_list->setFocus(); });
     connect(m_clear, &QPushButton::clicked, this, &PacketsPanel::clearFilter);
-    connect(m_find, &FindBar::findRequested, this,
-            [this](bool isForward) { m_finder.find(isForward ? Direction::Forward : Direction::Backward); });
+    connect(m_find, &FindBar::findRequested, this, [this](bool isForward) {
+        m_navigation.find(isForward ? Direction::Forward : Direction::Backward);
+    });
     connect(m_find, &FindBar::closed, this, [this] { m_list->setFocus(); });
 }
 
@@ -244,10 +231,6 @@ void PacketsPanel::setTimeMode(PacketModel::TimeMode mode) {
     fitColumns();
 }
 
-void PacketsPanel::setDeltaMode(PacketModel::DeltaMode mode) {
-    m_packets.setDeltaMode(mode);
-}
-
 QJsonObject PacketsPanel::state() const {
     QJsonObject state = m_filter->state();
     if (m_packets.timeMode() == PacketModel::TimeMode::TimeOfDay) {
@@ -256,27 +239,18 @@ QJsonObject PacketsPanel::state() const {
     if (m_packets.deltaMode() == PacketModel::DeltaMode::RowAbove) {
         state["delta"] = QStringLiteral("row");
     }
-    if (!m_list->header().chosen().isEmpty()) {
-        QJsonArray columns;
-        for (const int column : m_list->header().chosen()) {
-            columns.append(column);
-        }
-        state["columns"] = columns;
-    }
+    state.insert("columns", m_list->header().state().value("columns"));
     return state;
 }
 
 void PacketsPanel::restoreState(const QJsonObject& state) {
     m_filter->restoreState(state);
-    QList<int> columns;
-    for (const QJsonValue& column : state["columns"].toArray()) {
-        columns.append(column.toInt());
-    }
-    m_list->header().setChosen(columns);
+    m_list->header().restore(state);
     setTimeMode(state["time"].toString() == QLatin1String("day") ? PacketModel::TimeMode::TimeOfDay
                                                                  : PacketModel::TimeMode::SinceFirst);
-    setDeltaMode(state["delta"].toString() == QLatin1String("row") ? PacketModel::DeltaMode::RowAbove
-                                                                   : PacketModel::DeltaMode::Stream);
+    m_packets.setDeltaMode(state["delta"].toString() == QLatin1String("row")
+                               ? PacketModel::DeltaMode::RowAbove
+                               : PacketModel::DeltaMode::Stream);
 }
 
 } // namespace posewire::gui

@@ -3,14 +3,8 @@
 
 #include "app/gui/models/packet_search.h"
 #include "app/gui/panel.h"
-#include "app/gui/panels/packet_finder.h"
-#include "app/gui/panels/selected_packets.h"
-#include "app/gui/theme/passing_message.h"
-
-#include <QTimer>
-
-#include <memory>
-#include <optional>
+#include "app/gui/panels/packet_commands.h"
+#include "app/gui/theme/widgets.h"
 
 class QPushButton;
 
@@ -38,7 +32,6 @@ public:
     [[nodiscard]] PacketModel::TimeMode timeMode() const { return m_packets.timeMode(); }
     [[nodiscard]] PacketModel::DeltaMode deltaMode() const { return m_packets.deltaMode(); }
     void setTimeMode(PacketModel::TimeMode mode);
-    void setDeltaMode(PacketModel::DeltaMode mode);
     [[nodiscard]] const PacketFilterRun* filterRun() const { return m_run.get(); }
     /// What was said last below the list, such as "No problem after this packet."; empty again after a while.
     [[nodiscard]] QString message() const { return m_message->said(); }
@@ -46,7 +39,6 @@ public:
 private:
     struct Actions;
 
-    void layOut();
     void connectParts();
     void fitColumns();
     void followFilter();
@@ -60,8 +52,6 @@ private:
     void showMenu(const QPoint& globalPlace);
     [[nodiscard]] PacketListing listing();
 
-    model::SessionView& m_view;
-    Commands& m_commands;
     PacketModel m_packets;
     std::unique_ptr<PacketFilterRun> m_run;
     std::optional<std::uint64_t> m_stoppedAt; ///< the packet at which the cursor is paused
@@ -75,7 +65,6 @@ private:
     PassingMessage* m_message;
     SelectedPackets m_selected;
     PacketNavigation m_navigation;
-    PacketFinder m_finder;
     bool m_isFollowing = false; ///< the selection: nobody selected anything here
 };
 

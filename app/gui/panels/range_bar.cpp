@@ -2,12 +2,249 @@
 #include "app/gui/panels/range_bar.h"
 
 #include "app/gui/models/text.h"
+#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/theme.h"
 
 #include <QHBoxLayout>
-#include <QToolButton>
+#include <QHelpEvent>
+#include <QKeyEvent>
+#include <QMouseEvent>
+#include <QPainter>
+#include <QToolTip>
+
+#include <algorithm>
+#include <cmath>
 
 namespace posewire::gui {
+
+namespace {
+
+/// With fractions.
+using Nanoseconds = std::chrono::duration<double, std::nano>;
+
+constexpr double kGrip = 4; // pixels at either side of an edge
+
+} // namespace
+
+RangeStrip::RangeStrip(model::SessionView& view, Commands& commands, QWidget* parent)
+    : QWidget(parent), m_view(view), m_commands(commands), m_overview(view) {
+    setFocusPolicy(Qt::StrongFocus);
+    setMouseTracking(true);
+    setCursor(Qt::IBeamCursor);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setAccessibleName(tr("Range of time"));
+    setAccessibleDescription(tr("Arrow keys move the range; with Shift they move its end, with Control ten "
+                                "times as far. Escape clears it."));
+}
+
+void RangeStrip::refresh() {
+    m_overview.refresh();
+    update();
+}
+
+double RangeStrip::placeOf(log::Stamp stamp) const {
+    const model::TimeRange& span = m_overview.span();
+    const Nanoseconds length = std::max(log::Duration(1), span.to - span.from);
+    return (stamp - span.from) / length * width();
+}
+
+log::Stamp RangeStrip::stampAt(double place) const {
+    const model::TimeRange& span = m_overview.span();
+    const double share = std::clamp(place / std::max(1, width()), 0.0, 1.0);
+    return span.from + std::chrono::duration_cast<log::Duration>(share * (span.to - span.from));
+}
+
+void RangeStrip::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.fillRect(rect(), theme().raised);
+    if (m_overview.empty()) {
+        painter.setPen(theme().dim);
+        painter.drawText(rect(), Qt::AlignCenter, tr("no history yet"));
+    } else {
+        paintRate(painter);
+        paintLosses(painter);
+        paintRange(painter);
+    }
+    if (hasFocus()) {
+        painter.setPen(theme().accent);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
+    }
+}
+
+void RangeStrip::paintRate(QPainter& painter) const {
+    const model::RangeParts& parts = m_overview.parts();
+    const auto& counted = m_overview.counted();
+    // The last part is still being filled: it would always look like a loss.
+    const std::size_t count =
+        parts.beginOf(parts.count) > m_overview.span().to && parts.count > 1 ? parts.count - 1 : parts.count;
+    std::uint32_t most = 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        most = std::max(most, counted[i].datagrams);
+    }
+    const double bottom = height();
+    const double scale = (height() - 4.0) / most;
+    QPolygonF area{{std::max(0.0, placeOf(parts.first)), bottom}};
+    double right = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double y = bottom - counted[i].datagrams * scale;
+        right = i + 1 == count ? width() : placeOf(parts.beginOf(i + 1));
+        area << QPointF(std::max(0.0, placeOf(parts.beginOf(i))), y) << QPointF(right, y);
+    }
+    area << QPointF(right, bottom);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(withAlpha(theme().accent, 0.35));
+    painter.drawPolygon(area);
+}
+
+void RangeStrip::paintLosses(QPainter& painter) const {
+    const model::RangeParts& parts = m_overview.parts();
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(theme().warning);
+    for (std::size_t i = 0; i < parts.count; ++i) {
+        if (m_overview.counted()[i].lost != 0) {
+            const double left = std::max(0.0, placeOf(parts.beginOf(i)));
+            const double wide =
+                std::max(2.0, std::min<double>(placeOf(parts.beginOf(i + 1)), width()) - left);
+            painter.drawRect(QRectF(left, height() - height() / 3.0, wide, height() / 3.0));
+        }
+    }
+}
+
+void RangeStrip::paintRange(QPainter& painter) const {
+    const auto range = m_view.range();
+    if (!range) {
+        return;
+    }
+    const double from = std::clamp(placeOf(range->from), 0.0, width() - 1.0);
+    const double to = std::clamp(placeOf(range->to), from + 1, static_cast<double>(width()));
+    const QColor shade = withAlpha(theme().panel, 0.62);
+    painter.fillRect(QRectF(0, 0, from, height()), shade);
+    painter.fillRect(QRectF(to, 0, width() - to, height()), shade);
+    painter.setPen(QPen(theme().accent, 2));
+    painter.setBrush(Qt::NoBrush);
+    painter.drawRect(QRectF(from, 0, to - from, height()).adjusted(1, 1, -1, -1));
+}
+
+void RangeStrip::choose(log::Stamp from, log::Stamp to) {
+    const model::TimeRange& span = m_overview.span();
+    const log::Duration resolution = m_overview.resolution();
+    model::TimeRange range{std::min(from, to), std::max(from, to)};
+    range.from = std::clamp(range.from, span.from, span.to);
+    range.to = std::clamp(range.to, range.from, span.to);
+    // As buckets go: what is shown as chosen is what is counted.
+    range.from -= range.from.time_since_epoch() % resolution;
+    range.to += (resolution - range.to.time_since_epoch() % resolution) % resolution;
+    if (range.to == range.from) {
+        range.to += resolution;
+    }
+    m_commands.selectRange({log::Duration::zero(), range});
+    update();
+}
+
+bool RangeStrip::isAtEdge(double place, double edge) const {
+    return std::abs(place - edge) <= kGrip;
+}
+
+void RangeStrip::mousePressEvent(QMouseEvent* event) {
+    if (event->button() != Qt::LeftButton || m_overview.empty()) {
+        return;
+    }
+    const double place = event->position().x();
+    m_pressed = place;
+    m_isMoved = false;
+    m_anchor = stampAt(place);
+    if (const auto range = m_view.range()) {
+        if (isAtEdge(place, placeOf(range->from))) {
+            m_anchor = range->to;
+        } else if (isAtEdge(place, placeOf(range->to))) {
+            m_anchor = range->from;
+        }
+    }
+}
+
+void RangeStrip::mouseMoveEvent(QMouseEvent* event) {
+    const double place = event->position().x();
+    if (!m_anchor) {
+        const auto range = m_view.range();
+        const bool isEdge =
+            range && (isAtEdge(place, placeOf(range->from)) || isAtEdge(place, placeOf(range->to)));
+        setCursor(isEdge ? Qt::SizeHorCursor : Qt::IBeamCursor);
+        return;
+    }
+    if (m_isMoved || std::abs(place - m_pressed) >= kGrip) {
+        m_isMoved = true;
+        choose(*m_anchor, stampAt(place));
+    }
+}
+
+void RangeStrip::mouseReleaseEvent(QMouseEvent*) {
+    if (m_anchor && !m_isMoved) {
+        m_commands.selectRange({}); // a click beside the range takes it away, as in any text
+        update();
+    }
+    m_anchor.reset();
+}
+
+/// A fiftieth of the history, in round steps.
+log::Duration RangeStrip::keyStep() const {
+    const model::TimeRange& span = m_overview.span();
+    const log::Duration resolution = m_overview.resolution();
+    const log::Duration step = (span.to - span.from) / 50;
+    return std::max(resolution, step - step % resolution);
+}
+
+void RangeStrip::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape) {
+        m_commands.selectRange({});
+        update();
+        return;
+    }
+    const bool isLeft = event->key() == Qt::Key_Left;
+    if ((!isLeft && event->key() != Qt::Key_Right) || m_overview.empty()) {
+        QWidget::keyPressEvent(event);
+        return;
+    }
+    const bool isFar = event->modifiers().testFlag(Qt::ControlModifier);
+    const log::Duration moved = (isLeft ? -1 : 1) * keyStep() * (isFar ? 10 : 1);
+    const model::TimeRange& span = m_overview.span();
+    const auto range = m_view.range();
+    if (!range) {
+        choose(span.to - std::min(5 * keyStep(), span.to - span.from), span.to);
+        return;
+    }
+    if (event->modifiers().testFlag(Qt::ShiftModifier)) {
+        choose(range->from, std::max(range->from, range->to + moved));
+        return;
+    }
+    const log::Duration length = range->to - range->from;
+    const log::Stamp from = std::clamp(range->from + moved, span.from, std::max(span.from, span.to - length));
+    choose(from, from + length);
+}
+
+QString RangeStrip::partText(double place) const {
+    const model::RangeParts& parts = m_overview.parts();
+    const log::Duration at = stampAt(place) - parts.first;
+    const auto part = static_cast<std::size_t>(std::max(log::Duration::zero(), at) / parts.width);
+    if (part >= parts.count) {
+        return {};
+    }
+    const model::RangePart& counted = m_overview.counted()[part];
+    const double seconds = log::secondsOf(parts.width);
+    return tr("%1: %2 datagrams/s, %3 samples lost\nDrag to choose a range.")
+        .arg(timeOfDay(parts.beginOf(part)).chopped(4), fixed(counted.datagrams / seconds, 0),
+             grouped(counted.lost));
+}
+
+bool RangeStrip::event(QEvent* event) {
+    if (event->type() == QEvent::ToolTip && !m_overview.empty()) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        QToolTip::showText(help->globalPos(), partText(help->pos().x()), this);
+        return true;
+    }
+    return QWidget::event(event);
+}
 
 RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent)
     : QWidget(parent), m_view(view), m_commands(commands), m_strip(new RangeStrip(view, commands, this)) {
@@ -22,12 +259,8 @@ RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent
 }
 
 void RangeBar::addButton(const QString& text, const QString& toolTip, log::Duration last) {
-    auto* button = new QToolButton(this);
-    button->setText(text);
-    button->setToolTip(toolTip);
-    button->setProperty("framed", true);
+    QToolButton* button = framedButton(text, toolTip, this);
     button->setCheckable(true);
-    button->setFocusPolicy(Qt::TabFocus);
     layout()->addWidget(button);
     m_buttons.push_back({button, last});
     connect(button, &QToolButton::clicked, this, [this, last] {

@@ -4,12 +4,10 @@
 #include "app/gui/models/computer_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/display_filter.h"
-#include "app/gui/panels/line.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QJsonArray>
 #include <QMenu>
 #include <QSplitter>
-#include <QVBoxLayout>
 
 namespace posewire::gui {
 
@@ -21,32 +19,19 @@ constexpr int kFactsShown = 4;
 
 StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
                                  QWidget* parent)
-    : Panel(parent),
-      m_view(view),
-      m_commands(commands),
+    : Panel(view, commands, parent),
       m_streams(view),
       m_computer(computerFacts(view, program)),
       m_range(new RangeBar(view, commands, this)),
-      m_table(new TableView(tr("Statistics of streams"), this)),
-      m_facts(new TableView(tr("This computer"), this)),
+      m_table(new TableView(tr("Statistics of streams"), commands, this)),
+      m_facts(new TableView(tr("This computer"), commands, this)),
       m_filterToRange(new QAction(tr("Filter packets to this range"), this)),
       m_parts(new QSplitter(Qt::Vertical, this)) {
     setUpStreams();
-    setUpFacts();
-    layOut();
-    m_range->setContextMenuPolicy(Qt::ActionsContextMenu);
-    m_range->addAction(m_filterToRange);
-    connect(m_filterToRange, &QAction::triggered, this, &StatisticsPanel::filterToRange);
-    for (TableView* table : {m_table, m_facts}) {
-        connect(table, &TableView::copyRequested, this,
-                [this](const QString& text) { m_commands.copyText(text); });
-    }
-}
-
-void StatisticsPanel::layOut() {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->setSpacing(0);
+    m_facts->showFacts(m_computer, QStringLiteral("Foreign datagrams"));
+    m_facts->setMinimumHeight(m_facts->heightForRows(1));
+    m_facts->setMaximumHeight(m_facts->heightForRows(m_computer.rowCount()));
+    auto* layout = tightColumn(this);
     layout->addWidget(m_range);
     layout->addWidget(new Line(this));
     layout->addWidget(m_parts, 1);
@@ -58,6 +43,9 @@ void StatisticsPanel::layOut() {
     m_parts->setCollapsible(0, false);
     const int shown = m_facts->heightForRows(kFactsShown);
     m_parts->setSizes({4 * shown, shown});
+    m_range->setContextMenuPolicy(Qt::ActionsContextMenu);
+    m_range->addAction(m_filterToRange);
+    connect(m_filterToRange, &QAction::triggered, this, &StatisticsPanel::filterToRange);
 }
 
 void StatisticsPanel::setUpStreams() {
@@ -72,27 +60,10 @@ void StatisticsPanel::setUpStreams() {
     m_table->setOptionalColumns(kFirstOptionalStatistic);
     m_table->setEmptyText(
         tr("No stream received yet.\nRates, jitter and losses of every stream appear here."));
-    connect(&m_streams, &QAbstractItemModel::rowsInserted, this, &StatisticsPanel::expandNew);
+    m_table->expandNew();
     connect(m_table, &QAbstractItemView::clicked, this, &StatisticsPanel::select);
     connect(m_table, &QAbstractItemView::activated, this, &StatisticsPanel::showPackets);
     connect(m_table, &TableView::menuRequested, this, &StatisticsPanel::addActions);
-}
-
-void StatisticsPanel::setUpFacts() {
-    m_facts->setModel(&m_computer);
-    m_facts->setHeaderHidden(true);
-    m_facts->setColumnSamples({QStringLiteral("Foreign datagrams"), QString()});
-    m_facts->setMinimumHeight(m_facts->heightForRows(1));
-    m_facts->setMaximumHeight(m_facts->heightForRows(m_computer.rowCount()));
-}
-
-void StatisticsPanel::expandNew(const QModelIndex& parent, int first, int last) {
-    if (parent.isValid() && parent.parent().isValid()) {
-        return; // streams of a character: whether they show is up to the operator by now
-    }
-    for (int row = first; row <= last; ++row) {
-        m_table->expandRecursively(m_streams.index(row, 0, parent));
-    }
 }
 
 void StatisticsPanel::refresh() {
@@ -110,15 +81,6 @@ QString StatisticsPanel::summary() const {
     const QString streams = count == 1 ? tr("1 stream") : tr("%1 streams").arg(count);
     const QString range = m_range->rangeText();
     return range.isEmpty() ? streams : range;
-}
-
-QJsonObject StatisticsPanel::state() const {
-    const QJsonArray columns = m_table->chosenColumns();
-    return columns.isEmpty() ? QJsonObject() : QJsonObject{{"columns", columns}};
-}
-
-void StatisticsPanel::restoreState(const QJsonObject& state) {
-    m_table->setChosenColumns(state["columns"].toArray());
 }
 
 void StatisticsPanel::select(const QModelIndex& index) {
@@ -148,15 +110,13 @@ void StatisticsPanel::addActions(QMenu& menu, const QModelIndex& index) {
         for (int column = 0; column < kStatisticsColumns; ++column) {
             if (const QString title = statisticsFilterTitle(column); !title.isEmpty()) {
                 const QPersistentModelIndex cell = index.siblingAtColumn(column);
-                QAction* action = packets->addAction(title);
-                connect(action, &QAction::triggered, this, [this, cell] { showPackets(cell); });
+                packets->addAction(title, this, [this, cell] { showPackets(cell); });
             }
         }
         menu.addAction(m_filterToRange);
         menu.addSeparator();
     }
-    QAction* csv = menu.addAction(tr("Copy all as CSV"));
-    connect(csv, &QAction::triggered, this, [this] { m_commands.copyText(m_streams.csv()); });
+    menu.addAction(tr("Copy all as CSV"), this, [this] { m_commands.copyText(m_streams.csv()); });
 }
 
 } // namespace posewire::gui

@@ -22,8 +22,8 @@ public:
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;
-    [[nodiscard]] QJsonObject state() const override;
-    void restoreState(const QJsonObject& state) override;
+    [[nodiscard]] QJsonObject state() const override { return m_table->columns().state(); }
+    void restoreState(const QJsonObject& state) override { m_table->columns().restore(state); }
 
     /// Lists the packets that a cell counts in the dock of packets.
     void showPackets(const QModelIndex& index);
@@ -31,15 +31,10 @@ public:
     void filterToRange();
 
 private:
-    void layOut();
     void setUpStreams();
-    void setUpFacts();
-    void expandNew(const QModelIndex& parent, int first, int last);
     void select(const QModelIndex& index);
     void addActions(QMenu& menu, const QModelIndex& index);
 
-    model::SessionView& m_view;
-    Commands& m_commands;
     StatisticsModel m_streams;
     PropertyModel m_computer;
     RangeBar* m_range;

@@ -7,12 +7,9 @@
 #include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
-#include <QHeaderView>
 #include <QKeyEvent>
 #include <QMenu>
 #include <QPainter>
-
-#include <algorithm>
 
 namespace posewire::gui {
 
@@ -23,7 +20,9 @@ void drawEmptyText(QWidget& view, const QString& text) {
     drawBalanced(painter, view.rect().adjusted(space, space, -space, -space), text);
 }
 
-TableView::TableView(const QString& name, QWidget* parent) : QTreeView(parent) {
+TableView::TableView(const QString& name, QWidget* parent)
+    // Some room beyond the text, since hinting may draw it wider than it was measured.
+    : QTreeView(parent), m_columns(new FittingHeader(this, tabularFont, 5, FittingHeader::Kept::First)) {
     setAccessibleName(name);
     setItemDelegate(new CellDelegate(this));
     setUniformRowHeights(true);
@@ -36,18 +35,18 @@ TableView::TableView(const QString& name, QWidget* parent) : QTreeView(parent) {
     setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
     setTabKeyNavigation(false);
     setExpandsOnDoubleClick(false);
-    header()->setStretchLastSection(false);
-    header()->setSectionsMovable(false);
-    header()->setMinimumSectionSize(0);
-    header()->setHighlightSections(false);
+    setHeader(m_columns);
     setCornerWidget(new QWidget(this)); // else the style draws a box between the scroll bars
-    header()->setTextElideMode(Qt::ElideRight);
+}
+
+TableView::TableView(const QString& name, Commands& commands, QWidget* parent) : TableView(name, parent) {
+    connect(this, &TableView::copyRequested, this,
+            [&commands](const QString& text) { commands.copyText(text); });
 }
 
 void TableView::setColumnSamples(std::vector<QString> samples, const QString& leastOpen) {
-    m_samples = std::move(samples);
-    m_leastOpen = leastOpen.isEmpty() ? QStringLiteral("12345678") : leastOpen;
-    fitColumns();
+    setIndentation(fontMetrics().height() * 4 / 5);
+    m_columns->setSamples(std::move(samples), leastOpen);
 }
 
 void TableView::expandNew() {
@@ -67,112 +66,23 @@ void TableView::setEmptyText(const QString& text) {
     }
 }
 
-int TableView::textWidth(const QString& text) const {
-    // Some room beyond the text, since hinting may draw it wider than it was measured.
-    const int margins = 2 * CellDelegate::margin(fontMetrics()) + 5;
-    return QFontMetrics(tabularFont()).horizontalAdvance(text) + margins;
-}
-
-int TableView::sampleWidth(int column) const {
-    const QString title = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    // The style sheet pads header sections by 6 pixels at either side.
-    const int headerWidth = isHeaderHidden() ? 0 : fontMetrics().horizontalAdvance(title) + 14;
-    return std::max(textWidth(m_samples[static_cast<std::size_t>(column)]), headerWidth);
-}
-
-void TableView::fitColumns() {
-    if (model() == nullptr || m_samples.empty()) {
-        return;
-    }
-    setIndentation(fontMetrics().height() * 4 / 5);
-    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
-        if (!m_samples[static_cast<std::size_t>(column)].isEmpty() && !isColumnHidden(column)) {
-            header()->resizeSection(column, sampleWidth(column));
-        }
-    }
-    fitOpenColumn();
-}
-
-void TableView::fitOpenColumn() {
-    const auto open = std::ranges::find(m_samples, QString());
-    if (model() == nullptr || open == m_samples.end()) {
-        return;
-    }
-    const int column = static_cast<int>(open - m_samples.begin());
-    leaveOutWhatDoesNotFit(column);
-    const int others = header()->length() - header()->sectionSize(column);
-    header()->resizeSection(column, std::max(textWidth(m_leastOpen), viewport()->width() - others));
-}
-
-void TableView::leaveOutWhatDoesNotFit(int open) {
-    if (m_firstOptional < 0 || m_isChosen) {
-        return;
-    }
-    int width = textWidth(m_leastOpen);
-    for (int column = 0; column < static_cast<int>(m_samples.size()); ++column) {
-        width += column == open ? 0 : sampleWidth(column);
-        if (column >= m_firstOptional && column != open) {
-            setColumnHidden(column, width > viewport()->width());
-        }
-    }
-}
-
 void TableView::setOptionalColumns(int first) {
-    m_firstOptional = first;
-    header()->setContextMenuPolicy(Qt::CustomContextMenu);
-    connect(header(), &QWidget::customContextMenuRequested, this, &TableView::showHeaderMenu);
-    fitColumns();
-}
-
-QJsonArray TableView::chosenColumns() const {
-    QJsonArray columns;
-    for (int column = 0; m_isChosen && column < static_cast<int>(m_samples.size()); ++column) {
-        if (!isColumnHidden(column)) {
-            columns.append(column);
-        }
+    std::vector<int> givingWay;
+    for (int column = model()->columnCount() - 1; column >= first; --column) {
+        givingWay.push_back(column);
     }
-    return columns;
+    m_columns->setGivingWay(std::move(givingWay));
 }
 
-void TableView::setChosenColumns(const QJsonArray& columns) {
-    m_isChosen = !columns.isEmpty();
-    for (int column = 1; m_isChosen && column < static_cast<int>(m_samples.size()); ++column) {
-        setColumnHidden(column, !columns.contains(column));
-    }
-    fitColumns();
+void TableView::showFacts(QAbstractItemModel& facts, const QString& name) {
+    setModel(&facts);
+    setHeaderHidden(true);
+    setColumnSamples({name, QString()});
 }
 
-void TableView::showHeaderMenu(const QPoint& at) {
-    QMenu menu(this);
-    addColumnActions(menu);
-    menu.exec(header()->mapToGlobal(at));
-}
-
-void TableView::addColumnActions(QMenu& menu) {
-    QAction* fitting = menu.addAction(tr("As many columns as fit"));
-    fitting->setCheckable(true);
-    fitting->setChecked(!m_isChosen);
-    connect(fitting, &QAction::triggered, this, [this] { setChosenColumns({}); });
-    menu.addSeparator();
-    for (int column = 1; column < static_cast<int>(m_samples.size()); ++column) {
-        QAction* action = menu.addAction(model()->headerData(column, Qt::Horizontal).toString());
-        action->setToolTip(model()->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString());
-        action->setCheckable(true);
-        action->setChecked(!isColumnHidden(column));
-        connect(action, &QAction::toggled, this,
-                [this, column](bool isShown) { chooseColumn(column, isShown); });
-    }
-    menu.setToolTipsVisible(true);
-}
-
-void TableView::chooseColumn(int column, bool isShown) {
-    QJsonArray columns{0};
-    for (int each = 1; each < static_cast<int>(m_samples.size()); ++each) {
-        if (each == column ? isShown : !isColumnHidden(each)) {
-            columns.append(each);
-        }
-    }
-    setChosenColumns(columns);
+void TableView::fixHeight() {
+    setFixedHeight(heightForRows(model()->rowCount()));
+    setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 }
 
 int TableView::heightForRows(int rows) const {
@@ -232,9 +142,9 @@ void TableView::contextMenuEvent(QContextMenuEvent* event) {
     add(tr("Copy cell"), index.isValid() ? cellText(index) : QString());
     add(tr("Copy row"), index.isValid() ? rowText(index) : QString());
     add(tr("Copy all as text"), allText());
-    if (m_firstOptional >= 0) {
+    if (m_columns->isChoosable()) {
         menu.addSeparator();
-        addColumnActions(*menu.addMenu(tr("Columns")));
+        m_columns->addColumnActions(*menu.addMenu(tr("Columns")));
     }
     menu.exec(isByKey ? viewport()->mapToGlobal(visualRect(index).center()) : event->globalPos());
 }
@@ -253,13 +163,14 @@ void TableView::keyPressEvent(QKeyEvent* event) {
 void TableView::changeEvent(QEvent* event) {
     QTreeView::changeEvent(event);
     if (event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange) {
-        fitColumns();
+        setIndentation(fontMetrics().height() * 4 / 5);
+        m_columns->measure();
     }
 }
 
 void TableView::resizeEvent(QResizeEvent* event) {
     QTreeView::resizeEvent(event);
-    fitOpenColumn();
+    m_columns->fit();
 }
 
 } // namespace posewire::gui

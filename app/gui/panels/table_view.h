@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QJsonArray>
-#include <QTreeView>
+#include "app/gui/commands.h"
+#include "app/gui/panels/fitting_header.h"
 
-#include <vector>
+#include <QTreeView>
 
 class QMenu;
 
@@ -22,18 +22,20 @@ class TableView : public QTreeView {
 public:
     /// `name` is what screen readers call the table.
     explicit TableView(const QString& name, QWidget* parent = nullptr);
+    /// What is copied goes to `commands`.
+    TableView(const QString& name, Commands& commands, QWidget* parent);
 
-    /// One sample for each column, as long as its content may become; an empty one takes the room left, but
-    /// never less than `leastOpen` needs.
-    void setColumnSamples(std::vector<QString> samples, const QString& leastOpen = {});
-
+    [[nodiscard]] FittingHeader& columns() const { return *m_columns; }
+    /// Samples as FittingHeader has them, after the model.
+    void setColumnSamples(std::vector<QString> samples,
+                          const QString& leastOpen = QStringLiteral("12345678"));
     /// From this column on, those that do not fit are left out, as long as the operator has not chosen
     /// columns by the menu of the header.
     void setOptionalColumns(int first);
-
-    /// The columns that the operator chose; empty for as many as fit.
-    [[nodiscard]] QJsonArray chosenColumns() const;
-    void setChosenColumns(const QJsonArray& columns);
+    /// Shows a list of properties, without column titles; `name` is as long as their names become.
+    void showFacts(QAbstractItemModel& facts, const QString& name);
+    /// As high as all rows of the model are.
+    void fixHeight();
 
     /// From now on, opens what is inserted on the first two levels of a tree, with all under it. What comes
     /// below those is left as it is: whether it shows is up to the operator by then.
@@ -66,20 +68,9 @@ protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    void fitColumns();
-    void fitOpenColumn();
-    void leaveOutWhatDoesNotFit(int open);
-    void showHeaderMenu(const QPoint& at);
-    void addColumnActions(QMenu& menu);
-    void chooseColumn(int column, bool isShown);
-    [[nodiscard]] int textWidth(const QString& text) const;
-    [[nodiscard]] int sampleWidth(int column) const;
     void addRows(QString& text, const QModelIndex& parent) const;
 
-    std::vector<QString> m_samples;
-    QString m_leastOpen;
-    int m_firstOptional = -1;
-    bool m_isChosen = false;
+    FittingHeader* m_columns;
     QString m_emptyText;
 };
 

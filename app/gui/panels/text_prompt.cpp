@@ -2,60 +2,48 @@
 #include "app/gui/panels/text_prompt.h"
 
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
+#include <QDialog>
 #include <QDialogButtonBox>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QVBoxLayout>
 
 namespace posewire::gui {
 
-TextPrompt::TextPrompt(const Words& words, std::function<QString(const QString&)> problemOf, QWidget* parent)
-    : QDialog(parent),
-      m_problemOf(std::move(problemOf)),
-      m_edit(new QLineEdit(words.text, this)),
-      m_problem(new QLabel(this)) {
-    setWindowTitle(words.title);
-    auto* label = new QLabel(words.label, this);
-    label->setBuddy(m_edit);
-    m_edit->setPlaceholderText(words.hint);
-    m_edit->selectAll();
-    m_problem->setWordWrap(true);
-    m_problem->setMinimumWidth(fontMetrics().averageCharWidth() * 56);
+std::optional<QString> askForText(const TextPrompt& words,
+                                  const std::function<QString(const QString&)>& problemOf, QWidget* parent) {
+    QDialog dialog(parent);
+    dialog.setWindowTitle(words.title);
+    auto* edit = new QLineEdit(words.text, &dialog);
+    edit->setPlaceholderText(words.hint);
+    edit->selectAll();
+    auto* label = new QLabel(words.label, &dialog);
+    label->setBuddy(edit);
+    auto* problem = new QLabel(&dialog);
+    problem->setWordWrap(true);
+    problem->setMinimumWidth(dialog.fontMetrics().averageCharWidth() * 56);
     // The room is there from the beginning, so that the dialog does not jump under the pointer.
-    m_problem->setMinimumHeight(2 * fontMetrics().lineSpacing());
-    m_problem->setAlignment(Qt::AlignTop);
-    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+    problem->setMinimumHeight(2 * dialog.fontMetrics().lineSpacing());
+    problem->setAlignment(Qt::AlignTop);
+    setTextColour(*problem, theme().error);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog);
     buttons->button(QDialogButtonBox::Ok)->setText(words.accept);
-    auto* column = new QVBoxLayout(this);
-    column->addWidget(label);
-    column->addWidget(m_edit);
-    column->addWidget(m_problem);
-    column->addWidget(buttons);
-    connect(buttons, &QDialogButtonBox::accepted, this, &TextPrompt::accept);
-    connect(buttons, &QDialogButtonBox::rejected, this, &TextPrompt::reject);
-    connect(m_edit, &QLineEdit::textChanged, m_problem, &QLabel::clear);
-    QPalette palette = m_problem->palette();
-    palette.setColor(QPalette::WindowText, theme().error);
-    m_problem->setPalette(palette);
-}
-
-QString TextPrompt::text() const {
-    return m_edit->text().trimmed();
-}
-
-QString TextPrompt::problem() const {
-    return m_problem->text();
-}
-
-void TextPrompt::accept() {
-    const QString problem = m_problemOf ? m_problemOf(text()) : QString();
-    if (problem.isEmpty()) {
-        QDialog::accept();
-        return;
+    auto* column = new QVBoxLayout(&dialog);
+    for (QWidget* part : std::initializer_list<QWidget*>{label, edit, problem, buttons}) {
+        column->addWidget(part);
     }
-    m_problem->setText(healthSymbol(Health::Error) + QLatin1Char(' ') + problem);
+    QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, [&] {
+        const QString wrong = problemOf(edit->text().trimmed());
+        if (wrong.isEmpty()) {
+            dialog.accept();
+        } else {
+            problem->setText(healthText(Health::Error, wrong));
+        }
+    });
+    QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+    QObject::connect(edit, &QLineEdit::textChanged, problem, &QLabel::clear);
+    return dialog.exec() == QDialog::Accepted ? std::optional(edit->text().trimmed()) : std::nullopt;
 }
 
 } // namespace posewire::gui

@@ -1,38 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QDialog>
+#include <QString>
 
 #include <functional>
+#include <optional>
 
-class QLabel;
-class QLineEdit;
+class QWidget;
 
 namespace posewire::gui {
 
-/// Asks for one line of text and shows what is wrong with it.
-class TextPrompt final : public QDialog {
-    Q_OBJECT
-
-public:
-    struct Words {
-        QString title;
-        QString label;
-        QString hint; ///< in the empty line
-        QString accept;
-        QString text{}; ///< to begin with
-    };
-    /// `problemOf` says what keeps a text from being taken; empty for nothing.
-    TextPrompt(const Words& words, std::function<QString(const QString&)> problemOf, QWidget* parent);
-
-    [[nodiscard]] QString text() const;
-    [[nodiscard]] QString problem() const;
-    void accept() override;
-
-private:
-    std::function<QString(const QString&)> m_problemOf;
-    QLineEdit* m_edit;
-    QLabel* m_problem;
+struct TextPrompt {
+    QString title;
+    QString label;
+    QString hint; ///< in the empty line
+    QString accept;
+    QString text{}; ///< to begin with
 };
+
+/// Asks for one line of text in a dialog and shows there what is wrong with it: what `problemOf` returns,
+/// empty for nothing. Nothing where the operator cancels.
+[[nodiscard]] std::optional<QString>
+askForText(const TextPrompt& words, const std::function<QString(const QString&)>& problemOf, QWidget* parent);
 
 } // namespace posewire::gui

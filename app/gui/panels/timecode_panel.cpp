@@ -4,25 +4,106 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
+#include "app/gui/panels/buttons.h"
+#include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QButtonGroup>
-#include <QGuiApplication>
 #include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QPainter>
 #include <QScreen>
+
+#include <algorithm>
+#include <cmath>
 
 namespace posewire::gui {
 
+namespace {
+
+/// Pixel size at which `text` fits into `size`.
+int fittingPixelSize(QFont font, const QString& text, const QSizeF& size) {
+    constexpr int kProbe = 100;
+    font.setPixelSize(kProbe);
+    const QFontMetricsF metrics(font);
+    const double byWidth = kProbe * size.width() / std::max(1.0, metrics.horizontalAdvance(text));
+    const double byHeight = kProbe * size.height() / metrics.height();
+    return std::max(8, static_cast<int>(std::floor(std::min(byWidth, byHeight))));
+}
+
+} // namespace
+
+ClockWidget::ClockWidget(QWidget* parent) : QWidget(parent) {
+    setAccessibleName(tr("Time code"));
+    setFocusPolicy(Qt::StrongFocus);
+    setToolTip(tr("Double-click or press F for full screen"));
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+}
+
+void ClockWidget::setClock(const QString& text, const QString& caption, Run run) {
+    if (text == m_text && caption == m_caption && run == m_run) {
+        return;
+    }
+    m_text = text;
+    m_caption = caption;
+    m_run = run;
+    setAccessibleDescription(m_text + QLatin1Char(' ') + m_caption);
+    update();
+}
+
+QSize ClockWidget::sizeHint() const {
+    const int unit = fontMetrics().height();
+    return {unit * 16, unit * 5};
+}
+
+QSize ClockWidget::minimumSizeHint() const {
+    const int unit = fontMetrics().height();
+    return {unit * 8, unit * 3};
+}
+
+void ClockWidget::paintEvent(QPaintEvent*) {
+    QPainter painter(this);
+    painter.fillRect(rect(), theme().panel);
+    const int space = fontMetrics().height() / 2;
+    const QFont small = font();
+    const int captionHeight = m_caption.isEmpty() ? 0 : QFontMetrics(small).height();
+    QRect figures = rect().adjusted(space, space / 2, -space, -space / 2 - captionHeight);
+
+    QFont large = monospaceFont();
+    large.setPixelSize(fittingPixelSize(large, m_text, figures.size()));
+    painter.setFont(large);
+    painter.setPen(m_run == Run::Running ? theme().text : theme().dim);
+    painter.drawText(figures, Qt::AlignCenter, m_text);
+    painter.setFont(small);
+    painter.setPen(m_run == Run::Stale ? theme().error : theme().dim);
+    const QRect below(space, figures.bottom() + 1, width() - 2 * space, captionHeight);
+    painter.drawText(below, Qt::AlignCenter,
+                     QFontMetrics(small).elidedText(m_caption, Qt::ElideRight, below.width()));
+    if (hasFocus() && !isWindow()) {
+        painter.setPen(theme().accent);
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRect(rect().adjusted(0, 0, -1, -1));
+    }
+}
+
+void ClockWidget::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_F && event->modifiers() == Qt::NoModifier) {
+        emit fullScreenToggled();
+    } else if (event->key() == Qt::Key_Escape && isWindow()) {
+        emit left();
+    } else {
+        QWidget::keyPressEvent(event);
+    }
+}
+
 TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent),
-      m_view(view),
+    : Panel(view, commands, parent),
       m_facts(clockFacts(m_clock)),
       m_large(new ClockWidget(this)),
-      m_table(new TableView(tr("Clocks of the sender"), this)) {
+      m_table(new TableView(tr("Clocks of the sender"), commands, this)) {
     setBackgroundRole(QPalette::Base);
     setAutoFillBackground(true);
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->setSpacing(0);
+    auto* layout = tightColumn(this);
     layout->addWidget(m_large, 1);
     const int space = fontMetrics().height() / 2;
     auto* choices = new QHBoxLayout;
@@ -38,23 +119,16 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
     choices->addStretch();
     layout->addLayout(choices);
     layout->addWidget(m_table);
-    m_table->setModel(&m_facts);
-    m_table->setHeaderHidden(true);
-    m_table->setColumnSamples({QStringLiteral("Frame rate mm"), QString()});
-    m_table->setFixedHeight(m_table->heightForRows(m_facts.rowCount()));
-    m_table->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    connect(m_table, &TableView::copyRequested, this,
-            [&commands](const QString& text) { commands.copyText(text); });
+    m_table->showFacts(m_facts, QStringLiteral("Frame rate mm"));
+    m_table->fixHeight();
     connect(m_large, &ClockWidget::fullScreenToggled, this, [this] { setFullScreen(true); });
     showClock();
 }
 
 QToolButton* TimecodePanel::addChoice(const QString& text, ClockChoice choice) {
-    auto* button = new QToolButton(this);
-    button->setText(text);
+    QToolButton* button = framedButton(text, {}, this);
     button->setCheckable(true);
     button->setChecked(choice == m_choice);
-    button->setProperty("framed", true);
     button->setAccessibleName(tr("Large clock: %1").arg(text));
     connect(button, &QToolButton::clicked, this, [this, choice] {
         m_choice = choice;
@@ -98,10 +172,6 @@ void TimecodePanel::showClock() {
     if (m_fullScreen) {
         m_fullScreen->setClock(text, caption(), run);
     }
-}
-
-QString TimecodePanel::summary() const {
-    return m_choice == ClockChoice::Header ? tr("header · ms") : tr("type 25");
 }
 
 void TimecodePanel::setFullScreen(bool isFullScreen) {

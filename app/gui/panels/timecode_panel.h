@@ -3,7 +3,6 @@
 
 #include "app/gui/models/clock_history.h"
 #include "app/gui/panel.h"
-#include "app/gui/panels/clock_widget.h"
 #include "app/gui/panels/table_view.h"
 
 #include <QToolButton>
@@ -11,6 +10,38 @@
 #include <memory>
 
 namespace posewire::gui {
+
+/// A clock readable across a room: monospaced figures as large as the widget allows.
+class ClockWidget : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit ClockWidget(QWidget* parent = nullptr);
+
+    /// A clock that does not run is dimmed; `caption`, below the figures, says why.
+    enum class Run { Running, Stale, None };
+    void setClock(const QString& text, const QString& caption, Run run);
+    [[nodiscard]] const QString& text() const { return m_text; }
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+signals:
+    /// Double click or F: to be shown on the full screen, or no longer.
+    void fullScreenToggled();
+    /// Escape.
+    void left();
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* /*event*/) override { emit fullScreenToggled(); }
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    QString m_text;
+    QString m_caption;
+    Run m_run = Run::None;
+};
 
 /// Dock `timecode`: the sender's clock, large, and how it runs. Full screen by double click or F.
 class TimecodePanel : public Panel {
@@ -20,7 +51,9 @@ public:
     TimecodePanel(model::SessionView& view, Commands& commands, QWidget* parent);
 
     void refresh() override;
-    [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QString summary() const override {
+        return m_choice == ClockChoice::Header ? tr("header · ms") : tr("type 25");
+    }
 
     /// Shows the clock alone on the whole screen, or ends that.
     void setFullScreen(bool isFullScreen);
@@ -32,7 +65,6 @@ private:
     [[nodiscard]] QString caption() const;
     [[nodiscard]] double age() const; ///< of the newest sample, s
 
-    model::SessionView& m_view;
     ClockHistory m_clock;
     ClockChoice m_choice = ClockChoice::Header;
     PropertyModel m_facts;

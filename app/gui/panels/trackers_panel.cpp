@@ -2,51 +2,71 @@
 #include "app/gui/panels/trackers_panel.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/panels/line.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QItemSelectionModel>
-#include <QVBoxLayout>
+
+#include <array>
+#include <limits>
 
 namespace posewire::gui {
 
+namespace {
+
+/// Free acceleration x y z above, norm of the magnetic field below.
+TimePlot* makeTrackerPlot(QWidget* parent) {
+    constexpr double kSecondsShown = log::secondsOf(TrackerHistory::kPlot);
+    constexpr double kLeastAcceleration = 2.0; // m/s²
+    constexpr double kLeastNorm = 0.1;
+    auto* plot = new TimePlot(TrackersPanel::tr("Plots of the tracker"), kSecondsShown, parent);
+    const int accelerations =
+        plot->addChart(TrackersPanel::tr("Free acceleration m/s²"), 3, kLeastAcceleration);
+    const int norms = plot->addChart(TrackersPanel::tr("Magnetic field, norm"), 2, kLeastNorm);
+    for (QColor Theme::*colour : {&Theme::axisX, &Theme::axisY, &Theme::axisZ}) {
+        plot->addCurve(accelerations, colour);
+    }
+    plot->addCurve(norms, &Theme::plotFourth);
+    return plot;
+}
+
+void plotHistory(TimePlot& plot, const TrackerHistory& history) {
+    std::array<std::vector<TimePlot::Point>, 4> curves;
+    std::vector<TimePlot::Gap> gaps;
+    double before = 0;
+    for (const TrackerHistory::Point& point : history.points()) {
+        const double time = log::secondsOf(point.stamp - history.lastStamp());
+        if (point.followsGap) {
+            gaps.emplace_back(before, time);
+            for (auto& curve : curves) {
+                curve.push_back({(before + time) / 2, std::numeric_limits<double>::quiet_NaN()});
+            }
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            curves[axis].push_back({time, static_cast<double>(point.freeAcceleration[axis])});
+        }
+        curves[3].push_back({time, static_cast<double>(point.magneticNorm)});
+        before = time;
+    }
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        plot.setCurve(static_cast<int>(i), curves[i]);
+    }
+    plot.setGaps(gaps);
+    plot.replot();
+}
+
+} // namespace
+
 TrackersPanel::TrackersPanel(model::SessionView& view, Commands& commands, QWidget* parent)
-    : Panel(parent),
-      m_view(view),
-      m_commands(commands),
+    : Panel(view, commands, parent),
       m_trackers(view),
       m_facts(trackerFacts(m_trackers)),
       m_splitter(new QSplitter(Qt::Vertical, this)),
-      m_table(new TableView(tr("Trackers"), this)),
+      m_table(new TableView(tr("Trackers"), commands, this)),
       m_detail(new QWidget(this)),
-      m_factTable(new TableView(tr("Selected tracker"), this)),
+      m_factTable(new TableView(tr("Selected tracker"), commands, this)),
       m_plots(makeTrackerPlot(this)) {
-    layOut();
-    m_table->setModel(&m_trackers);
-    const QString number = QStringLiteral("99.99");
-    m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()},
-                              QStringLiteral("▲ magnetic"));
-    m_table->setOptionalColumns(TrackerModel::kFree);
-    m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
-                             "Kinematics (type 23)."));
-    m_factTable->setModel(&m_facts);
-    m_factTable->setHeaderHidden(true);
-    m_factTable->setColumnSamples({QStringLiteral("Free acceleration m/s²"), QString()});
-    m_factTable->setFixedHeight(m_factTable->heightForRows(m_facts.rowCount()));
-    m_factTable->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &TrackersPanel::select);
-    for (TableView* table : {m_table, m_factTable}) {
-        connect(table, &TableView::copyRequested, this,
-                [this](const QString& text) { m_commands.copyText(text); });
-    }
-}
-
-void TrackersPanel::layOut() {
-    auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins({});
-    layout->addWidget(m_splitter);
-    auto* detail = new QVBoxLayout(m_detail);
-    detail->setContentsMargins({});
-    detail->setSpacing(0);
+    tightColumn(this)->addWidget(m_splitter);
+    auto* detail = tightColumn(m_detail);
     detail->addWidget(m_plots, 1);
     detail->addWidget(new Line(m_detail));
     detail->addWidget(m_factTable);
@@ -57,6 +77,16 @@ void TrackersPanel::layOut() {
     m_splitter->setHandleWidth(1);
     m_splitter->setChildrenCollapsible(true);
     m_detail->hide();
+    m_table->setModel(&m_trackers);
+    const QString number = QStringLiteral("99.99");
+    m_table->setColumnSamples({QStringLiteral("Right Upper Arm"), number, number, number, number, QString()},
+                              QStringLiteral("▲ magnetic"));
+    m_table->setOptionalColumns(TrackerModel::kFree);
+    m_table->setEmptyText(tr("No tracker data on the air.\nIn MVN: Network Streamer > enable Motion Tracker "
+                             "Kinematics (type 23)."));
+    m_factTable->showFacts(m_facts, QStringLiteral("Free acceleration m/s²"));
+    m_factTable->fixHeight();
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this, &TrackersPanel::select);
 }
 
 void TrackersPanel::refresh() {
@@ -100,15 +130,6 @@ QString TrackersPanel::summary() const {
     const wire::Tracker* tracker = m_trackers.shown();
     return tracker == nullptr ? QString()
                               : QStringLiteral("%1 · %2").arg(trackerName(tracker->id)).arg(tracker->id);
-}
-
-QJsonObject TrackersPanel::state() const {
-    const QJsonArray columns = m_table->chosenColumns();
-    return columns.isEmpty() ? QJsonObject() : QJsonObject{{"columns", columns}};
-}
-
-void TrackersPanel::restoreState(const QJsonObject& state) {
-    m_table->setChosenColumns(state["columns"].toArray());
 }
 
 void TrackersPanel::resizeEvent(QResizeEvent* event) {

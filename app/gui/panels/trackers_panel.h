@@ -4,10 +4,9 @@
 #include "app/gui/models/tracker_model.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/table_view.h"
-#include "app/gui/panels/tracker_plots.h"
+#include "app/gui/plots/time_plot.h"
 
 #include <QSplitter>
-#include <QStackedLayout>
 
 namespace posewire::gui {
 
@@ -20,19 +19,16 @@ public:
 
     void refresh() override;
     [[nodiscard]] QString summary() const override;
-    [[nodiscard]] QJsonObject state() const override;
-    void restoreState(const QJsonObject& state) override;
+    [[nodiscard]] QJsonObject state() const override { return m_table->columns().state(); }
+    void restoreState(const QJsonObject& state) override { m_table->columns().restore(state); }
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
 
 private:
-    void layOut();
     void followSelection();
     void select(const QModelIndex& index);
 
-    model::SessionView& m_view;
-    Commands& m_commands;
     TrackerModel m_trackers;
     PropertyModel m_facts;
     QSplitter* m_splitter;

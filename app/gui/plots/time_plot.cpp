@@ -123,12 +123,8 @@ void TimePlot::setGaps(std::span<const Gap> gaps) {
             m_parts->shortGaps.push_back((gap.first + gap.second) / 2);
         }
     }
-    hatch(wide);
-}
-
-void TimePlot::hatch(std::span<const Gap> gaps) {
     const std::size_t charts = m_parts->charts.size();
-    const std::size_t count = std::min(gaps.size(), kMostHatches);
+    const std::size_t count = std::min(wide.size(), kMostHatches);
     while (m_parts->hatches.size() < charts * count) {
         m_parts->addHatch();
     }
@@ -136,7 +132,7 @@ void TimePlot::hatch(std::span<const Gap> gaps) {
         const std::size_t gap = i / charts;
         m_parts->hatches[i]->setVisible(gap < count);
         if (gap < count) {
-            const auto [begin, end] = gaps[gaps.size() - count + gap];
+            const auto [begin, end] = wide[wide.size() - count + gap];
             m_parts->hatches[i]->topLeft->setCoords(begin, 0);
             m_parts->hatches[i]->bottomRight->setCoords(end, 1);
         }

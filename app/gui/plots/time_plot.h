@@ -8,7 +8,6 @@
 #include <memory>
 #include <span>
 #include <utility>
-#include <vector>
 
 namespace posewire::gui {
 
@@ -57,7 +56,6 @@ private:
 
     void applyColours();
     void paintSoon();
-    void hatch(std::span<const Gap> gaps);
 
     std::unique_ptr<Parts> m_parts;
 };

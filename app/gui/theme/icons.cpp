@@ -8,8 +8,6 @@
 #include <QPainter>
 #include <QSvgRenderer>
 
-#include <memory>
-
 namespace posewire::gui {
 
 namespace {

@@ -29,6 +29,9 @@ enum class ThemeChoice { System, Dark, Light };
 /// A colour between two, by channels: 0 is the first, 1 the second.
 [[nodiscard]] QColor mixed(const QColor& a, const QColor& b, double share);
 
+/// The colour at an opacity of 0 to 1.
+[[nodiscard]] QColor withAlpha(QColor colour, double alpha);
+
 /// The panel's colour with a little of another, to fill what is marked by that colour.
 [[nodiscard]] QColor tinted(const QColor& colour);
 
@@ -50,5 +53,7 @@ tabularFont(); ///< the desktop's font; its digits are of equal width or the mon
 enum class Health { Good, Warning, Error, Unknown };
 [[nodiscard]] QColor healthColour(Health health);
 [[nodiscard]] QString healthSymbol(Health health);
+/// "▲ lossy": a text after the symbol.
+[[nodiscard]] QString healthText(Health health, const QString& text);
 
 } // namespace posewire::gui

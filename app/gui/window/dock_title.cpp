@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/dock_title.h"
 
-#include "app/gui/theme/elided_label.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QDockWidget>
 #include <QEvent>

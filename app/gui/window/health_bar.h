@@ -3,7 +3,7 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/receiving_state.h"
-#include "app/gui/theme/passing_message.h"
+#include "app/gui/theme/widgets.h"
 #include "core/model/session/session_view.h"
 
 #include <QWidget>

@@ -3,7 +3,7 @@
 
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme/dim_label.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/character_health.h"
 #include "app/gui/window/trouble_line.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/thresholds_dialog.h"
 
-#include "app/gui/theme/dim_label.h"
+#include "app/gui/theme/widgets.h"
 #include "core/model/accounting/thresholds.h"
 
 #include <QCheckBox>

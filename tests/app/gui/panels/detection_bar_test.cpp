@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/detection_bar.h"
+#include "app/gui/panels/metadata_panel.h"
 
 #include "app/gui/models/stream_state.h"
 #include "tests/app/gui/models/stage.h"

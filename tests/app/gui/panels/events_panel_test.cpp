@@ -39,7 +39,7 @@ protected:
         m_stage.follow();
         m_panel.refresh();
     }
-    /// So many events of the smallest kind, each an episode of its own.
+    /// `count` events of the smallest kind, each an episode of its own.
     void sendForeign(int count) {
         for (int i = 0; i < count; ++i) {
             m_stage.sendBytes(std::vector<std::byte>(8, std::byte{'G'}), m_stage.now + 1ms,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/theme/elided_label.h"
+#include "app/gui/theme/widgets.h"
 
 #include "app/gui/theme/theme.h"
 

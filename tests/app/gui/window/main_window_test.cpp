@@ -2,7 +2,7 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/panels/find_bar.h"
-#include "app/gui/theme/elided_label.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/window/actions.h"
 #include "app/gui/window/dock_layout.h"
 #include "app/gui/window/dock_title.h"

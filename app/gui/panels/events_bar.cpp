@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/event_bar.h"
+#include "app/gui/panels/events_panel.h"
 
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/command_bar.h"
+#include "app/gui/panels/buttons.h"
 #include "app/gui/theme/theme.h"
 
 #include <QButtonGroup>
@@ -13,7 +13,6 @@
 #include <QLineEdit>
 #include <QMenu>
 #include <QSignalBlocker>
-#include <QToolButton>
 
 #include <algorithm>
 
@@ -34,9 +33,25 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(8, 6, 8, 6);
     row->setSpacing(6);
-    addViews();
+    m_current = addButton(QStringLiteral("currentEvents"), tr("Current"),
+                          tr("Only what is still going on, or may be"));
+    m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
+    auto* group = new QButtonGroup(this);
+    for (QToolButton* button : {m_current, m_history}) {
+        button->setCheckable(true);
+        group->addButton(button);
+    }
+    connect(m_current, &QToolButton::toggled, this, &EventBar::change);
     addSeverities();
-    addText();
+    m_text = new QLineEdit(this);
+    m_text->setObjectName(QStringLiteral("eventText"));
+    m_text->setAccessibleName(tr("Text to filter events by"));
+    m_text->setPlaceholderText(tr("Filter"));
+    m_text->setClearButtonEnabled(true);
+    m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 8);
+    m_text->installEventFilter(this);
+    connect(m_text, &QLineEdit::textChanged, this, &EventBar::change);
+    row->addWidget(m_text, 1);
     addCommands();
     showFilter();
 }
@@ -59,27 +74,12 @@ void EventBar::addCommands() {
 }
 
 QToolButton* EventBar::addButton(const QString& name, const QString& text, const QString& toolTip) {
-    auto* button = new QToolButton(this);
+    QToolButton* button = framedButton(text, toolTip, this);
     button->setObjectName(name);
-    button->setText(text);
-    button->setToolTip(toolTip);
-    button->setProperty("framed", true);
     button->setFocusPolicy(Qt::StrongFocus);
     button->installEventFilter(this);
     layout()->addWidget(button);
     return button;
-}
-
-void EventBar::addViews() {
-    m_current = addButton(QStringLiteral("currentEvents"), tr("Current"),
-                          tr("Only what is still going on, or may be"));
-    m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
-    auto* group = new QButtonGroup(this);
-    for (QToolButton* button : {m_current, m_history}) {
-        button->setCheckable(true);
-        group->addButton(button);
-    }
-    connect(m_current, &QToolButton::toggled, this, &EventBar::change);
 }
 
 void EventBar::addSeverities() {
@@ -109,18 +109,6 @@ void EventBar::addGroups(CommandBar& commands) {
     m_groupCommand->setMenu(m_groups);
     qobject_cast<QToolButton*>(commands.widgetForAction(m_groupCommand))
         ->setPopupMode(QToolButton::InstantPopup);
-}
-
-void EventBar::addText() {
-    m_text = new QLineEdit(this);
-    m_text->setObjectName(QStringLiteral("eventText"));
-    m_text->setAccessibleName(tr("Text to filter events by"));
-    m_text->setPlaceholderText(tr("Filter"));
-    m_text->setClearButtonEnabled(true);
-    m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 8);
-    m_text->installEventFilter(this);
-    connect(m_text, &QLineEdit::textChanged, this, &EventBar::change);
-    static_cast<QHBoxLayout*>(layout())->addWidget(m_text, 1);
 }
 
 void EventBar::setFilter(const EventModel::Filter& filter) {
@@ -165,11 +153,7 @@ void EventBar::change() {
 void EventBar::showCounts(const EventModel::Counts& counts) {
     for (const model::EventSeverity severity : kSeverities) {
         QToolButton* button = m_severities[placeOf(severity)];
-        const QString text = healthSymbol(healthOf(severity)) + QLatin1Char(' ') +
-                             grouped(counts.severities[placeOf(severity)]);
-        if (button->text() != text) {
-            button->setText(text);
-        }
+        button->setText(healthText(healthOf(severity), grouped(counts.severities[placeOf(severity)])));
     }
 }
 

@@ -1,9 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/command_bar.h"
-
-#include <QToolButton>
+#include "app/gui/panels/buttons.h"
 
 namespace posewire::gui {
+
+QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setProperty("framed", true);
+    return button;
+}
+
+QToolButton* flatButton(const QString& text, const QString& toolTip, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setAccessibleName(toolTip);
+    button->setProperty("flat", true);
+    return button;
+}
 
 CommandBar::CommandBar(QWidget* parent) : QToolBar(parent) {
     setToolButtonStyle(Qt::ToolButtonTextOnly);

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QComboBox>
+#include <QLabel>
+#include <QTimer>
+#include <QVBoxLayout>
+
+/// Small parts that docks, dialogs and bars are made of, in the theme's colours.
+namespace posewire::gui {
+
+/// A layout of `parent` without margins and spaces.
+[[nodiscard]] QVBoxLayout* tightColumn(QWidget* parent);
+
+/// Gives the text of a label a colour.
+void setTextColour(QLabel& label, const QColor& colour);
+
+/// A label of secondary importance, in the theme's dim colour.
+[[nodiscard]] QLabel* dimLabel(const QString& text, QWidget* parent);
+/// The same for sentences: broken into lines where it has to be.
+[[nodiscard]] QLabel* dimText(const QString& text, QWidget* parent);
+
+/// A thin line in the theme's colour between the parts of a dock.
+class Line : public QWidget {
+public:
+    explicit Line(QWidget* parent = nullptr) : QWidget(parent) { setFixedHeight(1); }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+};
+
+/// A combo box with the same ▾ as buttons that open a menu.
+class ComboBox final : public QComboBox {
+    Q_OBJECT
+
+public:
+    using QComboBox::QComboBox;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+};
+
+/// One line of text and, dimmed, what is added to it. It never asks for room: where there is too little it
+/// ends in an ellipsis.
+class ElidedLabel final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit ElidedLabel(Qt::Alignment alignment, QWidget* parent = nullptr);
+
+    void setText(const QString& text, const QString& dim = {});
+    [[nodiscard]] QString text() const { return m_text + m_dim; }
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override { return {0, fontMetrics().height()}; }
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    Qt::Alignment m_alignment;
+    QString m_text;
+    QString m_dim;
+};
+
+/// A label that is there only while it has something to say.
+class PassingMessage final : public QLabel {
+    Q_OBJECT
+
+public:
+    PassingMessage(int milliseconds, QWidget* parent);
+
+    /// Shows a text for its time; a narrow label has it as its tooltip as well.
+    void say(const QString& text);
+    /// What is being said; empty where nothing is.
+    [[nodiscard]] QString said() const { return isHidden() ? QString() : text(); }
+
+private:
+    QTimer m_timer;
+};
+
+} // namespace posewire::gui
