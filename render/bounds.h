@@ -16,7 +16,7 @@ struct Bounds {
 
     bool isEmpty() const { return min.x > max.x; }
     glm::vec3 centre() const { return 0.5F * (min + max); }
-    /// Radius of the sphere about the box.
+    /// Radius of the sphere around the box.
     float radius() const { return isEmpty() ? 0.0F : 0.5F * glm::length(max - min); }
 
     /// 0 … 7; bit n says whether it is the upper end along axis n.

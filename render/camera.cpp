@@ -16,7 +16,7 @@ namespace {
 constexpr float kLargestPitch = 1.55F;
 constexpr float kNearestDistance = 0.2F;
 constexpr float kFarthestDistance = 200.0F;
-/// Room about what is framed.
+/// Room around what is framed.
 constexpr float kFrameMargin = 1.06F;
 
 /// Largest |x| and |y| of the box in the picture, as tangents, seen from `distance` before its centre.

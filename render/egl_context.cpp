@@ -75,7 +75,7 @@ tl::expected<Made, std::string> makeContext(EGLDisplay display, std::string_view
 
 } // namespace
 
-/// The display is the process's own and stays initialised: terminating it would take other contexts with it.
+/// The display is the process's own and stays initialised: terminating it would end other contexts too.
 struct OffscreenContext::Impl {
     EGLDisplay display = EGL_NO_DISPLAY;
     EGLContext context = EGL_NO_CONTEXT;

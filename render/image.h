@@ -15,7 +15,7 @@ namespace posewire::render {
 /// its Format_RGBA8888 is Rgba.
 enum class PixelOrder { Rgba, Bgra };
 
-/// Rows from the top, four bytes a pixel, no padding.
+/// Rows from the top, four bytes per pixel, no padding.
 struct Image {
     int width = 0;
     int height = 0;

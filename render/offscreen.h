@@ -12,7 +12,7 @@
 namespace posewire::render {
 
 /// An OpenGL 3.3 core context without window, display or X, by EGL: on the surfaceless platform, else on the
-/// first device that has one. Independent of any context that the program has besides (Qt's for example).
+/// first device that has one. Independent of any context that the program has beside it (Qt's for example).
 /// `create` leaves it current on the calling thread; it belongs to one thread at a time.
 class OffscreenContext {
 public:

@@ -18,7 +18,7 @@ struct Capsule {
     float radius = -1.0F;
 };
 
-/// One capsule a segment about the vertices that follow it most, in the mesh's null pose.
+/// One capsule per segment around the vertices that follow it most, in the mesh's null pose.
 using SegmentCapsules = std::array<Capsule, kSegmentCount>;
 SegmentCapsules segmentCapsules(const SkinnedMesh& mesh);
 /// The capsule of a segment where the palette puts it.

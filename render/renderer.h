@@ -17,9 +17,9 @@ namespace posewire::render {
 
 /// How much work goes into a picture.
 struct RenderQuality {
-    /// Samples a pixel of multisampling; 0 or 1 is none.
+    /// Samples per pixel of multisampling; 0 or 1 is none.
     int samples = 4;
-    /// Smooths the figures' edges by looking at the finished picture: cheap where multisampling is dear.
+    /// Smooths the figures' edges by looking at the finished picture: cheap where multisampling is expensive.
     bool edgeSmoothing = false;
     /// Texels a side of the light's depth picture, and of the softened shadow on the floor.
     int shadowMapSize = 2048;
@@ -38,7 +38,7 @@ struct Viewport {
     int width = 0;
     int height = 0;
     unsigned framebuffer = 0;
-    /// Device pixels a logical pixel: widths of lines and points are scaled by it.
+    /// Device pixels per logical pixel: widths of lines and points are scaled by it.
     float pixelRatio = 1.0F;
 };
 

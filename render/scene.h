@@ -26,7 +26,7 @@ struct SceneColours {
     /// Lines each metre, and the finer ones each quarter of a metre.
     glm::vec3 gridMajor{0.0F};
     glm::vec3 gridMinor{0.0F};
-    /// What a full shadow makes of the floor.
+    /// The floor in full shadow.
     glm::vec3 shadow{0.0F};
     /// The triangle at the origin that points along x.
     glm::vec3 origin{0.0F};
@@ -34,7 +34,7 @@ struct SceneColours {
     glm::vec3 axisX{0.0F};
     glm::vec3 axisY{0.0F};
     glm::vec3 axisZ{0.0F};
-    /// The thin seam about axes, lines and points that keeps them apart from what is behind; alpha is its
+    /// The thin seam around axes, lines and points that keeps them apart from what is behind; alpha is its
     /// strength.
     glm::vec4 outline{0.0F};
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/accounting/thresholds.h"
 #include "core/model/session/choices.h"
 #include "core/model/session/detection.h"
 
@@ -31,13 +30,9 @@ public:
     virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;
     /// Shows the null pose of the shown character as a ghost over its figure.
     virtual void setGhostVisible(bool isVisible) = 0;
-    /// Stops the display at the newest packet, or follows the stream again. Receiving is not touched.
-    virtual void setPaused(bool isPaused) = 0;
     virtual void copyText(const QString& text) = 0;
     /// Brings a dock before the others, by its object name.
     virtual void showDock(const QString& dock) = 0;
-    /// What streams must keep from now on.
-    virtual void setThresholds(const model::Thresholds& thresholds) = 0;
 };
 
 } // namespace posewire::gui

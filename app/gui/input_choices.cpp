@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/input_choices.h"
 
+#include "app/gui/theme/words.h"
+
 #include <QJsonArray>
 
 #include <algorithm>
@@ -13,12 +15,9 @@ namespace {
 
 using Kind = InputAddress::Kind;
 
-constexpr std::array kKinds{std::pair{Kind::Udp, "udp"}, std::pair{Kind::TcpListen, "tcp-listen"},
-                            std::pair{Kind::TcpConnect, "tcp"}};
-
-QString nameOf(Kind kind) {
-    return QLatin1String(std::ranges::find(kKinds, kind, &std::pair<Kind, const char*>::first)->second);
-}
+constexpr int kMostPort = 65'535;
+constexpr std::array kKinds{std::pair{Kind::Udp, "udp"}, std::pair{Kind::TcpListener, "tcp-listen"},
+                            std::pair{Kind::TcpConnection, "tcp"}};
 
 std::optional<Kind> kindOf(const QString& name) {
     for (const auto& [kind, text] : kKinds) {
@@ -31,14 +30,14 @@ std::optional<Kind> kindOf(const QString& name) {
 
 std::optional<std::uint16_t> portOf(const QJsonValue& value) {
     const int port = value.toInt();
-    return port >= 1 && port <= 65'535 ? std::optional(static_cast<std::uint16_t>(port)) : std::nullopt;
+    return port >= 1 && port <= kMostPort ? std::optional(static_cast<std::uint16_t>(port)) : std::nullopt;
 }
 
 std::optional<InputAddress> inputOf(const QJsonObject& object) {
     const auto kind = kindOf(object["protocol"].toString());
     const auto port = portOf(object["port"]);
     const QString host = object["host"].toString();
-    if (!kind || !port || (*kind == Kind::TcpConnect && host.isEmpty())) {
+    if (!kind || !port || (*kind == Kind::TcpConnection && host.isEmpty())) {
         return std::nullopt;
     }
     InputAddress input{host, *port, *kind};
@@ -49,7 +48,7 @@ std::optional<InputAddress> inputOf(const QJsonObject& object) {
 }
 
 QJsonObject jsonOf(const InputAddress& input) {
-    QJsonObject object{{"protocol", nameOf(input.kind)}, {"host", input.address}, {"port", input.port}};
+    QJsonObject object{{"protocol", kindName(input.kind)}, {"host", input.address}, {"port", input.port}};
     if (!input.groups.isEmpty()) {
         object["groups"] = QJsonArray::fromStringList(input.groups);
     }
@@ -95,22 +94,41 @@ InputChoices inputChoicesOf(const QJsonObject& object) {
     return choices;
 }
 
-std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoices& choices) {
-    std::vector<InputAddress> inputs = options.udpPorts;
-    inputs.insert(inputs.end(), options.tcpInputs.begin(), options.tcpInputs.end());
-    const bool isTold = !inputs.empty() || !options.file.isEmpty();
-    if (!isTold && choices.inputs) {
-        return *choices.inputs;
+QString kindName(Kind kind) {
+    return QLatin1String(std::ranges::find(kKinds, kind, &std::pair<Kind, const char*>::first)->second);
+}
+
+QString withoutBrackets(const QString& host) {
+    const bool isBracketed = host.startsWith(QLatin1Char('[')) && host.endsWith(QLatin1Char(']'));
+    return isBracketed ? host.mid(1, host.size() - 2) : host;
+}
+
+tl::expected<InputAddress, QString> parseInputAddress(const QString& text, Kind kind) {
+    const auto colon = text.lastIndexOf(QLatin1Char(':'));
+    const QString host = withoutBrackets(colon < 0 ? QString() : text.left(colon));
+    bool isNumber = false;
+    const int port = text.mid(colon + 1).toInt(&isNumber);
+    const bool needsHost = kind == Kind::TcpConnection;
+    if (!isNumber || port < 1 || port > kMostPort || (needsHost && host.isEmpty())) {
+        return tl::unexpected((needsHost
+                                   ? tr("--%1: '%2' is not HOST:PORT with a port from 1 to 65535.")
+                                   : tr("--%1: '%2' is not [ADDRESS:]PORT with a port from 1 to 65535."))
+                                  .arg(kindName(kind), text));
     }
-    if (options.udpPorts.empty() && (!isTold || options.demoCharacters > 0)) {
-        inputs.insert(inputs.begin(), InputAddress{});
+    return InputAddress{host, static_cast<std::uint16_t>(port), kind};
+}
+
+QString displayText(const InputAddress& input) {
+    QString transport = input.kind == Kind::Udp ? QStringLiteral("UDP ") : QStringLiteral("TCP ");
+    if (input.kind == Kind::TcpConnection) {
+        transport = tr("TCP to ");
     }
-    return inputs;
+    return transport + (input.address.isEmpty() ? QString::number(input.port)
+                                                : displayText(RelayChoice{input.address, input.port}));
 }
 
 QString displayText(const RelayChoice& relay) {
-    const bool isIpv6 = relay.host.contains(QLatin1Char(':'));
-    return (isIpv6 ? QStringLiteral("[%1]:%2") : QStringLiteral("%1:%2")).arg(relay.host).arg(relay.port);
+    return QString::fromStdString(net::textOf({relay.host.toStdString(), relay.port}));
 }
 
 } // namespace posewire::gui

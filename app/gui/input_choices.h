@@ -1,15 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/options.h"
+#include "app/net/input.h"
 
 #include <QJsonObject>
+#include <QString>
+#include <QStringList>
+
+#include <tl/expected.hpp>
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace posewire::gui {
+
+using net::kDefaultPort;
+
+/// Where datagrams come from, as the operator enters it.
+struct InputAddress {
+    using Kind = net::InputKind;
+    QString address; ///< of this computer, empty for all of them; where to connect, that of the sender
+    std::uint16_t port = kDefaultPort;
+    Kind kind = Kind::Udp;
+    QStringList groups{}; ///< UDP: multicast groups to join
+    friend bool operator==(const InputAddress&, const InputAddress&) = default;
+};
 
 /// A host that is to get a copy of every datagram.
 struct RelayChoice {
@@ -18,6 +34,21 @@ struct RelayChoice {
     bool isOn = true;
     friend bool operator==(const RelayChoice&, const RelayChoice&) = default;
 };
+
+/// "9763", "127.0.0.1:9763", "[::1]:9763"; the error says what is wrong, and begins with the option's name.
+[[nodiscard]] tl::expected<InputAddress, QString>
+parseInputAddress(const QString& text, InputAddress::Kind kind = InputAddress::Kind::Udp);
+
+/// "::1" for "[::1]"; anything else as it is.
+[[nodiscard]] QString withoutBrackets(const QString& host);
+
+/// "UDP 9763", "UDP 127.0.0.1:9763", "TCP 9763", "TCP to studio:9763".
+[[nodiscard]] QString displayText(const InputAddress& input);
+/// "studio:9763", "[::1]:9763".
+[[nodiscard]] QString displayText(const RelayChoice& relay);
+
+/// "udp", "tcp-listen", "tcp": the option of the command line, and the protocol in files.
+[[nodiscard]] QString kindName(InputAddress::Kind kind);
 
 /// What the operator chose to hear and to forward: kept from one run to the next.
 struct InputChoices {
@@ -30,12 +61,5 @@ struct InputChoices {
 
 /// Leaves out what makes no sense.
 [[nodiscard]] InputChoices inputChoicesOf(const QJsonObject& object);
-
-/// What to open at the start: what was asked for on the command line; where nothing was, what was open last,
-/// else the port that MVN sends to.
-[[nodiscard]] std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoices& choices);
-
-/// "studio:9763", "[::1]:9763".
-[[nodiscard]] QString displayText(const RelayChoice& relay);
 
 } // namespace posewire::gui

@@ -1,55 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/program_health.h"
 #include "app/gui/options.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/window/process_age.h"
 
 #include <QApplication>
-#include <QEvent>
 #include <QTimer>
 
 #include <cstdio>
-#include <functional>
+#include <utility>
 
 namespace {
 
 using namespace posewire;
 using namespace posewire::gui;
 
-/// Calls once, after the window has been painted for the first time.
-class FirstPaint final : public QObject {
-public:
-    FirstPaint(QWidget* window, std::function<void()> call) : QObject(window), m_call(std::move(call)) {
-        window->installEventFilter(this);
-    }
-
-    bool eventFilter(QObject* object, QEvent* event) override {
-        if (event->type() == QEvent::Paint) {
-            object->removeEventFilter(this);
-            QTimer::singleShot(0, this, m_call);
-        }
-        return false;
-    }
-
-private:
-    std::function<void()> m_call;
-};
-
-void nameApplication() {
-    QCoreApplication::setOrganizationName(QStringLiteral("Posewire"));
-    QCoreApplication::setApplicationName(QStringLiteral("posewire"));
-    QCoreApplication::setApplicationVersion(QStringLiteral(POSEWIRE_VERSION));
-}
-
 /// Help, version and errors need no display: they are dealt with before a window system is asked for.
 tl::expected<Options, EarlyExit> readOptions(int& argc, char** argv) {
     const QCoreApplication application(argc, argv);
     return parseOptions(QCoreApplication::arguments());
-}
-
-int leave(const EarlyExit& exit) {
-    std::fputs(qUtf8Printable(exit.text), exit.status == 0 ? stdout : stderr);
-    return exit.status;
 }
 
 Settings startSettings(SettingsFile& file, const Options& options, QString* problem) {
@@ -122,10 +92,13 @@ void begin(MainWindow& window, const Options& options) {
 } // namespace
 
 int main(int argc, char** argv) {
-    nameApplication();
+    QCoreApplication::setOrganizationName(QStringLiteral("Posewire"));
+    QCoreApplication::setApplicationName(QStringLiteral("posewire"));
+    QCoreApplication::setApplicationVersion(QStringLiteral(POSEWIRE_VERSION));
     const auto options = readOptions(argc, argv);
     if (!options) {
-        return leave(options.error());
+        std::fputs(qUtf8Printable(options.error().text), options.error().status == 0 ? stdout : stderr);
+        return options.error().status;
     }
     QApplication application(argc, argv);
     SettingsFile file(options->settingsFile);
@@ -140,7 +113,11 @@ int main(int argc, char** argv) {
     if (options->size.isValid()) {
         window.resize(options->size);
     }
-    new FirstPaint(&window, [&] { begin(window, *options); });
+    new EventWatch(&window, QEvent::Paint, [&, isFirst = true]() mutable {
+        if (std::exchange(isFirst, false)) {
+            QTimer::singleShot(0, &window, [&] { begin(window, *options); });
+        }
+    });
     window.show();
     if (!problem.isEmpty()) {
         window.say(problem);

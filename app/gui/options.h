@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/input_choices.h"
 #include "app/gui/theme/theme.h"
 
 #include <QSize>
@@ -9,35 +10,12 @@
 
 #include <tl/expected.hpp>
 
-#include <cstdint>
 #include <optional>
 #include <vector>
 
 namespace posewire::gui {
 
-inline constexpr std::uint16_t kDefaultPort = 9763;
-
-/// Where datagrams come from, as the operator says it.
-struct InputAddress {
-    enum class Kind : std::uint8_t {
-        Udp,
-        TcpListen,  ///< MVN connects
-        TcpConnect, ///< to a sender that listens
-    };
-    QString address; ///< of this computer, empty for all of them; where to connect, that of the sender
-    std::uint16_t port = kDefaultPort;
-    Kind kind = Kind::Udp;
-    QStringList groups{}; ///< UDP: multicast groups to join
-    friend bool operator==(const InputAddress&, const InputAddress&) = default;
-};
-
-/// "9763", "127.0.0.1:9763", "[::1]:9763"; the error says what is wrong, and begins with the option's name.
-[[nodiscard]] tl::expected<InputAddress, QString>
-parseInputAddress(const QString& text, InputAddress::Kind kind = InputAddress::Kind::Udp);
-
-/// "UDP 9763", "UDP 127.0.0.1:9763", "TCP 9763", "TCP to studio:9763".
-[[nodiscard]] QString displayText(const InputAddress& input);
-
+/// What the command line asks for.
 struct Options {
     QString file;
     std::vector<InputAddress> udpPorts;  ///< multicast groups are joined at each
@@ -63,5 +41,14 @@ struct EarlyExit {
 
 /// `arguments` with the program's name first. Needs a QCoreApplication, no display.
 [[nodiscard]] tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments);
+
+/// What to open at the start: what was asked for on the command line; where nothing was, what was open last,
+/// else the port that MVN sends to.
+[[nodiscard]] std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoices& choices);
+
+/// "dark", "light", "system": on the command line and in files.
+[[nodiscard]] QString themeName(ThemeChoice choice);
+/// Nothing where no theme has this name.
+[[nodiscard]] std::optional<ThemeChoice> themeNamed(const QString& name);
 
 } // namespace posewire::gui

@@ -1,10 +1,65 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/monitor_health.h"
-#include "app/gui/receiving_state.h"
+#include "app/gui/input_choices.h"
+#include "app/net/addresses.h"
+#include "app/net/connection_help.h"
+#include "app/net/input.h"
+#include "core/log/time.h"
+
+#include <QString>
+
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace posewire::gui {
+
+/// One input that the operator wants to hear.
+struct PortState {
+    InputAddress port;
+    QString problem; ///< why nothing can come from it now, and what to do; empty where it can
+    std::optional<net::InputId> id{}; ///< once it is open
+    net::InputStatus status{};        ///< of an open one, as last measured
+    double datagramsPerSecond = 0;
+};
+
+/// One host that everything is to be forwarded to.
+struct RelayState {
+    enum class Stage : std::uint8_t { Off, LookingUp, Forwarding, Refused };
+    RelayChoice target;
+    Stage stage = Stage::Off;
+    QString problem{}; ///< why it was refused, or why the newest datagrams were
+    std::uint64_t sent = 0;
+    std::uint64_t refused = 0; ///< datagrams that this system did not take
+    std::uint64_t skipped = 0; ///< datagrams left out because the relay fell too far behind
+};
+
+/// What there is to say about receiving.
+struct ReceivingState {
+    std::vector<PortState> ports;
+    QString file;                        ///< shown instead of ports, or beside them
+    std::uint64_t kernelDropped = 0;     ///< in this computer, by the kernel or by the queue of the receiver
+    std::int64_t receiveBufferBytes = 0; ///< the smallest that a UDP port was granted; 0 without one
+    log::Duration longestDelay{}; ///< the longest time the receiving thread did not look at its sockets
+    double datagramsPerSecond = 0;
+    double bytesPerSecond = 0;
+    std::vector<RelayState> relays{};
+    std::vector<net::Finding> findings{};       ///< why no characters are seen; empty where all is well
+    std::vector<net::LocalAddress> addresses{}; ///< of this computer, to type into a sender, the best first
+};
+
+/// How this program itself is doing, measured a few times a second; nothing where the system does not report
+/// it. Shares of a processor are of one core: 1.5 is one and a half.
+struct MonitorHealth {
+    std::optional<double> bufferFill{};    ///< share of the fullest receive buffer, the most since before
+    std::optional<double> receiverShare{}; ///< of a core, by the receiving thread
+    std::optional<double> processShare{};  ///< of a core, by all threads
+    std::optional<std::uint64_t> memoryBytes{}; ///< of this process, in main memory
+    double followUsPerPacket = 0; ///< to read, count and explain a packet; 0 before there was one
+    double followShare = 0;       ///< of the window's thread, spent on that
+    double framesPerSecond = 0;   ///< pictures of the viewport
+};
 
 /// What panels read that is not of the session.
 class ProgramView {

@@ -13,7 +13,7 @@ namespace posewire::render::gl {
 /// Something to draw into. The size never changes: make another.
 class Framebuffer {
 public:
-    /// Colour and depth; with 2 or more samples a pixel it has to be resolved before it can be read.
+    /// Colour and depth; with 2 or more samples per pixel it has to be resolved before it can be read.
     static tl::expected<Framebuffer, std::string> create(int width, int height, int samples = 0);
     /// Draws into a texture that lives longer: a depth texture without colour, or a colour texture without
     /// depth.

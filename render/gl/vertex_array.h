@@ -26,7 +26,7 @@ public:
 
     unsigned name() const { return m_handle.name(); }
     void bind() const;
-    /// `divisor` 1 reads one struct an instance.
+    /// `divisor` 1 reads one struct per instance.
     void attach(const Buffer& buffer, std::size_t stride, const Attribute& attribute, unsigned divisor = 0);
     void attachIndices(const Buffer& buffer);
 

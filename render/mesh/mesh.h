@@ -14,7 +14,7 @@
 
 namespace posewire::render {
 
-/// Up to four joints a vertex; unused places have joint 0 and weight 0.
+/// Up to four joints per vertex; unused places have joint 0 and weight 0.
 using JointIndices = std::array<std::uint8_t, 4>;
 
 /// A triangle mesh in its bind pose, on the CPU. All vertex arrays have one entry per vertex.
@@ -28,7 +28,7 @@ struct SkinnedMesh {
     std::vector<JointIndices> joints;
     /// Not negative, sum 1, falling from x to w.
     std::vector<glm::vec4> weights;
-    /// Three a triangle.
+    /// Three per triangle.
     std::vector<std::uint32_t> indices;
 
     std::size_t vertexCount() const { return positions.size(); }

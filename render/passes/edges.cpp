@@ -12,7 +12,7 @@
 namespace posewire::render {
 namespace {
 
-/// As far as edges.frag looks about, in pixels.
+/// How far edges.frag looks around a pixel, in pixels.
 constexpr float kReach = 6.0F;
 
 struct Region {
@@ -22,7 +22,7 @@ struct Region {
     int height;
 };
 
-/// The pixels of a part of the picture and of `margin` about it.
+/// The pixels of a part of the picture and of `margin` around it.
 Region regionOf(const Bounds& onScreen, const Viewport& viewport, float margin) {
     const auto pixel = [](float device, int size) {
         return (0.5F * device + 0.5F) * static_cast<float>(size);

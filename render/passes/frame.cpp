@@ -14,7 +14,7 @@ namespace posewire::render {
 namespace {
 
 constexpr int kTexelsPerJoint = 2;
-/// Metres about the characters in the light's picture, for the soft edge of the shadow on the floor.
+/// Metres around the characters in the light's picture, for the soft edge of the shadow on the floor.
 constexpr float kShadowMargin = 0.30F;
 /// The light's picture grows in these steps, so that shadows do not shimmer while a character moves.
 constexpr float kShadowStep = 0.5F;
@@ -25,7 +25,7 @@ bool isAboveFloor(const Camera& camera) {
     return camera.projection == Projection::Perspective ? camera.eye().z > 0.0F : camera.pitch > 0.0F;
 }
 
-/// Calls `visit` with the corners of the boxes about the joints, where the palette puts them.
+/// Calls `visit` with the corners of the boxes around the joints, where the palette puts them.
 template <typename Visit>
 void forEachCorner(const DrawnCharacter& character, Visit visit) {
     for (std::size_t joint = 0; joint < kJointCount; ++joint) {
@@ -66,7 +66,7 @@ glm::mat4 lightView(const glm::vec3& towards) {
     return glm::lookAt(towards, glm::vec3(0.0F), up);
 }
 
-/// Fits the light's picture about the characters, in whole texels and steps.
+/// Fits the light's picture around the characters, in whole texels and steps.
 void fitLight(Frame& frame, int shadowMapSize) {
     const glm::mat4 view = lightView(glm::vec3(frame.block.light));
     Bounds all;

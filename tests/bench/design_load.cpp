@@ -4,7 +4,7 @@
 // this computer; receiving and accounting together stay under a tenth of a core; memory stays flat once the
 // history is full.
 //   design_load [--check] [--brief]
-#include "app/gui/driver/process_figures.h"
+#include "app/gui/driver/program_health.h"
 #include "app/gui/window/main_window.h"
 #include "tests/bench/udp_bench.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/receiving.h"
 
-#include "app/gui/driver/raw_file_import.h"
-#include "core/log/time.h"
+#include "core/log/recording_file.h"
+#include "core/wire/header.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
@@ -16,6 +16,8 @@ namespace {
 using Kind = InputAddress::Kind;
 
 constexpr log::Duration kRateWindow = std::chrono::seconds(1);
+constexpr log::Duration kExamine = std::chrono::milliseconds(250);
+constexpr log::Duration kAsk = std::chrono::seconds(3);
 
 net::Endpoint endpointOf(const InputAddress& port) {
     return {port.address.toStdString(), port.port};
@@ -33,10 +35,98 @@ net::UdpInput udpOf(const InputAddress& port) {
 bool useTheSame(const InputAddress& a, const InputAddress& b) {
     const bool isWide = a.address.isEmpty() || b.address.isEmpty();
     return a.kind == b.kind && a.port == b.port &&
-           (a.address == b.address || (isWide && a.kind != Kind::TcpConnect));
+           (a.address == b.address || (isWide && a.kind != Kind::TcpConnection));
+}
+
+bool isFromNetwork(const model::Sender& sender) {
+    return sender.info.transport == log::Transport::Udp || sender.info.transport == log::Transport::Tcp;
+}
+
+/// The facts that the session and the inputs give; without those of the system.
+net::ConnectionFacts connectionFacts(const model::SessionView& session, const ReceivingState& state,
+                                     log::Stamp opened, log::Stamp now) {
+    net::ConnectionFacts facts;
+    facts.now = now;
+    for (const PortState& port : state.ports) {
+        if (port.id) {
+            facts.inputs.push_back(port.status);
+        } else if (!port.problem.isEmpty()) {
+            facts.failed.push_back({port.port.kind,
+                                    endpointOf(port.port),
+                                    {net::NetError::Kind::Other, port.problem.toStdString()}});
+        }
+    }
+    log::Stamp newest = opened;
+    for (const model::Sender& sender : session.senders()) {
+        if (!isFromNetwork(sender)) {
+            continue;
+        }
+        facts.mxtpDatagrams += sender.datagrams + sender.malformed;
+        if (sender.datagrams + sender.malformed != 0) {
+            newest = std::max(newest, sender.lastStamp);
+        }
+        if (sender.foreign != 0) {
+            facts.foreign.push_back({sender.info.address, sender.foreign, sender.foreignHead});
+        }
+    }
+    facts.silence = std::max(log::Duration::zero(), now - newest);
+    return facts;
+}
+
+/// Longer jumps of the time code are taken for a new beginning.
+constexpr log::Duration kGreatestStep = std::chrono::seconds(10);
+
+/// Time within a raw file by its time codes, from 0.
+class TimeCodeStamps {
+public:
+    log::Duration next(const log::FileRecord& record) {
+        const auto header = wire::decodeHeader(record.bytes);
+        if (!record.flags.skipped && header) {
+            const auto timeCode = static_cast<std::int64_t>(header->timeCode);
+            const log::Duration step = std::chrono::milliseconds(m_timeCode ? timeCode - *m_timeCode : 0);
+            m_time += step > log::Duration::zero() && step <= kGreatestStep ? step : log::Duration::zero();
+            m_timeCode = header->timeCode;
+        }
+        return m_time;
+    }
+
+private:
+    log::Duration m_time{};
+    std::optional<std::uint32_t> m_timeCode;
+};
+
+/// Reads a file from its beginning to its end.
+QString visitFile(const QString& path, const log::FileVisitor& visit) {
+    const auto source = log::openFile(path.toStdString());
+    if (!source) {
+        return QString::fromStdString(source.error().text);
+    }
+    const auto read = log::readFile(**source, visit);
+    return read ? QString() : QString::fromStdString(read.error().text);
 }
 
 } // namespace
+
+QString importRawFile(const QString& path, const PacketTaker& take, log::Stamp end) {
+    // Twice over: how long a raw file lasts is known at its end, and it may be larger than memory.
+    TimeCodeStamps measuring;
+    log::Duration length{};
+    std::uint64_t count = 0;
+    QString problem = visitFile(path, [&](const log::FileRecord& record) {
+        length = measuring.next(record);
+        ++count;
+    });
+    if (!problem.isEmpty() || count == 0) {
+        return problem.isEmpty() ? QCoreApplication::translate("Receiving", "%1 is empty.").arg(path)
+                                 : problem;
+    }
+    const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
+    TimeCodeStamps stamps;
+    return visitFile(path, [&](const log::FileRecord& record) {
+        const log::Stamp stamp = end - length + stamps.next(record);
+        take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
+    });
+}
 
 void Receiving::addPort(const InputAddress& port) {
     const auto known = std::ranges::find(m_state.ports, port, &PortState::port);
@@ -69,10 +159,10 @@ void Receiving::open(PortState& state) {
     case Kind::Udp:
         id = m_receiver.addUdp(udpOf(state.port));
         break;
-    case Kind::TcpListen:
+    case Kind::TcpListener:
         id = m_receiver.addTcpListener(endpointOf(state.port));
         break;
-    case Kind::TcpConnect:
+    case Kind::TcpConnection:
         id = m_receiver.addTcpConnection(endpointOf(state.port));
         break;
     }
@@ -200,6 +290,30 @@ std::vector<net::InputStatus> Receiving::openInputs() const {
         }
     }
     return inputs;
+}
+
+void Receiving::examine(const model::SessionView& session, log::Stamp now) {
+    if (std::chrono::abs(now - m_examined) < kExamine) {
+        return;
+    }
+    m_examined = now;
+    if (std::chrono::abs(now - m_asked) >= kAsk) {
+        m_asked = now;
+        m_state.addresses = net::reachable(net::localAddresses());
+        m_firewall = net::findFirewall();
+    }
+    std::vector<net::InputId> open;
+    for (const net::InputStatus& input : openInputs()) {
+        open.push_back(input.id);
+    }
+    if (open != m_open || m_opened == log::Stamp()) {
+        m_open = open;
+        m_opened = now;
+    }
+    net::ConnectionFacts facts = connectionFacts(session, m_state, m_opened, now);
+    facts.addresses = m_state.addresses;
+    facts.firewall = m_firewall;
+    m_state.findings = net::connectionHelp(facts);
 }
 
 InputChoices Receiving::choices() const {

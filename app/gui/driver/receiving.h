@@ -1,20 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/driver/connection_watch.h"
 #include "app/gui/driver/relaying.h"
-#include "app/gui/receiving_state.h"
+#include "app/gui/program_view.h"
 #include "app/net/receiver.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
-#include "core/log/time.h"
+#include "core/model/session/session_view.h"
 
 #include <deque>
+#include <functional>
 #include <map>
+#include <span>
 
 namespace posewire::gui {
 
-/// Everything that the window lets into the log: the receiver with its inputs, and files.
+/// Takes one packet of a file on its way to the log; it sets `arrival.sender` itself.
+using PacketTaker = std::function<void(std::span<const std::byte> bytes, const log::SenderInfo& sender,
+                                       const log::Arrival& arrival)>;
+
+/// Reads a file of datagrams. Those of a capture keep their stamps and senders. Those of a raw file are one
+/// sender, spaced by their time codes (by their order where those repeat or go back), the newest at
+/// `end`. The answer is what went wrong, empty for nothing.
+[[nodiscard]] QString importRawFile(const QString& path, const PacketTaker& take, log::Stamp end);
+
+/// Everything that the window lets into the log: the receiver with its inputs, and files; and why nothing
+/// comes.
 class Receiving {
 public:
     Receiving(log::PacketLog& log, const log::Clock& clock)
@@ -33,7 +44,8 @@ public:
     /// False where it was not there.
     bool removePort(const InputAddress& port);
 
-    /// Opens every port that should be open and is not, where that has become possible. For now and then.
+    /// Opens every port that should be open and is not, where that has become possible; to be called now and
+    /// then.
     void retry();
 
     /// Appends a file of datagrams, beside whatever is received meanwhile. Without stamps of their own they
@@ -43,10 +55,9 @@ public:
 
     /// `now` is what rates are measured against.
     void measure(log::Stamp now);
-    /// Looks why no characters are seen; after measure().
-    void examine(const model::SessionView& session, log::Stamp now) {
-        m_watch.examine(session, now, m_state);
-    }
+    /// Finds out why no characters are seen, at most four times a second; after measure(). What it asks the
+    /// system (addresses, packet filter) it asks every three seconds.
+    void examine(const model::SessionView& session, log::Stamp now);
     [[nodiscard]] const ReceivingState& state() const { return m_state; }
 
     /// The first UDP port that is open; 0 where none is.
@@ -77,9 +88,13 @@ private:
     ReceivingState m_state;
     net::Receiver m_receiver;
     Relaying m_relaying;
-    ConnectionWatch m_watch;
     Window m_totals;
     std::map<net::InputId, Window> m_portTotals;
+    std::vector<net::InputId> m_open; ///< the inputs at the last examine()
+    log::Stamp m_opened{};            ///< when they became these
+    std::optional<net::Firewall> m_firewall;
+    log::Stamp m_examined{};
+    log::Stamp m_asked{};
 };
 
 } // namespace posewire::gui

@@ -8,27 +8,11 @@ namespace posewire::gui {
 
 namespace {
 
-template <typename T>
-bool isReady(const std::future<T>& answer) {
+bool isReady(const std::future<net::NetResult<net::RelayId>>& answer) {
     return answer.valid() && answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-bool hearTheSame(const std::vector<net::InputStatus>& a, const std::vector<net::InputStatus>& b) {
-    return std::ranges::equal(a, b, {}, &net::InputStatus::id, &net::InputStatus::id);
-}
-
 } // namespace
-
-Relaying::~Relaying() {
-    for (Work& work : m_work) {
-        m_abandoned.push_back(std::move(work.answer));
-    }
-    for (const Answer& answer : m_abandoned) {
-        if (answer.valid()) {
-            answer.wait();
-        }
-    }
-}
 
 bool Relaying::add(const RelayChoice& choice) {
     const auto isSame = [&](const RelayState& state) {
@@ -148,7 +132,7 @@ void Relaying::readCounters() {
 }
 
 void Relaying::heedInputs(const std::vector<net::InputStatus>& inputs) {
-    if (hearTheSame(inputs, m_inputs)) {
+    if (std::ranges::equal(inputs, m_inputs, {}, &net::InputStatus::id, &net::InputStatus::id)) {
         return;
     }
     m_inputs = inputs;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/receiving_state.h"
+#include "app/gui/program_view.h"
 #include "app/net/relay.h"
 
 #include <future>
@@ -12,15 +12,11 @@
 namespace posewire::gui {
 
 /// The hosts that the operator wants everything forwarded to, each on or off. Belongs to the window's
-/// thread; names are looked up beside it.
+/// thread; names are looked up beside it, and its end waits for those that still are.
 class Relaying {
 public:
     /// Both must outlive it.
     Relaying(const log::PacketLog& log, const log::Clock& clock) : m_log(log), m_clock(clock) {}
-    /// Waits for names that are still being looked up.
-    ~Relaying();
-    Relaying(const Relaying&) = delete;
-    Relaying& operator=(const Relaying&) = delete;
 
     /// False where that host and port are there already.
     bool add(const RelayChoice& choice);
@@ -50,7 +46,7 @@ private:
 
     const log::PacketLog& m_log;
     const log::Clock& m_clock;
-    std::unique_ptr<net::Relay> m_relay; ///< from the first target on: it is a thread
+    std::unique_ptr<net::Relay> m_relay; ///< from the first target on: it is a thread; outlives the answers
     std::vector<RelayState> m_states;
     std::vector<Work> m_work;
     std::vector<Answer> m_abandoned; ///< no longer wanted, and not known yet

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
 
-#include "app/gui/driver/process_figures.h"
-#include "core/log/time.h"
+#include "app/net/datagram_sender.h"
+#include "core/performer/performer.h"
+#include "core/wire/codec.h"
 
 #include <QClipboard>
 #include <QGuiApplication>
 
 #include <algorithm>
+#include <vector>
 
 namespace posewire::gui {
 
@@ -19,6 +21,41 @@ constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
 constexpr log::Duration kRetry = std::chrono::seconds(2);
 /// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake.
 constexpr std::size_t kPacketsPerTick = 50'000;
+/// A demo that fell behind (a sleeping computer) continues from now instead of flooding the receiver with the
+/// past.
+constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
+
+/// The performer as a sender beside the window, until it is asked to stop.
+void sendDemo(const std::stop_token& stop, int characters, std::uint16_t port) {
+    auto sender = net::DatagramSender::connect({{"127.0.0.1", port}, net::SendTarget::Transport::Udp});
+    if (!sender) {
+        return;
+    }
+    performer::PerformerSettings settings;
+    settings.characters = characters;
+    performer::Performer performer(settings);
+    const log::SystemClock clock;
+    net::SendSchedule schedule(clock);
+    const auto period =
+        std::chrono::duration_cast<log::Duration>(log::Duration(std::chrono::seconds(1)) / settings.rateHz);
+    std::vector<wire::Datagram> datagrams;
+    std::vector<std::byte> bytes;
+    log::Duration skipped{};
+    for (std::uint64_t index = 0; !stop.stop_requested(); ++index) {
+        performer.frameInto(index, datagrams);
+        const log::Duration late = schedule.waitUntil(skipped + static_cast<std::int64_t>(index) * period);
+        if (late > kGreatestLag) {
+            skipped += late;
+        }
+        for (const wire::Datagram& datagram : datagrams) {
+            bytes.clear();
+            if (wire::encodeInto(datagram, bytes)) {
+                // A datagram that the system does not take counts as one that a network lost.
+                static_cast<void>(sender->send(bytes));
+            }
+        }
+    }
+}
 
 } // namespace
 
@@ -34,12 +71,6 @@ SessionDriver::SessionDriver(const log::Clock& clock, QObject* parent)
         const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(m_clock.monotonic() - begin);
         m_timer.start(std::clamp(std::max(kTick - took, took), std::chrono::milliseconds(1), kSlowestTick));
     });
-}
-
-SessionDriver::~SessionDriver() = default;
-
-void SessionDriver::start() {
-    m_timer.start(0);
 }
 
 void SessionDriver::tick() {
@@ -90,29 +121,19 @@ QString SessionDriver::openFile(const QString& path) {
 void SessionDriver::seek(double seconds) {
     const auto after = log::durationOf(seconds);
     setPaused(true);
-    m_session.setCursor({model::Cursor::Mode::Paused, m_session.packetAt(m_session.firstStamp() + after)});
-    announceChange();
+    change(&model::Session::setCursor,
+           model::Cursor{model::Cursor::Mode::Paused, m_session.packetAt(m_session.firstStamp() + after)});
 }
 
 void SessionDriver::setDemo(int characters) {
-    m_demo.reset();
+    m_demo = {}; // stops and joins the one that runs
     if (characters > 0) {
         if (m_receiving.openPort() == 0) {
             m_receiving.addPort({QStringLiteral("127.0.0.1"), 0});
         }
-        m_demo = std::make_unique<DemoSender>(characters, m_receiving.openPort());
+        m_demo = std::jthread(sendDemo, characters, m_receiving.openPort());
     }
     emit demoChanged(isDemoRunning());
-}
-
-void SessionDriver::select(const model::Selection& selection) {
-    m_session.setSelection(selection);
-    announceChange();
-}
-
-void SessionDriver::selectRange(const model::RangeChoice& range) {
-    m_session.setRange(range);
-    announceChange();
 }
 
 void SessionDriver::selectPacket(std::uint64_t number) {
@@ -131,48 +152,8 @@ void SessionDriver::selectPacket(std::uint64_t number) {
     select(selection);
 }
 
-void SessionDriver::setMarked(std::uint64_t packet, bool isMarked) {
-    m_session.setMarked(packet, isMarked);
-    announceChange();
-}
-
-void SessionDriver::setComment(std::uint64_t packet, const QString& comment) {
-    m_session.setComment(packet, comment.toStdString());
-    announceChange();
-}
-
-void SessionDriver::setOverride(log::SenderId sender, const model::SenderOverride& overrides) {
-    m_session.setOverride(sender, overrides);
-    announceChange();
-}
-
-void SessionDriver::setDisplayFilter(const QString& filter) {
-    m_session.setDisplayFilter(filter.toStdString());
-    announceChange();
-}
-
-void SessionDriver::setThresholds(const model::Thresholds& thresholds) {
-    m_session.setThresholds(thresholds);
-    announceChange();
-}
-
-void SessionDriver::announceChange() {
-    m_isChanged = true;
-    m_tableTick = {};
-}
-
-void SessionDriver::frameCharacter(const model::CharacterKey& key) {
-    emit frameRequested(key);
-}
-
-void SessionDriver::setCharacterVisible(const model::CharacterKey& key, bool isVisible) {
-    m_session.setHidden(key, !isVisible);
-    announceChange();
-}
-
 void SessionDriver::setGhostVisible(bool isVisible) {
-    m_session.setGhostShown(isVisible);
-    announceChange();
+    change(&model::Session::setGhostShown, isVisible);
     emit ghostChanged(isVisible);
 }
 
@@ -185,17 +166,12 @@ void SessionDriver::setPaused(bool isPaused) {
         const std::uint64_t end = m_session.end();
         cursor = {model::Cursor::Mode::Paused, end == 0 ? 0 : end - 1};
     }
-    m_session.setCursor(cursor);
-    announceChange();
+    change(&model::Session::setCursor, cursor);
     emit pausedChanged(isPaused);
 }
 
 void SessionDriver::copyText(const QString& text) {
     QGuiApplication::clipboard()->setText(text);
-}
-
-void SessionDriver::showDock(const QString& dock) {
-    emit dockRequested(dock);
 }
 
 } // namespace posewire::gui

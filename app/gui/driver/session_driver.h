@@ -2,17 +2,15 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/driver/demo_sender.h"
-#include "app/gui/driver/health_meter.h"
+#include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
 #include "app/gui/program_view.h"
-#include "core/log/time.h"
 #include "core/model/session/session.h"
 
 #include <QObject>
 #include <QTimer>
 
-#include <memory>
+#include <thread>
 
 namespace posewire::gui {
 
@@ -23,14 +21,12 @@ class SessionDriver final : public QObject, public Commands, public ProgramView 
 
 public:
     explicit SessionDriver(const log::Clock& clock, QObject* parent = nullptr);
-    ~SessionDriver() override;
 
     [[nodiscard]] model::SessionView& session() { return m_session; }
-    [[nodiscard]] const model::SessionView& session() const { return m_session; }
     [[nodiscard]] Receiving& receiving() { return m_receiving; }
 
     /// Begins to tick.
-    void start();
+    void start() { m_timer.start(0); }
     /// One display tick: what the timer calls.
     void tick();
 
@@ -41,30 +37,47 @@ public:
     /// Stops the display this many seconds after the first packet there was.
     void seek(double seconds);
 
-    /// 0 ends the demo.
+    /// Sends the performer's characters to a port of this computer, through a real socket; 0 ends that.
     void setDemo(int characters);
-    [[nodiscard]] bool isDemoRunning() const { return m_demo != nullptr; }
+    [[nodiscard]] bool isDemoRunning() const { return m_demo.joinable(); }
 
     /// Pictures shown since the start.
     void setPicturesShown(std::uint64_t pictures) { m_pictures = pictures; }
 
+    /// Stops the display at the newest packet, or follows the stream again. Receiving is not touched.
+    void setPaused(bool isPaused);
     [[nodiscard]] bool isPaused() const { return m_session.cursor().mode == model::Cursor::Mode::Paused; }
 
+    /// What streams must keep from now on.
+    void setThresholds(const model::Thresholds& thresholds) {
+        change(&model::Session::setThresholds, thresholds);
+    }
+
     // Commands
-    void select(const model::Selection& selection) override;
-    void selectRange(const model::RangeChoice& range) override;
+    void select(const model::Selection& selection) override {
+        change(&model::Session::setSelection, selection);
+    }
+    void selectRange(const model::RangeChoice& range) override { change(&model::Session::setRange, range); }
     void selectPacket(std::uint64_t number) override;
-    void setMarked(std::uint64_t packet, bool isMarked) override;
-    void setComment(std::uint64_t packet, const QString& comment) override;
-    void setOverride(log::SenderId sender, const model::SenderOverride& overrides) override;
-    void setDisplayFilter(const QString& filter) override;
-    void setThresholds(const model::Thresholds& thresholds) override;
-    void frameCharacter(const model::CharacterKey& key) override;
-    void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override;
+    void setMarked(std::uint64_t packet, bool isMarked) override {
+        change(&model::Session::setMarked, packet, isMarked);
+    }
+    void setComment(std::uint64_t packet, const QString& comment) override {
+        change(&model::Session::setComment, packet, comment.toStdString());
+    }
+    void setOverride(log::SenderId sender, const model::SenderOverride& overrides) override {
+        change(&model::Session::setOverride, sender, overrides);
+    }
+    void setDisplayFilter(const QString& filter) override {
+        change(&model::Session::setDisplayFilter, filter.toStdString());
+    }
+    void frameCharacter(const model::CharacterKey& key) override { emit frameRequested(key); }
+    void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
+        change(&model::Session::setHidden, key, !isVisible);
+    }
     void setGhostVisible(bool isVisible) override;
-    void setPaused(bool isPaused) override;
     void copyText(const QString& text) override;
-    void showDock(const QString& dock) override;
+    void showDock(const QString& dock) override { emit dockRequested(dock); }
 
     // ProgramView
     [[nodiscard]] MonitorHealth monitorHealth() const override { return m_meter.health(); }
@@ -82,15 +95,24 @@ signals:
     void dockRequested(const QString& dock);
 
 private:
+    /// Calls a setter of the session, and shows what came of it.
+    template <class Setter, class... Arguments>
+    void change(Setter setter, const Arguments&... arguments) {
+        (m_session.*setter)(arguments...);
+        announceChange();
+    }
     /// What panels show has changed otherwise than by new packets.
-    void announceChange();
+    void announceChange() {
+        m_isChanged = true;
+        m_tableTick = {};
+    }
     void measureHealth();
 
     const log::Clock& m_clock;
     log::PacketLog m_log;
     model::Session m_session;
     Receiving m_receiving;
-    std::unique_ptr<DemoSender> m_demo;
+    std::jthread m_demo;
     QTimer m_timer;
     HealthMeter m_meter;
     std::uint64_t m_pictures = 0;

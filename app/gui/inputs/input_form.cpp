@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/inputs/input_form.h"
+#include "app/gui/inputs/inputs_page.h"
 
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/theme/words.h"
 
-#include <QEvent>
 #include <QGridLayout>
 #include <QHostAddress>
 #include <QKeyEvent>
@@ -18,68 +19,53 @@ namespace posewire::gui {
 namespace {
 
 using Kind = InputAddress::Kind;
-using Read = tl::expected<InputAddress, QString>;
 
 constexpr int kMostPort = 65'535;
-
-tl::unexpected<QString> wrong(const QString& text) {
-    return tl::unexpected(text);
-}
-
-Read readGroups(InputAddress input, const QString& text) {
-    static const QRegularExpression separators(QStringLiteral("[,;\\s]+"));
-    for (const QString& group : text.split(separators, Qt::SkipEmptyParts)) {
-        if (!QHostAddress(group).isMulticast()) {
-            return wrong(InputForm::tr("'%1' is not a multicast group: those are 224.0.0.0 to "
-                                       "239.255.255.255, and ff00:: and above.")
-                             .arg(group));
-        }
-        input.groups += group;
-    }
-    if (!input.groups.isEmpty() && !input.address.isEmpty()) {
-        return wrong(InputForm::tr("With multicast groups, leave the host empty."));
-    }
-    return input;
-}
 
 QString explanation(Kind kind) {
     switch (kind) {
     case Kind::Udp:
-        return InputForm::tr("MVN sends to this computer. Leave the host empty to listen on every address; "
-                             "add groups only if MVN sends to a multicast group.");
-    case Kind::TcpListen:
-        return InputForm::tr("MVN connects to this computer, as it does when its protocol is TCP. Leave the "
-                             "host empty to listen on every address.");
-    case Kind::TcpConnect:
+        return tr("MVN sends to this computer. Leave the host empty to listen on every address; "
+                  "add groups only if MVN sends to a multicast group.");
+    case Kind::TcpListener:
+        return tr("MVN connects to this computer, as it does when its protocol is TCP. Leave the "
+                  "host empty to listen on every address.");
+    case Kind::TcpConnection:
         break;
     }
-    return InputForm::tr("This computer connects to a sender that listens, and keeps trying until it "
-                         "answers. MVN itself does not listen.");
+    return tr("This computer connects to a sender that listens, and keeps trying until it "
+              "answers. MVN itself does not listen.");
 }
 
 } // namespace
 
-Read readInput(const TypedInput& typed) {
-    InputAddress input;
-    input.kind = typed.kind;
-    input.address = typed.host.trimmed();
-    if (input.address.startsWith(QLatin1Char('[')) && input.address.endsWith(QLatin1Char(']'))) {
-        input.address = input.address.mid(1, input.address.size() - 2);
-    }
-    if (typed.port < 1 || typed.port > kMostPort) {
-        return wrong(InputForm::tr("A port is a number from 1 to 65535."));
-    }
-    input.port = static_cast<std::uint16_t>(typed.port);
-    if (typed.kind == Kind::TcpConnect) {
-        return input.address.isEmpty() ? Read(wrong(InputForm::tr("Type the host to connect to.")))
-                                       : Read(input);
+tl::expected<InputAddress, QString> readInput(const InputAddress& typed) {
+    InputAddress input{withoutBrackets(typed.address.trimmed()), typed.port, typed.kind};
+    if (typed.kind == Kind::TcpConnection) {
+        if (input.address.isEmpty()) {
+            return tl::unexpected(tr("Type the host to connect to."));
+        }
+        return input;
     }
     if (!input.address.isEmpty() && QHostAddress(input.address).isNull()) {
-        return wrong(InputForm::tr("'%1' is not an address. Type one of this computer's, or leave the host "
-                                   "empty for all of them.")
-                         .arg(input.address));
+        return tl::unexpected(tr("'%1' is not an address. Type one of this computer's, or leave the host "
+                                 "empty for all of them.")
+                                  .arg(input.address));
     }
-    return typed.kind == Kind::Udp ? readGroups(input, typed.groups) : Read(input);
+    static const QRegularExpression separators(QStringLiteral("[,;\\s]+"));
+    const QString groups = typed.kind == Kind::Udp ? typed.groups.join(QLatin1Char(' ')) : QString();
+    for (const QString& group : groups.split(separators, Qt::SkipEmptyParts)) {
+        if (!QHostAddress(group).isMulticast()) {
+            return tl::unexpected(tr("'%1' is not a multicast group: those are 224.0.0.0 to "
+                                     "239.255.255.255, and ff00:: and above.")
+                                      .arg(group));
+        }
+        input.groups += group;
+    }
+    if (!input.groups.isEmpty() && !input.address.isEmpty()) {
+        return tl::unexpected(tr("With multicast groups, leave the host empty."));
+    }
+    return input;
 }
 
 InputForm::InputForm(QWidget* parent)
@@ -90,8 +76,8 @@ InputForm::InputForm(QWidget* parent)
       m_groups(new QLineEdit(this)),
       m_note(new QLabel(this)) {
     m_protocol->addItem(tr("UDP"), static_cast<int>(Kind::Udp));
-    m_protocol->addItem(tr("TCP, listening"), static_cast<int>(Kind::TcpListen));
-    m_protocol->addItem(tr("TCP, connecting"), static_cast<int>(Kind::TcpConnect));
+    m_protocol->addItem(tr("TCP, listening"), static_cast<int>(Kind::TcpListener));
+    m_protocol->addItem(tr("TCP, connecting"), static_cast<int>(Kind::TcpConnection));
     m_port->setRange(1, kMostPort);
     m_port->setValue(kDefaultPort);
     m_port->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -122,12 +108,15 @@ InputForm::InputForm(QWidget* parent)
         connect(edit, &QLineEdit::textChanged, this, [this] { setProblem({}); });
     }
     connect(m_port, &QSpinBox::valueChanged, this, [this] { setProblem({}); });
+    new EventWatch(this, QEvent::PaletteChange, [this] { showNote(); });
     changeKind();
 }
 
-TypedInput InputForm::typed() const {
-    return {static_cast<Kind>(m_protocol->currentData().toInt()), m_host->text(), m_port->value(),
-            m_groups->text()};
+InputAddress InputForm::typed() const {
+    return {m_host->text(),
+            static_cast<std::uint16_t>(m_port->value()),
+            static_cast<Kind>(m_protocol->currentData().toInt()),
+            {m_groups->text()}};
 }
 
 void InputForm::setInput(const InputAddress& input) {
@@ -146,7 +135,7 @@ void InputForm::focusHost() {
 void InputForm::changeKind() {
     const Kind kind = typed().kind;
     m_groups->setEnabled(kind == Kind::Udp);
-    m_host->setPlaceholderText(kind == Kind::TcpConnect ? tr("name or address") : tr("every address"));
+    m_host->setPlaceholderText(kind == Kind::TcpConnection ? tr("name or address") : tr("every address"));
     setProblem({});
 }
 
@@ -169,13 +158,6 @@ void InputForm::keyPressEvent(QKeyEvent* event) {
         return;
     }
     QWidget::keyPressEvent(event);
-}
-
-void InputForm::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange) {
-        showNote();
-    }
 }
 
 } // namespace posewire::gui

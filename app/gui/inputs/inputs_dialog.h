@@ -29,12 +29,12 @@ public:
 
     [[nodiscard]] InputsPage& inputs() const { return *m_inputs; }
     [[nodiscard]] RelayPage& relay() const { return *m_relay; }
-    [[nodiscard]] ConnectionPage& help() const { return *m_help; }
+    /// All that the connection help shows, as lines.
+    [[nodiscard]] QString helpText() const;
 
 signals:
     /// Receiving::choices() has been changed by the operator.
     void choicesChanged();
-    void copyRequested(const QString& text);
     void openFileRequested();
 
 private:

@@ -3,17 +3,70 @@
 
 #include "app/gui/driver/receiving.h"
 #include "app/gui/models/receiving_models.h"
+#include "app/net/addresses.h"
 
 #include <QWidget>
 
+#include <tl/expected.hpp>
+
+#include <vector>
+
 class QLabel;
+class QLineEdit;
 class QPushButton;
+class QSpinBox;
 
 namespace posewire::gui {
 
+class ComboBox;
 class SenderSettings;
-class InputForm;
 class TableView;
+
+/// What the operator typed, made an address; the error says what is wrong with it, in a sentence. Groups may
+/// be separated by commas, semicolons or blanks. Nothing is opened or looked up.
+[[nodiscard]] tl::expected<InputAddress, QString> readInput(const InputAddress& typed);
+
+/// Protocol, host, port and multicast groups of one input, and a line that explains the protocol or says
+/// what is wrong.
+class InputForm final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit InputForm(QWidget* parent = nullptr);
+
+    /// As it was typed, before it is known to make sense.
+    [[nodiscard]] InputAddress typed() const;
+    void setInput(const InputAddress& input);
+
+    /// Empty for none. Stays until something is typed.
+    void setProblem(const QString& problem);
+    [[nodiscard]] const QString& problem() const { return m_problem; }
+
+    void focusHost();
+
+signals:
+    /// Enter was pressed in one of the fields.
+    void submitted();
+
+protected:
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    void changeKind();
+    void showNote();
+
+    ComboBox* m_protocol;
+    QLineEdit* m_host;
+    QSpinBox* m_port;
+    QLineEdit* m_groups;
+    QLabel* m_note;
+    QString m_problem;
+};
+
+/// The addresses that reach an input, the best first: the one it listens at, else those of this computer; its
+/// groups where it has any. None where the input connects itself.
+[[nodiscard]] std::vector<net::LocalAddress> hostsFor(const InputAddress& input,
+                                                      const std::vector<net::LocalAddress>& addresses);
 
 /// The inputs with their state; adds, changes and removes them while they run.
 class InputsPage final : public QWidget {
@@ -36,7 +89,6 @@ public:
 
 signals:
     void choicesChanged();
-    void copyRequested(const QString& text);
     void openFileRequested();
 
 protected:

@@ -2,8 +2,11 @@
 #include "app/gui/inputs/relay_page.h"
 
 #include "app/gui/panels/table_view.h"
+#include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QEvent>
+#include <QClipboard>
+#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QHostAddress>
 #include <QItemSelectionModel>
@@ -38,7 +41,7 @@ tl::expected<RelayChoice, QString> readRelay(const QString& text) {
                          tl::unexpected(RelayPage::tr("'%1' is not an address.").arg(trimmed)))
                    : RelayChoice{trimmed};
     }
-    const auto input = parseInputAddress(trimmed, InputAddress::Kind::TcpConnect);
+    const auto input = parseInputAddress(trimmed, InputAddress::Kind::TcpConnection);
     if (!input) {
         return tl::unexpected(
             RelayPage::tr("'%1' is not host:port with a port from 1 to 65535.").arg(trimmed));
@@ -64,7 +67,8 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
     layOut();
     setFocusProxy(m_target);
     connect(m_model, &RelayModel::switched, this, &RelayPage::switchTarget, Qt::QueuedConnection);
-    connect(m_table, &TableView::copyRequested, this, &RelayPage::copyRequested);
+    connect(m_table, &TableView::copyRequested, this,
+            [](const QString& text) { QGuiApplication::clipboard()->setText(text); });
     connect(m_add, &QPushButton::clicked, this, &RelayPage::submit);
     connect(m_remove, &QPushButton::clicked, this, &RelayPage::removeSelected);
     connect(m_target, &QLineEdit::textChanged, this, [this] { setProblem({}); });
@@ -73,19 +77,16 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
                 m_remove->setEnabled(current.isValid());
                 showNote();
             });
-    auto* removeKey = new QShortcut(QKeySequence::Delete, m_table);
-    removeKey->setContext(Qt::WidgetShortcut);
-    connect(removeKey, &QShortcut::activated, this, &RelayPage::removeSelected);
+    new QShortcut(QKeySequence::Delete, m_table, this, &RelayPage::removeSelected, Qt::WidgetShortcut);
+    new EventWatch(this, QEvent::PaletteChange, [this] { showNote(); });
     setProblem({});
     refresh();
 }
 
 void RelayPage::layOut() {
-    auto* about = new QLabel(tr("Every received datagram is forwarded by UDP, unchanged, to each target that "
-                                "is on. Receiving never waits for this. Files are not forwarded."),
-                             this);
-    about->setWordWrap(true);
-    about->setForegroundRole(QPalette::PlaceholderText);
+    auto* about = dimText(tr("Every received datagram is forwarded by UDP, unchanged, to each target that "
+                             "is on. Receiving never waits for this. Files are not forwarded."),
+                          this);
     m_table->setMinimumHeight(m_table->heightForRows(kTableRows));
     m_target->setPlaceholderText(tr("host:port, such as 192.168.1.40:%1").arg(kDefaultPort));
     m_note->setWordWrap(true);
@@ -172,13 +173,6 @@ void RelayPage::keyPressEvent(QKeyEvent* event) {
         QWidget::keyPressEvent(event);
     } else if (m_target->hasFocus()) {
         submit();
-    }
-}
-
-void RelayPage::changeEvent(QEvent* event) {
-    QWidget::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange) {
-        showNote();
     }
 }
 

@@ -33,11 +33,9 @@ public:
 
 signals:
     void choicesChanged();
-    void copyRequested(const QString& text);
 
 protected:
     void keyPressEvent(QKeyEvent* event) override;
-    void changeEvent(QEvent* event) override;
 
 private:
     void layOut();

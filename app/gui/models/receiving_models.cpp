@@ -18,9 +18,9 @@ QString protocolText(const InputAddress& input) {
     switch (input.kind) {
     case Kind::Udp:
         return input.groups.isEmpty() ? tr("UDP") : tr("UDP, multicast");
-    case Kind::TcpListen:
+    case Kind::TcpListener:
         return tr("TCP, listening");
-    case Kind::TcpConnect:
+    case Kind::TcpConnection:
         break;
     }
     return tr("TCP, connecting");
@@ -52,7 +52,7 @@ PropertyValue inputState(const PortState& state) {
         return {state.problem, state.id ? Health::Warning : Health::Error, state.problem};
     }
     const net::InputStatus& status = state.status;
-    if (!status.peers.empty() && state.port.kind == Kind::TcpListen) {
+    if (!status.peers.empty() && state.port.kind == Kind::TcpListener) {
         return peersState(status.peers);
     }
     const bool isReceiving = state.port.kind == Kind::Udp && state.datagramsPerSecond > 0;
@@ -64,7 +64,7 @@ PropertyValue inputState(const PortState& state) {
     if (status.state == net::InputState::Connecting) {
         return {QString::fromStdString(status.text), Health::Unknown, {}};
     }
-    return {state.port.kind == Kind::TcpListen ? tr("listening, nobody has connected") : tr("listening"),
+    return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening"),
             Health::Unknown,
             {}};
 }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/models/column.h"
-#include "app/gui/receiving_state.h"
+#include "app/gui/program_view.h"
 
 #include <optional>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/nullpose_panel.h"
 
-#include "app/gui/file_filters.h"
 #include "app/gui/models/null_pose_reading.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"

@@ -30,10 +30,7 @@ ScreenBox screenBox(const render::Camera& camera, std::span<const render::Bounds
     ScreenBox box;
     for (const render::Bounds& bounds : boxes) {
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 point((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
-                                  (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
-                                  (corner & 4) != 0 ? bounds.max.z : bounds.min.z);
-            const auto place = camera.project(point, aspect);
+            const auto place = camera.project(bounds.corner(corner), aspect);
             box.isAllInFront = box.isAllInFront && place.has_value();
             if (place) {
                 box.least = glm::min(box.least, *place);

@@ -25,14 +25,12 @@ public:
     void face(render::StandardView view) { m_camera = render::facing(m_camera, view); }
     void setProjection(render::Projection projection) { m_camera.projection = projection; }
 
-    /// Shows all boxes at once, and goes on showing what follow() is given. Without boxes nothing changes.
+    /// Shows all boxes at once, and keeps showing what follow() is given. Without boxes nothing changes.
     void frame(std::span<const render::Bounds> boxes, float aspect);
     /// Shows a box and stays there.
     void show(const render::Bounds& box, float aspect);
     /// Moves gently towards showing all boxes; the first ones are shown at once. Nothing after a pan or zoom.
     void follow(std::span<const render::Bounds> boxes, float aspect, double seconds);
-
-    [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
 
 private:
     render::Camera m_camera;
@@ -40,7 +38,7 @@ private:
     bool m_hasFramed = false;
 };
 
-/// The camera moved, not turned, so that the boxes fill the picture and stand in its middle; unchanged
+/// The camera moved, not turned, so that the boxes fill the picture and are in its middle; unchanged
 /// without boxes.
 [[nodiscard]] render::Camera fitted(render::Camera camera, std::span<const render::Bounds> boxes,
                                     float aspect);

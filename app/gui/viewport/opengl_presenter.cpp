@@ -1,32 +1,71 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/opengl_presenter.h"
+#include "app/gui/viewport/presenter.h"
 
-#include "app/gui/viewport/scene_upload.h"
-
+#include <QGuiApplication>
+#include <QOffscreenSurface>
 #include <QOpenGLContext>
+#include <QOpenGLFunctions>
 #include <QOpenGLWidget>
 #include <QResizeEvent>
 
+#include <algorithm>
+#include <array>
 #include <optional>
+#include <string>
 
 namespace posewire::gui {
 
-class OpenGlPresenter::View final : public QOpenGLWidget {
+namespace {
+
+constexpr int kMajorVersion = 3;
+constexpr int kMinorVersion = 3;
+
+QSurfaceFormat surfaceFormat() {
+    QSurfaceFormat format;
+    format.setVersion(kMajorVersion, kMinorVersion);
+    format.setProfile(QSurfaceFormat::CoreProfile);
+    return format;
+}
+
+std::string rendererName(QOpenGLContext& context) {
+    constexpr unsigned kGlRenderer = 0x1F01;
+    const auto* name = context.functions()->glGetString(kGlRenderer);
+    return name == nullptr ? std::string() : reinterpret_cast<const char*>(name);
+}
+
+bool hasHardwareOpenGl() {
+    constexpr std::array kPlatforms{"xcb", "wayland", "wayland-egl", "windows", "cocoa"};
+    const QString platform = QGuiApplication::platformName();
+    if (std::ranges::none_of(kPlatforms, [&](const char* name) { return platform == QLatin1String(name); })) {
+        return false;
+    }
+    QOpenGLContext context;
+    context.setFormat(surfaceFormat());
+    if (!context.create()) {
+        return false;
+    }
+    QOffscreenSurface surface;
+    surface.setFormat(context.format());
+    surface.create();
+    if (!surface.isValid() || !context.makeCurrent(&surface)) {
+        return false;
+    }
+    const bool isNewEnough = context.format().version() >= qMakePair(kMajorVersion, kMinorVersion);
+    const bool isHardware = isNewEnough && !render::isSoftwareRenderer(rendererName(context));
+    context.doneCurrent();
+    return isHardware;
+}
+
+class View final : public QOpenGLWidget {
 public:
-    explicit View(OpenGlPresenter* presenter) : QOpenGLWidget(presenter) {
-        QSurfaceFormat format;
-        format.setVersion(3, 3);
-        format.setProfile(QSurfaceFormat::CoreProfile);
+    explicit View(QWidget* parent) : QOpenGLWidget(parent) {
+        QSurfaceFormat format = surfaceFormat();
         format.setDepthBufferSize(24);
         setFormat(format);
         setAttribute(Qt::WA_TransparentForMouseEvents);
     }
 
-    ~View() override {
-        makeCurrent();
-        forget();
-        doneCurrent();
-    }
+    ~View() override { forget(); }
 
     void setFrame(std::shared_ptr<const SceneFrame> frame) {
         m_frame = std::move(frame);
@@ -42,12 +81,9 @@ public:
 
 protected:
     void initializeGL() override {
-        // Called again with a new context when the window moves to another screen's driver or is docked anew.
-        connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
-            makeCurrent();
-            forget();
-            doneCurrent();
-        });
+        // Called again with a new context when the window moves to another screen's driver or is docked
+        // again.
+        connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] { forget(); });
         auto renderer = render::Renderer::create();
         if (!renderer) {
             m_failure = QString::fromStdString(renderer.error());
@@ -70,9 +106,12 @@ protected:
     }
 
 private:
+    /// What is in the context is released in it.
     void forget() {
+        makeCurrent();
         m_upload = {};
         m_renderer.reset();
+        doneCurrent();
     }
 
     std::optional<render::Renderer> m_renderer;
@@ -82,30 +121,28 @@ private:
     bool m_isWaiting = false;
 };
 
-OpenGlPresenter::OpenGlPresenter(QWidget* parent) : Presenter(parent), m_view(new View(this)) {
-    connect(m_view, &QOpenGLWidget::frameSwapped, this, &Presenter::presented);
-}
+class OpenGlPresenter final : public Presenter {
+public:
+    explicit OpenGlPresenter(QWidget* parent) : Presenter(parent), m_view(new View(this)) {
+        connect(m_view, &QOpenGLWidget::frameSwapped, this, &Presenter::presented);
+    }
 
-OpenGlPresenter::~OpenGlPresenter() = default;
+    [[nodiscard]] bool isReady() const override { return !m_view->isWaiting() && failure().isEmpty(); }
+    void present(std::shared_ptr<const SceneFrame> frame) override { m_view->setFrame(std::move(frame)); }
+    [[nodiscard]] QString rendererName() const override { return m_view->rendererName(); }
+    [[nodiscard]] QString failure() const override { return m_view->failure(); }
 
-bool OpenGlPresenter::isReady() const {
-    return !m_view->isWaiting() && failure().isEmpty();
-}
+protected:
+    void resizeEvent(QResizeEvent* event) override { m_view->setGeometry(QRect(QPoint(), event->size())); }
 
-void OpenGlPresenter::present(std::shared_ptr<const SceneFrame> frame) {
-    m_view->setFrame(std::move(frame));
-}
+private:
+    View* m_view;
+};
 
-QString OpenGlPresenter::rendererName() const {
-    return m_view->rendererName();
-}
+} // namespace
 
-QString OpenGlPresenter::failure() const {
-    return m_view->failure();
-}
-
-void OpenGlPresenter::resizeEvent(QResizeEvent* event) {
-    m_view->setGeometry(QRect(QPoint(), event->size()));
+Presenter* makeOpenGlPresenter(QWidget* parent) {
+    return hasHardwareOpenGl() ? new OpenGlPresenter(parent) : nullptr;
 }
 
 } // namespace posewire::gui

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/viewport/scene_frame.h"
+#include "app/gui/viewport/scene.h"
 
 #include <QWidget>
 
@@ -9,8 +9,8 @@
 
 namespace posewire::gui {
 
-/// Brings frames to the screen. One frame is in the making at a time: present() is for when isReady() says
-/// so, and presented() tells when the next may come.
+/// Brings frames to the screen, one at a time: present() is for when isReady() says so, and presented()
+/// reports when the next may come.
 class Presenter : public QWidget {
     Q_OBJECT
 
@@ -28,5 +28,14 @@ public:
 signals:
     void presented();
 };
+
+/// Draws straight into the window by graphics hardware. Null where windows cannot be drawn so: on platforms
+/// on which QOpenGLWidget does not work at all (it crashes there), below OpenGL 3.3, or where the processor
+/// draws.
+[[nodiscard]] Presenter* makeOpenGlPresenter(QWidget* parent);
+
+/// Draws on a thread and paints the pictures with QPainter: for software OpenGL, and for platforms without
+/// any.
+[[nodiscard]] Presenter* makeSoftwarePresenter(QWidget* parent);
 
 } // namespace posewire::gui

@@ -2,18 +2,24 @@
 #include "app/gui/viewport/viewport_overlay.h"
 
 #include "app/gui/theme/balanced_text.h"
-#include "app/gui/viewport/viewport_buttons.h"
+#include "app/gui/viewport/viewport_widget.h"
 
+#include <QHBoxLayout>
+#include <QMenu>
 #include <QPainter>
+#include <QToolButton>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace posewire::gui {
 
 namespace {
 
 constexpr qreal kRadius = 5;
+constexpr QLatin1String kButtons("viewportButtons");
 constexpr float kBackgroundOpacity = 0.9F;
 
 QFont semibold(QFont font) {
@@ -63,7 +69,64 @@ void giveWay(QRectF& plate, const std::vector<QRectF>& taken, qreal width) {
     }
 }
 
+QToolButton* button(QWidget* parent, const QString& toolTip) {
+    auto* result = new QToolButton(parent);
+    result->setProperty("framed", true);
+    result->setToolTip(toolTip);
+    result->setFocusPolicy(Qt::TabFocus);
+    return result;
+}
+
+class ViewportButtons final : public QWidget {
+public:
+    explicit ViewportButtons(ViewportWidget* viewport)
+        : QWidget(viewport),
+          m_axes(button(this, tr("Local axes of the segments: x red, y green, z blue"))),
+          m_frame(button(this, tr("Show all characters, and keep them in the picture"))),
+          m_projection(button(this, tr("Perspective or orthographic"))) {
+        setObjectName(kButtons);
+        auto* row = new QHBoxLayout(this);
+        row->setContentsMargins(12, 12, 12, 12);
+        row->setSpacing(8);
+        for (QToolButton* each : {m_axes, m_frame, m_projection}) {
+            row->addWidget(each);
+        }
+        const std::array modes{std::pair{AxesMode::All, tr("All segments")},
+                               std::pair{AxesMode::Selected, tr("Selected character")},
+                               std::pair{AxesMode::None, tr("None")}};
+        auto* menu = new QMenu(m_axes);
+        for (const auto& [mode, text] : modes) {
+            menu->addAction(text, viewport, [viewport, mode = mode] { viewport->setAxes(mode); });
+        }
+        m_axes->setMenu(menu);
+        m_axes->setPopupMode(QToolButton::InstantPopup);
+        m_frame->setText(tr("Frame  F"));
+        connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
+        connect(m_projection, &QToolButton::clicked, viewport, &ViewportWidget::toggleProjection);
+        connect(viewport, &ViewportWidget::optionsChanged, this,
+                [this, viewport] { showOptions(*viewport); });
+        showOptions(*viewport);
+    }
+
+private:
+    void showOptions(const ViewportWidget& viewport) {
+        const std::array names{tr("all"), tr("selected"), tr("none")};
+        m_axes->setText(tr("Axes: %1 ▾").arg(names[static_cast<std::size_t>(viewport.axes())]));
+        m_projection->setText(viewport.projection() == render::Projection::Perspective ? tr("Persp")
+                                                                                       : tr("Ortho"));
+        adjustSize();
+    }
+
+    QToolButton* m_axes;
+    QToolButton* m_frame;
+    QToolButton* m_projection;
+};
+
 } // namespace
+
+void addViewportButtons(ViewportWidget& viewport) {
+    new ViewportButtons(&viewport);
+}
 
 ViewportOverlay::ViewportOverlay(QWidget* parent) : QWidget(parent) {
     setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -88,8 +151,7 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.setRenderHint(QPainter::Antialiasing);
     std::vector<QRectF> taken;
-    for (const auto* buttons :
-         parentWidget()->findChildren<ViewportButtons*>(QString(), Qt::FindDirectChildrenOnly)) {
+    if (const auto* buttons = parentWidget()->findChild<QWidget*>(kButtons, Qt::FindDirectChildrenOnly)) {
         taken.push_back(buttons->geometry());
     }
     for (const ViewportLabel& label : m_labels) {
@@ -106,7 +168,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const QFontMetricsF metrics(painter.font());
     const qreal unit = metrics.height();
     const qreal dot = 0.6 * unit;
-    const QString status = healthSymbol(label.level) + QLatin1Char(' ') + label.words;
+    const QString status = healthSymbol(label.state.health) + QLatin1Char(' ') + label.state.text;
     const qreal width =
         2.4 * unit + dot + metrics.horizontalAdvance(label.name) + metrics.horizontalAdvance(status);
     const qreal height = unit + 8;
@@ -127,7 +189,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     painter.drawEllipse(QRectF(plate.left() + 0.6 * unit, plate.center().y() - dot / 2, dot, dot));
     qreal x = plate.left() + 0.6 * unit + dot + 0.4 * unit;
     x = paintText(painter, x, plate, label.name, theme().text) + 0.6 * unit;
-    paintText(painter, x, plate, status, healthColour(label.level));
+    paintText(painter, x, plate, status, healthColour(label.state.health));
 }
 
 void ViewportOverlay::paintCard(QPainter& painter) const {

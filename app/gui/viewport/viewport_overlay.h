@@ -2,8 +2,7 @@
 #pragma once
 
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/empty_state.h"
-#include "app/gui/viewport/scene_frame.h"
+#include "app/gui/viewport/captions.h"
 
 #include <QWidget>
 
@@ -11,13 +10,17 @@
 
 namespace posewire::gui {
 
-/// What stands over one character.
+class ViewportWidget;
+
+/// Lays the few choices over the picture: axes, framing, projection.
+void addViewportButtons(ViewportWidget& viewport);
+
+/// The label over one character.
 struct ViewportLabel {
     QPointF anchor; ///< the label's lower middle
     QColor colour;
     QString name;
-    Health level = Health::Unknown;
-    QString words;
+    PropertyValue state; ///< how it does
     bool isSelected = false;
 };
 

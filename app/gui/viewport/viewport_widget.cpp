@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_widget.h"
 
-#include "app/gui/viewport/character_health.h"
-#include "app/gui/viewport/opengl_presenter.h"
-#include "app/gui/viewport/opengl_probe.h"
-#include "app/gui/viewport/software_presenter.h"
+#include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "core/log/time.h"
 
@@ -14,6 +11,7 @@
 #include <QWheelEvent>
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -56,11 +54,10 @@ void ViewportWidget::start() {
     if (m_presenter != nullptr) {
         return;
     }
-    const bool isHardware = hasHardwareOpenGl();
-    if (isHardware) {
-        m_presenter = new OpenGlPresenter(this);
-    } else {
-        m_presenter = new SoftwarePresenter(this);
+    m_presenter = makeOpenGlPresenter(this);
+    const bool isHardware = m_presenter != nullptr;
+    if (!isHardware) {
+        m_presenter = makeSoftwarePresenter(this);
     }
     m_builder =
         std::make_unique<SceneBuilder>(m_session, isHardware ? render::Detail::High : render::Detail::Medium);
@@ -69,11 +66,7 @@ void ViewportWidget::start() {
     m_presenter->lower();
     m_presenter->setVisible(true);
     connect(m_presenter, &Presenter::presented, this, &ViewportWidget::onPresented);
-    outdate();
-}
-
-void ViewportWidget::refresh() {
-    outdate();
+    refresh();
 }
 
 void ViewportWidget::setReceiving(const ReceivingState& receiving) {
@@ -81,7 +74,7 @@ void ViewportWidget::setReceiving(const ReceivingState& receiving) {
     updateOverlay();
 }
 
-void ViewportWidget::outdate() {
+void ViewportWidget::refresh() {
     m_isOutdated = true;
     drawNext();
 }
@@ -95,7 +88,8 @@ void ViewportWidget::drawNext() {
     frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
     m_builder->build(m_axes, *frame);
-    followCharacters(*frame);
+    m_motion.follow(boxesOf(*frame), aspect(), log::secondsOf(m_session.now() - m_followed));
+    m_followed = m_session.now();
     frame->camera = m_motion.camera();
     frame->built = m_session.now();
     m_isOutdated = false;
@@ -103,17 +97,10 @@ void ViewportWidget::drawNext() {
     m_presenter->present(std::move(frame));
 }
 
-void ViewportWidget::followCharacters(SceneFrame& frame) {
-    const double seconds = log::secondsOf(m_session.now() - m_followed);
-    m_followed = m_session.now();
-    m_motion.follow(boxesOf(frame), aspect(), seconds);
-}
-
 void ViewportWidget::onPresented() {
     ++m_picturesShown;
     if (m_drawing != nullptr) {
-        m_shown = std::move(m_drawing);
-        m_drawing = nullptr;
+        m_shown = std::exchange(m_drawing, nullptr);
     }
     updateOverlay();
     drawNext();
@@ -127,12 +114,11 @@ void ViewportWidget::updateOverlay() {
             if (!place) {
                 continue;
             }
-            const CharacterHealth health = characterHealth(m_session, figure.key);
             labels.push_back(
                 {pointerAt(*place, size()),
                  QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
-                 QString::fromStdString(m_session.displayName(figure.key)), health.level, health.words,
-                 m_session.selection().character == figure.key});
+                 QString::fromStdString(m_session.displayName(figure.key)),
+                 characterHealth(m_session, figure.key), m_session.selection().character == figure.key});
         }
     }
     m_overlay->setLabels(std::move(labels));
@@ -153,39 +139,36 @@ bool ViewportWidget::isSettled() const {
     return m_shown != nullptr && (isIdle || m_session.now() - m_shown->built < kFresh);
 }
 
-QString ViewportWidget::rendererName() const {
-    return m_presenter == nullptr ? QString() : m_presenter->rendererName();
-}
-
-QString ViewportWidget::failure() const {
-    return m_presenter == nullptr ? QString() : m_presenter->failure();
-}
-
 float ViewportWidget::aspect() const {
     return static_cast<float>(std::max(1, width())) / static_cast<float>(std::max(1, height()));
 }
 
 void ViewportWidget::setAxes(AxesMode mode) {
     m_axes = mode;
-    outdate();
+    refresh();
     emit optionsChanged();
 }
 
 void ViewportWidget::setProjection(render::Projection projection) {
     m_motion.setProjection(projection);
-    outdate();
+    refresh();
     emit optionsChanged();
+}
+
+void ViewportWidget::toggleProjection() {
+    setProjection(projection() == render::Projection::Perspective ? render::Projection::Orthographic
+                                                                  : render::Projection::Perspective);
 }
 
 void ViewportWidget::face(render::StandardView view) {
     m_motion.face(view);
-    outdate();
+    refresh();
 }
 
 void ViewportWidget::frameAll() {
     if (m_shown != nullptr) {
         m_motion.frame(boxesOf(*m_shown), aspect());
-        outdate();
+        refresh();
     }
 }
 
@@ -196,7 +179,7 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
     for (const Figure& figure : m_shown->figures) {
         if (figure.key == key && !figure.bounds.isEmpty()) {
             m_motion.show(paddedBounds(figure), aspect());
-            outdate();
+            refresh();
         }
     }
 }
@@ -212,12 +195,12 @@ void ViewportWidget::resizeEvent(QResizeEvent* /*event*/) {
     if (m_presenter != nullptr) {
         m_presenter->setGeometry(rect());
     }
-    outdate();
+    refresh();
 }
 
 void ViewportWidget::changeEvent(QEvent* event) {
     if (event->type() == QEvent::PaletteChange || event->type() == QEvent::StyleChange) {
-        outdate();
+        refresh();
     }
     QWidget::changeEvent(event);
 }
@@ -243,7 +226,7 @@ void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
     } else if (event->buttons().testFlag(Qt::LeftButton)) {
         m_motion.orbit(movement);
     }
-    outdate();
+    refresh();
 }
 
 void ViewportWidget::mouseReleaseEvent(QMouseEvent* event) {
@@ -267,7 +250,7 @@ void ViewportWidget::mouseDoubleClickEvent(QMouseEvent* event) {
 void ViewportWidget::wheelEvent(QWheelEvent* event) {
     m_motion.zoom(event->angleDelta().y() / kWheelStep, event->position(), size());
     event->accept();
-    outdate();
+    refresh();
 }
 
 std::optional<render::Pick> ViewportWidget::pickAt(const QPointF& pointer) const {

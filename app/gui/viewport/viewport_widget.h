@@ -2,10 +2,10 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/receiving_state.h"
+#include "app/gui/program_view.h"
 #include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/presenter.h"
-#include "app/gui/viewport/scene_builder.h"
+#include "app/gui/viewport/scene.h"
 #include "core/log/time.h"
 
 #include <memory>
@@ -28,13 +28,14 @@ public:
     /// takes time.
     void start();
 
-    /// The session or the selection has moved.
+    /// For when the session, the selection or the view itself has changed.
     void refresh();
     void setReceiving(const ReceivingState& receiving);
 
     void setAxes(AxesMode mode);
     [[nodiscard]] AxesMode axes() const { return m_axes; }
     void setProjection(render::Projection projection);
+    void toggleProjection();
     [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
     void face(render::StandardView view);
     void frameAll();
@@ -43,11 +44,15 @@ public:
     /// True while what is on screen is what was last asked for, or, with data streaming, next to it.
     [[nodiscard]] bool isSettled() const;
     [[nodiscard]] const ViewportOverlay& overlay() const { return *m_overlay; }
-    [[nodiscard]] QString rendererName() const;
+    [[nodiscard]] QString rendererName() const {
+        return m_presenter == nullptr ? QString() : m_presenter->rendererName();
+    }
     /// Since the start.
     [[nodiscard]] std::uint64_t picturesShown() const { return m_picturesShown; }
     /// Why there is no picture; empty where there is one.
-    [[nodiscard]] QString failure() const;
+    [[nodiscard]] QString failure() const {
+        return m_presenter == nullptr ? QString() : m_presenter->failure();
+    }
 
 signals:
     /// Axes or projection are not what they were.
@@ -66,9 +71,7 @@ protected:
 private:
     void drawNext();
     void onPresented();
-    void followCharacters(SceneFrame& frame);
     void updateOverlay();
-    void outdate();
     [[nodiscard]] std::optional<render::Pick> pickAt(const QPointF& pointer) const;
     [[nodiscard]] float aspect() const;
 

@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/alerts.h"
 
+#include "app/gui/theme/widgets.h"
 #include "core/model/accounting/thresholds.h"
+
+#include <QCheckBox>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QPushButton>
+#include <QVBoxLayout>
 
 #include <utility>
 
@@ -51,6 +60,85 @@ bool AlertSounds::isDue(const model::Events& events, const AlertChoices& choices
     }
     m_end = events.all().empty() ? m_end : events.all().back().number + 1;
     return !std::exchange(m_isFirst, false) && isDue;
+}
+
+ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
+    : QDialog(parent),
+      m_explanation(dimText({}, this)),
+      m_warningSound(new QCheckBox(tr("at a &warning"), this)),
+      m_errorSound(new QCheckBox(tr("at an &error"), this)) {
+    setWindowTitle(tr("Thresholds"));
+    auto* form = new QFormLayout;
+    for (const model::ThresholdRow& row : model::thresholdTable()) {
+        addLimit(*form, row);
+    }
+    auto* sounds = new QVBoxLayout;
+    sounds->addWidget(m_warningSound);
+    sounds->addWidget(m_errorSound);
+    form->addRow(tr("Sound"), sounds);
+    auto* buttons = new QDialogButtonBox(
+        QDialogButtonBox::Ok | QDialogButtonBox::Cancel | QDialogButtonBox::RestoreDefaults, this);
+    connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
+            [this] { setChoices({}); });
+    auto* column = new QVBoxLayout(this);
+    column->setSpacing(fontMetrics().height());
+    column->addWidget(
+        dimText(tr("A stream that exceeds one of these raises one event per episode, which also "
+                   "shows in the health of its character. Changes apply from now on."),
+                this));
+    column->addLayout(form);
+    column->addWidget(m_explanation);
+    column->addWidget(buttons);
+    setChoices(choices);
+    setMinimumWidth(fontMetrics().averageCharWidth() * 62);
+}
+
+void ThresholdsDialog::addLimit(QFormLayout& form, const model::ThresholdRow& row) {
+    auto* box = new QDoubleSpinBox(this);
+    box->setDecimals(row.shownPerUnit == 1 ? 1 : 0);
+    box->setRange(row.least * row.shownPerUnit, row.most * row.shownPerUnit);
+    box->setSuffix(tr(row.unit));
+    box->setSpecialValueText(row.least == 0 ? tr("never an alert") : QString()); // at the least
+    box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
+    box->setToolTip(tr(row.help));
+    form.addRow(tr(row.label), box);
+    m_fields.push_back({&row, box});
+    connect(box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);
+}
+
+void ThresholdsDialog::explainHysteresis() {
+    const AlertChoices shown = choices();
+    const double loss = shown.thresholds.lossPercent;
+    const QString share = QString::number(shown.thresholds.hysteresis * 100, 'f', 0);
+    m_explanation->setText(
+        loss > 0 ? tr("Hysteresis: a loss alert begins above %1 % and ends below %2 %, so that a figure that "
+                      "hovers about its limit alerts once.")
+                       .arg(QString::number(loss, 'f', 1),
+                            QString::number(loss * shown.thresholds.hysteresis, 'f', 2))
+                 : tr("Hysteresis: an alert ends below %1 % of its limit, so that a figure that hovers about "
+                      "its limit alerts once.")
+                       .arg(share));
+}
+
+AlertChoices ThresholdsDialog::choices() const {
+    AlertChoices choices;
+    for (const Field& field : m_fields) {
+        choices.thresholds.*field.row->limit = field.box->value() / field.row->shownPerUnit;
+    }
+    choices.hasWarningSound = m_warningSound->isChecked();
+    choices.hasErrorSound = m_errorSound->isChecked();
+    return choices;
+}
+
+void ThresholdsDialog::setChoices(const AlertChoices& choices) {
+    for (const Field& field : m_fields) {
+        field.box->setValue(choices.thresholds.*field.row->limit * field.row->shownPerUnit);
+    }
+    m_warningSound->setChecked(choices.hasWarningSound);
+    m_errorSound->setChecked(choices.hasErrorSound);
+    explainHysteresis();
 }
 
 } // namespace posewire::gui

@@ -3,7 +3,19 @@
 
 #include "core/model/session/session_view.h"
 
+#include <QDialog>
 #include <QJsonObject>
+
+#include <vector>
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+
+namespace posewire::model {
+struct ThresholdRow;
+}
 
 namespace posewire::gui {
 
@@ -19,7 +31,7 @@ struct AlertChoices {
 /// What is missing or makes no sense is as shipped.
 [[nodiscard]] AlertChoices alertChoicesOf(const QJsonObject& object);
 
-/// Tells which sounds are due: one for an episode, and none for what happened before.
+/// Decides which sounds are due: one for an episode, and none for what happened before.
 class AlertSounds {
 public:
     /// True where an event began since the last call that the operator wants to hear.
@@ -28,6 +40,30 @@ public:
 private:
     std::uint64_t m_end = 0; ///< events before this number were looked at
     bool m_isFirst = true;
+};
+
+/// The limits that streams must keep, and whether a sound announces that one was exceeded.
+class ThresholdsDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    explicit ThresholdsDialog(const AlertChoices& choices, QWidget* parent = nullptr);
+
+    [[nodiscard]] AlertChoices choices() const;
+    void setChoices(const AlertChoices& choices);
+
+private:
+    struct Field {
+        const model::ThresholdRow* row;
+        QDoubleSpinBox* box;
+    };
+    void addLimit(QFormLayout& form, const model::ThresholdRow& row);
+    void explainHysteresis();
+
+    std::vector<Field> m_fields;
+    QLabel* m_explanation;
+    QCheckBox* m_warningSound;
+    QCheckBox* m_errorSound;
 };
 
 } // namespace posewire::gui

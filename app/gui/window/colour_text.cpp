@@ -43,22 +43,14 @@ void ColourText::paintEvent(QPaintEvent* /*event*/) {
     const bool isActive = focusPolicy() != Qt::NoFocus && (underMouse() || hasFocus());
     const QRectF frame = QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5);
     if (m_look == Look::Pill || isActive) {
-        const bool isProblem = m_level == Health::Error;
-        painter.setPen(QPen(isProblem ? theme().error : hasFocus() ? theme().accent : theme().line, 1));
+        const QColor plain = hasFocus() ? theme().accent : theme().line;
+        painter.setPen(QPen(m_level == Health::Error ? theme().error : plain, 1));
         painter.setBrush(isActive ? theme().raised : Qt::transparent);
         const qreal radius = m_look == Look::Pill ? frame.height() / 2 : 4;
         painter.drawRoundedRect(frame, radius, radius);
     }
     painter.setPen(healthColour(m_level));
     painter.drawText(rect(), Qt::AlignCenter, text());
-}
-
-void ColourText::enterEvent(QEnterEvent* /*event*/) {
-    update();
-}
-
-void ColourText::leaveEvent(QEvent* /*event*/) {
-    update();
 }
 
 /// Enter as well as the space bar.

@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_bar.h"
 
+#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/viewport/character_health.h"
+#include "app/gui/theme/widgets.h"
+#include "app/gui/theme/words.h"
+#include "app/gui/viewport/captions.h"
 #include "app/gui/window/colour_text.h"
-#include "app/gui/window/health_popup.h"
 
+#include <QAbstractButton>
+#include <QFrame>
 #include <QHBoxLayout>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QScreen>
+#include <QVBoxLayout>
 
 #include <algorithm>
 
@@ -15,10 +25,6 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kMessageMs = 12'000;
-
-QString perSecondText(double bytesPerSecond) {
-    return HealthBar::tr("%1 MB/s").arg(fixed(bytesPerSecond / 1e6, 2));
-}
 
 /// From the first packet to the newest.
 double historySeconds(model::SessionView& session) {
@@ -43,7 +49,214 @@ QString historyText(model::SessionView& session) {
     return HealthBar::tr("history %1").arg(text);
 }
 
+constexpr log::Duration kPast = std::chrono::seconds(10);
+/// More would be a list: that is in the dock of events.
+constexpr std::size_t kMostLines = 6;
+
+/// A few lines of text behind the mark of its severity, with a dim note below; a button by mouse and
+/// keyboard.
+class TroubleLine final : public QAbstractButton {
+public:
+    TroubleLine(Health level, const QString& text, const QString& note, QWidget* parent)
+        : QAbstractButton(parent), m_level(level), m_note(note) {
+        setObjectName(QStringLiteral("trouble"));
+        setText(text);
+        setAccessibleName(text);
+        setAccessibleDescription(note);
+        setFocusPolicy(Qt::StrongFocus);
+        setCursor(Qt::PointingHandCursor);
+        setAttribute(Qt::WA_Hover);
+        QSizePolicy policy(QSizePolicy::Expanding, QSizePolicy::Minimum);
+        policy.setHeightForWidth(true);
+        setSizePolicy(policy);
+    }
+
+    [[nodiscard]] bool hasHeightForWidth() const override { return true; }
+    [[nodiscard]] int heightForWidth(int width) const override {
+        constexpr int kTallest = 10'000;
+        const QRect room(0, 0, width - markWidth() - 2 * margin(), kTallest);
+        const int text = fontMetrics().boundingRect(room, Qt::TextWordWrap, this->text()).height();
+        return text + fontMetrics().lineSpacing() + 2 * margin();
+    }
+
+    [[nodiscard]] QSize sizeHint() const override {
+        const int width = fontMetrics().averageCharWidth() * 56;
+        return {width, heightForWidth(width)};
+    }
+
+protected:
+    void paintEvent(QPaintEvent* /*event*/) override {
+        QPainter painter(this);
+        painter.setRenderHint(QPainter::Antialiasing);
+        if (hasFocus() || underMouse()) {
+            painter.setPen(hasFocus() ? theme().accent : theme().line);
+            painter.setBrush(theme().raised);
+            painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
+        }
+        QRect room = rect().adjusted(margin(), margin(), -margin(), -margin());
+        painter.setPen(healthColour(m_level));
+        painter.drawText(room, Qt::AlignLeft | Qt::AlignTop, healthSymbol(m_level));
+        room.setLeft(room.left() + markWidth());
+        painter.setPen(theme().text);
+        painter.drawText(room, Qt::TextWordWrap | Qt::AlignLeft | Qt::AlignTop, text());
+        painter.setPen(theme().dim);
+        painter.drawText(room, Qt::AlignLeft | Qt::AlignBottom, m_note);
+    }
+
+    void keyPressEvent(QKeyEvent* event) override {
+        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+            click();
+            return;
+        }
+        QAbstractButton::keyPressEvent(event);
+    }
+
+private:
+    [[nodiscard]] int margin() const { return fontMetrics().height() / 3; }
+    [[nodiscard]] int markWidth() const {
+        return fontMetrics().horizontalAdvance(healthSymbol(m_level) + QStringLiteral("  "));
+    }
+
+    Health m_level;
+    QString m_note;
+};
+
+/// Says of one character why it is as it is: figures of the last seconds, and what is wrong. Each line
+/// leads to its packets. Deletes itself when it is closed: by a click elsewhere or Escape.
+class HealthPopup final : public QFrame {
+public:
+    HealthPopup(model::SessionView& session, Commands& commands, const model::CharacterKey& key,
+                QWidget* parent)
+        : QFrame(parent, Qt::Popup), m_session(session), m_commands(commands), m_key(key) {
+        setAttribute(Qt::WA_DeleteOnClose);
+        setObjectName(QStringLiteral("healthPopup"));
+        const int space = fontMetrics().height() * 3 / 4;
+        auto* column = new QVBoxLayout(this);
+        column->setContentsMargins(space, space, space, space);
+        column->setSpacing(space / 2);
+        addTitle(*column);
+        addTroubles(*column);
+        addButtons(*column);
+        setFixedWidth(fontMetrics().averageCharWidth() * 64);
+    }
+
+    /// Over a widget at the bottom of the window.
+    void showAbove(const QWidget& widget) {
+        adjustSize();
+        const QRect room = widget.screen()->availableGeometry();
+        QPoint place = widget.mapToGlobal(QPoint(0, -height() - 4));
+        place.setX(std::clamp(place.x(), room.left(), std::max(room.left(), room.right() - width())));
+        place.setY(std::max(place.y(), room.top()));
+        move(place);
+        show();
+        const auto buttons = findChildren<QAbstractButton*>();
+        if (!buttons.isEmpty()) {
+            buttons.first()->setFocus(Qt::PopupFocusReason);
+        }
+    }
+
+protected:
+    void paintEvent(QPaintEvent* /*event*/) override {
+        QPainter painter(this);
+        painter.setPen(theme().line);
+        painter.setBrush(theme().panel);
+        painter.drawRect(rect().adjusted(0, 0, -1, -1));
+    }
+
+private:
+    void addTitle(QVBoxLayout& column) {
+        const PropertyValue state = characterHealth(m_session, m_key);
+        auto* title = new QLabel(QString::fromStdString(m_session.displayName(m_key)), this);
+        QFont bold = title->font();
+        bold.setWeight(QFont::DemiBold);
+        title->setFont(bold);
+        title->setTextFormat(Qt::PlainText);
+        auto* words = new QLabel(healthSymbol(state.health) + QLatin1Char(' ') + state.text, this);
+        QPalette colours = words->palette();
+        colours.setColor(QPalette::WindowText, healthColour(state.health));
+        words->setPalette(colours);
+        words->setTextFormat(Qt::PlainText);
+        auto* row = new QHBoxLayout;
+        row->addWidget(title, 1);
+        row->addWidget(words);
+        column.addLayout(row);
+        column.addWidget(dimText(lossText(m_session, m_key), this));
+    }
+
+    void addTroubles(QVBoxLayout& column) {
+        const auto troubles = m_session.troublesOf(m_key);
+        for (std::size_t i = 0; i < std::min(kMostLines, troubles.size()); ++i) {
+            const model::Event& event = *troubles[i];
+            QString text = QString::fromStdString(event.text());
+            if (event.type) {
+                text.prepend(tr("Type %1: ").arg(event.type.value(), 2, 10, QLatin1Char('0')));
+            }
+            auto* line = new TroubleLine(healthOf(event.severity()), text,
+                                         tr("since %1").arg(timeOfDay(event.firstStamp)), this);
+            line->setToolTip(tr("Show the packets"));
+            connect(line, &QAbstractButton::clicked, this,
+                    [this, number = event.number] { showPackets(number); });
+            column.addWidget(line);
+        }
+        if (troubles.size() > kMostLines) {
+            column.addWidget(dimText(tr("and %1 more").arg(grouped(troubles.size() - kMostLines)), this));
+        }
+        const model::Condition condition = m_session.conditionOf(m_key);
+        if (troubles.empty()) {
+            column.addWidget(dimText(condition.reason.empty() ? tr("Nothing is wrong.")
+                                                              : QString::fromStdString(condition.reason),
+                                     this));
+        }
+    }
+
+    void addButtons(QVBoxLayout& column) {
+        auto* row = new QHBoxLayout;
+        const auto add = [&](const QString& name, const QString& text, auto run) {
+            auto* button = new QPushButton(text, this);
+            button->setObjectName(name);
+            button->setAutoDefault(true);
+            connect(button, &QPushButton::clicked, this, [this, run] {
+                run();
+                close();
+            });
+            row->addWidget(button);
+        };
+        row->addStretch(1);
+        add(QStringLiteral("frameCharacter"), tr("Show in the viewport"), [this] {
+            m_commands.setCharacterVisible(m_key, true);
+            m_commands.frameCharacter(m_key);
+        });
+        add(QStringLiteral("allEvents"), tr("All events"),
+            [this] { m_commands.showDock(QStringLiteral("events")); });
+        column.addLayout(row);
+    }
+
+    void showPackets(std::uint64_t number) {
+        const model::Event* event = m_session.events().find(number);
+        if (event == nullptr || !showPacketsOf(m_session, m_commands, *event)) {
+            m_commands.showDock(QStringLiteral("events"));
+        }
+        close();
+    }
+
+    model::SessionView& m_session;
+    Commands& m_commands;
+    model::CharacterKey m_key;
+};
+
 } // namespace
+
+QString lossText(model::SessionView& session, const model::CharacterKey& key) {
+    const log::Stamp now = session.cursorStamp();
+    const model::StreamCounts counts = session.countsOf(key, {now - kPast, now});
+    if (counts.expected() == 0) {
+        return tr("No samples in the last 10 s.");
+    }
+    const std::uint64_t lost = counts.lost + counts.incomplete;
+    return lost == 0
+               ? tr("All %1 samples of the last 10 s arrived.").arg(grouped(counts.expected()))
+               : tr("Lost %1 of %2 samples in the last 10 s.").arg(grouped(lost), grouped(counts.expected()));
+}
 
 HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* parent)
     : QWidget(parent),
@@ -86,7 +299,7 @@ void HealthBar::refresh(const ReceivingState& receiving) {
     m_rate->setContent(Health::Unknown,
                        tr("%1 datagrams/s · %2")
                            .arg(grouped(static_cast<std::uint64_t>(receiving.datagramsPerSecond)),
-                                perSecondText(receiving.bytesPerSecond)));
+                                tr("%1 MB/s").arg(fixed(receiving.bytesPerSecond / 1e6, 2))));
     m_history->setContent(Health::Unknown, historyText(m_session));
     m_dropped->setContent(receiving.kernelDropped == 0 ? Health::Good : Health::Error,
                           tr("dropped here %1").arg(grouped(receiving.kernelDropped)));
@@ -101,9 +314,9 @@ void HealthBar::refreshCharacters() {
         addEntry();
     }
     for (std::size_t i = 0; i < m_shown.size(); ++i) {
-        const CharacterHealth health = characterHealth(m_session, m_shown[i]);
-        const QString words = health.level == Health::Good ? tr("good") : health.words;
-        m_entries[i]->setContent(health.level, QString::fromStdString(m_session.displayName(m_shown[i])) +
+        const PropertyValue state = characterHealth(m_session, m_shown[i]);
+        const QString words = state.health == Health::Good ? tr("good") : state.text;
+        m_entries[i]->setContent(state.health, QString::fromStdString(m_session.displayName(m_shown[i])) +
                                                    QLatin1Char(' ') + words);
     }
     fitEntries();

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/receiving_state.h"
+#include "app/gui/program_view.h"
 #include "app/gui/theme/widgets.h"
 #include "core/model/session/session_view.h"
 
@@ -16,6 +16,9 @@ namespace posewire::gui {
 
 class ColourText;
 
+/// "Lost 12 of 2 400 samples in the last 10 s."
+[[nodiscard]] QString lossText(model::SessionView& session, const model::CharacterKey& key);
+
 /// The bottom line: each character in a word, what this computer receives, keeps and drops.
 class HealthBar final : public QWidget {
     Q_OBJECT
@@ -27,13 +30,13 @@ public:
 
     /// What the keyboard goes to here; null without characters.
     [[nodiscard]] QWidget* firstEntry() const;
-    /// Says why a character is as it is; `entry` counts those that are shown.
-    void explain(std::size_t entry);
 
     /// Shows a line for a while, beside the rest.
     void say(const QString& text) { m_message->say(text); }
 
 private:
+    /// Opens a popup that says why a character is as it is; `entry` counts those that are shown.
+    void explain(std::size_t entry);
     void refreshCharacters();
     void fitEntries();
     void addEntry();

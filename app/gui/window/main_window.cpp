@@ -2,18 +2,10 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/theme/icons.h"
-#include "app/gui/viewport/viewport_buttons.h"
-#include "app/gui/window/diagnostics.h"
-#include "app/gui/window/dialogs.h"
-#include "app/gui/window/dock_layout.h"
-#include "app/gui/window/dock_scroll.h"
-#include "app/gui/window/dock_title.h"
+#include "app/gui/viewport/viewport_overlay.h"
+#include "app/gui/window/docks.h"
 #include "app/gui/window/health_bar.h"
-#include "app/gui/window/reference_window.h"
-#include "app/gui/window/report_saving.h"
-#include "app/gui/window/thresholds_dialog.h"
 #include "app/gui/window/transport_bar.h"
-#include "core/export/protocol_reference.h"
 
 #include <QApplication>
 #include <QCloseEvent>
@@ -51,10 +43,9 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     setCentralWidget(m_viewport);
-    new ViewportButtons(m_viewport);
+    addViewportButtons(*m_viewport);
     makeBars();
     makeDocks();
-    listDocks();
     connectDriver();
     m_driver.setThresholds(m_settings.alerts.thresholds);
     restore();
@@ -93,31 +84,25 @@ void MainWindow::makeBars() {
 }
 
 void MainWindow::makeDocks() {
+    QMenu* menu = menuAt(*menuBar(), QStringLiteral("&View"));
+    QAction* before = menu->actions().value(0);
     for (const PanelInfo& info : panelTable()) {
         auto* dock = new QDockWidget(QCoreApplication::translate("Panel", info.title), this);
         dock->setObjectName(QLatin1String(info.id));
         Panel* panel = info.make(m_driver.session(), m_driver, m_driver, dock);
-        dock->setWidget(new DockScroll(panel, dock));
+        dock->setWidget(scrolling(panel, dock));
         panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
         auto* title = new DockTitle(dock);
         dock->setTitleBarWidget(title);
         addDockWidget(info.area, dock);
-        dock->hide(); // the layout says which ones show; all of them would make the window wider than asked
-                      // for
+        dock->hide(); // the layout says which ones show: all of them would make the window too wide
+        menu->insertAction(before, dock->toggleViewAction());
         m_docks.push_back({&info, dock, title, panel});
         connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool isVisible) {
             if (isVisible) {
                 panel->refresh();
             }
         });
-    }
-}
-
-void MainWindow::listDocks() {
-    QMenu* menu = menuAt(*menuBar(), QStringLiteral("&View"));
-    QAction* before = menu->actions().value(0);
-    for (const Dock& dock : m_docks) {
-        menu->insertAction(before, dock.dock->toggleViewAction());
     }
     menu->insertSeparator(before);
 }
@@ -243,32 +228,16 @@ void MainWindow::openFile() {
     }
 }
 
-void MainWindow::saveScreenshot() {
-    const QPixmap picture = grab();
-    const QString path = QFileDialog::getSaveFileName(this, tr("Save screenshot"),
-                                                      QStringLiteral("posewire.png"), tr("Pictures (*.png)"));
-    if (!path.isEmpty()) {
-        say(picture.save(path) ? tr("Saved %1").arg(path) : tr("%1 could not be written").arg(path));
-    }
-}
-
 void MainWindow::openInputs(InputsDialog::Page page) {
     if (m_inputs == nullptr) {
         m_inputs = new InputsDialog(m_driver.receiving(), this);
         connect(m_inputs, &InputsDialog::openFileRequested, this, &MainWindow::openFile);
-        connect(m_inputs, &InputsDialog::copyRequested, &m_driver, &SessionDriver::copyText);
         connect(m_inputs, &InputsDialog::choicesChanged, this, [this] {
             m_settings.inputs = m_driver.receiving().choices();
             showReceiving();
         });
     }
     m_inputs->open(page);
-}
-
-void MainWindow::saveReport() {
-    if (const QString line = saveStreamReport(m_driver.session(), this); !line.isEmpty()) {
-        say(line);
-    }
 }
 
 void MainWindow::editThresholds() {
@@ -368,25 +337,6 @@ bool MainWindow::isOn(const MenuEntry& entry) const {
 
 void MainWindow::toggleFullScreen() {
     setWindowState(windowState() ^ Qt::WindowFullScreen);
-}
-
-void MainWindow::copyDiagnostics() {
-    m_driver.copyText(
-        diagnosticsText(m_driver.session(), m_driver.receiving().state(), m_viewport->rendererName()));
-    say(tr("Diagnostics copied"));
-}
-
-void MainWindow::showShortcuts() {
-    showText(tr("Keyboard shortcuts"), shortcutsText(), this);
-}
-
-void MainWindow::showReference() {
-    const QString text = QString::fromStdString(exporting::protocolReference());
-    (new ReferenceWindow(tr("Protocol reference"), text, this))->show();
-}
-
-void MainWindow::showAbout() {
-    showText(tr("About Posewire"), aboutText(), this);
 }
 
 void MainWindow::say(const QString& text) {

@@ -29,10 +29,8 @@ public:
     /// `settings` are what was kept of the last run. The driver and the file must outlive the window.
     MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings);
 
-    [[nodiscard]] SessionDriver& driver() { return m_driver; }
-    [[nodiscard]] const SessionDriver& driver() const { return m_driver; }
-    [[nodiscard]] ViewportWidget& viewport() { return *m_viewport; }
-    [[nodiscard]] const ViewportWidget& viewport() const { return *m_viewport; }
+    [[nodiscard]] SessionDriver& driver() const { return m_driver; }
+    [[nodiscard]] ViewportWidget& viewport() const { return *m_viewport; }
 
     /// Does what an entry of the menus says; where a panel does it, its dock is brought to the front first.
     void carryOut(const MenuEntry& entry);
@@ -40,8 +38,6 @@ public:
 
     // What the actions do.
     void openFile();
-    void saveScreenshot();
-    void saveReport();
     void editThresholds();
     void openInputs(InputsDialog::Page page);
     void useTheme(ThemeChoice choice);
@@ -55,10 +51,6 @@ public:
     /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
     void toggleFullScreen();
-    void copyDiagnostics();
-    void showShortcuts();
-    void showReference();
-    void showAbout();
 
     /// A line at the bottom for a while, for what went wrong or was done.
     void say(const QString& text);
@@ -84,7 +76,6 @@ private:
     [[nodiscard]] const QWidget& ownerOf(const MenuEntry& entry) const;
     void makeDocks();
     void makeBars();
-    void listDocks();
     void connectDriver();
     void restore();
     void refreshPanels();

@@ -1,16 +1,222 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/menus.h"
 
+#include "app/gui/saving.h"
+#include "app/gui/theme/words.h"
+#include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
+#include "app/gui/window/reference_window.h"
+#include "app/gui/window/report_saving.h"
+#include "app/gui/window/texts.h"
+#include "core/export/protocol_reference.h"
 
 #include <QAction>
+#include <QBuffer>
 #include <QCoreApplication>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QMenu>
 #include <QMenuBar>
+
+#include <string_view>
 
 namespace posewire::gui {
 
 namespace {
+
+using Window = MainWindow;
+using Do = ActionsOf<MainWindow>;
+
+constexpr int kDemoCharacters = 2;
+
+bool isDemoOn(const Window& window) {
+    return window.driver().isDemoRunning();
+}
+
+void toggleDemo(Window& window) {
+    window.driver().setDemo(isDemoOn(window) ? 0 : kDemoCharacters);
+}
+
+bool isPaused(const Window& window) {
+    return window.driver().isPaused();
+}
+
+void togglePaused(Window& window) {
+    window.driver().setPaused(!isPaused(window));
+}
+
+void nextAxes(Window& window) {
+    constexpr int kModes = 3;
+    window.viewport().setAxes(
+        static_cast<AxesMode>((static_cast<int>(window.viewport().axes()) + 1) % kModes));
+}
+
+bool isGhostOn(const Window& window) {
+    return window.driver().session().isGhostShown();
+}
+
+void toggleGhost(Window& window) {
+    window.driver().setGhostVisible(!isGhostOn(window));
+}
+
+bool isOrthographic(const Window& window) {
+    return window.viewport().projection() == render::Projection::Orthographic;
+}
+
+void saveScreenshot(Window& window) {
+    const QPixmap picture = window.grab();
+    const QString path = QFileDialog::getSaveFileName(&window, tr("Save screenshot"),
+                                                      QStringLiteral("posewire.png"), tr("Pictures (*.png)"));
+    if (path.isEmpty()) {
+        return;
+    }
+    QByteArray content;
+    QBuffer buffer(&content);
+    const QByteArray format = QFileInfo(path).suffix().toLatin1();
+    const QString problem = picture.save(&buffer, format.constData())
+                                ? saveFile(path, content)
+                                : tr("%1 could not be written").arg(path);
+    window.say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
+}
+
+void saveReport(Window& window) {
+    if (const QString line = saveStreamReport(window.driver().session(), &window); !line.isEmpty()) {
+        window.say(line);
+    }
+}
+
+void copyDiagnostics(Window& window) {
+    SessionDriver& driver = window.driver();
+    driver.copyText(
+        diagnosticsText(driver.session(), driver.receiving().state(), window.viewport().rendererName()));
+    window.say(tr("Diagnostics copied"));
+}
+
+void showReference(Window& window) {
+    const QString text = QString::fromStdString(exporting::protocolReference());
+    (new ReferenceWindow(tr("Protocol reference"), text, &window))->show();
+}
+
+template <std::size_t index>
+void useShippedLayout(Window& window) {
+    window.useLayout(layoutNames()[index]);
+}
+
+template <int index>
+void selectCharacter(Window& window) {
+    const auto characters = window.driver().session().currentCharacters();
+    if (index < static_cast<int>(characters.size())) {
+        const model::CharacterKey& key = characters[index]->key;
+        window.driver().select({key.sender, key, -1});
+    }
+}
+
+/// Entries that differ by what they choose.
+template <int index>
+constexpr ActionInfo selectEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Select character"), text, shortcut,
+            Do::call<selectCharacter<index>>};
+}
+template <render::StandardView view>
+constexpr ActionInfo viewEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera"), text, shortcut,
+            Do::callIn<&Window::viewport, &ViewportWidget::face, view>};
+}
+
+/// Where the entries of panels go in a menu and in its submenus.
+constexpr const char* kPanels = "panels"; ///< an id
+constexpr ActionInfo panelsIn(const char* menu) {
+    return {kPanels, menu, "", ""};
+}
+
+const ActionInfo kActions[] = {
+    {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
+     Do::call<&Window::openFile>},
+    {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
+     Do::call<saveScreenshot>},
+    {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", Do::call<saveReport>},
+    panelsIn("&File"),
+    lineIn("&File"),
+    {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", Do::call<&Window::close>},
+
+    panelsIn(QT_TRANSLATE_NOOP("Action", "&Edit")),
+
+    {"inputs", QT_TRANSLATE_NOOP("Action", "&Input"), QT_TRANSLATE_NOOP("Action", "&Inputs…"), "Ctrl+U",
+     Do::call<&Window::openInputs, InputsDialog::Page::Inputs>},
+    {"demo", "&Input", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", Do::call<toggleDemo>,
+     Do::is<isDemoOn>},
+
+    {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
+     Do::call<&Window::resetLayout>},
+    {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "", Do::call<&Window::dockAll>},
+    {"nextDock", "&View", QT_TRANSLATE_NOOP("Action", "&Next dock"), "F6", Do::call<&Window::nextDock>},
+    lineIn("&View"),
+    {"layoutCheck", QT_TRANSLATE_NOOP("Action", "&View/&Layout"), QT_TRANSLATE_NOOP("Action", "&Check"),
+     "Ctrl+1", Do::call<useShippedLayout<0>>},
+    {"layoutDebug", "&View/&Layout", QT_TRANSLATE_NOOP("Action", "&Debug"), "Ctrl+2",
+     Do::call<useShippedLayout<1>>},
+    {"layoutInspect", "&View/&Layout", QT_TRANSLATE_NOOP("Action", "&Inspect"), "Ctrl+3",
+     Do::call<useShippedLayout<2>>},
+    {"themeSystem", QT_TRANSLATE_NOOP("Action", "&View/&Theme"),
+     QT_TRANSLATE_NOOP("Action", "As the &desktop"), "", Do::call<&Window::useTheme, ThemeChoice::System>,
+     Do::is<&Window::themeChoice, ThemeChoice::System>},
+    {"themeDark", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "Dar&k"), "",
+     Do::call<&Window::useTheme, ThemeChoice::Dark>, Do::is<&Window::themeChoice, ThemeChoice::Dark>},
+    {"themeLight", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "&Light"), "",
+     Do::call<&Window::useTheme, ThemeChoice::Light>, Do::is<&Window::themeChoice, ThemeChoice::Light>},
+    viewEntry<render::StandardView::Front>("viewFront", QT_TRANSLATE_NOOP("Action", "&Front"), "Alt+1"),
+    viewEntry<render::StandardView::Back>("viewBack", QT_TRANSLATE_NOOP("Action", "&Back"), "Alt+2"),
+    viewEntry<render::StandardView::Left>("viewLeft", QT_TRANSLATE_NOOP("Action", "&Left side"), "Alt+3"),
+    viewEntry<render::StandardView::Right>("viewRight", QT_TRANSLATE_NOOP("Action", "&Right side"), "Alt+4"),
+    viewEntry<render::StandardView::Top>("viewTop", QT_TRANSLATE_NOOP("Action", "&Top"), "Alt+5"),
+    viewEntry<render::StandardView::ThreeQuarter>("viewThreeQuarter",
+                                                  QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6"),
+    lineIn("&View/&Camera"),
+    {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O",
+     Do::callIn<&Window::viewport, &ViewportWidget::toggleProjection>, Do::is<isOrthographic>},
+    {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
+     Do::callIn<&Window::viewport, &ViewportWidget::frameAll>},
+    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
+    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", Do::call<toggleGhost>,
+     Do::is<isGhostOn>},
+    selectEntry<0>("select1", QT_TRANSLATE_NOOP("Action", "First"), "1"),
+    selectEntry<1>("select2", QT_TRANSLATE_NOOP("Action", "Second"), "2"),
+    selectEntry<2>("select3", QT_TRANSLATE_NOOP("Action", "Third"), "3"),
+    selectEntry<3>("select4", QT_TRANSLATE_NOOP("Action", "Fourth"), "4"),
+    selectEntry<4>("select5", QT_TRANSLATE_NOOP("Action", "Fifth"), "5"),
+    selectEntry<5>("select6", QT_TRANSLATE_NOOP("Action", "Sixth"), "6"),
+    selectEntry<6>("select7", QT_TRANSLATE_NOOP("Action", "Seventh"), "7"),
+    selectEntry<7>("select8", QT_TRANSLATE_NOOP("Action", "Eighth"), "8"),
+    selectEntry<8>("select9", QT_TRANSLATE_NOOP("Action", "Ninth"), "9"),
+    panelsIn("&View"),
+    lineIn("&View"),
+    {"fullScreen", "&View", QT_TRANSLATE_NOOP("Action", "F&ull screen"), "F11",
+     Do::call<&Window::toggleFullScreen>, Do::is<&Window::isFullScreen>},
+
+    panelsIn(QT_TRANSLATE_NOOP("Action", "&Go")),
+
+    {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Pause"), "Space",
+     Do::call<togglePaused>, Do::is<isPaused>},
+    {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End",
+     Do::callIn<&Window::driver, &SessionDriver::setPaused, false>},
+
+    {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R",
+     Do::call<&Window::openInputs, InputsDialog::Page::Relay>},
+    {"thresholds", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Thresholds…"),
+     "Ctrl+T", Do::call<&Window::editThresholds>},
+    {"copyDiagnostics", QT_TRANSLATE_NOOP("Action", "T&ools"),
+     QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", Do::call<copyDiagnostics>},
+
+    panelsIn("T&ools"),
+
+    {"connectionHelp", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Connection help"),
+     "Shift+F1", Do::call<&Window::openInputs, InputsDialog::Page::Help>},
+    {"shortcuts", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Keyboard shortcuts"),
+     "F1", Do::call<showShortcuts>},
+    {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "", Do::call<showReference>},
+    lineIn("&Help"),
+    {"about", "&Help", QT_TRANSLATE_NOOP("Action", "&About Posewire"), "", Do::call<showAbout>},
+};
 
 template <typename Parent>
 QMenu* childMenu(Parent& parent, const QString& name) {
@@ -25,6 +231,24 @@ QMenu* childMenu(Parent& parent, const QString& name) {
 }
 
 } // namespace
+
+std::vector<MenuEntry> menuEntries() {
+    std::vector<MenuEntry> entries;
+    for (const ActionInfo& info : kActions) {
+        if (std::string_view(info.id) != kPanels) {
+            entries.push_back({&info, nullptr});
+            continue;
+        }
+        for (const PanelInfo& panel : panelTable()) {
+            for (const ActionInfo& action : panel.actions()) {
+                if (std::string_view(action.menu).starts_with(info.menu)) {
+                    entries.push_back({&action, &panel});
+                }
+            }
+        }
+    }
+    return entries;
+}
 
 QMenu* menuAt(QMenuBar& bar, const QString& path) {
     const QStringList names = path.split(QLatin1Char('/'));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/window/actions.h"
+#include "app/gui/panel.h"
 
 #include <QMap>
 #include <QString>
+
+#include <vector>
 
 class QAction;
 class QMenu;
@@ -13,6 +15,16 @@ class QMenuBar;
 namespace posewire::gui {
 
 class MainWindow;
+
+/// An entry of the window's menus and who carries it out.
+struct MenuEntry {
+    const ActionInfo* action;
+    const PanelInfo* panel; ///< null for the window itself
+};
+
+/// All entries in the order of the menus. The window's own are in menus.cpp, which also says where in each
+/// menu those of the panels go.
+[[nodiscard]] std::vector<MenuEntry> menuEntries();
 
 /// The menus of a window, with an action for each of menuEntries().
 class Menus {

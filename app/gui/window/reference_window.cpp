@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/reference_window.h"
 
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/window/dialogs.h"
+#include "app/gui/window/texts.h"
 #include "core/export/protocol_reference.h"
 
 #include <QAbstractTextDocumentLayout>
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -23,10 +23,6 @@ namespace {
 
 constexpr int kPlaceRole = Qt::UserRole;
 constexpr int kDeepestListed = 2; ///< headings below that are not in the contents
-
-int countOf(const QString& text, const QTextDocument& document) {
-    return text.isEmpty() ? 0 : static_cast<int>(document.toPlainText().count(text, Qt::CaseInsensitive));
-}
 
 QToolButton* arrow(Qt::ArrowType type, const QString& toolTip, QWidget* parent) {
     auto* button = new QToolButton(parent);
@@ -67,6 +63,7 @@ ReferenceWindow::ReferenceWindow(const QString& title, const QString& markdown, 
     connect(m_browser, &QTextBrowser::anchorClicked, this, [this](const QUrl& url) { goTo(url.fragment()); });
     connect(m_search, &QLineEdit::textChanged, this, &ReferenceWindow::search);
     m_browser->setFocus();
+    new EventWatch(this, QEvent::PaletteChange, [this] { applyColours(); });
 }
 
 void ReferenceWindow::layOut() {
@@ -149,13 +146,6 @@ void ReferenceWindow::applyColours() {
     cursor.endEditBlock();
 }
 
-void ReferenceWindow::changeEvent(QEvent* event) {
-    QDialog::changeEvent(event);
-    if (event->type() == QEvent::PaletteChange) {
-        applyColours();
-    }
-}
-
 bool ReferenceWindow::goTo(const QString& anchor) {
     const auto place = m_places.constFind(anchor);
     if (place == m_places.cend()) {
@@ -176,11 +166,13 @@ void ReferenceWindow::showPlace(int position) {
 }
 
 void ReferenceWindow::search(const QString& text) {
-    const int count = countOf(text, *m_browser->document());
-    m_found->setText(text.isEmpty() ? QString()
-                     : count == 0   ? tr("not found")
-                     : count == 1   ? tr("1 place")
-                                    : tr("%1 places").arg(count));
+    const qsizetype count =
+        text.isEmpty() ? 0 : m_browser->document()->toPlainText().count(text, Qt::CaseInsensitive);
+    QString found = count == 1 ? tr("1 place") : tr("%1 places").arg(count);
+    if (count == 0) {
+        found = text.isEmpty() ? QString() : tr("not found");
+    }
+    m_found->setText(found);
     QTextCursor cursor = m_browser->textCursor();
     cursor.setPosition(cursor.selectionStart());
     m_browser->setTextCursor(cursor);

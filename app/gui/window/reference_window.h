@@ -29,9 +29,6 @@ public:
     /// other end.
     bool find(bool isBackward);
 
-protected:
-    void changeEvent(QEvent* event) override;
-
 private:
     void layOut();
     void applyColours();

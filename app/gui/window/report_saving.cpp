@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/report_saving.h"
 
-#include "app/gui/file_filters.h"
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/words.h"
 
 #include <QApplication>
 #include <QDateTime>
@@ -17,10 +17,6 @@
 namespace posewire::gui {
 
 namespace {
-
-QString tr(const char* text) {
-    return QCoreApplication::translate("ReportSaving", text);
-}
 
 exporting::StreamReportOptions optionsFor(model::SessionView& session,
                                           const std::optional<model::TimeRange>& range) {

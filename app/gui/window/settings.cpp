@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/settings.h"
 
+#include "app/gui/options.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/words.h"
 
-#include <QCoreApplication>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
@@ -18,20 +19,9 @@ namespace {
 /// Raised when the meaning of something in the file changes.
 constexpr int kSchema = 1;
 
-QString tr(const char* text) {
-    return QCoreApplication::translate("Settings", text);
-}
-
-ThemeChoice themeOf(const QString& name) {
-    if (name == QLatin1String("dark")) {
-        return ThemeChoice::Dark;
-    }
-    return name == QLatin1String("light") ? ThemeChoice::Light : ThemeChoice::System;
-}
-
 Settings settingsOf(const QJsonObject& object) {
     Settings settings;
-    settings.theme = themeOf(object["theme"].toString());
+    settings.theme = themeNamed(object["theme"].toString()).value_or(settings.theme);
     settings.layout = object["layout"].toString(settings.layout);
     const QJsonObject window = object["window"].toObject();
     settings.window = {window["x"].toInt(), window["y"].toInt(), window["width"].toInt(),
@@ -61,18 +51,6 @@ QJsonObject objectOf(const Settings& settings) {
 }
 
 } // namespace
-
-QString themeName(ThemeChoice choice) {
-    switch (choice) {
-    case ThemeChoice::Dark:
-        return QStringLiteral("dark");
-    case ThemeChoice::Light:
-        return QStringLiteral("light");
-    case ThemeChoice::System:
-        break;
-    }
-    return QStringLiteral("system");
-}
 
 SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
     if (m_path.isEmpty()) {

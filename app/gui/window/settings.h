@@ -30,8 +30,6 @@ public:
     /// An empty path means the user's own file.
     explicit SettingsFile(QString path = {});
 
-    [[nodiscard]] const QString& path() const { return m_path; }
-
     /// Defaults where there is no file. A file that cannot be understood is renamed, so that nothing in it is
     /// lost, and `problem` says so in words for the operator.
     [[nodiscard]] Settings read(QString* problem);
@@ -44,7 +42,5 @@ private:
 
     QString m_path;
 };
-
-[[nodiscard]] QString themeName(ThemeChoice choice);
 
 } // namespace posewire::gui

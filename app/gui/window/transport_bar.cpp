@@ -5,12 +5,12 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/window/colour_text.h"
 #include "core/model/body/character_pose.h"
 
 #include <QAction>
-#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
@@ -18,6 +18,7 @@
 #include <QToolButton>
 
 #include <algorithm>
+#include <array>
 
 namespace posewire::gui {
 
@@ -68,6 +69,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     m_relay->setVisible(false);
     connect(m_relay, &QAbstractButton::clicked, actions.relay, &QAction::trigger);
     m_detail->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
     restyle();
     refresh();
 }
@@ -98,11 +100,12 @@ void TransportBar::showMode(Mode mode) {
     const bool isPaused = mode == Mode::Paused;
     m_pause->setIcon(themedIcon(isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
     m_pause->setText(isPaused ? tr("Go live   Space") : tr("Pause   Space"));
-    m_live->setText(isPaused ? tr("▮▮ PAUSED") : mode == Mode::Live ? tr("● LIVE") : tr("○ WAITING"));
-    m_live->setToolTip(isPaused
-                           ? tr("The display is paused; receiving continues. Click to follow again (End).")
-                       : mode == Mode::Live ? tr("The display follows the stream.")
-                                            : tr("The display follows the stream, but nothing is arriving."));
+    const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("▮▮ PAUSED")};
+    const std::array helps{tr("The display follows the stream."),
+                           tr("The display follows the stream, but nothing is arriving."),
+                           tr("The display is paused; receiving continues. Click to follow again (End).")};
+    m_live->setText(texts[static_cast<std::size_t>(mode)]);
+    m_live->setToolTip(helps[static_cast<std::size_t>(mode)]);
     m_live->setProperty("live", mode == Mode::Live);
     m_live->style()->unpolish(m_live);
     m_live->style()->polish(m_live);
@@ -125,28 +128,28 @@ void TransportBar::refresh() {
 }
 
 void TransportBar::setReceiving(const ReceivingState& receiving) {
-    const std::size_t count = receiving.ports.size() + (receiving.file.isEmpty() ? 0 : 1);
-    while (m_pills.size() < count) {
-        m_pills.push_back(new ColourText(ColourText::Look::Pill, this));
-        m_pillLayout->addWidget(m_pills.back());
-    }
-    for (std::size_t i = 0; i < receiving.ports.size(); ++i) {
-        const PortState& state = receiving.ports[i];
+    std::size_t shown = 0;
+    const auto show = [&](Health level, const QString& text, const QString& toolTip) {
+        if (shown == m_pills.size()) {
+            m_pills.push_back(new ColourText(ColourText::Look::Pill, this));
+            m_pillLayout->addWidget(m_pills.back());
+        }
+        ColourText* pill = m_pills[shown++];
+        pill->setVisible(true);
+        pill->setContent(level, text);
+        pill->setToolTip(toolTip);
+    };
+    for (const PortState& state : receiving.ports) {
         const PropertyValue now = inputState(state);
-        const bool isFine = now.health == Health::Good || now.health == Health::Unknown;
-        m_pills[i]->setVisible(true);
-        m_pills[i]->setContent(isFine ? Health::Unknown : now.health, displayText(state.port));
-        m_pills[i]->setToolTip(now.text);
+        show(now.health == Health::Good ? Health::Unknown : now.health, displayText(state.port), now.text);
     }
-    for (std::size_t i = count; i < m_pills.size(); ++i) {
+    if (!receiving.file.isEmpty()) {
+        show(Health::Unknown, receiving.file, tr("File"));
+    }
+    for (std::size_t i = shown; i < m_pills.size(); ++i) {
         m_pills[i]->setVisible(false);
     }
     showRelays(receiving.relays);
-    if (!receiving.file.isEmpty()) {
-        m_pills[count - 1]->setVisible(true);
-        m_pills[count - 1]->setContent(Health::Unknown, receiving.file);
-        m_pills[count - 1]->setToolTip(tr("File"));
-    }
 }
 
 void TransportBar::showRelays(const std::vector<RelayState>& relays) {
@@ -165,13 +168,6 @@ void TransportBar::showRelays(const std::vector<RelayState>& relays) {
     m_relay->setVisible(wanted > 0);
     m_relay->setContent(level, wanted == 1 ? tr("⇉ Relay") : tr("⇉ Relay to %1").arg(wanted));
     m_relay->setToolTip(lines.join(QLatin1Char('\n')));
-}
-
-void TransportBar::changeEvent(QEvent* event) {
-    if (event->type() == QEvent::PaletteChange) {
-        restyle();
-    }
-    QWidget::changeEvent(event);
 }
 
 void TransportBar::resizeEvent(QResizeEvent* event) {

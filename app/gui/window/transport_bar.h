@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/receiving_state.h"
+#include "app/gui/program_view.h"
 #include "core/model/session/session_view.h"
 
 #include <QWidget>
@@ -23,8 +23,8 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `pause` stops and continues, `live` goes to the end, `inputs` is for one more input, `relay` tells
-    /// about forwarding.
+    /// `pause` stops and continues, `live` goes to the end, `inputs` is for one more input, `relay` is
+    /// for forwarding.
     struct Actions {
         QAction* pause;
         QAction* live;
@@ -37,7 +37,6 @@ public:
     void setReceiving(const ReceivingState& receiving);
 
 protected:
-    void changeEvent(QEvent* event) override;
     void resizeEvent(QResizeEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
 

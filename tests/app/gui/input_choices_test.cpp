@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/input_choices.h"
+#include "app/gui/options.h"
 
 #include <QJsonDocument>
 
@@ -16,8 +16,8 @@ TEST(InputChoices, AreReadBackAsTheyWereWritten) {
     choices.inputs.emplace();
     EXPECT_EQ(inputChoicesOf(jsonOf(choices)), choices) << "nothing is listened to";
     choices.inputs = {{"", 9763, Kind::Udp, {"239.1.2.3"}},
-                      {"::1", 9764, Kind::TcpListen},
-                      {"studio", 9765, Kind::TcpConnect}};
+                      {"::1", 9764, Kind::TcpListener},
+                      {"studio", 9765, Kind::TcpConnection}};
     choices.relays = {{"10.0.0.9", 9763, true}, {"later", 9000, false}};
     EXPECT_EQ(inputChoicesOf(jsonOf(choices)), choices);
 }
@@ -33,7 +33,7 @@ TEST(InputChoices, LeaveOutWhatMakesNoSense) {
 }
 
 TEST(InputChoices, AreOpenedUnlessTheCommandLineSaysOtherwise) {
-    const std::vector<InputAddress> kept{{"", 9000, Kind::TcpListen}};
+    const std::vector<InputAddress> kept{{"", 9000, Kind::TcpListener}};
     const std::vector<InputAddress> usual{InputAddress{}};
     InputChoices choices;
     EXPECT_EQ(inputsToOpen({}, choices), usual);
@@ -43,7 +43,7 @@ TEST(InputChoices, AreOpenedUnlessTheCommandLineSaysOtherwise) {
     options.udpPorts = {{"", 9800}};
     EXPECT_EQ(inputsToOpen(options, choices), options.udpPorts);
     options = {};
-    options.tcpInputs = {{"studio", 1, Kind::TcpConnect}};
+    options.tcpInputs = {{"studio", 1, Kind::TcpConnection}};
     EXPECT_EQ(inputsToOpen(options, choices), options.tcpInputs);
     options = {};
     options.file = "take.pcapng";

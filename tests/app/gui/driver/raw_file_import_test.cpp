@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/driver/raw_file_import.h"
+#include "app/gui/driver/receiving.h"
 
 #include "core/log/pcapng_writer.h"
 #include "tests/app/gui/models/stage.h"

@@ -184,7 +184,7 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
 
 TEST_F(SessionDriverTest, InputsOfTcpAreToldAsTheyStand) {
     using Kind = InputAddress::Kind;
-    driver.receiving().addPort({"127.0.0.1", 0, Kind::TcpListen});
+    driver.receiving().addPort({"127.0.0.1", 0, Kind::TcpListener});
     ASSERT_EQ(driver.receiving().state().ports.size(), 1U);
     const InputAddress listening = driver.receiving().state().ports[0].port;
     EXPECT_NE(listening.port, 0);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/scene_builder.h"
-#include "app/gui/viewport/scene_upload.h"
+#include "app/gui/viewport/scene.h"
 #include "core/log/packet_log.h"
 #include "core/model/session/session.h"
 #include "core/performer/performer.h"

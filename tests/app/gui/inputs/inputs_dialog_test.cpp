@@ -2,11 +2,8 @@
 #include "app/gui/inputs/inputs_dialog.h"
 
 #include "app/gui/driver/session_driver.h"
-#include "app/gui/inputs/connection_page.h"
-#include "app/gui/inputs/input_form.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/inputs/relay_page.h"
-#include "app/gui/inputs/sender_settings.h"
 #include "app/gui/panels/table_view.h"
 #include "app/net/datagram_sender.h"
 
@@ -24,38 +21,38 @@ using Kind = InputAddress::Kind;
 using ::testing::HasSubstr;
 
 TEST(InputForm, TakesWhatMakesSense) {
-    const auto read = readInput({Kind::Udp, " 127.0.0.1 ", 9763, ""});
+    const auto read = readInput({" 127.0.0.1 ", 9763, Kind::Udp});
     ASSERT_TRUE(read);
     EXPECT_EQ(*read, (InputAddress{"127.0.0.1", 9763}));
-    EXPECT_EQ(readInput({Kind::TcpConnect, "studio", 9000, ""})->kind, Kind::TcpConnect);
-    EXPECT_EQ(readInput({Kind::TcpListen, "[::1]", 9763, "239.1.1.1"}),
-              (InputAddress{"::1", 9763, Kind::TcpListen}));
-    EXPECT_EQ(readInput({Kind::Udp, "", 9763, "239.1.1.1, ff02::5"})->groups,
+    EXPECT_EQ(readInput({"studio", 9000, Kind::TcpConnection})->kind, Kind::TcpConnection);
+    EXPECT_EQ(readInput({"[::1]", 9763, Kind::TcpListener, {"239.1.1.1"}}),
+              (InputAddress{"::1", 9763, Kind::TcpListener}));
+    EXPECT_EQ(readInput({"", 9763, Kind::Udp, {"239.1.1.1, ff02::5"}})->groups,
               QStringList({"239.1.1.1", "ff02::5"}));
 }
 
 TEST(InputForm, SaysWhatMakesNone) {
-    EXPECT_THAT(readInput({Kind::Udp, "stage left", 9763, ""}).error().toStdString(),
-                HasSubstr("stage left"));
-    EXPECT_THAT(readInput({Kind::TcpConnect, "", 9763, ""}).error().toStdString(), HasSubstr("host"));
-    EXPECT_THAT(readInput({Kind::Udp, "", 9763, "10.0.0.1"}).error().toStdString(), HasSubstr("10.0.0.1"));
-    EXPECT_FALSE(readInput({Kind::Udp, "127.0.0.1", 9763, "239.1.1.1"}));
-    EXPECT_FALSE(readInput({Kind::Udp, "", 0, ""}));
+    EXPECT_THAT(readInput({"stage left", 9763, Kind::Udp}).error().toStdString(), HasSubstr("stage left"));
+    EXPECT_THAT(readInput({"", 9763, Kind::TcpConnection}).error().toStdString(), HasSubstr("host"));
+    EXPECT_THAT(readInput({"", 9763, Kind::Udp, {"10.0.0.1"}}).error().toStdString(), HasSubstr("10.0.0.1"));
+    EXPECT_FALSE(readInput({"127.0.0.1", 9763, Kind::Udp, {"239.1.1.1"}}));
 }
 
-TEST(SenderSettings, NamesTheAddressesThatReachAInput) {
+TEST(SenderSettings, NamesTheAddressesThatReachAnInput) {
     const std::vector<net::LocalAddress> addresses{{"192.168.1.20", "eth0", true, false, false},
                                                    {"10.0.0.4", "wlan0", true, false, false},
                                                    {"fe80::1%eth0", "eth0", false, false, true}};
-    SenderSettings settings;
-    settings.showFor({}, addresses);
-    EXPECT_EQ(settings.hosts(), QStringList({"192.168.1.20", "10.0.0.4"}));
-    settings.showFor({"10.0.0.4", 9763}, addresses);
-    EXPECT_EQ(settings.hosts(), QStringList("10.0.0.4"));
-    settings.showFor({"", 9763, Kind::Udp, {"239.1.2.3"}}, addresses);
-    EXPECT_EQ(settings.hosts(), QStringList("239.1.2.3"));
-    settings.showFor({"studio", 9763, Kind::TcpConnect}, addresses);
-    EXPECT_TRUE(settings.hosts().isEmpty());
+    const auto hosts = [&](const InputAddress& input) {
+        QStringList texts;
+        for (const net::LocalAddress& host : hostsFor(input, addresses)) {
+            texts += QString::fromStdString(host.address);
+        }
+        return texts;
+    };
+    EXPECT_EQ(hosts({}), QStringList({"192.168.1.20", "10.0.0.4"}));
+    EXPECT_EQ(hosts({"10.0.0.4", 9763}), QStringList("10.0.0.4"));
+    EXPECT_EQ(hosts({"", 9763, Kind::Udp, {"239.1.2.3"}}), QStringList("239.1.2.3"));
+    EXPECT_TRUE(hosts({"studio", 9763, Kind::TcpConnection}).isEmpty());
 }
 
 TEST(RelayPage, ReadsHostsWithAndWithoutPorts) {
@@ -109,7 +106,7 @@ TEST_F(InputsDialogTest, AddsChangesAndRemovesInputsWhileTheyRun) {
     EXPECT_EQ(dialog.inputs().model().rowOf(first), 0);
 
     dialog.inputs().editSelected();
-    const InputAddress second{"127.0.0.1", freePort(), Kind::TcpListen};
+    const InputAddress second{"127.0.0.1", freePort(), Kind::TcpListener};
     type(second);
     ASSERT_EQ(ports().size(), 1U);
     EXPECT_EQ(ports()[0].port, second);
@@ -139,7 +136,7 @@ TEST_F(InputsDialogTest, NamesWhoHoldsThePort) {
     EXPECT_TRUE(ports().empty());
 }
 
-TEST_F(InputsDialogTest, LeavesAInputAsItWasWhereItsChangeFails) {
+TEST_F(InputsDialogTest, LeavesAnInputAsItWasWhereItsChangeFails) {
     const InputAddress first{"127.0.0.1", freePort()};
     type(first);
     const InputAddress second{"127.0.0.1", freePort()};
@@ -153,7 +150,7 @@ TEST_F(InputsDialogTest, LeavesAInputAsItWasWhereItsChangeFails) {
     EXPECT_TRUE(ports()[0].id);
 }
 
-TEST_F(InputsDialogTest, OpensWhereOneGoesOn) {
+TEST_F(InputsDialogTest, OpensWhereOneContinues) {
     EXPECT_TRUE(dynamic_cast<TableView*>(dialog.focusWidget())) << "the list of sources";
     dialog.open(InputsDialog::Page::Relay);
     EXPECT_TRUE(dynamic_cast<QLineEdit*>(dialog.focusWidget())) << "the target to add";
@@ -168,7 +165,7 @@ TEST_F(InputsDialogTest, EnterInTheFormAddsWhatIsTyped) {
 }
 
 TEST_F(InputsDialogTest, TellsWhoHasConnectedByTcp) {
-    const InputAddress listener{"127.0.0.1", freePort(), Kind::TcpListen};
+    const InputAddress listener{"127.0.0.1", freePort(), Kind::TcpListener};
     type(listener);
     const auto sender =
         net::DatagramSender::connect({{"127.0.0.1", listener.port}, net::SendTarget::Transport::Tcp});
@@ -178,15 +175,15 @@ TEST_F(InputsDialogTest, TellsWhoHasConnectedByTcp) {
 }
 
 TEST_F(InputsDialogTest, TriesAgainForAsLongAsASenderDoesNotListen) {
-    type({"127.0.0.1", freePort(), Kind::TcpConnect});
+    type({"127.0.0.1", freePort(), Kind::TcpConnection});
     EXPECT_TRUE(tickUntil([&] { return ports()[0].problem.contains("trying again in"); }));
     dialog.open(InputsDialog::Page::Help);
-    EXPECT_TRUE(tickUntil([&] { return dialog.help().text().contains("MVN itself does not listen"); }));
+    EXPECT_TRUE(tickUntil([&] { return dialog.helpText().contains("MVN itself does not listen"); }));
 }
 
 TEST_F(InputsDialogTest, HelpSaysThatNothingIsListenedTo) {
     dialog.open(InputsDialog::Page::Help);
-    EXPECT_TRUE(tickUntil([&] { return dialog.help().text().contains("No port is open."); }));
+    EXPECT_TRUE(tickUntil([&] { return dialog.helpText().contains("No port is open."); }));
 }
 
 TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {

@@ -25,8 +25,8 @@ TEST(InputModel, ShowsInputsInTheWordsOfMvnAndTheFileLast) {
     InputModel model;
     const QAbstractItemModelTester tester(&model, QAbstractItemModelTester::FailureReportingMode::Fatal);
     ReceivingState receiving;
-    receiving.ports = {openPort({"", 9763}), openPort({"", 9764, Kind::TcpListen}, 1),
-                       openPort({"studio", 9765, Kind::TcpConnect}, 2),
+    receiving.ports = {openPort({"", 9763}), openPort({"", 9764, Kind::TcpListener}, 1),
+                       openPort({"studio", 9765, Kind::TcpConnection}, 2),
                        openPort({"", 9766, Kind::Udp, {"239.1.2.3"}}, 3)};
     receiving.ports[0].status.kernelDropped = 7;
     receiving.ports[0].datagramsPerSecond = 240.4;
@@ -44,7 +44,7 @@ TEST(InputModel, ShowsInputsInTheWordsOfMvnAndTheFileLast) {
     EXPECT_EQ(cell(model, 3, InputModel::kHost), "239.1.2.3");
     EXPECT_EQ(cell(model, 4, InputModel::kHost), "take.pcapng");
     EXPECT_FALSE(model.input(4));
-    EXPECT_EQ(model.rowOf(InputAddress{"studio", 9765, Kind::TcpConnect}), 2);
+    EXPECT_EQ(model.rowOf(InputAddress{"studio", 9765, Kind::TcpConnection}), 2);
 }
 
 TEST(InputModel, AnnouncesWhatComesAndGoes) {
@@ -76,7 +76,7 @@ TEST(InputModel, SaysTheStateOfEachKindInWords) {
     EXPECT_EQ(inputState(held).health, Health::Error);
     EXPECT_TRUE(inputState(held).text.contains("obs (process 4711)"));
 
-    PortState listener = openPort({"", 9763, Kind::TcpListen});
+    PortState listener = openPort({"", 9763, Kind::TcpListener});
     EXPECT_EQ(inputState(listener).text, "listening, nobody has connected");
     listener.datagramsPerSecond = 10;
     EXPECT_EQ(inputState(listener).text, "listening, nobody has connected") << "the rate is of before";
@@ -84,7 +84,7 @@ TEST(InputModel, SaysTheStateOfEachKindInWords) {
     EXPECT_EQ(inputState(listener).text, "connected from 10.0.0.5:50123 and 1 more");
     EXPECT_TRUE(inputState(listener).toolTip.contains("10.0.0.6:50124"));
 
-    PortState dialer = openPort({"studio", 9763, Kind::TcpConnect});
+    PortState dialer = openPort({"studio", 9763, Kind::TcpConnection});
     dialer.status.state = net::InputState::Retrying;
     dialer.problem = "studio:9763 does not answer; trying again in 3 s";
     EXPECT_EQ(inputState(dialer).health, Health::Warning);

@@ -48,9 +48,7 @@ public:
         m_session.setHidden(key, !isVisible);
     }
     void setGhostVisible(bool isVisible) override { m_session.setGhostShown(isVisible); }
-    void setPaused(bool) override {}
     void showDock(const QString&) override {}
-    void setThresholds(const model::Thresholds& thresholds) override { m_session.setThresholds(thresholds); }
     void copyText(const QString& text) override { copied = text; }
 
     int selections = 0;

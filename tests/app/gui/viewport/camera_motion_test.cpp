@@ -68,13 +68,17 @@ TEST(CameraMotion, FollowsUntilTheOperatorPansOrZooms) {
     motion.follow(here, kAspect, 1);
     EXPECT_EQ(motion.camera().target, target);
     motion.frame(here, kAspect);
-    EXPECT_TRUE(motion.isFollowing());
+    const glm::vec3 framed = motion.camera().target;
+    motion.follow(there, kAspect, 1);
+    EXPECT_NE(motion.camera().target, framed) << "framing all follows again";
 }
 
 TEST(CameraMotion, OrbitKeepsFollowing) {
     CameraMotion motion;
+    const std::array there{personAt(5, 5)};
     motion.orbit({30, 10});
-    EXPECT_TRUE(motion.isFollowing());
+    motion.follow(there, kAspect, 1);
+    EXPECT_NEAR(motion.camera().target.x, 5, 0.5);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/empty_state.h"
+#include "app/gui/viewport/captions.h"
 
 #include "tests/app/gui/models/stage.h"
 
@@ -40,7 +40,7 @@ TEST(EmptyState, SaysWhyAPortIsNotOpen) {
 TEST(EmptyState, NamesTheProtocolThatIsListenedTo) {
     Stage stage;
     ReceivingState receiving = listening();
-    receiving.ports[0].port.kind = InputAddress::Kind::TcpListen;
+    receiving.ports[0].port.kind = InputAddress::Kind::TcpListener;
     EXPECT_THAT(textOf(emptyState(stage.session, receiving)), testing::HasSubstr("protocol TCP"));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/scene_builder.h"
+#include "app/gui/viewport/scene.h"
 
 #include "app/gui/models/stream_state.h"
 #include "tests/app/gui/models/stage.h"

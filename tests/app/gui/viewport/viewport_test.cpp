@@ -67,15 +67,16 @@ TEST_F(Viewport, PaintsACharacterInItsColourWithoutADisplay) {
 TEST_F(Viewport, NamesEveryCharacterInThePicture) {
     ASSERT_EQ(viewport.overlay().labels().size(), 1U);
     EXPECT_EQ(viewport.overlay().labels()[0].name.toStdString(), stage.session.displayName(stage.key()));
-    EXPECT_EQ(viewport.overlay().labels()[0].level, Health::Good);
+    EXPECT_EQ(viewport.overlay().labels()[0].state.health, Health::Good);
     EXPECT_TRUE(viewport.overlay().card().title.isEmpty());
 }
 
 TEST_F(Viewport, LabelsStaleDataAsStale) {
     stage.session.follow(stage.now + 3s);
     viewport.refresh();
-    EXPECT_TRUE(QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).level == Health::Error; }));
-    EXPECT_TRUE(viewport.overlay().labels()[0].words.contains("stale"));
+    EXPECT_TRUE(
+        QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).state.health == Health::Error; }));
+    EXPECT_TRUE(viewport.overlay().labels()[0].state.text.contains("stale"));
 }
 
 TEST_F(Viewport, HidesACharacterOnRequest) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/dock_layout.h"
+#include "app/gui/window/docks.h"
 
 #include "app/gui/panel.h"
 
@@ -56,11 +56,12 @@ TEST(DockLayout, ReadsPlacesTabsSharesAndExtents) {
     const auto layout = parseLayout(R"({"name": "Mine", "areas": {"right": {"extent": 0.3,
         "places": [{"docks": ["a", "b"], "share": 4}, {"docks": ["c"]}]}}})");
     ASSERT_TRUE(layout);
-    ASSERT_EQ(layout->places.size(), 2U);
-    EXPECT_EQ(layout->places[0].docks, QStringList({"a", "b"}));
-    EXPECT_EQ(layout->places[0].share, 4);
-    EXPECT_EQ(layout->places[1].share, 1);
-    EXPECT_DOUBLE_EQ(layout->extents.at(Qt::RightDockWidgetArea), 0.3);
+    const DockLayout::Area& right = layout->areas.at(Qt::RightDockWidgetArea);
+    ASSERT_EQ(right.places.size(), 2U);
+    EXPECT_EQ(right.places[0].docks, QStringList({"a", "b"}));
+    EXPECT_EQ(right.places[0].share, 4);
+    EXPECT_EQ(right.places[1].share, 1);
+    EXPECT_DOUBLE_EQ(right.extent, 0.3);
 }
 
 } // namespace

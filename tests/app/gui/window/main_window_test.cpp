@@ -3,9 +3,7 @@
 
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/theme/widgets.h"
-#include "app/gui/window/actions.h"
-#include "app/gui/window/dock_layout.h"
-#include "app/gui/window/dock_title.h"
+#include "app/gui/window/docks.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/menus.h"
 #include "app/gui/window/transport_bar.h"

@@ -41,7 +41,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     written.isMaximized = true;
     written.docks = QByteArray("\x00\xff\x01 docks", 9);
     written.panels["statistics"] = QJsonObject{{"columns", QJsonArray{0, 3}}};
-    written.inputs.inputs = {{"", 9763, InputAddress::Kind::TcpListen}};
+    written.inputs.inputs = {{"", 9763, InputAddress::Kind::TcpListener}};
     written.inputs.relays = {{"10.0.0.9", 9763, false}};
     ASSERT_EQ(file.write(written), "");
     const Settings read = file.read(&problem);

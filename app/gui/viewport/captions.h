@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/receiving_state.h"
+#include "app/gui/models/column.h"
+#include "app/gui/program_view.h"
 #include "app/gui/theme/theme.h"
 #include "core/model/session/session_view.h"
 
@@ -9,6 +10,13 @@
 #include <QStringList>
 
 namespace posewire::gui {
+
+/// How one character does, in one look: "240 Hz", "3 lost · network", "stale 3.2 s". The session's judgement,
+/// with the rate where it is good.
+[[nodiscard]] PropertyValue characterHealth(model::SessionView& session, const model::CharacterKey& key);
+
+/// Age of what is shown of a character: of its newest pose, or of any message where it sends no poses.
+[[nodiscard]] double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& key);
 
 /// What the viewport says while there is no character to see. Nothing where `title` is empty.
 struct EmptyState {

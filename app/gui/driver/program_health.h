@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/monitor_health.h"
+#include "app/gui/program_view.h"
 #include "core/log/time.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 
 namespace posewire::gui {
+
+/// Processor time that all threads of this process took so far, in seconds.
+[[nodiscard]] std::optional<double> processCpuSeconds();
+
+/// Main memory that this process has now, in bytes; nothing where the system does not report it.
+[[nodiscard]] std::optional<std::uint64_t> processMemoryBytes();
+
+/// Milliseconds since the operating system started this process; where that is not known, since the
+/// program's static objects were made. Good to 10 ms.
+[[nodiscard]] double processAgeMs();
 
 /// Makes figures of what this program does out of counters that only grow.
 class HealthMeter {
@@ -25,7 +34,7 @@ public:
         std::uint64_t frames = 0;
     };
 
-    /// The session took so long to follow so many packets.
+    /// Time that the session took to follow a number of packets.
     void addFollow(log::Duration took, std::uint64_t packets) {
         m_follow += took;
         m_followed += packets;

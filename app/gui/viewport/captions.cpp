@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/empty_state.h"
+#include "app/gui/viewport/captions.h"
 
+#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
 #include "app/net/connection_help.h"
-
-#include <QCoreApplication>
+#include "core/model/body/character_pose.h"
 
 #include <algorithm>
 #include <span>
@@ -13,8 +14,12 @@ namespace posewire::gui {
 
 namespace {
 
-QString tr(const char* text) {
-    return QCoreApplication::translate("EmptyState", text);
+/// Of the poses that are shown; 0 where there is none.
+double poseRateHz(model::SessionView& session, const model::CharacterKey& key) {
+    const model::CharacterPose* pose = session.pose(key);
+    const model::Stream* stream =
+        pose == nullptr ? nullptr : session.find(log::StreamKey{key.sender, key.character, pose->type});
+    return stream == nullptr ? 0 : stream->statistics.rateHz();
 }
 
 /// "47 45 54 20   GET ", of the first half: a line that fits.
@@ -27,12 +32,6 @@ QString bytesText(std::span<const std::byte> bytes) {
         readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
     }
     return QString::fromLatin1(data.toHex(' ')) + QStringLiteral("   \"") + readable + QLatin1Char('"');
-}
-
-QString sentence(const std::string& text) {
-    QString sentence = QString::fromStdString(text);
-    sentence[0] = sentence[0].toUpper();
-    return sentence;
 }
 
 /// "192.168.1.20 or 10.0.0.4": as many as a line takes.
@@ -97,8 +96,9 @@ void addFindings(const ReceivingState& receiving, EmptyState& state) {
                             finding.kind == Kind::GarbledPeer;
         if (isPeer) {
             state.level = Health::Warning;
-            state.lines +=
-                sentence(finding.text) + QStringLiteral(": ") + QString::fromStdString(finding.remedy);
+            QString text = QString::fromStdString(finding.text + ": " + finding.remedy);
+            text[0] = text[0].toUpper();
+            state.lines += text;
         }
         hasMore = hasMore || finding.kind != Kind::CannotOpen;
     }
@@ -109,7 +109,7 @@ void addFindings(const ReceivingState& receiving, EmptyState& state) {
 
 EmptyState waiting(const ReceivingState& receiving) {
     const auto listening = std::ranges::find_if(receiving.ports, [](const PortState& state) {
-        return state.problem.isEmpty() && state.port.kind != InputAddress::Kind::TcpConnect;
+        return state.problem.isEmpty() && state.port.kind != InputAddress::Kind::TcpConnection;
     });
     EmptyState state{Health::Unknown, tr("Waiting for MXTP on %1").arg(openPorts(receiving)), {}};
     if (listening != receiving.ports.end()) {
@@ -144,6 +144,27 @@ EmptyState withoutPose(model::SessionView& session) {
 }
 
 } // namespace
+
+double shownAgeSeconds(model::SessionView& session, const model::CharacterKey& key) {
+    const model::CharacterPose* pose = session.pose(key);
+    if (pose == nullptr) {
+        return session.ageSeconds(key);
+    }
+    return std::max(0.0, log::secondsOf(session.cursorStamp() - pose->stamp));
+}
+
+PropertyValue characterHealth(model::SessionView& session, const model::CharacterKey& key) {
+    const model::Character* character = session.find(key);
+    const PropertyValue state = character == nullptr ? PropertyValue{} : characterState(session, *character);
+    if (state.health != Health::Good) {
+        return state;
+    }
+    if (session.pose(key) == nullptr) {
+        return {tr("no pose"), Health::Good};
+    }
+    const double rateHz = poseRateHz(session, key);
+    return {rateHz <= 0 ? tr("one sample") : tr("%1 Hz").arg(rateHz, 0, 'f', 0), Health::Good};
+}
 
 EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving) {
     const bool hasPose = std::ranges::any_of(session.characters(), [&](const model::Character& character) {

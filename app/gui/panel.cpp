@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/action.h"
+#include "app/gui/panel.h"
 
 #include <QAction>
 #include <QCoreApplication>

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/viewport/scene_builder.h"
+#include "app/gui/viewport/scene.h"
 
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/character_health.h"
+#include "app/gui/viewport/captions.h"
 #include "core/model/body/null_pose_measures.h"
+#include "core/model/body/reference_body.h"
+#include "render/mesh/null_pose_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -61,12 +62,85 @@ void makePalette(const model::CharacterPose& pose, Figure& figure) {
     }
 }
 
+/// The theme's colours as the renderer wants them.
+render::SceneColours themedSceneColours() {
+    const Theme& colours = theme();
+    render::SceneColours scene = colours.isDark ? render::darkSceneColours() : render::lightSceneColours();
+    scene.axisX = vectorOf(colours.axisX);
+    scene.axisY = vectorOf(colours.axisY);
+    scene.axisZ = vectorOf(colours.axisZ);
+    scene.selection = vectorOf(colours.accent);
+    return scene;
+}
+
 } // namespace
+
+render::Scene SceneUpload::prepare(const SceneFrame& frame, render::Renderer& renderer) {
+    releaseUnused(frame, renderer);
+    m_instances.clear();
+    for (const auto* figures : {&frame.figures, &frame.ghosts}) {
+        for (const Figure& figure : *figures) {
+            add(figure, renderer);
+        }
+    }
+    render::Scene scene;
+    scene.camera = frame.camera;
+    scene.light = render::keyLight(frame.camera);
+    scene.colours = frame.colours;
+    scene.characters = m_instances;
+    scene.axes = frame.axes;
+    scene.lines = frame.lines;
+    return scene;
+}
+
+void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
+    const auto [entry, isNew] = m_meshes.try_emplace(figure.mesh, render::MeshId::None);
+    if (isNew) {
+        entry->second = renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions);
+    }
+    m_instances.push_back({entry->second, figure.palette, figure.look});
+}
+
+void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& renderer) {
+    std::erase_if(m_meshes, [&](const auto& entry) {
+        const auto isItsOwn = [&](const Figure& figure) { return figure.mesh == entry.first; };
+        const bool isUsed =
+            std::ranges::any_of(frame.figures, isItsOwn) || std::ranges::any_of(frame.ghosts, isItsOwn);
+        if (!isUsed) {
+            renderer.releaseMesh(entry.second);
+        }
+        return !isUsed;
+    });
+}
 
 float dimFor(double ageSeconds) {
     const double share = (ageSeconds - kSilentAge) / (kStaleAge - kSilentAge);
     // That it has begun to fade must be visible: a step first, the rest gradually.
     return share < 0 ? 0.0F : kGreatestDim * static_cast<float>(0.4 + 0.6 * std::min(share, 1.0));
+}
+
+std::shared_ptr<const FigureMesh> SceneBuilder::fitted(const render::NullPose& performer) {
+    if (m_mannequin == nullptr) {
+        m_mannequin = std::make_unique<const render::SkinnedMesh>(render::loadMannequin(m_detail));
+    }
+    auto figure = std::make_shared<FigureMesh>();
+    figure->mesh = render::fitToNullPose(*m_mannequin, performer, figure->origins);
+    figure->templatePositions = m_mannequin->positions;
+    figure->capsules = render::segmentCapsules(figure->mesh);
+    return figure;
+}
+
+std::shared_ptr<const FigureMesh> SceneBuilder::meshOf(const model::CharacterKey& key) {
+    render::NullPose performer{};
+    const model::BodyOrigins& origins = m_session.bodyOrigins(key);
+    static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
+    std::ranges::transform(origins.places, performer.begin(),
+                           [](const Eigen::Vector3d& origin) { return vectorOf(origin); });
+    Fitted& entry = m_meshes[key];
+    if (entry.mesh == nullptr || entry.performer != performer) {
+        entry = {performer, fitted(performer)};
+    }
+    return entry.mesh;
 }
 
 void SceneBuilder::build(AxesMode axes, SceneFrame& frame) {
@@ -98,7 +172,7 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
                              SceneFrame& frame) {
     Figure figure;
     figure.key = character.key;
-    figure.mesh = m_meshes.of(m_session, character.key);
+    figure.mesh = meshOf(character.key);
     const model::Colour colour = m_session.colour(character.key);
     figure.look.colour = {colour.red, colour.green, colour.blue};
     const double age = shownAgeSeconds(m_session, character.key);
@@ -173,16 +247,6 @@ void SceneBuilder::addFingers(const model::CharacterPose& pose, const glm::vec3&
         frame.lines.push_back({vectorOf(pose.segments[static_cast<std::size_t>(parent)].position),
                                vectorOf(pose.segments[i].position), glm::vec4(colour, 1.0F), 2.0F});
     }
-}
-
-render::SceneColours themedSceneColours() {
-    const Theme& colours = theme();
-    render::SceneColours scene = colours.isDark ? render::darkSceneColours() : render::lightSceneColours();
-    scene.axisX = vectorOf(colours.axisX);
-    scene.axisY = vectorOf(colours.axisY);
-    scene.axisZ = vectorOf(colours.axisZ);
-    scene.selection = vectorOf(colours.accent);
-    return scene;
 }
 
 } // namespace posewire::gui

@@ -11,20 +11,27 @@
 #include <map>
 #include <vector>
 
+class QDockWidget;
+class QLabel;
+class QToolButton;
+
 namespace posewire::gui {
+
+class ElidedLabel;
 
 /// Where each dock goes. Docks that are not named are closed.
 struct DockLayout {
     /// One place in an area, from top to bottom (at the bottom: from left to right); several docks are tabs.
     struct Place {
-        Qt::DockWidgetArea area = Qt::LeftDockWidgetArea;
         QStringList docks;
         int share = 1; ///< of the area's length, against the other places
     };
+    struct Area {
+        double extent = 0; ///< width, height at the bottom, as a share of the window
+        std::vector<Place> places;
+    };
     QString name;
-    std::vector<Place> places;
-    std::map<Qt::DockWidgetArea, double>
-        extents; ///< width of an area, height at the bottom, as a share of the window
+    std::map<Qt::DockWidgetArea, Area> areas; ///< those with places
 };
 
 /// The names of the layouts that ship.
@@ -42,5 +49,38 @@ struct DockLayout {
 /// Puts the window's docks, known by their object names, where the layout says. The answer is the names in
 /// the layout that no dock of the window has; they are skipped.
 QStringList applyLayout(const DockLayout& layout, QMainWindow& window);
+
+/// The title of a dock: its name, a short summary at the right, and under the pointer what floats and closes
+/// it.
+class DockTitle final : public QWidget {
+    Q_OBJECT
+
+public:
+    explicit DockTitle(QDockWidget* dock);
+
+    void setSummary(const QString& summary);
+
+    /// QDockWidget makes as much room as is said here, whatever the widget's fixed height.
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void enterEvent(QEnterEvent* event) override;
+    void leaveEvent(QEvent* event) override;
+
+private:
+    void restyle();
+    void showButtons(bool isShown);
+
+    QLabel* m_title;
+    ElidedLabel* m_summary;
+    QToolButton* m_float;
+    QToolButton* m_close;
+};
+
+/// Lets a dock become lower than its content, which then scrolls: the least heights of docks above each other
+/// must not add up to more than the screen has.
+[[nodiscard]] QWidget* scrolling(QWidget* content, QDockWidget* dock);
 
 } // namespace posewire::gui
