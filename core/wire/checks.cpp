@@ -3,6 +3,7 @@
 #include "core/wire/payload.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
+#include "core/wire/write.h"
 
 #include <cmath>
 
@@ -121,7 +122,7 @@ void checkItems(ItemChecks& checks, const std::vector<Item>& items, std::size_t 
     }
     for (const Item& item : items) {
         checks.check<Item, F>(item, offset);
-        offset += kIsFixed<Item, F> ? kWireSize<Item, F> : 0;
+        offset += writtenSize<Item, F>(item);
     }
 }
 
@@ -193,7 +194,9 @@ void checkMessage(Datagram& datagram, ItemChecks& checks, const T& message) {
     TextChecks<T> texts{datagram, message};
     forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
         if constexpr (requires { FieldType::kItemForm; }) {
-            checkItems<FieldType::kItemForm>(checks, message.*FieldType::kMember, texts.offset);
+            const std::size_t countSize = FieldType::kMax != 0 ? sizeof(std::uint32_t) : 0;
+            checkItems<FieldType::kItemForm>(checks, message.*FieldType::kMember, texts.offset + countSize);
+            texts.offset += detail::putField(ByteCounter{}, field, message).size;
         } else {
             texts(field);
         }
