@@ -56,5 +56,37 @@ TEST(NoticeTable, HasANameAndATextOfItsOwnForEveryCode) {
     EXPECT_EQ(texts.size(), kNoticeCodeCount);
 }
 
+/// Filters and files know notices by these names.
+TEST(NoticeTable, IsInStepWithTheEnum) {
+    EXPECT_EQ(noticeName(NoticeCode::UnknownType), "unknownType");
+    EXPECT_EQ(noticeName(NoticeCode::UnknownLayout), "unknownLayout");
+    EXPECT_EQ(noticeName(NoticeCode::TrailingBytes), "trailingBytes");
+    EXPECT_EQ(noticeName(NoticeCode::SizeDisagrees), "sizeDisagrees");
+    EXPECT_EQ(noticeName(NoticeCode::CountDisagrees), "countDisagrees");
+    EXPECT_EQ(noticeName(NoticeCode::ReservedUsed), "reservedUsed");
+    EXPECT_EQ(noticeName(NoticeCode::NotFinite), "notFinite");
+    EXPECT_EQ(noticeName(NoticeCode::NotUnitQuaternion), "notUnitQuaternion");
+    EXPECT_EQ(noticeName(NoticeCode::SegmentOutOfRange), "segmentOutOfRange");
+    EXPECT_EQ(noticeName(NoticeCode::UnknownTag), "unknownTag");
+    EXPECT_EQ(noticeName(NoticeCode::LineWithoutTag), "lineWithoutTag");
+    EXPECT_EQ(noticeName(NoticeCode::LengthDisagrees), "lengthDisagrees");
+    EXPECT_EQ(noticeName(NoticeCode::NotATimeCode), "notATimeCode");
+}
+
+TEST(NoticeTable, CountsInTheSingularOrThePlural) {
+    const auto endsWith = [](NoticeCode code, std::uint32_t count, const std::string& end) {
+        const std::string text = noticeText({code, 7, count});
+        return text.ends_with(" (byte 7, " + end + ")");
+    };
+    EXPECT_TRUE(endsWith(NoticeCode::TrailingBytes, 1, "1 byte"));
+    EXPECT_TRUE(endsWith(NoticeCode::SizeDisagrees, 2, "2 bytes"));
+    EXPECT_TRUE(endsWith(NoticeCode::NotFinite, 1, "1 value"));
+    EXPECT_TRUE(endsWith(NoticeCode::NotUnitQuaternion, 23, "23 quaternions"));
+    EXPECT_TRUE(endsWith(NoticeCode::SegmentOutOfRange, 1, "1 segment"));
+    EXPECT_TRUE(endsWith(NoticeCode::UnknownTag, 0xffffffff, "4294967295 tags"));
+    EXPECT_TRUE(noticeText({NoticeCode::NotATimeCode, 7, 1}).ends_with(" (byte 7)"));
+    EXPECT_TRUE(noticeText({NoticeCode::UnknownType, 4, 1}).ends_with(" (byte 4)"));
+}
+
 } // namespace
 } // namespace posewire::wire

@@ -80,6 +80,79 @@ TEST(Header, MakesNothingOfCountsInTypesThatCarryNoSegments) {
     }
 }
 
+/// Counters wrap around: the largest values are values like others.
+TEST(Header, KeepsCountersUpToTheirLargestValue) {
+    for (const std::uint32_t counter : {0U, 1U, 0x7fffffffU, 0x80000000U, 0xfffffffeU, 0xffffffffU}) {
+        Datagram datagram;
+        datagram.header.sampleCounter = counter;
+        datagram.header.timeCode = ~counter;
+        datagram.body = TimeCode{};
+        completeHeader(datagram, HeaderEra::Counted);
+        const auto read = decode(encode(datagram).value());
+        ASSERT_TRUE(read);
+        EXPECT_EQ(read->header.sampleCounter, counter);
+        EXPECT_EQ(read->header.timeCode, ~counter);
+    }
+}
+
+TEST(Header, DividesTheDatagramCounterIntoIndexAndMark) {
+    Header header;
+    for (unsigned counter = 0; counter < 256; ++counter) {
+        header.datagramCounter = static_cast<std::uint8_t>(counter);
+        EXPECT_EQ(header.datagramIndex(), counter % 128);
+        EXPECT_EQ(header.isLast(), counter >= 128);
+    }
+}
+
+TEST(Header, AddsUpCountsThatAByteCannotHold) {
+    Header header;
+    header.bodySegments = header.props = header.fingerSegments = 255;
+    EXPECT_EQ(header.countedSegments(), 765U);
+}
+
+TEST(Header, LosesWhatItsEraDoesNotHave) {
+    Datagram datagram;
+    datagram.header.bodySegments = 23;
+    datagram.header.props = 2;
+    datagram.header.fingerSegments = 40;
+    datagram.body = PoseEuler{std::vector<SegmentEuler>(65)};
+    completeHeader(datagram, HeaderEra::Counted);
+    EXPECT_EQ(datagram.header.payloadSize, 65 * 28);
+    EXPECT_EQ(datagram.header.countedSegments(), 65U);
+    completeHeader(datagram, HeaderEra::Reserved);
+    EXPECT_EQ(datagram.header.payloadSize, 0);
+    EXPECT_EQ(datagram.header.countedSegments(), 0U);
+    EXPECT_EQ(datagram.header.items, 65);
+    EXPECT_EQ(datagram.header.type(), 1);
+}
+
+/// A datagram of another program on the same port is told by its first bytes (JSON, FlatBuffers).
+TEST(Header, TellsForeignBytesFromTheStartOfADatagram) {
+    EXPECT_TRUE(startsWithMagic(asBytes("MXTP")));
+    EXPECT_TRUE(startsWithMagic(asBytes("MXTP02")));
+    EXPECT_FALSE(startsWithMagic(asBytes("MXT")));
+    EXPECT_FALSE(startsWithMagic(asBytes("mxtp02")));
+    EXPECT_FALSE(startsWithMagic({}));
+    EXPECT_TRUE(startsDatagram(asBytes("MXTP00")));
+    EXPECT_TRUE(startsDatagram(asBytes("MXTP99 and more")));
+    for (const std::string_view text :
+         {"", "MXTP", "MXTP0", "MXTP0/", "MXTP0:", "MXTP/0", "MXTPAB", "xMXTP02"}) {
+        EXPECT_FALSE(startsDatagram(asBytes(text))) << text;
+    }
+}
+
+TEST(Header, NamesTheFirstFaultOfCutOrForeignBytes) {
+    const std::string_view whole = "MXTP0x";
+    const auto codeOf = [](std::string_view text) { return decodeHeader(asBytes(text)).error().code; };
+    for (std::size_t size = 0; size < 6; ++size) {
+        EXPECT_EQ(codeOf(whole.substr(0, size)), ErrorCode::HeaderTruncated) << size;
+    }
+    EXPECT_EQ(codeOf(whole), ErrorCode::BadType);
+    EXPECT_EQ(codeOf("N"), ErrorCode::BadMagic);
+    EXPECT_EQ(codeOf("MXTQ"), ErrorCode::BadMagic);
+    EXPECT_EQ(decodeHeader(asBytes("MX?")).error(), (WireError{ErrorCode::BadMagic, 0, 0, 4, 3}));
+}
+
 TEST(TypeTable, NamesTheFifteenTypes) {
     constexpr std::array types{1, 2, 3, 4, 5, 10, 11, 12, 13, 20, 21, 22, 23, 24, 25};
     ASSERT_EQ(typeTable().size(), types.size());

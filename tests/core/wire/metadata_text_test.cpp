@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace posewire::wire {
 namespace {
 
@@ -55,6 +57,80 @@ TEST(MetadataText, GivesANoticeWithThePlaceOfAnUnknownTag) {
     const auto decoded = decode(*encode(datagram));
     ASSERT_TRUE(decoded);
     EXPECT_EQ(decoded->notices, (std::vector{Notice{NoticeCode::UnknownTag, 24 + 4 + 7, 2}}));
+}
+
+TEST(MetadataText, GivesBackAnyTagsThatAreJoined) {
+    constexpr std::array<const char*, 7> pieces{"a", "Name", ":", " ", "\u00e9", "\r", "\U0001f600"};
+    std::mt19937 random(3);
+    for (int round = 0; round < 500; ++round) {
+        std::vector<std::string> texts(2 * (random() % 6));
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            for (std::size_t n = random() % 5; n > 0; --n) {
+                const char* piece = pieces[random() % pieces.size()];
+                texts[i] += i % 2 == 0 && *piece == ':' ? "x" : piece; // only a value has colons
+            }
+        }
+        std::vector<Tag> tags;
+        for (std::size_t i = 0; i < texts.size(); i += 2) {
+            tags.push_back({texts[i], texts[i + 1]});
+        }
+        const std::string text = joinTags(tags);
+        const TagList parsed = parseTags(text);
+        EXPECT_EQ(parsed.tags, tags);
+        EXPECT_EQ(parsed.strayLines, 0U);
+    }
+}
+
+/// A line is "tag:value" with a newline behind it; a reference that looks at each line by itself.
+TEST(MetadataText, AgreesWithTheRuleForEveryShortText) {
+    constexpr std::string_view alphabet = "a:\n";
+    for (unsigned number = 0; number < 3 * 3 * 3 * 3 * 3 * 3; ++number) {
+        for (std::size_t length = 0; length <= 6; ++length) {
+            std::string text;
+            for (unsigned rest = number; text.size() < length; rest /= 3) {
+                text += alphabet[rest % 3];
+            }
+            unsigned tags = 0;
+            unsigned stray = 0;
+            std::size_t firstStray = std::string::npos;
+            for (std::size_t at = 0; at < text.size();) {
+                const std::size_t end = text.find('\n', at);
+                const std::string line = text.substr(at, end - at);
+                const bool hasColon = line.find(':') != std::string::npos;
+                tags += hasColon ? 1 : 0;
+                if (!hasColon || end == std::string::npos) {
+                    firstStray = std::min(firstStray, at);
+                    ++stray;
+                }
+                at = end == std::string::npos ? text.size() : end + 1;
+            }
+            const TagList list = parseTags(text);
+            ASSERT_EQ(list.tags.size(), tags) << text;
+            ASSERT_EQ(list.strayLines, stray) << text;
+            ASSERT_TRUE(stray == 0 || list.firstStray == firstStray) << text;
+        }
+    }
+}
+
+/// Tags are compared as they are written: case counts.
+TEST(MetadataText, KnowsTagsByTheirExactName) {
+    EXPECT_EQ(knownTags().size(), 5U);
+    for (const char* name : {"Name", "NAME", "name ", " name", "timeoffset", "na"}) {
+        EXPECT_FALSE(isKnownTag(name)) << name;
+    }
+}
+
+TEST(MetadataText, CountsPlacesFromTheTextWithOrWithoutALength) {
+    for (const bool isPrefixed : {true, false}) {
+        Datagram datagram;
+        datagram.body = MetaData{isPrefixed, "name:x\nshoe:44\nhat"};
+        completeHeader(datagram, HeaderEra::Counted);
+        const auto decoded = decode(*encode(datagram));
+        ASSERT_TRUE(decoded);
+        const std::uint32_t start = isPrefixed ? 28 : 24;
+        EXPECT_EQ(decoded->notices, (std::vector{Notice{NoticeCode::UnknownTag, start + 7, 1},
+                                                 Notice{NoticeCode::LineWithoutTag, start + 15, 1}}));
+    }
 }
 
 } // namespace

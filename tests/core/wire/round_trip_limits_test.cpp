@@ -128,8 +128,8 @@ TEST(RoundTripOfFloats, KeepsTheBitsOfEveryKindOfNumber) {
         const Vec3& position = std::get<PointPositions>(read->body).points[0].position;
         EXPECT_EQ(std::bit_cast<std::uint32_t>(position[0]), bits);
         const bool isOdd = !std::isfinite(value);
-        EXPECT_EQ(read->notices, isOdd ? (std::vector{Notice{NoticeCode::NotFinite, 24, 2}})
-                                       : std::vector<Notice>{});
+        EXPECT_EQ(read->notices,
+                  isOdd ? (std::vector{Notice{NoticeCode::NotFinite, 24, 2}}) : std::vector<Notice>{});
     }
 }
 

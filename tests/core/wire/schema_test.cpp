@@ -148,8 +148,8 @@ TEST(Schema, TellsMetresFromCentimetres) {
     const auto positionUnit = [](std::uint8_t type) {
         const MessageRow* message = findMessage(type);
         const auto items = message->fields()[0].items;
-        const auto place = std::ranges::find_if(
-            items, [](const FieldRow& row) { return row.about.name == "position"; });
+        const auto place =
+            std::ranges::find_if(items, [](const FieldRow& row) { return row.about.name == "position"; });
         return place == items.end() ? std::string_view() : unitSymbol(place->about.unit);
     };
     EXPECT_EQ(positionUnit(1), "cm");
