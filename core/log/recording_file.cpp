@@ -144,26 +144,26 @@ struct Interface {
     std::int64_t offsetSeconds = 0;
 };
 
-/// Split so that nothing overflows: whole seconds, then the rest.
+/// Whole nanoseconds, by long division; what no stamp can hold wraps around.
 Stamp stampOf(std::uint64_t stamp, const Interface& interface) {
-    const std::uint64_t exponent = interface.resolution & 0x7fU;
-    std::uint64_t perSecond = 1;
-    if ((interface.resolution & 0x80U) != 0) {
-        perSecond = std::uint64_t{1} << std::min<std::uint64_t>(exponent, 63);
-    } else {
-        for (std::uint64_t i = 0; i < std::min<std::uint64_t>(exponent, 19); ++i) {
-            perSecond *= 10;
-        }
+    const bool isBinary = (interface.resolution & 0x80U) != 0;
+    const std::uint64_t base = isBinary ? 2 : 10;
+    const unsigned finest = isBinary ? 60 : 18; // a digit more and ten seconds of it overflow
+    unsigned exponent = interface.resolution & 0x7fU;
+    for (; exponent > finest; --exponent) {
+        stamp /= base;
     }
-    const auto seconds =
-        static_cast<std::int64_t>(stamp / perSecond % 0x200000000U) + interface.offsetSeconds;
-    const double rest = static_cast<double>(stamp % perSecond) / static_cast<double>(perSecond);
-    const Duration fraction =
-        perSecond <= 1'000'000'000U && 1'000'000'000U % perSecond == 0
-            ? Duration(static_cast<std::int64_t>(stamp % perSecond * (1'000'000'000U / perSecond)))
-            : durationOf(rest);
-    return Stamp(Duration(static_cast<std::int64_t>(static_cast<std::uint64_t>(seconds) * 1'000'000'000U)) +
-                 fraction);
+    std::uint64_t perSecond = 1;
+    for (; exponent > 0; --exponent) {
+        perSecond *= base;
+    }
+    std::uint64_t nanoseconds = stamp / perSecond + static_cast<std::uint64_t>(interface.offsetSeconds);
+    std::uint64_t rest = stamp % perSecond;
+    for (int digit = 0; digit < 9; ++digit) {
+        nanoseconds = nanoseconds * 10 + rest * 10 / perSecond;
+        rest = rest * 10 % perSecond;
+    }
+    return Stamp(Duration(static_cast<std::int64_t>(nanoseconds)));
 }
 
 class PcapngReader {
