@@ -140,7 +140,8 @@ private:
 
 struct Interface {
     std::uint32_t linkType = 0;
-    std::uint8_t resolution = 6; ///< if_tsresol: 10^-n seconds, or 2^-n with the top bit
+    std::uint32_t snapLength = 0; ///< the most bytes captured of a packet; 0 for all
+    std::uint8_t resolution = 6;  ///< if_tsresol: 10^-n seconds, or 2^-n with the top bit
     std::int64_t offsetSeconds = 0;
 };
 
@@ -240,6 +241,7 @@ private:
         Interface interface;
         if (body.size() >= 8) {
             interface.linkType = m_reader.read16(body.data());
+            interface.snapLength = m_reader.read32(body.data() + 4);
             visitOptions(body.subspan(8), [&](PcapngOption code, Bytes value) {
                 if (code == PcapngOption::StampResolution && !value.empty()) {
                     interface.resolution = std::to_integer<std::uint8_t>(value[0]);
@@ -271,12 +273,17 @@ private:
         }
     }
 
+    /// How much was captured only the original length, the snap length and the block say together.
     void visitSimple(Bytes body) {
         m_notes.setComments({});
         if (body.size() >= 4 && !m_interfaces.empty()) {
-            const std::size_t size = std::min<std::size_t>(m_reader.read32(body.data()), body.size() - 4);
+            const Interface& interface = m_interfaces.front();
+            std::size_t size = std::min<std::size_t>(m_reader.read32(body.data()), body.size() - 4);
+            if (interface.snapLength != 0) {
+                size = std::min<std::size_t>(size, interface.snapLength);
+            }
             m_reassembly.add(
-                {m_interfaces.front().linkType, body.subspan(4, size), m_reader.offset() + 4, std::nullopt});
+                {interface.linkType, body.subspan(4, size), m_reader.offset() + 4, std::nullopt});
         }
     }
 
