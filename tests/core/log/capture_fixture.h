@@ -120,24 +120,35 @@ inline ByteVector sectionHeader(bool bigEndian) {
                  bigEndian);
 }
 
+/// An option of a pcapng block with its padding; code 0 with nothing ends the list.
+inline ByteVector option(std::uint16_t code, const ByteVector& value, bool bigEndian) {
+    return CaptureBytes(bigEndian)
+        .number(code, 2)
+        .number(value.size(), 2)
+        .bytes(value)
+        .zeros((4 - value.size() % 4) % 4)
+        .all();
+}
+
+/// `snapLength` 0: packets are not cut.
+inline ByteVector interfaceWith(std::uint16_t linkType, std::uint32_t snapLength, const ByteVector& options,
+                                bool bigEndian) {
+    return block(
+        1, CaptureBytes(bigEndian).number(linkType, 2).zeros(2).number(snapLength, 4).bytes(options).all(),
+        bigEndian);
+}
+
 /// With a resolution of 10^-n seconds, n = `digits`.
 inline ByteVector interfaceBlock(std::uint16_t linkType, std::uint8_t digits, bool bigEndian) {
-    return block(1,
-                 CaptureBytes(bigEndian)
-                     .number(linkType, 2)
-                     .zeros(2)
-                     .number(0, 4)
-                     .number(9, 2)
-                     .number(1, 2)
-                     .number(digits, 1)
-                     .zeros(3)
-                     .zeros(4)
-                     .all(),
-                 bigEndian);
+    const ByteVector resolution{std::byte{digits}};
+    return interfaceWith(
+        linkType, 0,
+        CaptureBytes().bytes(option(9, resolution, bigEndian)).bytes(option(0, {}, bigEndian)).all(),
+        bigEndian);
 }
 
 inline ByteVector enhancedPacket(std::uint32_t interface, std::uint64_t stamp, const ByteVector& frame,
-                                 bool bigEndian) {
+                                 bool bigEndian, const ByteVector& options = {}) {
     return block(6,
                  CaptureBytes(bigEndian)
                      .number(interface, 4)
@@ -146,8 +157,15 @@ inline ByteVector enhancedPacket(std::uint32_t interface, std::uint64_t stamp, c
                      .number(frame.size(), 4)
                      .number(frame.size(), 4)
                      .bytes(frame)
+                     .zeros((4 - frame.size() % 4) % 4)
+                     .bytes(options)
                      .all(),
                  bigEndian);
+}
+
+/// Of a packet that was `original` bytes long on the wire.
+inline ByteVector simplePacket(std::size_t original, const ByteVector& captured, bool bigEndian) {
+    return block(3, CaptureBytes(bigEndian).number(original, 4).bytes(captured).all(), bigEndian);
 }
 
 } // namespace posewire::log

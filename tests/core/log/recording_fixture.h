@@ -56,10 +56,15 @@ private:
     std::size_t m_room;
 };
 
+/// Ends with its bytes, or fails there.
 class BytesSource final : public ByteSource {
 public:
-    explicit BytesSource(std::span<const std::byte> bytes) : m_bytes(bytes) {}
+    explicit BytesSource(std::span<const std::byte> bytes, bool fails = false)
+        : m_bytes(bytes), m_fails(fails) {}
     tl::expected<std::size_t, FileError> read(std::span<std::byte> into) override {
+        if (m_fails && m_bytes.empty()) {
+            return tl::unexpected(FileError{"memory: the device is gone"});
+        }
         const std::size_t count = std::min(into.size(), m_bytes.size());
         std::copy_n(m_bytes.begin(), count, into.begin());
         m_bytes = m_bytes.subspan(count);
@@ -69,6 +74,7 @@ public:
 
 private:
     std::span<const std::byte> m_bytes;
+    bool m_fails;
 };
 
 /// What a reader finds; the file must be sound or cut off.
