@@ -41,11 +41,14 @@ void IpFragments::add(const IpPacket& fragment) {
     }
     // Fragments that overlap without end are nobody's honest packet.
     if (pending.kept + fragment.bytes.size() <= std::size_t{2} * kLargest) {
-        const auto [piece, isNew] =
-            pending.pieces.try_emplace(fragment.fragmentOffset, fragment.bytes.begin(), fragment.bytes.end());
-        pending.kept += isNew ? fragment.bytes.size() : 0;
-        if (isNew && fragment.fragmentOffset == 0) {
+        auto& piece = pending.pieces[fragment.fragmentOffset];
+        if (piece.empty() && fragment.fragmentOffset == 0) {
             pending.packet = fragment;
+        }
+        if (piece.size() < fragment.bytes.size()) { // cut into larger pieces on another path
+            const Bytes more = fragment.bytes.subspan(piece.size());
+            piece.insert(piece.end(), more.begin(), more.end());
+            pending.kept += more.size();
         }
     }
     pending.packet.stamp = fragment.stamp;
