@@ -46,7 +46,7 @@ void IpFragments::add(const IpPacket& fragment) {
             pending.packet = fragment;
         }
         if (piece.size() < fragment.bytes.size()) { // cut into larger pieces on another path
-            const Bytes more = fragment.bytes.subspan(piece.size());
+            const auto more = fragment.bytes.subspan(piece.size());
             piece.insert(piece.end(), more.begin(), more.end());
             pending.kept += more.size();
         }
@@ -118,10 +118,7 @@ void TcpStream::add(const TcpSegment& segment) {
     if (ahead > farthest || ahead < -farthest) {
         restart(segment.sequence); // no window is so wide: another connection between the same ports
     } else if (ahead > 0) {
-        const auto [place, isNew] = m_waiting.try_emplace(
-            m_expectedPosition + static_cast<std::uint32_t>(ahead),
-            Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.stamp});
-        m_waitingSize += isNew ? costOf(segment.bytes) : 0;
+        keepWaiting(segment, m_expectedPosition + static_cast<std::uint32_t>(ahead));
         if (m_waitingSize > kMostWaiting || hasWaitedTooLong(segment)) {
             passOver();
         }
@@ -163,6 +160,22 @@ void TcpStream::append(std::uint32_t sequence, std::span<const std::byte> bytes,
     while (m_places.size() > 1 && m_places[1].position <= m_given - m_framer.kept()) {
         m_places.pop_front();
     }
+}
+
+/// Keeps what is new of a segment behind a gap; one that comes again may have grown.
+void TcpStream::keepWaiting(TcpSegment segment, std::uint64_t position) {
+    for (auto known = m_waiting.find(position); known != m_waiting.end(); known = m_waiting.find(position)) {
+        const std::size_t size = known->second.bytes.size();
+        if (size >= segment.bytes.size()) {
+            return;
+        }
+        segment.bytes = segment.bytes.subspan(size);
+        segment.offset += size;
+        position += size;
+    }
+    m_waitingSize += costOf(segment.bytes);
+    m_waiting.emplace(
+        position, Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.stamp});
 }
 
 /// Hands on what has waited for the bytes before it. Without a stamp each keeps its own.

@@ -81,6 +81,7 @@ private:
 
     void append(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t fileOffset,
                 std::optional<Stamp> stamp);
+    void keepWaiting(TcpSegment segment, std::uint64_t position);
     void appendWaiting(std::optional<Stamp> stamp);
     void passOver();
     void endPart();
