@@ -110,7 +110,7 @@ TEST_F(IpFragmentsTest, KeepTheBytesThatCameFirstWhereTwoDiffer) {
     EXPECT_EQ(m_seen[0].bytes, first);
 }
 
-TEST_F(IpFragmentsTest, TellWhereTheBeginningIsAndWhenTheLastCame) {
+TEST_F(IpFragmentsTest, ReportWhereTheBeginningIsAndWhenTheLastCame) {
     const ByteVector content = pattern(2400, 1);
     add(content, 1600, 2400);
     add(content, 0, 800);
