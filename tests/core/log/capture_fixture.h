@@ -3,6 +3,7 @@
 
 #include "tests/core/log/datagram_fixture.h"
 
+#include <algorithm>
 #include <initializer_list>
 
 /// Frames and capture files as other programs write them, byte by byte.
@@ -35,6 +36,11 @@ private:
     bool m_bigEndian;
     ByteVector m_bytes;
 };
+
+inline ByteVector slice(const ByteVector& bytes, std::size_t from, std::size_t size) {
+    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(from);
+    return {begin, begin + static_cast<std::ptrdiff_t>(std::min(size, bytes.size() - from))};
+}
 
 inline ByteVector udp(const ByteVector& payload, std::uint16_t from = 40001, std::uint16_t to = 9763) {
     return CaptureBytes()
@@ -78,6 +84,25 @@ inline ByteVector ipv6(const ByteVector& content) {
         .zeros(7)
         .bytes(content)
         .all();
+}
+
+inline constexpr unsigned kFin = 1;
+inline constexpr unsigned kSyn = 2;
+inline constexpr unsigned kReset = 4;
+
+/// Over IPv4.
+inline ByteVector tcp(std::uint32_t sequence, const ByteVector& content, unsigned flags = 0,
+                      std::uint16_t from = 40001, std::uint16_t to = 9763) {
+    return ipv4(CaptureBytes()
+                    .number(from, 2)
+                    .number(to, 2)
+                    .number(sequence, 4)
+                    .zeros(4)
+                    .number(0x5010 | flags, 2)
+                    .zeros(6)
+                    .bytes(content)
+                    .all(),
+                0, 6);
 }
 
 inline ByteVector ethernet(const ByteVector& packet, std::uint16_t type = 0x0800) {

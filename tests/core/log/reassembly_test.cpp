@@ -68,11 +68,6 @@ private:
     Stamp m_stamp{};
 };
 
-ByteVector slice(const ByteVector& bytes, std::size_t from, std::size_t size) {
-    const auto begin = bytes.begin() + static_cast<std::ptrdiff_t>(from);
-    return {begin, begin + static_cast<std::ptrdiff_t>(std::min(size, bytes.size() - from))};
-}
-
 /// As IPv4 with the identity 1, or `identity`.
 std::vector<ByteVector> fragmentsOf(const ByteVector& content, std::size_t size, std::uint16_t identity = 1) {
     std::vector<ByteVector> fragments;
@@ -85,23 +80,6 @@ std::vector<ByteVector> fragmentsOf(const ByteVector& content, std::size_t size,
         fragments.push_back(packet);
     }
     return fragments;
-}
-
-constexpr unsigned kSyn = 2;
-constexpr unsigned kFin = 1;
-
-ByteVector tcp(std::uint32_t sequence, const ByteVector& content, unsigned flags = 0,
-               std::uint16_t from = 40001, std::uint16_t to = 9763) {
-    return ipv4(CaptureBytes()
-                    .number(from, 2)
-                    .number(to, 2)
-                    .number(sequence, 4)
-                    .zeros(4)
-                    .number(0x5010 | flags, 2)
-                    .zeros(6)
-                    .bytes(content)
-                    .all(),
-                0, 6);
 }
 
 /// A stream of poses with the samples 1 … count.
