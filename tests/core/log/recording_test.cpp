@@ -10,6 +10,9 @@
 #include <fstream>
 #include <random>
 
+#include <csignal>
+#include <sys/resource.h>
+
 namespace posewire::log {
 namespace {
 
@@ -70,6 +73,53 @@ TEST(Recording, SaysThatTheDiskIsFull) {
     const auto recording = Recording::start(log, "/dev/full", {});
     ASSERT_FALSE(recording);
     EXPECT_THAT(recording.error().text, testing::HasSubstr("the disk is full"));
+}
+
+/// No file of this process may grow beyond `bytes` while it lives.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(std::size_t bytes) : m_handler(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &m_before);
+        rlimit limit = m_before;
+        limit.rlim_cur = bytes;
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        ::setrlimit(RLIMIT_FSIZE, &m_before);
+        std::signal(SIGXFSZ, m_handler);
+    }
+
+private:
+    rlimit m_before{};
+    void (*m_handler)(int);
+};
+
+TEST(Recording, KeepsWhatWasWrittenBeforeAFailureAndReportsItAgainAndAgain) {
+    constexpr std::size_t most = 100'000;
+    PacketLog log;
+    const SenderId sender = log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+    const std::string path = newFile();
+    const FileSizeLimit limit(most);
+    auto recording = Recording::start(log, path, {});
+    ASSERT_TRUE(recording) << recording.error().text;
+    EXPECT_FALSE((*recording)->failure());
+    for (std::uint32_t sample = 0; sample < 1000; ++sample) {
+        log.writer().append(poseDatagram(sample), {Stamp(Duration(sample)), sender, 0, {}});
+    }
+    log.writer().publish();
+    for (int i = 0; i < 2; ++i) {
+        const auto stopped = (*recording)->stop();
+        ASSERT_FALSE(stopped);
+        EXPECT_THAT(stopped.error().text, testing::StartsWith(path + ": writing failed ("));
+        EXPECT_THAT(stopped.error().text, testing::HasSubstr("what was written before can be read"));
+    }
+    ASSERT_TRUE((*recording)->failure());
+    EXPECT_LE(std::filesystem::file_size(path), most);
+    const auto seen = recordedInFile(path);
+    EXPECT_GT(seen.size(), most / 1000 / 2);
+    for (std::uint32_t sample = 0; sample < seen.size(); ++sample) {
+        ASSERT_EQ(seen[sample].bytes, poseDatagram(sample));
+    }
 }
 
 } // namespace
