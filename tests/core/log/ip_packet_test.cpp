@@ -186,7 +186,7 @@ TEST(IpPacketOfVersion6, LooksBehindAFragmentHeaderOfAWholePacket) {
 }
 
 TEST(IpPacketOfVersion6, StopsAtProtocolsThatAreNoExtensions) {
-    for (const std::uint8_t protocol : {6, 50, 58, 59, 132, 255}) {
+    for (const std::uint8_t protocol : std::initializer_list<std::uint8_t>{6, 50, 58, 59, 132, 255}) {
         const auto packet = ipPacketOf(kRawIp, ipv6With({extension(60)}, content(), protocol));
         ASSERT_TRUE(packet);
         EXPECT_EQ(packet->protocol, protocol);
@@ -225,7 +225,7 @@ TEST(IpPacket, GoesByItsVersionWhateverTheLinkTypeSays) {
 }
 
 TEST(IpPacket, IsNothingInCookedFramesOfOtherProtocols) {
-    for (const std::uint16_t protocol : {0x0806, 0x0004, 0x88cc, 0x0000}) {
+    for (const std::uint16_t protocol : std::initializer_list<std::uint16_t>{0x0806, 0x0004, 0x88cc, 0}) {
         EXPECT_FALSE(ipPacketOf(276, CaptureBytes().number(protocol, 2).zeros(18).bytes(ipv4({})).all()));
         EXPECT_FALSE(ipPacketOf(113, CaptureBytes().zeros(14).number(protocol, 2).bytes(ipv4({})).all()));
     }

@@ -35,10 +35,10 @@ protected:
     /// Bytes of `m_sent` in a frame of their own, whose place in the file is 1,000,000 + their own.
     void add(std::size_t from, std::size_t size) {
         size = std::min(size, m_sent.size() - from);
-        add(m_first + static_cast<std::uint32_t>(from), std::span(m_sent).subspan(from, size),
-            1'000'000 + from);
+        addBytes(m_first + static_cast<std::uint32_t>(from), std::span(m_sent).subspan(from, size),
+                 1'000'000 + from);
     }
-    void add(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t offset = 0) {
+    void addBytes(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t offset = 0) {
         m_stream.add({sequence, bytes, offset, m_stamp}, m_visit);
         if (m_stamp) {
             *m_stamp += 1ms;
@@ -136,9 +136,9 @@ TEST_P(TcpStreamTest, TakesTheLongerOfTwoSegmentsThatWait) {
 TEST_P(TcpStreamTest, IgnoresKeepAlives) {
     const std::array<std::byte, 1> garbage{std::byte{0xff}};
     add(0, 100);
-    add(m_stream.expected() - 1, garbage);
-    add(m_stream.expected() - 1, {});
-    add(m_stream.expected(), {});
+    addBytes(m_stream.expected() - 1, garbage);
+    addBytes(m_stream.expected() - 1, {});
+    addBytes(m_stream.expected(), {});
     add(100, 5000);
     finish();
     expectPoses(20);
@@ -147,11 +147,11 @@ TEST_P(TcpStreamTest, IgnoresKeepAlives) {
 TEST_P(TcpStreamTest, KeepsTheBytesThatCameFirst) {
     const ByteVector other(m_sent.size(), std::byte{0xee});
     add(0, 100);
-    add(m_first + 50, std::span(other).first(50));
+    addBytes(m_first + 50, std::span(other).first(50));
     add(300, 100);
-    add(m_first + 300, std::span(other).first(100));
+    addBytes(m_first + 300, std::span(other).first(100));
     add(100, 200);
-    add(m_first, std::span(other).first(400));
+    addBytes(m_first, std::span(other).first(400));
     add(400, 5000);
     finish();
     expectPoses(20);
@@ -265,7 +265,7 @@ TEST_P(TcpStreamTest, BoundsWhatWaitsInSmallSegments) {
     std::size_t count = 0;
     while (m_seen.empty() && count < 100'000) {
         m_stamp = Stamp();
-        add(m_first + 10 + 2 * static_cast<std::uint32_t>(count++), bytes);
+        addBytes(m_first + 10 + 2 * static_cast<std::uint32_t>(count++), bytes);
     }
     EXPECT_LE(count, TcpStream::kMostWaiting / 100);
     EXPECT_GT(count, 100U);

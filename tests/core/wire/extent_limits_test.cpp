@@ -48,7 +48,7 @@ TEST_P(GeneratedExtent, IsComputedWithoutAPayloadSize) {
 
 TEST_P(GeneratedExtent, IsThatOfTheHeaderWhateverThePayload) {
     std::mt19937 random(GetParam());
-    for (const std::uint16_t size : {1, 17, 255, 256, 4096, 65'483}) {
+    for (const std::uint16_t size : std::initializer_list<std::uint16_t>{1, 17, 255, 256, 4096, 65'483}) {
         auto bytes =
             encode(test::generatedDatagram({random}, GetParam(), Form::Standard, HeaderEra::Counted)).value();
         store16(bytes.data() + 22, size);
@@ -59,7 +59,7 @@ TEST_P(GeneratedExtent, IsThatOfTheHeaderWhateverThePayload) {
 
 TEST_P(GeneratedExtent, IsUnknownWhereTheHeaderAnnouncesTooMuch) {
     std::mt19937 random(GetParam());
-    for (const std::uint16_t size : {65'484, 65'535}) {
+    for (const std::uint16_t size : std::initializer_list<std::uint16_t>{65'484, 65'535}) {
         auto bytes =
             encode(test::generatedDatagram({random}, GetParam(), Form::Standard, HeaderEra::Counted)).value();
         store16(bytes.data() + 22, size);
@@ -165,7 +165,7 @@ TEST(ExtentOfATimeCode, WaitsToSeeWhetherTheLengthWasCounted) {
 }
 
 TEST(ExtentOfAnUnknownType, IsUnknownWithoutAPayloadSize) {
-    for (const std::uint8_t type : {0, 6, 14, 26, 99}) {
+    for (const std::uint8_t type : std::initializer_list<std::uint8_t>{0, 6, 14, 26, 99}) {
         Datagram datagram;
         datagram.header.setType(type);
         datagram.body = RawBody{std::vector<std::byte>(10)};

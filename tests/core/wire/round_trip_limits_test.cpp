@@ -172,9 +172,9 @@ TEST(RoundTripOfTexts, EndsWhereTheDatagramIsFull) {
 }
 
 TEST(RoundTripOfTexts, HoldsForTheShortestAndLongestOfEachLengthOfUtf8) {
-    for (const std::string text : {std::string(1, '\0'), std::string("\x7f"), std::string("\u0080"),
-                                   std::string("\u07ff"), std::string("\u0800"), std::string("\uffff"),
-                                   std::string("\U00010000"), std::string("\U0010ffff")}) {
+    for (const std::string& text : {std::string(1, '\0'), std::string("\x7f"), std::string("\u0080"),
+                                    std::string("\u07ff"), std::string("\u0800"), std::string("\uffff"),
+                                    std::string("\U00010000"), std::string("\U0010ffff")}) {
         Datagram sent;
         sent.body = NullPose{{{text, {1, 2, 3}}}, {{1, 2, text + text, 3, {4, 5, 6}}}};
         completeHeader(sent, HeaderEra::Counted);
@@ -213,7 +213,7 @@ TEST(RoundTripOfProps, HoldsForNamesThatAreEmptyOrLong) {
 
 TEST(RoundTripOfUnknownTypes, KeepsEveryByte) {
     for (const std::size_t size : {0U, 1U, 3U, 255U, 65'483U}) {
-        for (const std::uint8_t type : {0, 6, 9, 14, 19, 26, 99}) {
+        for (const std::uint8_t type : std::initializer_list<std::uint8_t>{0, 6, 9, 14, 19, 26, 99}) {
             Datagram sent;
             sent.header.setType(type);
             RawBody raw{std::vector<std::byte>(size)};
