@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/ip_fragments.h"
+#include "core/log/reassembly.h"
 
 #include "tests/core/log/datagram_fixture.h"
 #include "tests/core/log/log_fixture.h"
@@ -30,12 +30,14 @@ protected:
         packet.bytes = std::span(content).subspan(from, to - from);
         add(packet);
     }
-    void add(const IpPacket& packet) {
-        m_fragments.add(packet, m_fileOffset, m_stamp, m_visit);
+    void add(IpPacket packet) {
+        packet.offset = m_fileOffset;
+        packet.stamp = m_stamp;
+        m_fragments.add(packet);
         m_fileOffset += 10'000;
         m_stamp += 1ms;
     }
-    void finish() { m_fragments.finish(m_visit); }
+    void finish() { m_fragments.finish(); }
     static IpPacket headersOf(std::uint32_t identity) {
         IpPacket packet;
         packet.protocol = kUdp;
@@ -45,11 +47,10 @@ protected:
     std::vector<Whole> m_seen;
 
 private:
-    IpFragments::Visitor m_visit = [this](const WholePacket& whole) {
+    IpFragments m_fragments{[this](const IpPacket& whole) {
         m_seen.push_back(
-            {{whole.bytes.begin(), whole.bytes.end()}, whole.packet.identity, whole.fileOffset, whole.stamp});
-    };
-    IpFragments m_fragments;
+            {{whole.bytes.begin(), whole.bytes.end()}, whole.identity, whole.offset, whole.stamp});
+    }};
     std::uint64_t m_fileOffset = 0;
     Stamp m_stamp{};
 };

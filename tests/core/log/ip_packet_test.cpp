@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/ip_packet.h"
 
-#include "core/log/ip_endpoint.h"
-#include "core/log/udp_payload.h"
 #include "tests/core/log/capture_fixture.h"
 
 #include <gmock/gmock.h>
@@ -20,8 +18,8 @@ ByteVector content() {
 }
 
 ByteVector payloadOf(std::uint32_t linkType, const ByteVector& frame) {
-    const auto packet = ipPacketOf(linkType, frame);
-    const auto payload = packet ? udpPayloadOf(*packet, packet->bytes) : std::nullopt;
+    const auto packet = ipPacketOf({linkType, frame});
+    const auto payload = packet ? udpPayloadOf(*packet) : std::nullopt;
     return payload ? ByteVector(payload->bytes.begin(), payload->bytes.end()) : ByteVector{};
 }
 
@@ -40,19 +38,19 @@ TEST(IpPacketInEthernet, IsFoundBehindAnyVlanTags) {
          {std::vector<std::uint16_t>{}, {kVlan}, {kServiceVlan, kVlan}, {kVlan, kVlan, kVlan, kVlan}}) {
         const ByteVector four = tagged(tags, 0x0800, ipv4(content()));
         EXPECT_EQ(payloadOf(kEthernet, four), poseDatagram(1, 1)) << tags.size();
-        EXPECT_EQ(ipPacketOf(kEthernet, four)->offset, 14 + 4 * tags.size() + 20);
+        EXPECT_EQ(ipPacketOf({kEthernet, four})->offset, 14 + 4 * tags.size() + 20);
         EXPECT_EQ(payloadOf(kEthernet, tagged(tags, 0x86dd, ipv6(content()))), poseDatagram(1, 1));
-        EXPECT_FALSE(ipPacketOf(kEthernet, tagged(tags, 0x0806, ipv4(content()))));
+        EXPECT_FALSE(ipPacketOf({kEthernet, tagged(tags, 0x0806, ipv4(content()))}));
     }
 }
 
 TEST(IpPacketInEthernet, IsNothingWhereTheFrameEndsInItsTags) {
     const ByteVector frame = tagged({kVlan, kVlan}, 0x0800, {});
     for (std::size_t size = 0; size <= frame.size(); ++size) {
-        EXPECT_FALSE(ipPacketOf(kEthernet, std::span(frame).first(size))) << size;
+        EXPECT_FALSE(ipPacketOf({kEthernet, std::span(frame).first(size)})) << size;
     }
     EXPECT_FALSE(
-        ipPacketOf(kEthernet, CaptureBytes().zeros(12).bytes(ByteVector(400, std::byte{0x81})).all()));
+        ipPacketOf({kEthernet, CaptureBytes().zeros(12).bytes(ByteVector(400, std::byte{0x81})).all()}));
 }
 
 /// IPv4 with `words` of options (RFC 791 section 3.1) and any total length.
@@ -75,13 +73,13 @@ TEST(IpPacketOfVersion4, IsFoundBehindOptionsOfAnyLength) {
     for (std::size_t words = 0; words <= 10; ++words) {
         const ByteVector packet = ipv4WithOptions(words, 20 + 4 * words + content().size(), content());
         EXPECT_EQ(payloadOf(kRawIp, packet), poseDatagram(1, 1)) << words;
-        EXPECT_EQ(ipPacketOf(kRawIp, packet)->offset, 20 + 4 * words);
+        EXPECT_EQ(ipPacketOf({kRawIp, packet})->offset, 20 + 4 * words);
     }
 }
 
 TEST(IpPacketOfVersion4, EndsWithItsTotalLength) {
     const auto sizeWith = [](std::size_t totalSize) {
-        const auto packet = ipPacketOf(kRawIp, ipv4WithOptions(0, totalSize, ByteVector(100)));
+        const auto packet = ipPacketOf({kRawIp, ipv4WithOptions(0, totalSize, ByteVector(100))});
         return packet ? packet->bytes.size() : SIZE_MAX;
     };
     EXPECT_EQ(sizeWith(120), 100U);
@@ -95,16 +93,16 @@ TEST(IpPacketOfVersion4, IsNothingWithAHeaderShorterThanTwentyBytes) {
     for (unsigned words = 0; words < 5; ++words) {
         ByteVector packet = ipv4(content());
         packet[0] = static_cast<std::byte>(0x40 | words);
-        EXPECT_FALSE(ipPacketOf(kRawIp, packet)) << words;
+        EXPECT_FALSE(ipPacketOf({kRawIp, packet})) << words;
     }
     ByteVector packet = ipv4({});
     packet[0] = std::byte{0x46}; // announces options that are not there
-    EXPECT_FALSE(ipPacketOf(kRawIp, packet));
+    EXPECT_FALSE(ipPacketOf({kRawIp, packet}));
 }
 
 /// The fragment offset counts eight bytes; "do not fragment" is no fragment (RFC 791).
 TEST(IpPacketOfVersion4, ReadsFlagsAndOffsetOfFragments) {
-    const auto with = [](std::uint16_t word) { return *ipPacketOf(kRawIp, ipv4(content(), word)); };
+    const auto with = [](std::uint16_t word) { return *ipPacketOf({kRawIp, ipv4(content(), word)}); };
     EXPECT_FALSE(with(0x4000).isFragment());
     EXPECT_FALSE(with(0x8000).isFragment());
     EXPECT_TRUE(with(0x2000).isFragment());
@@ -163,14 +161,14 @@ TEST(IpPacketOfVersion6, IsFoundBehindExtensionHeadersInAnyOrder) {
           {extension(60), extension(0, 1), extension(43, 2)}}) {
         const ByteVector packet = ipv6With(extensions, content());
         EXPECT_EQ(payloadOf(kRawIp, packet), poseDatagram(1, 1)) << extensions.size();
-        EXPECT_EQ(ipPacketOf(kRawIp, packet)->offset, packet.size() - content().size());
-        EXPECT_FALSE(ipPacketOf(kRawIp, packet)->isFragment());
+        EXPECT_EQ(ipPacketOf({kRawIp, packet})->offset, packet.size() - content().size());
+        EXPECT_FALSE(ipPacketOf({kRawIp, packet})->isFragment());
     }
 }
 
 TEST(IpPacketOfVersion6, ReadsTheFragmentHeader) {
     const auto packet =
-        ipPacketOf(kRawIp, ipv6With({extension(0), fragmentHeader(0x0559, 0xabcdef01)}, content()));
+        ipPacketOf({kRawIp, ipv6With({extension(0), fragmentHeader(0x0559, 0xabcdef01)}, content())});
     ASSERT_TRUE(packet);
     EXPECT_EQ(packet->fragmentOffset, 0x0558U);
     EXPECT_TRUE(packet->hasMoreFragments);
@@ -182,21 +180,21 @@ TEST(IpPacketOfVersion6, ReadsTheFragmentHeader) {
 TEST(IpPacketOfVersion6, LooksBehindAFragmentHeaderOfAWholePacket) {
     const ByteVector packet = ipv6With({fragmentHeader(0, 7), extension(60)}, content());
     EXPECT_EQ(payloadOf(kRawIp, packet), poseDatagram(1, 1));
-    EXPECT_FALSE(ipPacketOf(kRawIp, packet)->isFragment());
+    EXPECT_FALSE(ipPacketOf({kRawIp, packet})->isFragment());
 }
 
 TEST(IpPacketOfVersion6, StopsAtProtocolsThatAreNoExtensions) {
     for (const std::uint8_t protocol : std::initializer_list<std::uint8_t>{6, 50, 58, 59, 132, 255}) {
-        const auto packet = ipPacketOf(kRawIp, ipv6With({extension(60)}, content(), protocol));
+        const auto packet = ipPacketOf({kRawIp, ipv6With({extension(60)}, content(), protocol)});
         ASSERT_TRUE(packet);
         EXPECT_EQ(packet->protocol, protocol);
-        EXPECT_FALSE(udpPayloadOf(*packet, packet->bytes));
+        EXPECT_FALSE(udpPayloadOf(*packet));
     }
 }
 
 TEST(IpPacketOfVersion6, EndsWithItsPayloadLength) {
     const auto sizeWith = [](std::size_t announced) {
-        return ipPacketOf(kRawIp, ipv6With({}, ByteVector(100), 17, announced))->bytes.size();
+        return ipPacketOf({kRawIp, ipv6With({}, ByteVector(100), 17, announced)})->bytes.size();
     };
     EXPECT_EQ(sizeWith(100), 100U);
     EXPECT_EQ(sizeWith(40), 40U);
@@ -206,33 +204,33 @@ TEST(IpPacketOfVersion6, EndsWithItsPayloadLength) {
 
 TEST(IpPacketOfVersion6, IsNothingWhereAnExtensionRunsPastTheEnd) {
     EXPECT_FALSE(
-        ipPacketOf(kRawIp, ipv6With({{60, CaptureBytes().number(200, 1).zeros(6).all()}}, content())));
+        ipPacketOf({kRawIp, ipv6With({{60, CaptureBytes().number(200, 1).zeros(6).all()}}, content())}));
     const ByteVector packet = ipv6With({extension(0), extension(60, 2)}, content());
     for (std::size_t size = 0; size < packet.size(); ++size) {
-        const auto cut = ipPacketOf(kRawIp, std::span(packet).first(size));
+        const auto cut = ipPacketOf({kRawIp, std::span(packet).first(size)});
         EXPECT_TRUE(!cut || cut->offset + cut->bytes.size() == size) << size;
     }
 }
 
 TEST(IpPacket, GoesByItsVersionWhateverTheLinkTypeSays) {
-    EXPECT_TRUE(ipPacketOf(229, ipv4(content())));
-    EXPECT_TRUE(ipPacketOf(228, ipv6(content())));
+    EXPECT_TRUE(ipPacketOf({229, ipv4(content())}));
+    EXPECT_TRUE(ipPacketOf({228, ipv6(content())}));
     for (const unsigned version : {0U, 1U, 5U, 7U, 15U}) {
         ByteVector packet = ipv4(content());
         packet[0] = static_cast<std::byte>(version << 4 | 5);
-        EXPECT_FALSE(ipPacketOf(kRawIp, packet)) << version;
+        EXPECT_FALSE(ipPacketOf({kRawIp, packet})) << version;
     }
 }
 
 TEST(IpPacket, IsNothingInCookedFramesOfOtherProtocols) {
     for (const std::uint16_t protocol : std::initializer_list<std::uint16_t>{0x0806, 0x0004, 0x88cc, 0}) {
-        EXPECT_FALSE(ipPacketOf(276, CaptureBytes().number(protocol, 2).zeros(18).bytes(ipv4({})).all()));
-        EXPECT_FALSE(ipPacketOf(113, CaptureBytes().zeros(14).number(protocol, 2).bytes(ipv4({})).all()));
+        EXPECT_FALSE(ipPacketOf({276, CaptureBytes().number(protocol, 2).zeros(18).bytes(ipv4({})).all()}));
+        EXPECT_FALSE(ipPacketOf({113, CaptureBytes().zeros(14).number(protocol, 2).bytes(ipv4({})).all()}));
     }
     const ByteVector six = CaptureBytes().number(0x86dd, 2).zeros(18).bytes(ipv6(content())).all();
     EXPECT_EQ(payloadOf(276, six), poseDatagram(1, 1));
     for (std::size_t size = 0; size < 20; ++size) {
-        EXPECT_FALSE(ipPacketOf(276, std::span(six).first(size))) << size;
+        EXPECT_FALSE(ipPacketOf({276, std::span(six).first(size)})) << size;
     }
 }
 
@@ -242,7 +240,8 @@ TEST(UdpPayload, EndsWithTheLengthOfUdp) {
     const auto sizeWith = [&](std::uint16_t announced) {
         const ByteVector segment =
             CaptureBytes().number(1, 2).number(2, 2).number(announced, 2).zeros(2).zeros(50).all();
-        return udpPayloadOf(packet, segment)->bytes.size();
+        packet.bytes = segment;
+        return udpPayloadOf(packet)->bytes.size();
     };
     EXPECT_EQ(sizeWith(58), 50U);
     EXPECT_EQ(sizeWith(8), 0U);
@@ -251,27 +250,29 @@ TEST(UdpPayload, EndsWithTheLengthOfUdp) {
     EXPECT_EQ(sizeWith(0), 50U) << "a jumbogram (RFC 2675)";
     EXPECT_EQ(sizeWith(7), 50U) << "no length, as it is shorter than the header";
     for (std::size_t size = 0; size < 8; ++size) {
-        EXPECT_FALSE(udpPayloadOf(packet, ByteVector(size))) << size;
+        const ByteVector tooShort(size);
+        packet.bytes = tooShort;
+        EXPECT_FALSE(udpPayloadOf(packet)) << size;
     }
 }
 
 /// RFC 5952 section 4: the longest run of zeros, the first of equal ones, never a single group.
-TEST(AddressText, ShortensIpv6AsRecommended) {
+TEST(EndpointText, ShortensIpv6AsRecommended) {
     const auto textOf = [](const std::array<std::uint16_t, 8>& groups) {
         IpAddress address{{}, true};
         for (std::size_t i = 0; i < 8; ++i) {
             address.bytes[2 * i] = static_cast<std::byte>(groups[i] >> 8);
             address.bytes[2 * i + 1] = static_cast<std::byte>(groups[i] & 0xff);
         }
-        return addressText(address);
+        return endpointText({address, 1});
     };
-    EXPECT_EQ(textOf({0x2001, 0xdb8, 0, 0, 0, 0, 2, 1}), "[2001:db8::2:1]");
-    EXPECT_EQ(textOf({0x2001, 0xdb8, 0, 1, 1, 1, 1, 1}), "[2001:db8:0:1:1:1:1:1]");
-    EXPECT_EQ(textOf({0x2001, 0, 0, 1, 0, 0, 0, 1}), "[2001:0:0:1::1]");
-    EXPECT_EQ(textOf({0x2001, 0xdb8, 0, 0, 1, 0, 0, 1}), "[2001:db8::1:0:0:1]");
-    EXPECT_EQ(textOf({0, 0, 0, 0, 0, 0, 0, 0}), "[::]");
-    EXPECT_EQ(textOf({0, 0, 1, 0, 0, 0, 0, 0}), "[0:0:1::]");
-    EXPECT_EQ(textOf({0xABCD, 0xef, 0x10, 0x100, 0x1000, 1, 2, 3}), "[abcd:ef:10:100:1000:1:2:3]");
+    EXPECT_EQ(textOf({0x2001, 0xdb8, 0, 0, 0, 0, 2, 1}), "[2001:db8::2:1]:1");
+    EXPECT_EQ(textOf({0x2001, 0xdb8, 0, 1, 1, 1, 1, 1}), "[2001:db8:0:1:1:1:1:1]:1");
+    EXPECT_EQ(textOf({0x2001, 0, 0, 1, 0, 0, 0, 1}), "[2001:0:0:1::1]:1");
+    EXPECT_EQ(textOf({0x2001, 0xdb8, 0, 0, 1, 0, 0, 1}), "[2001:db8::1:0:0:1]:1");
+    EXPECT_EQ(textOf({0, 0, 0, 0, 0, 0, 0, 0}), "[::]:1");
+    EXPECT_EQ(textOf({0, 0, 1, 0, 0, 0, 0, 0}), "[0:0:1::]:1");
+    EXPECT_EQ(textOf({0xABCD, 0xef, 0x10, 0x100, 0x1000, 1, 2, 3}), "[abcd:ef:10:100:1000:1:2:3]:1");
 }
 
 } // namespace

@@ -199,24 +199,23 @@ TEST(ChunkOfALog, HasRoomUntilRecordsAndBytesMeet) {
     Chunk chunk(4096);
     EXPECT_EQ(chunk.room(), 4096U);
     std::size_t room = chunk.room();
+    std::size_t count = 0;
     const std::byte* end = nullptr;
     while (room >= sizeof(Record) + 40) {
         const std::byte* bytes = chunk.take(40);
         EXPECT_TRUE(end == nullptr || bytes + 40 == end);
         EXPECT_EQ(reinterpret_cast<std::uintptr_t>(bytes) % 8, 0U);
         end = bytes;
-        chunk.addRecord({bytes, Stamp(Duration(chunk.recordCount())), 40, {}, 0, {}});
+        chunk.addRecord({bytes, Stamp(Duration(count++)), 40, {}, 0, {}});
         room -= sizeof(Record) + 40;
         EXPECT_EQ(chunk.room(), room);
     }
-    EXPECT_EQ(chunk.recordCount(), 4096U / 72);
-    for (std::size_t i = 0; i < chunk.recordCount(); ++i) {
+    EXPECT_EQ(count, 4096U / 72);
+    for (std::size_t i = 0; i < count; ++i) {
         EXPECT_EQ(chunk.record(i).stamp, Stamp(Duration(i)));
     }
     chunk.clear();
     EXPECT_EQ(chunk.room(), 4096U);
-    EXPECT_EQ(chunk.recordCount(), 0U);
-    EXPECT_EQ(chunk.size(), 4096U);
 }
 
 } // namespace

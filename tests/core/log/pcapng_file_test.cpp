@@ -248,7 +248,7 @@ TEST_P(PcapngFile, KeepsWhatCameBeforeAFailureOfTheDevice) {
     for (std::size_t size = 0; size <= file.size(); ++size) {
         BytesSource source(std::span<const std::byte>(file).first(size), true);
         std::size_t count = 0;
-        const auto result = readCaptureFile(source, [&](const FileRecord&) { ++count; });
+        const auto result = readFile(source, [&](const FileRecord&) { ++count; });
         ASSERT_FALSE(result) << size;
         EXPECT_EQ(result.error().text, "memory: the device is gone");
         EXPECT_EQ(count, size < start.size() ? 0 : (size - start.size()) / one.size()) << size;

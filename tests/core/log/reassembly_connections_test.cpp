@@ -32,7 +32,7 @@ protected:
 private:
     std::vector<ByteVector> m_seen;
     FileVisitor m_visit = [this](const FileRecord& record) {
-        if (record.isSkipped) {
+        if (record.flags.skipped) {
             m_skipped += record.bytes.size();
         } else {
             m_seen.emplace_back(record.bytes.begin(), record.bytes.end());

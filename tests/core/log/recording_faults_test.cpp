@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/pcapng_block.h"
-#include "core/log/recorded_origin.h"
-#include "core/log/recorder.h"
-#include "core/wire/utf8.h"
+#include "core/log/pcapng_format.h"
+#include "core/log/recording.h"
+#include "core/wire/text.h"
 #include "tests/core/log/log_fixture.h"
 #include "tests/core/log/recording_fixture.h"
 
@@ -66,11 +65,11 @@ TEST_F(RecordingFaults, CountWhatWasMissedAndWhatTheKernelDropped) {
     ASSERT_TRUE(recorder.follow());
     append(5000, 2);
     ASSERT_TRUE(recorder.follow());
-    const std::uint64_t missed = recorder.missed();
+    const std::uint64_t missed = recorder.figures().missed;
     ASSERT_GT(missed, 0U);
     append(1, 3);
     ASSERT_TRUE(recorder.finish());
-    EXPECT_EQ(recorder.missed(), missed);
+    EXPECT_EQ(recorder.figures().missed, missed);
     const auto seen = recordedIn(sink.bytes);
     ASSERT_EQ(seen.size() + missed, 5002U);
     EXPECT_EQ(seen[0].kernelDropsBefore, 7U);
@@ -85,7 +84,7 @@ TEST_F(RecordingFaults, DoNotLetTheCountOfDropsWrapAround) {
     ASSERT_TRUE(recorder.begin({}));
     append(5000, 0xffffffff);
     ASSERT_TRUE(recorder.finish());
-    ASSERT_GT(recorder.missed(), 0U);
+    ASSERT_GT(recorder.figures().missed, 0U);
     EXPECT_EQ(recordedIn(sink.bytes)[0].kernelDropsBefore, 0xffffffffU);
 }
 
@@ -94,13 +93,13 @@ TEST_F(RecordingFaults, BeginWithTheOldestPacketWhereTheWantedOneIsGone) {
     MemorySink sink;
     Recorder recorder(m_log, sink, 3);
     ASSERT_TRUE(recorder.begin({}) && recorder.finish());
-    EXPECT_EQ(recorder.missed(), 0U) << "what came before the recording is no part of it";
-    EXPECT_EQ(recorder.packets(), 5000 - m_log.figures().begin);
+    EXPECT_EQ(recorder.figures().missed, 0U) << "what came before the recording is no part of it";
+    EXPECT_EQ(recorder.figures().packets, 5000 - m_log.figures().begin);
     MemorySink later;
     Recorder future(m_log, later, 5002);
     append(4);
     ASSERT_TRUE(future.begin({}) && future.finish());
-    EXPECT_EQ(future.packets(), 2U);
+    EXPECT_EQ(future.figures().packets, 2U);
 }
 
 /// Little-endian numbers of a block that was written.
@@ -181,23 +180,29 @@ TEST(RecordingTexts, SayEveryOriginAndAreUnderstoodAgain) {
 }
 
 /// Blocks and options begin at multiples of four bytes, and a block ends with its length.
-TEST(PcapngBlock, IsPaddedWhateverItsTexts) {
-    std::vector<std::byte> buffer{std::byte{1}};
+TEST(RecordingTexts, ArePaddedWhateverTheirLength) {
+    constexpr std::size_t start = 24; // of the options of a section header
+    constexpr std::size_t length = 4;
+    const auto sectionWith = [](const RecordingInfo& info) {
+        MemorySink sink;
+        PcapngWriter writer(sink);
+        EXPECT_TRUE(writer.begin(info));
+        sink.bytes.resize(static_cast<std::size_t>(numberAt(sink.bytes, 4, 4)));
+        return sink.bytes;
+    };
     for (std::size_t size = 1; size < 20; ++size) {
-        PcapngBlock block(buffer, PcapngBlockType::SectionHeader);
-        block.option(PcapngOption::Comment, std::string(size, 'x'));
-        block.option(PcapngOption::Hardware, std::string_view());
-        block.finish();
+        const ByteVector block =
+            sectionWith({.hardware = std::string(size, 'x'), .system = {}, .application = {}});
         const std::size_t padded = (size + 3) / 4 * 4;
-        ASSERT_EQ(buffer.size(), 8 + 4 + padded + 4 + 4) << "an empty text is left out";
-        EXPECT_EQ(numberAt(buffer, 4, 4), buffer.size());
-        EXPECT_EQ(numberAt(buffer, buffer.size() - 4, 4), buffer.size());
-        EXPECT_EQ(numberAt(buffer, 10, 2), size);
-        EXPECT_EQ(numberAt(buffer, buffer.size() - 8, 4), 0U) << "the end of the options";
+        ASSERT_EQ(block.size(), start + 4 + padded + 4 + length) << "an empty text is left out";
+        EXPECT_EQ(numberAt(block, block.size() - 4, 4), block.size());
+        EXPECT_EQ(numberAt(block, start, 2), static_cast<std::uint16_t>(PcapngOption::Hardware));
+        EXPECT_EQ(numberAt(block, start + 2, 2), size);
+        EXPECT_EQ(numberAt(block, block.size() - 8, 4), 0U) << "the end of the options";
     }
-    PcapngBlock plain(buffer, PcapngBlockType::Interface);
-    plain.finish();
-    EXPECT_EQ(buffer.size(), 12U) << "no options, no end of them";
+    const ByteVector plain = sectionWith({});
+    EXPECT_EQ(plain.size(), start + length) << "no options, no end of them";
+    EXPECT_EQ(numberAt(plain, start, 4), plain.size());
 }
 
 } // namespace

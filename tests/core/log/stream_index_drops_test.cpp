@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <random>
 
@@ -41,20 +42,33 @@ protected:
             append(key, ++m_samples[key]);
         }
     }
+    /// What Ingest does: takes in what is new, drops what the log has dropped. True if `limit` packets were
+    /// enough.
     bool follow(std::uint64_t limit = UINT64_MAX) {
         m_reader.refresh();
-        return m_index.follow(m_reader, limit);
+        m_next = std::max(m_next, m_reader.begin());
+        for (; m_next < m_reader.end() && limit > 0; ++m_next, --limit) {
+            const auto packet = m_reader.packet(m_next);
+            m_index.add(*packet, *wire::decodeHeader(packet->bytes));
+        }
+        m_index.dropBefore(m_reader.begin());
+        return m_next == m_reader.end();
     }
     /// The index has exactly the packets from `begin` to before `end`, each in its stream.
     void expectHolds(std::uint64_t begin, std::uint64_t end) {
         std::map<StreamKey, std::vector<Sent>> streams;
+        for (const Sent& one : m_sent) {
+            streams.try_emplace(one.key);
+        }
         for (std::uint64_t number = begin; number < end; ++number) {
             streams[m_sent[number].key].push_back(m_sent[number]);
         }
-        ASSERT_EQ(m_index.streams().size(), streams.size());
         for (const auto& [key, sent] : streams) {
             const StreamEntries* entries = m_index.find(key);
-            ASSERT_NE(entries, nullptr);
+            ASSERT_EQ(entries != nullptr, !sent.empty());
+            if (entries == nullptr) {
+                continue;
+            }
             ASSERT_EQ(entries->size(), sent.size());
             for (std::size_t i = 0; i < sent.size(); ++i) {
                 ASSERT_EQ((*entries)[i].packet, sent[i].number);
@@ -73,6 +87,7 @@ protected:
     PacketLog m_log{kSmallLog};
     LogReader m_reader{m_log};
     StreamIndex m_index;
+    std::uint64_t m_next = 0;
     std::vector<Sent> m_sent;
     Stamp m_stamp{};
     std::map<StreamKey, std::uint32_t> m_samples;
@@ -84,7 +99,6 @@ TEST_F(StreamIndexDropsTest, HasWhatTheLogHoldsHoweverSeldomItLooks) {
         appendAny(m_random() % 2 == 0 ? m_random() % 50 : m_random() % 2000);
         EXPECT_TRUE(follow());
         expectHolds(m_reader.begin(), m_reader.end());
-        EXPECT_EQ(m_index.end(), m_sent.size());
     }
     EXPECT_GT(m_reader.begin(), 1000U);
 }
@@ -102,22 +116,11 @@ TEST_F(StreamIndexDropsTest, GoesOnBehindAGapThatWasDroppedBeforeItsTurn) {
     expectHolds(m_reader.begin(), m_reader.end());
 }
 
-/// The reader still shows packets that the log has dropped meanwhile: they are passed over.
-TEST_F(StreamIndexDropsTest, PassesOverPacketsThatAreGoneWhileItReads) {
-    appendAny(700);
-    m_reader.refresh();
-    appendAny(5000);
-    EXPECT_TRUE(m_index.follow(m_reader));
-    EXPECT_EQ(m_index.end(), 700U);
-    EXPECT_TRUE(m_index.streams().empty());
-    follow();
-    expectHolds(m_reader.begin(), m_reader.end());
-}
-
 TEST_F(StreamIndexDropsTest, FindsTheNewestAtOrBeforeAnyStamp) {
     appendAny(3000);
     follow();
-    for (const StreamKey& key : m_index.streams()) {
+    for (const auto& [key, sample] : m_samples) {
+        ASSERT_NE(m_index.find(key), nullptr);
         const StreamEntries& entries = *m_index.find(key);
         for (int i = 0; i < 200; ++i) {
             const Stamp stamp =
@@ -137,16 +140,13 @@ TEST_F(StreamIndexDropsTest, ForgetsAStreamThatIsSilentOnceItsLastPacketIsDroppe
     appendAny(300);
     follow();
     ASSERT_NE(m_index.find(silent), nullptr);
-    const auto before = m_index.version();
     appendAny(3000);
     follow();
     EXPECT_EQ(m_index.find(silent), nullptr);
-    EXPECT_NE(m_index.version(), before);
     append(silent, 1);
     follow();
     ASSERT_NE(m_index.find(silent), nullptr) << "it may come again";
     EXPECT_EQ(m_index.find(silent)->size(), 1U);
-    EXPECT_EQ(m_index.streams().back(), silent);
 }
 
 TEST_F(StreamIndexDropsTest, ForgetsByNumberAndNeverTwice) {
@@ -157,36 +157,30 @@ TEST_F(StreamIndexDropsTest, ForgetsByNumberAndNeverTwice) {
     m_index.dropBefore(100);
     expectHolds(250, 600);
     m_index.dropBefore(600);
-    EXPECT_TRUE(m_index.streams().empty());
-    EXPECT_EQ(m_index.end(), 600U);
+    expectHolds(600, 600);
     m_index.dropBefore(10'000);
-    EXPECT_TRUE(m_index.streams().empty());
+    expectHolds(600, 600);
 }
 
-/// Blocks of 256 entries are lent and given back: an entry is never another's.
-TEST(StreamEntriesInBlocks, AreDroppedAtAnyPlace) {
-    StreamEntries::Spare spare;
+TEST(StreamEntriesTest, AreDroppedAtAnyPlace) {
     for (const std::uint64_t dropped : {0U, 1U, 255U, 256U, 257U, 511U, 512U, 700U, 767U, 768U}) {
         StreamEntries entries;
         for (std::uint64_t number = 0; number < 768; ++number) {
-            entries.append({number, Stamp(Duration(number)), static_cast<std::uint32_t>(number), 0, true},
-                           spare);
+            entries.append({number, Stamp(Duration(number)), static_cast<std::uint32_t>(number), 0, true});
         }
-        entries.dropBefore(dropped, spare);
+        entries.dropBefore(dropped);
         ASSERT_EQ(entries.size(), 768 - dropped);
         EXPECT_EQ(entries.empty(), dropped == 768);
         for (std::uint64_t number = 768; number < 1100; ++number) {
-            entries.append({number, Stamp(Duration(number)), static_cast<std::uint32_t>(number), 0, true},
-                           spare);
+            entries.append({number, Stamp(Duration(number)), static_cast<std::uint32_t>(number), 0, true});
         }
         ASSERT_EQ(entries.size(), 1100 - dropped);
         for (std::size_t i = 0; i < entries.size(); ++i) {
             ASSERT_EQ(entries[i].packet, dropped + i);
             ASSERT_EQ(entries[i].sample, dropped + i);
         }
-        entries.dropBefore(UINT64_MAX, spare);
+        entries.dropBefore(UINT64_MAX);
         EXPECT_TRUE(entries.empty());
-        EXPECT_LE(spare.size(), 64U);
     }
 }
 

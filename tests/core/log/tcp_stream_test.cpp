@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/tcp_stream.h"
+#include "core/log/reassembly.h"
 
 #include "tests/core/log/datagram_fixture.h"
 
@@ -39,12 +39,12 @@ protected:
                  1'000'000 + from);
     }
     void addBytes(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t offset = 0) {
-        m_stream.add({sequence, bytes, offset, m_stamp}, m_visit);
+        m_stream.add({.sequence = sequence, .bytes = bytes, .offset = offset, .stamp = m_stamp});
         if (m_stamp) {
             *m_stamp += 1ms;
         }
     }
-    void finish() { m_stream.finish(m_visit); }
+    void finish() { m_stream.finish(); }
     [[nodiscard]] std::vector<ByteVector> datagrams() const {
         std::vector<ByteVector> all;
         for (const Seen& one : m_seen) {
@@ -69,9 +69,9 @@ protected:
     FileVisitor m_visit = [this](const FileRecord& record) {
         EXPECT_EQ(record.sender, (SenderInfo{"10.0.0.2:40001", Transport::Tcp, 9763}));
         m_seen.push_back(
-            {record.offset, {record.bytes.begin(), record.bytes.end()}, record.isSkipped, record.stamp});
+            {record.offset, {record.bytes.begin(), record.bytes.end()}, record.flags.skipped, record.stamp});
     };
-    TcpStream m_stream{{"10.0.0.2:40001", Transport::Tcp, 9763}, m_first};
+    TcpStream m_stream{{"10.0.0.2:40001", Transport::Tcp, 9763}, m_first, m_visit};
 };
 /// Sequence numbers wrap around within the stream, at its start, at its end, or turn negative as int32.
 INSTANTIATE_TEST_SUITE_P(FirstSequence, TcpStreamTest,
@@ -102,7 +102,7 @@ TEST_P(TcpStreamTest, TakesEveryRetransmissionOnce) {
 TEST_P(TcpStreamTest, PutsAnyOrderWithinTheWindowRight) {
     std::mt19937 random(GetParam());
     for (int round = 0; round < 20; ++round) {
-        TcpStream stream({"10.0.0.2:40001", Transport::Tcp, 9763}, m_first);
+        TcpStream stream({"10.0.0.2:40001", Transport::Tcp, 9763}, m_first, m_visit);
         m_seen.clear();
         std::vector<std::pair<std::size_t, std::size_t>> segments;
         for (std::size_t at = 0; at < m_sent.size(); at += 70) {
@@ -110,11 +110,11 @@ TEST_P(TcpStreamTest, PutsAnyOrderWithinTheWindowRight) {
         }
         std::shuffle(segments.begin(), segments.end(), random);
         for (const auto& [at, size] : segments) {
-            stream.add({m_first + static_cast<std::uint32_t>(at), std::span(m_sent).subspan(at, size),
-                        1'000'000 + at, std::nullopt},
-                       m_visit);
+            stream.add({.sequence = m_first + static_cast<std::uint32_t>(at),
+                        .bytes = std::span(m_sent).subspan(at, size),
+                        .offset = 1'000'000 + at});
         }
-        stream.finish(m_visit);
+        stream.finish();
         expectPoses(20);
     }
 }
@@ -249,7 +249,7 @@ TEST_P(TcpStreamTest, StartsAgainWithAnotherSequenceNumber) {
     add(0, 50);
     add(2 * kPose, kPose);
     m_first += 12'345;
-    m_stream.restart(m_first, m_visit);
+    m_stream.restart(m_first);
     EXPECT_EQ(m_stream.expected(), m_first);
     EXPECT_EQ(datagrams(),
               (std::vector{ByteVector(m_sent.begin(), m_sent.begin() + 50), poseDatagram(3, 2)}));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/wire/byte_order.h"
-#include "core/wire/extent.h"
+#include "core/wire/header.h"
 #include "tests/core/wire/generated_datagrams.h"
 
 #include <gtest/gtest.h>

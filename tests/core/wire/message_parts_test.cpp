@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/message_parts.h"
+#include "core/wire/codec.h"
 
 #include "tests/core/wire/generated_datagrams.h"
 

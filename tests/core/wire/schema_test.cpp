@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/schema.h"
-
 #include "core/wire/type_table.h"
+
 #include "tests/core/wire/generated_datagrams.h"
 
 #include <gtest/gtest.h>
