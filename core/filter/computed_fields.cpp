@@ -132,7 +132,7 @@ constexpr std::array kRows{
     Row{"gap", Kind::Number, "", "samples that are missing just before it", always<kGap>, true},
     Row{"duplicate", Kind::Flag, "", "the same sample and datagram came before", always<kDuplicate>},
     Row{"reordered", Kind::Flag, "", "came after a packet with a higher sample", always<kReordered>},
-    Row{"restart", Kind::Flag, "", "the counter of the sender has begun anew", always<kRestart>},
+    Row{"restart", Kind::Flag, "", "the sender's counter restarted", always<kRestart>},
     Row{"drops", Kind::Number, "", "datagrams that this computer lost just before it", always<kDrops>, true},
     Row{"problem", Kind::Flag, "", "anything that an operator should look at", always<kProblem>},
     Row{"notice", Kind::Text, "", "what is odd but readable, such as \"notFinite\"", readNotice},

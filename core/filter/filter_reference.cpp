@@ -34,7 +34,7 @@ A filter is a condition that a packet meets or does not meet: a field, an operat
 | `\|\|`, `or` | one of them or both |
 | `!`, `not` | not the condition, or the parentheses, after it |
 
-Numbers may be decimal (`02` is 2) or hexadecimal (`0x1f`). Text stands in quotes, with `\"` and `\\` for these
+Numbers may be decimal (`02` is 2) or hexadecimal (`0x1f`). Text is written in quotes, with `\"` and `\\` for these
 characters; a single word needs none. Constants are compared with the values on the wire, in the wire's units.
 
 ## Rules

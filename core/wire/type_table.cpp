@@ -63,7 +63,7 @@ constexpr auto kRow<AngularKinematics> = TypeInfo("Angular kinematics", Frame::Z
 template <>
 constexpr auto kRow<TrackerKinematics> =
     TypeInfo("Trackers", Frame::ZUp, "J–N", "2.7.4",
-             "68 bytes an item on the wire; 44 in the text since M. The payload size tells.");
+             "68 bytes an item on the wire; 44 in the text since M. The payload size shows which.");
 template <>
 constexpr auto kRow<CentreOfMass> = TypeInfo("Centre of mass", Frame::ZUp, "J–N", "2.7.5",
                                              "Recent senders add velocity and acceleration (36 bytes).");

@@ -234,7 +234,7 @@ PropertyValue frameRate(const ClockHistory& clock) {
 
 PropertyValue lastJump(const ClockHistory& clock) {
     const QString toolTip =
-        tr("The newest place where the time code did not go on as its samples did, and when it "
+        tr("The newest place where the time code did not advance with its samples, and when it "
            "was received");
     if (!clock.lastJump()) {
         return {clock.headerMs() ? tr("none") : dash(), Health::Unknown, toolTip};

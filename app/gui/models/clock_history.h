@@ -21,7 +21,7 @@ public:
     void add(std::uint32_t sample, std::uint32_t timeCode);
 
     /// Samples of the capture a second; nothing before the time code has advanced by half a second. A whole
-    /// number where the resolution of the time code cannot tell the difference.
+    /// number where the resolution of the time code cannot show the difference.
     [[nodiscard]] std::optional<double> frameHz() const;
 
 private:
@@ -64,7 +64,7 @@ public:
     static constexpr double kLeastDriftSeconds = 10;
     [[nodiscard]] const std::optional<Drift>& drift() const { return m_drift; }
 
-    /// The newest place where the time code did not go on as its samples did.
+    /// The newest place where the time code did not advance with its samples.
     struct Jump {
         double milliseconds = 0; ///< how far off
         log::Stamp stamp{};

@@ -153,11 +153,11 @@ std::vector<TableColumn<StreamRow>> StatisticsModel::columns(const StatisticsMod
 }
 
 TableColumn<StreamRow> StatisticsModel::figureColumn(const StatisticsModel& model, model::Figure figure) {
-    const model::FigureRow& row = model::rowOf(figure);
-    const QString help = row.packets == nullptr
-                             ? tr(row.help)
+    const model::FigureRow& about = model::rowOf(figure);
+    const QString help = about.packets == nullptr
+                             ? tr(about.help)
                              : QStringLiteral("%1. %2").arg(
-                                   tr(row.help), tr("Double click: %1").arg(tr(row.packets).toLower()));
+                                   tr(about.help), tr("Double click: %1").arg(tr(about.packets).toLower()));
     const auto text = [&model, figure](const StreamRow& row) {
         const model::StreamFigures& figures = model.figures(model.indexOf(row));
         const QString shown = figureText(figures, figure);
@@ -166,7 +166,7 @@ TableColumn<StreamRow> StatisticsModel::figureColumn(const StatisticsModel& mode
     const auto colour = [&model, figure](const StreamRow& row) {
         return figureColour(model.figures(model.indexOf(row)), figure);
     };
-    return {.title = tr(row.shortTitle()), .help = help, .isNumber = true, .text = text, .colour = colour};
+    return {.title = tr(about.shortTitle()), .help = help, .isNumber = true, .text = text, .colour = colour};
 }
 
 TableColumn<StreamRow> StatisticsModel::curveColumn(const StatisticsModel& model) {

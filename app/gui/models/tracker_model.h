@@ -21,7 +21,7 @@ public:
     static constexpr log::Duration kMedian = std::chrono::seconds(60);
 
     /// Full scale of the trackers' accelerometers (16 g) and gyroscopes (2000 °/s), a little below: an
-    /// assumption from published data sheets, since the stream does not tell.
+    /// assumption from published data sheets, since the stream does not say.
     static constexpr float kSaturatedAcceleration = 156.0F;   ///< m/s²
     static constexpr float kSaturatedAngularVelocity = 34.0F; ///< rad/s
     /// How far the norm of the magnetic field may be from its own median.

@@ -34,7 +34,7 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
     row->setContentsMargins(8, 6, 8, 6);
     row->setSpacing(6);
     m_current = addButton(QStringLiteral("currentEvents"), tr("Current"),
-                          tr("Only what is still going on, or may be"));
+                          tr("Only what still lasts, or may"));
     m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
     auto* group = new QButtonGroup(this);
     for (QToolButton* button : {m_current, m_history}) {

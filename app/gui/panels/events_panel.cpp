@@ -69,7 +69,7 @@ EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* 
     m_table->setColumnSamples(
         {QStringLiteral("▲ warning"), QStringLiteral("10:42:17.508"), QStringLiteral("192.168.10.21:52011"),
          QString(), QStringLiteral("99 999"), QStringLiteral("character conflict"), QStringLiteral("Content"),
-         QStringLiteral("goes on")},
+         QStringLiteral("lasts")},
         QStringLiteral("14 samples lost in 13 gaps, cause: network. Type 23 brought sample"));
     m_table->setOptionalColumns(EventModel::kCount);
     connectParts();
@@ -176,7 +176,7 @@ void EventsPanel::showEmptyState() {
     m_table->setEmptyText(isAll ? tr("Nothing has happened yet.\nGaps and their causes, restarts, malformed "
                                      "data, changes and exceeded limits are listed here.")
                           : filter.onlyCurrent && m_events.counts().current == 0
-                              ? tr("Nothing is going on now. Earlier events are under History.")
+                              ? tr("No event lasts now. Earlier events are under History.")
                               : tr("No event matches the filter."));
 }
 
