@@ -61,7 +61,7 @@ TEST_P(EveryLine, NamesWhatHasAnotherKind) {
         GTEST_SKIP() << "the bytes win";
     }
     std::size_t refused = 0;
-    visit(whole, {}, [&](const Pointer& at) {
+    visit(whole, Pointer(), [&](const Pointer& at) {
         for (const Json& other :
              {Json(true), Json(-7.5), Json("x"), Json::array({}), Json::object(), Json(nullptr)}) {
             Json changed = whole;
@@ -114,7 +114,7 @@ std::vector<std::string> readableGoldens() {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryLine, testing::ValuesIn(readableGoldens()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& instance) { return instance.param; });
 
 } // namespace
 } // namespace posewire::exporting

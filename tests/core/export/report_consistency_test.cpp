@@ -181,7 +181,7 @@ TEST_P(Reports, GiveTheSameFiguresInHtml) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Reports, testing::ValuesIn(kinds()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 } // namespace
 } // namespace posewire::exporting

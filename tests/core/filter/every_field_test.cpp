@@ -107,7 +107,7 @@ std::vector<std::string> readableGoldens() {
 }
 
 INSTANTIATE_TEST_SUITE_P(, EveryGolden, testing::ValuesIn(readableGoldens()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& instance) { return instance.param; });
 
 } // namespace
 } // namespace posewire::filter::test

@@ -73,7 +73,7 @@ TEST(LossBursts, AreThoseOfThePlainDefinitionOnRandomStreams) {
     std::mt19937 random(31);
     std::uint64_t found = 0;
     for (int round = 0; round < 300; ++round) {
-        const std::uint32_t lossPercent = 1 + random() % 30;
+        const std::uint32_t lossPercent = 1 + static_cast<std::uint32_t>(random() % 30);
         std::vector<bool> arrived(1 + random() % 600);
         for (std::size_t i = 0; i < arrived.size(); ++i) {
             arrived[i] = random() % 100 >= lossPercent;
@@ -164,7 +164,7 @@ TEST(MessageRounds, CountRandomMessagesAsAPlainListDoes) {
         log::Stamp stamp = at(1s);
         for (int message = 0; message < 40; ++message) {
             stamp += 1s;
-            const unsigned parts = 1 + random() % 6;
+            const auto parts = 1 + static_cast<unsigned>(random() % 6);
             std::set<unsigned> arrived;
             for (unsigned part = 0; part < parts; ++part) {
                 if (random() % 5 != 0) {

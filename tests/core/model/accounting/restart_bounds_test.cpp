@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Streams, RestartBounds,
                                          Place{"AtTheWrap", 0xffffffffU, 1},
                                          Place{"EveryFourthBeforeTheWrap", 0xffffff00U, 4},
                                          Place{"AtTheSignBit", 0x80000000U, 1}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST_F(Accounting, CountsEachRestartOfARowOnce) {
     std::uint64_t sent = 0;

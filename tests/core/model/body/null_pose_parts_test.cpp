@@ -23,7 +23,8 @@ constexpr log::Stamp at(log::Duration time) {
 std::vector<wire::NullPose> messageOf(float height, std::size_t parts) {
     std::vector<wire::NullPose> message(parts);
     for (int i = 0; i < 23; ++i) {
-        message[0].segments.push_back({"Segment " + std::to_string(i), {0, 0, height + 0.05F * i}});
+        message[0].segments.push_back(
+            {"Segment " + std::to_string(i), {0, 0, height + 0.05F * static_cast<float>(i)}});
     }
     for (std::size_t part = 1; part < parts; ++part) {
         for (std::uint16_t point = 1; point <= 5; ++point) {
