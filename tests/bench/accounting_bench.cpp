@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/stream_accounting.h"
+#include "tests/core/model/accounting/arrivals.h"
 
 #include <algorithm>
 #include <array>
@@ -54,8 +54,8 @@ double accounting(std::size_t count, bool isLossy) {
             }
             header.sampleCounter -= std::min(header.sampleCounter, 5U);
         }
-        streams[i % kStreams]->add(log::Stamp(header.sampleCounter * std::chrono::milliseconds(4)), 760,
-                                   header);
+        model::addTo(*streams[i % kStreams], log::Stamp(header.sampleCounter * std::chrono::milliseconds(4)),
+                     760, header);
     }
     return nsPer(start, count);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/field_view.h"
 
+#include "app/gui/models/display_filter.h"
 #include "app/gui/models/field_text.h"
 #include "app/gui/models/packet_text.h"
 #include "app/gui/theme/theme.h"

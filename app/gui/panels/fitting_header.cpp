@@ -10,8 +10,8 @@
 
 namespace posewire::gui {
 
-FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*font)(), int room, Kept kept)
-    : QHeaderView(Qt::Horizontal, table), m_table(table), m_font(font), m_room(room), m_kept(kept) {
+FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int room, Kept kept)
+    : QHeaderView(Qt::Horizontal, table), m_table(table), m_font(cellFont), m_room(room), m_kept(kept) {
     setStretchLastSection(false);
     setMinimumSectionSize(0);
     setHighlightSections(false);

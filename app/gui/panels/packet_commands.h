@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "app/gui/models/display_filter.h"
 #include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
 #include "app/gui/models/packet_text.h"

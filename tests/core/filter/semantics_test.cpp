@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <random>
+#include <span>
 
 // Generated conditions on generated poses, against the rules of filterReference() written out a second time.
 namespace posewire::filter::test {
@@ -127,17 +128,15 @@ bool holds(const Condition& condition, const Facts& facts) {
     case Condition::Kind::Or:
         return std::ranges::any_of(condition.parts,
                                    [&](const Condition& part) { return holds(part, facts); });
-    case Condition::Kind::And:
-    case Condition::Kind::Group:
-        break;
     default:
-        return holds({Condition::Kind::And, {}, {condition}}, facts);
+        break;
     }
+    const bool isAlone =
+        condition.kind == Condition::Kind::Comparison || condition.kind == Condition::Kind::Any;
+    const std::span<const Condition> parts = isAlone ? std::span(&condition, 1) : std::span(condition.parts);
     // At least one round, for conditions on the header alone.
     for (std::size_t item = 0; item < std::max<std::size_t>(facts.positions.size(), 1); ++item) {
-        const bool allHold = std::ranges::all_of(
-            condition.parts, [&](const Condition& part) { return holdsAt(part, facts, item); });
-        if (allHold) {
+        if (std::ranges::all_of(parts, [&](const Condition& part) { return holdsAt(part, facts, item); })) {
             return true;
         }
     }

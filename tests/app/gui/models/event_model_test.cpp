@@ -2,6 +2,7 @@
 #include "app/gui/models/event_model.h"
 
 #include "app/gui/models/display_filter.h"
+#include "core/model/accounting/thresholds.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>

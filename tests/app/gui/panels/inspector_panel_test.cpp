@@ -87,7 +87,7 @@ TEST_F(InspectorPanelTest, ComparesTwoPacketsOfOneType) {
     m_stage.commands.selectPacket(2);
     refresh();
     m_panel.compare(InspectorPanel::Comparison::Reference);
-    const auto& model = *qobject_cast<FieldModel*>(fields().model());
+    const auto& model = dynamic_cast<FieldModel&>(*fields().model());
     ASSERT_NE(model.other(), nullptr);
     EXPECT_EQ(model.other()->number(), 1U);
     EXPECT_GT(model.differences(), 0U);
@@ -96,7 +96,7 @@ TEST_F(InspectorPanelTest, ComparesTwoPacketsOfOneType) {
 TEST_F(InspectorPanelTest, ShowsBytesOfASegmentAlsoWhereNoFieldDiffers) {
     m_panel.setReference();
     m_panel.compare(InspectorPanel::Comparison::Reference);
-    auto& model = *qobject_cast<FieldModel*>(fields().model());
+    auto& model = dynamic_cast<FieldModel&>(*fields().model());
     model.setOnlyDifferences(true);
     ASSERT_EQ(model.rowCount(), 0);
     EXPECT_EQ(fields().emptyText(), "No field differs.");
