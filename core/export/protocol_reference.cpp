@@ -43,7 +43,8 @@ constexpr std::array<RevisionDifference, 18> kDifferences{{
      "the length as int32, then the text; also the tags count and timeOffset"},
     {"type 13", "–", "null pose and points in one message of several datagrams", "the same"},
     {"types 20 to 25", "–", "yes", "yes; type 20 may have 26 or 28 items instead of 22"},
-    {"type 23, bytes an item", "–", "68", "44 in the text since M, 68 on the wire: the payload size shows which"},
+    {"type 23, bytes an item", "–", "68",
+     "44 in the text since M, 68 on the wire: the payload size shows which"},
     {"type 24", "–", "position, 12 bytes", "36 bytes on the wire: velocity and acceleration follow"},
     {"type 25", "–", "12 characters", "the length 12 as int32, then 12 characters"},
 }};

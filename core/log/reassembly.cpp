@@ -174,8 +174,8 @@ void TcpStream::keepWaiting(TcpSegment segment, std::uint64_t position) {
         position += size;
     }
     m_waitingSize += costOf(segment.bytes);
-    m_waiting.emplace(
-        position, Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.stamp});
+    m_waiting.emplace(position,
+                      Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.stamp});
 }
 
 /// Hands on what has waited for the bytes before it. Without a stamp each keeps its own.

@@ -2,7 +2,6 @@
 #include "core/performer/datagram_damage.h"
 
 #include "core/wire/codec.h"
-#include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "core/wire/header.h"
 #include "core/wire/field_tree.h"
+#include "core/wire/header.h"
 
 #include <algorithm>
 #include <cstdlib>

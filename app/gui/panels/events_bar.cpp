@@ -33,8 +33,8 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(8, 6, 8, 6);
     row->setSpacing(6);
-    m_current = addButton(QStringLiteral("currentEvents"), tr("Current"),
-                          tr("Only what still lasts, or may"));
+    m_current =
+        addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what still lasts, or may"));
     m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
     auto* group = new QButtonGroup(this);
     for (QToolButton* button : {m_current, m_history}) {

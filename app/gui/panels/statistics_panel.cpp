@@ -2,8 +2,8 @@
 #include "app/gui/panels/statistics_panel.h"
 
 #include "app/gui/models/computer_facts.h"
-#include "app/gui/models/shown_character.h"
 #include "app/gui/models/display_filter.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QMenu>

@@ -48,8 +48,7 @@ void NullPoseAssembler::begin(std::uint64_t packet, log::Stamp stamp) {
 
 /// Whether the first part of the message that is arriving has not come, and may come now.
 bool NullPoseAssembler::isOvertaken(log::Stamp stamp) const {
-    return !m_parts.empty() && !m_parts[0] &&
-           std::chrono::abs(stamp - m_arriving.firstStamp) <= kTogether;
+    return !m_parts.empty() && !m_parts[0] && std::chrono::abs(stamp - m_arriving.firstStamp) <= kTogether;
 }
 
 void NullPoseAssembler::add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
