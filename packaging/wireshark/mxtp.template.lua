@@ -414,8 +414,8 @@ function Reader:read_characters(field, tree, values)
   return true
 end
 
--- An item and what the checks need to know of it. `start`: where notices about it point to.
-function Reader:read_item(field, list, index, start)
+-- An item and what the checks need to know of it.
+function Reader:read_item(field, list, index)
   local values, item = { place = index }, nil
   if self.checks then
     item = list:add(field.item_node, self:range(self.offset, 0))
@@ -429,24 +429,23 @@ function Reader:read_item(field, list, index, start)
     if field.places and label then
       item:add(field.name_node, self:range(from, self.offset - from), label):set_generated()
     end
-    if is_read then self.checks:add(values, start) end
+    if is_read then self.checks:add(values, from) end
   end
   return is_read
 end
 
 function Reader:read_list(field, tree, count)
   local list = self.checks and tree:add(field.node, self:range(self.offset, 0))
-  local from, start = self.offset, self.offset
+  local from = self.offset
   local whole = field.size and math.min(count, math.floor(self:left() / field.size)) or count
   local is_read = true
   for index = 1, whole do
-    if field.size then start = self.offset end
-    is_read = self:read_item(field, list, index, field.size and start or header_size)
+    is_read = self:read_item(field, list, index)
     if not is_read then break end
   end
   if is_read and whole < count then
     local stop = self.offset
-    if self.checks then self:read_item(field, list, whole + 1, stop) end
+    if self.checks then self:read_item(field, list, whole + 1) end
     self.offset = stop
     is_read = self:fail("itemsTruncated", (count - whole) * field.size, self.limit - stop)
   end
