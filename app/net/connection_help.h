@@ -18,7 +18,7 @@ namespace posewire::net {
 /// A packet filter on this computer. Its rules are not read, which would need administrator rights.
 struct Firewall {
     std::string name;   ///< "ufw", "firewalld", "nftables", "iptables"
-    std::string remedy; ///< what opens a port, with "PORT/udp" as its placeholder
+    std::string remedy; ///< the command that opens a port; PORT/udp in it becomes the port
 };
 
 /// The active packet filter, as far as files that any user may read show it; `root` is for tests. Empty

@@ -35,15 +35,13 @@ std::size_t StreamStatistics::windowSize() const {
     return std::max(low, std::min<std::size_t>(kept, 2));
 }
 
-/// Between the oldest and the newest sample of the window; zero before the second.
-log::Duration StreamStatistics::span() const {
-    const std::size_t size = windowSize();
-    return size < 2 ? log::Duration::zero() : arrival(0) - arrival(size - 1);
-}
-
 double StreamStatistics::rateHz() const {
-    const auto mean = static_cast<double>(span().count()) / static_cast<double>(windowSize() - 1);
-    return span() > log::Duration::zero() ? kNsPerSecond / mean : 0;
+    const std::size_t size = windowSize();
+    const log::Duration span = size < 2 ? log::Duration::zero() : arrival(0) - arrival(size - 1);
+    if (span <= log::Duration::zero()) {
+        return 0;
+    }
+    return kNsPerSecond / (static_cast<double>(span.count()) / static_cast<double>(size - 1));
 }
 
 std::array<std::uint64_t, kLossCauses> Stream::lostByCause() const {

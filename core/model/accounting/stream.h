@@ -23,7 +23,6 @@ public:
 private:
     static constexpr std::size_t kMostSamples = 256;
     [[nodiscard]] std::size_t windowSize() const;
-    [[nodiscard]] log::Duration span() const;
     [[nodiscard]] log::Stamp arrival(std::size_t back) const {
         return m_arrivals[(m_samples - 1 - back) % kMostSamples];
     }
