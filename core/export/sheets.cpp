@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/sheets.h"
 
-#include "core/export/json_fields.h"
 #include "core/export/json_value.h"
 #include "core/model/body/spaces.h"
 #include "core/wire/byte_order.h"
+#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -126,45 +126,49 @@ void addPoseRows(const model::NullPose& pose, std::string& text) {
     }
 }
 
-void addPose(const model::NullPose& pose, Json& object) {
+/// A number that is not finite is written as in decoded messages: "NaN", "Infinity" or "-Infinity".
+template <std::size_t N>
+JsonValue vectorOf(const std::array<float, N>& numbers) {
+    JsonValue::List list;
+    for (const float number : numbers) {
+        list.push_back(std::isfinite(number) ? JsonValue(number) : JsonValue(numberText(number)));
+    }
+    return list;
+}
+
+template <class Item, class ToJson>
+JsonValue listOf(const std::vector<Item>& items, ToJson toJson) {
+    JsonValue::List list;
+    std::ranges::transform(items, std::back_inserter(list), toJson);
+    return list;
+}
+
+void addPose(const model::NullPose& pose, JsonValue& object) {
     object["stampNs"] = log::nanosecondsOf(pose.stamp);
     object["packet"] = pose.packet;
     object["partsReceived"] = pose.partsReceived;
     object["partsExpected"] = pose.partsExpected;
-    Json segments = Json::array();
-    for (std::size_t i = 0; i < pose.segments.size(); ++i) {
-        const auto& segment = pose.segments[i];
-        segments.push_back({{"id", static_cast<std::uint64_t>(i + 1)},
-                            {"name", jsonOf(segment.name)},
-                            {"position", jsonOf(model::toFloats(segment.position))}});
-    }
-    object["segments"] = std::move(segments);
-    Json points = Json::array();
-    for (const auto& point : pose.points) {
-        points.push_back({{"segment", point.segment},
-                          {"point", point.id},
-                          {"name", jsonOf(point.name)},
-                          {"flags", point.flags},
-                          {"position", jsonOf(model::toFloats(point.position))}});
-    }
-    object["points"] = std::move(points);
+    std::uint32_t id = 0;
+    object["segments"] = listOf(pose.segments, [&id](const auto& segment) {
+        return JsonValue{{"id", ++id},
+                         {"name", segment.name},
+                         {"position", vectorOf(model::toFloats(segment.position))}};
+    });
+    object["points"] = listOf(pose.points, [](const auto& point) {
+        return JsonValue{{"segment", point.segment},
+                         {"point", point.id},
+                         {"name", point.name},
+                         {"flags", point.flags},
+                         {"position", vectorOf(model::toFloats(point.position))}};
+    });
 }
 
-Json scaleOf(const wire::ScaleInformation& scale) {
-    Json list = Json::array();
-    for (const wire::SegmentScale& segment : scale.segments) {
-        list.push_back(
-            {{"id", segment.id}, {"offset", jsonOf(segment.offset)}, {"matrix", jsonOf(segment.matrix)}});
-    }
-    return list;
+JsonValue objectOf(const wire::SegmentScale& segment) {
+    return {{"id", segment.id}, {"offset", vectorOf(segment.offset)}, {"matrix", vectorOf(segment.matrix)}};
 }
 
-Json propsOf(const wire::PropInformation& props) {
-    Json list = Json::array();
-    for (const wire::Prop& prop : props.props) {
-        list.push_back({{"id", prop.id}, {"name", jsonOf(prop.name)}});
-    }
-    return list;
+JsonValue objectOf(const wire::Prop& prop) {
+    return {{"id", prop.id}, {"name", prop.name}};
 }
 
 } // namespace
@@ -231,18 +235,18 @@ std::string nullPoseCsv(const NullPoseSheet& sheet) {
 }
 
 std::string nullPoseJson(const NullPoseSheet& sheet) {
-    Json object = Json::object();
-    object["character"] = jsonOf(sheet.character);
+    JsonValue object{{"character", sheet.character}};
     if (sheet.pose != nullptr) {
         addPose(*sheet.pose, object);
     }
+    const auto toObject = [](const auto& item) { return objectOf(item); };
     if (sheet.scale != nullptr) {
-        object["scale"] = scaleOf(*sheet.scale);
+        object["scale"] = listOf(sheet.scale->segments, toObject);
     }
     if (sheet.props != nullptr) {
-        object["props"] = propsOf(*sheet.props);
+        object["props"] = listOf(sheet.props->props, toObject);
     }
-    return object.dump(2) + "\n";
+    return object.text(2) + "\n";
 }
 
 } // namespace posewire::exporting
