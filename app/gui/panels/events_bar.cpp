@@ -3,12 +3,10 @@
 
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/theme/theme.h"
 
 #include <QButtonGroup>
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QMenu>
@@ -30,9 +28,7 @@ std::size_t placeOf(model::EventSeverity severity) {
 } // namespace
 
 EventBar::EventBar(QWidget* parent) : QWidget(parent) {
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(8, 6, 8, 6);
-    row->setSpacing(6);
+    auto* row = spacedRow({8, 6, 8, 6}, 6, this);
     m_current =
         addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what still lasts, or may"));
     m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
-#include "app/gui/panels/buttons.h"
-#include "app/gui/panels/text_prompt.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -73,9 +71,7 @@ FilterBar::FilterBar(QWidget* parent)
 }
 
 void FilterBar::layOut() {
-    auto* row = new QHBoxLayout;
-    row->setContentsMargins(8, 6, 8, 6);
-    row->setSpacing(6);
+    auto* row = spacedRow({8, 6, 8, 6}, 6);
     row->addWidget(m_line, 1);
     row->addWidget(m_buttons);
     m_line->setMinimumWidth(m_line->fontMetrics().averageCharWidth() * 26); // the buttons give way first

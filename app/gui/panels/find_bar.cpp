@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/find_bar.h"
 
-#include "app/gui/panels/buttons.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -20,9 +19,7 @@ FindBar::FindBar(QWidget* parent)
     QToolButton* previous = flatButton(QStringLiteral("↑"), tr("Find previous (Shift+F3)"), this);
     QToolButton* next = flatButton(QStringLiteral("↓"), tr("Find next (F3)"), this);
     QToolButton* hide = flatButton(QStringLiteral("×"), tr("Close (Esc)"), this);
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(8, 0, 8, 5);
-    row->setSpacing(6);
+    auto* row = spacedRow({8, 0, 8, 5}, 6, this);
     row->addWidget(m_kind);
     row->addWidget(m_edit, 3);
     row->addWidget(previous);

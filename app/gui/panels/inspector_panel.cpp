@@ -6,7 +6,6 @@
 #include "app/gui/models/packet_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 
 #include <QMenu>
@@ -64,9 +63,7 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
 void InspectorPanel::layOut() {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* layout = tightColumn(this);
-    auto* bar = new QHBoxLayout;
-    bar->setContentsMargins(margin, 2, margin, 2);
-    bar->setSpacing(2);
+    auto* bar = spacedRow({margin, 2, margin, 2}, 2);
     bar->addWidget(m_title, 1);
     for (QToolButton* button : {m_previous, m_next, m_hold, m_compare}) {
         bar->addWidget(button);

@@ -2,7 +2,6 @@
 #include "app/gui/panels/metadata_panel.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
@@ -48,9 +47,7 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
     m_contradictions->setWordWrap(true);
     m_contradictions->setContentsMargins(margin, margin / 2, margin, 0);
     m_contradictions->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    auto* row = new QHBoxLayout;
-    row->setContentsMargins(margin, margin, margin, margin);
-    row->setSpacing(margin);
+    auto* row = spacedRow({margin, margin, margin, margin}, margin);
     row->addWidget(m_revision.button);
     row->addWidget(m_unit.button);
     row->addStretch(1);

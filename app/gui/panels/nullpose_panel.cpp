@@ -4,13 +4,11 @@
 #include "app/gui/models/null_pose_reading.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QMenu>
 #include <QMessageBox>
@@ -180,10 +178,8 @@ void NullPosePanel::makeButtons() {
 void NullPosePanel::layOut() {
     auto* layout = tightColumn(this);
     auto* buttons = new QWidget(this);
-    auto* row = new QHBoxLayout(buttons);
     const int margin = CellDelegate::margin(fontMetrics());
-    row->setContentsMargins(margin, margin / 2, margin, margin / 2);
-    row->setSpacing(margin);
+    auto* row = spacedRow({margin, margin / 2, margin, margin / 2}, margin, buttons);
     row->addWidget(m_ghost);
     row->addWidget(m_export);
     m_tabs->setDocumentMode(true);

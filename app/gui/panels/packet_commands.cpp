@@ -4,7 +4,7 @@
 #include "app/gui/models/packet_choice.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/find_bar.h"
-#include "app/gui/panels/text_prompt.h"
+#include "app/gui/theme/widgets.h"
 
 #include <algorithm>
 

@@ -2,11 +2,10 @@
 #include "app/gui/panels/range_bar.h"
 
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QHBoxLayout>
 #include <QHelpEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -249,10 +248,7 @@ bool RangeStrip::event(QEvent* event) {
 RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent)
     : QWidget(parent), m_view(view), m_commands(commands), m_strip(new RangeStrip(view, commands, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(margin, margin / 2, margin, margin / 2);
-    row->setSpacing(margin / 2);
-    row->addWidget(m_strip, 1);
+    spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2, this)->addWidget(m_strip, 1);
     addButton(tr("10 s"), tr("Figures for the last ten seconds"), std::chrono::seconds(10));
     addButton(tr("1 min"), tr("Figures for the last minute"), std::chrono::seconds(60));
     addButton(tr("All"), tr("Figures for everything received"), log::Duration::zero());

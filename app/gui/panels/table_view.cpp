@@ -3,8 +3,7 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme/balanced_text.h"
-#include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QContextMenuEvent>
 #include <QKeyEvent>
@@ -17,7 +16,9 @@ void drawEmptyText(QWidget& view, const QString& text) {
     QPainter painter(&view);
     painter.setPen(theme().dim);
     const int space = 2 * CellDelegate::margin(view.fontMetrics());
-    drawBalanced(painter, view.rect().adjusted(space, space, -space, -space), text);
+    const QRectF room = view.rect().adjusted(space, space, -space, -space);
+    const qreal unused = room.width() - balancedWidth(painter.fontMetrics(), text, room.width());
+    painter.drawText(room.adjusted(unused / 2, 0, -unused / 2, 0), Qt::AlignCenter | Qt::TextWordWrap, text);
 }
 
 TableView::TableView(const QString& name, QWidget* parent)

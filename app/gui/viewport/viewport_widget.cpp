@@ -3,7 +3,6 @@
 
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/viewport_overlay.h"
-#include "core/log/time.h"
 
 #include <QApplication>
 #include <QMouseEvent>
