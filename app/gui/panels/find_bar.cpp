@@ -28,9 +28,9 @@ FindBar::FindBar(QWidget* parent)
     row->addWidget(hide);
     m_answer->setMinimumWidth(fontMetrics().averageCharWidth() * 16);
     m_answer->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    connect(m_edit, &QLineEdit::returnPressed, this, [this] { emit findRequested(true); });
-    connect(previous, &QToolButton::clicked, this, [this] { emit findRequested(false); });
-    connect(next, &QToolButton::clicked, this, [this] { emit findRequested(true); });
+    connect(m_edit, &QLineEdit::returnPressed, this, [this] { emit findRequested(Direction::Forward); });
+    connect(previous, &QToolButton::clicked, this, [this] { emit findRequested(Direction::Backward); });
+    connect(next, &QToolButton::clicked, this, [this] { emit findRequested(Direction::Forward); });
     connect(hide, &QToolButton::clicked, this, &FindBar::close);
     connect(m_edit, &QLineEdit::textChanged, this, [this] { say({}, false); });
     connect(m_kind, &QComboBox::currentIndexChanged, this, [this] { setHexadecimal(isHexadecimal()); });

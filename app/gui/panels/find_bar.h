@@ -10,6 +10,8 @@ namespace posewire::gui {
 
 class ComboBox;
 
+enum class Direction { Backward, Forward };
+
 /// A line to look for bytes or text in packets; hidden until it is asked for, Escape hides it again.
 class FindBar final : public QWidget {
     Q_OBJECT
@@ -28,7 +30,7 @@ public:
     [[nodiscard]] QString said() const;
 
 signals:
-    void findRequested(bool isForward);
+    void findRequested(Direction direction);
     void closed();
 
 protected:
