@@ -136,11 +136,8 @@ void InspectorPanel::fillCompareMenu() {
     QAction* only = menu->addAction(tr("Only differences"));
     only->setCheckable(true);
     only->setChecked(m_model.isOnlyDifferences());
-    connect(only, &QAction::toggled, this, [this](bool isOnly) {
-        m_fields->beginChange();
-        m_model.setOnlyDifferences(isOnly);
-        m_fields->endChange();
-    });
+    connect(only, &QAction::toggled, this,
+            [this](bool isOnly) { m_fields->change([&] { m_model.setOnlyDifferences(isOnly); }); });
 }
 
 void InspectorPanel::refresh() {
@@ -182,10 +179,10 @@ void InspectorPanel::inspect(const log::Packet& packet) {
     m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet));
     m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;
-    m_fields->beginChange();
-    m_model.setDocument(m_document);
-    showComparison();
-    m_fields->endChange();
+    m_fields->change([this] {
+        m_model.setDocument(m_document);
+        showComparison();
+    });
     m_bytes->setDocument(m_document);
     const int type = m_document->hasHeader() ? m_document->type() : -1;
     if (m_openedType != type) {
@@ -235,9 +232,7 @@ void InspectorPanel::compare(Comparison comparison) {
     if (comparison != Comparison::None && !m_view.selection().packet) {
         m_commands.selectPacket(m_document->number());
     }
-    m_fields->beginChange();
-    showComparison();
-    m_fields->endChange();
+    m_fields->change([this] { showComparison(); });
     describeProblems();
 }
 
@@ -401,10 +396,7 @@ void InspectorPanel::goTo(std::int32_t node) {
 }
 
 void InspectorPanel::openMenu(const QPoint& at) {
-    const std::int32_t node = m_fields->currentNode();
-    if (node >= 0) {
-        showFieldMenu({*m_document, node, m_view.displayFilter(), m_commands}, this, at);
-    }
+    m_fields->showMenu(at, QString::fromStdString(m_view.displayFilter()));
 }
 
 void InspectorPanel::step(int direction) {
