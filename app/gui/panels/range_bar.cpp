@@ -142,8 +142,12 @@ void RangeStrip::choose(log::Stamp from, log::Stamp to) {
     update();
 }
 
-bool RangeStrip::isAtEdge(double place, double edge) const {
-    return std::abs(place - edge) <= kGrip;
+std::optional<log::Stamp> RangeStrip::otherEnd(double place) const {
+    const auto range = m_view.range();
+    if (range && std::abs(place - placeOf(range->from)) <= kGrip) {
+        return range->to;
+    }
+    return range && std::abs(place - placeOf(range->to)) <= kGrip ? std::optional(range->from) : std::nullopt;
 }
 
 void RangeStrip::mousePressEvent(QMouseEvent* event) {
@@ -153,23 +157,13 @@ void RangeStrip::mousePressEvent(QMouseEvent* event) {
     const double place = event->position().x();
     m_pressed = place;
     m_isMoved = false;
-    m_anchor = stampAt(place);
-    if (const auto range = m_view.range()) {
-        if (isAtEdge(place, placeOf(range->from))) {
-            m_anchor = range->to;
-        } else if (isAtEdge(place, placeOf(range->to))) {
-            m_anchor = range->from;
-        }
-    }
+    m_anchor = otherEnd(place).value_or(stampAt(place));
 }
 
 void RangeStrip::mouseMoveEvent(QMouseEvent* event) {
     const double place = event->position().x();
     if (!m_anchor) {
-        const auto range = m_view.range();
-        const bool isEdge =
-            range && (isAtEdge(place, placeOf(range->from)) || isAtEdge(place, placeOf(range->to)));
-        setCursor(isEdge ? Qt::SizeHorCursor : Qt::IBeamCursor);
+        setCursor(otherEnd(place) ? Qt::SizeHorCursor : Qt::IBeamCursor);
         return;
     }
     if (m_isMoved || std::abs(place - m_pressed) >= kGrip) {
