@@ -5,7 +5,6 @@
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 
 #include <QButtonGroup>
 #include <QKeyEvent>
@@ -47,16 +46,6 @@ void ClockWidget::setClock(const QString& text, const QString& caption, Run run)
     m_run = run;
     setAccessibleDescription(m_text + QLatin1Char(' ') + m_caption);
     update();
-}
-
-QSize ClockWidget::sizeHint() const {
-    const int unit = fontMetrics().height();
-    return {unit * 16, unit * 5};
-}
-
-QSize ClockWidget::minimumSizeHint() const {
-    const int unit = fontMetrics().height();
-    return {unit * 8, unit * 3};
 }
 
 void ClockWidget::paintEvent(QPaintEvent*) {
