@@ -65,8 +65,7 @@ void PacketView::setModel(QAbstractItemModel* model) {
 }
 
 void PacketView::setEmptyText(const QString& text) {
-    if (text != m_emptyText) {
-        m_emptyText = text;
+    if (text != accessibleDescription()) {
         setAccessibleDescription(text);
         viewport()->update();
     }

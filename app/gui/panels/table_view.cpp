@@ -60,8 +60,7 @@ void TableView::expandNew() {
 }
 
 void TableView::setEmptyText(const QString& text) {
-    if (text != m_emptyText) {
-        m_emptyText = text;
+    if (text != accessibleDescription()) {
         setAccessibleDescription(text);
         viewport()->update();
     }
@@ -99,10 +98,9 @@ void TableView::dataChanged(const QModelIndex& topLeft, const QModelIndex& botto
 
 void TableView::paintEvent(QPaintEvent* event) {
     QTreeView::paintEvent(event);
-    if (m_emptyText.isEmpty() || model() == nullptr || model()->rowCount() != 0) {
-        return;
+    if (model() != nullptr && model()->rowCount() == 0) {
+        drawEmptyText(*viewport(), accessibleDescription());
     }
-    drawEmptyText(*viewport(), m_emptyText);
 }
 
 QString TableView::rowText(const QModelIndex& index) const {
