@@ -33,8 +33,8 @@ FindBar::FindBar(QWidget* parent)
     connect(next, &QToolButton::clicked, this, [this] { emit findRequested(Direction::Forward); });
     connect(hide, &QToolButton::clicked, this, &FindBar::close);
     connect(m_edit, &QLineEdit::textChanged, this, [this] { say({}, false); });
-    connect(m_kind, &QComboBox::currentIndexChanged, this, [this] { setHexadecimal(isHexadecimal()); });
-    setHexadecimal(false);
+    connect(m_kind, &QComboBox::currentIndexChanged, this, &FindBar::showKind);
+    showKind();
     QWidget::hide();
 }
 
@@ -61,9 +61,8 @@ bool FindBar::isHexadecimal() const {
     return m_kind->currentIndex() == 1;
 }
 
-void FindBar::setHexadecimal(bool isHexadecimal) {
-    m_kind->setCurrentIndex(isHexadecimal ? 1 : 0);
-    m_edit->setPlaceholderText(isHexadecimal ? QStringLiteral("4d 58 54 50") : tr("text, such as a name"));
+void FindBar::showKind() {
+    m_edit->setPlaceholderText(isHexadecimal() ? QStringLiteral("4d 58 54 50") : tr("text, such as a name"));
     say({}, false);
 }
 

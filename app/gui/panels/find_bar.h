@@ -24,7 +24,6 @@ public:
     [[nodiscard]] QString text() const;
     void setText(const QString& text);
     [[nodiscard]] bool isHexadecimal() const;
-    void setHexadecimal(bool isHexadecimal);
     /// What came of it; `isProblem` makes it red.
     void say(const QString& text, bool isProblem);
     [[nodiscard]] QString said() const;
@@ -38,6 +37,7 @@ protected:
 
 private:
     void close();
+    void showKind();
 
     ComboBox* m_kind;
     QLineEdit* m_edit;

@@ -160,6 +160,12 @@ QSplitter::handle { background: @line; }
 QScrollArea { background: transparent; border: none; }
 )";
 
+/// A colour between two, by channels: 0 is the first, 1 the second.
+QColor mixed(const QColor& a, const QColor& b, double share) {
+    const auto at = [share](int from, int to) { return static_cast<int>(from + (to - from) * share); };
+    return {at(a.red(), b.red()), at(a.green(), b.green()), at(a.blue(), b.blue())};
+}
+
 /// Colours come from the theme, sizes from the metrics.
 QString styleSheet(const Theme& theme, const QFontMetrics& metrics) {
     const auto pixels = [](int value) { return QString::number(value) + QStringLiteral("px"); };
@@ -223,11 +229,6 @@ const HealthLook& lookOf(Health health) {
 
 const Theme& theme() {
     return current();
-}
-
-QColor mixed(const QColor& a, const QColor& b, double share) {
-    const auto at = [share](int from, int to) { return static_cast<int>(from + (to - from) * share); };
-    return {at(a.red(), b.red()), at(a.green(), b.green()), at(a.blue(), b.blue())};
 }
 
 QColor withAlpha(QColor colour, double alpha) {

@@ -20,11 +20,6 @@ constexpr qreal kRadius = 5;
 constexpr QLatin1String kButtons("viewportButtons");
 constexpr double kBackgroundOpacity = 0.9;
 
-QFont semibold(QFont font) {
-    font.setWeight(QFont::DemiBold);
-    return font;
-}
-
 void paintPlate(QPainter& painter, const QRectF& plate, const QColor& border, qreal radius) {
     painter.setPen(QPen(border, 1));
     painter.setBrush(withAlpha(theme().raised, kBackgroundOpacity));
@@ -155,7 +150,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const QFontMetricsF metrics(painter.font());
     const qreal unit = metrics.height();
     const qreal dot = 0.6 * unit;
-    const QString status = healthSymbol(label.state.health) + QLatin1Char(' ') + label.state.text;
+    const QString status = healthText(label.state.health, label.state.text);
     const qreal width =
         2.4 * unit + dot + metrics.horizontalAdvance(label.name) + metrics.horizontalAdvance(status);
     const qreal height = unit + 8;
@@ -180,7 +175,8 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
 }
 
 void ViewportOverlay::paintCard(QPainter& painter) const {
-    const QFont titleFont = semibold(font());
+    QFont titleFont = font();
+    titleFont.setWeight(QFont::DemiBold);
     const qreal unit = QFontMetricsF(font()).height();
     const qreal most = std::min(0.86 * width(), 34 * unit);
     const QString text = m_card.lines.join(QLatin1Char('\n'));
