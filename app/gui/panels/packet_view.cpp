@@ -269,8 +269,9 @@ QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*
     const int column = std::max(0, current.column());
     const int one = current.isValid() ? 1 : 0;
     const int page = wholeRows() - 1;
-    const std::pair<CursorAction, int> moves[] = {{MoveUp, -one},       {MoveDown, one},  {MovePageUp, -page},
-                                                  {MovePageDown, page}, {MoveHome, -row}, {MoveEnd, rows}};
+    const std::pair<CursorAction, int> moves[] = {{MoveUp, -one},      {MoveDown, one},
+                                                  {MovePageUp, -page}, {MovePageDown, page},
+                                                  {MoveHome, -row},    {MoveEnd, rows - 1 - row}};
     const auto move = std::ranges::find(moves, action, &std::pair<CursorAction, int>::first);
     if (move != std::end(moves)) {
         return model()->index(std::clamp(row + move->second, 0, rows - 1), column);

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QContextMenuEvent>
