@@ -142,9 +142,8 @@ void SessionDriver::selectPacket(std::uint64_t number) {
     if (!packet || digest == nullptr) {
         return;
     }
-    const bool hasCharacter = digest->type != 0;
     model::Selection selection{packet->sender, std::nullopt, -1, number};
-    if (hasCharacter) {
+    if (digest->type != 0) {
         selection.character = model::CharacterKey{packet->sender, digest->character};
     }
     const model::Selection& before = m_session.selection();

@@ -99,10 +99,6 @@ private:
     template <class Setter, class... Arguments>
     void change(Setter setter, const Arguments&... arguments) {
         (m_session.*setter)(arguments...);
-        announceChange();
-    }
-    /// What panels show has changed otherwise than by new packets.
-    void announceChange() {
         m_isChanged = true;
         m_tableTick = {};
     }

@@ -101,14 +101,14 @@ void ByteView::fit() {
     m_advance = QFontMetricsF(monospaceFont()).horizontalAdvance(QLatin1Char('0'));
     m_margin = CellDelegate::margin(fontMetrics());
     const double room = viewport()->width() - 2 * m_margin;
-    const auto width = [&](int bytes, bool hasText) {
+    const auto width = [&](int bytes) {
         const int groups = (bytes - 1) / kGroup;
-        return m_advance * (kOffsetDigits + 2 + 3 * bytes + groups + (hasText ? bytes + 1 : 0));
+        return m_advance * (kOffsetDigits + 2 + 3 * bytes + groups + bytes + 1);
     };
     m_perRow = kGroup;
-    m_hasText = width(kGroup, true) <= room;
+    m_hasText = width(kGroup) <= room;
     for (const int bytes : {16, 32}) {
-        m_perRow = width(bytes, true) <= room ? bytes : m_perRow;
+        m_perRow = width(bytes) <= room ? bytes : m_perRow;
     }
     const int rows = (static_cast<int>(size()) + m_perRow - 1) / m_perRow;
     verticalScrollBar()->setSingleStep(rowHeight());

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/events_panel.h"
 
-#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/theme/theme.h"
 
 #include <QButtonGroup>
 #include <QEvent>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QMenu>
@@ -30,9 +27,7 @@ std::size_t placeOf(model::EventSeverity severity) {
 } // namespace
 
 EventBar::EventBar(QWidget* parent) : QWidget(parent) {
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(8, 6, 8, 6);
-    row->setSpacing(6);
+    auto* row = spacedRow({8, 6, 8, 6}, 6, this);
     m_current =
         addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what still lasts, or may"));
     m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
@@ -53,7 +48,7 @@ EventBar::EventBar(QWidget* parent) : QWidget(parent) {
     connect(m_text, &QLineEdit::textChanged, this, &EventBar::change);
     row->addWidget(m_text, 1);
     addCommands();
-    showFilter();
+    setFilter({});
 }
 
 /// In a narrow dock they give way first, into a menu.
@@ -101,7 +96,7 @@ void EventBar::addGroups(CommandBar& commands) {
     m_groupCommand =
         commands.addCommand(QStringLiteral("eventGroups"), {}, tr("Which groups of events are listed"));
     m_groups = new QMenu(this);
-    for (std::size_t i = 0; i < m_filter.groups.size(); ++i) {
+    for (std::size_t i = 0; i < EventModel::Filter().groups.size(); ++i) {
         QAction* action = m_groups->addAction(groupWord(static_cast<model::EventGroup>(i)));
         action->setCheckable(true);
         connect(action, &QAction::toggled, this, &EventBar::change);
@@ -112,22 +107,17 @@ void EventBar::addGroups(CommandBar& commands) {
 }
 
 void EventBar::setFilter(const EventModel::Filter& filter) {
-    m_filter = filter;
-    showFilter();
-    emit filterChanged(m_filter);
-}
-
-void EventBar::showFilter() {
-    const QSignalBlocker blocker(this);
-    const EventModel::Filter filter = m_filter; // what follows reads back what is shown so far
-    (filter.onlyCurrent ? m_current : m_history)->setChecked(true);
-    for (std::size_t i = 0; i < m_severities.size(); ++i) {
-        m_severities[i]->setChecked(filter.severities[i]);
+    {
+        const QSignalBlocker blocker(this); // each part would announce what is shown so far
+        (filter.onlyCurrent ? m_current : m_history)->setChecked(true);
+        for (std::size_t i = 0; i < m_severities.size(); ++i) {
+            m_severities[i]->setChecked(filter.severities[i]);
+        }
+        for (std::size_t i = 0; i < filter.groups.size(); ++i) {
+            m_groups->actions()[static_cast<qsizetype>(i)]->setChecked(filter.groups[i]);
+        }
+        m_text->setText(filter.text);
     }
-    for (std::size_t i = 0; i < filter.groups.size(); ++i) {
-        m_groups->actions()[static_cast<qsizetype>(i)]->setChecked(filter.groups[i]);
-    }
-    m_text->setText(filter.text);
     change();
 }
 
@@ -135,19 +125,20 @@ void EventBar::change() {
     if (m_groups == nullptr) {
         return; // still being made
     }
-    m_filter.onlyCurrent = m_current->isChecked();
+    EventModel::Filter filter;
+    filter.onlyCurrent = m_current->isChecked();
     for (std::size_t i = 0; i < m_severities.size(); ++i) {
-        m_filter.severities[i] = m_severities[i]->isChecked();
+        filter.severities[i] = m_severities[i]->isChecked();
     }
-    for (std::size_t i = 0; i < m_filter.groups.size(); ++i) {
-        m_filter.groups[i] = m_groups->actions()[static_cast<qsizetype>(i)]->isChecked();
+    for (std::size_t i = 0; i < filter.groups.size(); ++i) {
+        filter.groups[i] = m_groups->actions()[static_cast<qsizetype>(i)]->isChecked();
     }
-    m_filter.text = m_text->text().trimmed();
-    const auto shown = std::ranges::count(m_filter.groups, true);
-    m_groupCommand->setText(shown == static_cast<std::ptrdiff_t>(m_filter.groups.size())
+    filter.text = m_text->text().trimmed();
+    const auto shown = std::ranges::count(filter.groups, true);
+    m_groupCommand->setText(shown == static_cast<std::ptrdiff_t>(filter.groups.size())
                                 ? tr("Groups ▾")
-                                : tr("Groups %1/%2 ▾").arg(shown).arg(m_filter.groups.size()));
-    emit filterChanged(m_filter);
+                                : tr("Groups %1/%2 ▾").arg(shown).arg(filter.groups.size()));
+    emit filterChanged(filter);
 }
 
 void EventBar::showCounts(const EventModel::Counts& counts) {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/events_panel.h"
 
-#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/saving.h"
-#include "app/gui/theme/widgets.h"
 
 #include <QEvent>
 #include <QFileDialog>

@@ -11,11 +11,9 @@
 class QLineEdit;
 class QMenu;
 class QPushButton;
-class QToolButton;
 
 namespace posewire::gui {
 
-class CommandBar;
 class TableView;
 
 /// What the events dock lists: now or all that happened, which severities and groups, and a text.
@@ -25,7 +23,6 @@ class EventBar final : public QWidget {
 public:
     explicit EventBar(QWidget* parent = nullptr);
 
-    [[nodiscard]] const EventModel::Filter& filter() const { return m_filter; }
     void setFilter(const EventModel::Filter& filter);
     void showCounts(const EventModel::Counts& counts);
 
@@ -45,11 +42,9 @@ private:
     void addSeverities();
     void addCommands();
     void addGroups(CommandBar& commands);
-    void showFilter();
     void change();
     void paintSeverities();
 
-    EventModel::Filter m_filter;
     QToolButton* m_current = nullptr;
     QToolButton* m_history = nullptr;
     std::array<QToolButton*, 3> m_severities{}; ///< by EventSeverity

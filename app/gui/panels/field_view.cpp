@@ -3,9 +3,9 @@
 
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/field_text.h"
-#include "app/gui/models/packet_text.h"
 #include "app/gui/theme/theme.h"
 #include "core/filter/completion.h"
+#include "core/wire/text.h"
 
 #include <QContextMenuEvent>
 #include <QMenu>
@@ -16,40 +16,19 @@ namespace posewire::gui {
 
 namespace {
 
-QString bytesText(const FieldMenu& menu, const QString& prefix, const QString& separator) {
-    const wire::FieldNode& field = menu.document.node(menu.node);
-    QStringList bytes;
-    for (std::uint32_t i = field.offset; i < field.offset + field.length; ++i) {
-        const auto value = std::to_integer<unsigned>(menu.document.bytes()[i]);
-        bytes += prefix + QString::number(value, 16).rightJustified(2, QLatin1Char('0'));
+/// "0x4d, 0x58": each byte after `prefix`.
+QString bytesText(wire::Bytes bytes, const QString& prefix, const QString& separator) {
+    QStringList texts;
+    for (const std::byte byte : bytes) {
+        texts += prefix + QString::fromStdString(wire::hexadecimal({&byte, 1}));
     }
-    return bytes.join(separator);
-}
-
-void addFilters(QMenu& menu, const FieldMenu& field) {
-    const QString expression =
-        QString::fromStdString(filter::expressionFor(field.document.tree(), field.node));
-    const QString current = QString::fromStdString(field.displayFilter);
-    QMenu* filters = menu.addMenu(FieldView::tr("Apply as filter"));
-    filters->setEnabled(!expression.isEmpty());
-    const auto add = [&](const QString& text, const QString& joined) {
-        Commands* commands = &field.commands;
-        QAction* action =
-            filters->addAction(text, filters, [commands, joined] { commands->setDisplayFilter(joined); });
-        action->setToolTip(joined);
-    };
-    filters->setToolTipsVisible(true);
-    add(expression, expression);
-    add(FieldView::tr("Not this"), joinedFilter({}, expression, FilterJoin::AndNot));
-    add(FieldView::tr("… and this"), joinedFilter(current, expression, FilterJoin::And));
-    add(FieldView::tr("… or this"), joinedFilter(current, expression, FilterJoin::Or));
-    add(FieldView::tr("… and not this"), joinedFilter(current, expression, FilterJoin::AndNot));
+    return texts.join(separator);
 }
 
 } // namespace
 
 FieldView::FieldView(FieldModel& model, Commands& commands, QWidget* parent)
-    : TableView(tr("Fields of the packet"), commands, parent), m_fields(model) {
+    : TableView(tr("Fields of the packet"), commands, parent), m_fields(model), m_commands(commands) {
     setModel(&model);
     setRootIsDecorated(true);
     setExpandsOnDoubleClick(true);
@@ -87,10 +66,23 @@ std::int32_t FieldView::currentNode() const {
                                    : m_fields.document().find(m_currentPath);
 }
 
-void FieldView::beginChange() {
+void FieldView::change(const std::function<void()>& carryOut) {
     m_isChanging = true;
     m_wasReset = false;
-    m_scrolled = verticalScrollBar()->value();
+    const int scrolled = verticalScrollBar()->value();
+    carryOut();
+    if (m_wasReset) {
+        restore({});
+        if (const QModelIndex current = m_fields.indexOf(m_fields.document().find(m_currentPath));
+            current.isValid() && !m_currentPath.empty()) {
+            selectionModel()->setCurrentIndex(current, QItemSelectionModel::ClearAndSelect |
+                                                           QItemSelectionModel::Rows);
+        }
+        doItemsLayout();
+        verticalScrollBar()->setValue(scrolled);
+        fitToWidth();
+    }
+    m_isChanging = false;
 }
 
 void FieldView::restore(const QModelIndex& parent) {
@@ -103,32 +95,11 @@ void FieldView::restore(const QModelIndex& parent) {
     }
 }
 
-void FieldView::endChange() {
-    if (m_wasReset) {
-        restore({});
-        if (const QModelIndex current = m_fields.indexOf(m_fields.document().find(m_currentPath));
-            current.isValid() && !m_currentPath.empty()) {
-            selectionModel()->setCurrentIndex(current, QItemSelectionModel::ClearAndSelect |
-                                                           QItemSelectionModel::Rows);
-        }
-        doItemsLayout();
-        verticalScrollBar()->setValue(m_scrolled);
-        fitToWidth();
-    }
-    m_isChanging = false;
-}
-
 void FieldView::openFirst() {
     for (int row = 0; row < m_fields.rowCount(); ++row) {
         const QModelIndex index = m_fields.index(row, 0);
         const bool isHeader = m_fields.document().node(m_fields.node(index)).name == "header";
         setExpanded(index, !isHeader || m_fields.rowCount() == 1);
-    }
-}
-
-void FieldView::openTo(std::int32_t node) {
-    for (QModelIndex index = m_fields.indexOf(node).parent(); index.isValid(); index = index.parent()) {
-        expand(index);
     }
 }
 
@@ -138,7 +109,9 @@ void FieldView::setCurrentNode(std::int32_t node) {
     }
     m_currentPath = m_fields.document().tree().path(node);
     const QModelIndex index = m_fields.indexOf(node);
-    openTo(node);
+    for (QModelIndex around = index.parent(); around.isValid(); around = around.parent()) {
+        expand(around);
+    }
     m_isChanging = true;
     selectionModel()->setCurrentIndex(index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
     m_isChanging = false;
@@ -221,23 +194,45 @@ void FieldView::fitToWidth() {
     setColumnSamples(std::move(samples));
 }
 
-void showFieldMenu(const FieldMenu& field, QWidget* parent, const QPoint& at) {
-    QMenu menu(parent);
-    addFilters(menu, field);
+void FieldView::showMenu(const QPoint& at, const QString& displayFilter) {
+    const std::int32_t node = currentNode();
+    if (node < 0) {
+        return;
+    }
+    QMenu menu(this);
+    addFilters(menu, displayFilter);
     menu.addSeparator();
     const auto addCopy = [&](const QString& text, const QString& copied) {
-        Commands* commands = &field.commands;
-        menu.addAction(text, &menu, [commands, copied] { commands->copyText(copied); })
+        menu.addAction(text, this, [this, copied] { m_commands.copyText(copied); })
             ->setEnabled(!copied.isEmpty());
     };
-    addCopy(FieldView::tr("Copy value"), convertedValue(field.document, field.node));
-    addCopy(FieldView::tr("Copy value on the wire"),
-            QString::fromStdString(field.document.node(field.node).value));
-    addCopy(FieldView::tr("Copy field path"), QString::fromStdString(field.document.tree().path(field.node)));
-    addCopy(FieldView::tr("Copy bytes as hexadecimal"), bytesText(field, QString(), QStringLiteral(" ")));
-    addCopy(FieldView::tr("Copy bytes as C array"),
-            QStringLiteral("{%1}").arg(bytesText(field, QStringLiteral("0x"), QStringLiteral(", "))));
+    const FieldDocument& document = m_fields.document();
+    const wire::FieldNode& field = document.node(node);
+    const wire::Bytes bytes = wire::Bytes(document.bytes()).subspan(field.offset, field.length);
+    addCopy(tr("Copy value"), convertedValue(document, node));
+    addCopy(tr("Copy value on the wire"), QString::fromStdString(field.value));
+    addCopy(tr("Copy field path"), QString::fromStdString(document.tree().path(node)));
+    addCopy(tr("Copy bytes as hexadecimal"), bytesText(bytes, QString(), QStringLiteral(" ")));
+    addCopy(tr("Copy bytes as C array"),
+            QStringLiteral("{%1}").arg(bytesText(bytes, QStringLiteral("0x"), QStringLiteral(", "))));
     menu.exec(at);
+}
+
+void FieldView::addFilters(QMenu& menu, const QString& displayFilter) {
+    const QString expression =
+        QString::fromStdString(filter::expressionFor(m_fields.document().tree(), currentNode()));
+    QMenu* filters = menu.addMenu(tr("Apply as filter"));
+    filters->setEnabled(!expression.isEmpty());
+    const auto add = [&](const QString& text, const QString& joined) {
+        filters->addAction(text, this, [this, joined] { m_commands.setDisplayFilter(joined); })
+            ->setToolTip(joined);
+    };
+    filters->setToolTipsVisible(true);
+    add(expression, expression);
+    add(tr("Not this"), joinedFilter({}, expression, FilterJoin::AndNot));
+    add(tr("… and this"), joinedFilter(displayFilter, expression, FilterJoin::And));
+    add(tr("… or this"), joinedFilter(displayFilter, expression, FilterJoin::Or));
+    add(tr("… and not this"), joinedFilter(displayFilter, expression, FilterJoin::AndNot));
 }
 
 } // namespace posewire::gui

@@ -4,6 +4,7 @@
 #include "app/gui/models/field_model.h"
 #include "app/gui/panels/table_view.h"
 
+#include <functional>
 #include <set>
 #include <string>
 
@@ -23,13 +24,14 @@ public:
     void setCurrentNode(std::int32_t node);
     [[nodiscard]] std::int32_t currentNode() const;
 
-    /// To be called around a change of the model's packets.
-    void beginChange();
-    void endChange();
+    /// Carries out a change of the model's packets.
+    void change(const std::function<void()>& carryOut);
 
-    /// Opens the lists of a packet of a type that was not shown before, and what leads to a node.
+    /// Opens the lists of a packet of a type that was not shown before.
     void openFirst();
-    void openTo(std::int32_t node);
+
+    /// Filters and copies of the current node; nothing without one. Returns when the menu is closed.
+    void showMenu(const QPoint& at, const QString& displayFilter);
 
 signals:
     void nodeEntered(std::int32_t node); ///< -1 when the pointer leaves
@@ -45,30 +47,20 @@ protected:
 
 private:
     void fitToWidth();
+    void addFilters(QMenu& menu, const QString& displayFilter);
     void restore(const QModelIndex& parent);
     [[nodiscard]] std::string pathOf(const QModelIndex& index) const {
         return m_fields.document().tree().path(m_fields.node(index));
     }
 
     FieldModel& m_fields;
+    Commands& m_commands;
     std::set<std::string> m_open;
     std::string m_currentPath;
     QModelIndex m_hovered;
-    int m_scrolled = 0;
     int m_form = -1;
     bool m_isChanging = false;
     bool m_wasReset = false;
 };
-
-/// The field that a menu is about, and what the menu may do.
-struct FieldMenu {
-    const FieldDocument& document;
-    std::int32_t node;
-    const std::string& displayFilter;
-    Commands& commands;
-};
-
-/// Filters and copies. Returns when the menu is closed.
-void showFieldMenu(const FieldMenu& field, QWidget* parent, const QPoint& at);
 
 } // namespace posewire::gui

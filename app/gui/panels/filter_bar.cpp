@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
-#include "app/gui/panels/buttons.h"
-#include "app/gui/panels/text_prompt.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -26,9 +24,7 @@ constexpr int kProgressSteps = 1000;
 
 /// Place in a text of a place in its UTF-8.
 int placeOf(const QString& text, std::size_t byte) {
-    return static_cast<int>(QString::fromUtf8(text.toUtf8().first(static_cast<qsizetype>(
-                                                  std::min<std::size_t>(byte, text.toUtf8().size()))))
-                                .size());
+    return static_cast<int>(QString::fromUtf8(text.toUtf8().left(static_cast<qsizetype>(byte))).size());
 }
 
 } // namespace
@@ -73,9 +69,7 @@ FilterBar::FilterBar(QWidget* parent)
 }
 
 void FilterBar::layOut() {
-    auto* row = new QHBoxLayout;
-    row->setContentsMargins(8, 6, 8, 6);
-    row->setSpacing(6);
+    auto* row = spacedRow({8, 6, 8, 6}, 6);
     row->addWidget(m_line, 1);
     row->addWidget(m_buttons);
     m_line->setMinimumWidth(m_line->fontMetrics().averageCharWidth() * 26); // the buttons give way first
@@ -84,6 +78,7 @@ void FilterBar::layOut() {
     connect(cancel, &QPushButton::clicked, this, &FilterBar::cancelRequested);
     m_progress->setRange(0, kProgressSteps);
     m_progress->setAccessibleName(tr("Filtering"));
+    m_progress->setFormat(tr("filtering · %p %"));
     auto* progressRow = new QHBoxLayout(m_progressRow);
     progressRow->setContentsMargins(8, 0, 8, 6);
     progressRow->addWidget(m_progress, 1);
@@ -115,14 +110,9 @@ void FilterBar::focusLine() {
     m_line->selectAll();
 }
 
-void FilterBar::setProgress(double share) {
-    m_progress->setValue(static_cast<int>(share * kProgressSteps));
-    m_progress->setFormat(tr("filtering · %p %"));
-    m_progressRow->show();
-}
-
-void FilterBar::endProgress() {
-    m_progressRow->hide();
+void FilterBar::setProgress(std::optional<double> share) {
+    m_progress->setValue(static_cast<int>(share.value_or(0) * kProgressSteps));
+    m_progressRow->setVisible(share.has_value());
 }
 
 bool FilterBar::isBusy() const {

@@ -34,9 +34,8 @@ public:
     /// Puts the keyboard into the line.
     void focusLine();
 
-    /// A filter is on its way through the log.
-    void setProgress(double share);
-    void endProgress();
+    /// How far a filter has come through the log, as a share; nothing while none is on its way.
+    void setProgress(std::optional<double> share);
     [[nodiscard]] bool isBusy() const;
 
     /// What is wrong with the text in the line; nothing where it is right.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/find_bar.h"
 
-#include "app/gui/panels/buttons.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -20,9 +19,7 @@ FindBar::FindBar(QWidget* parent)
     QToolButton* previous = flatButton(QStringLiteral("↑"), tr("Find previous (Shift+F3)"), this);
     QToolButton* next = flatButton(QStringLiteral("↓"), tr("Find next (F3)"), this);
     QToolButton* hide = flatButton(QStringLiteral("×"), tr("Close (Esc)"), this);
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(8, 0, 8, 5);
-    row->setSpacing(6);
+    auto* row = spacedRow({8, 0, 8, 5}, 6, this);
     row->addWidget(m_kind);
     row->addWidget(m_edit, 3);
     row->addWidget(previous);
@@ -31,13 +28,13 @@ FindBar::FindBar(QWidget* parent)
     row->addWidget(hide);
     m_answer->setMinimumWidth(fontMetrics().averageCharWidth() * 16);
     m_answer->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    connect(m_edit, &QLineEdit::returnPressed, this, [this] { emit findRequested(true); });
-    connect(previous, &QToolButton::clicked, this, [this] { emit findRequested(false); });
-    connect(next, &QToolButton::clicked, this, [this] { emit findRequested(true); });
+    connect(m_edit, &QLineEdit::returnPressed, this, [this] { emit findRequested(Direction::Forward); });
+    connect(previous, &QToolButton::clicked, this, [this] { emit findRequested(Direction::Backward); });
+    connect(next, &QToolButton::clicked, this, [this] { emit findRequested(Direction::Forward); });
     connect(hide, &QToolButton::clicked, this, &FindBar::close);
     connect(m_edit, &QLineEdit::textChanged, this, [this] { say({}, false); });
-    connect(m_kind, &QComboBox::currentIndexChanged, this, [this] { setHexadecimal(isHexadecimal()); });
-    setHexadecimal(false);
+    connect(m_kind, &QComboBox::currentIndexChanged, this, &FindBar::showKind);
+    showKind();
     QWidget::hide();
 }
 
@@ -64,9 +61,8 @@ bool FindBar::isHexadecimal() const {
     return m_kind->currentIndex() == 1;
 }
 
-void FindBar::setHexadecimal(bool isHexadecimal) {
-    m_kind->setCurrentIndex(isHexadecimal ? 1 : 0);
-    m_edit->setPlaceholderText(isHexadecimal ? QStringLiteral("4d 58 54 50") : tr("text, such as a name"));
+void FindBar::showKind() {
+    m_edit->setPlaceholderText(isHexadecimal() ? QStringLiteral("4d 58 54 50") : tr("text, such as a name"));
     say({}, false);
 }
 

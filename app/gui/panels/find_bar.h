@@ -10,6 +10,8 @@ namespace posewire::gui {
 
 class ComboBox;
 
+enum class Direction { Backward, Forward };
+
 /// A line to look for bytes or text in packets; hidden until it is asked for, Escape hides it again.
 class FindBar final : public QWidget {
     Q_OBJECT
@@ -22,13 +24,12 @@ public:
     [[nodiscard]] QString text() const;
     void setText(const QString& text);
     [[nodiscard]] bool isHexadecimal() const;
-    void setHexadecimal(bool isHexadecimal);
     /// What came of it; `isProblem` makes it red.
     void say(const QString& text, bool isProblem);
     [[nodiscard]] QString said() const;
 
 signals:
-    void findRequested(bool isForward);
+    void findRequested(Direction direction);
     void closed();
 
 protected:
@@ -36,6 +37,7 @@ protected:
 
 private:
     void close();
+    void showKind();
 
     ComboBox* m_kind;
     QLineEdit* m_edit;

@@ -6,7 +6,6 @@
 #include "app/gui/models/packet_facts.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 
 #include <QMenu>
@@ -64,9 +63,7 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
 void InspectorPanel::layOut() {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* layout = tightColumn(this);
-    auto* bar = new QHBoxLayout;
-    bar->setContentsMargins(margin, 2, margin, 2);
-    bar->setSpacing(2);
+    auto* bar = spacedRow({margin, 2, margin, 2}, 2);
     bar->addWidget(m_title, 1);
     for (QToolButton* button : {m_previous, m_next, m_hold, m_compare}) {
         bar->addWidget(button);
@@ -139,11 +136,8 @@ void InspectorPanel::fillCompareMenu() {
     QAction* only = menu->addAction(tr("Only differences"));
     only->setCheckable(true);
     only->setChecked(m_model.isOnlyDifferences());
-    connect(only, &QAction::toggled, this, [this](bool isOnly) {
-        m_fields->beginChange();
-        m_model.setOnlyDifferences(isOnly);
-        m_fields->endChange();
-    });
+    connect(only, &QAction::toggled, this,
+            [this](bool isOnly) { m_fields->change([&] { m_model.setOnlyDifferences(isOnly); }); });
 }
 
 void InspectorPanel::refresh() {
@@ -185,10 +179,10 @@ void InspectorPanel::inspect(const log::Packet& packet) {
     m_document = std::make_shared<FieldDocument>(packet, unitOf(m_view, packet));
     m_sequence = sequenceFindings(m_view, packet.number);
     m_isShown = true;
-    m_fields->beginChange();
-    m_model.setDocument(m_document);
-    showComparison();
-    m_fields->endChange();
+    m_fields->change([this] {
+        m_model.setDocument(m_document);
+        showComparison();
+    });
     m_bytes->setDocument(m_document);
     const int type = m_document->hasHeader() ? m_document->type() : -1;
     if (m_openedType != type) {
@@ -238,9 +232,7 @@ void InspectorPanel::compare(Comparison comparison) {
     if (comparison != Comparison::None && !m_view.selection().packet) {
         m_commands.selectPacket(m_document->number());
     }
-    m_fields->beginChange();
-    showComparison();
-    m_fields->endChange();
+    m_fields->change([this] { showComparison(); });
     describeProblems();
 }
 
@@ -404,10 +396,7 @@ void InspectorPanel::goTo(std::int32_t node) {
 }
 
 void InspectorPanel::openMenu(const QPoint& at) {
-    const std::int32_t node = m_fields->currentNode();
-    if (node >= 0) {
-        showFieldMenu({*m_document, node, m_view.displayFilter(), m_commands}, this, at);
-    }
+    m_fields->showMenu(at, QString::fromStdString(m_view.displayFilter()));
 }
 
 void InspectorPanel::step(int direction) {

@@ -8,7 +8,6 @@
 #include "app/gui/theme/widgets.h"
 
 #include <QSplitter>
-#include <QToolButton>
 
 #include <memory>
 #include <optional>

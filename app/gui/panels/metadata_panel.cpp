@@ -2,10 +2,8 @@
 #include "app/gui/panels/metadata_panel.h"
 
 #include "app/gui/models/shown_character.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 
 #include <QActionGroup>
 #include <QMenu>
@@ -42,15 +40,22 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
       m_view(view),
       m_commands(commands),
       m_contradictions(new QLabel(this)),
-      m_revision(addChoice(tr("Protocol revision assumed for this sender"))),
-      m_unit(addChoice(tr("Unit assumed for positions of types 02 and 05"))) {
+      m_revision(addChoice<Revision>(tr("Protocol revision assumed for this sender"),
+                                     &SenderOverride::revision,
+                                     {{tr("automatic"), std::nullopt},
+                                      {tr("E"), Revision::E},
+                                      {tr("J or K"), Revision::JOrK},
+                                      {tr("L to N"), Revision::N}})),
+      m_unit(addChoice<LengthUnit>(tr("Unit assumed for positions of types 02 and 05"),
+                                   &SenderOverride::positionUnit,
+                                   {{tr("automatic"), std::nullopt},
+                                    {tr("metres"), LengthUnit::Metre},
+                                    {tr("centimetres"), LengthUnit::Centimetre}})) {
     const int margin = CellDelegate::margin(fontMetrics());
     m_contradictions->setWordWrap(true);
     m_contradictions->setContentsMargins(margin, margin / 2, margin, 0);
     m_contradictions->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    auto* row = new QHBoxLayout;
-    row->setContentsMargins(margin, margin, margin, margin);
-    row->setSpacing(margin);
+    auto* row = spacedRow({margin, margin, margin, margin}, margin);
     row->addWidget(m_revision.button);
     row->addWidget(m_unit.button);
     row->addStretch(1);
@@ -58,44 +63,30 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
     column->addWidget(new Line(this));
     column->addWidget(m_contradictions);
     column->addLayout(row);
-
-    const auto addRevision = [this](const QString& text, std::optional<Revision> revision) {
-        addValue(m_revision, text, revision, &SenderOverride::revision);
-    };
-    const auto addUnit = [this](const QString& text, std::optional<LengthUnit> unit) {
-        addValue(m_unit, text, unit, &SenderOverride::positionUnit);
-    };
-    addRevision(tr("automatic"), std::nullopt);
-    addRevision(tr("E"), Revision::E);
-    addRevision(tr("J or K"), Revision::JOrK);
-    addRevision(tr("L to N"), Revision::N);
-    addUnit(tr("automatic"), std::nullopt);
-    addUnit(tr("metres"), LengthUnit::Metre);
-    addUnit(tr("centimetres"), LengthUnit::Centimetre);
     hide();
 }
 
-DetectionBar::Choice DetectionBar::addChoice(const QString& toolTip) {
-    QToolButton* button = framedButton({}, toolTip, this);
-    button->setPopupMode(QToolButton::InstantPopup);
-    button->setMenu(new QMenu(button));
-    return {button, new QActionGroup(this)};
-}
-
 template <class Value>
-void DetectionBar::addValue(const Choice& choice, const QString& text, std::optional<Value> value,
-                            std::optional<Value> SenderOverride::*declared) {
-    QAction* action = choice.button->menu()->addAction(text);
-    action->setCheckable(true);
-    action->setData(value ? QVariant(static_cast<int>(*value)) : QVariant());
-    choice.group->addAction(action);
-    connect(action, &QAction::triggered, this, [this, value, declared] {
-        if (const model::Sender* sender = m_sender ? m_view.find(*m_sender) : nullptr) {
-            SenderOverride overrides = sender->overrides;
-            overrides.*declared = value;
-            m_commands.setOverride(*m_sender, overrides);
-        }
-    });
+DetectionBar::Choice
+DetectionBar::addChoice(const QString& toolTip, std::optional<Value> SenderOverride::*declared,
+                        const std::vector<std::pair<QString, std::optional<Value>>>& values) {
+    const Choice choice{framedButton({}, toolTip, this), new QActionGroup(this)};
+    auto* menu = new QMenu(choice.button);
+    choice.button->setPopupMode(QToolButton::InstantPopup);
+    choice.button->setMenu(menu);
+    for (const auto& [text, value] : values) {
+        QAction* action = choice.group->addAction(menu->addAction(text));
+        action->setCheckable(true);
+        action->setData(value ? QVariant(static_cast<int>(*value)) : QVariant());
+        connect(action, &QAction::triggered, this, [this, value = value, declared] {
+            if (const model::Sender* sender = m_sender ? m_view.find(*m_sender) : nullptr) {
+                SenderOverride overrides = sender->overrides;
+                overrides.*declared = value;
+                m_commands.setOverride(*m_sender, overrides);
+            }
+        });
+    }
+    return choice;
 }
 
 void DetectionBar::showSender(std::optional<log::SenderId> sender) {

@@ -4,11 +4,9 @@
 #include "app/gui/models/metadata_model.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/table_view.h"
-
-#include <QToolButton>
+#include "app/gui/theme/widgets.h"
 
 class QActionGroup;
-class QLabel;
 
 namespace posewire::gui {
 
@@ -30,10 +28,9 @@ private:
         QActionGroup* group;
     };
 
-    Choice addChoice(const QString& toolTip);
     template <class Value>
-    void addValue(const Choice& choice, const QString& text, std::optional<Value> value,
-                  std::optional<Value> model::SenderOverride::*declared);
+    Choice addChoice(const QString& toolTip, std::optional<Value> model::SenderOverride::*declared,
+                     const std::vector<std::pair<QString, std::optional<Value>>>& values);
     void showContradictions(const model::Sender& sender);
 
     model::SessionView& m_view;

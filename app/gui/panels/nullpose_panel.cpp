@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/nullpose_panel.h"
 
-#include "app/gui/models/null_pose_reading.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QItemSelectionModel>
 #include <QMenu>
 #include <QMessageBox>
@@ -52,8 +49,6 @@ void NullPoseNotices::write() {
     QString html;
     for (const model::NullPoseFinding& finding : m_findings) {
         const Health health = healthOf(finding.severity);
-        const QColor colour = health == Health::Unknown ? colours.dim : healthColour(health);
-        const QString symbol = health == Health::Unknown ? QStringLiteral("○") : healthSymbol(health);
         QString what = QString::fromStdString(finding.what).toHtmlEscaped();
         if (finding.segment >= 0) {
             what = QStringLiteral("<a href=\"%1\" style=\"color:%2;text-decoration:none\">%3</a>")
@@ -63,8 +58,8 @@ void NullPoseNotices::write() {
         html += QStringLiteral("<p style=\"margin:0 0 %1px 0\"><span style=\"color:%2\">%3</span> "
                                "<span style=\"color:%4\">%5</span> <span style=\"color:%6\">%7</span></p>")
                     .arg(fontMetrics().height() / 3)
-                    .arg(colour.name(), symbol, colours.text.name(), what, colours.dim.name(),
-                         QString::fromStdString(finding.meaning).toHtmlEscaped());
+                    .arg(healthColour(health).name(), healthSymbol(health), colours.text.name(), what,
+                         colours.dim.name(), QString::fromStdString(finding.meaning).toHtmlEscaped());
     }
     setHtml(html);
 }
@@ -180,10 +175,8 @@ void NullPosePanel::makeButtons() {
 void NullPosePanel::layOut() {
     auto* layout = tightColumn(this);
     auto* buttons = new QWidget(this);
-    auto* row = new QHBoxLayout(buttons);
     const int margin = CellDelegate::margin(fontMetrics());
-    row->setContentsMargins(margin, margin / 2, margin, margin / 2);
-    row->setSpacing(margin);
+    auto* row = spacedRow({margin, margin / 2, margin, margin / 2}, margin, buttons);
     row->addWidget(m_ghost);
     row->addWidget(m_export);
     m_tabs->setDocumentMode(true);

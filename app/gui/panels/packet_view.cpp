@@ -65,8 +65,7 @@ void PacketView::setModel(QAbstractItemModel* model) {
 }
 
 void PacketView::setEmptyText(const QString& text) {
-    if (text != m_emptyText) {
-        m_emptyText = text;
+    if (text != accessibleDescription()) {
         setAccessibleDescription(text);
         viewport()->update();
     }
@@ -266,37 +265,19 @@ QModelIndex PacketView::moveCursor(CursorAction action, Qt::KeyboardModifiers /*
         return {};
     }
     const QModelIndex current = currentIndex();
-    int row = current.isValid() ? current.row() : std::min(topRow() + wholeRows() - 1, rows - 1);
-    int column = std::max(0, current.column());
-    switch (action) {
-    case MoveUp:
-        row -= current.isValid() ? 1 : 0;
-        break;
-    case MoveDown:
-        row += current.isValid() ? 1 : 0;
-        break;
-    case MovePageUp:
-        row -= wholeRows() - 1;
-        break;
-    case MovePageDown:
-        row += wholeRows() - 1;
-        break;
-    case MoveHome:
-        row = 0;
-        break;
-    case MoveEnd:
-        row = rows - 1;
-        break;
-    case MoveLeft:
-    case MovePrevious:
-        column = m_header->columnBeside(column, -1);
-        break;
-    case MoveRight:
-    case MoveNext:
-        column = m_header->columnBeside(column, 1);
-        break;
+    const int row = current.isValid() ? current.row() : std::min(topRow() + wholeRows() - 1, rows - 1);
+    const int column = std::max(0, current.column());
+    const int one = current.isValid() ? 1 : 0;
+    const int page = wholeRows() - 1;
+    const std::pair<CursorAction, int> moves[] = {{MoveUp, -one},      {MoveDown, one},
+                                                  {MovePageUp, -page}, {MovePageDown, page},
+                                                  {MoveHome, -row},    {MoveEnd, rows - 1 - row}};
+    const auto move = std::ranges::find(moves, action, &std::pair<CursorAction, int>::first);
+    if (move != std::end(moves)) {
+        return model()->index(std::clamp(row + move->second, 0, rows - 1), column);
     }
-    return model()->index(std::clamp(row, 0, rows - 1), column);
+    const bool isBack = action == MoveLeft || action == MovePrevious;
+    return model()->index(row, m_header->columnBeside(column, isBack ? -1 : 1));
 }
 
 int PacketView::horizontalOffset() const {

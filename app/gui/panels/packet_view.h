@@ -23,9 +23,8 @@ public:
     /// `name` is what screen readers call the table.
     explicit PacketView(const QString& name, QWidget* parent = nullptr);
 
-    /// What to do where the table is empty.
+    /// What to do where the table is empty: its description for screen readers, shown while it has no rows.
     void setEmptyText(const QString& text);
-    [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
 
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
     /// Goes to the last row and stays with it as rows come; or stops where it is.
@@ -84,7 +83,6 @@ private:
 
     FittingHeader* m_header;
     QPushButton* m_newest;
-    QString m_emptyText;
     bool m_isFollowing = true;
     bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls
     bool m_isCatchingUp = false;

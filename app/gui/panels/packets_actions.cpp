@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the menus do in the list of packets.
+// What the operator can do in the list of packets, and the menus that offer it.
+#include "app/gui/models/packet_choice.h"
+#include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
-#include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/packets_panel.h"
 
 #include <QMenu>
 
+#include <algorithm>
+
 namespace posewire::gui {
 
 namespace {
+
+/// More would fill the clipboard of the desktop for minutes.
+constexpr std::size_t kMostCopied = 100'000;
 
 constexpr const char* kEdit = QT_TRANSLATE_NOOP("Action", "&Edit");
 constexpr const char* kCopy = QT_TRANSLATE_NOOP("Action", "&Edit/Co&py packets");
@@ -21,55 +27,50 @@ constexpr const char* kGo = QT_TRANSLATE_NOOP("Action", "&Go");
 /// A part of the panel, so that its entries reach what is private there.
 struct PacketsPanel::Actions {
     using Do = ActionsOf<PacketsPanel>;
-    using Selected = SelectedPackets;
-    using Navigation = PacketNavigation;
     using Time = PacketModel::TimeMode;
     using Delta = PacketModel::DeltaMode;
-    template <auto function, auto... arguments>
-    static constexpr auto onSelected = Do::callIn<&PacketsPanel::m_selected, function, arguments...>;
-    template <auto function, auto... arguments>
-    static constexpr auto navigate = Do::callIn<&PacketsPanel::m_navigation, function, arguments...>;
+
     static constexpr auto kForward = Direction::Forward;
     static constexpr auto kBackward = Direction::Backward;
 
     static constexpr ActionInfo kTable[] = {
         {"mark", kEdit, QT_TRANSLATE_NOOP("Action", "&Mark packet"), "Ctrl+M",
-         onSelected<&Selected::toggleMark>},
+         Do::call<&PacketsPanel::toggleMark>},
         {"comment", kEdit, QT_TRANSLATE_NOOP("Action", "&Comment on packet…"), "Ctrl+Alt+C",
-         onSelected<&Selected::editComment>},
+         Do::call<&PacketsPanel::editComment>},
         lineIn(kEdit),
         {"copyRows", kCopy, QT_TRANSLATE_NOOP("Action", "&Rows as text"), "",
-         onSelected<&Selected::copyRows, Selected::RowFormat::Text>},
+         Do::call<&PacketsPanel::copyRows, RowFormat::Text>},
         {"copyCsv", kCopy, QT_TRANSLATE_NOOP("Action", "Rows as C&SV"), "",
-         onSelected<&Selected::copyRows, Selected::RowFormat::Csv>},
-        {"copyCell", kCopy, QT_TRANSLATE_NOOP("Action", "Ce&ll"), "", onSelected<&Selected::copyCell>},
+         Do::call<&PacketsPanel::copyRows, RowFormat::Csv>},
+        {"copyCell", kCopy, QT_TRANSLATE_NOOP("Action", "Ce&ll"), "", Do::call<&PacketsPanel::copyCell>},
         lineIn(kCopy),
         {"copyBytesText", kCopy, QT_TRANSLATE_NOOP("Action", "Bytes as &hexadecimal text"), "Ctrl+Shift+C",
-         onSelected<&Selected::copyBytes, ByteFormat::Text>},
+         Do::call<&PacketsPanel::copyBytes, ByteFormat::Text>},
         {"copyBytesRaw", kCopy, QT_TRANSLATE_NOOP("Action", "Bytes as ra&w hexadecimal"), "",
-         onSelected<&Selected::copyBytes, ByteFormat::Raw>},
+         Do::call<&PacketsPanel::copyBytes, ByteFormat::Raw>},
         {"copyBytesCArray", kCopy, QT_TRANSLATE_NOOP("Action", "Bytes as C &array"), "",
-         onSelected<&Selected::copyBytes, ByteFormat::CArray>},
+         Do::call<&PacketsPanel::copyBytes, ByteFormat::CArray>},
         {"copyBytesJson", kCopy, QT_TRANSLATE_NOOP("Action", "Packets as &JSON"), "",
-         onSelected<&Selected::copyBytes, ByteFormat::Json>},
+         Do::call<&PacketsPanel::copyBytes, ByteFormat::Json>},
         lineIn(kEdit),
         {"filter", kEdit, QT_TRANSLATE_NOOP("Action", "&Filter packets"), "Ctrl+L",
          Do::callIn<&PacketsPanel::m_filter, &FilterBar::focusLine>},
         {"filterByCell", kCell, QT_TRANSLATE_NOOP("Action", "&Only this"), "Ctrl+Shift+L",
-         onSelected<&Selected::applyCell, FilterJoin::Replace>},
+         Do::call<&PacketsPanel::applyCell, FilterJoin::Replace>},
         {"filterAndCell", kCell, QT_TRANSLATE_NOOP("Action", "… &and"), "",
-         onSelected<&Selected::applyCell, FilterJoin::And>},
+         Do::call<&PacketsPanel::applyCell, FilterJoin::And>},
         {"filterOrCell", kCell, QT_TRANSLATE_NOOP("Action", "… o&r"), "",
-         onSelected<&Selected::applyCell, FilterJoin::Or>},
+         Do::call<&PacketsPanel::applyCell, FilterJoin::Or>},
         {"filterNotCell", kCell, QT_TRANSLATE_NOOP("Action", "… and &not"), "",
-         onSelected<&Selected::applyCell, FilterJoin::AndNot>},
+         Do::call<&PacketsPanel::applyCell, FilterJoin::AndNot>},
         lineIn(kEdit),
         {"find", kEdit, QT_TRANSLATE_NOOP("Action", "Find &bytes or text…"), "Ctrl+F",
          Do::callIn<&PacketsPanel::m_find, &FindBar::open>},
         {"findNext", kEdit, QT_TRANSLATE_NOOP("Action", "Find ne&xt"), "F3",
-         navigate<&Navigation::find, kForward>},
+         Do::call<&PacketsPanel::search, kForward>},
         {"findPrevious", kEdit, QT_TRANSLATE_NOOP("Action", "Find pre&vious"), "Shift+F3",
-         navigate<&Navigation::find, kBackward>},
+         Do::call<&PacketsPanel::search, kBackward>},
 
         {"timeSinceFirst", kTimes, QT_TRANSLATE_NOOP("Action", "Since the &first packet"), "",
          Do::call<&PacketsPanel::setTimeMode, Time::SinceFirst>,
@@ -85,27 +86,27 @@ struct PacketsPanel::Actions {
          Do::is<&PacketsPanel::deltaMode, Delta::RowAbove>},
 
         {"goToPacket", kGo, QT_TRANSLATE_NOOP("Action", "&Go to packet…"), "G",
-         navigate<&Navigation::askForPacket>},
+         Do::call<&PacketsPanel::askForPacket>},
         lineIn(kGo),
         {"nextProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Next problem"), "N",
-         navigate<&Navigation::goToProblem, kForward>},
+         Do::call<&PacketsPanel::goToProblem, kForward>},
         {"previousProblem", kGo, QT_TRANSLATE_NOOP("Action", "&Previous problem"), "Shift+N",
-         navigate<&Navigation::goToProblem, kBackward>},
+         Do::call<&PacketsPanel::goToProblem, kBackward>},
         lineIn(kGo),
         {"nextOfStream", kGo, QT_TRANSLATE_NOOP("Action", "Next packet of the &stream"), "Ctrl+.",
-         navigate<&Navigation::goToSameStream, kForward>},
+         Do::call<&PacketsPanel::goToSameStream, kForward>},
         {"previousOfStream", kGo, QT_TRANSLATE_NOOP("Action", "Previous packet of the s&tream"), "Ctrl+,",
-         navigate<&Navigation::goToSameStream, kBackward>},
+         Do::call<&PacketsPanel::goToSameStream, kBackward>},
         lineIn(kGo),
         {"nextMark", kGo, QT_TRANSLATE_NOOP("Action", "Next &mark"), "Ctrl+Shift+N",
-         navigate<&Navigation::goToMark, kForward>},
+         Do::call<&PacketsPanel::goToMark, kForward>},
         {"previousMark", kGo, QT_TRANSLATE_NOOP("Action", "Previous m&ark"), "Ctrl+Shift+B",
-         navigate<&Navigation::goToMark, kBackward>},
+         Do::call<&PacketsPanel::goToMark, kBackward>},
         lineIn(kGo),
         {"firstPacket", kGo, QT_TRANSLATE_NOOP("Action", "&First packet"), "Ctrl+Home",
-         navigate<&Navigation::goToFirst>},
+         Do::call<&PacketsPanel::goToFirst>},
         {"newestPacket", kGo, QT_TRANSLATE_NOOP("Action", "Ne&west packet, and follow"), "Ctrl+End",
-         navigate<&Navigation::goToNewest>},
+         Do::call<&PacketsPanel::goToNewest>},
     };
 };
 
@@ -116,7 +117,7 @@ std::span<const ActionInfo> PacketsPanel::actionTable() {
 /// Filters by the current cell, and what the window's menus do with the selected packets.
 void PacketsPanel::showMenu(const QPoint& globalPlace) {
     QMenu menu(this);
-    const QString condition = m_selected.cellFilter();
+    const QString condition = cellFilter();
     QString shown =
         fontMetrics().elidedText(condition, Qt::ElideRight, fontMetrics().averageCharWidth() * 50);
     shown.replace(QLatin1Char('&'), QLatin1String("&&"));
@@ -127,23 +128,266 @@ void PacketsPanel::showMenu(const QPoint& globalPlace) {
         {tr("… or"), FilterJoin::Or},
         {tr("… and not"), FilterJoin::AndNot}};
     for (const auto& [text, join] : joins) {
-        menu.addAction(text, this, [this, join = join] { m_selected.applyCell(join); })
+        menu.addAction(text, this, [this, join = join] { applyCell(join); })
             ->setEnabled(!condition.isEmpty());
     }
     menu.addSeparator();
+    const bool hasPacket = !selectedPackets().empty();
     QMenu* copy = menu.addMenu(tr("&Copy"));
     addEntries(*copy, actionTable(), kCopy, *this);
     const auto add = [&](const QString& text, auto carryOut) {
-        menu.addAction(text, this, carryOut)->setEnabled(!m_selected.isEmpty());
+        menu.addAction(text, this, carryOut)->setEnabled(hasPacket);
     };
-    copy->setEnabled(!m_selected.isEmpty());
-    add(tr("&Mark"), [this] { m_selected.toggleMark(); });
-    add(tr("C&omment…"), [this] { m_selected.editComment(); });
+    copy->setEnabled(hasPacket);
+    add(tr("&Mark"), &PacketsPanel::toggleMark);
+    add(tr("C&omment…"), &PacketsPanel::editComment);
     menu.addSeparator();
-    add(tr("&Next of this stream"), [this] { m_navigation.goToSameStream(Direction::Forward); });
-    add(tr("&Previous of this stream"), [this] { m_navigation.goToSameStream(Direction::Backward); });
+    add(tr("&Next of this stream"), [this] { goToSameStream(Direction::Forward); });
+    add(tr("&Previous of this stream"), [this] { goToSameStream(Direction::Backward); });
     addEntries(*menu.addMenu(tr("&Times")), actionTable(), kTimes, *this);
     menu.exec(globalPlace);
+}
+
+void PacketsPanel::showPacket(std::uint64_t number) {
+    m_commands.selectPacket(number);
+    m_list->setFollowing(false);
+    refresh();
+    if (m_packets.rowOf(number) < 0) {
+        say(tr("Packet %1 is selected, but the filter hides it.").arg(grouped(number)));
+    }
+}
+
+QString PacketsPanel::goTo(const QString& text) {
+    const auto target = packetTarget(m_view, text);
+    if (!target) {
+        return target.error();
+    }
+    showPacket(*target);
+    return {};
+}
+
+void PacketsPanel::askForPacket() {
+    static_cast<void>(askForText(
+        {tr("Go to packet"), tr("&Number, +n or -n, or a time"), tr("1204112, +100, 12.5 s, 10:42:17.508"),
+         tr("Go")},
+        [this](const QString& text) { return goTo(text); }, window()));
+}
+
+void PacketsPanel::goToFirst() {
+    if (m_packets.rowCount() > 0) {
+        showPacket(m_packets.packetAt(0));
+    }
+}
+
+void PacketsPanel::goToNewest() {
+    model::Selection selection = m_view.selection();
+    selection.packet.reset();
+    m_commands.select(selection);
+    m_list->setFollowing(true);
+    refresh();
+}
+
+void PacketsPanel::goToProblem(Direction direction) {
+    const model::PacketDigests& digests = m_view.digests();
+    const auto from = m_view.selection().packet;
+    std::optional<std::uint64_t> found;
+    if (direction == Direction::Backward) {
+        found = m_packets.previousProblem(from.value_or(digests.end()));
+    } else {
+        const model::PacketDigest* first = from ? nullptr : digests.find(digests.begin());
+        const bool isAtBegin =
+            first != nullptr && first->isProblem() && m_packets.rowOf(digests.begin()) >= 0;
+        found = isAtBegin ? digests.begin() : m_packets.nextProblem(from.value_or(digests.begin()));
+    }
+    if (found) {
+        showPacket(*found);
+    } else {
+        say(direction == Direction::Forward ? tr("No problem after this packet.")
+                                            : tr("No problem before this packet."));
+    }
+}
+
+void PacketsPanel::goToSameStream(Direction direction) {
+    const bool isForward = direction == Direction::Forward;
+    const auto from = m_view.selection().packet;
+    const std::uint64_t number = from.value_or(m_view.end() - 1);
+    const auto packet = m_view.packet(number);
+    const model::PacketDigest* wanted = m_view.digests().find(number);
+    if (!packet || wanted == nullptr) {
+        say(tr("No packet is selected."));
+        return;
+    }
+    const auto isWanted = [&](std::uint64_t other) {
+        const model::PacketDigest* candidate = m_view.digests().find(other);
+        if (other == number || candidate == nullptr || candidate->type != wanted->type ||
+            candidate->character != wanted->character) {
+            return false;
+        }
+        const auto found = m_view.packet(other);
+        return found && found->sender == packet->sender;
+    };
+    const int rows = m_packets.rowCount();
+    int row = isForward ? (from ? m_packets.rowFrom(number + 1) : 0)
+                        : (from ? m_packets.rowFrom(number) : rows) - 1;
+    for (; row >= 0 && row < rows; row += isForward ? 1 : -1) {
+        if (isWanted(m_packets.packetAt(row))) {
+            showPacket(m_packets.packetAt(row));
+            return;
+        }
+    }
+    say(isForward ? tr("No later packet of this stream.") : tr("No earlier packet of this stream."));
+}
+
+void PacketsPanel::goToMark(Direction direction) {
+    const bool isForward = direction == Direction::Forward;
+    std::vector<std::uint64_t> listed;
+    std::ranges::copy_if(m_view.annotations().marks, std::back_inserter(listed),
+                         [&](std::uint64_t number) { return m_packets.rowOf(number) >= 0; });
+    const auto selected = m_view.selection().packet;
+    const std::uint64_t from = selected.value_or(isForward ? 0 : m_view.end());
+    const auto after = selected && isForward ? std::ranges::upper_bound(listed, from)
+                                             : std::ranges::lower_bound(listed, from);
+    if (isForward ? after == listed.end() : after == listed.begin()) {
+        say(isForward ? tr("No mark after this packet.") : tr("No mark before this packet."));
+        return;
+    }
+    showPacket(isForward ? *after : *(after - 1));
+}
+
+void PacketsPanel::search(Direction direction) {
+    if (m_find->text().isEmpty()) {
+        m_find->open();
+        return;
+    }
+    auto pattern = parsePattern(m_find->text(), m_find->isHexadecimal());
+    if (!pattern) {
+        m_find->open();
+        m_find->say(pattern.error(), true);
+        return;
+    }
+    PacketSearch::Request request{*std::move(pattern),
+                                  m_view.selection().packet.value_or(m_view.end()),
+                                  direction == Direction::Forward,
+                                  {}};
+    if (m_packets.isFiltered()) {
+        request.among = m_packets.matches();
+        if (request.among.empty()) {
+            m_find->say(tr("No packet is listed"), true);
+            return;
+        }
+    }
+    m_search = std::make_unique<PacketSearch>(m_view.log(), std::move(request));
+    m_find->say(tr("Searching …"), false);
+    m_poll.start();
+}
+
+void PacketsPanel::takeFound() {
+    const auto result = m_search ? m_search->result() : std::nullopt;
+    if (!result) {
+        return;
+    }
+    m_poll.stop();
+    m_search.reset();
+    if (!result->packet) {
+        m_find->say(tr("Not found"), true);
+        return;
+    }
+    showPacket(*result->packet);
+    const QString place = tr("in packet %1, byte %2").arg(grouped(*result->packet)).arg(result->offset);
+    m_find->say(result->isWrapped ? tr("%1 (wrapped around)").arg(place) : place, false);
+}
+
+std::vector<std::uint64_t> PacketsPanel::selectedPackets() const {
+    std::vector<std::uint64_t> numbers;
+    for (const int row : m_list->selectedRows(kMostCopied)) {
+        numbers.push_back(m_packets.packetAt(row));
+    }
+    if (const auto packet = m_view.selection().packet; numbers.empty() && packet) {
+        numbers.push_back(*packet);
+    }
+    return numbers;
+}
+
+void PacketsPanel::copyRows(RowFormat format) {
+    const std::vector<int> rows = m_list->selectedRows(kMostCopied);
+    const bool isCsv = format == RowFormat::Csv;
+    m_commands.copyText(isCsv ? packetRowsCsv(m_packets, rows) : packetRowsText(m_packets, rows));
+    const QString said = isCsv ? tr("Rows copied as CSV: %1") : tr("Rows copied: %1");
+    say(rows.empty() ? tr("No packet is selected.") : said.arg(grouped(rows.size())));
+}
+
+void PacketsPanel::copyCell() {
+    const QModelIndex cell = m_list->currentIndex();
+    if (!cell.isValid()) {
+        say(tr("No packet is selected."));
+        return;
+    }
+    m_commands.copyText(cell.data(Qt::DisplayRole).toString());
+    say(tr("Cell copied"));
+}
+
+void PacketsPanel::copyBytes(ByteFormat format) {
+    QString text;
+    const std::vector<std::uint64_t> packets = selectedPackets();
+    for (const std::uint64_t number : packets) {
+        const bool isSpaced = format != ByteFormat::Json && !text.isEmpty();
+        text += (isSpaced ? QStringLiteral("\n") : QString()) + packetBytesText(m_view, number, format);
+    }
+    m_commands.copyText(text);
+    say(packets.empty() ? tr("No packet is selected.")
+                        : tr("Packets copied: %1").arg(grouped(packets.size())));
+}
+
+void PacketsPanel::toggleMark() {
+    const auto packets = selectedPackets();
+    if (packets.empty()) {
+        say(tr("No packet is selected."));
+        return;
+    }
+    const auto& marks = m_view.annotations().marks;
+    const bool areMarked =
+        std::ranges::all_of(packets, [&](std::uint64_t number) { return marks.contains(number); });
+    for (const std::uint64_t number : packets) {
+        m_commands.setMarked(number, !areMarked);
+    }
+    refresh();
+}
+
+void PacketsPanel::editComment() {
+    const auto packet = m_view.selection().packet;
+    if (!packet) {
+        say(tr("No packet is selected."));
+        return;
+    }
+    const auto& comments = m_view.annotations().comments;
+    const auto before = comments.find(*packet);
+    const auto comment = askForText(
+        {tr("Comment on packet %1").arg(grouped(*packet)), tr("&Comment (leave empty to remove it)"),
+         QString(), tr("Save"),
+         before == comments.end() ? QString() : QString::fromStdString(before->second)},
+        [](const QString&) { return QString(); }, window());
+    if (comment) {
+        m_commands.setComment(*packet, *comment);
+        refresh();
+    }
+}
+
+QString PacketsPanel::cellFilter() const {
+    const QModelIndex cell = m_list->currentIndex();
+    return cell.isValid() ? packetCellFilter(m_view, m_packets.packetAt(cell.row()), cell.column())
+                          : QString();
+}
+
+void PacketsPanel::applyCell(FilterJoin join) {
+    const QString condition = cellFilter();
+    if (condition.isEmpty()) {
+        say(m_list->currentIndex().isValid() ? tr("This cell has nothing to filter by.")
+                                             : tr("No packet is selected."));
+        return;
+    }
+    m_commands.setDisplayFilter(
+        joinedFilter(QString::fromStdString(m_view.displayFilter()), condition, join));
+    refresh();
 }
 
 } // namespace posewire::gui

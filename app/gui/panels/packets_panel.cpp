@@ -3,9 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
-#include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/fitting_header.h"
-#include "app/gui/theme/widgets.h"
 
 #include <QPushButton>
 #include <QScopedValueRollback>
@@ -15,6 +13,7 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kMessageMs = 6000;
+constexpr int kPollMs = 20;
 
 } // namespace
 
@@ -25,9 +24,7 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
       m_find(new FindBar(this)),
       m_list(new PacketView(tr("Packets"), this)),
       m_clear(new QPushButton(tr("Clear the filter"), m_list)),
-      m_message(new PassingMessage(kMessageMs, this)),
-      m_selected(listing()),
-      m_navigation(listing(), *m_find) {
+      m_message(new PassingMessage(kMessageMs, this)) {
     auto* column = tightColumn(this);
     column->addWidget(m_filter);
     column->addWidget(m_find);
@@ -49,21 +46,11 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
 
 PacketsPanel::~PacketsPanel() = default;
 
-PacketListing PacketsPanel::listing() {
-    return {m_view,
-            m_commands,
-            m_packets,
-            *m_list,
-            [this] { refresh(); },
-            [this](const QString& text) { say(text); }};
-}
-
 void PacketsPanel::connectParts() {
     connect(m_list->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &PacketsPanel::selectRow);
-    connect(m_list, &PacketView::newestRequested, this, [this] { m_navigation.goToNewest(); });
-    connect(m_list, &PacketView::copyRequested, this,
-            [this] { m_selected.copyRows(SelectedPackets::RowFormat::Text); });
+    connect(m_list, &PacketView::newestRequested, this, &PacketsPanel::goToNewest);
+    connect(m_list, &PacketView::copyRequested, this, [this] { copyRows(RowFormat::Text); });
     connect(m_list, &PacketView::menuRequested, this, &PacketsPanel::showMenu);
     connect(m_filter, &FilterBar::applied, this, [this](const QString& text) {
         m_commands.setDisplayFilter(text);
@@ -72,10 +59,10 @@ void PacketsPanel::connectParts() {
     connect(m_filter, &FilterBar::cancelRequested, this, &PacketsPanel::cancelFilter);
     connect(m_filter, &FilterBar::left, this, [this] { m_list->setFocus(); });
     connect(m_clear, &QPushButton::clicked, this, &PacketsPanel::clearFilter);
-    connect(m_find, &FindBar::findRequested, this, [this](bool isForward) {
-        m_navigation.find(isForward ? Direction::Forward : Direction::Backward);
-    });
+    connect(m_find, &FindBar::findRequested, this, &PacketsPanel::search);
     connect(m_find, &FindBar::closed, this, [this] { m_list->setFocus(); });
+    m_poll.setInterval(kPollMs);
+    connect(&m_poll, &QTimer::timeout, this, &PacketsPanel::takeFound);
 }
 
 void PacketsPanel::fitColumns() {
@@ -97,11 +84,9 @@ void PacketsPanel::refresh() {
         m_packets.addMatches(found.packets, found.problems);
         const auto [done, total] = m_run->progress();
         m_filteredTo = done;
-        if (m_run->isCancelled() || done >= total) {
-            m_filter->endProgress();
-        } else {
-            m_filter->setProgress(static_cast<double>(done) / static_cast<double>(total));
-        }
+        const bool isBusy = !m_run->isCancelled() && done < total;
+        m_filter->setProgress(isBusy ? std::optional(static_cast<double>(done) / static_cast<double>(total))
+                                     : std::nullopt);
     }
     m_packets.refresh();
     // Where everything comes from one sender its address says nothing, and the note has the room.
@@ -141,7 +126,7 @@ void PacketsPanel::followFilter() {
         return; // the line says what is wrong; what is listed stays
     }
     m_run.reset();
-    m_filter->endProgress();
+    m_filter->setProgress(std::nullopt);
     if (compiled->matchesEverything()) {
         m_packets.endMatches();
     } else {
@@ -156,7 +141,7 @@ void PacketsPanel::followFilter() {
 void PacketsPanel::cancelFilter() {
     if (m_run) {
         m_run->cancel();
-        m_filter->endProgress();
+        m_filter->setProgress(std::nullopt);
         say(tr("Filtering was cancelled: the list holds what was found until then."));
         refresh();
     }

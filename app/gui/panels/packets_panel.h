@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/display_filter.h"
+#include "app/gui/models/packet_model.h"
 #include "app/gui/models/packet_search.h"
+#include "app/gui/models/packet_text.h"
 #include "app/gui/panel.h"
-#include "app/gui/panels/packet_commands.h"
+#include "app/gui/panels/find_bar.h"
+#include "app/gui/panels/packet_view.h"
 #include "app/gui/theme/widgets.h"
+
+#include <memory>
+#include <optional>
+#include <vector>
 
 class QPushButton;
 
@@ -28,16 +36,18 @@ public:
     void restoreState(const QJsonObject& state) override;
 
     [[nodiscard]] const PacketModel& packets() const { return m_packets; }
-    [[nodiscard]] PacketNavigation& navigation() { return m_navigation; }
     [[nodiscard]] PacketModel::TimeMode timeMode() const { return m_packets.timeMode(); }
     [[nodiscard]] PacketModel::DeltaMode deltaMode() const { return m_packets.deltaMode(); }
     void setTimeMode(PacketModel::TimeMode mode);
+    /// Goes to packetTarget() of the text; returns what is wrong with the text, empty for nothing.
+    QString goTo(const QString& text);
     [[nodiscard]] const PacketFilterRun* filterRun() const { return m_run.get(); }
     /// What was said last below the list, such as "No problem after this packet."; empty again after a while.
     [[nodiscard]] QString message() const { return m_message->said(); }
 
 private:
     struct Actions;
+    enum class RowFormat { Text, Csv };
 
     void connectParts();
     void fitColumns();
@@ -50,7 +60,33 @@ private:
     void selectRow(const QModelIndex& index);
     void say(const QString& text);
     void showMenu(const QPoint& globalPlace);
-    [[nodiscard]] PacketListing listing();
+
+    // Where the operator can go. The line below the list says what cannot be reached.
+    void showPacket(std::uint64_t number);
+    void askForPacket();
+    void goToFirst();
+    /// To the newest packet, and on with the list from then on.
+    void goToNewest();
+    void goToProblem(Direction direction);
+    void goToSameStream(Direction direction);
+    void goToMark(Direction direction);
+    /// Looks for the text of the find bar in the bytes of the listed packets, on a thread of its own, and
+    /// goes there. Opens the bar where there is nothing to look for yet.
+    void search(Direction direction);
+    void takeFound();
+
+    // What the operator can do with the selected packets. The line below the list says what was done, or why
+    // not.
+    [[nodiscard]] std::vector<std::uint64_t> selectedPackets() const;
+    void copyRows(RowFormat format);
+    void copyCell();
+    void copyBytes(ByteFormat format);
+    /// Marks all of them, or none where all are marked.
+    void toggleMark();
+    void editComment();
+    /// The condition that the current cell stands for; empty where it has none.
+    [[nodiscard]] QString cellFilter() const;
+    void applyCell(FilterJoin join);
 
     PacketModel m_packets;
     std::unique_ptr<PacketFilterRun> m_run;
@@ -63,8 +99,8 @@ private:
     PacketView* m_list;
     QPushButton* m_clear;
     PassingMessage* m_message;
-    SelectedPackets m_selected;
-    PacketNavigation m_navigation;
+    std::unique_ptr<PacketSearch> m_search;
+    QTimer m_poll;              ///< for what the search has found
     bool m_isFollowing = false; ///< the selection: nobody selected anything here
 };
 

@@ -2,11 +2,10 @@
 #include "app/gui/panels/range_bar.h"
 
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
-#include <QHBoxLayout>
 #include <QHelpEvent>
 #include <QKeyEvent>
 #include <QMouseEvent>
@@ -143,8 +142,12 @@ void RangeStrip::choose(log::Stamp from, log::Stamp to) {
     update();
 }
 
-bool RangeStrip::isAtEdge(double place, double edge) const {
-    return std::abs(place - edge) <= kGrip;
+std::optional<log::Stamp> RangeStrip::otherEnd(double place) const {
+    const auto range = m_view.range();
+    if (range && std::abs(place - placeOf(range->from)) <= kGrip) {
+        return range->to;
+    }
+    return range && std::abs(place - placeOf(range->to)) <= kGrip ? std::optional(range->from) : std::nullopt;
 }
 
 void RangeStrip::mousePressEvent(QMouseEvent* event) {
@@ -154,23 +157,13 @@ void RangeStrip::mousePressEvent(QMouseEvent* event) {
     const double place = event->position().x();
     m_pressed = place;
     m_isMoved = false;
-    m_anchor = stampAt(place);
-    if (const auto range = m_view.range()) {
-        if (isAtEdge(place, placeOf(range->from))) {
-            m_anchor = range->to;
-        } else if (isAtEdge(place, placeOf(range->to))) {
-            m_anchor = range->from;
-        }
-    }
+    m_anchor = otherEnd(place).value_or(stampAt(place));
 }
 
 void RangeStrip::mouseMoveEvent(QMouseEvent* event) {
     const double place = event->position().x();
     if (!m_anchor) {
-        const auto range = m_view.range();
-        const bool isEdge =
-            range && (isAtEdge(place, placeOf(range->from)) || isAtEdge(place, placeOf(range->to)));
-        setCursor(isEdge ? Qt::SizeHorCursor : Qt::IBeamCursor);
+        setCursor(otherEnd(place) ? Qt::SizeHorCursor : Qt::IBeamCursor);
         return;
     }
     if (m_isMoved || std::abs(place - m_pressed) >= kGrip) {
@@ -249,10 +242,7 @@ bool RangeStrip::event(QEvent* event) {
 RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent)
     : QWidget(parent), m_view(view), m_commands(commands), m_strip(new RangeStrip(view, commands, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(margin, margin / 2, margin, margin / 2);
-    row->setSpacing(margin / 2);
-    row->addWidget(m_strip, 1);
+    spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2, this)->addWidget(m_strip, 1);
     addButton(tr("10 s"), tr("Figures for the last ten seconds"), std::chrono::seconds(10));
     addButton(tr("1 min"), tr("Figures for the last minute"), std::chrono::seconds(60));
     addButton(tr("All"), tr("Figures for everything received"), log::Duration::zero());

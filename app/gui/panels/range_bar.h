@@ -49,7 +49,9 @@ private:
     void paintLosses(QPainter& painter) const;
     void paintRange(QPainter& painter) const;
     void choose(log::Stamp from, log::Stamp to);
-    [[nodiscard]] bool isAtEdge(double place, double edge) const;
+    /// The end of the range that stays where the other one, which is at `place`, is dragged; nothing
+    /// elsewhere.
+    [[nodiscard]] std::optional<log::Stamp> otherEnd(double place) const;
     [[nodiscard]] log::Duration keyStep() const;
     [[nodiscard]] QString partText(double place) const;
 

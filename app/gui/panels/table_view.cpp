@@ -3,8 +3,8 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/panels/cell_delegate.h"
-#include "app/gui/theme/balanced_text.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QContextMenuEvent>
 #include <QKeyEvent>
@@ -17,7 +17,9 @@ void drawEmptyText(QWidget& view, const QString& text) {
     QPainter painter(&view);
     painter.setPen(theme().dim);
     const int space = 2 * CellDelegate::margin(view.fontMetrics());
-    drawBalanced(painter, view.rect().adjusted(space, space, -space, -space), text);
+    const QRectF room = view.rect().adjusted(space, space, -space, -space);
+    const qreal unused = room.width() - balancedWidth(painter.fontMetrics(), text, room.width());
+    painter.drawText(room.adjusted(unused / 2, 0, -unused / 2, 0), Qt::AlignCenter | Qt::TextWordWrap, text);
 }
 
 TableView::TableView(const QString& name, QWidget* parent)
@@ -59,8 +61,7 @@ void TableView::expandNew() {
 }
 
 void TableView::setEmptyText(const QString& text) {
-    if (text != m_emptyText) {
-        m_emptyText = text;
+    if (text != accessibleDescription()) {
         setAccessibleDescription(text);
         viewport()->update();
     }
@@ -98,10 +99,9 @@ void TableView::dataChanged(const QModelIndex& topLeft, const QModelIndex& botto
 
 void TableView::paintEvent(QPaintEvent* event) {
     QTreeView::paintEvent(event);
-    if (m_emptyText.isEmpty() || model() == nullptr || model()->rowCount() != 0) {
-        return;
+    if (model() != nullptr && model()->rowCount() == 0) {
+        drawEmptyText(*viewport(), accessibleDescription());
     }
-    drawEmptyText(*viewport(), m_emptyText);
 }
 
 QString TableView::rowText(const QModelIndex& index) const {

@@ -41,9 +41,8 @@ public:
     /// below those is left as it is: whether it shows is up to the operator by then.
     void expandNew();
 
-    /// What to do where the table is empty.
+    /// What to do where the table is empty: its description for screen readers, shown while it has no rows.
     void setEmptyText(const QString& text);
-    [[nodiscard]] const QString& emptyText() const { return m_emptyText; }
 
     /// Height that shows `rows` rows and the header.
     [[nodiscard]] int heightForRows(int rows) const;
@@ -71,7 +70,6 @@ private:
     void addRows(QString& text, const QModelIndex& parent) const;
 
     FittingHeader* m_columns;
-    QString m_emptyText;
 };
 
 } // namespace posewire::gui

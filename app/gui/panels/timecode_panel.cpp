@@ -4,12 +4,9 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
-#include "app/gui/panels/buttons.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/theme/widgets.h"
 
 #include <QButtonGroup>
-#include <QHBoxLayout>
 #include <QKeyEvent>
 #include <QPainter>
 #include <QScreen>
@@ -49,16 +46,6 @@ void ClockWidget::setClock(const QString& text, const QString& caption, Run run)
     m_run = run;
     setAccessibleDescription(m_text + QLatin1Char(' ') + m_caption);
     update();
-}
-
-QSize ClockWidget::sizeHint() const {
-    const int unit = fontMetrics().height();
-    return {unit * 16, unit * 5};
-}
-
-QSize ClockWidget::minimumSizeHint() const {
-    const int unit = fontMetrics().height();
-    return {unit * 8, unit * 3};
 }
 
 void ClockWidget::paintEvent(QPaintEvent*) {
@@ -106,9 +93,7 @@ TimecodePanel::TimecodePanel(model::SessionView& view, Commands& commands, QWidg
     auto* layout = tightColumn(this);
     layout->addWidget(m_large, 1);
     const int space = fontMetrics().height() / 2;
-    auto* choices = new QHBoxLayout;
-    choices->setContentsMargins(space, 0, space, space / 2);
-    choices->setSpacing(space / 2);
+    auto* choices = spacedRow({space, 0, space, space / 2}, space / 2);
     auto* group = new QButtonGroup(this);
     choices->addStretch();
     for (QToolButton* button :

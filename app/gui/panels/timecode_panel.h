@@ -4,8 +4,7 @@
 #include "app/gui/models/clock_history.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/table_view.h"
-
-#include <QToolButton>
+#include "app/gui/theme/widgets.h"
 
 #include <memory>
 
@@ -23,8 +22,12 @@ public:
     void setClock(const QString& text, const QString& caption, Run run);
     [[nodiscard]] const QString& text() const { return m_text; }
 
-    [[nodiscard]] QSize sizeHint() const override;
-    [[nodiscard]] QSize minimumSizeHint() const override;
+    [[nodiscard]] QSize sizeHint() const override {
+        return {fontMetrics().height() * 16, fontMetrics().height() * 5};
+    }
+    [[nodiscard]] QSize minimumSizeHint() const override {
+        return {fontMetrics().height() * 8, fontMetrics().height() * 3};
+    }
 
 signals:
     /// Double click or F: to be shown on the full screen, or no longer.

@@ -228,16 +228,6 @@ void TimePlot::applyColours() {
     paintSoon();
 }
 
-QSize TimePlot::minimumSizeHint() const {
-    const int unit = fontMetrics().height();
-    return {unit * 8, unit * 9};
-}
-
-QSize TimePlot::sizeHint() const {
-    const int unit = fontMetrics().height();
-    return {unit * 20, unit * 12};
-}
-
 void TimePlot::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     const bool isLook = event->type() == QEvent::StyleChange || event->type() == QEvent::PaletteChange ||

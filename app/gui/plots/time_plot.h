@@ -45,8 +45,12 @@ public:
     /// The values that the axis of a chart spans, as of the last replot().
     [[nodiscard]] std::pair<double, double> valueRange(int chart) const;
 
-    [[nodiscard]] QSize minimumSizeHint() const override;
-    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override {
+        return {fontMetrics().height() * 8, fontMetrics().height() * 9};
+    }
+    [[nodiscard]] QSize sizeHint() const override {
+        return {fontMetrics().height() * 20, fontMetrics().height() * 12};
+    }
 
 protected:
     void changeEvent(QEvent* event) override;

@@ -15,48 +15,31 @@ namespace posewire::gui {
 
 namespace {
 
-Theme darkTheme() {
-    return {.isDark = true,
-            .window = "#1f2226",
-            .panel = "#26292e",
-            .raised = "#2c3036",
-            .header = "#22252a",
-            .line = "#383d44",
-            .text = "#e4e7eb",
-            .dim = "#9aa3ad",
-            .accent = "#4c9bff",
-            .selection = "#2f4a6b",
-            .good = "#4cc38a",
-            .warning = "#f2b84b",
-            .error = "#ff6b5e",
+Theme themeOf(bool isDark) {
+    const auto either = [isDark](const char* dark, const char* light) {
+        return QColor(isDark ? dark : light);
+    };
+    return {.isDark = isDark,
+            .window = either("#1f2226", "#e9ebee"),
+            .panel = either("#26292e", "#ffffff"),
+            .raised = either("#2c3036", "#f4f5f7"),
+            .header = either("#22252a", "#f1f3f5"),
+            .line = either("#383d44", "#d5d9de"),
+            .text = either("#e4e7eb", "#1d2126"),
+            .dim = either("#9aa3ad", "#626b75"),
+            .accent = either("#4c9bff", "#1f6feb"),
+            .selection = either("#2f4a6b", "#dbe9fb"),
+            .good = either("#4cc38a", "#127846"),
+            .warning = either("#f2b84b", "#935d00"),
+            .error = either("#ff6b5e", "#c62828"),
             .axisX = "#eb4034",
             .axisY = "#3cbe5a",
             .axisZ = "#4082f6",
-            .plotFourth = "#c79bff"};
-}
-
-Theme lightTheme() {
-    return {.isDark = false,
-            .window = "#e9ebee",
-            .panel = "#ffffff",
-            .raised = "#f4f5f7",
-            .header = "#f1f3f5",
-            .line = "#d5d9de",
-            .text = "#1d2126",
-            .dim = "#626b75",
-            .accent = "#1f6feb",
-            .selection = "#dbe9fb",
-            .good = "#127846",
-            .warning = "#935d00",
-            .error = "#c62828",
-            .axisX = "#eb4034",
-            .axisY = "#3cbe5a",
-            .axisZ = "#4082f6",
-            .plotFourth = "#8a4fd0"};
+            .plotFourth = either("#c79bff", "#8a4fd0")};
 }
 
 Theme& current() {
-    static Theme theme = darkTheme();
+    static Theme theme = themeOf(true);
     return theme;
 }
 
@@ -177,6 +160,12 @@ QSplitter::handle { background: @line; }
 QScrollArea { background: transparent; border: none; }
 )";
 
+/// A colour between two, by channels: 0 is the first, 1 the second.
+QColor mixed(const QColor& a, const QColor& b, double share) {
+    const auto at = [share](int from, int to) { return static_cast<int>(from + (to - from) * share); };
+    return {at(a.red(), b.red()), at(a.green(), b.green()), at(a.blue(), b.blue())};
+}
+
 /// Colours come from the theme, sizes from the metrics.
 QString styleSheet(const Theme& theme, const QFontMetrics& metrics) {
     const auto pixels = [](int value) { return QString::number(value) + QStringLiteral("px"); };
@@ -225,15 +214,21 @@ double luminance(const QColor& colour) {
            0.0722 * linear(colour.blueF());
 }
 
+struct HealthLook {
+    QColor Theme::*colour;
+    char16_t symbol;
+};
+
+const HealthLook& lookOf(Health health) {
+    static constexpr HealthLook kLooks[] = {
+        {&Theme::good, u'●'}, {&Theme::warning, u'▲'}, {&Theme::error, u'■'}, {&Theme::dim, u'○'}};
+    return kLooks[static_cast<std::size_t>(health)];
+}
+
 } // namespace
 
 const Theme& theme() {
     return current();
-}
-
-QColor mixed(const QColor& a, const QColor& b, double share) {
-    const auto at = [share](int from, int to) { return static_cast<int>(from + (to - from) * share); };
-    return {at(a.red(), b.red()), at(a.green(), b.green()), at(a.blue(), b.blue())};
 }
 
 QColor withAlpha(QColor colour, double alpha) {
@@ -266,7 +261,7 @@ QColor onSelection(const QColor& colour) {
 void applyTheme(QApplication& application, ThemeChoice choice) {
     const bool desktopDark = desktopIsDark(application);
     const bool isDark = choice == ThemeChoice::Dark || (choice == ThemeChoice::System && desktopDark);
-    current() = isDark ? darkTheme() : lightTheme();
+    current() = themeOf(isDark);
     QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
     QApplication::setPalette(paletteOf(current()));
     application.setStyleSheet(styleSheet(current(), QFontMetrics(QApplication::font())));
@@ -284,35 +279,15 @@ QFont tabularFont() {
 }
 
 QColor healthColour(Health health) {
-    switch (health) {
-    case Health::Good:
-        return theme().good;
-    case Health::Warning:
-        return theme().warning;
-    case Health::Error:
-        return theme().error;
-    case Health::Unknown:
-        break;
-    }
-    return theme().dim;
+    return theme().*lookOf(health).colour;
+}
+
+QString healthSymbol(Health health) {
+    return QChar(lookOf(health).symbol);
 }
 
 QString healthText(Health health, const QString& text) {
     return healthSymbol(health) + QLatin1Char(' ') + text;
-}
-
-QString healthSymbol(Health health) {
-    switch (health) {
-    case Health::Good:
-        return QStringLiteral("●");
-    case Health::Warning:
-        return QStringLiteral("▲");
-    case Health::Error:
-        return QStringLiteral("■");
-    case Health::Unknown:
-        break;
-    }
-    return QStringLiteral("○");
 }
 
 } // namespace posewire::gui

@@ -26,9 +26,6 @@ enum class ThemeChoice { System, Dark, Light };
 /// window's thread. What keeps a colour asks again on QEvent::PaletteChange or StyleChange.
 [[nodiscard]] const Theme& theme();
 
-/// A colour between two, by channels: 0 is the first, 1 the second.
-[[nodiscard]] QColor mixed(const QColor& a, const QColor& b, double share);
-
 /// The colour at an opacity of 0 to 1.
 [[nodiscard]] QColor withAlpha(QColor colour, double alpha);
 

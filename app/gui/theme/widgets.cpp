@@ -3,17 +3,37 @@
 
 #include "app/gui/theme/theme.h"
 
+#include <QDialog>
+#include <QDialogButtonBox>
+#include <QLineEdit>
 #include <QPainter>
+#include <QPushButton>
 
 #include <algorithm>
 
 namespace posewire::gui {
+
+namespace {
+
+QSizeF sizeAt(const QFontMetricsF& metrics, const QString& text, qreal width) {
+    constexpr qreal kAnyHeight = 1e6;
+    return metrics.boundingRect({0, 0, width, kAnyHeight}, Qt::TextWordWrap, text).size();
+}
+
+} // namespace
 
 QVBoxLayout* tightColumn(QWidget* parent) {
     auto* column = new QVBoxLayout(parent);
     column->setContentsMargins({});
     column->setSpacing(0);
     return column;
+}
+
+QHBoxLayout* spacedRow(const QMargins& margins, int spacing, QWidget* parent) {
+    auto* row = new QHBoxLayout(parent);
+    row->setContentsMargins(margins);
+    row->setSpacing(spacing);
+    return row;
 }
 
 void setTextColour(QLabel& label, const QColor& colour) {
@@ -32,6 +52,18 @@ QLabel* dimText(const QString& text, QWidget* parent) {
     auto* label = dimLabel(text, parent);
     label->setWordWrap(true);
     return label;
+}
+
+qreal balancedWidth(const QFontMetricsF& metrics, const QString& text, qreal most) {
+    const qreal height = sizeAt(metrics, text, most).height();
+    qreal tooNarrow = 0;
+    qreal enough = most;
+    while (enough - tooNarrow > 1) {
+        const qreal width = (tooNarrow + enough) / 2;
+        (sizeAt(metrics, text, width).height() <= height ? enough : tooNarrow) = width;
+    }
+    // A word that is wider than its line is not broken: it makes the line no higher.
+    return std::min(most, std::max(enough, sizeAt(metrics, text, enough).width()));
 }
 
 void Line::paintEvent(QPaintEvent* /*event*/) {
@@ -96,6 +128,82 @@ void PassingMessage::say(const QString& text) {
     setToolTip(text);
     show();
     m_timer.start();
+}
+
+QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setProperty("framed", true);
+    return button;
+}
+
+QToolButton* flatButton(const QString& text, const QString& toolTip, QWidget* parent) {
+    auto* button = new QToolButton(parent);
+    button->setText(text);
+    button->setToolTip(toolTip);
+    button->setAccessibleName(toolTip);
+    button->setProperty("flat", true);
+    return button;
+}
+
+CommandBar::CommandBar(QWidget* parent) : QToolBar(parent) {
+    setToolButtonStyle(Qt::ToolButtonTextOnly);
+    setSizePolicy(QSizePolicy::Maximum, QSizePolicy::Preferred);
+    if (auto* more = findChild<QToolButton*>(QStringLiteral("qt_toolbar_ext_button"))) {
+        // Text, since the style's icon is black in the dark theme as well.
+        more->setToolButtonStyle(Qt::ToolButtonTextOnly);
+        more->setText(QStringLiteral("»"));
+        more->setToolTip(tr("More"));
+        more->setAccessibleName(more->toolTip());
+        more->setFocusPolicy(Qt::StrongFocus);
+    }
+}
+
+QAction* CommandBar::addCommand(const QString& name, const QString& text, const QString& toolTip) {
+    QAction* action = addAction(text);
+    action->setToolTip(toolTip);
+    QWidget* button = widgetForAction(action);
+    button->setObjectName(name);
+    button->setAccessibleName(toolTip);
+    button->setProperty("framed", true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return action;
+}
+
+std::optional<QString> askForText(const TextPrompt& words,
+                                  const std::function<QString(const QString&)>& problemOf, QWidget* parent) {
+    QDialog dialog(parent);
+    dialog.setWindowTitle(words.title);
+    auto* edit = new QLineEdit(words.text, &dialog);
+    edit->setPlaceholderText(words.hint);
+    edit->selectAll();
+    auto* label = new QLabel(words.label, &dialog);
+    label->setBuddy(edit);
+    auto* problem = new QLabel(&dialog);
+    problem->setWordWrap(true);
+    problem->setMinimumWidth(dialog.fontMetrics().averageCharWidth() * 56);
+    // The room is there from the beginning, so that the dialog does not jump under the pointer.
+    problem->setMinimumHeight(2 * dialog.fontMetrics().lineSpacing());
+    problem->setAlignment(Qt::AlignTop);
+    setTextColour(*problem, theme().error);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, &dialog);
+    buttons->button(QDialogButtonBox::Ok)->setText(words.accept);
+    auto* column = new QVBoxLayout(&dialog);
+    for (QWidget* part : std::initializer_list<QWidget*>{label, edit, problem, buttons}) {
+        column->addWidget(part);
+    }
+    QObject::connect(buttons, &QDialogButtonBox::accepted, &dialog, [&] {
+        const QString wrong = problemOf(edit->text().trimmed());
+        if (wrong.isEmpty()) {
+            dialog.accept();
+        } else {
+            problem->setText(healthText(Health::Error, wrong));
+        }
+    });
+    QObject::connect(buttons, &QDialogButtonBox::rejected, &dialog, &QDialog::reject);
+    QObject::connect(edit, &QLineEdit::textChanged, problem, &QLabel::clear);
+    return dialog.exec() == QDialog::Accepted ? std::optional(edit->text().trimmed()) : std::nullopt;
 }
 
 } // namespace posewire::gui

@@ -4,13 +4,20 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QTimer>
+#include <QToolBar>
+#include <QToolButton>
 #include <QVBoxLayout>
+
+#include <functional>
+#include <optional>
 
 /// Small parts that docks, dialogs and bars are made of, in the theme's colours.
 namespace posewire::gui {
 
 /// A layout of `parent` without margins and spaces.
 [[nodiscard]] QVBoxLayout* tightColumn(QWidget* parent);
+/// A layout from left to right, of `parent` or to be put into another layout.
+[[nodiscard]] QHBoxLayout* spacedRow(const QMargins& margins, int spacing, QWidget* parent = nullptr);
 
 /// Gives the text of a label a colour.
 void setTextColour(QLabel& label, const QColor& colour);
@@ -19,6 +26,10 @@ void setTextColour(QLabel& label, const QColor& colour);
 [[nodiscard]] QLabel* dimLabel(const QString& text, QWidget* parent);
 /// The same for sentences: broken into lines where it has to be.
 [[nodiscard]] QLabel* dimText(const QString& text, QWidget* parent);
+
+/// The least width at which `text` takes no more lines than at `most`: its lines are then about equally long,
+/// and no word is left alone in the last one. Pixels.
+[[nodiscard]] qreal balancedWidth(const QFontMetricsF& metrics, const QString& text, qreal most);
 
 /// A thin line in the theme's colour between the parts of a dock.
 class Line : public QWidget {
@@ -78,5 +89,36 @@ public:
 private:
     QTimer m_timer;
 };
+
+/// A button with an outline. It is called by its text.
+[[nodiscard]] QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* parent);
+
+/// A button that gets its outline from the pointer. Screen readers call it by its tooltip, since its text is
+/// often no more than a sign.
+[[nodiscard]] QToolButton* flatButton(const QString& text, const QString& toolTip, QWidget* parent);
+
+/// Framed buttons that give way to their neighbours: where there is no room they go into a menu.
+class CommandBar final : public QToolBar {
+    Q_OBJECT
+
+public:
+    explicit CommandBar(QWidget* parent = nullptr);
+
+    /// `name` is the button's object name; it may be empty.
+    QAction* addCommand(const QString& name, const QString& text, const QString& toolTip);
+};
+
+struct TextPrompt {
+    QString title;
+    QString label;
+    QString hint; ///< in the empty line
+    QString accept;
+    QString text{}; ///< to begin with
+};
+
+/// Asks for one line of text in a dialog and shows there what is wrong with it: what `problemOf` returns,
+/// empty for nothing. Nothing where the operator cancels.
+[[nodiscard]] std::optional<QString>
+askForText(const TextPrompt& words, const std::function<QString(const QString&)>& problemOf, QWidget* parent);
 
 } // namespace posewire::gui

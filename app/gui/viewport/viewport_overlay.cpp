@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_overlay.h"
 
-#include "app/gui/theme/balanced_text.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_widget.h"
 
-#include <QHBoxLayout>
 #include <QMenu>
 #include <QPainter>
-#include <QToolButton>
 
 #include <algorithm>
 #include <array>
@@ -20,18 +18,11 @@ namespace {
 
 constexpr qreal kRadius = 5;
 constexpr QLatin1String kButtons("viewportButtons");
-constexpr float kBackgroundOpacity = 0.9F;
-
-QFont semibold(QFont font) {
-    font.setWeight(QFont::DemiBold);
-    return font;
-}
+constexpr double kBackgroundOpacity = 0.9;
 
 void paintPlate(QPainter& painter, const QRectF& plate, const QColor& border, qreal radius) {
-    QColor background = theme().raised;
-    background.setAlphaF(kBackgroundOpacity);
     painter.setPen(QPen(border, 1));
-    painter.setBrush(background);
+    painter.setBrush(withAlpha(theme().raised, kBackgroundOpacity));
     painter.drawRoundedRect(plate.adjusted(0.5, 0.5, -0.5, -0.5), radius, radius);
 }
 
@@ -69,26 +60,18 @@ void giveWay(QRectF& plate, const std::vector<QRectF>& taken, qreal width) {
     }
 }
 
-QToolButton* button(QWidget* parent, const QString& toolTip) {
-    auto* result = new QToolButton(parent);
-    result->setProperty("framed", true);
-    result->setToolTip(toolTip);
-    result->setFocusPolicy(Qt::TabFocus);
-    return result;
-}
-
 class ViewportButtons final : public QWidget {
 public:
     explicit ViewportButtons(ViewportWidget* viewport)
         : QWidget(viewport),
-          m_axes(button(this, tr("Local axes of the segments: x red, y green, z blue"))),
-          m_frame(button(this, tr("Show all characters, and keep them in the picture"))),
-          m_projection(button(this, tr("Perspective or orthographic"))) {
+          m_axes(framedButton({}, tr("Local axes of the segments: x red, y green, z blue"), this)),
+          m_frame(
+              framedButton(tr("Frame  F"), tr("Show all characters, and keep them in the picture"), this)),
+          m_projection(framedButton({}, tr("Perspective or orthographic"), this)) {
         setObjectName(kButtons);
-        auto* row = new QHBoxLayout(this);
-        row->setContentsMargins(12, 12, 12, 12);
-        row->setSpacing(8);
+        auto* row = spacedRow({12, 12, 12, 12}, 8, this);
         for (QToolButton* each : {m_axes, m_frame, m_projection}) {
+            each->setFocusPolicy(Qt::TabFocus);
             row->addWidget(each);
         }
         const std::array modes{std::pair{AxesMode::All, tr("All segments")},
@@ -100,7 +83,6 @@ public:
         }
         m_axes->setMenu(menu);
         m_axes->setPopupMode(QToolButton::InstantPopup);
-        m_frame->setText(tr("Frame  F"));
         connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
         connect(m_projection, &QToolButton::clicked, viewport, &ViewportWidget::toggleProjection);
         connect(viewport, &ViewportWidget::optionsChanged, this,
@@ -168,7 +150,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const QFontMetricsF metrics(painter.font());
     const qreal unit = metrics.height();
     const qreal dot = 0.6 * unit;
-    const QString status = healthSymbol(label.state.health) + QLatin1Char(' ') + label.state.text;
+    const QString status = healthText(label.state.health, label.state.text);
     const qreal width =
         2.4 * unit + dot + metrics.horizontalAdvance(label.name) + metrics.horizontalAdvance(status);
     const qreal height = unit + 8;
@@ -193,7 +175,8 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
 }
 
 void ViewportOverlay::paintCard(QPainter& painter) const {
-    const QFont titleFont = semibold(font());
+    QFont titleFont = font();
+    titleFont.setWeight(QFont::DemiBold);
     const qreal unit = QFontMetricsF(font()).height();
     const qreal most = std::min(0.86 * width(), 34 * unit);
     const QString text = m_card.lines.join(QLatin1Char('\n'));

@@ -3,7 +3,6 @@
 
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/viewport_overlay.h"
-#include "core/log/time.h"
 
 #include <QApplication>
 #include <QMouseEvent>
@@ -149,15 +148,11 @@ void ViewportWidget::setAxes(AxesMode mode) {
     emit optionsChanged();
 }
 
-void ViewportWidget::setProjection(render::Projection projection) {
-    m_motion.setProjection(projection);
+void ViewportWidget::toggleProjection() {
+    m_motion.setProjection(projection() == render::Projection::Perspective ? render::Projection::Orthographic
+                                                                           : render::Projection::Perspective);
     refresh();
     emit optionsChanged();
-}
-
-void ViewportWidget::toggleProjection() {
-    setProjection(projection() == render::Projection::Perspective ? render::Projection::Orthographic
-                                                                  : render::Projection::Perspective);
 }
 
 void ViewportWidget::face(render::StandardView view) {

@@ -34,7 +34,6 @@ public:
 
     void setAxes(AxesMode mode);
     [[nodiscard]] AxesMode axes() const { return m_axes; }
-    void setProjection(render::Projection projection);
     void toggleProjection();
     [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
     void face(render::StandardView view);

@@ -99,7 +99,7 @@ TEST_F(InspectorPanelTest, ShowsBytesOfASegmentAlsoWhereNoFieldDiffers) {
     auto& model = dynamic_cast<FieldModel&>(*fields().model());
     model.setOnlyDifferences(true);
     ASSERT_EQ(model.rowCount(), 0);
-    EXPECT_EQ(fields().emptyText(), "No field differs.");
+    EXPECT_EQ(fields().accessibleDescription(), "No field differs.");
     selectSegment(9);
     EXPECT_EQ(bytes().selected(), bytesOf(9));
     m_panel.compare(InspectorPanel::Comparison::None);

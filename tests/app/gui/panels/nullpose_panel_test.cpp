@@ -57,11 +57,11 @@ protected:
 
 TEST_F(NullPosePanelTest, SaysWhatANullPoseIsWhereThereIsNone) {
     open();
-    EXPECT_TRUE(table("Segments")->emptyText().contains("T-pose"));
+    EXPECT_TRUE(table("Segments")->accessibleDescription().contains("T-pose"));
     EXPECT_EQ(m_panel->summary(), "");
     m_stage.send(smallPose(), 1, 1, Stage::kStart);
     refresh();
-    EXPECT_TRUE(table("Segments")->emptyText().contains("Network Streamer"));
+    EXPECT_TRUE(table("Segments")->accessibleDescription().contains("Network Streamer"));
     EXPECT_FALSE(figure()->isVisible());
 }
 

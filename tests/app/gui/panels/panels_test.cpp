@@ -61,9 +61,9 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnowAndMakesEachOfThem) {
 }
 
 TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {
-    EXPECT_TRUE(table(*open<CharactersPanel>())->emptyText().contains("Network Streamer"));
-    EXPECT_TRUE(table(*open<MetadataPanel>())->emptyText().contains("No character selected"));
-    EXPECT_TRUE(table(*open<TrackersPanel>())->emptyText().contains("type 23"));
+    EXPECT_TRUE(table(*open<CharactersPanel>())->accessibleDescription().contains("Network Streamer"));
+    EXPECT_TRUE(table(*open<MetadataPanel>())->accessibleDescription().contains("No character selected"));
+    EXPECT_TRUE(table(*open<TrackersPanel>())->accessibleDescription().contains("type 23"));
     EXPECT_EQ(open<CharactersPanel>()->summary(), "");
     EXPECT_EQ(open<TrackersPanel>()->summary(), "");
     const auto timecode = open<TimecodePanel>();

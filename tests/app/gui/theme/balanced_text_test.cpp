@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/theme/balanced_text.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QApplication>
 #include <QFont>

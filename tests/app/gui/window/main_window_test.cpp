@@ -233,7 +233,7 @@ TEST_F(MainWindowTest, EntriesShowWhatElsewhereSwitchedOn) {
     EXPECT_TRUE(action(*window, "pause")->isChecked());
     driver.setGhostVisible(true);
     EXPECT_TRUE(action(*window, "ghost")->isChecked());
-    window->viewport().setProjection(render::Projection::Orthographic);
+    window->viewport().toggleProjection();
     EXPECT_TRUE(action(*window, "orthographic")->isChecked());
 }
 
