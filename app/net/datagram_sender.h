@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/net/endpoint.h"
-#include "app/net/net_error.h"
 #include "core/log/clock.h"
 #include "core/log/time.h"
 

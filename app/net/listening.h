@@ -3,7 +3,6 @@
 
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 
 #include <QAbstractSocket>
 #include <QHostAddress>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/addresses.h"
+#include "app/net/endpoint.h"
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/thread_events.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/net/command_queue.h"
+#include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 #include "app/net/packet_queue.h"
 #include "app/net/receiver.h"
 #include "core/log/clock.h"

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/net/command_queue.h"
+#include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/tcp_inputs.h"
 
-#include "app/net/addresses.h"
+#include "app/net/endpoint.h"
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/receiver.h"

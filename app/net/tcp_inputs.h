@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 #include "app/net/packet_queue.h"
 #include "core/log/clock.h"
 #include "core/log/tcp_framer.h"
