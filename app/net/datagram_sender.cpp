@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/datagram_sender.h"
 
-#include "app/net/endpoint.h"
-
 #include <QHostAddress>
 #include <QTcpSocket>
 #include <QUdpSocket>

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/net/endpoint.h"
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 #include "app/net/thread_events.h"
@@ -13,7 +12,7 @@ class QtReceiveLoop final : public ReceiveLoop {
 public:
     explicit QtReceiveLoop(const ReceiveContext& context) : m_context(context) {}
 
-    NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) override;
+    NetResult<void> add(const std::shared_ptr<Input>& input) override;
     void remove(InputId id) override;
     void run() override;
     void wake() override { m_events.wake(); }
@@ -39,14 +38,12 @@ private:
     std::vector<Socket> m_sockets;
 };
 
-NetResult<void> QtReceiveLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
+NetResult<void> QtReceiveLoop::add(const std::shared_ptr<Input>& input) {
     m_events.begin();
-    auto sockets = bindUdp(where, m_context.options.bufferBytes);
+    auto sockets = bindUdp(*input, m_context.options.bufferBytes);
     if (!sockets) {
         return tl::unexpected(sockets.error());
     }
-    input->setEndpoint({where.endpoint.host, sockets->front()->localPort()});
-    input->counters().receiveBufferBytes = receiveBufferBytes(*sockets->front());
     for (auto& socket : *sockets) {
         m_sockets.push_back({input, std::move(socket), std::nullopt});
     }
@@ -116,11 +113,8 @@ bool QtReceiveLoop::takeOne(Socket& socket) {
     } else {
         writer.append(into.first(static_cast<std::size_t>(size)), arrival);
     }
-    const auto bytes = static_cast<std::uint64_t>(size);
-    increase<std::uint64_t>(m_context.counters.datagrams, 1);
-    increase<std::uint64_t>(m_context.counters.bytes, bytes);
-    increase<std::uint64_t>(socket.input->counters().datagrams, 1);
-    increase<std::uint64_t>(socket.input->counters().bytes, bytes);
+    increase(socket.input->counters().datagrams, 1);
+    increase(socket.input->counters().bytes, static_cast<std::uint64_t>(size));
     return true;
 }
 
@@ -140,10 +134,6 @@ std::unique_ptr<ReceiveLoop> makeReceiveLoop(const ReceiveContext& context) {
         return makeRecvmmsgLoop(context);
     }
 #endif
-    return makeQtReceiveLoop(context);
-}
-
-std::unique_ptr<ReceiveLoop> makeQtReceiveLoop(const ReceiveContext& context) {
     return std::make_unique<QtReceiveLoop>(context);
 }
 

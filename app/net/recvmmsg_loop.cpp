@@ -20,7 +20,7 @@ namespace {
 /// time.
 constexpr int kNapsUntilIdle = 200;
 /// Below this, naps cost more than they save.
-constexpr std::chrono::microseconds kShortestNap{500};
+constexpr log::Duration kShortestNap = std::chrono::microseconds(500);
 /// What the kernel charges a socket's buffer for a datagram of usual size (measured for 760 bytes).
 constexpr std::size_t kBufferPerDatagram = 2304;
 /// Batches read from one socket before the others get a turn.
@@ -43,12 +43,9 @@ struct Socket {
 class RecvmmsgLoop final : public ReceiveLoop {
 public:
     explicit RecvmmsgLoop(const ReceiveContext& context)
-        : m_context(context),
-          m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-          m_longestNap(context.options.nap),
-          m_nap(context.options.nap) {}
+        : m_context(context), m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), m_nap(context.options.nap) {}
 
-    NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) override;
+    NetResult<void> add(const std::shared_ptr<Input>& input) override;
     void remove(InputId id) override;
     void run() override;
     void wake() override;
@@ -71,7 +68,6 @@ private:
 
     ReceiveContext m_context;
     Descriptor m_wake;
-    log::Duration m_longestNap;
     log::Duration m_nap;
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
     std::vector<std::unique_ptr<Socket>> m_sockets;
@@ -81,21 +77,18 @@ private:
     log::Moment m_looked{}; ///< when the sockets were last looked at
 };
 
-NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
+NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input) {
     const QEventLoop dispatcher; // Qt's sockets need one in their thread, if only to open
-    const auto bound = bindUdp(where, m_context.options.bufferBytes);
+    const auto bound = bindUdp(*input, m_context.options.bufferBytes);
     if (!bound) {
         return tl::unexpected(bound.error());
     }
-    const std::uint16_t port = bound->front()->localPort();
-    input->setEndpoint({where.endpoint.host, port});
-    input->counters().receiveBufferBytes = receiveBufferBytes(*bound->front());
     for (const auto& socket : *bound) {
         // A descriptor of our own, without Qt's notifiers; Qt closes its own at the end of this turn.
         Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
         prepare(descriptor.get());
-        m_sockets.push_back(std::unique_ptr<Socket>(
-            new Socket{input, std::move(descriptor), SenderCache(m_context.log.senders(), port)}));
+        m_sockets.push_back(std::unique_ptr<Socket>(new Socket{
+            input, std::move(descriptor), SenderCache(m_context.log.senders(), socket->localPort())}));
     }
     measureBuffers();
     return {};
@@ -177,10 +170,8 @@ std::size_t RecvmmsgLoop::drain(Socket& socket) {
         total += count;
         if (count > 0) {
             writer.publish();
-            increase<std::uint64_t>(m_context.counters.datagrams, count);
-            increase<std::uint64_t>(m_context.counters.bytes, bytes);
-            increase<std::uint64_t>(socket.input->counters().datagrams, count);
-            increase<std::uint64_t>(socket.input->counters().bytes, bytes);
+            increase(socket.input->counters().datagrams, count);
+            increase(socket.input->counters().bytes, bytes);
         }
         if (count < lanes.size()) {
             break;
@@ -214,8 +205,7 @@ void RecvmmsgLoop::countDrops(Socket& socket, std::uint32_t drops) {
     const auto more = static_cast<std::int32_t>(drops - socket.dropsCounted);
     if (more > 0) {
         socket.dropsCounted = drops;
-        increase<std::uint64_t>(m_context.counters.kernelDropped, static_cast<std::uint64_t>(more));
-        increase<std::uint64_t>(socket.input->counters().kernelDropped, static_cast<std::uint64_t>(more));
+        increase(socket.input->counters().kernelDropped, static_cast<std::uint64_t>(more));
     }
 }
 
@@ -270,9 +260,9 @@ void RecvmmsgLoop::checkAllDrops() {
 /// buffer.
 void RecvmmsgLoop::adaptNap(std::size_t received) {
     if (received * kBufferPerDatagram > m_smallestBuffer / 8) {
-        m_nap = std::max<log::Duration>(m_nap / 2, std::min<log::Duration>(kShortestNap, m_longestNap));
+        m_nap = std::max(m_nap / 2, std::min(kShortestNap, m_context.options.nap));
     } else {
-        m_nap = std::min(m_nap + m_nap / 4, m_longestNap);
+        m_nap = std::min(m_nap + m_nap / 4, m_context.options.nap);
     }
 }
 
@@ -288,7 +278,7 @@ void RecvmmsgLoop::rest(std::size_t received) {
     std::this_thread::sleep_for(m_nap);
     const log::Moment now = m_context.clock.monotonic();
     const log::Duration delay = now - std::exchange(m_looked, now);
-    m_isDelayed = delay > 2 * m_longestNap;
+    m_isDelayed = delay > 2 * m_context.options.nap;
     if (delay > m_context.counters.longestDelay.load(std::memory_order_relaxed)) {
         m_context.counters.longestDelay.store(delay, std::memory_order_relaxed);
     }
