@@ -5,7 +5,6 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/window/reference_window.h"
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/texts.h"
 #include "core/export/protocol_reference.h"
