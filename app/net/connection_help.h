@@ -80,7 +80,4 @@ struct Finding {
 /// with few fixed bytes.
 [[nodiscard]] std::string protocolThatBegins(std::span<const std::byte> bytes);
 
-/// "4d 58 54 50  MXTP", at most 16 bytes, with dots for unprintable ones.
-[[nodiscard]] std::string shownBytes(std::span<const std::byte> bytes);
-
 } // namespace posewire::net

@@ -79,16 +79,15 @@ struct InputStatus {
 /// An input as its threads share it.
 class Input {
 public:
-    Input(InputId id, InputKind kind, const Endpoint& endpoint, std::vector<std::string> groups = {})
-        : m_id(id), m_kind(kind) {
+    Input(InputId id, InputKind kind, const Endpoint& endpoint, std::vector<std::string> groups = {}) {
         m_status.id = id;
         m_status.kind = kind;
         m_status.endpoint = endpoint;
         m_status.groups = std::move(groups);
     }
 
-    [[nodiscard]] InputId id() const { return m_id; }
-    [[nodiscard]] InputKind kind() const { return m_kind; }
+    [[nodiscard]] InputId id() const { return m_status.id; }
+    [[nodiscard]] InputKind kind() const { return m_status.kind; }
     [[nodiscard]] InputCounters& counters() { return m_counters; }
 
     // From any thread.
@@ -118,10 +117,8 @@ public:
     }
 
 private:
-    const InputId m_id;
-    const InputKind m_kind;
     InputCounters m_counters;
-    mutable std::mutex m_mutex; ///< guards m_status
+    mutable std::mutex m_mutex; ///< guards m_status but for id and kind, which never change
     InputStatus m_status;       ///< but for the counters
 };
 

@@ -18,10 +18,6 @@ namespace {
 using Kind = NetError::Kind;
 namespace fs = std::filesystem;
 
-unsigned long portOf(const std::string& hexadecimal) {
-    return std::strtoul(hexadecimal.c_str(), nullptr, 16);
-}
-
 /// Targets of the links in /proc/PID/fd that belong to sockets that listen on the port, from one of the
 /// kernel's tables.
 void collectSockets(const std::string& table, std::string_view state, std::uint16_t port,
@@ -39,7 +35,7 @@ void collectSockets(const std::string& table, std::string_view state, std::uint1
         columns >> inode;
         const std::size_t colon = local.rfind(':');
         if (columns && stateNow == state && colon != std::string::npos &&
-            portOf(local.substr(colon + 1)) == port) {
+            std::strtoul(local.c_str() + colon + 1, nullptr, 16) == port) {
             sockets.push_back("socket:[" + inode + "]");
         }
     }

@@ -155,13 +155,12 @@ std::optional<double> Receiver::cpuSeconds() {
 }
 
 std::optional<double> Receiver::takeBufferFill() {
-    constexpr double kThousand = 1000;
     const std::int32_t fill = m_counters.bufferFill;
     if (fill < 0) {
         return std::nullopt;
     }
     m_counters.bufferFill = 0;
-    return fill / kThousand;
+    return fill / 1000.0;
 }
 
 bool Receiver::submit(std::span<const std::byte> bytes, const log::SenderInfo& sender,
