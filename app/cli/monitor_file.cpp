@@ -26,9 +26,8 @@ public:
         }
         const log::Stamp stamp =
             record.stamp ? *record.stamp : log::Stamp(m_pacer.due(record.bytes, std::nullopt));
-        m_first = m_hasBegun ? m_first : stamp;
-        m_hasBegun = true;
-        m_isDone = stamp - m_first > m_longest || m_run.isOver() || !m_recorded;
+        m_first = m_first.value_or(stamp);
+        m_isDone = stamp - *m_first > m_longest || m_run.isOver() || !m_recorded;
         if (m_isDone) {
             return;
         }
@@ -54,7 +53,7 @@ public:
         m_run.show(durationS());
     }
 
-    [[nodiscard]] double durationS() const { return log::secondsOf(m_last - m_first); }
+    [[nodiscard]] double durationS() const { return log::secondsOf(m_last - m_first.value_or(m_last)); }
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
 
 private:
@@ -64,9 +63,8 @@ private:
     const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
-    log::Stamp m_first{};
+    std::optional<log::Stamp> m_first;
     log::Stamp m_last{};
-    bool m_hasBegun = false;
     bool m_isDone = false;
     log::Recorder::Result m_recorded;
 };
