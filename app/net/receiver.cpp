@@ -163,9 +163,4 @@ std::optional<double> Receiver::takeBufferFill() {
     return fill / 1000.0;
 }
 
-bool Receiver::submit(std::span<const std::byte> bytes, const log::SenderInfo& sender,
-                      const log::Arrival& arrival) {
-    return m_queue.push(bytes, sender, arrival);
-}
-
 } // namespace posewire::net

@@ -99,7 +99,10 @@ public:
 
     /// Queues a packet for the log, once there is room; `arrival.sender` need not be set. False only when the
     /// receiver stops.
-    bool submit(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
+    bool submit(std::span<const std::byte> bytes, const log::SenderInfo& sender,
+                const log::Arrival& arrival) {
+        return m_queue.push(bytes, sender, arrival);
+    }
 
     /// Returns once everything submitted before is in the log.
     void flush();
