@@ -61,50 +61,39 @@ CLI::Validator between(T least, T most) {
 } // namespace
 
 Option Option::form(const std::string& name) {
-    m_option->type_name(name);
-    return *this;
+    return Option(*m_option->type_name(name));
 }
 Option Option::group(const std::string& title) {
-    m_option->group(title);
-    return *this;
+    return Option(*m_option->group(title));
 }
 Option Option::required() {
-    m_option->required();
-    return *this;
+    return Option(*m_option->required());
 }
 Option Option::repeatable() {
-    m_option->expected(1)->take_all();
-    return *this;
+    return Option(*m_option->expected(1)->take_all());
 }
 Option Option::showDefault() {
-    m_option->capture_default_str();
-    return *this;
+    return Option(*m_option->capture_default_str());
 }
 Option Option::notNegative() {
-    m_option->check(checked(
-        CLI::NonNegativeNumber, [](double value) { return value >= 0.0; }, "a number from 0 up"));
-    return *this;
+    return Option(*m_option->check(checked(
+        CLI::NonNegativeNumber, [](double value) { return value >= 0.0; }, "a number from 0 up")));
 }
 Option Option::positive() {
-    m_option->check(checked(
-        CLI::PositiveNumber, [](double value) { return value > 0.0; }, "a number greater than 0"));
-    return *this;
+    return Option(*m_option->check(checked(
+        CLI::PositiveNumber, [](double value) { return value > 0.0; }, "a number greater than 0")));
 }
 Option Option::within(int least, int most) {
-    m_option->check(between(least, most));
-    return *this;
+    return Option(*m_option->check(between(least, most)));
 }
 Option Option::within(double least, double most) {
-    m_option->check(between(least, most));
-    return *this;
+    return Option(*m_option->check(between(least, most)));
 }
 Option Option::needs(Option other) {
-    m_option->needs(other.m_option);
-    return *this;
+    return Option(*m_option->needs(other.m_option));
 }
 Option Option::excludes(Option other) {
-    m_option->excludes(other.m_option);
-    return *this;
+    return Option(*m_option->excludes(other.m_option));
 }
 
 template <class T>

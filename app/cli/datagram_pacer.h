@@ -3,9 +3,12 @@
 
 #include "core/log/time.h"
 #include "core/wire/header.h"
+#include "core/wire/type_table.h"
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 namespace posewire::cli {
 
@@ -17,17 +20,41 @@ public:
         : m_period(std::chrono::duration<double>(periodSeconds)), m_speed(speed) {}
 
     /// How long after the start this datagram, the next of the recording, is due.
-    log::Duration due(wire::Bytes datagram, std::optional<log::Stamp> stamp);
+    log::Duration due(wire::Bytes datagram, std::optional<log::Stamp> stamp) {
+        m_now += step(datagram, stamp) / m_speed;
+        return std::chrono::duration_cast<log::Duration>(m_now);
+    }
 
     /// The recording begins again, one period after its last datagram.
-    void beginAgain();
+    void beginAgain() {
+        m_now += m_period / m_speed;
+        m_stamp.reset();
+        m_previous.reset();
+    }
 
 private:
     /// Fractions count: rounded steps would add up to drift.
     using Nanoseconds = std::chrono::duration<double, std::nano>;
 
-    [[nodiscard]] Nanoseconds step(wire::Bytes datagram, std::optional<log::Stamp> stamp);
-    [[nodiscard]] Nanoseconds stepByHeader(const wire::Header& header);
+    Nanoseconds step(wire::Bytes datagram, std::optional<log::Stamp> stamp) {
+        if (stamp) {
+            const log::Stamp before = m_stamp.value_or(*stamp);
+            m_stamp = stamp;
+            return std::max(*stamp - before, log::Duration::zero());
+        }
+        const auto header = wire::decodeHeader(datagram);
+        return header && wire::isSampled(header->type()) ? stepByHeader(*header) : Nanoseconds::zero();
+    }
+
+    Nanoseconds stepByHeader(const wire::Header& header) {
+        constexpr std::chrono::seconds longestPause(2);
+        const auto before = std::exchange(m_previous, header);
+        if (!before || before->sampleCounter == header.sampleCounter) {
+            return Nanoseconds::zero();
+        }
+        const std::chrono::milliseconds elapsed(header.timeCode - before->timeCode); // modulo 2³²
+        return elapsed != elapsed.zero() && elapsed <= longestPause ? elapsed : m_period;
+    }
 
     Nanoseconds m_period;
     double m_speed;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
+#include "app/cli/live_table.h"
 #include "core/export/json.h"
 #include "core/filter/filter.h"
 #include "core/log/recording_file.h"
@@ -15,12 +16,8 @@
 namespace posewire::cli {
 namespace {
 
-void pad(std::string& text, std::size_t width) {
-    text.append(text.size() < width ? width - text.size() : 0, ' ');
-}
-
 /// Line ends and other control characters of the sender must not reach the terminal.
-std::string printable(const std::string& value) {
+std::string withoutControls(const std::string& value) {
     std::string text;
     for (const char character : value) {
         if (character == '\n') {
@@ -39,8 +36,8 @@ std::string row(const wire::FieldNode& node, std::size_t depth) {
     line.insert(0, line.size() < offsetWidth ? offsetWidth - line.size() : 0, ' ');
     line.append(2 + 2 * depth, ' ').append(node.name);
     if (!node.value.empty()) {
-        pad(line, offsetWidth + 2 + nameWidth);
-        line.append("  ").append(printable(node.value));
+        line.resize(std::max(line.size(), offsetWidth + 2 + nameWidth), ' ');
+        line.append("  ").append(withoutControls(node.value));
         line.append(wire::unitSymbol(node.unit).empty() ? "" : "  ").append(wire::unitSymbol(node.unit));
     }
     return line + '\n';
@@ -97,21 +94,13 @@ private:
     std::optional<log::Stamp> m_firstStamp;
 };
 
-/// Counts characters, not bytes, so that the caret is in the right place.
-std::size_t charactersOf(std::string_view text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
-        return (static_cast<unsigned char>(byte) & 0xc0) != 0x80;
-    }));
-}
-
 /// Why a filter was rejected, in three lines: the reason, the filter, and a caret under the place.
 std::string markedError(std::string_view text, const filter::FilterError& error) {
     std::string line(text);
     std::replace_if(
         line.begin(), line.end(), [](char c) { return c == '\n' || c == '\t' || c == '\r'; }, ' ');
-    const std::size_t before = charactersOf(text.substr(0, error.offset));
-    const std::size_t marked =
-        std::max<std::size_t>(1, charactersOf(text.substr(error.offset, error.length)));
+    const std::size_t before = widthOf(text.substr(0, error.offset));
+    const std::size_t marked = std::max<std::size_t>(1, widthOf(text.substr(error.offset, error.length)));
     return "--filter: " + error.text + "\n  " + line + "\n  " + std::string(before, ' ') +
            std::string(marked, '^');
 }

@@ -49,10 +49,18 @@ private:
     bool m_hasFaults = false;
 };
 
-ExitStatus encodeLines(log::ByteSource& source, Output& out, Console& console) {
-    LineReader lines(source);
-    LineEncoder encoder(out, console, source.name());
-    while (out.isWanted()) {
+ExitStatus encode(const EncodeOptions& options, Console& console) {
+    const auto source = openInput(options.input);
+    if (!source) {
+        return console.unusable(source.error().text);
+    }
+    auto out = Output::open(options.output);
+    if (!out) {
+        return console.unusable(out.error());
+    }
+    LineReader lines(**source);
+    LineEncoder encoder(*out, console, (*source)->name());
+    while (out->isWanted()) {
         const auto line = lines.next();
         if (!line) {
             return console.unusable(line.error().text);
@@ -63,22 +71,10 @@ ExitStatus encodeLines(log::ByteSource& source, Output& out, Console& console) {
         encoder.encode(**line, lines.lineNumber());
     }
     const ExitStatus status = encoder.conclude();
-    if (const auto finished = out.finish(); !finished) {
+    if (const auto finished = out->finish(); !finished) {
         return console.unusable(finished.error());
     }
     return status;
-}
-
-ExitStatus encode(const EncodeOptions& options, Console& console) {
-    const auto source = openInput(options.input);
-    if (!source) {
-        return console.unusable(source.error().text);
-    }
-    auto out = Output::open(options.output);
-    if (!out) {
-        return console.unusable(out.error());
-    }
-    return encodeLines(**source, *out, console);
 }
 
 } // namespace

@@ -44,10 +44,6 @@ bool isContinuation(char byte) {
     return (static_cast<unsigned char>(byte) & 0xc0U) == 0x80U;
 }
 
-std::size_t widthOf(std::string_view text) {
-    return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, isContinuation));
-}
-
 /// At most `most` characters.
 std::string_view cut(std::string_view text, std::size_t most) {
     std::size_t at = 0;
@@ -104,6 +100,10 @@ std::string summaryLine(const model::SessionView& session, double elapsedS) {
 }
 
 } // namespace
+
+std::size_t widthOf(std::string_view text) {
+    return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, isContinuation));
+}
 
 std::string printable(std::string_view text) {
     std::string result;

@@ -15,6 +15,9 @@ namespace posewire::cli {
 /// Characters as they may be printed: what controls a terminal, or is no UTF-8, becomes "?".
 [[nodiscard]] std::string printable(std::string_view text);
 
+/// How many characters of UTF-8 a text has.
+[[nodiscard]] std::size_t widthOf(std::string_view text);
+
 /// Shows tables one after another: over each other on a terminal, else as blocks of lines.
 class LiveDisplay {
 public:

@@ -13,7 +13,7 @@ namespace {
 /// there are none, time codes space them.
 class Replay {
 public:
-    Replay(const MonitorOptions& options, MonitorRun& run, log::Recorder* recorder)
+    Replay(const MonitorOptions& options, MonitorRun& run, std::optional<log::Recorder>& recorder)
         : m_run(run),
           m_recorder(recorder),
           m_name(std::filesystem::path(options.file).filename().string()),
@@ -26,9 +26,8 @@ public:
         }
         const log::Stamp stamp =
             record.stamp ? *record.stamp : log::Stamp(m_pacer.due(record.bytes, std::nullopt));
-        m_first = m_hasBegun ? m_first : stamp;
-        m_hasBegun = true;
-        m_isDone = stamp - m_first > m_longest || m_run.isOver() || !m_recorded;
+        m_first = m_first.value_or(stamp);
+        m_isDone = stamp - *m_first > m_longest || m_run.isOver() || !m_recorded;
         if (m_isDone) {
             return;
         }
@@ -48,50 +47,27 @@ public:
         m_waiting = 0;
         m_run.log().writer().publish();
         m_run.follow(m_last);
-        if (m_recorder != nullptr && m_recorded) {
+        if (m_recorder && m_recorded) {
             m_recorded = m_recorder->follow();
         }
         m_run.show(durationS());
     }
 
-    [[nodiscard]] double durationS() const { return log::secondsOf(m_last - m_first); }
+    [[nodiscard]] double durationS() const { return log::secondsOf(m_last - m_first.value_or(m_last)); }
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
 
 private:
     MonitorRun& m_run;
-    log::Recorder* m_recorder;
+    std::optional<log::Recorder>& m_recorder;
     const std::string m_name;
     const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
-    log::Stamp m_first{};
+    std::optional<log::Stamp> m_first;
     log::Stamp m_last{};
-    bool m_hasBegun = false;
     bool m_isDone = false;
     log::Recorder::Result m_recorded;
 };
-
-/// The file that was asked for, or none.
-struct RecordFile {
-    std::unique_ptr<log::ByteSink> sink;
-    std::unique_ptr<log::Recorder> recorder;
-};
-
-tl::expected<RecordFile, log::FileError> recordFile(const std::string& path, MonitorRun& run) {
-    if (path.empty()) {
-        return RecordFile{};
-    }
-    auto sink = log::createFile(path);
-    if (!sink) {
-        return tl::unexpected(sink.error());
-    }
-    RecordFile file{std::move(*sink), nullptr};
-    file.recorder = std::make_unique<log::Recorder>(run.log(), *file.sink);
-    if (const auto begun = file.recorder->begin(recordingInfo()); !begun) {
-        return tl::unexpected(begun.error());
-    }
-    return file;
-}
 
 } // namespace
 
@@ -101,16 +77,25 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
         return console.unusable(file.error().text);
     }
     MonitorRun run(options, console);
-    auto recording = recordFile(options.record, run);
-    if (!recording) {
-        return console.unusable(recording.error().text);
+    std::unique_ptr<log::ByteSink> sink;
+    std::optional<log::Recorder> recorder;
+    if (!options.record.empty()) {
+        auto created = log::createFile(options.record);
+        if (!created) {
+            return console.unusable(created.error().text);
+        }
+        sink = std::move(*created);
+        recorder.emplace(run.log(), *sink);
+        if (const auto begun = recorder->begin(recordingInfo()); !begun) {
+            return console.unusable(begun.error().text);
+        }
     }
-    Replay replay(options, run, recording->recorder.get());
+    Replay replay(options, run, recorder);
     const auto read = log::readFile(**file, std::ref(replay));
     replay.flush();
     log::Recorder::Result recorded = replay.recorded();
-    if (recording->recorder && recorded) {
-        recorded = recording->recorder->finish();
+    if (recorder && recorded) {
+        recorded = recorder->finish();
     }
     ExitStatus status = ExitStatus::Fine;
     for (const auto& result : {read, recorded}) {

@@ -141,10 +141,9 @@ tl::expected<Places, std::string> placesOf(const MonitorOptions& options) {
 }
 
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
-    const auto unusable = [&](const std::string& complaint) { return console.unusable(complaint); };
     const auto places = placesOf(options);
     if (!places) {
-        return unusable(places.error());
+        return console.unusable(places.error());
     }
     // Qt's sockets want an application to be there.
     std::string name = "posewire-cli";
@@ -158,13 +157,13 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     if (!options.record.empty()) {
         auto started = log::Recording::start(run.log(), options.record, recordingInfo());
         if (!started) {
-            return unusable(started.error().text);
+            return console.unusable(started.error().text);
         }
         recording = std::move(*started);
     }
     auto receiver = std::make_unique<net::Receiver>(run.log(), clock);
     if (const auto opened = open(*receiver, *places); !opened) {
-        return unusable(opened.error().text);
+        return console.unusable(opened.error().text);
     }
     RecordingWatch recordingWatch(std::move(recording), console);
     exporting::MonitorFacts facts;

@@ -25,6 +25,8 @@ public:
         net::DatagramSender sender;
         performer::Truth datagrams;        ///< used by UDP
         performer::StreamedTruth streamed; ///< used by TCP
+
+        [[nodiscard]] const performer::Truth& truth() const { return isTcp ? streamed.truth() : datagrams; }
     };
 
     static net::NetResult<SendLine> open(const std::vector<net::SendTarget>& targets,

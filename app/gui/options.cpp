@@ -52,16 +52,6 @@ void describe(QCommandLineParser& parser) {
     });
 }
 
-/// QCommandLineParser knows no optional values: "--demo" alone is completed.
-QStringList completed(QStringList arguments) {
-    for (QString& argument : arguments) {
-        if (argument == QLatin1String("--demo")) {
-            argument = QStringLiteral("--demo=2");
-        }
-    }
-    return arguments;
-}
-
 /// Reads options into their places. What is wrong with the first bad one is kept.
 struct Reader {
     const QCommandLineParser& parser;
@@ -191,7 +181,10 @@ std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoice
 tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {
     QCommandLineParser parser;
     describe(parser);
-    if (!parser.parse(completed(arguments))) {
+    // QCommandLineParser knows no optional values: "--demo" alone is completed.
+    QStringList completed = arguments;
+    std::ranges::replace(completed, QStringLiteral("--demo"), QStringLiteral("--demo=2"));
+    if (!parser.parse(completed)) {
         return wrong(parser.errorText());
     }
     if (parser.isSet(QStringLiteral("help"))) {

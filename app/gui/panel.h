@@ -49,6 +49,11 @@ struct ActionsOf {
     static bool is(const QWidget& owner) {
         return std::invoke(function, static_cast<const Owner&>(owner)) == value;
     }
+    /// The same with a part of the owner.
+    template <auto part, auto function, auto value = true>
+    static bool isIn(const QWidget& owner) {
+        return std::invoke(function, std::invoke(part, static_cast<const Owner&>(owner))) == value;
+    }
 };
 
 /// Adds the entries of a table that belong to the menu at the path `from`, as they are now.

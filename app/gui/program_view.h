@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/gui/input_choices.h"
-#include "app/net/addresses.h"
 #include "app/net/connection_help.h"
+#include "app/net/endpoint.h"
 #include "app/net/input.h"
 #include "core/log/time.h"
 

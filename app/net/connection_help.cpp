@@ -51,6 +51,22 @@ bool isQualisys(Bytes bytes) {
            at(bytes, 5) == 0 && at(bytes, 6) == 0 && at(bytes, 7) <= 9 && at(bytes, 2) + at(bytes, 3) != 0;
 }
 
+/// "4d 58 54 50  MXTP", at most 16 bytes, with dots for unprintable ones.
+std::string shownBytes(Bytes bytes) {
+    constexpr std::size_t kShown = 16;
+    constexpr std::string_view kDigits = "0123456789abcdef";
+    std::string hexadecimal;
+    std::string readable;
+    for (const std::byte byte : bytes.first(std::min(bytes.size(), kShown))) {
+        const auto value = std::to_integer<unsigned char>(byte);
+        hexadecimal += kDigits[value >> 4];
+        hexadecimal += kDigits[value & 0xf];
+        hexadecimal += ' ';
+        readable += value >= ' ' && value <= '~' ? static_cast<char>(value) : '.';
+    }
+    return hexadecimal + ' ' + readable;
+}
+
 namespace fs = std::filesystem;
 
 bool hasLine(const fs::path& file, const std::string& wanted) {
@@ -265,21 +281,6 @@ std::string protocolThatBegins(Bytes bytes) {
         return "Vicon's object stream";
     }
     return isQualisys(bytes) ? "Qualisys QTM's real-time protocol" : std::string();
-}
-
-std::string shownBytes(Bytes bytes) {
-    constexpr std::size_t kShown = 16;
-    constexpr std::string_view kDigits = "0123456789abcdef";
-    std::string hexadecimal;
-    std::string readable;
-    for (const std::byte byte : bytes.first(std::min(bytes.size(), kShown))) {
-        const auto value = std::to_integer<unsigned char>(byte);
-        hexadecimal += kDigits[value >> 4];
-        hexadecimal += kDigits[value & 0xf];
-        hexadecimal += ' ';
-        readable += value >= ' ' && value <= '~' ? static_cast<char>(value) : '.';
-    }
-    return hexadecimal + ' ' + readable;
 }
 
 std::optional<Firewall> findFirewall(const std::string& root) {

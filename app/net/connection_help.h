@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/net/addresses.h"
+#include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 #include "core/log/time.h"
 
 #include <cstddef>
@@ -80,8 +79,5 @@ struct Finding {
 /// "NatNet (OptiTrack Motive)". Empty if they resemble nothing known. Only a guess: these protocols begin
 /// with few fixed bytes.
 [[nodiscard]] std::string protocolThatBegins(std::span<const std::byte> bytes);
-
-/// "4d 58 54 50  MXTP", at most 16 bytes, with dots for unprintable ones.
-[[nodiscard]] std::string shownBytes(std::span<const std::byte> bytes);
 
 } // namespace posewire::net

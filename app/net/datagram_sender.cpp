@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/datagram_sender.h"
 
-#include "app/net/addresses.h"
-
-#include <QHostAddress>
 #include <QTcpSocket>
 #include <QUdpSocket>
 
@@ -39,96 +36,8 @@ log::Duration SendSchedule::waitUntil(log::Duration afterStart) {
     }
 }
 
-/// By UDP or by TCP.
-class DatagramSender::Channel {
-public:
-    virtual ~Channel() = default;
-    /// False if the datagram was refused for good.
-    virtual NetResult<bool> send(const char* bytes, qint64 size) = 0;
-    virtual NetResult<void> flush() = 0;
-    [[nodiscard]] virtual std::string localAddress() const = 0;
-};
-
-class DatagramSender::UdpChannel final : public Channel {
-public:
-    UdpChannel(const QHostAddress& address, quint16 port) : m_address(address), m_port(port) {
-        const bool isIpv4 = m_address.protocol() == QAbstractSocket::IPv4Protocol;
-        m_socket.bind(isIpv4 ? QHostAddress::AnyIPv4 : QHostAddress::AnyIPv6, 0);
-    }
-
-    NetResult<bool> send(const char* bytes, qint64 size) override {
-        return m_socket.writeDatagram(bytes, size, m_address, m_port) == size;
-    }
-    NetResult<void> flush() override { return {}; }
-
-    /// The system chooses the local address when it sends; connecting a socket without sending reveals it.
-    [[nodiscard]] std::string localAddress() const override {
-        QUdpSocket probe;
-        probe.connectToHost(m_address, m_port);
-        const QHostAddress address = probe.waitForConnected(0) ? probe.localAddress() : QHostAddress();
-        return addressOf(address.isNull() ? m_socket.localAddress() : address, m_socket.localPort());
-    }
-
-private:
-    QUdpSocket m_socket;
-    QHostAddress m_address;
-    quint16 m_port;
-};
-
-class DatagramSender::TcpChannel final : public Channel {
-public:
-    explicit TcpChannel(Endpoint endpoint) : m_endpoint(std::move(endpoint)) {}
-
-    NetResult<void> connect(const QHostAddress& address) {
-        m_socket.connectToHost(address, m_endpoint.port);
-        if (!m_socket.waitForConnected(kPatienceMs)) {
-            return netError(NetError::Kind::NotConnected,
-                            "cannot connect to " + net::textOf(m_endpoint) +
-                                " by TCP: " + m_socket.errorString().toStdString() +
-                                "; start the receiver first and check address and port");
-        }
-        m_socket.setSocketOption(QAbstractSocket::LowDelayOption, 1);
-        return {};
-    }
-
-    NetResult<bool> send(const char* bytes, qint64 size) override {
-        if (m_socket.write(bytes, size) != size) {
-            return ended();
-        }
-        m_socket.flush();
-        if (const auto written = waitUntilUnsent(kMostUnsent); !written) {
-            return tl::unexpected(written.error());
-        }
-        return m_socket.state() == QAbstractSocket::ConnectedState ? NetResult<bool>(true) : ended();
-    }
-
-    NetResult<void> flush() override { return waitUntilUnsent(0); }
-
-    [[nodiscard]] std::string localAddress() const override {
-        return addressOf(m_socket.localAddress(), m_socket.localPort());
-    }
-
-private:
-    /// Waits until at most this many bytes are unsent.
-    NetResult<void> waitUntilUnsent(qint64 most) {
-        while (m_socket.bytesToWrite() > most) {
-            if (!m_socket.waitForBytesWritten(kPatienceMs)) {
-                return ended();
-            }
-        }
-        return {};
-    }
-    [[nodiscard]] tl::unexpected<NetError> ended() const {
-        return netError(NetError::Kind::NotConnected, "the TCP connection to " + net::textOf(m_endpoint) +
-                                                          " ended: " + m_socket.errorString().toStdString() +
-                                                          "; restart the receiver and connect again");
-    }
-
-    Endpoint m_endpoint;
-    QTcpSocket m_socket;
-};
-
-DatagramSender::DatagramSender() = default;
+DatagramSender::DatagramSender(const Endpoint& target, const QHostAddress& address)
+    : m_target(target), m_address(address) {}
 DatagramSender::DatagramSender(DatagramSender&&) noexcept = default;
 DatagramSender& DatagramSender::operator=(DatagramSender&&) noexcept = default;
 DatagramSender::~DatagramSender() = default;
@@ -138,35 +47,75 @@ NetResult<DatagramSender> DatagramSender::connect(const SendTarget& target) {
     if (!address) {
         return tl::unexpected(address.error());
     }
-    DatagramSender sender;
+    DatagramSender sender(target.endpoint, *address);
     if (target.transport == SendTarget::Transport::Udp) {
-        sender.m_channel = std::make_unique<UdpChannel>(*address, target.endpoint.port);
+        const bool isIpv4 = address->protocol() == QAbstractSocket::IPv4Protocol;
+        sender.m_udp = std::make_unique<QUdpSocket>();
+        sender.m_udp->bind(isIpv4 ? QHostAddress::AnyIPv4 : QHostAddress::AnyIPv6, 0);
         return sender;
     }
-    auto channel = std::make_unique<TcpChannel>(target.endpoint);
-    if (auto connected = channel->connect(*address); !connected) {
-        return tl::unexpected(connected.error());
+    sender.m_tcp = std::make_unique<QTcpSocket>();
+    sender.m_tcp->connectToHost(*address, target.endpoint.port);
+    if (!sender.m_tcp->waitForConnected(kPatienceMs)) {
+        return netError(NetError::Kind::NotConnected,
+                        "cannot connect to " + textOf(target.endpoint) +
+                            " by TCP: " + sender.m_tcp->errorString().toStdString() +
+                            "; start the receiver first and check address and port");
     }
-    sender.m_channel = std::move(channel);
+    sender.m_tcp->setSocketOption(QAbstractSocket::LowDelayOption, 1);
     return sender;
 }
 
 NetResult<void> DatagramSender::send(std::span<const std::byte> datagram) {
-    const auto taken =
-        m_channel->send(reinterpret_cast<const char*>(datagram.data()), static_cast<qint64>(datagram.size()));
-    if (!taken) {
-        return tl::unexpected(taken.error());
+    const char* bytes = reinterpret_cast<const char*>(datagram.data());
+    const auto size = static_cast<qint64>(datagram.size());
+    if (m_udp) {
+        ++(m_udp->writeDatagram(bytes, size, m_address, m_target.port) == size ? m_sent : m_refused);
+        return {};
     }
-    ++(*taken ? m_sent : m_refused);
+    if (m_tcp->write(bytes, size) != size) {
+        return ended();
+    }
+    m_tcp->flush();
+    if (auto written = waitUntilUnsent(kMostUnsent); !written) {
+        return written;
+    }
+    if (m_tcp->state() != QAbstractSocket::ConnectedState) {
+        return ended();
+    }
+    ++m_sent;
     return {};
 }
 
 NetResult<void> DatagramSender::flush() {
-    return m_channel->flush();
+    return m_tcp ? waitUntilUnsent(0) : NetResult<void>();
+}
+
+/// Waits until TCP has at most this many bytes left to send.
+NetResult<void> DatagramSender::waitUntilUnsent(qint64 most) {
+    while (m_tcp->bytesToWrite() > most) {
+        if (!m_tcp->waitForBytesWritten(kPatienceMs)) {
+            return ended();
+        }
+    }
+    return {};
+}
+
+tl::unexpected<NetError> DatagramSender::ended() const {
+    return netError(NetError::Kind::NotConnected, "the TCP connection to " + textOf(m_target) +
+                                                      " ended: " + m_tcp->errorString().toStdString() +
+                                                      "; restart the receiver and connect again");
 }
 
 std::string DatagramSender::localAddress() const {
-    return m_channel->localAddress();
+    if (m_tcp) {
+        return addressOf(m_tcp->localAddress(), m_tcp->localPort());
+    }
+    // The system chooses the local address when it sends; connecting a socket without sending reveals it.
+    QUdpSocket probe;
+    probe.connectToHost(m_address, m_target.port);
+    const QHostAddress address = probe.waitForConnected(0) ? probe.localAddress() : QHostAddress();
+    return addressOf(address.isNull() ? m_udp->localAddress() : address, m_udp->localPort());
 }
 
 } // namespace posewire::net

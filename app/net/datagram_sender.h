@@ -2,9 +2,10 @@
 #pragma once
 
 #include "app/net/endpoint.h"
-#include "app/net/net_error.h"
 #include "core/log/clock.h"
 #include "core/log/time.h"
+
+#include <QHostAddress>
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,9 @@
 #include <memory>
 #include <span>
 #include <string>
+
+class QTcpSocket;
+class QUdpSocket;
 
 namespace posewire::net {
 
@@ -68,13 +72,14 @@ public:
     [[nodiscard]] std::uint64_t refused() const { return m_refused; } ///< datagrams that the system refused
 
 private:
-    class Channel;
-    class UdpChannel;
-    class TcpChannel;
+    DatagramSender(const Endpoint& target, const QHostAddress& address);
+    NetResult<void> waitUntilUnsent(qint64 most);
+    [[nodiscard]] tl::unexpected<NetError> ended() const;
 
-    DatagramSender();
-
-    std::unique_ptr<Channel> m_channel;
+    Endpoint m_target;
+    QHostAddress m_address; ///< of the target
+    std::unique_ptr<QUdpSocket> m_udp;
+    std::unique_ptr<QTcpSocket> m_tcp; ///< there is one of the two
     std::uint64_t m_sent = 0;
     std::uint64_t m_refused = 0;
 };

@@ -1,13 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/net/net_error.h"
+#include <tl/expected.hpp>
 
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
+class QHostAddress;
+
+/// Where sockets are, in words and as addresses, and why one cannot be there.
 namespace posewire::net {
+
+/// Why a network operation failed.
+struct NetError {
+    enum class Kind : std::uint8_t {
+        PortInUse,
+        NoPermission,
+        AddressNotHere,
+        HostNotFound,
+        NotConnected,
+        BadEndpoint,
+        Other
+    };
+    Kind kind = Kind::Other;
+    std::string text; ///< what, where, what to do: one line for the operator
+};
+
+template <typename T>
+using NetResult = tl::expected<T, NetError>;
+
+inline tl::unexpected<NetError> netError(NetError::Kind kind, std::string text) {
+    return tl::unexpected(NetError{kind, std::move(text)});
+}
 
 /// The port that MVN sends to by default.
 inline constexpr std::uint16_t kDefaultPort = 9763;
@@ -22,7 +48,32 @@ struct Endpoint {
 /// "127.0.0.1:9763", "[::1]:9763"; ":9763" where there is no host.
 [[nodiscard]] std::string textOf(const Endpoint& endpoint);
 
+/// "10.0.0.5:50123", as the operator writes it: IPv4 in its own form even where an IPv6 socket received it.
+[[nodiscard]] std::string textOf(const QHostAddress& address, std::uint16_t port);
+
 /// "PORT", "HOST:PORT", "[IPv6]:PORT". Port 0 is accepted: the system then picks a free one.
 [[nodiscard]] NetResult<Endpoint> parseEndpoint(std::string_view text);
+
+/// The address of a host, IPv4 if it has both; this computer's if the host is empty. Blocks while a name is
+/// resolved.
+[[nodiscard]] NetResult<QHostAddress> lookUp(const Endpoint& endpoint);
+
+/// An address that this computer has.
+struct LocalAddress {
+    std::string address;   ///< "192.168.1.20", "fe80::1%eth0"
+    std::string interface; ///< as the system calls it: "eth0", "Ethernet 2"
+    bool isIpv4 = true;
+    bool isLoopback = false;
+    bool isLinkLocal = false; ///< valid only on its own network segment
+
+    friend bool operator==(const LocalAddress&, const LocalAddress&) = default;
+};
+
+/// All addresses of interfaces that are up, as the system orders them.
+[[nodiscard]] std::vector<LocalAddress> localAddresses();
+
+/// The addresses to type into a sender, best first: IPv4 before IPv6, link-local last; loopback only if there
+/// is nothing else.
+[[nodiscard]] std::vector<LocalAddress> reachable(std::vector<LocalAddress> addresses);
 
 } // namespace posewire::net

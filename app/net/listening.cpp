@@ -18,10 +18,6 @@ namespace {
 using Kind = NetError::Kind;
 namespace fs = std::filesystem;
 
-unsigned long portOf(const std::string& hexadecimal) {
-    return std::strtoul(hexadecimal.c_str(), nullptr, 16);
-}
-
 /// Targets of the links in /proc/PID/fd that belong to sockets that listen on the port, from one of the
 /// kernel's tables.
 void collectSockets(const std::string& table, std::string_view state, std::uint16_t port,
@@ -39,7 +35,7 @@ void collectSockets(const std::string& table, std::string_view state, std::uint1
         columns >> inode;
         const std::size_t colon = local.rfind(':');
         if (columns && stateNow == state && colon != std::string::npos &&
-            portOf(local.substr(colon + 1)) == port) {
+            std::strtoul(local.c_str() + colon + 1, nullptr, 16) == port) {
             sockets.push_back("socket:[" + inode + "]");
         }
     }
@@ -57,8 +53,6 @@ bool holdsAnyOf(const fs::path& process, const std::vector<std::string>& sockets
     }
     return false;
 }
-
-using Kind = NetError::Kind;
 
 NetResult<std::unique_ptr<QUdpSocket>> bindOne(const QHostAddress& address, const Endpoint& endpoint,
                                                int bufferBytes) {
@@ -88,9 +82,9 @@ NetResult<void> join(QUdpSocket& socket, const QHostAddress& group) {
     return {};
 }
 
-NetResult<std::vector<QHostAddress>> groupsOf(const UdpInput& where) {
+NetResult<std::vector<QHostAddress>> groupsOf(const std::vector<std::string>& texts) {
     std::vector<QHostAddress> groups;
-    for (const std::string& text : where.groups) {
+    for (const std::string& text : texts) {
         const QHostAddress group(QString::fromStdString(text));
         if (!group.isMulticast()) {
             return netError(Kind::BadEndpoint, "\"" + text +
@@ -128,6 +122,48 @@ NetResult<UdpSockets> bindGroups(Endpoint endpoint, const std::vector<QHostAddre
         sockets.push_back(std::move(*socket));
     }
     return sockets;
+}
+
+NetResult<UdpSockets> bindAll(const Endpoint& endpoint, const std::vector<std::string>& groupTexts,
+                              int bufferBytes) {
+    const auto address = listenAddress(endpoint.host);
+    if (!address) {
+        return tl::unexpected(address.error());
+    }
+    auto groups = groupsOf(groupTexts);
+    if (!groups) {
+        return tl::unexpected(groups.error());
+    }
+    if (address->isMulticast()) {
+        groups->push_back(*address);
+        return bindGroups({{}, endpoint.port}, *groups, bufferBytes);
+    }
+    if (!groups->empty() && !endpoint.host.empty()) {
+        return netError(Kind::BadEndpoint,
+                        "a port of " + endpoint.host +
+                            " alone receives no multicast; leave the address out to join a group");
+    }
+    if (!groups->empty()) {
+        return bindGroups(endpoint, *groups, bufferBytes);
+    }
+    auto socket = bindOne(*address, endpoint, bufferBytes);
+    if (!socket) {
+        return tl::unexpected(socket.error());
+    }
+    UdpSockets sockets;
+    sockets.push_back(std::move(*socket));
+    return sockets;
+}
+
+/// The granted receive buffer in the bytes that were requested: Linux adds its own overhead and reports
+/// double.
+int receiveBufferBytes(QUdpSocket& socket) {
+    const int bytes = socket.socketOption(QAbstractSocket::ReceiveBufferSizeSocketOption).toInt();
+#ifdef __linux__
+    return bytes / 2;
+#else
+    return bytes;
+#endif
 }
 
 } // namespace
@@ -199,43 +235,14 @@ NetError withHolder(NetError error, std::uint16_t port, bool isTcp) {
     return error;
 }
 
-NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes) {
-    const auto address = listenAddress(where.endpoint.host);
-    if (!address) {
-        return tl::unexpected(address.error());
+NetResult<UdpSockets> bindUdp(Input& input, int bufferBytes) {
+    const InputStatus asked = input.status();
+    auto sockets = bindAll(asked.endpoint, asked.groups, bufferBytes);
+    if (sockets) {
+        input.setPort(sockets->front()->localPort());
+        input.counters().receiveBufferBytes = receiveBufferBytes(*sockets->front());
     }
-    auto groups = groupsOf(where);
-    if (!groups) {
-        return tl::unexpected(groups.error());
-    }
-    if (address->isMulticast()) {
-        groups->push_back(*address);
-        return bindGroups({{}, where.endpoint.port}, *groups, bufferBytes);
-    }
-    if (!groups->empty() && !where.endpoint.host.empty()) {
-        return netError(Kind::BadEndpoint,
-                        "a port of " + where.endpoint.host +
-                            " alone receives no multicast; leave the address out to join a group");
-    }
-    if (!groups->empty()) {
-        return bindGroups(where.endpoint, *groups, bufferBytes);
-    }
-    auto socket = bindOne(*address, where.endpoint, bufferBytes);
-    if (!socket) {
-        return tl::unexpected(socket.error());
-    }
-    UdpSockets sockets;
-    sockets.push_back(std::move(*socket));
     return sockets;
-}
-
-int receiveBufferBytes(QUdpSocket& socket) {
-    const int bytes = socket.socketOption(QAbstractSocket::ReceiveBufferSizeSocketOption).toInt();
-#ifdef __linux__
-    return bytes / 2;
-#else
-    return bytes;
-#endif
 }
 
 } // namespace posewire::net

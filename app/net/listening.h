@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 
 #include <QAbstractSocket>
 #include <QHostAddress>
@@ -40,11 +38,8 @@ struct Process {
 using UdpSockets = std::vector<std::unique_ptr<QUdpSocket>>;
 
 /// Unshared sockets, bound in the calling thread, that have requested a receive buffer of `bufferBytes` each
-/// and joined their groups. Every error says what to do about it.
-[[nodiscard]] NetResult<UdpSockets> bindUdp(const UdpInput& where, int bufferBytes);
-
-/// The granted receive buffer in the bytes that were requested: Linux adds its own overhead and reports
-/// double.
-[[nodiscard]] int receiveBufferBytes(QUdpSocket& socket);
+/// and joined their groups. Tells the input its port and what buffer was granted. Every error says what to do
+/// about it.
+[[nodiscard]] NetResult<UdpSockets> bindUdp(Input& input, int bufferBytes);
 
 } // namespace posewire::net

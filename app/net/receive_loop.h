@@ -3,7 +3,6 @@
 
 #include "app/net/command_queue.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 #include "app/net/packet_queue.h"
 #include "app/net/receiver.h"
 #include "core/log/clock.h"
@@ -32,7 +31,7 @@ public:
 
     /// Opens the input's sockets and sets its port and buffer size. The error for a port in use does not name
     /// its holder: finding that takes time, and other sockets are waiting.
-    virtual NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) = 0;
+    virtual NetResult<void> add(const std::shared_ptr<Input>& input) = 0;
 
     /// Reads what the input's sockets still hold and closes them.
     virtual void remove(InputId id) = 0;
@@ -55,20 +54,11 @@ private:
     std::atomic<bool> m_isStopping = false;
 };
 
-/// The loop of this path on this system: one of those below.
+/// The loop of this path on this system.
 [[nodiscard]] std::unique_ptr<ReceiveLoop> makeReceiveLoop(const ReceiveContext& context);
-
-/// Receives with Qt Network alone, on any system: no stamps and no drop counters from the kernel.
-[[nodiscard]] std::unique_ptr<ReceiveLoop> makeQtReceiveLoop(const ReceiveContext& context);
 
 /// Linux: many datagrams per system call, written by the kernel straight into the log, with its stamps and
 /// its drop counter.
 [[nodiscard]] std::unique_ptr<ReceiveLoop> makeRecvmmsgLoop(const ReceiveContext& context);
-
-/// Adds to a counter that only this thread writes: cheaper than an atomic addition.
-template <typename Number>
-void increase(std::atomic<Number>& counter, Number amount) {
-    counter.store(counter.load(std::memory_order_relaxed) + amount, std::memory_order_relaxed);
-}
 
 } // namespace posewire::net

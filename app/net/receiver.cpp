@@ -15,6 +15,15 @@
 #endif
 
 namespace posewire::net {
+namespace {
+
+void add(InputCounters& counters, ReceiveTotals& totals) {
+    totals.datagrams += counters.datagrams;
+    totals.bytes += counters.bytes;
+    totals.kernelDropped += counters.kernelDropped;
+}
+
+} // namespace
 
 Receiver::Receiver(log::PacketLog& log, const log::Clock& clock, const ReceiverOptions& options)
     : m_log(log),
@@ -46,7 +55,7 @@ void Receiver::keep(const std::shared_ptr<Input>& input) {
 TcpThread& Receiver::tcp() {
     const std::lock_guard lock(m_mutex);
     if (!m_tcp) {
-        m_tcp = std::make_unique<TcpThread>(TcpContext{m_clock, m_queue, m_tcpTotals});
+        m_tcp = std::make_unique<TcpThread>(TcpContext{m_clock, m_queue});
     }
     return *m_tcp;
 }
@@ -55,7 +64,7 @@ NetResult<InputId> Receiver::addUdp(const UdpInput& where) {
     // Qt's sockets belong to the thread that makes them, so the receiving thread has to open them.
     const auto input = makeInput(InputKind::Udp, where.endpoint, where.groups);
     NetResult<void> result;
-    m_commands.call([&] { result = m_loop->add(input, where); });
+    m_commands.call([&] { result = m_loop->add(input); });
     if (!result) {
         return tl::unexpected(withHolder(result.error(), where.endpoint.port, false));
     }
@@ -66,7 +75,7 @@ NetResult<InputId> Receiver::addUdp(const UdpInput& where) {
 
 NetResult<InputId> Receiver::addTcpListener(const Endpoint& endpoint) {
     const auto input = makeInput(InputKind::TcpListener, endpoint);
-    if (const auto result = tcp().listen(input, endpoint); !result) {
+    if (const auto result = tcp().listen(input); !result) {
         return tl::unexpected(withHolder(result.error(), endpoint.port, true));
     }
     keep(input);
@@ -77,7 +86,7 @@ InputId Receiver::addTcpConnection(const Endpoint& endpoint) {
     const auto input = makeInput(InputKind::TcpConnection, endpoint);
     input->setState(InputState::Connecting, "connecting to " + textOf(endpoint));
     keep(input);
-    tcp().connect(input, endpoint);
+    tcp().connect(input);
     return input->id();
 }
 
@@ -90,13 +99,17 @@ bool Receiver::remove(InputId id) {
             return false;
         }
         input = *place;
-        m_inputs.erase(place);
     }
     if (input->kind() == InputKind::Udp) {
         m_commands.call([&] { m_loop->remove(id); });
     } else {
         tcp().remove(id);
     }
+    const std::lock_guard lock(m_mutex);
+    if (std::erase(m_inputs, input) == 0) {
+        return false; // another thread has removed it meanwhile
+    }
+    add(input->counters(), m_past);
     return true;
 }
 
@@ -115,13 +128,11 @@ std::vector<InputStatus> Receiver::inputs() const {
 }
 
 ReceiveTotals Receiver::totals() const {
-    ReceiveTotals totals;
-    totals.datagrams = m_counters.datagrams + m_tcpTotals.datagrams;
-    totals.bytes = m_counters.bytes + m_tcpTotals.bytes;
-    totals.kernelDropped = m_counters.kernelDropped;
-    totals.longestDelay = m_counters.longestDelay;
     const std::lock_guard lock(m_mutex);
+    ReceiveTotals totals = m_past;
+    totals.longestDelay = m_counters.longestDelay;
     for (const auto& input : m_inputs) {
+        add(input->counters(), totals);
         const std::int64_t granted = input->counters().receiveBufferBytes;
         if (input->kind() == InputKind::Udp) {
             totals.receiveBufferBytes =
@@ -144,18 +155,12 @@ std::optional<double> Receiver::cpuSeconds() {
 }
 
 std::optional<double> Receiver::takeBufferFill() {
-    constexpr double kThousand = 1000;
     const std::int32_t fill = m_counters.bufferFill;
     if (fill < 0) {
         return std::nullopt;
     }
     m_counters.bufferFill = 0;
-    return fill / kThousand;
-}
-
-bool Receiver::submit(std::span<const std::byte> bytes, const log::SenderInfo& sender,
-                      const log::Arrival& arrival) {
-    return m_queue.push(bytes, sender, arrival);
+    return fill / 1000.0;
 }
 
 } // namespace posewire::net

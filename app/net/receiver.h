@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/net/command_queue.h"
+#include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 #include "app/net/packet_queue.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
@@ -38,15 +38,11 @@ struct ReceiverOptions {
     /// The thread sleeps at most this long after emptying the sockets, and less under load. That is the
     /// cheapest way to receive, since waking costs as much as receiving dozens of datagrams; the price is
     /// this delay. Stamps come from the kernel and are not affected.
-    std::chrono::microseconds nap{6000};
+    log::Duration nap = std::chrono::milliseconds(6);
 };
 
-/// Over all UDP inputs, removed ones included. Written by the receiving thread, read by any.
+/// Of the receiving thread, besides what it counts for each input. Written by it, read by any.
 struct ReceiveCounters {
-    std::atomic<std::uint64_t> datagrams = 0;
-    std::atomic<std::uint64_t> bytes = 0;
-    /// Datagrams lost on this computer because the buffer was full.
-    std::atomic<std::uint64_t> kernelDropped = 0;
     /// Largest fill in thousandths since it was last read; -1 before the first look.
     std::atomic<std::int32_t> bufferFill = -1;
     std::atomic<log::Duration> longestDelay{}; ///< the longest time between two looks at the sockets
@@ -56,7 +52,7 @@ struct ReceiveCounters {
 struct ReceiveTotals {
     std::uint64_t datagrams = 0; ///< UDP and TCP, without what submit() brought
     std::uint64_t bytes = 0;
-    std::uint64_t kernelDropped = 0;     ///< see ReceiveCounters
+    std::uint64_t kernelDropped = 0;     ///< see InputCounters
     std::int64_t receiveBufferBytes = 0; ///< the smallest granted to an open UDP input; 0 if none is open
     log::Duration longestDelay{};
 };
@@ -103,7 +99,10 @@ public:
 
     /// Queues a packet for the log, once there is room; `arrival.sender` need not be set. False only when the
     /// receiver stops.
-    bool submit(std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival);
+    bool submit(std::span<const std::byte> bytes, const log::SenderInfo& sender,
+                const log::Arrival& arrival) {
+        return m_queue.push(bytes, sender, arrival);
+    }
 
     /// Returns once everything submitted before is in the log.
     void flush();
@@ -121,12 +120,12 @@ private:
     PacketQueue m_queue;
     CommandQueue m_commands;
     ReceiveCounters m_counters;
-    InputCounters m_tcpTotals; ///< over all TCP inputs, past ones included
     std::unique_ptr<ReceiveLoop> m_loop;
     std::thread m_thread;
 
     mutable std::mutex m_mutex; ///< guards the members below
     std::vector<std::shared_ptr<Input>> m_inputs;
+    ReceiveTotals m_past; ///< of removed inputs
     std::uint32_t m_nextId = 0;
     std::unique_ptr<TcpThread> m_tcp; ///< from the first TCP input on
 };

@@ -20,7 +20,7 @@ namespace {
 /// time.
 constexpr int kNapsUntilIdle = 200;
 /// Below this, naps cost more than they save.
-constexpr std::chrono::microseconds kShortestNap{500};
+constexpr log::Duration kShortestNap = std::chrono::microseconds(500);
 /// What the kernel charges a socket's buffer for a datagram of usual size (measured for 760 bytes).
 constexpr std::size_t kBufferPerDatagram = 2304;
 /// Batches read from one socket before the others get a turn.
@@ -43,35 +43,231 @@ struct Socket {
 class RecvmmsgLoop final : public ReceiveLoop {
 public:
     explicit RecvmmsgLoop(const ReceiveContext& context)
-        : m_context(context),
-          m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
-          m_longestNap(context.options.nap),
-          m_nap(context.options.nap) {}
+        : m_context(context), m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), m_nap(context.options.nap) {}
 
-    NetResult<void> add(const std::shared_ptr<Input>& input, const UdpInput& where) override;
-    void remove(InputId id) override;
-    void run() override;
-    void wake() override;
+    NetResult<void> add(const std::shared_ptr<Input>& input) override {
+        const QEventLoop dispatcher; // Qt's sockets need one in their thread, if only to open
+        const auto bound = bindUdp(*input, m_context.options.bufferBytes);
+        if (!bound) {
+            return tl::unexpected(bound.error());
+        }
+        for (const auto& socket : *bound) {
+            // A descriptor of our own, without Qt's notifiers; Qt closes its own at the end of this turn.
+            Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
+            prepare(descriptor.get());
+            m_sockets.push_back(std::unique_ptr<Socket>(new Socket{
+                input, std::move(descriptor), SenderCache(m_context.log.senders(), socket->localPort())}));
+        }
+        measureBuffers();
+        return {};
+    }
+
+    void remove(InputId id) override {
+        for (const auto& socket : m_sockets) {
+            if (socket->input->id() == id) {
+                drainToTheEnd(*socket);
+            }
+        }
+        std::erase_if(m_sockets, [id](const auto& socket) { return socket->input->id() == id; });
+        measureBuffers();
+    }
+
+    void run() override {
+        m_looked = m_context.clock.monotonic();
+        while (!isStopping()) {
+            m_context.commands.run();
+            rest(drainAll());
+        }
+        for (const auto& socket : m_sockets) {
+            drainToTheEnd(*socket);
+        }
+        m_context.queue.moveTo(m_context.log);
+    }
+
+    void wake() override {
+        const std::uint64_t one = 1;
+        [[maybe_unused]] const auto written =
+            ::write(m_wake.get(), &one, sizeof one); // a full pipe wakes the loop just as well
+    }
 
 private:
-    std::size_t drainAll();
-    std::size_t drain(Socket& socket);
-    void drainToTheEnd(Socket& socket);
+    /// How many packets there were.
+    std::size_t drainAll() {
+        std::size_t count = 0;
+        if (m_roundsSinceDropCheck == 0 || m_isDelayed) {
+            measureFill();
+        }
+        for (const auto& socket : m_sockets) {
+            count += drain(*socket);
+        }
+        if (!m_context.queue.isEmpty()) {
+            count += m_context.queue.moveTo(m_context.log);
+        }
+        if (++m_roundsSinceDropCheck >= kRoundsPerDropCheck) {
+            checkAllDrops();
+        }
+        return count;
+    }
+
+    std::size_t drain(Socket& socket) {
+        log::LogWriter& writer = m_context.log.writer();
+        std::size_t total = 0;
+        for (int turn = 0; turn < kBatchesPerTurn; ++turn) {
+            const auto lanes = writer.lanes();
+            const std::size_t count = socket.batch.receive(socket.descriptor.get(), lanes);
+            std::size_t bytes = 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                bytes += commit(socket, i);
+            }
+            total += count;
+            if (count > 0) {
+                writer.publish();
+                increase(socket.input->counters().datagrams, count);
+                increase(socket.input->counters().bytes, bytes);
+            }
+            if (count < lanes.size()) {
+                break;
+            }
+        }
+        socket.isEmpty = total == 0;
+        return total;
+    }
+
+    /// Up to a full buffer and its drops, since there is no later chance; bounded, since data may keep
+    /// arriving.
+    void drainToTheEnd(Socket& socket) {
+        constexpr int kMostTurns = 16;
+        for (int turn = 0; turn < kMostTurns && drain(socket) != 0; ++turn) {
+        }
+        socket.isEmpty = true;
+        checkDrops(socket);
+    }
+
     /// Bytes of the datagram.
-    std::size_t commit(Socket& socket, std::size_t index);
-    void countDrops(Socket& socket, std::uint32_t drops);
-    void recordDrops(Socket& socket, std::uint32_t drops);
-    void checkDrops(Socket& socket);
-    void checkAllDrops();
-    void measureBuffers();
-    void measureFill();
-    void rest(std::size_t received);
-    void adaptNap(std::size_t received);
-    void waitForSomething();
+    std::size_t commit(Socket& socket, std::size_t index) {
+        const Received received = socket.batch.received(index);
+        log::Arrival arrival;
+        arrival.sender = socket.senders.idOf(socket.batch.sender(index));
+        socket.lastSender = arrival.sender;
+        socket.hasSender = true;
+        arrival.flags.truncated = received.isTruncated;
+        arrival.flags.stampedByKernel = received.stamp != log::Stamp();
+        arrival.stamp = received.stamp != log::Stamp() ? received.stamp : m_context.clock.wall();
+        // 0 is none. A packet under way may carry a smaller count than a record made meanwhile.
+        if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {
+            arrival.kernelDropsBefore = received.drops - socket.dropsInLog;
+            socket.dropsInLog = received.drops;
+            countDrops(socket, received.drops);
+        }
+        m_context.log.writer().commit(index, received.size, arrival);
+        return received.size;
+    }
+
+    /// `drops` is the kernel's count so far; a packet may carry less than the counter that was read before
+    /// it.
+    void countDrops(Socket& socket, std::uint32_t drops) {
+        const auto more = static_cast<std::int32_t>(drops - socket.dropsCounted);
+        if (more > 0) {
+            socket.dropsCounted = drops;
+            increase(socket.input->counters().kernelDropped, static_cast<std::uint64_t>(more));
+        }
+    }
+
+    /// Drops that no packet reported become a record of their own.
+    void recordDrops(Socket& socket, std::uint32_t drops) {
+        const auto more = static_cast<std::int32_t>(drops - socket.dropsInLog);
+        if (more <= 0 || !socket.hasSender) { // a full buffer holds packets, so a sender is known by then
+            return;
+        }
+        log::Arrival arrival;
+        arrival.stamp = m_context.clock.wall();
+        arrival.sender = socket.lastSender;
+        arrival.kernelDropsBefore = static_cast<std::uint32_t>(more);
+        arrival.flags.skipped = true;
+        arrival.flags.isDropRecord = true;
+        socket.dropsInLog = drops;
+        m_context.log.writer().append({}, arrival);
+        m_context.log.writer().publish();
+    }
+
+    /// A packet reports loss only once the next one arrives; the socket knows at once.
+    void checkDrops(Socket& socket) {
+        if (const auto memory = memoryOf(socket.descriptor.get())) {
+            countDrops(socket, memory->drops);
+            if (socket.isEmpty) {
+                recordDrops(socket, memory->drops);
+            }
+        }
+    }
+
+    void checkAllDrops() {
+        m_roundsSinceDropCheck = 0;
+        for (const auto& socket : m_sockets) {
+            checkDrops(*socket);
+        }
+    }
+
+    void measureBuffers() {
+        m_smallestBuffer = SIZE_MAX;
+        for (const auto& socket : m_sockets) {
+            const auto granted = socket->input->counters().receiveBufferBytes.load(std::memory_order_relaxed);
+            m_smallestBuffer = std::min(m_smallestBuffer, static_cast<std::size_t>(granted));
+        }
+    }
+
+    /// Before the sockets are emptied; the fullest one counts.
+    void measureFill() {
+        m_isDelayed = false;
+        for (const auto& socket : m_sockets) {
+            if (const auto memory = memoryOf(socket->descriptor.get()); memory && memory->bufferBytes != 0) {
+                const auto fill =
+                    static_cast<std::int32_t>(std::uint64_t{memory->usedBytes} * 1000 / memory->bufferBytes);
+                std::atomic<std::int32_t>& most = m_context.counters.bufferFill;
+                most.store(std::max(most.load(std::memory_order_relaxed), fill), std::memory_order_relaxed);
+            }
+        }
+    }
+
+    void rest(std::size_t received) {
+        m_idleNaps = received != 0 ? 0 : m_idleNaps + 1;
+        adaptNap(received);
+        if (m_idleNaps > kNapsUntilIdle) {
+            checkAllDrops();
+            waitForSomething();
+            m_looked = m_context.clock.monotonic();
+            return;
+        }
+        std::this_thread::sleep_for(m_nap);
+        const log::Moment now = m_context.clock.monotonic();
+        const log::Duration delay = now - std::exchange(m_looked, now);
+        m_isDelayed = delay > 2 * m_context.options.nap;
+        if (delay > m_context.counters.longestDelay.load(std::memory_order_relaxed)) {
+            m_context.counters.longestDelay.store(delay, std::memory_order_relaxed);
+        }
+    }
+
+    /// Naps up to the limit, but never long enough for the current rate to fill more than an eighth of the
+    /// buffer.
+    void adaptNap(std::size_t received) {
+        if (received * kBufferPerDatagram > m_smallestBuffer / 8) {
+            m_nap = std::max(m_nap / 2, std::min(kShortestNap, m_context.options.nap));
+        } else {
+            m_nap = std::min(m_nap + m_nap / 4, m_context.options.nap);
+        }
+    }
+
+    void waitForSomething() {
+        std::vector<pollfd> watched{{m_wake.get(), POLLIN, 0}};
+        for (const auto& socket : m_sockets) {
+            watched.push_back({socket->descriptor.get(), POLLIN, 0});
+        }
+        ::poll(watched.data(), watched.size(), -1);
+        std::uint64_t wakes = 0;
+        [[maybe_unused]] const auto read = ::read(m_wake.get(), &wakes, sizeof wakes);
+    }
 
     ReceiveContext m_context;
     Descriptor m_wake;
-    log::Duration m_longestNap;
     log::Duration m_nap;
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
     std::vector<std::unique_ptr<Socket>> m_sockets;
@@ -80,229 +276,6 @@ private:
     int m_roundsSinceDropCheck = 0;
     log::Moment m_looked{}; ///< when the sockets were last looked at
 };
-
-NetResult<void> RecvmmsgLoop::add(const std::shared_ptr<Input>& input, const UdpInput& where) {
-    const QEventLoop dispatcher; // Qt's sockets need one in their thread, if only to open
-    const auto bound = bindUdp(where, m_context.options.bufferBytes);
-    if (!bound) {
-        return tl::unexpected(bound.error());
-    }
-    const std::uint16_t port = bound->front()->localPort();
-    input->setEndpoint({where.endpoint.host, port});
-    input->counters().receiveBufferBytes = receiveBufferBytes(*bound->front());
-    for (const auto& socket : *bound) {
-        // A descriptor of our own, without Qt's notifiers; Qt closes its own at the end of this turn.
-        Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
-        prepare(descriptor.get());
-        m_sockets.push_back(std::unique_ptr<Socket>(
-            new Socket{input, std::move(descriptor), SenderCache(m_context.log.senders(), port)}));
-    }
-    measureBuffers();
-    return {};
-}
-
-void RecvmmsgLoop::remove(InputId id) {
-    for (const auto& socket : m_sockets) {
-        if (socket->input->id() == id) {
-            drainToTheEnd(*socket);
-        }
-    }
-    std::erase_if(m_sockets, [id](const auto& socket) { return socket->input->id() == id; });
-    measureBuffers();
-}
-
-void RecvmmsgLoop::measureBuffers() {
-    m_smallestBuffer = SIZE_MAX;
-    for (const auto& socket : m_sockets) {
-        const auto granted = socket->input->counters().receiveBufferBytes.load(std::memory_order_relaxed);
-        m_smallestBuffer = std::min(m_smallestBuffer, static_cast<std::size_t>(granted));
-    }
-}
-
-void RecvmmsgLoop::run() {
-    m_looked = m_context.clock.monotonic();
-    while (!isStopping()) {
-        m_context.commands.run();
-        rest(drainAll());
-    }
-    for (const auto& socket : m_sockets) {
-        drainToTheEnd(*socket);
-    }
-    m_context.queue.moveTo(m_context.log);
-}
-
-/// Up to a full buffer and its drops, since there is no later chance; bounded, since data may keep arriving.
-void RecvmmsgLoop::drainToTheEnd(Socket& socket) {
-    constexpr int kMostTurns = 16;
-    for (int turn = 0; turn < kMostTurns && drain(socket) != 0; ++turn) {
-    }
-    socket.isEmpty = true;
-    checkDrops(socket);
-}
-
-void RecvmmsgLoop::wake() {
-    const std::uint64_t one = 1;
-    [[maybe_unused]] const auto written =
-        ::write(m_wake.get(), &one, sizeof one); // a full pipe wakes the loop just as well
-}
-
-/// How many packets there were.
-std::size_t RecvmmsgLoop::drainAll() {
-    std::size_t count = 0;
-    if (m_roundsSinceDropCheck == 0 || m_isDelayed) {
-        measureFill();
-    }
-    for (const auto& socket : m_sockets) {
-        count += drain(*socket);
-    }
-    if (!m_context.queue.isEmpty()) {
-        count += m_context.queue.moveTo(m_context.log);
-    }
-    if (++m_roundsSinceDropCheck >= kRoundsPerDropCheck) {
-        checkAllDrops();
-    }
-    return count;
-}
-
-std::size_t RecvmmsgLoop::drain(Socket& socket) {
-    log::LogWriter& writer = m_context.log.writer();
-    std::size_t total = 0;
-    for (int turn = 0; turn < kBatchesPerTurn; ++turn) {
-        const auto lanes = writer.lanes();
-        const std::size_t count = socket.batch.receive(socket.descriptor.get(), lanes);
-        std::size_t bytes = 0;
-        for (std::size_t i = 0; i < count; ++i) {
-            bytes += commit(socket, i);
-        }
-        total += count;
-        if (count > 0) {
-            writer.publish();
-            increase<std::uint64_t>(m_context.counters.datagrams, count);
-            increase<std::uint64_t>(m_context.counters.bytes, bytes);
-            increase<std::uint64_t>(socket.input->counters().datagrams, count);
-            increase<std::uint64_t>(socket.input->counters().bytes, bytes);
-        }
-        if (count < lanes.size()) {
-            break;
-        }
-    }
-    socket.isEmpty = total == 0;
-    return total;
-}
-
-std::size_t RecvmmsgLoop::commit(Socket& socket, std::size_t index) {
-    const Received received = socket.batch.received(index);
-    log::Arrival arrival;
-    arrival.sender = socket.senders.idOf(socket.batch.sender(index));
-    socket.lastSender = arrival.sender;
-    socket.hasSender = true;
-    arrival.flags.truncated = received.isTruncated;
-    arrival.flags.stampedByKernel = received.stamp != log::Stamp();
-    arrival.stamp = received.stamp != log::Stamp() ? received.stamp : m_context.clock.wall();
-    // 0 is none. A packet under way may carry a smaller count than a record made meanwhile.
-    if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {
-        arrival.kernelDropsBefore = received.drops - socket.dropsInLog;
-        socket.dropsInLog = received.drops;
-        countDrops(socket, received.drops);
-    }
-    m_context.log.writer().commit(index, received.size, arrival);
-    return received.size;
-}
-
-/// `drops` is the kernel's count so far; a packet may carry less than the counter that was read before it.
-void RecvmmsgLoop::countDrops(Socket& socket, std::uint32_t drops) {
-    const auto more = static_cast<std::int32_t>(drops - socket.dropsCounted);
-    if (more > 0) {
-        socket.dropsCounted = drops;
-        increase<std::uint64_t>(m_context.counters.kernelDropped, static_cast<std::uint64_t>(more));
-        increase<std::uint64_t>(socket.input->counters().kernelDropped, static_cast<std::uint64_t>(more));
-    }
-}
-
-/// Drops that no packet reported become a record of their own.
-void RecvmmsgLoop::recordDrops(Socket& socket, std::uint32_t drops) {
-    const auto more = static_cast<std::int32_t>(drops - socket.dropsInLog);
-    if (more <= 0 || !socket.hasSender) { // a full buffer holds packets, so a sender is known by then
-        return;
-    }
-    log::Arrival arrival;
-    arrival.stamp = m_context.clock.wall();
-    arrival.sender = socket.lastSender;
-    arrival.kernelDropsBefore = static_cast<std::uint32_t>(more);
-    arrival.flags.skipped = true;
-    arrival.flags.isDropRecord = true;
-    socket.dropsInLog = drops;
-    m_context.log.writer().append({}, arrival);
-    m_context.log.writer().publish();
-}
-
-/// A packet reports loss only once the next one arrives; the socket knows at once.
-void RecvmmsgLoop::checkDrops(Socket& socket) {
-    if (const auto memory = memoryOf(socket.descriptor.get())) {
-        countDrops(socket, memory->drops);
-        if (socket.isEmpty) {
-            recordDrops(socket, memory->drops);
-        }
-    }
-}
-
-/// Before the sockets are emptied; the fullest one counts.
-void RecvmmsgLoop::measureFill() {
-    m_isDelayed = false;
-    for (const auto& socket : m_sockets) {
-        if (const auto memory = memoryOf(socket->descriptor.get()); memory && memory->bufferBytes != 0) {
-            const auto fill =
-                static_cast<std::int32_t>(std::uint64_t{memory->usedBytes} * 1000 / memory->bufferBytes);
-            std::atomic<std::int32_t>& most = m_context.counters.bufferFill;
-            most.store(std::max(most.load(std::memory_order_relaxed), fill), std::memory_order_relaxed);
-        }
-    }
-}
-
-void RecvmmsgLoop::checkAllDrops() {
-    m_roundsSinceDropCheck = 0;
-    for (const auto& socket : m_sockets) {
-        checkDrops(*socket);
-    }
-}
-
-/// Naps up to the limit, but never long enough for the current rate to fill more than an eighth of the
-/// buffer.
-void RecvmmsgLoop::adaptNap(std::size_t received) {
-    if (received * kBufferPerDatagram > m_smallestBuffer / 8) {
-        m_nap = std::max<log::Duration>(m_nap / 2, std::min<log::Duration>(kShortestNap, m_longestNap));
-    } else {
-        m_nap = std::min(m_nap + m_nap / 4, m_longestNap);
-    }
-}
-
-void RecvmmsgLoop::rest(std::size_t received) {
-    m_idleNaps = received != 0 ? 0 : m_idleNaps + 1;
-    adaptNap(received);
-    if (m_idleNaps > kNapsUntilIdle) {
-        checkAllDrops();
-        waitForSomething();
-        m_looked = m_context.clock.monotonic();
-        return;
-    }
-    std::this_thread::sleep_for(m_nap);
-    const log::Moment now = m_context.clock.monotonic();
-    const log::Duration delay = now - std::exchange(m_looked, now);
-    m_isDelayed = delay > 2 * m_longestNap;
-    if (delay > m_context.counters.longestDelay.load(std::memory_order_relaxed)) {
-        m_context.counters.longestDelay.store(delay, std::memory_order_relaxed);
-    }
-}
-
-void RecvmmsgLoop::waitForSomething() {
-    std::vector<pollfd> watched{{m_wake.get(), POLLIN, 0}};
-    for (const auto& socket : m_sockets) {
-        watched.push_back({socket->descriptor.get(), POLLIN, 0});
-    }
-    ::poll(watched.data(), watched.size(), -1);
-    std::uint64_t wakes = 0;
-    [[maybe_unused]] const auto read = ::read(m_wake.get(), &wakes, sizeof wakes);
-}
 
 } // namespace
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/relay.h"
 
-#include "app/net/addresses.h"
-#include "app/net/receive_loop.h"
-
 #include <QEventLoop>
 #include <QUdpSocket>
 
@@ -67,8 +64,7 @@ struct Relay::Target {
     std::atomic<std::uint64_t> sent = 0;
     std::atomic<std::uint64_t> refused = 0;
     std::atomic<std::uint64_t> skipped = 0;
-    mutable std::mutex mutex{};
-    std::string problem{}; ///< guarded by the mutex
+    std::string problem{}; ///< guarded by m_mutex
 };
 
 /// Created and used in the relay's thread. Bound, so that its port identifies what comes back from it.
@@ -139,7 +135,6 @@ std::vector<RelayTarget> Relay::targets() const {
     const std::lock_guard lock(m_mutex);
     std::vector<RelayTarget> result;
     for (const auto& target : m_targets) {
-        const std::lock_guard problemLock(target->mutex);
         result.push_back(
             {target->id, target->endpoint, target->sent, target->refused, target->skipped, target->problem});
     }
@@ -204,7 +199,7 @@ void Relay::skipWhatIsOld() {
         skipped += !packet || isForwarded(*packet) ? 1 : 0;
     }
     for (const auto& target : m_targets) {
-        increase<std::uint64_t>(target->skipped, skipped);
+        increase(target->skipped, skipped);
     }
 }
 
@@ -241,7 +236,7 @@ void Relay::sendTo(Target& target, const log::Packet& packet) {
     for (int attempt = 0; attempt < kAttempts && !packet.flags.truncated; ++attempt) {
         if (socket.writeDatagram(reinterpret_cast<const char*>(packet.bytes.data()), size, target.address,
                                  target.endpoint.port) == size) {
-            increase<std::uint64_t>(target.sent, 1);
+            increase(target.sent, 1);
             return;
         }
         if (socket.error() != QAbstractSocket::TemporaryError) {
@@ -249,8 +244,8 @@ void Relay::sendTo(Target& target, const log::Packet& packet) {
         }
         std::this_thread::sleep_for(kAttemptPause);
     }
-    increase<std::uint64_t>(target.refused, 1);
-    const std::lock_guard lock(target.mutex);
+    increase(target.refused, 1);
+    const std::lock_guard lock(m_mutex);
     target.problem = packet.flags.truncated
                          ? "datagrams that were too long to be received whole are not forwarded"
                          : socket.errorString().toStdString();

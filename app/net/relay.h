@@ -2,8 +2,8 @@
 #pragma once
 
 #include "app/net/command_queue.h"
+#include "app/net/endpoint.h"
 #include "app/net/input.h"
-#include "app/net/net_error.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
@@ -75,7 +75,7 @@ private:
     bool m_isWoken = false;    ///< guarded by m_wakeMutex
     bool m_isStopping = false; ///< only the thread reads it
 
-    mutable std::mutex m_mutex; ///< guards m_targets against readers in other threads
+    mutable std::mutex m_mutex; ///< guards m_targets and their problems against other threads
     std::vector<std::shared_ptr<Target>> m_targets;
     std::uint32_t m_nextId = 0;
 

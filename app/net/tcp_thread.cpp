@@ -52,20 +52,20 @@ bool TcpThread::turn(QTimer& timer) {
     return hasMore;
 }
 
-NetResult<void> TcpThread::listen(const std::shared_ptr<Input>& input, const Endpoint& endpoint) {
+NetResult<void> TcpThread::listen(const std::shared_ptr<Input>& input) {
     NetResult<void> result;
     m_commands.call([&] {
-        auto listener = std::make_unique<TcpListener>(m_context, input);
-        result = listener->listen(endpoint);
-        if (result) {
-            m_inputs.push_back(std::move(listener));
+        if (auto listener = makeTcpListener(m_context, input)) {
+            m_inputs.push_back(std::move(*listener));
+        } else {
+            result = tl::unexpected(listener.error());
         }
     });
     return result;
 }
 
-void TcpThread::connect(const std::shared_ptr<Input>& input, const Endpoint& endpoint) {
-    m_commands.call([&] { m_inputs.push_back(std::make_unique<TcpDialer>(m_context, input, endpoint)); });
+void TcpThread::connect(const std::shared_ptr<Input>& input) {
+    m_commands.call([&] { m_inputs.push_back(makeTcpDialer(m_context, input)); });
 }
 
 void TcpThread::remove(InputId id) {

@@ -2,29 +2,74 @@
 #pragma once
 
 #include "app/net/command_queue.h"
-#include "app/net/tcp_inputs.h"
+#include "app/net/input.h"
+#include "app/net/packet_queue.h"
 #include "app/net/thread_events.h"
+#include "core/log/clock.h"
+#include "core/log/time.h"
 
 #include <atomic>
+#include <memory>
+#include <optional>
 #include <thread>
+#include <vector>
 
 class QTimer;
 
 namespace posewire::net {
 
+/// What a TCP connection works with; must outlive it.
+struct TcpContext {
+    const log::Clock& clock;
+    PacketQueue& queue;
+};
+
+/// An input that receives by TCP. Belongs to one thread, whose event loop runs between turns.
+class TcpInput {
+public:
+    TcpInput(const TcpContext& context, std::shared_ptr<Input> input)
+        : m_context(context), m_input(std::move(input)) {}
+    virtual ~TcpInput() = default;
+    TcpInput(const TcpInput&) = delete;
+    TcpInput& operator=(const TcpInput&) = delete;
+
+    [[nodiscard]] InputId id() const { return m_input->id(); }
+
+    /// Does the work at hand; true if there is more that no event will announce.
+    virtual bool turn(log::Moment now) = 0;
+
+    /// When it needs a turn even without events; empty for never.
+    [[nodiscard]] virtual std::optional<log::Moment> due() const = 0;
+
+    /// Reads what has arrived, before destruction.
+    virtual void drain() = 0;
+
+protected:
+    const TcpContext& m_context;
+    std::shared_ptr<Input> m_input;
+};
+
+/// Lets senders connect, as MVN does.
+[[nodiscard]] NetResult<std::unique_ptr<TcpInput>> makeTcpListener(const TcpContext& context,
+                                                                   const std::shared_ptr<Input>& input);
+
+/// Connects to a sender that listens, and reconnects.
+[[nodiscard]] std::unique_ptr<TcpInput> makeTcpDialer(const TcpContext& context,
+                                                      const std::shared_ptr<Input>& input);
+
 /// Reads TCP connections and passes their datagrams to the queue; while that is full it waits, and TCP makes
 /// the senders wait. One thread for all connections, separate from the one that receives UDP.
 class TcpThread {
 public:
-    /// What `context` names must outlive it. Its thread writes the totals.
+    /// What `context` names must outlive it.
     explicit TcpThread(const TcpContext& context);
 
     /// Ends all connections. The queue must be emptied meanwhile, or be closed.
     ~TcpThread();
 
     // From any other thread.
-    NetResult<void> listen(const std::shared_ptr<Input>& input, const Endpoint& endpoint);
-    void connect(const std::shared_ptr<Input>& input, const Endpoint& endpoint);
+    NetResult<void> listen(const std::shared_ptr<Input>& input);
+    void connect(const std::shared_ptr<Input>& input);
     void remove(InputId id);
 
 private:

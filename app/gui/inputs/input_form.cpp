@@ -87,9 +87,8 @@ InputForm::InputForm(QWidget* parent)
     m_note->setMinimumHeight(2 * fontMetrics().lineSpacing());
     const auto field = [this, grid = new QGridLayout(this)](const QString& text, QWidget* edit, int stretch) {
         const int column = grid->columnCount();
-        auto* label = new QLabel(text, this);
+        QLabel* label = dimLabel(text, this);
         label->setBuddy(edit);
-        label->setForegroundRole(QPalette::PlaceholderText);
         grid->addWidget(label, 0, column);
         grid->addWidget(edit, 1, column);
         grid->setColumnStretch(column, stretch);
@@ -145,11 +144,8 @@ void InputForm::setProblem(const QString& problem) {
 }
 
 void InputForm::showNote() {
-    m_note->setText(m_problem.isEmpty() ? explanation(typed().kind)
-                                        : healthSymbol(Health::Error) + QLatin1Char(' ') + m_problem);
-    QPalette palette = m_note->palette();
-    palette.setColor(QPalette::WindowText, m_problem.isEmpty() ? theme().dim : theme().error);
-    m_note->setPalette(palette);
+    m_note->setText(m_problem.isEmpty() ? explanation(typed().kind) : healthText(Health::Error, m_problem));
+    setTextColour(*m_note, m_problem.isEmpty() ? theme().dim : theme().error);
 }
 
 void InputForm::keyPressEvent(QKeyEvent* event) {

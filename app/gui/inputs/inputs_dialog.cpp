@@ -40,13 +40,6 @@ QLabel* proseLabel(QWidget* parent) {
     return label;
 }
 
-/// A new text takes the selection away: only where it is new.
-void setTextOf(QLabel& label, const QString& text) {
-    if (label.text() != text) {
-        label.setText(text);
-    }
-}
-
 Health healthOf(net::Finding::Kind kind) {
     using Kind = net::Finding::Kind;
     switch (kind) {
@@ -113,9 +106,9 @@ public:
 
     void setEntry(const Entry& entry) {
         m_level = entry.level;
-        setTextOf(*m_symbol, m_level == Health::Unknown ? QStringLiteral("ⓘ") : healthSymbol(m_level));
-        setTextOf(*m_text, entry.text);
-        setTextOf(*m_remedy, entry.remedy);
+        m_symbol->setText(m_level == Health::Unknown ? QStringLiteral("ⓘ") : healthSymbol(m_level));
+        m_text->setText(entry.text);
+        m_remedy->setText(entry.remedy);
         applyColours();
         setVisible(true);
     }
@@ -132,12 +125,7 @@ protected:
 
 private:
     void applyColours() {
-        QPalette palette = m_symbol->palette();
-        const QColor colour = m_level == Health::Unknown ? theme().dim : healthColour(m_level);
-        if (palette.color(QPalette::WindowText) != colour) {
-            palette.setColor(QPalette::WindowText, colour);
-            m_symbol->setPalette(palette);
-        }
+        setTextColour(*m_symbol, m_level == Health::Unknown ? theme().dim : healthColour(m_level));
         update();
     }
 

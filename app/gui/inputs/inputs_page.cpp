@@ -131,7 +131,7 @@ private:
             }
             if (isShown) {
                 const QString host = QString::fromStdString(hosts[i].address);
-                if (host != m_rows[i].host->text()) { // else a selection in it would be lost
+                if (host != m_rows[i].host->text()) {
                     m_rows[i].host->setText(host);
                     m_rows[i].copy->setAccessibleName(tr("Copy %1").arg(host));
                 }
@@ -236,11 +236,7 @@ void InputsPage::showChoice() {
     const auto input = selected();
     m_edit->setEnabled(input.has_value());
     m_remove->setEnabled(input.has_value());
-    const QModelIndex current = m_table->currentIndex();
-    const QString state = current.siblingAtColumn(InputModel::kState).data().toString();
-    if (state != m_state->text()) { // else a selection in it would be lost
-        m_state->setText(state);
-    }
+    m_state->setText(m_table->currentIndex().siblingAtColumn(InputModel::kState).data().toString());
     m_settings->showFor(input.value_or(InputAddress{}), m_receiving.state().addresses);
 }
 

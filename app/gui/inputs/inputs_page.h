@@ -3,7 +3,7 @@
 
 #include "app/gui/driver/receiving.h"
 #include "app/gui/models/receiving_models.h"
-#include "app/net/addresses.h"
+#include "app/net/endpoint.h"
 
 #include <QWidget>
 

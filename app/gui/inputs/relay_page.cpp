@@ -157,15 +157,9 @@ void RelayPage::setProblem(const QString& problem) {
 void RelayPage::showNote() {
     const QModelIndex state = m_table->currentIndex().siblingAtColumn(RelayModel::kState);
     const bool isTyped = !m_problem.isEmpty();
-    const QString text =
-        isTyped ? healthSymbol(Health::Error) + QLatin1Char(' ') + m_problem : state.data().toString();
     const QVariant colour = isTyped ? QVariant(theme().error) : state.data(Qt::ForegroundRole);
-    QPalette palette = m_note->palette();
-    palette.setColor(QPalette::WindowText, colour.isValid() ? colour.value<QColor>() : theme().dim);
-    if (m_note->palette() != palette) {
-        m_note->setPalette(palette);
-    }
-    m_note->setText(text);
+    setTextColour(*m_note, colour.isValid() ? colour.value<QColor>() : theme().dim);
+    m_note->setText(isTyped ? healthText(Health::Error, m_problem) : state.data().toString());
 }
 
 void RelayPage::keyPressEvent(QKeyEvent* event) {

@@ -2,7 +2,6 @@
 #include "app/gui/window/alerts.h"
 
 #include "app/gui/theme/widgets.h"
-#include "core/model/accounting/thresholds.h"
 
 #include <QCheckBox>
 #include <QDialogButtonBox>

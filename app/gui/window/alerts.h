@@ -14,10 +14,6 @@ class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
 
-namespace posewire::model {
-struct ThresholdRow;
-}
-
 namespace posewire::gui {
 
 /// When the operator wants to be alerted, and how: kept from one run to the next.

@@ -247,6 +247,8 @@ DockTitle::DockTitle(QDockWidget* dock)
     connect(m_float, &QToolButton::clicked, dock, [dock] { dock->setFloating(!dock->isFloating()); });
     connect(m_close, &QToolButton::clicked, dock, &QDockWidget::close);
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
+    new EventWatch(this, QEvent::Enter, [this] { showButtons(true); });
+    new EventWatch(this, QEvent::Leave, [this] { showButtons(false); });
     restyle();
 }
 
@@ -285,14 +287,6 @@ void DockTitle::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.fillRect(rect(), theme().header);
     painter.fillRect(QRect(0, height() - 1, width(), 1), theme().line);
-}
-
-void DockTitle::enterEvent(QEnterEvent* /*event*/) {
-    showButtons(true);
-}
-
-void DockTitle::leaveEvent(QEvent* /*event*/) {
-    showButtons(false);
 }
 
 QWidget* scrolling(QWidget* content, QDockWidget* dock) {

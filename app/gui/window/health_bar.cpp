@@ -3,7 +3,6 @@
 
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/captions.h"
 #include "app/gui/window/colour_text.h"
@@ -171,10 +170,8 @@ private:
         bold.setWeight(QFont::DemiBold);
         title->setFont(bold);
         title->setTextFormat(Qt::PlainText);
-        auto* words = new QLabel(healthSymbol(state.health) + QLatin1Char(' ') + state.text, this);
-        QPalette colours = words->palette();
-        colours.setColor(QPalette::WindowText, healthColour(state.health));
-        words->setPalette(colours);
+        auto* words = new QLabel(healthText(state.health, state.text), this);
+        setTextColour(*words, healthColour(state.health));
         words->setTextFormat(Qt::PlainText);
         auto* row = new QHBoxLayout;
         row->addWidget(title, 1);

@@ -335,10 +335,6 @@ bool MainWindow::isOn(const MenuEntry& entry) const {
     return entry.action->isOn(ownerOf(entry));
 }
 
-void MainWindow::toggleFullScreen() {
-    setWindowState(windowState() ^ Qt::WindowFullScreen);
-}
-
 void MainWindow::say(const QString& text) {
     m_health->say(text);
 }

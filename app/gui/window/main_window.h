@@ -50,7 +50,7 @@ public:
     void nextDock();
     /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
-    void toggleFullScreen();
+    void toggleFullScreen() { setWindowState(windowState() ^ Qt::WindowFullScreen); }
 
     /// A line at the bottom for a while, for what went wrong or was done.
     void say(const QString& text);

@@ -5,7 +5,6 @@
 #include "app/gui/theme/words.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
-#include "app/gui/window/reference_window.h"
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/texts.h"
 #include "core/export/protocol_reference.h"
@@ -29,20 +28,12 @@ using Do = ActionsOf<MainWindow>;
 
 constexpr int kDemoCharacters = 2;
 
-bool isDemoOn(const Window& window) {
-    return window.driver().isDemoRunning();
-}
-
 void toggleDemo(Window& window) {
-    window.driver().setDemo(isDemoOn(window) ? 0 : kDemoCharacters);
-}
-
-bool isPaused(const Window& window) {
-    return window.driver().isPaused();
+    window.driver().setDemo(window.driver().isDemoRunning() ? 0 : kDemoCharacters);
 }
 
 void togglePaused(Window& window) {
-    window.driver().setPaused(!isPaused(window));
+    window.driver().setPaused(!window.driver().isPaused());
 }
 
 void nextAxes(Window& window) {
@@ -57,10 +48,6 @@ bool isGhostOn(const Window& window) {
 
 void toggleGhost(Window& window) {
     window.driver().setGhostVisible(!isGhostOn(window));
-}
-
-bool isOrthographic(const Window& window) {
-    return window.viewport().projection() == render::Projection::Orthographic;
 }
 
 void saveScreenshot(Window& window) {
@@ -144,7 +131,7 @@ const ActionInfo kActions[] = {
     {"inputs", QT_TRANSLATE_NOOP("Action", "&Input"), QT_TRANSLATE_NOOP("Action", "&Inputs…"), "Ctrl+U",
      Do::call<&Window::openInputs, InputsDialog::Page::Inputs>},
     {"demo", "&Input", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", Do::call<toggleDemo>,
-     Do::is<isDemoOn>},
+     Do::isIn<&Window::driver, &SessionDriver::isDemoRunning>},
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
      Do::call<&Window::resetLayout>},
@@ -173,7 +160,8 @@ const ActionInfo kActions[] = {
                                                   QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6"),
     lineIn("&View/&Camera"),
     {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O",
-     Do::callIn<&Window::viewport, &ViewportWidget::toggleProjection>, Do::is<isOrthographic>},
+     Do::callIn<&Window::viewport, &ViewportWidget::toggleProjection>,
+     Do::isIn<&Window::viewport, &ViewportWidget::projection, render::Projection::Orthographic>},
     {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
      Do::callIn<&Window::viewport, &ViewportWidget::frameAll>},
     {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
@@ -196,7 +184,7 @@ const ActionInfo kActions[] = {
     panelsIn(QT_TRANSLATE_NOOP("Action", "&Go")),
 
     {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Pause"), "Space",
-     Do::call<togglePaused>, Do::is<isPaused>},
+     Do::call<togglePaused>, Do::isIn<&Window::driver, &SessionDriver::isPaused>},
     {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End",
      Do::callIn<&Window::driver, &SessionDriver::setPaused, false>},
 

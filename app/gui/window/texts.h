@@ -4,15 +4,49 @@
 #include "app/gui/program_view.h"
 #include "core/model/session/session_view.h"
 
+#include <QDialog>
+#include <QHash>
 #include <QString>
+#include <QTextBrowser>
 
-class QTextDocument;
-class QWidget;
+class QLabel;
+class QLineEdit;
+class QListWidget;
 
+/// Texts to read, and windows to read them in.
 namespace posewire::gui {
 
-/// Gives Markdown's tables, which come with raised white borders, the look of the theme.
-void styleTables(QTextDocument& document);
+/// A long text in Markdown to look things up in: contents at the left, search above, links that lead to
+/// headings.
+class ReferenceWindow final : public QDialog {
+    Q_OBJECT
+
+public:
+    ReferenceWindow(const QString& title, const QString& markdown, QWidget* parent);
+
+    [[nodiscard]] QTextBrowser& browser() const { return *m_browser; }
+    [[nodiscard]] QListWidget& contents() const { return *m_contents; }
+    [[nodiscard]] QLineEdit& searchEdit() const { return *m_search; }
+
+    /// Shows a heading by its anchor, as in the links of the text; false where there is none.
+    bool goTo(const QString& anchor);
+    /// Selects the next place, or the previous one, that contains the search text; begins again at the
+    /// other end.
+    bool find(bool isBackward);
+
+private:
+    void layOut();
+    void applyColours();
+    void readHeadings();
+    void search(const QString& text);
+    void showPlace(int position);
+
+    QTextBrowser* m_browser;
+    QListWidget* m_contents;
+    QLineEdit* m_search;
+    QLabel* m_found;
+    QHash<QString, int> m_places; ///< where in the text each heading is, by its anchor
+};
 
 /// All keys of the menus, in a window that deletes itself when closed.
 void showShortcuts(QWidget& parent);

@@ -7,6 +7,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/window/colour_text.h"
 #include "core/model/body/character_pose.h"
 
@@ -45,14 +46,13 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_add(framedButton(actions.inputs, this)),
       m_relay(new ColourText(ColourText::Look::Pill, this)),
       m_time(new QLabel(this)),
-      m_detail(new QLabel(this)),
+      m_detail(dimLabel({}, this)),
       m_pillLayout(new QHBoxLayout) {
     setObjectName(QStringLiteral("transport"));
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
     m_add->setText(tr("Input"));
     m_time->setAccessibleName(tr("Time of day shown"));
-    m_detail->setForegroundRole(QPalette::PlaceholderText);
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 6, 12, 7);
     row->setSpacing(10);
@@ -70,6 +70,8 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     connect(m_relay, &QAbstractButton::clicked, actions.relay, &QAction::trigger);
     m_detail->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
+    new EventWatch(this, QEvent::Resize,
+                   [this] { m_detail->setVisible(width() > 100 * fontMetrics().averageCharWidth()); });
     restyle();
     refresh();
 }
@@ -168,11 +170,6 @@ void TransportBar::showRelays(const std::vector<RelayState>& relays) {
     m_relay->setVisible(wanted > 0);
     m_relay->setContent(level, wanted == 1 ? tr("⇉ Relay") : tr("⇉ Relay to %1").arg(wanted));
     m_relay->setToolTip(lines.join(QLatin1Char('\n')));
-}
-
-void TransportBar::resizeEvent(QResizeEvent* event) {
-    m_detail->setVisible(width() > 50 * fontMetrics().averageCharWidth() * 2);
-    QWidget::resizeEvent(event);
 }
 
 void TransportBar::paintEvent(QPaintEvent* /*event*/) {

@@ -37,7 +37,6 @@ public:
     void setReceiving(const ReceivingState& receiving);
 
 protected:
-    void resizeEvent(QResizeEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
 
 private:

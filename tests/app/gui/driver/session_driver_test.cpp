@@ -115,7 +115,8 @@ TEST_F(SessionDriverTest, ASelectionMovesTheViewAtTheNextTick) {
 }
 
 TEST_F(SessionDriverTest, APortThatIsTakenIsToldAndTriedAgain) {
-    auto holder = net::bindUdp({{"127.0.0.1", 0}, {}}, 1 << 16);
+    net::Input taken({}, net::InputKind::Udp, {"127.0.0.1", 0});
+    auto holder = net::bindUdp(taken, 1 << 16);
     ASSERT_TRUE(holder);
     const std::uint16_t port = holder->front()->localPort();
     driver.receiving().addPort({"127.0.0.1", port});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/reference_window.h"
+#include "app/gui/window/texts.h"
 
 #include "app/gui/theme/theme.h"
 #include "core/export/protocol_reference.h"
