@@ -153,18 +153,17 @@ PropertyValue CharacterModel::stateOf(const StreamRow& row) const {
 
 bool CharacterModel::setData(const QModelIndex& index, const QVariant& value, int role) {
     if (!checkIndex(index, CheckIndexOption::IndexIsValid) || role != Qt::CheckStateRole ||
-        index.column() != kName || nodeOf(index).kind != Kind::Character) {
+        index.column() != kName || rowOf(index).kind != Kind::Character) {
         return false;
     }
-    m_commands.setCharacterVisible(view().characters()[nodeOf(index).entry].key,
-                                   value.toInt() == Qt::Checked);
+    m_commands.setCharacterVisible(view().characters()[rowOf(index).entry].key, value.toInt() == Qt::Checked);
     emit dataChanged(index, index, {Qt::CheckStateRole});
     return true;
 }
 
 Qt::ItemFlags CharacterModel::flags(const QModelIndex& index) const {
     Qt::ItemFlags flags = QAbstractItemModel::flags(index);
-    if (index.isValid() && index.column() == kName && nodeOf(index).kind == Kind::Character) {
+    if (index.isValid() && index.column() == kName && rowOf(index).kind == Kind::Character) {
         flags |= Qt::ItemIsUserCheckable;
     }
     return flags;
