@@ -188,16 +188,12 @@ QString joinedFilter(const QString& filter, const QString& condition, FilterJoin
     if (before.isEmpty() || join == FilterJoin::Replace) {
         return join == FilterJoin::AndNot ? negated : condition;
     }
+    if (join == FilterJoin::Or) {
+        return before + QStringLiteral(" || ") + condition;
+    }
     const bool isLoose = before.contains(QLatin1String("||")) || before.contains(QLatin1String(" or "));
     const QString kept = isLoose ? QStringLiteral("(%1)").arg(before) : before;
-    switch (join) {
-    case FilterJoin::And:
-        return kept + QStringLiteral(" && ") + condition;
-    case FilterJoin::Or:
-        return before + QStringLiteral(" || ") + condition;
-    default:
-        return kept + QStringLiteral(" && ") + negated;
-    }
+    return kept + QStringLiteral(" && ") + (join == FilterJoin::AndNot ? negated : condition);
 }
 
 } // namespace posewire::gui
