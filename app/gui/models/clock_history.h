@@ -84,11 +84,10 @@ private:
     };
     void add(const Reading& reading);
     void findJump(const Reading& reading);
-    void readType25(model::SessionView& view);
+    void readType25(const model::Message* message);
     [[nodiscard]] std::optional<Drift> fitDrift() const;
 
-    std::optional<model::CharacterKey> m_key;
-    std::uint8_t m_type = 0;
+    std::optional<log::StreamKey> m_stream;
     std::deque<Reading> m_readings;
     NominalRate m_rate;
     std::optional<Jump> m_jump;

@@ -7,14 +7,6 @@
 
 namespace posewire::gui {
 
-namespace {
-
-QString padded(std::int64_t value, int digits) {
-    return QString::number(value).rightJustified(digits, QLatin1Char('0'));
-}
-
-} // namespace
-
 QString fromUtf8(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
@@ -54,9 +46,9 @@ QStringList setBits(std::uint32_t flags) {
 
 QString milliClock(std::int64_t milliseconds) {
     const std::int64_t size = std::abs(milliseconds);
-    const QString text = padded(size / 3'600'000, 2) + QLatin1Char(':') + padded(size / 60'000 % 60, 2) +
-                         QLatin1Char(':') + padded(size / 1000 % 60, 2) + QLatin1Char('.') +
-                         padded(size % 1000, 3);
+    const QTime time = QTime::fromMSecsSinceStartOfDay(static_cast<int>(size % 3'600'000));
+    const QString text = QStringLiteral("%1").arg(size / 3'600'000, 2, 10, QLatin1Char('0')) +
+                         time.toString(QStringLiteral(":mm:ss.zzz"));
     return milliseconds < 0 ? QStringLiteral("−") + text : text;
 }
 

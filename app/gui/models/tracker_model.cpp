@@ -119,19 +119,15 @@ void TrackerHistory::computeMedians() {
         for (const Norm& norm : lately.norms) {
             sorted.push_back(norm.norm);
         }
-        lately.hasMedian = sorted.size() >= kLeastNorms;
-        if (lately.hasMedian) {
-            const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-            std::nth_element(sorted.begin(), middle, sorted.end());
-            lately.median = *middle;
-        }
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+        std::ranges::nth_element(sorted, middle);
+        lately.median = sorted.size() >= kLeastNorms ? std::optional(*middle) : std::nullopt;
     }
 }
 
 std::optional<float> TrackerHistory::magneticMedian(std::uint32_t trackerId) const {
     const auto found = m_trackers.find(trackerId);
-    return found != m_trackers.end() && found->second.hasMedian ? std::optional(found->second.median)
-                                                                : std::nullopt;
+    return found == m_trackers.end() ? std::nullopt : found->second.median;
 }
 
 bool TrackerHistory::isDisturbed(const wire::Tracker& tracker) const {

@@ -53,8 +53,7 @@ private:
     };
     struct Lately {
         std::deque<Norm> norms; ///< twenty a second
-        float median = 0;
-        bool hasMedian = false;
+        std::optional<float> median;
         std::optional<log::Stamp> saturated;
     };
     void add(const model::Message& message, std::uint32_t step);
