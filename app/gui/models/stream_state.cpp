@@ -7,6 +7,7 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <ranges>
 
 namespace posewire::gui {
 
@@ -31,7 +32,7 @@ PropertyValue malformedState(std::uint64_t count) {
 
 /// Another sender has taken over: nothing is wrong, and nothing more will come.
 PropertyValue ended() {
-    return {tr("ended"), Health::Unknown};
+    return {tr("ended")};
 }
 
 /// What is missing of one sample is missing in each of its types: the worst stream counts.
@@ -52,16 +53,11 @@ QString contradictionOf(const model::Sender* sender) {
 }
 
 bool hasEnded(model::SessionView& view, const model::Sender& sender) {
-    bool hasCharacters = false;
-    for (const model::Character& character : view.characters()) {
-        if (character.key.sender == sender.id) {
-            hasCharacters = true;
-            if (!view.isSuperseded(character.key)) {
-                return false;
-            }
-        }
-    }
-    return hasCharacters;
+    const auto isHere = [&](const model::Character& character) { return character.key.sender == sender.id; };
+    auto own = view.characters() | std::views::filter(isHere);
+    return !own.empty() && std::ranges::all_of(own, [&](const model::Character& character) {
+        return view.isSuperseded(character.key);
+    });
 }
 
 /// Seconds; at least 0, also when the cursor lies before it.
