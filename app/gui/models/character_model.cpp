@@ -46,20 +46,15 @@ CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QOb
 void CharacterModel::refresh() {
     insertNew();
     m_rates.resize(view().characters().size());
-    readRates();
-    announceChange();
-}
-
-void CharacterModel::readRates() {
     for (std::size_t i = 0; i < m_rates.size(); ++i) {
         const model::CharacterKey& key = view().characters()[i].key;
         const model::Stream* stream = leadingStream(view(), key);
         const auto* message = stream == nullptr ? nullptr : view().message(key, stream->key.type);
-        if (message != nullptr && message->packet != m_rates[i].packet) {
-            m_rates[i].packet = message->packet;
-            m_rates[i].rate.add(message->datagram.header.sampleCounter, message->datagram.header.timeCode);
+        if (message != nullptr) {
+            m_rates[i].add(message->datagram.header.sampleCounter, message->datagram.header.timeCode);
         }
     }
+    announceChange();
 }
 
 std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) const {
@@ -68,7 +63,7 @@ std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) con
         !wire::isSampled(stream.key.type)) {
         return std::nullopt;
     }
-    const auto frameHz = m_rates[character->ordinal].rate.frameHz();
+    const auto frameHz = m_rates[character->ordinal].frameHz();
     return frameHz ? std::optional(*frameHz / stream.accounting.step()) : std::nullopt;
 }
 
@@ -135,7 +130,7 @@ PropertyValue CharacterModel::stateOf(const StreamRow& row) const {
     case Kind::Sender:
         state = senderState(view(), view().senders()[row.entry]);
         for (const model::Contradiction& one : view().senders()[row.entry].contradictions()) {
-            lines += healthSymbol(Health::Warning) + QLatin1Char(' ') + QString::fromStdString(one.text);
+            lines += healthText(Health::Warning, QString::fromStdString(one.text));
         }
         break;
     case Kind::Character:

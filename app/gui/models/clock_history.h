@@ -17,7 +17,8 @@ namespace posewire::gui {
 /// O(1).
 class NominalRate {
 public:
-    /// Sample counter and header time code (ms) of a message, oldest first. A jump of either starts over.
+    /// Sample counter and header time code (ms) of a message, oldest first; the same one may come again. A
+    /// jump of either starts over.
     void add(std::uint32_t sample, std::uint32_t timeCode);
 
     /// Samples of the capture a second; nothing before the time code has advanced by half a second. A whole

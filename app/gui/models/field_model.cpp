@@ -125,7 +125,7 @@ QString FieldModel::differenceText(std::int32_t node) const {
 QString FieldModel::titleOf(std::int32_t node) const {
     const QString title = fieldTitle(*m_document, node);
     const Health health = m_document->worstWithin(node);
-    return health == Health::Unknown ? title : healthSymbol(health) + QLatin1Char(' ') + title;
+    return health == Health::Unknown ? title : healthText(health, title);
 }
 
 QString FieldModel::otherText(std::int32_t node) const {

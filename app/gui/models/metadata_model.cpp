@@ -15,10 +15,6 @@ namespace {
 
 constexpr quintptr kTop = ~quintptr{0}; ///< internal id of rows at the top; of others, the row above them
 
-QString changesText(std::size_t changes) {
-    return changes == 1 ? tr("· 1 change") : tr("· %1 changes").arg(changes);
-}
-
 QVariant swatchOf(const std::string& tagName, const std::string& value) {
     const auto colour = tagName == "color" ? model::parseColour(value) : std::nullopt;
     return colour ? QVariant(QColor::fromRgbF(colour->red, colour->green, colour->blue)) : QVariant();
@@ -31,11 +27,14 @@ QVariant dim(const MetadataRow&) {
 }
 
 QString suffixOf(const MetadataRow& row) {
-    const QString changes = row.changes == 0 ? QString() : changesText(row.changes);
-    if (row.tag->isKnown) {
-        return changes;
+    QStringList parts;
+    if (!row.tag->isKnown) {
+        parts += tr("· unknown");
     }
-    return changes.isEmpty() ? tr("· unknown") : tr("· unknown %1").arg(changes);
+    if (row.changes != 0) {
+        parts += row.changes == 1 ? tr("· 1 change") : tr("· %1 changes").arg(row.changes);
+    }
+    return parts.join(QLatin1Char(' '));
 }
 
 QString labelOf(const MetadataRow& row) {

@@ -25,7 +25,6 @@ NullPoseReading::Signature NullPoseReading::signatureOf(const model::CharacterKe
     signature.key = key;
     const model::NullPoseRecord& record = evidence.record;
     if (record.pose != nullptr) {
-        signature.message = record.pose->message;
         signature.packet = record.pose->packet;
     }
     signature.messages = record.messages;

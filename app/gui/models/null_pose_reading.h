@@ -53,7 +53,6 @@ public:
 private:
     struct Signature {
         std::optional<model::CharacterKey> key{};
-        std::uint64_t message = 0;
         std::uint64_t packet = 0;
         std::uint64_t messages = 0;
         std::uint64_t scalePacket = UINT64_MAX;

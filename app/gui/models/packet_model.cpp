@@ -28,23 +28,19 @@ bool describesBody(std::uint8_t type) {
 
 using PacketColumn = TableColumn<PacketFacts>;
 
-bool isStrange(const PacketFacts& facts) {
-    return facts.digest.kind == model::PacketKind::Foreign || facts.digest.kind == model::PacketKind::Skipped;
-}
-
 QVariant warningWhere(bool isOdd) {
     return isOdd ? QVariant(theme().warning) : QVariant();
 }
 
 QVariant dimWhereStrange(const PacketFacts& facts) {
-    return isStrange(facts) ? QVariant(theme().dim) : QVariant();
+    return isStrange(facts.digest) ? QVariant(theme().dim) : QVariant();
 }
 
 QVariant typeColour(const PacketFacts& facts) {
     if (packetHealth(facts) == Health::Error) {
         return healthColour(Health::Error);
     }
-    return isStrange(facts)                   ? QVariant(theme().dim)
+    return isStrange(facts.digest)            ? QVariant(theme().dim)
            : describesBody(facts.digest.type) ? QVariant(theme().accent)
                                               : QVariant();
 }

@@ -17,8 +17,7 @@ namespace {
 constexpr std::uint64_t kPacketsAtATime = 8192;
 
 std::byte folded(std::byte byte) {
-    const auto value = std::to_integer<unsigned char>(byte);
-    return value >= 'A' && value <= 'Z' ? static_cast<std::byte>(value + ('a' - 'A')) : byte;
+    return static_cast<std::byte>(wire::lower(std::to_integer<char>(byte)));
 }
 
 } // namespace

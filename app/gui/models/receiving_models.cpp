@@ -15,15 +15,10 @@ using Row = InputRow;
 using InputColumn = TableColumn<Row>;
 
 QString protocolText(const InputAddress& input) {
-    switch (input.kind) {
-    case Kind::Udp:
+    if (input.kind == Kind::Udp) {
         return input.groups.isEmpty() ? tr("UDP") : tr("UDP, multicast");
-    case Kind::TcpListener:
-        return tr("TCP, listening");
-    case Kind::TcpConnection:
-        break;
     }
-    return tr("TCP, connecting");
+    return input.kind == Kind::TcpListener ? tr("TCP, listening") : tr("TCP, connecting");
 }
 
 QString hostText(const InputAddress& input) {
@@ -55,18 +50,16 @@ PropertyValue inputState(const PortState& state) {
     if (!status.peers.empty() && state.port.kind == Kind::TcpListener) {
         return peersState(status.peers);
     }
-    const bool isReceiving = state.port.kind == Kind::Udp && state.datagramsPerSecond > 0;
-    if (status.state == net::InputState::Connected || isReceiving) {
-        const QString text = status.state == net::InputState::Connected ? QString::fromStdString(status.text)
-                                                                        : tr("receiving");
-        return {text, Health::Good, {}};
+    if (status.state == net::InputState::Connected) {
+        return {QString::fromStdString(status.text), Health::Good};
+    }
+    if (state.port.kind == Kind::Udp && state.datagramsPerSecond > 0) {
+        return {tr("receiving"), Health::Good};
     }
     if (status.state == net::InputState::Connecting) {
-        return {QString::fromStdString(status.text), Health::Unknown, {}};
+        return {QString::fromStdString(status.text)};
     }
-    return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening"),
-            Health::Unknown,
-            {}};
+    return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening")};
 }
 
 PropertyValue relayStage(const RelayState& relay) {

@@ -23,9 +23,9 @@ StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColu
     : TreeModel(std::move(columns), parent), m_view(view) {}
 
 void StreamTreeModel::insertNew() {
-    nodesOf(Kind::Sender).resize(m_view.senders().size(), kNone);
-    nodesOf(Kind::Character).resize(m_view.characters().size(), kNone);
-    nodesOf(Kind::Stream).resize(m_view.streams().size(), kNone);
+    m_nodesOf[Kind::Sender].resize(m_view.senders().size(), kNone);
+    m_nodesOf[Kind::Character].resize(m_view.characters().size(), kNone);
+    m_nodesOf[Kind::Stream].resize(m_view.streams().size(), kNone);
     if (!insert(Kind::Sender) && !insert(Kind::Character)) {
         insert(Kind::Stream);
     }
@@ -34,8 +34,8 @@ void StreamTreeModel::insertNew() {
 bool StreamTreeModel::insert(Kind kind) {
     std::optional<int> parent;
     std::vector<std::size_t> entries;
-    for (std::size_t entry = 0; entry < nodesOf(kind).size(); ++entry) {
-        const auto wanted = nodesOf(kind)[entry] == kNone ? parentOf(kind, entry) : std::nullopt;
+    for (std::size_t entry = 0; entry < m_nodesOf[kind].size(); ++entry) {
+        const auto wanted = m_nodesOf[kind][entry] == kNone ? parentOf(kind, entry) : std::nullopt;
         if (wanted && (!parent || parent == wanted)) {
             parent = wanted;
             entries.push_back(entry);
@@ -58,13 +58,13 @@ void StreamTreeModel::addNode(Kind kind, std::size_t entry, int parent) {
     const int node = static_cast<int>(m_rows.size());
     m_rows.push_back({kind, entry});
     place(node, parent);
-    nodesOf(kind)[entry] = node;
+    m_nodesOf[kind][entry] = node;
     if (kind == Kind::Stream) {
         return;
     }
     const Kind below = kind == Kind::Sender ? Kind::Character : Kind::Stream;
-    for (std::size_t child = 0; child < nodesOf(below).size(); ++child) {
-        if (nodesOf(below)[child] == kNone && parentOf(below, child) == node) {
+    for (std::size_t child = 0; child < m_nodesOf[below].size(); ++child) {
+        if (m_nodesOf[below][child] == kNone && parentOf(below, child) == node) {
             addNode(below, child, node);
         }
     }
@@ -80,10 +80,10 @@ std::optional<int> StreamTreeModel::parentOf(Kind kind, std::size_t entry) const
         const auto found =
             std::ranges::find(senders, m_view.characters()[entry].key.sender, &model::Sender::id);
         if (found != senders.end()) {
-            parent = nodesOf(Kind::Sender)[static_cast<std::size_t>(found - senders.begin())];
+            parent = m_nodesOf[Kind::Sender][static_cast<std::size_t>(found - senders.begin())];
         }
     } else if (const auto* character = m_view.find(characterOf(m_view.streams()[entry].key))) {
-        parent = nodesOf(Kind::Character)[character->ordinal];
+        parent = m_nodesOf[Kind::Character][character->ordinal];
     }
     return parent == kNone ? std::nullopt : std::optional(parent);
 }
@@ -93,17 +93,15 @@ const StreamRow& StreamTreeModel::rowOf(const QModelIndex& index) const {
 }
 
 QModelIndex StreamTreeModel::indexOf(const StreamRow& row) const {
-    return TreeModel::indexOf(nodesOf(row.kind)[row.entry]);
+    return TreeModel::indexOf(m_nodesOf[row.kind][row.entry]);
 }
 
 QString StreamTreeModel::nameOf(const StreamRow& row) const {
-    switch (row.kind) {
-    case Kind::Sender:
+    if (row.kind == Kind::Sender) {
         return QString::fromStdString(m_view.senders()[row.entry].info.address);
-    case Kind::Character:
+    }
+    if (row.kind == Kind::Character) {
         return characterName(m_view, m_view.characters()[row.entry].key);
-    case Kind::Stream:
-        break;
     }
     return QString::fromStdString(wire::typeTitle(m_view.streams()[row.entry].key.type));
 }
@@ -141,7 +139,7 @@ const model::Stream* StreamTreeModel::stream(const QModelIndex& index) const {
 
 QModelIndex StreamTreeModel::indexOf(const model::CharacterKey& key) const {
     const model::Character* found = m_view.find(key);
-    const std::vector<int>& nodes = nodesOf(Kind::Character);
+    const std::vector<int>& nodes = m_nodesOf[Kind::Character];
     return found == nullptr || found->ordinal >= nodes.size() ? QModelIndex()
                                                               : TreeModel::indexOf(nodes[found->ordinal]);
 }

@@ -12,7 +12,7 @@ namespace posewire::gui {
 
 /// A row of a table of senders, characters and streams.
 struct StreamRow {
-    enum class Kind : std::uint8_t { Sender, Character, Stream };
+    enum Kind : std::uint8_t { Sender, Character, Stream };
     Kind kind;
     std::size_t entry; ///< in the session's list of its kind
 };
@@ -59,15 +59,11 @@ private:
     void addNode(Kind kind, std::size_t entry, int parent);
     /// -1 for the top; nothing where the parent has no node yet.
     [[nodiscard]] std::optional<int> parentOf(Kind kind, std::size_t entry) const;
-    /// By place in the session's list; -1 before the row is there.
-    [[nodiscard]] std::vector<int>& nodesOf(Kind kind) { return m_nodesOf[static_cast<std::size_t>(kind)]; }
-    [[nodiscard]] const std::vector<int>& nodesOf(Kind kind) const {
-        return m_nodesOf[static_cast<std::size_t>(kind)];
-    }
 
     model::SessionView& m_view;
-    std::vector<StreamRow> m_rows;             ///< by node
-    std::array<std::vector<int>, 3> m_nodesOf; ///< by kind
+    std::vector<StreamRow> m_rows; ///< by node
+    /// By kind, then by place in the session's list; -1 before the row is there.
+    std::array<std::vector<int>, 3> m_nodesOf;
 };
 
 } // namespace posewire::gui

@@ -72,13 +72,10 @@ QString duration(double seconds) {
     if (seconds < 10) {
         return fixed(seconds, 1) + QStringLiteral(" s");
     }
-    if (seconds < 120) {
-        return fixed(std::floor(seconds), 0) + QStringLiteral(" s");
-    }
-    if (seconds < 7200) {
-        return fixed(std::floor(seconds / 60), 0) + QStringLiteral(" min");
-    }
-    return fixed(std::floor(seconds / 3600), 0) + QStringLiteral(" h");
+    const auto whole = [seconds](double unit) { return fixed(std::floor(seconds / unit), 0); };
+    return seconds < 120    ? whole(1) + QStringLiteral(" s")
+           : seconds < 7200 ? whole(60) + QStringLiteral(" min")
+                            : whole(3600) + QStringLiteral(" h");
 }
 
 QString megabytes(std::uint64_t bytes) {
