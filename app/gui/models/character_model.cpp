@@ -8,7 +8,6 @@
 #include "core/model/session/ingest.h"
 #include "core/wire/type_table.h"
 
-#include <algorithm>
 #include <array>
 
 namespace posewire::gui {
@@ -75,10 +74,8 @@ std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel
                                                  .arg(model.view().characters()[row.entry].key.character)
                                            : QString();
     };
-    Column name = Column::words(tr("Character, stream"), {}, [&model](const auto& row) {
-                      return model.nameOf(row);
-                  }).withToolTip(help);
-    name.more = [&model](const StreamRow& row, int role) {
+    const auto name = [&model](const StreamRow& row) { return model.nameOf(row); };
+    const auto marks = [&model](const StreamRow& row, int role) {
         if (role == Qt::CheckStateRole && row.kind == Kind::Character) {
             const bool isHidden = model.view().isHidden(model.view().characters()[row.entry].key);
             return QVariant(isHidden ? Qt::Unchecked : Qt::Checked);
@@ -86,7 +83,7 @@ std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel
         return model.marksOf(row, role);
     };
     return {
-        name,
+        Column::words(tr("Character, stream"), {}, name).withToolTip(help).withMore(marks),
         Column::numbers(tr("Hz"), {}, [&model](const auto& row) { return model.rateOf(row); })
             .withColour([](const StreamRow& row) {
                 return row.kind == Kind::Sender ? QVariant(theme().dim) : QVariant();

@@ -209,18 +209,14 @@ PropertyValue offset(const ClockHistory& clock) {
 }
 
 PropertyValue drift(const ClockHistory& clock) {
-    const QString toolTip =
-        tr("How much faster the sender's header clock runs than this computer's: slope over "
-           "the last minute of time code against receive stamps, ± its standard error");
-    if (const auto found = clock.drift()) {
-        return {tr("%1 ± %2 ppm").arg(signedFixed(found->ppm, 1), fixed(found->error, 1)), Health::Unknown,
-                toolTip};
-    }
-    if (!clock.headerMs()) {
-        return {dash(), Health::Unknown, toolTip};
-    }
-    return {tr("after %1 s").arg(static_cast<int>(ClockHistory::kLeastDriftSeconds)), Health::Unknown,
-            toolTip};
+    const auto& found = clock.drift();
+    const QString text = found ? tr("%1 ± %2 ppm").arg(signedFixed(found->ppm, 1), fixed(found->error, 1))
+                         : clock.headerMs()
+                             ? tr("after %1 s").arg(static_cast<int>(ClockHistory::kLeastDriftSeconds))
+                             : dash();
+    return {text, Health::Unknown,
+            tr("How much faster the sender's header clock runs than this computer's: slope over "
+               "the last minute of time code against receive stamps, ± its standard error")};
 }
 
 PropertyValue frameRate(const ClockHistory& clock) {
@@ -230,16 +226,13 @@ PropertyValue frameRate(const ClockHistory& clock) {
 }
 
 PropertyValue lastJump(const ClockHistory& clock) {
-    const QString toolTip =
-        tr("The newest place where the time code did not advance with its samples, and when it "
-           "was received");
-    if (!clock.lastJump()) {
-        return {clock.headerMs() ? tr("none") : dash(), Health::Unknown, toolTip};
-    }
-    return {tr("%1 at %2")
-                .arg(clockDifference(clock.lastJump()->milliseconds),
-                     timeOfDay(clock.lastJump()->stamp).chopped(4)),
-            Health::Warning, toolTip};
+    const auto& jump = clock.lastJump();
+    const QString none = clock.headerMs() ? tr("none") : dash();
+    return {jump ? tr("%1 at %2").arg(clockDifference(jump->milliseconds), timeOfDay(jump->stamp).chopped(4))
+                 : none,
+            jump ? Health::Warning : Health::Unknown,
+            tr("The newest place where the time code did not advance with its samples, and when it "
+               "was received")};
 }
 
 } // namespace

@@ -41,7 +41,7 @@ QString cellText(const QModelIndex& index) {
 
 PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
     : TableModel({TableColumn<Property>::words(tr("Property"), {}, &Property::label)
-                      .withColour([](const Property&) { return QVariant(theme().dim); })
+                      .dimmed()
                       .withToolTip([](const Property& row) { return row.read().toolTip; }),
                   valueColumn(TableColumn<Property>{.title = tr("Value"), .isNumber = true},
                               [](const Property& row) { return row.read(); })},

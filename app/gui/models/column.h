@@ -73,8 +73,16 @@ struct TableColumn {
         colour = std::move(read);
         return std::move(*this);
     }
+    /// For labels, and for what follows from other cells.
+    [[nodiscard]] TableColumn dimmed() && {
+        return std::move(*this).withColour([](const Row&) { return QVariant(theme().dim); });
+    }
     [[nodiscard]] TableColumn withToolTip(Words read) && {
         toolTip = std::move(read);
+        return std::move(*this);
+    }
+    [[nodiscard]] TableColumn withMore(std::function<QVariant(const Row&, int role)> read) && {
+        more = std::move(read);
         return std::move(*this);
     }
 };
@@ -158,11 +166,10 @@ protected:
     [[nodiscard]] QVariant cell(const Row& row, int column, int role) const {
         return cellData(m_columns[static_cast<std::size_t>(column)], row, role);
     }
-    /// Announces that the rows from `first` to `last` of the first level may have changed, with all under
-    /// them.
-    void announceChange(int first, int last) {
-        if (last >= first) {
-            emit this->dataChanged(this->index(first, 0), this->index(last, columnCount() - 1));
+    /// Announces, once, that all rows of the first level may have changed, with all under them.
+    void announceChange() {
+        if (const int rows = this->rowCount(); rows > 0) {
+            emit this->dataChanged(this->index(0, 0), this->index(rows - 1, columnCount() - 1));
         }
     }
 
@@ -253,7 +260,7 @@ protected:
             this->endRemoveRows();
         }
         m_rows = std::move(rows);
-        this->announceChange(0, after - 1);
+        this->announceChange();
     }
 
 private:
@@ -284,7 +291,7 @@ public:
     explicit PropertyModel(std::vector<Property> properties, QObject* parent = nullptr);
 
     /// Announces that all values may have changed.
-    void refresh() { announceChange(0, rowCount() - 1); }
+    void refresh() { announceChange(); }
 };
 
 } // namespace posewire::gui

@@ -228,7 +228,7 @@ void EventModel::show(Numbers numbers) {
         m_numbers = std::move(numbers);
         endInsertRows();
     }
-    announceChange(0, rowCount() - 1);
+    announceChange();
 }
 
 void EventModel::setFilter(const Filter& filter) {
@@ -243,7 +243,7 @@ void EventModel::setFilter(const Filter& filter) {
 void EventModel::markSeen() {
     const auto& all = m_view.events().all();
     m_seenEnd = all.empty() ? 0 : all.back().number + 1;
-    announceChange(0, rowCount() - 1);
+    announceChange();
 }
 
 EventModel::Counts EventModel::counts() const {

@@ -57,7 +57,7 @@ std::vector<TableColumn<std::int32_t>> FieldModel::columns(const FieldModel& mod
 void FieldModel::setDocument(std::shared_ptr<const FieldDocument> document) {
     if (m_other == nullptr && m_document->hasSameRows(*document) && !document->isEmpty()) {
         m_document = std::move(document);
-        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+        announceChange();
         return;
     }
     beginResetModel();

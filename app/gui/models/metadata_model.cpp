@@ -22,10 +22,6 @@ QVariant swatchOf(const std::string& tagName, const std::string& value) {
 
 using MetadataColumn = TableColumn<MetadataRow>;
 
-QVariant dim(const MetadataRow&) {
-    return theme().dim;
-}
-
 QString suffixOf(const MetadataRow& row) {
     QStringList parts;
     if (!row.tag->isKnown) {
@@ -45,18 +41,17 @@ QString labelOf(const MetadataRow& row) {
 }
 
 MetadataColumn nameColumn() {
-    MetadataColumn column = MetadataColumn::words(tr("Tag"), {}, labelOf).withColour(dim);
     const auto isTag = [](const MetadataRow& row) { return row.tag != nullptr && !row.isEarlier; };
-    column.toolTip = [isTag](const MetadataRow& row) {
+    const auto toolTip = [isTag](const MetadataRow& row) {
         return isTag(row) && !row.tag->isKnown
                    ? tr("Neither in the specification nor known from real senders; kept and shown as sent")
                    : QString();
     };
-    column.more = [isTag](const MetadataRow& row, int role) {
-        const QString suffix = isTag(row) && role == kSuffixRole ? suffixOf(row) : QString();
-        return suffix.isEmpty() ? QVariant() : suffix;
+    const auto suffix = [isTag](const MetadataRow& row, int role) {
+        const QString text = isTag(row) && role == kSuffixRole ? suffixOf(row) : QString();
+        return text.isEmpty() ? QVariant() : text;
     };
-    return column;
+    return MetadataColumn::words(tr("Tag"), {}, labelOf).dimmed().withToolTip(toolTip).withMore(suffix);
 }
 
 PropertyValue shownValue(const MetadataRow& row) {
@@ -86,12 +81,10 @@ MetadataColumn sentColumn(model::SessionView& view) {
                    : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
                          .arg(timeOfDay(row.tag->lastSeen));
     };
-    MetadataColumn column =
-        MetadataColumn::numbers(tr("Sent"), {}, text).withColour(dim).withToolTip(toolTip);
-    column.more = [](const MetadataRow& row, int role) {
+    const auto span = [](const MetadataRow& row, int role) {
         return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
     };
-    return column;
+    return MetadataColumn::numbers(tr("Sent"), {}, text).dimmed().withToolTip(toolTip).withMore(span);
 }
 
 std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
@@ -204,7 +197,7 @@ void MetadataModel::refresh() {
     } else if (m_key && !insertTags()) {
         fitHistories();
     }
-    announceChange(0, rowCount() - 1);
+    announceChange();
 }
 
 void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {

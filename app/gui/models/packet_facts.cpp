@@ -7,8 +7,6 @@
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
-#include <QStringList>
-
 #include <algorithm>
 
 namespace posewire::gui {

@@ -4,7 +4,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/wire/type_table.h"
 
 #include <QDateTime>
 
@@ -113,13 +112,12 @@ void PacketModel::refresh() {
     insertNew();
     const model::Annotations& annotations = m_view.annotations();
     const model::Cursor& cursor = m_view.cursor();
-    const bool isChanged = annotations.marks != m_annotations.marks ||
-                           annotations.comments != m_annotations.comments || cursor.mode != m_cursor.mode ||
-                           cursor.packet != m_cursor.packet;
+    const bool isChanged =
+        annotations != m_annotations || cursor.mode != m_cursor.mode || cursor.packet != m_cursor.packet;
     if (isChanged && rowCount() > 0) {
         m_annotations = annotations;
         m_cursor = cursor;
-        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+        announceChange();
     }
 }
 

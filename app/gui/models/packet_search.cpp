@@ -24,12 +24,9 @@ std::byte folded(std::byte byte) {
 
 tl::expected<BytePattern, QString> parsePattern(const QString& text, bool isHexadecimal) {
     if (!isHexadecimal) {
-        BytePattern pattern{{}, true};
-        const QByteArray utf8 = text.toUtf8();
-        const auto bytes = std::as_bytes(std::span(utf8.constData(), static_cast<std::size_t>(utf8.size())));
-        pattern.bytes.assign(bytes.begin(), bytes.end());
-        std::ranges::transform(pattern.bytes, pattern.bytes.begin(), folded);
-        return pattern;
+        const std::string small = wire::lowered(text.toStdString());
+        const auto bytes = std::as_bytes(std::span(small));
+        return BytePattern{{bytes.begin(), bytes.end()}, true};
     }
     static const QRegularExpression between(QStringLiteral("0[xX]|[\\s,;:]"));
     QString digits = text;

@@ -5,7 +5,6 @@
 #include "core/export/json.h"
 #include "core/export/sheets.h"
 #include "core/wire/text.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 

@@ -87,15 +87,15 @@ InputColumn figureColumn(const QString& title, const QString& help, QString (*fi
 }
 
 InputColumn hostColumn() {
-    InputColumn column = InputColumn::words(
-        tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
-        [](const Row& row) { return row.file.isEmpty() ? hostText(row.input.port) : row.file; });
-    column.more = [](const Row& row, int role) {
+    const auto text = [](const Row& row) { return row.file.isEmpty() ? hostText(row.input.port) : row.file; };
+    const auto suffix = [](const Row& row, int role) {
         const bool isEvery =
             row.file.isEmpty() && row.input.port.address.isEmpty() && row.input.port.groups.isEmpty();
         return role == kSuffixRole && isEvery ? QVariant(tr("· every address")) : QVariant();
     };
-    return column;
+    return InputColumn::words(tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
+                              text)
+        .withMore(suffix);
 }
 
 std::vector<InputColumn> inputColumns() {
@@ -141,14 +141,12 @@ RelayColumn troubleColumn(const QString& title, const QString& help, std::uint64
 }
 
 std::vector<RelayColumn> relayColumns() {
-    RelayColumn host =
-        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; });
-    host.more = [](const RelayState& relay, int role) {
+    const auto box = [](const RelayState& relay, int role) {
         return role == Qt::CheckStateRole ? QVariant(relay.target.isOn ? Qt::Checked : Qt::Unchecked)
                                           : QVariant();
     };
     return {
-        host,
+        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; }).withMore(box),
         RelayColumn::numbers(tr("Port"), {},
                              [](const auto& relay) { return QString::number(relay.target.port); }),
         valueColumn(RelayColumn{.title = tr("State")}, relayStage),

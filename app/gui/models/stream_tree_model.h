@@ -42,8 +42,6 @@ protected:
     /// Announces at most one insertion: what appears under several parents at once arrives over the next
     /// calls.
     void insertNew();
-    /// Announces that anything may have changed, once, for the senders; views repaint what is under them too.
-    void announceChange() { ColumnModel::announceChange(0, rowCount() - 1); }
     [[nodiscard]] const StreamRow& rowOf(const QModelIndex& index) const;
     [[nodiscard]] QModelIndex indexOf(const StreamRow& row) const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }

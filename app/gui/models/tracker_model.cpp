@@ -6,10 +6,8 @@
 #include "app/gui/theme/words.h"
 #include "core/model/body/segments.h"
 #include "core/model/body/spaces.h"
-#include "core/model/session/ingest.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
