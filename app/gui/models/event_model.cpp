@@ -24,11 +24,6 @@ QString lossWords(const model::Event& event) {
                : lost;
 }
 
-/// Conditions that last are found by the clock: no packet is theirs.
-bool hasPacket(EventKind kind) {
-    return kind != EventKind::SenderDown && kind < EventKind::LossLimit;
-}
-
 } // namespace
 
 Health healthOf(model::EventSeverity severity) {
@@ -89,7 +84,8 @@ QString briefWords(const model::Event& event) {
 }
 
 std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Event& event) {
-    if (!hasPacket(event.kind)) {
+    // Conditions that last are found by the clock: no packet is theirs.
+    if (event.kind == EventKind::SenderDown || event.kind >= EventKind::LossLimit) {
         const std::uint64_t first = view.packetFrom(event.firstStamp);
         return first == view.begin() ? std::nullopt : std::optional(first - 1);
     }

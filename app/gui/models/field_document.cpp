@@ -100,12 +100,6 @@ QString faultText(const FieldDocument& document) {
     return tr("malformed: %1 (byte %2)").arg(both, grouped(offset));
 }
 
-/// How far it was read.
-QString unreadText(const FieldDocument& document) {
-    const wire::FieldNode& rest = document.tree().nodes.back();
-    return tr("%1 bytes from byte %2 are unread").arg(grouped(rest.length), grouped(rest.offset));
-}
-
 /// What bytes are that are no datagram.
 QString outsideText(const FieldDocument& document) {
     return document.kind() == model::PacketKind::Skipped
@@ -294,8 +288,9 @@ void FieldDocument::addProblem(Health level, const QString& text, std::int32_t i
 
 void FieldDocument::addFault() {
     addProblem(Health::Error, faultText(*this), m_tree.cutNode, m_tree.fault->offset);
-    if (m_tree.nodes.back().kind == NodeKind::Unread) {
-        addProblem(Health::Unknown, unreadText(*this), count() - 1);
+    if (const FieldNode& rest = m_tree.nodes.back(); rest.kind == NodeKind::Unread) {
+        const QString text = tr("%1 bytes from byte %2 are unread");
+        addProblem(Health::Unknown, text.arg(grouped(rest.length), grouped(rest.offset)), count() - 1);
     }
 }
 

@@ -104,10 +104,6 @@ int NullPoseReading::selectedPlace() const {
 
 namespace {
 
-PropertyValue none() {
-    return {dash()};
-}
-
 QString age(const NullPoseReading& reading, log::Stamp stamp) {
     const double seconds = log::secondsOf(reading.view().cursorStamp() - stamp);
     return duration(std::max(seconds, 0.0));
@@ -120,7 +116,7 @@ QString whenAndAge(const NullPoseReading& reading, log::Stamp stamp) {
 
 PropertyValue parts(const NullPoseReading& reading) {
     if (!reading.newest()) {
-        return none();
+        return {dash()};
     }
     const model::NullPoseMessage& message = *reading.newest();
     const QString whole =
@@ -143,7 +139,7 @@ PropertyValue parts(const NullPoseReading& reading) {
 
 PropertyValue received(const NullPoseReading& reading) {
     if (!reading.newest()) {
-        return none();
+        return {dash()};
     }
     return {whenAndAge(reading, reading.newest()->stamp), Health::Unknown,
             tr("When its newest part came, and how long ago")};
@@ -159,9 +155,9 @@ PropertyValue messages(const NullPoseReading& reading) {
 
 PropertyValue changed(const NullPoseReading& reading) {
     if (reading.pose() == nullptr) {
-        return none();
+        return {dash()};
     }
-    if (!reading.hasChanged()) {
+    if (reading.fromBefore().empty()) {
         return {tr("never"), Health::Unknown, tr("All messages said the same")};
     }
     return {whenAndAge(reading, reading.changed()), Health::Warning,
@@ -170,14 +166,15 @@ PropertyValue changed(const NullPoseReading& reading) {
 
 template <auto kList>
 PropertyValue countOf(const NullPoseReading& reading) {
-    return reading.pose() == nullptr ? none() : PropertyValue{grouped((reading.pose()->*kList).size())};
+    return reading.pose() == nullptr ? PropertyValue{dash()}
+                                     : PropertyValue{grouped((reading.pose()->*kList).size())};
 }
 
 template <std::optional<double> model::NullPoseMeasures::*kLength>
 PropertyValue metres(const NullPoseReading& reading) {
     const model::NullPoseMeasures& measures = reading.measures();
     if (!(measures.*kLength)) {
-        return none();
+        return {dash()};
     }
     const QString text = fixed(*(measures.*kLength), 3) + QStringLiteral(" m");
     if (!measures.isEstimated) {

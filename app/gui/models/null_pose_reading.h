@@ -32,10 +32,9 @@ public:
     /// True where nothing of the three types has come.
     [[nodiscard]] bool isEmpty() const { return !m_pose && !m_scale && !m_props && messages() == 0; }
 
-    /// By place; empty where there is nothing to compare with.
+    /// By place; empty where there is nothing to compare with, and the first where nothing has changed.
     [[nodiscard]] const model::Distances& fromBefore() const { return m_fromBefore; }
     [[nodiscard]] const model::Distances& fromReference() const { return m_fromReference; }
-    [[nodiscard]] bool hasChanged() const { return !m_fromBefore.empty(); }
     [[nodiscard]] log::Stamp changed() const { return m_signature.changed; }
 
     /// The newest message, complete or not; nothing where there is none.

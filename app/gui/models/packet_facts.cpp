@@ -17,13 +17,9 @@ namespace {
 QString beginning(wire::Bytes bytes) {
     constexpr std::size_t kShown = 12;
     const wire::Bytes shown = bytes.first(std::min(bytes.size(), kShown));
-    const QByteArray data(reinterpret_cast<const char*>(shown.data()), static_cast<qsizetype>(shown.size()));
-    QString readable;
-    for (const char byte : data) {
-        readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
-    }
+    const QString digits = QString::fromLatin1(QByteArrayView(shown).toByteArray().toHex(' '));
     const QString more = bytes.size() > kShown ? QStringLiteral(" …") : QString();
-    return QString::fromLatin1(data.toHex(' ')) + more + QStringLiteral("  \"") + readable + QLatin1Char('"');
+    return digits + more + QStringLiteral("  \"") + readable(shown) + QLatin1Char('"');
 }
 
 /// Why it cannot be decoded, or what is odd about it.

@@ -97,11 +97,9 @@ QString figureNumber(const model::StreamFigures& figures, model::Figure figure) 
 
 /// Whether a figure is one to look at. Unknown for all that is neither good nor bad.
 Health figureHealth(const model::StreamFigures& figures, model::Figure figure) {
-    const model::FigureTrouble trouble = figures.trouble(figure);
-    if (trouble == model::FigureTrouble::Error) {
-        return Health::Error;
-    }
-    return trouble == model::FigureTrouble::Warning ? Health::Warning : Health::Unknown;
+    using enum Health;
+    constexpr std::array kHealths{Unknown, Unknown, Warning, Error}; // by FigureTrouble
+    return kHealths[static_cast<std::size_t>(figures.trouble(figure))];
 }
 
 /// A count of trouble that is zero is dim: nothing to look at.

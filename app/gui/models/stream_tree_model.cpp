@@ -8,12 +8,6 @@
 
 namespace posewire::gui {
 
-namespace {
-
-constexpr int kNone = -1;
-
-} // namespace
-
 model::CharacterKey characterOf(const log::StreamKey& key) {
     return {key.sender, key.character};
 }

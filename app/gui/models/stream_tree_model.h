@@ -51,6 +51,7 @@ protected:
     [[nodiscard]] QVariant marksOf(const StreamRow& row, int role) const;
 
 private:
+    static constexpr int kNone = -1; ///< of nodes
     /// Adds the entries without a node that have the same parent as the first of them. False where none has.
     bool insert(Kind kind);
     /// With all that belongs under it.
@@ -60,7 +61,7 @@ private:
 
     model::SessionView& m_view;
     std::vector<StreamRow> m_rows; ///< by node
-    /// By kind, then by place in the session's list; -1 before the row is there.
+    /// By kind, then by place in the session's list; kNone before the row is there.
     std::array<std::vector<int>, 3> m_nodesOf;
 };
 

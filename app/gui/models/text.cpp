@@ -11,6 +11,15 @@ QString fromUtf8(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
+QString readable(std::span<const std::byte> bytes) {
+    QString text;
+    for (const std::byte byte : bytes) {
+        const auto value = std::to_integer<char>(byte);
+        text += value >= ' ' && value <= '~' ? QLatin1Char(value) : QLatin1Char('.');
+    }
+    return text;
+}
+
 QString grouped(std::uint64_t value) {
     QString digits = QString::number(value);
     for (auto at = digits.size() - 3; at > 0; at -= 3) {
