@@ -13,7 +13,7 @@ namespace posewire::gui {
 /// Characters with their streams: rates, and what is wrong with them.
 class CharacterModel : public StreamTreeModel {
 public:
-    enum Column : int { kName, kRate, kState, kColumnCount };
+    enum Column : int { kName, kRate, kState };
 
     CharacterModel(model::SessionView& view, Commands& commands, QObject* parent = nullptr);
 

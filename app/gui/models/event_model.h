@@ -15,7 +15,7 @@ namespace posewire::gui {
 /// The events of the session, or those that are asked for, in the order in which they began.
 class EventModel : public ColumnModel<model::Event> {
 public:
-    enum Column : int { kSeverity, kTime, kWho, kText, kCount, kKind, kGroup, kLasted, kColumnCount };
+    enum Column : int { kSeverity, kTime, kWho, kText, kCount, kKind, kGroup, kLasted };
 
     /// What is listed.
     struct Filter {

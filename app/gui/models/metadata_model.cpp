@@ -8,6 +8,7 @@
 #include "core/model/body/null_pose.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -240,16 +241,14 @@ void MetadataModel::fitHistories() {
         const std::size_t wanted = earlierValues(*tag(static_cast<int>(row)));
         const std::size_t shown = m_earlier[row];
         const QModelIndex parent = index(static_cast<int>(row), 0);
-        if (wanted > shown && !hasInserted) {
+        if (wanted > shown && !std::exchange(hasInserted, true)) {
             beginInsertRows(parent, 0, static_cast<int>(wanted - shown) - 1);
             m_earlier[row] = wanted;
             endInsertRows();
-            hasInserted = true;
-        } else if (wanted < shown && !hasRemoved) {
+        } else if (wanted < shown && !std::exchange(hasRemoved, true)) {
             beginRemoveRows(parent, 0, static_cast<int>(shown - wanted) - 1);
             m_earlier[row] = wanted;
             endRemoveRows();
-            hasRemoved = true;
         }
     }
 }

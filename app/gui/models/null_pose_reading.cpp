@@ -8,17 +8,6 @@
 
 namespace posewire::gui {
 
-namespace {
-
-/// The newest body of a type; nothing where none came.
-template <class T>
-std::optional<T> bodyOf(const model::Message* message) {
-    const T* body = message == nullptr ? nullptr : std::get_if<T>(&message->datagram.body);
-    return body == nullptr ? std::nullopt : std::optional<T>(*body);
-}
-
-} // namespace
-
 NullPoseReading::Signature NullPoseReading::signatureOf(const model::CharacterKey& key,
                                                         const model::NullPoseEvidence& evidence) const {
     Signature signature;
@@ -35,6 +24,7 @@ NullPoseReading::Signature NullPoseReading::signatureOf(const model::CharacterKe
                           log::secondsOf(evidence.now - record.newest->stamp) >= model::kPartOverdue;
     if (const auto* message = m_view.message(key, wire::ScaleInformation::kType)) {
         signature.scalePacket = message->packet;
+        signature.scaleStamp = message->stamp;
     }
     if (const auto* message = m_view.message(key, wire::PropInformation::kType)) {
         signature.propPacket = message->packet;
@@ -59,13 +49,10 @@ void NullPoseReading::take(const model::NullPoseEvidence& evidence) {
     const model::NullPoseRecord& record = evidence.record;
     m_repetition = record.repetition;
     m_findings = model::findContradictions(evidence);
-    const auto newest = [this](std::uint8_t type) {
-        return character() ? m_view.message(*character(), type) : nullptr;
-    };
-    const auto* scale = newest(wire::ScaleInformation::kType);
-    m_scale = bodyOf<wire::ScaleInformation>(scale);
-    m_scaleStamp = scale == nullptr ? log::Stamp() : scale->stamp;
-    m_props = bodyOf<wire::PropInformation>(newest(wire::PropInformation::kType));
+    m_scale = evidence.scale == nullptr ? std::nullopt : std::optional(*evidence.scale);
+    const auto* sent = character() ? m_view.message(*character(), wire::PropInformation::kType) : nullptr;
+    const auto* props = sent == nullptr ? nullptr : std::get_if<wire::PropInformation>(&sent->datagram.body);
+    m_props = props == nullptr ? std::nullopt : std::optional(*props);
     m_fromBefore.clear();
     m_fromReference.clear();
     m_measures = {};

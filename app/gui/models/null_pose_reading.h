@@ -41,7 +41,7 @@ public:
     [[nodiscard]] const std::optional<model::NullPoseMessage>& newest() const { return m_newest; }
     [[nodiscard]] std::uint64_t messages() const { return m_signature.messages; }
     [[nodiscard]] log::Duration repetition() const { return m_repetition; }
-    [[nodiscard]] log::Stamp scaleStamp() const { return m_scaleStamp; }
+    [[nodiscard]] log::Stamp scaleStamp() const { return m_signature.scaleStamp; }
     [[nodiscard]] model::SessionView& view() const { return m_view; }
 
     /// The place in the message of the selected segment, −1 for none.
@@ -55,6 +55,7 @@ private:
         std::uint64_t packet = 0;
         std::uint64_t messages = 0;
         std::uint64_t scalePacket = UINT64_MAX;
+        log::Stamp scaleStamp{};
         std::uint64_t propPacket = UINT64_MAX;
         log::Stamp changed{};
         int segments = 0; ///< of poses
@@ -78,7 +79,6 @@ private:
     model::Distances m_fromReference;
     std::optional<model::NullPoseMessage> m_newest;
     log::Duration m_repetition{};
-    log::Stamp m_scaleStamp{};
 };
 
 /// When and how completely scale messages came, and the size of the body. The reading must outlive them.

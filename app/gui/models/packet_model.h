@@ -19,19 +19,7 @@ inline constexpr int kStripeRole = Qt::UserRole + 21;
 /// row is a number and takes no memory; texts are made when they are asked for.
 class PacketModel : public ColumnModel<PacketFacts> {
 public:
-    enum Column : int {
-        kNumber,
-        kTime,
-        kDelta,
-        kSender,
-        kType,
-        kCharacter,
-        kSample,
-        kPart,
-        kSize,
-        kNote,
-        kColumnCount
-    };
+    enum Column : int { kNumber, kTime, kDelta, kSender, kType, kCharacter, kSample, kPart, kSize, kNote };
     enum class TimeMode { SinceFirst, TimeOfDay };
     enum class DeltaMode { Stream, RowAbove };
 

@@ -79,7 +79,7 @@ private:
 /// The trackers of the shown character in wire order, as of the newest type 23 at the cursor.
 class TrackerModel : public TableModel<wire::Tracker> {
 public:
-    enum Column : int { kName, kFree, kAcceleration, kGyro, kMagnetic, kState, kColumnCount };
+    enum Column : int { kName, kFree, kAcceleration, kGyro, kMagnetic, kState };
 
     explicit TrackerModel(model::SessionView& view, QObject* parent = nullptr);
 
