@@ -7,7 +7,6 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <ranges>
 
 namespace posewire::gui {
 
@@ -53,11 +52,12 @@ QString contradictionOf(const model::Sender* sender) {
 }
 
 bool hasEnded(model::SessionView& view, const model::Sender& sender) {
-    const auto isHere = [&](const model::Character& character) { return character.key.sender == sender.id; };
-    auto own = view.characters() | std::views::filter(isHere);
-    return !own.empty() && std::ranges::all_of(own, [&](const model::Character& character) {
-        return view.isSuperseded(character.key);
-    });
+    const auto& all = view.characters();
+    const auto isOwn = [&](const model::Character& character) { return character.key.sender == sender.id; };
+    return std::ranges::any_of(all, isOwn) &&
+           std::ranges::none_of(all, [&](const model::Character& character) {
+               return isOwn(character) && !view.isSuperseded(character.key);
+           });
 }
 
 /// Seconds; at least 0, also when the cursor lies before it.
