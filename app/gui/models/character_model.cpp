@@ -8,7 +8,6 @@
 #include "core/model/session/ingest.h"
 #include "core/wire/type_table.h"
 
-#include <algorithm>
 #include <array>
 
 namespace posewire::gui {
@@ -46,20 +45,15 @@ CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QOb
 void CharacterModel::refresh() {
     insertNew();
     m_rates.resize(view().characters().size());
-    readRates();
-    announceChange();
-}
-
-void CharacterModel::readRates() {
     for (std::size_t i = 0; i < m_rates.size(); ++i) {
         const model::CharacterKey& key = view().characters()[i].key;
         const model::Stream* stream = leadingStream(view(), key);
         const auto* message = stream == nullptr ? nullptr : view().message(key, stream->key.type);
-        if (message != nullptr && message->packet != m_rates[i].packet) {
-            m_rates[i].packet = message->packet;
-            m_rates[i].rate.add(message->datagram.header.sampleCounter, message->datagram.header.timeCode);
+        if (message != nullptr) {
+            m_rates[i].add(message->datagram.header.sampleCounter, message->datagram.header.timeCode);
         }
     }
+    announceChange();
 }
 
 std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) const {
@@ -68,7 +62,7 @@ std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) con
         !wire::isSampled(stream.key.type)) {
         return std::nullopt;
     }
-    const auto frameHz = m_rates[character->ordinal].rate.frameHz();
+    const auto frameHz = m_rates[character->ordinal].frameHz();
     return frameHz ? std::optional(*frameHz / stream.accounting.step()) : std::nullopt;
 }
 
@@ -80,10 +74,8 @@ std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel
                                                  .arg(model.view().characters()[row.entry].key.character)
                                            : QString();
     };
-    Column name = Column::words(tr("Character, stream"), {}, [&model](const auto& row) {
-                      return model.nameOf(row);
-                  }).withToolTip(help);
-    name.more = [&model](const StreamRow& row, int role) {
+    const auto name = [&model](const StreamRow& row) { return model.nameOf(row); };
+    const auto marks = [&model](const StreamRow& row, int role) {
         if (role == Qt::CheckStateRole && row.kind == Kind::Character) {
             const bool isHidden = model.view().isHidden(model.view().characters()[row.entry].key);
             return QVariant(isHidden ? Qt::Unchecked : Qt::Checked);
@@ -91,7 +83,7 @@ std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel
         return model.marksOf(row, role);
     };
     return {
-        name,
+        Column::words(tr("Character, stream"), {}, name).withToolTip(help).withMore(marks),
         Column::numbers(tr("Hz"), {}, [&model](const auto& row) { return model.rateOf(row); })
             .withColour([](const StreamRow& row) {
                 return row.kind == Kind::Sender ? QVariant(theme().dim) : QVariant();
@@ -135,7 +127,7 @@ PropertyValue CharacterModel::stateOf(const StreamRow& row) const {
     case Kind::Sender:
         state = senderState(view(), view().senders()[row.entry]);
         for (const model::Contradiction& one : view().senders()[row.entry].contradictions()) {
-            lines += healthSymbol(Health::Warning) + QLatin1Char(' ') + QString::fromStdString(one.text);
+            lines += healthText(Health::Warning, QString::fromStdString(one.text));
         }
         break;
     case Kind::Character:
@@ -153,18 +145,17 @@ PropertyValue CharacterModel::stateOf(const StreamRow& row) const {
 
 bool CharacterModel::setData(const QModelIndex& index, const QVariant& value, int role) {
     if (!checkIndex(index, CheckIndexOption::IndexIsValid) || role != Qt::CheckStateRole ||
-        index.column() != kName || nodeOf(index).kind != Kind::Character) {
+        index.column() != kName || rowOf(index).kind != Kind::Character) {
         return false;
     }
-    m_commands.setCharacterVisible(view().characters()[nodeOf(index).entry].key,
-                                   value.toInt() == Qt::Checked);
+    m_commands.setCharacterVisible(view().characters()[rowOf(index).entry].key, value.toInt() == Qt::Checked);
     emit dataChanged(index, index, {Qt::CheckStateRole});
     return true;
 }
 
 Qt::ItemFlags CharacterModel::flags(const QModelIndex& index) const {
     Qt::ItemFlags flags = QAbstractItemModel::flags(index);
-    if (index.isValid() && index.column() == kName && nodeOf(index).kind == Kind::Character) {
+    if (index.isValid() && index.column() == kName && rowOf(index).kind == Kind::Character) {
         flags |= Qt::ItemIsUserCheckable;
     }
     return flags;

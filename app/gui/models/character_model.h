@@ -13,20 +13,18 @@ namespace posewire::gui {
 /// Characters with their streams: rates, and what is wrong with them.
 class CharacterModel : public StreamTreeModel {
 public:
-    enum Column : int { kName, kRate, kState, kColumnCount };
+    enum Column : int { kName, kRate, kState };
 
     CharacterModel(model::SessionView& view, Commands& commands, QObject* parent = nullptr);
 
     void refresh();
 
-    /// Rate of a stream by the sender's own clock, where that is known.
-    [[nodiscard]] std::optional<double> nominalHz(const model::Stream& stream) const;
-
     bool setData(const QModelIndex& index, const QVariant& value, int role) override;
     [[nodiscard]] Qt::ItemFlags flags(const QModelIndex& index) const override;
 
 private:
-    void readRates();
+    /// Rate of a stream by the sender's own clock, where that is known.
+    [[nodiscard]] std::optional<double> nominalHz(const model::Stream& stream) const;
 
     /// Read the model only where a cell is asked for.
     [[nodiscard]] static std::vector<TableColumn<StreamRow>> columns(const CharacterModel& model);
@@ -35,11 +33,7 @@ private:
     [[nodiscard]] PropertyValue stateOf(const StreamRow& row) const;
 
     Commands& m_commands;
-    struct CharacterRate {
-        NominalRate rate;
-        std::uint64_t packet = 0; ///< the newest that was taken in
-    };
-    std::vector<CharacterRate> m_rates; ///< by place of the character
+    std::vector<NominalRate> m_rates; ///< by place of the character
 };
 
 } // namespace posewire::gui

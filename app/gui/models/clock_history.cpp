@@ -28,13 +28,14 @@ constexpr double kLeastJumpMs = 20;
 /// Poses first, since they are what the operator looks at; any other sampled type has the same header.
 constexpr std::array<std::uint8_t, 11> kClockTypes{2, 1, 5, 21, 22, 23, 20, 24, 25, 3, 4};
 
-std::uint8_t clockType(model::SessionView& view, const model::CharacterKey& key) {
+std::optional<log::StreamKey> clockStream(model::SessionView& view, const model::CharacterKey& key) {
     for (const std::uint8_t type : kClockTypes) {
-        if (view.find(log::StreamKey{key.sender, key.character, type}) != nullptr) {
-            return type;
+        const log::StreamKey stream{key.sender, key.character, type};
+        if (view.find(stream) != nullptr) {
+            return stream;
         }
     }
-    return 0;
+    return std::nullopt;
 }
 
 /// "HH:MM:SS.mmm" as milliseconds of the day.
@@ -92,26 +93,24 @@ std::optional<double> NominalRate::frameHz() const {
 }
 
 void ClockHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key) {
-    const std::uint8_t type = key ? clockType(view, *key) : std::uint8_t{0};
-    const auto* newest = type == 0 ? nullptr : view.message(*key, type);
+    const auto stream = key ? clockStream(view, *key) : std::nullopt;
+    const auto* newest = stream ? view.message(*key, stream->type) : nullptr;
     const bool wentBack = newest != nullptr && newest->stamp < lastStamp();
-    if (key != m_key || type != m_type || wentBack) {
+    if (stream != m_stream || wentBack) {
         *this = {};
-        m_key = key;
-        m_type = type;
+        m_stream = stream;
     }
     if (newest == nullptr) {
         return;
     }
     const log::Stamp from = std::max(newest->stamp - kWindow, lastStamp() + log::Duration(1));
-    const std::size_t added =
-        view.visit({key->sender, key->character, type}, from, kMostReadings, [this](const auto& message) {
-            add({message.stamp, message.datagram.header.sampleCounter, message.datagram.header.timeCode});
-        });
+    const std::size_t added = view.visit(*stream, from, kMostReadings, [this](const auto& message) {
+        add({message.stamp, message.datagram.header.sampleCounter, message.datagram.header.timeCode});
+    });
     if (added != 0) {
         m_drift = fitDrift();
     }
-    readType25(view);
+    readType25(view.message(*key, wire::TimeCode::kType));
 }
 
 void ClockHistory::add(const Reading& reading) {
@@ -143,17 +142,15 @@ void ClockHistory::findJump(const Reading& reading) {
     }
 }
 
-void ClockHistory::readType25(model::SessionView& view) {
-    const auto* message = view.message(*m_key, wire::TimeCode::kType);
+void ClockHistory::readType25(const model::Message* message) {
     const auto* code = message == nullptr ? nullptr : std::get_if<wire::TimeCode>(&message->datagram.body);
     const auto wall = code == nullptr ? std::nullopt : millisecondsOf(code->view());
-    if (!wall) {
-        m_type25.reset();
-        m_offsetMs.reset();
-        return;
+    m_type25.reset();
+    m_offsetMs.reset();
+    if (wall) {
+        m_type25 = std::string(code->view());
+        m_offsetMs = std::remainder(*wall - message->datagram.header.timeCode, kMsPerDay);
     }
-    m_type25 = std::string(code->view());
-    m_offsetMs = std::remainder(*wall - message->datagram.header.timeCode, kMsPerDay);
 }
 
 std::optional<std::uint32_t> ClockHistory::headerMs() const {
@@ -212,18 +209,14 @@ PropertyValue offset(const ClockHistory& clock) {
 }
 
 PropertyValue drift(const ClockHistory& clock) {
-    const QString toolTip =
-        tr("How much faster the sender's header clock runs than this computer's: slope over "
-           "the last minute of time code against receive stamps, ± its standard error");
-    if (const auto found = clock.drift()) {
-        return {tr("%1 ± %2 ppm").arg(signedFixed(found->ppm, 1), fixed(found->error, 1)), Health::Unknown,
-                toolTip};
-    }
-    if (!clock.headerMs()) {
-        return {dash(), Health::Unknown, toolTip};
-    }
-    return {tr("after %1 s").arg(static_cast<int>(ClockHistory::kLeastDriftSeconds)), Health::Unknown,
-            toolTip};
+    const auto& found = clock.drift();
+    const QString text = found ? tr("%1 ± %2 ppm").arg(signedFixed(found->ppm, 1), fixed(found->error, 1))
+                         : clock.headerMs()
+                             ? tr("after %1 s").arg(static_cast<int>(ClockHistory::kLeastDriftSeconds))
+                             : dash();
+    return {text, Health::Unknown,
+            tr("How much faster the sender's header clock runs than this computer's: slope over "
+               "the last minute of time code against receive stamps, ± its standard error")};
 }
 
 PropertyValue frameRate(const ClockHistory& clock) {
@@ -233,16 +226,13 @@ PropertyValue frameRate(const ClockHistory& clock) {
 }
 
 PropertyValue lastJump(const ClockHistory& clock) {
-    const QString toolTip =
-        tr("The newest place where the time code did not advance with its samples, and when it "
-           "was received");
-    if (!clock.lastJump()) {
-        return {clock.headerMs() ? tr("none") : dash(), Health::Unknown, toolTip};
-    }
-    return {tr("%1 at %2")
-                .arg(clockDifference(clock.lastJump()->milliseconds),
-                     timeOfDay(clock.lastJump()->stamp).chopped(4)),
-            Health::Warning, toolTip};
+    const auto& jump = clock.lastJump();
+    const QString none = clock.headerMs() ? tr("none") : dash();
+    return {jump ? tr("%1 at %2").arg(clockDifference(jump->milliseconds), timeOfDay(jump->stamp).chopped(4))
+                 : none,
+            jump ? Health::Warning : Health::Unknown,
+            tr("The newest place where the time code did not advance with its samples, and when it "
+               "was received")};
 }
 
 } // namespace

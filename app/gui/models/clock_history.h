@@ -17,7 +17,8 @@ namespace posewire::gui {
 /// O(1).
 class NominalRate {
 public:
-    /// Sample counter and header time code (ms) of a message, oldest first. A jump of either starts over.
+    /// Sample counter and header time code (ms) of a message, oldest first; the same one may come again. A
+    /// jump of either starts over.
     void add(std::uint32_t sample, std::uint32_t timeCode);
 
     /// Samples of the capture a second; nothing before the time code has advanced by half a second. A whole
@@ -84,11 +85,10 @@ private:
     };
     void add(const Reading& reading);
     void findJump(const Reading& reading);
-    void readType25(model::SessionView& view);
+    void readType25(const model::Message* message);
     [[nodiscard]] std::optional<Drift> fitDrift() const;
 
-    std::optional<model::CharacterKey> m_key;
-    std::uint8_t m_type = 0;
+    std::optional<log::StreamKey> m_stream;
     std::deque<Reading> m_readings;
     NominalRate m_rate;
     std::optional<Jump> m_jump;

@@ -7,21 +7,13 @@
 
 namespace posewire::gui {
 
-namespace {
-
-QString healthWord(Health health) {
-    const std::array words{tr("good"), tr("warning"), tr("error"), QString()}; // by Health
-    return words[static_cast<std::size_t>(health)];
-}
-
-} // namespace
-
 QString PropertyValue::display() const {
-    return health == Health::Unknown ? text : (healthSymbol(health) + QLatin1Char(' ') + text).trimmed();
+    return health == Health::Unknown ? text : healthText(health, text).trimmed();
 }
 
 QString PropertyValue::spoken() const {
-    const QString word = healthWord(health);
+    const std::array words{tr("good"), tr("warning"), tr("error"), QString()}; // by Health
+    const QString& word = words[static_cast<std::size_t>(health)];
     return word.isEmpty() || text.isEmpty() ? word + text : word + QLatin1String(", ") + text;
 }
 
@@ -41,7 +33,7 @@ QString cellText(const QModelIndex& index) {
 
 PropertyModel::PropertyModel(std::vector<Property> properties, QObject* parent)
     : TableModel({TableColumn<Property>::words(tr("Property"), {}, &Property::label)
-                      .withColour([](const Property&) { return QVariant(theme().dim); })
+                      .dimmed()
                       .withToolTip([](const Property& row) { return row.read().toolTip; }),
                   valueColumn(TableColumn<Property>{.title = tr("Value"), .isNumber = true},
                               [](const Property& row) { return row.read(); })},

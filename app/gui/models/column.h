@@ -7,6 +7,8 @@
 #include <QString>
 #include <QVariant>
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <initializer_list>
 #include <type_traits>
@@ -71,8 +73,16 @@ struct TableColumn {
         colour = std::move(read);
         return std::move(*this);
     }
+    /// For labels, and for what follows from other cells.
+    [[nodiscard]] TableColumn dimmed() && {
+        return std::move(*this).withColour([](const Row&) { return QVariant(theme().dim); });
+    }
     [[nodiscard]] TableColumn withToolTip(Words read) && {
         toolTip = std::move(read);
+        return std::move(*this);
+    }
+    [[nodiscard]] TableColumn withMore(std::function<QVariant(const Row&, int role)> read) && {
+        more = std::move(read);
         return std::move(*this);
     }
 };
@@ -156,16 +166,65 @@ protected:
     [[nodiscard]] QVariant cell(const Row& row, int column, int role) const {
         return cellData(m_columns[static_cast<std::size_t>(column)], row, role);
     }
-    /// Announces that the rows from `first` to `last` of the first level may have changed, with all under
-    /// them.
-    void announceChange(int first, int last) {
-        if (last >= first) {
-            emit this->dataChanged(this->index(first, 0), this->index(last, columnCount() - 1));
+    /// Announces, once, that all rows of the first level may have changed, with all under them.
+    void announceChange() {
+        if (const int rows = this->rowCount(); rows > 0) {
+            emit this->dataChanged(this->index(0, 0), this->index(rows - 1, columnCount() - 1));
         }
     }
 
 private:
     std::vector<TableColumn<Row>> m_columns;
+};
+
+/// A tree whose rows are nodes, counted from 0, each at the top, which is -1, or below another.
+template <class Row>
+class TreeModel : public ColumnModel<Row, QAbstractItemModel> {
+public:
+    /// -1 for an invalid index.
+    [[nodiscard]] std::int32_t node(const QModelIndex& index) const {
+        return index.isValid() ? static_cast<std::int32_t>(index.internalId()) : -1;
+    }
+    /// Invalid where the node has no place.
+    [[nodiscard]] QModelIndex indexOf(std::int32_t node, int column = 0) const {
+        const bool isThere = node >= 0 && slotOf(node) < m_places.size() && m_places[slotOf(node)].row >= 0;
+        return isThere ? this->createIndex(m_places[slotOf(node)].row, column, static_cast<quintptr>(node))
+                       : QModelIndex();
+    }
+
+    [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override {
+        return this->hasIndex(row, column, parent)
+                   ? indexOf(m_places[slotOf(node(parent))].children[static_cast<std::size_t>(row)], column)
+                   : QModelIndex();
+    }
+    [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override {
+        return index.isValid() ? indexOf(m_places[slotOf(node(index))].parent) : QModelIndex();
+    }
+    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override {
+        return parent.column() > 0 ? 0 : static_cast<int>(m_places[slotOf(node(parent))].children.size());
+    }
+
+protected:
+    using ColumnModel<Row, QAbstractItemModel>::ColumnModel;
+
+    void clearPlaces() { m_places.assign(1, {}); }
+    /// As the last row below its parent, which has a place.
+    void place(std::int32_t node, std::int32_t parent) {
+        m_places.resize(std::max(m_places.size(), slotOf(node) + 1));
+        std::vector<std::int32_t>& siblings = m_places[slotOf(parent)].children;
+        m_places[slotOf(node)] = {parent, static_cast<int>(siblings.size()), {}};
+        siblings.push_back(node);
+    }
+
+private:
+    struct Place {
+        std::int32_t parent = -1;
+        int row = -1; ///< -1 for none
+        std::vector<std::int32_t> children{};
+    };
+    [[nodiscard]] static std::size_t slotOf(std::int32_t node) { return static_cast<std::size_t>(node + 1); }
+
+    std::vector<Place> m_places{1}; ///< of the top, then of each node
 };
 
 /// A flat table that keeps its rows.
@@ -201,7 +260,7 @@ protected:
             this->endRemoveRows();
         }
         m_rows = std::move(rows);
-        this->announceChange(0, after - 1);
+        this->announceChange();
     }
 
 private:
@@ -232,7 +291,7 @@ public:
     explicit PropertyModel(std::vector<Property> properties, QObject* parent = nullptr);
 
     /// Announces that all values may have changed.
-    void refresh() { announceChange(0, rowCount() - 1); }
+    void refresh() { announceChange(); }
 };
 
 } // namespace posewire::gui

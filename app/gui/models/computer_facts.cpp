@@ -41,13 +41,6 @@ std::uint64_t sum(const Source& from, std::uint64_t model::Sender::*count) {
     return total;
 }
 
-/// A count of what should not happen.
-PropertyValue trouble(const Source& from, std::uint64_t model::Sender::*counted, Health health,
-                      const QString& toolTip) {
-    const std::uint64_t count = sum(from, counted);
-    return {grouped(count), count == 0 ? Health::Good : health, toolTip};
-}
-
 PropertyValue lostByCause(const Source& from) {
     using enum model::LossCause;
     std::array<std::uint64_t, model::kLossCauses> lost{};
@@ -176,36 +169,37 @@ PropertyValue packets(const Source& from) {
             tr("Packets that can be looked back at, of all that were received")};
 }
 
-PropertyValue droppedHere(const Source& from) {
-    return trouble(from, &model::Sender::kernelDrops, Health::Error,
-                   tr("Datagrams that reached this computer and found its receive buffer full "
-                      "(SO_RXQ_OVFL)"));
-}
-
-PropertyValue malformed(const Source& from) {
-    return trouble(from, &model::Sender::malformed, Health::Error,
-                   tr("Datagrams that begin with MXTP and cannot be decoded"));
-}
-
-PropertyValue foreign(const Source& from) {
-    return trouble(from, &model::Sender::foreign, Health::Warning,
-                   tr("Datagrams that do not begin with MXTP: another program sends to this port"));
-}
-
 } // namespace
 
 std::vector<Property> computerFacts(model::SessionView& view, const ProgramView& program) {
-    const auto row = [from = Source{view, program}](const QString& label,
-                                                    PropertyValue (*read)(const Source&)) {
+    const Source from{view, program};
+    const auto row = [from](const QString& label, PropertyValue (*read)(const Source&)) {
         return Property{label, [from, read] { return read(from); }};
     };
-    return {row(tr("Lost by cause"), lostByCause), row(tr("Longest gap"), longestGap),
-            row(tr("This computer"), computer),    row(tr("Processor"), processor),
-            row(tr("Accounting"), accounting),     row(tr("Memory"), memory),
-            row(tr("Receive buffer"), buffer),     row(tr("Longest delay"), delay),
-            row(tr("History"), history),           row(tr("Packets kept"), packets),
-            row(tr("Dropped here"), droppedHere),  row(tr("Malformed"), malformed),
-            row(tr("Foreign datagrams"), foreign)};
+    const auto trouble = [from](const QString& label, std::uint64_t model::Sender::*counted, Health health,
+                                const QString& toolTip) {
+        return Property{label, [=] {
+                            const std::uint64_t count = sum(from, counted);
+                            return PropertyValue{grouped(count), count == 0 ? Health::Good : health, toolTip};
+                        }};
+    };
+    return {row(tr("Lost by cause"), lostByCause),
+            row(tr("Longest gap"), longestGap),
+            row(tr("This computer"), computer),
+            row(tr("Processor"), processor),
+            row(tr("Accounting"), accounting),
+            row(tr("Memory"), memory),
+            row(tr("Receive buffer"), buffer),
+            row(tr("Longest delay"), delay),
+            row(tr("History"), history),
+            row(tr("Packets kept"), packets),
+            trouble(tr("Dropped here"), &model::Sender::kernelDrops, Health::Error,
+                    tr("Datagrams that reached this computer and found its receive buffer full "
+                       "(SO_RXQ_OVFL)")),
+            trouble(tr("Malformed"), &model::Sender::malformed, Health::Error,
+                    tr("Datagrams that begin with MXTP and cannot be decoded")),
+            trouble(tr("Foreign datagrams"), &model::Sender::foreign, Health::Warning,
+                    tr("Datagrams that do not begin with MXTP: another program sends to this port"))};
 }
 
 } // namespace posewire::gui

@@ -37,23 +37,13 @@ QStringList conditionsOf(std::optional<std::uint8_t> type, std::optional<std::ui
 
 /// What packets have at which such a thing happened; null where no packet shows it.
 const char* conditionOf(model::EventKind kind) {
-    using model::EventKind;
-    switch (kind) {
-    case EventKind::Gap:
-    case EventKind::Burst:
-    case EventKind::LossLimit:
-        return "gap > 0";
-    case EventKind::Restart:
-        return "restart";
-    case EventKind::Malformed:
-        return "malformed";
-    case EventKind::Foreign:
-        return "foreign";
-    case EventKind::Dropped:
-        return "drops > 0";
-    default:
-        return nullptr;
-    }
+    using enum model::EventKind;
+    constexpr std::pair<model::EventKind, const char*> kConditions[] = {
+        {Gap, "gap > 0"},         {Burst, "gap > 0"},   {LossLimit, "gap > 0"}, {Restart, "restart"},
+        {Malformed, "malformed"}, {Foreign, "foreign"}, {Dropped, "drops > 0"}};
+    const auto* found =
+        std::ranges::find(kConditions, kind, &std::pair<model::EventKind, const char*>::first);
+    return found == std::end(kConditions) ? nullptr : found->second;
 }
 
 /// A limit was exceeded in the window before; what is silent has no packets.
@@ -64,15 +54,14 @@ model::TimeRange rangeOf(model::SessionView& view, const model::Event& event) {
 }
 
 QString noteFilter(const model::PacketDigest& digest) {
-    const std::pair<bool, const char*> truths[] = {
-        {digest.kind == model::PacketKind::Malformed, "malformed"},
-        {digest.kind == model::PacketKind::Foreign || digest.kind == model::PacketKind::Skipped, "foreign"},
-        {digest.followsDrops, "drops > 0"},
-        {digest.gap != 0, "gap > 0"},
-        {digest.isDuplicate, "duplicate"},
-        {digest.isReordered, "reordered"},
-        {digest.isRestart, "restart"},
-        {digest.hasNotices, "notice"}};
+    const std::pair<bool, const char*> truths[] = {{digest.kind == model::PacketKind::Malformed, "malformed"},
+                                                   {isStrange(digest), "foreign"},
+                                                   {digest.followsDrops, "drops > 0"},
+                                                   {digest.gap != 0, "gap > 0"},
+                                                   {digest.isDuplicate, "duplicate"},
+                                                   {digest.isReordered, "reordered"},
+                                                   {digest.isRestart, "restart"},
+                                                   {digest.hasNotices, "notice"}};
     for (const auto& [isTrue, text] : truths) {
         if (isTrue) {
             return QLatin1String(text);
@@ -135,9 +124,8 @@ QString packetFilterOf(model::SessionView& view, const model::Event& event) {
 }
 
 QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column) {
-    const auto packet = view.packet(number);
-    const model::PacketDigest* digest = view.digests().find(number);
-    if (!packet || digest == nullptr) {
+    const auto facts = packetFacts(view, number);
+    if (!facts) {
         return {};
     }
     switch (column) {
@@ -145,28 +133,28 @@ QString packetCellFilter(model::SessionView& view, std::uint64_t number, int col
         return expression("number", std::to_string(number));
     case PacketModel::kTime:
         return QStringLiteral("time >= %1")
-            .arg(std::chrono::duration<double>(packet->stamp - view.firstStamp()).count(), 0, 'f', 6);
+            .arg(std::chrono::duration<double>(facts->stamp - view.firstStamp()).count(), 0, 'f', 6);
     case PacketModel::kDelta:
-        return digest->deltaS < 0
+        return facts->digest.deltaS < 0
                    ? QString()
-                   : QStringLiteral("delta >= %1").arg(static_cast<double>(digest->deltaS), 0, 'f', 6);
+                   : QStringLiteral("delta >= %1").arg(static_cast<double>(facts->digest.deltaS), 0, 'f', 6);
     case PacketModel::kSender: {
-        const log::SenderInfo* sender = view.log().senders().find(packet->sender);
+        const log::SenderInfo* sender = view.log().senders().find(facts->sender);
         return sender == nullptr ? QString() : expression("source", sender->address);
     }
     case PacketModel::kSize:
-        return expression("size", std::to_string(packet->bytes.size()));
+        return expression("size", std::to_string(facts->size));
     case PacketModel::kNote:
-        return noteFilter(*digest);
+        return noteFilter(facts->digest);
     default:
         break;
     }
-    if (digest->kind == model::PacketKind::Foreign || digest->kind == model::PacketKind::Skipped) {
-        return column == PacketModel::kType ? QStringLiteral("foreign") : QString();
-    }
-    const auto header = wire::decodeHeader(packet->bytes);
+    const auto& header = facts->header;
     if (!header) {
-        return column == PacketModel::kType ? QStringLiteral("malformed") : QString();
+        const bool isStray = isStrange(facts->digest);
+        return column != PacketModel::kType ? QString()
+               : isStray                    ? QStringLiteral("foreign")
+                                            : QStringLiteral("malformed");
     }
     switch (column) {
     case PacketModel::kCharacter:
@@ -188,16 +176,12 @@ QString joinedFilter(const QString& filter, const QString& condition, FilterJoin
     if (before.isEmpty() || join == FilterJoin::Replace) {
         return join == FilterJoin::AndNot ? negated : condition;
     }
+    if (join == FilterJoin::Or) {
+        return before + QStringLiteral(" || ") + condition;
+    }
     const bool isLoose = before.contains(QLatin1String("||")) || before.contains(QLatin1String(" or "));
     const QString kept = isLoose ? QStringLiteral("(%1)").arg(before) : before;
-    switch (join) {
-    case FilterJoin::And:
-        return kept + QStringLiteral(" && ") + condition;
-    case FilterJoin::Or:
-        return before + QStringLiteral(" || ") + condition;
-    default:
-        return kept + QStringLiteral(" && ") + negated;
-    }
+    return kept + QStringLiteral(" && ") + (join == FilterJoin::AndNot ? negated : condition);
 }
 
 } // namespace posewire::gui

@@ -8,6 +8,8 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <iterator>
+#include <span>
 
 namespace posewire::gui {
 
@@ -20,11 +22,6 @@ QString lossWords(const model::Event& event) {
     return event.cause && *event.cause != model::LossCause::Unknown
                ? lost + QStringLiteral(" · ") + fromUtf8(model::nameOf(*event.cause))
                : lost;
-}
-
-/// Conditions that last are found by the clock: no packet is theirs.
-bool hasPacket(EventKind kind) {
-    return kind != EventKind::SenderDown && kind < EventKind::LossLimit;
 }
 
 } // namespace
@@ -87,7 +84,8 @@ QString briefWords(const model::Event& event) {
 }
 
 std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Event& event) {
-    if (!hasPacket(event.kind)) {
+    // Conditions that last are found by the clock: no packet is theirs.
+    if (event.kind == EventKind::SenderDown || event.kind >= EventKind::LossLimit) {
         const std::uint64_t first = view.packetFrom(event.firstStamp);
         return first == view.begin() ? std::nullopt : std::optional(first - 1);
     }
@@ -159,41 +157,21 @@ std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel
     return columns;
 }
 
-/// [first, end) of those in `from` that are not in `others`; both in the order of their numbers. `isWhole` is
-/// false where others lie between them.
-struct Span {
-    std::size_t first = 0;
-    std::size_t end = 0;
-    bool isWhole = true;
-};
+using Numbers = std::vector<std::uint64_t>;
 
-template <class Rows>
-Span missing(const Rows& from, const Rows& others) {
-    Span span;
-    std::size_t count = 0;
-    std::size_t other = 0;
-    for (std::size_t i = 0; i < from.size(); ++i) {
-        while (other < others.size() && others[other].number < from[i].number) {
-            ++other;
-        }
-        if (other == others.size() || others[other].number != from[i].number) {
-            span.first = count == 0 ? i : span.first;
-            span.end = i + 1;
-            ++count;
-        }
-    }
-    span.isWhole = span.end - span.first == count;
-    return span;
+/// Those in `from` that are not in `others`, both in growing order; nothing where others lie between them.
+std::optional<std::span<const std::uint64_t>> missing(const Numbers& from, const Numbers& others) {
+    Numbers lone;
+    std::ranges::set_difference(from, others, std::back_inserter(lone));
+    const auto first = lone.empty() ? from.begin() : std::ranges::lower_bound(from, lone.front());
+    const std::span<const std::uint64_t> span(first, lone.size());
+    return std::ranges::equal(span, lone) ? std::optional(span) : std::nullopt;
 }
 
 } // namespace
 
 EventModel::EventModel(model::SessionView& view, QObject* parent)
     : ColumnModel(eventColumns(view, *this), parent), m_view(view) {}
-
-EventModel::Row EventModel::rowFor(const model::Event& event) {
-    return {event.number, event.count, event.samples, event.lastStamp, event.value, event.isCurrent};
-}
 
 bool EventModel::matches(const model::Event& event) const {
     if ((m_filter.onlyCurrent && !event.isCurrent) ||
@@ -215,49 +193,38 @@ void EventModel::refresh() {
         return;
     }
     m_version = events.version();
-    std::vector<Row> rows;
+    Numbers numbers;
     for (const model::Event& event : events.all()) {
         if (matches(event)) {
-            rows.push_back(rowFor(event));
+            numbers.push_back(event.number);
         }
     }
-    show(std::move(rows));
+    show(std::move(numbers));
 }
 
-void EventModel::show(std::vector<Row> rows) {
-    const Span gone = missing(m_rows, rows);
-    const Span come = missing(rows, m_rows);
-    if (!gone.isWhole || !come.isWhole) {
+void EventModel::show(Numbers numbers) {
+    const auto gone = missing(m_numbers, numbers);
+    const auto come = missing(numbers, m_numbers);
+    if (!gone || !come) {
         beginResetModel();
-        m_rows = std::move(rows);
+        m_numbers = std::move(numbers);
         endResetModel();
         return;
     }
-    const auto place = [](auto& all, std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(i); };
-    if (gone.end > gone.first) {
-        beginRemoveRows({}, static_cast<int>(gone.first), static_cast<int>(gone.end) - 1);
-        m_rows.erase(place(m_rows, gone.first), place(m_rows, gone.end));
+    if (!gone->empty()) {
+        const auto first = gone->data() - m_numbers.data();
+        const auto end = first + static_cast<std::ptrdiff_t>(gone->size());
+        beginRemoveRows({}, static_cast<int>(first), static_cast<int>(end) - 1);
+        m_numbers.erase(m_numbers.begin() + first, m_numbers.begin() + end);
         endRemoveRows();
     }
-    if (come.end > come.first) {
-        beginInsertRows({}, static_cast<int>(come.first), static_cast<int>(come.end) - 1);
-        m_rows.insert(place(m_rows, come.first), place(rows, come.first), place(rows, come.end));
+    if (!come->empty()) {
+        const auto first = static_cast<int>(come->data() - numbers.data());
+        beginInsertRows({}, first, first + static_cast<int>(come->size()) - 1);
+        m_numbers = std::move(numbers);
         endInsertRows();
     }
-    showSame(std::move(rows));
-}
-
-/// Rows of the same events as before.
-void EventModel::showSame(std::vector<Row> rows) {
-    const auto [first, ignored] = std::mismatch(rows.begin(), rows.end(), m_rows.begin());
-    if (first == rows.end()) {
-        return;
-    }
-    const auto [last, alsoIgnored] = std::mismatch(rows.rbegin(), rows.rend(), m_rows.rbegin());
-    const auto from = static_cast<int>(first - rows.begin());
-    const auto to = static_cast<int>(rows.rend() - last) - 1;
-    m_rows = std::move(rows);
-    announceChange(from, to);
+    announceChange();
 }
 
 void EventModel::setFilter(const Filter& filter) {
@@ -272,9 +239,7 @@ void EventModel::setFilter(const Filter& filter) {
 void EventModel::markSeen() {
     const auto& all = m_view.events().all();
     m_seenEnd = all.empty() ? 0 : all.back().number + 1;
-    if (!m_rows.empty()) {
-        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1), {Qt::ForegroundRole});
-    }
+    announceChange();
 }
 
 EventModel::Counts EventModel::counts() const {
@@ -290,19 +255,19 @@ EventModel::Counts EventModel::counts() const {
 
 const model::Event* EventModel::event(const QModelIndex& index) const {
     return index.isValid() && index.row() < rowCount()
-               ? m_view.events().find(m_rows[static_cast<std::size_t>(index.row())].number)
+               ? m_view.events().find(m_numbers[static_cast<std::size_t>(index.row())])
                : nullptr;
 }
 
 int EventModel::rowOf(std::uint64_t number) const {
-    const auto found = std::ranges::lower_bound(m_rows, number, {}, &Row::number);
-    return found != m_rows.end() && found->number == number ? static_cast<int>(found - m_rows.begin()) : -1;
+    const auto found = std::ranges::lower_bound(m_numbers, number);
+    return found != m_numbers.end() && *found == number ? static_cast<int>(found - m_numbers.begin()) : -1;
 }
 
 std::vector<const model::Event*> EventModel::listed() const {
     std::vector<const model::Event*> events;
-    for (const Row& row : m_rows) {
-        if (const model::Event* event = m_view.events().find(row.number)) {
+    for (const std::uint64_t number : m_numbers) {
+        if (const model::Event* event = m_view.events().find(number)) {
             events.push_back(event);
         }
     }
@@ -310,7 +275,7 @@ std::vector<const model::Event*> EventModel::listed() const {
 }
 
 int EventModel::rowCount(const QModelIndex& parent) const {
-    return parent.isValid() ? 0 : static_cast<int>(m_rows.size());
+    return parent.isValid() ? 0 : static_cast<int>(m_numbers.size());
 }
 
 QVariant EventModel::data(const QModelIndex& index, int role) const {

@@ -3,7 +3,6 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/models/column.h"
-#include "core/log/time.h"
 #include "core/model/session/session_view.h"
 
 #include <array>
@@ -16,7 +15,7 @@ namespace posewire::gui {
 /// The events of the session, or those that are asked for, in the order in which they began.
 class EventModel : public ColumnModel<model::Event> {
 public:
-    enum Column : int { kSeverity, kTime, kWho, kText, kCount, kKind, kGroup, kLasted, kColumnCount };
+    enum Column : int { kSeverity, kTime, kWho, kText, kCount, kKind, kGroup, kLasted };
 
     /// What is listed.
     struct Filter {
@@ -61,26 +60,14 @@ public:
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
 private:
-    /// An event as it was last shown.
-    struct Row {
-        std::uint64_t number = 0;
-        std::uint64_t count = 0;
-        std::uint64_t samples = 0;
-        log::Stamp lastStamp{};
-        double value = 0;
-        bool isCurrent = false;
-        friend bool operator==(const Row&, const Row&) = default;
-    };
-    [[nodiscard]] static Row rowFor(const model::Event& event);
     [[nodiscard]] bool matches(const model::Event& event) const;
-    void show(std::vector<Row> rows);
-    void showSame(std::vector<Row> rows);
+    void show(std::vector<std::uint64_t> numbers);
 
     model::SessionView& m_view;
     Filter m_filter;
-    std::vector<Row> m_rows;
-    std::uint64_t m_version = 0; ///< of the events when last shown
-    std::uint64_t m_seenEnd = 0; ///< events before this number have been seen
+    std::vector<std::uint64_t> m_numbers; ///< of the events that are listed
+    std::uint64_t m_version = 0;          ///< of the events when last shown
+    std::uint64_t m_seenEnd = 0;          ///< events before this number have been seen
 };
 
 [[nodiscard]] Health healthOf(model::EventSeverity severity);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -99,12 +100,6 @@ QString faultText(const FieldDocument& document) {
     return tr("malformed: %1 (byte %2)").arg(both, grouped(offset));
 }
 
-/// How far it was read.
-QString unreadText(const FieldDocument& document) {
-    const wire::FieldNode& rest = document.tree().nodes.back();
-    return tr("%1 bytes from byte %2 are unread").arg(grouped(rest.length), grouped(rest.offset));
-}
-
 /// What bytes are that are no datagram.
 QString outsideText(const FieldDocument& document) {
     return document.kind() == model::PacketKind::Skipped
@@ -185,10 +180,6 @@ std::optional<std::uint32_t> FieldDocument::numberOf(std::int32_t item, RefersTo
         }
     }
     return std::nullopt;
-}
-
-std::optional<model::PointReference> FieldDocument::pointOf(std::uint32_t id) const {
-    return model::knownPoint(m_coding, id);
 }
 
 std::span<const std::int32_t> FieldDocument::children(std::int32_t node) const {
@@ -277,7 +268,7 @@ void FieldDocument::findProblems(const log::Packet& packet) {
         return;
     }
     if (packet.flags.truncated) {
-        m_problems.push_back({Health::Error, cutByReceiverText(*this), whole, 0, -1});
+        addProblem(Health::Error, cutByReceiverText(*this), kNone, whole);
     }
     if (m_tree.fault) {
         addFault();
@@ -287,16 +278,19 @@ void FieldDocument::findProblems(const log::Packet& packet) {
     }
 }
 
-void FieldDocument::addFault() {
-    FieldProblem problem{Health::Error, faultText(*this), m_tree.fault->offset, 0, m_tree.cutNode};
-    if (problem.node >= 0) {
-        problem.offset = node(problem.node).offset;
-        problem.length = node(problem.node).length;
+void FieldDocument::addProblem(Health level, const QString& text, std::int32_t index, std::uint32_t offset) {
+    if (index < 0) {
+        m_problems.push_back({level, text, offset, 0, kNone});
+    } else {
+        m_problems.push_back({level, text, node(index).offset, node(index).length, index});
     }
-    m_problems.push_back(std::move(problem));
-    const FieldNode& last = m_tree.nodes.back();
-    if (last.kind == NodeKind::Unread) {
-        m_problems.push_back({Health::Unknown, unreadText(*this), last.offset, last.length, count() - 1});
+}
+
+void FieldDocument::addFault() {
+    addProblem(Health::Error, faultText(*this), m_tree.cutNode, m_tree.fault->offset);
+    if (const FieldNode& rest = m_tree.nodes.back(); rest.kind == NodeKind::Unread) {
+        const QString text = tr("%1 bytes from byte %2 are unread");
+        addProblem(Health::Unknown, text.arg(grouped(rest.length), grouped(rest.offset)), count() - 1);
     }
 }
 
@@ -328,25 +322,14 @@ bool FieldDocument::isAffected(wire::NoticeCode code, std::int32_t index) const 
 }
 
 void FieldDocument::addNotice(const wire::Notice& notice) {
-    const std::size_t before = m_problems.size();
-    FieldProblem problem{Health::Warning, QString::fromStdString(wire::noticeText(notice)), notice.offset, 0,
-                         nodeAt(notice.offset)};
+    QString text = QString::fromStdString(wire::noticeText(notice));
     for (std::int32_t i = 0; i < count(); ++i) {
         if (isAffected(notice.code, i)) {
-            m_problems.push_back(problem);
-            m_problems.back().node = i;
+            addProblem(Health::Warning, std::exchange(text, {}), i); // the first of a kind speaks for all
         }
     }
-    if (m_problems.size() == before) {
-        m_problems.push_back(problem);
-    }
-    for (std::size_t i = before; i < m_problems.size(); ++i) {
-        FieldProblem& found = m_problems[i];
-        if (found.node >= 0) {
-            found.offset = node(found.node).offset;
-            found.length = node(found.node).length;
-        }
-        found.text = i == before ? found.text : QString(); // the first of a kind speaks for all
+    if (!text.isEmpty()) {
+        addProblem(Health::Warning, text, nodeAt(notice.offset), notice.offset);
     }
 }
 

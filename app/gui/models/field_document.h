@@ -65,7 +65,9 @@ public:
     /// The number of the item's field that refers to `what`; nothing where there is none or it is cut off.
     [[nodiscard]] std::optional<std::uint32_t> numberOf(std::int32_t item, wire::RefersTo what) const;
     /// The point that an id of this datagram names; nothing for tags.
-    [[nodiscard]] std::optional<model::PointReference> pointOf(std::uint32_t id) const;
+    [[nodiscard]] std::optional<model::PointReference> pointOf(std::uint32_t id) const {
+        return model::knownPoint(m_coding, id);
+    }
 
     /// Position in a pose datagram of the segment that a node is about, -1 where it is about none.
     [[nodiscard]] int segmentOf(std::int32_t node) const;
@@ -88,6 +90,8 @@ private:
     void findProblems(const log::Packet& packet);
     void addFault();
     void addNotice(const wire::Notice& notice);
+    /// At a node; -1 for none, then at an offset.
+    void addProblem(Health level, const QString& text, std::int32_t node, std::uint32_t offset = 0);
     void markNodes();
     [[nodiscard]] bool isAffected(wire::NoticeCode code, std::int32_t node) const;
 

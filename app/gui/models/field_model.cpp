@@ -22,9 +22,7 @@ bool isStructure(NodeKind kind) {
 
 } // namespace
 
-FieldModel::FieldModel(QObject* parent) : ColumnModel(columns(*this), parent) {
-    arrange();
-}
+FieldModel::FieldModel(QObject* parent) : TreeModel(columns(*this), parent) {}
 
 std::vector<TableColumn<std::int32_t>> FieldModel::columns(const FieldModel& model) {
     using Text = QString (*)(const FieldDocument&, std::int32_t);
@@ -59,7 +57,7 @@ std::vector<TableColumn<std::int32_t>> FieldModel::columns(const FieldModel& mod
 void FieldModel::setDocument(std::shared_ptr<const FieldDocument> document) {
     if (m_other == nullptr && m_document->hasSameRows(*document) && !document->isEmpty()) {
         m_document = std::move(document);
-        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+        announceChange();
         return;
     }
     beginResetModel();
@@ -111,42 +109,12 @@ void FieldModel::match() {
 }
 
 void FieldModel::arrange() {
-    const std::int32_t count = m_document->count();
-    m_rows.assign(at(count + 1), {});
-    m_rowOf.assign(at(count), -1);
-    for (std::int32_t i = 0; i < count; ++i) {
-        const bool isShown = m_other == nullptr || !m_onlyDifferences || m_differs[at(i)];
-        if (isShown) {
-            auto& rows = m_rows[at(m_document->node(i).parent + 1)];
-            m_rowOf[at(i)] = static_cast<int>(rows.size());
-            rows.push_back(i);
+    clearPlaces();
+    for (std::int32_t i = 0; i < m_document->count(); ++i) {
+        if (m_other == nullptr || !m_onlyDifferences || m_differs[at(i)]) {
+            place(i, m_document->node(i).parent);
         }
     }
-}
-
-std::int32_t FieldModel::node(const QModelIndex& index) const {
-    return index.isValid() ? static_cast<std::int32_t>(index.internalId()) : -1;
-}
-
-QModelIndex FieldModel::indexOf(std::int32_t node, int column) const {
-    const bool isShown = node >= 0 && node < m_document->count() && m_rowOf[at(node)] >= 0;
-    return isShown ? createIndex(m_rowOf[at(node)], column, static_cast<quintptr>(node)) : QModelIndex();
-}
-
-QModelIndex FieldModel::index(int row, int column, const QModelIndex& parent) const {
-    if (!hasIndex(row, column, parent)) {
-        return {};
-    }
-    const auto& rows = m_rows[at(node(parent) + 1)];
-    return createIndex(row, column, static_cast<quintptr>(rows[static_cast<std::size_t>(row)]));
-}
-
-QModelIndex FieldModel::parent(const QModelIndex& index) const {
-    return index.isValid() ? indexOf(m_document->node(node(index)).parent) : QModelIndex();
-}
-
-int FieldModel::rowCount(const QModelIndex& parent) const {
-    return parent.column() > 0 ? 0 : static_cast<int>(m_rows[at(node(parent) + 1)].size());
 }
 
 QString FieldModel::differenceText(std::int32_t node) const {
@@ -157,7 +125,7 @@ QString FieldModel::differenceText(std::int32_t node) const {
 QString FieldModel::titleOf(std::int32_t node) const {
     const QString title = fieldTitle(*m_document, node);
     const Health health = m_document->worstWithin(node);
-    return health == Health::Unknown ? title : healthSymbol(health) + QLatin1Char(' ') + title;
+    return health == Health::Unknown ? title : healthText(health, title);
 }
 
 QString FieldModel::otherText(std::int32_t node) const {

@@ -8,9 +8,9 @@
 
 namespace posewire::gui {
 
-/// The fields of one packet as a tree, or of two packets beside each other. The rows stay as they are where
-/// another packet has the same fields on the same bytes.
-class FieldModel : public ColumnModel<std::int32_t, QAbstractItemModel> {
+/// The fields of one packet as a tree, or of two packets beside each other; its nodes are those of the
+/// document. The rows stay as they are where another packet has the same fields on the same bytes.
+class FieldModel : public TreeModel<std::int32_t> {
 public:
     enum Column { kField, kValue, kWire, kOther, kDifference, kMeaning, kSection, kColumnCount };
 
@@ -28,13 +28,6 @@ public:
     [[nodiscard]] const FieldDocument* other() const { return m_other.get(); }
     [[nodiscard]] std::size_t differences() const { return m_differences; }
 
-    [[nodiscard]] std::int32_t node(const QModelIndex& index) const;
-    /// Invalid where the node is not shown.
-    [[nodiscard]] QModelIndex indexOf(std::int32_t node, int column = 0) const;
-
-    [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override;
-    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
     [[nodiscard]] QVariant data(const QModelIndex& index, int role) const override;
 
 private:
@@ -51,11 +44,9 @@ private:
     std::shared_ptr<const FieldDocument> m_document = std::make_shared<FieldDocument>();
     std::shared_ptr<const FieldDocument> m_other;
     bool m_onlyDifferences = false;
-    std::size_t m_differences = 0;                 ///< fields that differ
-    std::vector<std::int32_t> m_counterparts;      ///< of each node in the other packet, -1 for none
-    std::vector<bool> m_differs;                   ///< the node, or one below it
-    std::vector<std::vector<std::int32_t>> m_rows; ///< shown children; the first element is the top
-    std::vector<int> m_rowOf;                      ///< of each node; -1 where it is not shown
+    std::size_t m_differences = 0;            ///< fields that differ
+    std::vector<std::int32_t> m_counterparts; ///< of each node in the other packet, -1 for none
+    std::vector<bool> m_differs;              ///< the node, or one below it
 };
 
 } // namespace posewire::gui

@@ -156,14 +156,11 @@ QString printable(const std::string& value) {
 QString spacedName(std::string_view name) {
     QString text;
     for (const QChar character : fromUtf8(name)) {
-        if (text.isEmpty()) {
-            text += name.size() > 1 ? character.toUpper() : character;
-        } else if (character.isUpper()) {
-            text += QLatin1Char(' ');
-            text += character.toLower();
-        } else {
-            text += character;
-        }
+        const bool beginsWord = character.isUpper() && !text.isEmpty();
+        text += beginsWord ? QLatin1Char(' ') + QString(character.toLower()) : QString(character);
+    }
+    if (text.size() > 1) {
+        text[0] = text[0].toUpper();
     }
     return text == QStringLiteral("Id") ? QStringLiteral("ID") : text;
 }
@@ -314,17 +311,15 @@ QString difference(const FieldDocument& document, std::int32_t index, const Fiel
     if (a.value == b.value && a.kind == b.kind) {
         return {};
     }
+    const auto u = components(document, index);
+    const auto v = components(other, otherIndex);
     if (a.components == 3 && b.components == 3) {
-        const auto u = components(document, index);
-        const auto v = components(other, otherIndex);
         const Scale scale = scaleOf(document, a);
         const double distance = std::hypot(u[0] - v[0], u[1] - v[1], u[2] - v[2]) * scale.factor;
         return isLength(a.unit) ? QStringLiteral("%1 mm").arg(fixed(distance * 1000, 2))
                                 : withUnit(fixed(distance, scale.decimals), scale.symbol);
     }
     if (a.components == 4 && b.components == 4) {
-        const auto u = components(document, index);
-        const auto v = components(other, otherIndex);
         const double dot = std::abs(u[0] * v[0] + u[1] * v[1] + u[2] * v[2] + u[3] * v[3]);
         return fixed(2 * std::acos(std::min(1.0, dot)) * model::kDegreesPerRadian, 3) + QStringLiteral("°");
     }

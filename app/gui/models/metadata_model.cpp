@@ -8,16 +8,13 @@
 #include "core/model/body/null_pose.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
 namespace {
 
 constexpr quintptr kTop = ~quintptr{0}; ///< internal id of rows at the top; of others, the row above them
-
-QString changesText(std::size_t changes) {
-    return changes == 1 ? tr("· 1 change") : tr("· %1 changes").arg(changes);
-}
 
 QVariant swatchOf(const std::string& tagName, const std::string& value) {
     const auto colour = tagName == "color" ? model::parseColour(value) : std::nullopt;
@@ -26,16 +23,15 @@ QVariant swatchOf(const std::string& tagName, const std::string& value) {
 
 using MetadataColumn = TableColumn<MetadataRow>;
 
-QVariant dim(const MetadataRow&) {
-    return theme().dim;
-}
-
 QString suffixOf(const MetadataRow& row) {
-    const QString changes = row.changes == 0 ? QString() : changesText(row.changes);
-    if (row.tag->isKnown) {
-        return changes;
+    QStringList parts;
+    if (!row.tag->isKnown) {
+        parts += tr("· unknown");
     }
-    return changes.isEmpty() ? tr("· unknown") : tr("· unknown %1").arg(changes);
+    if (row.changes != 0) {
+        parts += row.changes == 1 ? tr("· 1 change") : tr("· %1 changes").arg(row.changes);
+    }
+    return parts.join(QLatin1Char(' '));
 }
 
 QString labelOf(const MetadataRow& row) {
@@ -46,18 +42,17 @@ QString labelOf(const MetadataRow& row) {
 }
 
 MetadataColumn nameColumn() {
-    MetadataColumn column = MetadataColumn::words(tr("Tag"), {}, labelOf).withColour(dim);
     const auto isTag = [](const MetadataRow& row) { return row.tag != nullptr && !row.isEarlier; };
-    column.toolTip = [isTag](const MetadataRow& row) {
+    const auto toolTip = [isTag](const MetadataRow& row) {
         return isTag(row) && !row.tag->isKnown
                    ? tr("Neither in the specification nor known from real senders; kept and shown as sent")
                    : QString();
     };
-    column.more = [isTag](const MetadataRow& row, int role) {
-        const QString suffix = isTag(row) && role == kSuffixRole ? suffixOf(row) : QString();
-        return suffix.isEmpty() ? QVariant() : suffix;
+    const auto suffix = [isTag](const MetadataRow& row, int role) {
+        const QString text = isTag(row) && role == kSuffixRole ? suffixOf(row) : QString();
+        return text.isEmpty() ? QVariant() : text;
     };
-    return column;
+    return MetadataColumn::words(tr("Tag"), {}, labelOf).dimmed().withToolTip(toolTip).withMore(suffix);
 }
 
 PropertyValue shownValue(const MetadataRow& row) {
@@ -87,12 +82,10 @@ MetadataColumn sentColumn(model::SessionView& view) {
                    : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
                          .arg(timeOfDay(row.tag->lastSeen));
     };
-    MetadataColumn column =
-        MetadataColumn::numbers(tr("Sent"), {}, text).withColour(dim).withToolTip(toolTip);
-    column.more = [](const MetadataRow& row, int role) {
+    const auto span = [](const MetadataRow& row, int role) {
         return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
     };
-    return column;
+    return MetadataColumn::numbers(tr("Sent"), {}, text).dimmed().withToolTip(toolTip).withMore(span);
 }
 
 std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
@@ -205,7 +198,7 @@ void MetadataModel::refresh() {
     } else if (m_key && !insertTags()) {
         fitHistories();
     }
-    announceChange(0, rowCount() - 1);
+    announceChange();
 }
 
 void MetadataModel::changeCharacter(std::optional<model::CharacterKey> key) {
@@ -248,16 +241,14 @@ void MetadataModel::fitHistories() {
         const std::size_t wanted = earlierValues(*tag(static_cast<int>(row)));
         const std::size_t shown = m_earlier[row];
         const QModelIndex parent = index(static_cast<int>(row), 0);
-        if (wanted > shown && !hasInserted) {
+        if (wanted > shown && !std::exchange(hasInserted, true)) {
             beginInsertRows(parent, 0, static_cast<int>(wanted - shown) - 1);
             m_earlier[row] = wanted;
             endInsertRows();
-            hasInserted = true;
-        } else if (wanted < shown && !hasRemoved) {
+        } else if (wanted < shown && !std::exchange(hasRemoved, true)) {
             beginRemoveRows(parent, 0, static_cast<int>(shown - wanted) - 1);
             m_earlier[row] = wanted;
             endRemoveRows();
-            hasRemoved = true;
         }
     }
 }

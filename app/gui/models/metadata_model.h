@@ -22,7 +22,7 @@ struct MetadataRow {
 /// newest first, and below them what was concluded from headers and scale messages. Reads at the cursor.
 class MetadataModel : public ColumnModel<MetadataRow, QAbstractItemModel> {
 public:
-    enum Column : int { kName, kValue, kSent, kColumnCount };
+    enum Column : int { kName, kValue, kSent };
 
     explicit MetadataModel(model::SessionView& view, QObject* parent = nullptr);
 

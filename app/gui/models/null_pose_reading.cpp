@@ -4,27 +4,16 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/model/body/null_pose_findings.h"
 #include "core/model/session/ingest.h"
 
 namespace posewire::gui {
 
-namespace {
-
-template <class T>
-std::optional<T> bodyOf(const model::Message* message) {
-    const T* body = message == nullptr ? nullptr : std::get_if<T>(&message->datagram.body);
-    return body == nullptr ? std::nullopt : std::optional<T>(*body);
-}
-
-} // namespace
-
-NullPoseReading::Signature NullPoseReading::signatureOf(const model::NullPoseEvidence& evidence) const {
+NullPoseReading::Signature NullPoseReading::signatureOf(const model::CharacterKey& key,
+                                                        const model::NullPoseEvidence& evidence) const {
     Signature signature;
-    signature.key = m_key;
+    signature.key = key;
     const model::NullPoseRecord& record = evidence.record;
     if (record.pose != nullptr) {
-        signature.message = record.pose->message;
         signature.packet = record.pose->packet;
     }
     signature.messages = record.messages;
@@ -33,20 +22,20 @@ NullPoseReading::Signature NullPoseReading::signatureOf(const model::NullPoseEvi
     signature.isDue = evidence.poseSeconds >= model::kScaleMessageDue;
     signature.isOverdue = record.newest != nullptr && !record.newest->isComplete() &&
                           log::secondsOf(evidence.now - record.newest->stamp) >= model::kPartOverdue;
-    if (const auto* message = m_view.message(*m_key, wire::ScaleInformation::kType)) {
+    if (const auto* message = m_view.message(key, wire::ScaleInformation::kType)) {
         signature.scalePacket = message->packet;
+        signature.scaleStamp = message->stamp;
     }
-    if (const auto* message = m_view.message(*m_key, wire::PropInformation::kType)) {
+    if (const auto* message = m_view.message(key, wire::PropInformation::kType)) {
         signature.propPacket = message->packet;
     }
     return signature;
 }
 
 bool NullPoseReading::refresh() {
-    m_key = shownCharacter(m_view);
-    const model::NullPoseEvidence evidence =
-        m_key ? m_view.nullPoseEvidence(*m_key) : model::NullPoseEvidence();
-    const Signature signature = m_key ? signatureOf(evidence) : Signature();
+    const auto key = shownCharacter(m_view);
+    const model::NullPoseEvidence evidence = key ? m_view.nullPoseEvidence(*key) : model::NullPoseEvidence();
+    const Signature signature = key ? signatureOf(*key, evidence) : Signature();
     m_newest = evidence.record.newest == nullptr ? std::nullopt : std::optional(*evidence.record.newest);
     if (signature == m_signature) {
         return false;
@@ -58,15 +47,12 @@ bool NullPoseReading::refresh() {
 
 void NullPoseReading::take(const model::NullPoseEvidence& evidence) {
     const model::NullPoseRecord& record = evidence.record;
-    m_messages = record.messages;
     m_repetition = record.repetition;
-    m_changed = record.changed;
     m_findings = model::findContradictions(evidence);
-    const auto* scale = m_key ? m_view.message(*m_key, wire::ScaleInformation::kType) : nullptr;
-    m_scale = bodyOf<wire::ScaleInformation>(scale);
-    m_scaleStamp = scale == nullptr ? log::Stamp() : scale->stamp;
-    m_props =
-        bodyOf<wire::PropInformation>(m_key ? m_view.message(*m_key, wire::PropInformation::kType) : nullptr);
+    m_scale = evidence.scale == nullptr ? std::nullopt : std::optional(*evidence.scale);
+    const auto* sent = character() ? m_view.message(*character(), wire::PropInformation::kType) : nullptr;
+    const auto* props = sent == nullptr ? nullptr : std::get_if<wire::PropInformation>(&sent->datagram.body);
+    m_props = props == nullptr ? std::nullopt : std::optional(*props);
     m_fromBefore.clear();
     m_fromReference.clear();
     m_measures = {};
@@ -93,7 +79,7 @@ int NullPoseReading::segmentAt(int place) const {
 
 int NullPoseReading::selectedPlace() const {
     const model::Selection& selection = m_view.selection();
-    if (!m_pose || selection.segment < 0 || selection.character != m_key) {
+    if (!m_pose || selection.segment < 0 || selection.character != character()) {
         return -1;
     }
     const int count = static_cast<int>(m_pose->segments.size());
@@ -105,23 +91,19 @@ int NullPoseReading::selectedPlace() const {
 
 namespace {
 
-PropertyValue none() {
-    return {dash()};
-}
-
 QString age(const NullPoseReading& reading, log::Stamp stamp) {
     const double seconds = log::secondsOf(reading.view().cursorStamp() - stamp);
     return duration(std::max(seconds, 0.0));
 }
 
-/// "10:42:17": scale messages come seconds apart.
-QString secondsOfDay(log::Stamp stamp) {
-    return timeOfDay(stamp).section(QLatin1Char('.'), 0, 0);
+/// "10:42:17 · 3.2 s": scale messages come seconds apart.
+QString whenAndAge(const NullPoseReading& reading, log::Stamp stamp) {
+    return timeOfDay(stamp).section(QLatin1Char('.'), 0, 0) + QStringLiteral(" · ") + age(reading, stamp);
 }
 
 PropertyValue parts(const NullPoseReading& reading) {
     if (!reading.newest()) {
-        return none();
+        return {dash()};
     }
     const model::NullPoseMessage& message = *reading.newest();
     const QString whole =
@@ -144,10 +126,9 @@ PropertyValue parts(const NullPoseReading& reading) {
 
 PropertyValue received(const NullPoseReading& reading) {
     if (!reading.newest()) {
-        return none();
+        return {dash()};
     }
-    const log::Stamp stamp = reading.newest()->stamp;
-    return {secondsOfDay(stamp) + QStringLiteral(" · ") + age(reading, stamp), Health::Unknown,
+    return {whenAndAge(reading, reading.newest()->stamp), Health::Unknown,
             tr("When its newest part came, and how long ago")};
 }
 
@@ -161,42 +142,33 @@ PropertyValue messages(const NullPoseReading& reading) {
 
 PropertyValue changed(const NullPoseReading& reading) {
     if (reading.pose() == nullptr) {
-        return none();
+        return {dash()};
     }
-    if (!reading.hasChanged()) {
+    if (reading.fromBefore().empty()) {
         return {tr("never"), Health::Unknown, tr("All messages said the same")};
     }
-    return {secondsOfDay(reading.changed()) + QStringLiteral(" · ") + age(reading, reading.changed()),
-            Health::Warning, tr("When a message said something else than the one before, and how long ago")};
+    return {whenAndAge(reading, reading.changed()), Health::Warning,
+            tr("When a message said something else than the one before, and how long ago")};
 }
 
-PropertyValue segments(const NullPoseReading& reading) {
-    return reading.pose() == nullptr ? none() : PropertyValue{grouped(reading.pose()->segments.size())};
+template <auto kList>
+PropertyValue countOf(const NullPoseReading& reading) {
+    return reading.pose() == nullptr ? PropertyValue{dash()}
+                                     : PropertyValue{grouped((reading.pose()->*kList).size())};
 }
 
-PropertyValue points(const NullPoseReading& reading) {
-    return reading.pose() == nullptr ? none() : PropertyValue{grouped(reading.pose()->points.size())};
-}
-
-PropertyValue metres(const NullPoseReading& reading, std::optional<double> model::NullPoseMeasures::*length) {
+template <std::optional<double> model::NullPoseMeasures::*kLength>
+PropertyValue metres(const NullPoseReading& reading) {
     const model::NullPoseMeasures& measures = reading.measures();
-    if (!(measures.*length)) {
-        return none();
+    if (!(measures.*kLength)) {
+        return {dash()};
     }
-    const QString text = fixed(*(measures.*length), 3) + QStringLiteral(" m");
+    const QString text = fixed(*(measures.*kLength), 3) + QStringLiteral(" m");
     if (!measures.isEstimated) {
         return {text, Health::Unknown, tr("From the points that were sent")};
     }
     return {QStringLiteral("≈ ") + text, Health::Unknown,
             tr("Estimated: without points, head, hands and soles are those of the reference body")};
-}
-
-PropertyValue height(const NullPoseReading& reading) {
-    return metres(reading, &model::NullPoseMeasures::height);
-}
-
-PropertyValue armSpan(const NullPoseReading& reading) {
-    return metres(reading, &model::NullPoseMeasures::armSpan);
 }
 
 PropertyValue scale(const NullPoseReading& reading) {
@@ -224,10 +196,10 @@ std::vector<Property> nullPoseFacts(const NullPoseReading& reading) {
                                   {tr("Received"), received},
                                   {tr("Messages"), messages},
                                   {tr("Changed"), changed},
-                                  {tr("Segments"), segments},
-                                  {tr("Points"), points},
-                                  {tr("Height"), height},
-                                  {tr("Arm span"), armSpan},
+                                  {tr("Segments"), countOf<&model::NullPose::segments>},
+                                  {tr("Points"), countOf<&model::NullPose::points>},
+                                  {tr("Height"), metres<&model::NullPoseMeasures::height>},
+                                  {tr("Arm span"), metres<&model::NullPoseMeasures::armSpan>},
                                   {tr("Type 10"), scale},
                                   {tr("Props (11)"), props}});
 }
@@ -243,8 +215,7 @@ QString findingsText(const std::vector<model::NullPoseFinding>& findings) {
     for (const model::NullPoseFinding& finding : findings) {
         const Health health = healthOf(finding.severity);
         text += (health == Health::Unknown ? QStringLiteral("○") : healthSymbol(health)) + QLatin1Char(' ') +
-                QString::fromStdString(finding.what) + QLatin1Char(' ') +
-                QString::fromStdString(finding.meaning) + QLatin1Char('\n');
+                fromUtf8(finding.what + ' ' + finding.meaning + '\n');
     }
     return text;
 }

@@ -21,7 +21,7 @@ public:
     /// True where something else is to be shown than before; ages apart.
     bool refresh();
 
-    [[nodiscard]] const std::optional<model::CharacterKey>& character() const { return m_key; }
+    [[nodiscard]] const std::optional<model::CharacterKey>& character() const { return m_signature.key; }
     /// Null where none was received.
     [[nodiscard]] const model::NullPose* pose() const { return m_pose ? &*m_pose : nullptr; }
     [[nodiscard]] const model::BodyPlaces& places() const { return m_places; }
@@ -30,19 +30,18 @@ public:
     [[nodiscard]] const wire::ScaleInformation* scale() const { return m_scale ? &*m_scale : nullptr; }
     [[nodiscard]] const wire::PropInformation* props() const { return m_props ? &*m_props : nullptr; }
     /// True where nothing of the three types has come.
-    [[nodiscard]] bool isEmpty() const { return !m_pose && !m_scale && !m_props && m_messages == 0; }
+    [[nodiscard]] bool isEmpty() const { return !m_pose && !m_scale && !m_props && messages() == 0; }
 
-    /// By place; empty where there is nothing to compare with.
+    /// By place; empty where there is nothing to compare with, and the first where nothing has changed.
     [[nodiscard]] const model::Distances& fromBefore() const { return m_fromBefore; }
     [[nodiscard]] const model::Distances& fromReference() const { return m_fromReference; }
-    [[nodiscard]] bool hasChanged() const { return !m_fromBefore.empty(); }
-    [[nodiscard]] log::Stamp changed() const { return m_changed; }
+    [[nodiscard]] log::Stamp changed() const { return m_signature.changed; }
 
     /// The newest message, complete or not; nothing where there is none.
     [[nodiscard]] const std::optional<model::NullPoseMessage>& newest() const { return m_newest; }
-    [[nodiscard]] std::uint64_t messages() const { return m_messages; }
+    [[nodiscard]] std::uint64_t messages() const { return m_signature.messages; }
     [[nodiscard]] log::Duration repetition() const { return m_repetition; }
-    [[nodiscard]] log::Stamp scaleStamp() const { return m_scaleStamp; }
+    [[nodiscard]] log::Stamp scaleStamp() const { return m_signature.scaleStamp; }
     [[nodiscard]] model::SessionView& view() const { return m_view; }
 
     /// The place in the message of the selected segment, −1 for none.
@@ -53,10 +52,10 @@ public:
 private:
     struct Signature {
         std::optional<model::CharacterKey> key{};
-        std::uint64_t message = 0;
         std::uint64_t packet = 0;
         std::uint64_t messages = 0;
         std::uint64_t scalePacket = UINT64_MAX;
+        log::Stamp scaleStamp{};
         std::uint64_t propPacket = UINT64_MAX;
         log::Stamp changed{};
         int segments = 0; ///< of poses
@@ -64,12 +63,12 @@ private:
         bool isDue = false;
         friend bool operator==(const Signature&, const Signature&) = default;
     };
-    [[nodiscard]] Signature signatureOf(const model::NullPoseEvidence& evidence) const;
+    [[nodiscard]] Signature signatureOf(const model::CharacterKey& key,
+                                        const model::NullPoseEvidence& evidence) const;
     void take(const model::NullPoseEvidence& evidence);
 
     model::SessionView& m_view;
     Signature m_signature;
-    std::optional<model::CharacterKey> m_key;
     std::optional<model::NullPose> m_pose;
     model::BodyPlaces m_places{};
     model::NullPoseMeasures m_measures;
@@ -79,10 +78,7 @@ private:
     model::Distances m_fromBefore;
     model::Distances m_fromReference;
     std::optional<model::NullPoseMessage> m_newest;
-    log::Stamp m_changed{};
-    std::uint64_t m_messages = 0;
     log::Duration m_repetition{};
-    log::Stamp m_scaleStamp{};
 };
 
 /// When and how completely scale messages came, and the size of the body. The reading must outlive them.

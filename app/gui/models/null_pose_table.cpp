@@ -41,12 +41,6 @@ QString matrixText(const wire::Mat3& matrix, const QString& betweenRows) {
     return text;
 }
 
-/// Cells of what follows from the message, not sent itself.
-template <class Row>
-QVariant dim(const Row&) {
-    return theme().dim;
-}
-
 /// One coordinate of a vector.
 template <class Row, class Read>
 TableColumn<Row> coordinateColumn(const QString& title, const QString& help, int axis, Read read) {
@@ -122,7 +116,7 @@ std::vector<TableColumn<SegmentRow>> segmentColumns() {
     return {
         Column::numbers(tr("ID"), tr("Place in the message, from 1: type 13 sends no IDs"),
                         [](const auto& row) { return QString::number(row.place + 1); })
-            .withColour(dim<SegmentRow>),
+            .dimmed(),
         Column::words(tr("Segment"), tr("Name as sent"),
                       [](const auto& row) { return QString::fromStdString(row.segment.name); }),
         positionColumn(tr("x m"), tr("Origin of the segment: x forward, Z-up"), 0),
@@ -231,7 +225,7 @@ std::vector<TableColumn<Scale>> scaleColumns() {
     const QString help = tr("Offset from the default position; the specification names no unit");
     return {
         Column::numbers(tr("ID"), {}, [](const auto& segment) { return QString::number(segment.id); })
-            .withColour(dim<Scale>),
+            .dimmed(),
         Column::words(tr("Segment"), {},
                       [](const auto& segment) { return segmentText(static_cast<int>(segment.id)); }),
         coordinateColumn<Scale>(tr("x"), help, 0, offset),

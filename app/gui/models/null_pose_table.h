@@ -42,21 +42,21 @@ private:
 /// Type 13, segments: where each is, and how far from where it was and from the reference body.
 class NullPoseSegmentModel final : public NullPoseTable<NullPoseSegmentRow> {
 public:
-    enum Column : int { kId, kName, kX, kY, kZ, kFromBefore, kFromReference, kColumnCount };
+    enum Column : int { kId, kName, kX, kY, kZ, kFromBefore, kFromReference };
     explicit NullPoseSegmentModel(const NullPoseReading& reading, QObject* parent = nullptr);
 };
 
 /// Type 13, points.
 class NullPosePointModel final : public NullPoseTable<NullPosePointRow> {
 public:
-    enum Column : int { kId, kName, kX, kY, kZ, kFlags, kBits, kColumnCount };
+    enum Column : int { kId, kName, kX, kY, kZ, kFlags, kBits };
     explicit NullPosePointModel(const NullPoseReading& reading, QObject* parent = nullptr);
 };
 
 /// Lengths of the body, left against right.
 class NullPoseLengthModel final : public NullPoseTable<model::SegmentLength> {
 public:
-    enum Column : int { kName, kLeft, kRight, kDifference, kColumnCount };
+    enum Column : int { kName, kLeft, kRight, kDifference };
     explicit NullPoseLengthModel(const NullPoseReading& reading, QObject* parent = nullptr);
 
     /// The body segment that a length is of.
@@ -66,7 +66,7 @@ public:
 /// Type 10: offset and matrix of each segment.
 class NullPoseScaleModel final : public NullPoseTable<wire::SegmentScale> {
 public:
-    enum Column : int { kId, kName, kX, kY, kZ, kMatrix, kColumnCount };
+    enum Column : int { kId, kName, kX, kY, kZ, kMatrix };
     explicit NullPoseScaleModel(const NullPoseReading& reading, QObject* parent = nullptr);
 };
 

@@ -109,17 +109,15 @@ std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::ui
     if (own == nullptr || !ownPacket) {
         return std::nullopt;
     }
-    const bool isDatagram = own->type != 0;
-    const std::uint64_t last = digests.end();
-    for (std::uint64_t at = packet + static_cast<std::uint64_t>(direction);
-         at >= digests.begin() && at < last; at += static_cast<std::uint64_t>(direction)) {
-        const model::PacketDigest& digest = *digests.find(at);
-        const bool isAlike = isDatagram ? digest.type == own->type && digest.character == own->character
-                                        : digest.kind == own->kind;
-        if (isAlike) {
-            if (const auto found = view.packet(at); found && found->sender == ownPacket->sender) {
-                return at;
-            }
+    const auto isAlike = [own](const model::PacketDigest& digest) {
+        return own->type != 0 ? digest.type == own->type && digest.character == own->character
+                              : digest.kind == own->kind;
+    };
+    const auto step = static_cast<std::uint64_t>(direction);
+    for (std::uint64_t at = packet + step; const auto* digest = digests.find(at); at += step) {
+        const auto found = isAlike(*digest) ? view.packet(at) : std::nullopt;
+        if (found && found->sender == ownPacket->sender) {
+            return at;
         }
     }
     return std::nullopt;

@@ -7,30 +7,19 @@
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
-#include <QStringList>
-
 #include <algorithm>
 
 namespace posewire::gui {
 
 namespace {
 
-const QString& dot() {
-    static const QString text = QStringLiteral(" · ");
-    return text;
-}
-
 /// "47 45 54 20 2f "GET /""
 QString beginning(wire::Bytes bytes) {
     constexpr std::size_t kShown = 12;
     const wire::Bytes shown = bytes.first(std::min(bytes.size(), kShown));
-    const QByteArray data(reinterpret_cast<const char*>(shown.data()), static_cast<qsizetype>(shown.size()));
-    QString readable;
-    for (const char byte : data) {
-        readable += byte >= ' ' && byte <= '~' ? QLatin1Char(byte) : QLatin1Char('.');
-    }
+    const QString digits = QString::fromLatin1(QByteArrayView(shown).toByteArray().toHex(' '));
     const QString more = bytes.size() > kShown ? QStringLiteral(" …") : QString();
-    return QString::fromLatin1(data.toHex(' ')) + more + QStringLiteral("  \"") + readable + QLatin1Char('"');
+    return digits + more + QStringLiteral("  \"") + readable(shown) + QLatin1Char('"');
 }
 
 /// Why it cannot be decoded, or what is odd about it.
@@ -50,25 +39,22 @@ QStringList decodedFindings(const log::Packet& packet) {
 QString gapText(model::SessionView& view, std::uint64_t number, std::uint64_t samples) {
     const model::Gap* gap = view.gapEndedBy(number);
     if (gap != nullptr && gap->isJudged && gap->cause != model::LossCause::Unknown) {
-        return tr("%1 lost").arg(grouped(samples)) + dot() + fromUtf8(model::nameOf(gap->cause));
+        return tr("%1 lost").arg(grouped(samples)) + QStringLiteral(" · ") +
+               fromUtf8(model::nameOf(gap->cause));
     }
     return samples == 1 ? tr("gap: 1 sample missing") : tr("gap: %1 samples missing").arg(grouped(samples));
 }
 
 QString findingsOf(model::SessionView& view, const log::Packet& packet, const model::PacketDigest& digest) {
     QStringList texts;
-    switch (digest.kind) {
-    case model::PacketKind::Malformed:
+    if (digest.kind == model::PacketKind::Malformed) {
         texts += decodedFindings(packet);
-        break;
-    case model::PacketKind::Foreign:
+    }
+    if (digest.kind == model::PacketKind::Foreign) {
         texts += packet.bytes.empty() ? tr("foreign: empty") : tr("foreign: %1").arg(beginning(packet.bytes));
-        break;
-    case model::PacketKind::Skipped:
+    }
+    if (digest.kind == model::PacketKind::Skipped) {
         texts += tr("belongs to no datagram: %1").arg(beginning(packet.bytes));
-        break;
-    case model::PacketKind::Datagram:
-        break;
     }
     if (digest.followsDrops) {
         texts += tr("this computer dropped %1 before").arg(grouped(packet.kernelDropsBefore));
@@ -91,7 +77,7 @@ QString findingsOf(model::SessionView& view, const log::Packet& packet, const mo
     if (digest.hasNotices) {
         texts += decodedFindings(packet);
     }
-    return texts.join(dot());
+    return texts.join(QStringLiteral(" · "));
 }
 
 } // namespace
@@ -137,7 +123,7 @@ std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t n
         return std::nullopt;
     }
     PacketFacts facts{number, packet->stamp, packet->sender, packet->bytes.size(), *digest, {}, {}};
-    if (digest->kind == model::PacketKind::Datagram || digest->kind == model::PacketKind::Malformed) {
+    if (!isStrange(*digest)) {
         if (const auto header = wire::decodeHeader(packet->bytes)) {
             facts.header = *header;
         }
@@ -146,6 +132,10 @@ std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t n
         facts.findings = findingsOf(view, *packet, *digest);
     }
     return facts;
+}
+
+bool isStrange(const model::PacketDigest& digest) {
+    return digest.kind == model::PacketKind::Foreign || digest.kind == model::PacketKind::Skipped;
 }
 
 Health packetHealth(const PacketFacts& facts) {
@@ -157,20 +147,12 @@ Health packetHealth(const PacketFacts& facts) {
 }
 
 QString packetType(const PacketFacts& facts) {
-    switch (facts.digest.kind) {
-    case model::PacketKind::Foreign:
-        return tr("foreign");
-    case model::PacketKind::Skipped:
-        return tr("stray bytes");
-    case model::PacketKind::Malformed:
-        if (!facts.header) {
-            return tr("malformed");
-        }
-        break;
-    case model::PacketKind::Datagram:
-        break;
+    if (isStrange(facts.digest)) {
+        return facts.digest.kind == model::PacketKind::Foreign ? tr("foreign") : tr("stray bytes");
     }
-    return QString::fromStdString(wire::typeTitle(facts.digest.type));
+    return facts.digest.kind == model::PacketKind::Malformed && !facts.header
+               ? tr("malformed")
+               : QString::fromStdString(wire::typeTitle(facts.digest.type));
 }
 
 QString packetPart(model::SessionView& view, const PacketFacts& facts) {
@@ -201,15 +183,13 @@ QString packetPart(model::SessionView& view, const PacketFacts& facts) {
 }
 
 QString packetNote(model::SessionView& view, const PacketFacts& facts) {
-    QString note = facts.findings.isEmpty()
-                       ? QString()
-                       : healthSymbol(packetHealth(facts)) + QLatin1Char(' ') + facts.findings;
+    QString note = facts.findings.isEmpty() ? QString() : healthText(packetHealth(facts), facts.findings);
     const model::Annotations& annotations = view.annotations();
     if (annotations.marks.contains(facts.number)) {
         note.prepend(note.isEmpty() ? tr("◆ marked") : QStringLiteral("◆ "));
     }
     if (const auto comment = annotations.comments.find(facts.number); comment != annotations.comments.end()) {
-        note += (note.isEmpty() ? QString() : dot()) + QStringLiteral("“") +
+        note += (note.isEmpty() ? QStringLiteral("“") : QStringLiteral(" · “")) +
                 QString::fromStdString(comment->second).simplified() + QStringLiteral("”");
     }
     return note;

@@ -10,7 +10,6 @@
 #include <QStringList>
 
 #include <optional>
-#include <string>
 
 namespace posewire::gui {
 
@@ -27,6 +26,9 @@ struct PacketFacts {
 
 /// Nothing where the log has dropped the packet or the session has not followed so far.
 [[nodiscard]] std::optional<PacketFacts> packetFacts(model::SessionView& view, std::uint64_t number);
+
+/// True for bytes that are no datagram.
+[[nodiscard]] bool isStrange(const model::PacketDigest& digest);
 
 /// Error: cannot be read. Warning: odd, or something is missing before it. Unknown: neither.
 [[nodiscard]] Health packetHealth(const PacketFacts& facts);

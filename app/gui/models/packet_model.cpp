@@ -4,7 +4,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/wire/type_table.h"
 
 #include <QDateTime>
 
@@ -28,23 +27,19 @@ bool describesBody(std::uint8_t type) {
 
 using PacketColumn = TableColumn<PacketFacts>;
 
-bool isStrange(const PacketFacts& facts) {
-    return facts.digest.kind == model::PacketKind::Foreign || facts.digest.kind == model::PacketKind::Skipped;
-}
-
 QVariant warningWhere(bool isOdd) {
     return isOdd ? QVariant(theme().warning) : QVariant();
 }
 
 QVariant dimWhereStrange(const PacketFacts& facts) {
-    return isStrange(facts) ? QVariant(theme().dim) : QVariant();
+    return isStrange(facts.digest) ? QVariant(theme().dim) : QVariant();
 }
 
 QVariant typeColour(const PacketFacts& facts) {
     if (packetHealth(facts) == Health::Error) {
         return healthColour(Health::Error);
     }
-    return isStrange(facts)                   ? QVariant(theme().dim)
+    return isStrange(facts.digest)            ? QVariant(theme().dim)
            : describesBody(facts.digest.type) ? QVariant(theme().accent)
                                               : QVariant();
 }
@@ -117,13 +112,12 @@ void PacketModel::refresh() {
     insertNew();
     const model::Annotations& annotations = m_view.annotations();
     const model::Cursor& cursor = m_view.cursor();
-    const bool isChanged = annotations.marks != m_annotations.marks ||
-                           annotations.comments != m_annotations.comments || cursor.mode != m_cursor.mode ||
-                           cursor.packet != m_cursor.packet;
+    const bool isChanged =
+        annotations != m_annotations || cursor.mode != m_cursor.mode || cursor.packet != m_cursor.packet;
     if (isChanged && rowCount() > 0) {
         m_annotations = annotations;
         m_cursor = cursor;
-        emit dataChanged(index(0, 0), index(rowCount() - 1, kColumnCount - 1));
+        announceChange();
     }
 }
 
@@ -136,28 +130,25 @@ void PacketModel::removeDropped() {
     if (m_isFiltered) {
         m_matches.erase(m_matches.begin(), std::ranges::lower_bound(m_matches, begin));
         m_problems.erase(m_problems.begin(), std::ranges::lower_bound(m_problems, begin));
-        m_matchRows -= static_cast<std::size_t>(rows);
     } else {
         m_begin = std::max(begin, m_begin);
-        m_end = std::max(m_end, m_begin);
     }
+    m_rows -= rows;
     m_removed += static_cast<std::uint64_t>(rows);
     if (rows > 0) {
         endRemoveRows();
     }
 }
 
+int PacketModel::rowsThere() const {
+    const std::uint64_t all = m_isFiltered ? m_matches.size() : m_view.digests().end() - m_begin;
+    return static_cast<int>(std::min(all, kMostRows));
+}
+
 void PacketModel::insertNew() {
-    const std::uint64_t end = std::min(m_view.digests().end(), m_begin + kMostRows);
-    const std::uint64_t rows =
-        m_isFiltered ? std::min<std::uint64_t>(m_matches.size(), kMostRows) : end - m_begin;
-    if (rows > static_cast<std::uint64_t>(rowCount())) {
-        beginInsertRows({}, rowCount(), static_cast<int>(rows) - 1);
-        if (m_isFiltered) {
-            m_matchRows = rows;
-        } else {
-            m_end = end;
-        }
+    if (const int rows = rowsThere(); rows > m_rows) {
+        beginInsertRows({}, m_rows, rows - 1);
+        m_rows = rows;
         endInsertRows();
     }
 }
@@ -168,12 +159,11 @@ void PacketModel::startAgain(bool isFiltered) {
     m_isFiltered = isFiltered;
     m_matches.clear();
     m_problems.clear();
-    m_matchRows = 0;
     if (!isFiltered) {
         m_begin = m_view.digests().begin();
-        m_end = std::min(m_view.digests().end(), m_begin + kMostRows);
         m_removed = m_begin;
     }
+    m_rows = rowsThere();
     endResetModel();
 }
 
@@ -207,9 +197,10 @@ std::uint64_t PacketModel::packetAt(int row) const {
 
 int PacketModel::rowFrom(std::uint64_t number) const {
     if (!m_isFiltered) {
-        return static_cast<int>(std::clamp(number, m_begin, m_end) - m_begin);
+        return static_cast<int>(std::clamp(number, m_begin, m_begin + static_cast<std::uint64_t>(m_rows)) -
+                                m_begin);
     }
-    const auto end = m_matches.begin() + static_cast<std::ptrdiff_t>(m_matchRows);
+    const auto end = m_matches.begin() + m_rows;
     return static_cast<int>(std::lower_bound(m_matches.begin(), end, number) - m_matches.begin());
 }
 
@@ -236,15 +227,11 @@ std::optional<std::uint64_t> PacketModel::previousProblem(std::uint64_t before) 
 }
 
 std::vector<std::uint64_t> PacketModel::matches() const {
-    const auto end = m_matches.begin() + static_cast<std::ptrdiff_t>(m_matchRows);
-    return {m_matches.begin(), end};
+    return {m_matches.begin(), m_matches.begin() + m_rows};
 }
 
 int PacketModel::rowCount(const QModelIndex& parent) const {
-    if (parent.isValid()) {
-        return 0;
-    }
-    return m_isFiltered ? static_cast<int>(m_matchRows) : static_cast<int>(m_end - m_begin);
+    return parent.isValid() ? 0 : m_rows;
 }
 
 const PacketFacts* PacketModel::facts(int row) const {
@@ -312,14 +299,13 @@ QVariant PacketModel::data(const QModelIndex& index, int role) const {
 }
 
 QVariant PacketModel::headerData(int section, Qt::Orientation orientation, int role) const {
-    if (orientation == Qt::Horizontal && section == kTime && role == Qt::DisplayRole &&
-        m_timeMode == TimeMode::TimeOfDay) {
+    const bool isTitle = orientation == Qt::Horizontal && role == Qt::DisplayRole;
+    const bool isHelp = orientation == Qt::Horizontal && role == Qt::ToolTipRole;
+    if (isTitle && section == kTime && m_timeMode == TimeMode::TimeOfDay) {
         return tr("Date and time");
     }
-    if (orientation == Qt::Horizontal && section == kDelta && m_deltaMode == DeltaMode::RowAbove) {
-        if (role == Qt::DisplayRole || role == Qt::ToolTipRole) {
-            return role == Qt::DisplayRole ? tr("Δ row ms") : tr("Since the row above");
-        }
+    if ((isTitle || isHelp) && section == kDelta && m_deltaMode == DeltaMode::RowAbove) {
+        return isTitle ? tr("Δ row ms") : tr("Since the row above");
     }
     return ColumnModel::headerData(section, orientation, role);
 }

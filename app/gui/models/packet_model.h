@@ -19,19 +19,7 @@ inline constexpr int kStripeRole = Qt::UserRole + 21;
 /// row is a number and takes no memory; texts are made when they are asked for.
 class PacketModel : public ColumnModel<PacketFacts> {
 public:
-    enum Column : int {
-        kNumber,
-        kTime,
-        kDelta,
-        kSender,
-        kType,
-        kCharacter,
-        kSample,
-        kPart,
-        kSize,
-        kNote,
-        kColumnCount
-    };
+    enum Column : int { kNumber, kTime, kDelta, kSender, kType, kCharacter, kSample, kPart, kSize, kNote };
     enum class TimeMode { SinceFirst, TimeOfDay };
     enum class DeltaMode { Stream, RowAbove };
 
@@ -67,7 +55,6 @@ public:
     [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
     /// With a filter: the numbers of all rows.
     [[nodiscard]] std::vector<std::uint64_t> matches() const;
-    [[nodiscard]] model::SessionView& view() const { return m_view; }
 
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
@@ -77,6 +64,8 @@ private:
     const PacketFacts* facts(int row) const;
     void removeDropped();
     void insertNew();
+    /// With those that are yet to be inserted.
+    [[nodiscard]] int rowsThere() const;
     void startAgain(bool isFiltered);
     void announceColumn(int column);
     /// Read the model only where a cell is asked for.
@@ -88,12 +77,11 @@ private:
 
     model::SessionView& m_view;
     bool m_isFiltered = false;
-    std::uint64_t m_begin = 0; ///< without a filter rows are the packets [m_begin, m_end)
-    std::uint64_t m_end = 0;
-    std::deque<std::uint64_t> m_matches;  ///< with a filter; the first m_matchRows of them are rows
+    int m_rows = 0;
+    std::uint64_t m_begin = 0;            ///< without a filter: the packet of the first row
+    std::deque<std::uint64_t> m_matches;  ///< with a filter; the first m_rows of them are rows
     std::deque<std::uint64_t> m_problems; ///< those of m_matches that are problems
-    std::size_t m_matchRows = 0;
-    std::uint64_t m_removed = 0; ///< rows that went at the front
+    std::uint64_t m_removed = 0;          ///< rows that went at the front
     TimeMode m_timeMode = TimeMode::SinceFirst;
     DeltaMode m_deltaMode = DeltaMode::Stream;
     model::Annotations m_annotations;           ///< as last shown

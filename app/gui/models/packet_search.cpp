@@ -2,7 +2,6 @@
 #include "app/gui/models/packet_search.h"
 
 #include "app/gui/theme/words.h"
-#include "core/log/log_reader.h"
 #include "core/wire/text.h"
 
 #include <QRegularExpression>
@@ -18,20 +17,16 @@ namespace {
 constexpr std::uint64_t kPacketsAtATime = 8192;
 
 std::byte folded(std::byte byte) {
-    const auto value = std::to_integer<unsigned char>(byte);
-    return value >= 'A' && value <= 'Z' ? static_cast<std::byte>(value + ('a' - 'A')) : byte;
+    return static_cast<std::byte>(wire::lower(std::to_integer<char>(byte)));
 }
 
 } // namespace
 
 tl::expected<BytePattern, QString> parsePattern(const QString& text, bool isHexadecimal) {
     if (!isHexadecimal) {
-        BytePattern pattern{{}, true};
-        const QByteArray utf8 = text.toUtf8();
-        const auto bytes = std::as_bytes(std::span(utf8.constData(), static_cast<std::size_t>(utf8.size())));
-        pattern.bytes.assign(bytes.begin(), bytes.end());
-        std::ranges::transform(pattern.bytes, pattern.bytes.begin(), folded);
-        return pattern;
+        const std::string small = wire::lowered(text.toStdString());
+        const auto bytes = std::as_bytes(std::span(small));
+        return BytePattern{{bytes.begin(), bytes.end()}, true};
     }
     static const QRegularExpression between(QStringLiteral("0[xX]|[\\s,;:]"));
     QString digits = text;
@@ -56,16 +51,9 @@ std::optional<std::size_t> findPattern(const BytePattern& pattern, wire::Bytes b
 }
 
 PacketSearch::PacketSearch(const log::PacketLog& log, Request request)
-    : m_log(log), m_request(std::move(request)) {
-    m_thread = std::thread([this] { run(); });
-}
-
-PacketSearch::~PacketSearch() {
-    m_isCancelled.store(true, std::memory_order_relaxed);
-    if (m_thread.joinable()) {
-        m_thread.join();
-    }
-}
+    : m_log(log),
+      m_request(std::move(request)),
+      m_thread([this](const std::stop_token& stop) { run(stop); }) {}
 
 std::optional<PacketSearch::Result> PacketSearch::result() const {
     return m_isDone.load(std::memory_order_acquire) ? std::optional(m_result) : std::nullopt;
@@ -76,7 +64,7 @@ PacketSearch::Result PacketSearch::wait() {
     return m_result;
 }
 
-void PacketSearch::run() {
+void PacketSearch::run(const std::stop_token& stop) {
     log::LogReader reader(m_log);
     const std::vector<std::uint64_t>& among = m_request.among;
     const std::uint64_t base = among.empty() ? reader.begin() : 0;
@@ -89,7 +77,7 @@ void PacketSearch::run() {
                    : static_cast<std::uint64_t>(std::ranges::lower_bound(among, number) - among.begin());
     };
     const std::uint64_t start = m_request.isForward ? placeOf(m_request.from + 1) : placeOf(m_request.from);
-    for (std::uint64_t i = 0; i < count && !m_isCancelled.load(std::memory_order_relaxed); ++i) {
+    for (std::uint64_t i = 0; i < count && !stop.stop_requested(); ++i) {
         const std::uint64_t place =
             m_request.isForward ? (start + i) % count : (start + 2 * count - 1 - i) % count;
         if (i % kPacketsAtATime == kPacketsAtATime - 1) {
@@ -112,51 +100,35 @@ PacketFilterRun::PacketFilterRun(const log::PacketLog& log, const model::PacketD
       m_firstStamp(firstStamp),
       m_begin(digests.begin()),
       m_next(digests.begin()),
-      m_end(digests.end()) {
-    m_excerpts.push_back(digests.excerpt(m_begin));
-    m_thread = std::thread([this] { run(); });
-}
-
-PacketFilterRun::~PacketFilterRun() {
-    cancel();
-    m_thread.join();
-}
-
-void PacketFilterRun::cancel() {
-    const std::lock_guard lock(m_mutex);
-    m_isCancelled.store(true, std::memory_order_relaxed);
-    m_changed.notify_all();
-}
+      m_end(digests.end()),
+      m_excerpts{digests.excerpt(m_begin)},
+      m_thread([this](const std::stop_token& stop) { run(stop); }) {}
 
 PacketFilterRun::Found PacketFilterRun::take(const model::PacketDigests& digests) {
     const std::lock_guard lock(m_mutex);
-    const std::uint64_t end = m_end.load(std::memory_order_relaxed);
-    if (digests.end() > end && !isCancelled()) {
-        m_excerpts.push_back(digests.excerpt(end));
-        m_end.store(digests.end(), std::memory_order_relaxed);
+    if (digests.end() > m_end && !isCancelled()) {
+        m_excerpts.push_back(digests.excerpt(m_end));
+        m_end = digests.end();
         m_changed.notify_all();
     }
     return std::exchange(m_found, {});
 }
 
 PacketFilterRun::Progress PacketFilterRun::progress() const {
-    return {m_next.load(std::memory_order_relaxed) - m_begin,
-            m_end.load(std::memory_order_relaxed) - m_begin};
+    const std::lock_guard lock(m_mutex);
+    return {m_next - m_begin, m_end - m_begin};
 }
 
 void PacketFilterRun::wait() {
     std::unique_lock lock(m_mutex);
-    m_changed.wait(lock, [&] {
-        return isCancelled() ||
-               m_next.load(std::memory_order_relaxed) == m_end.load(std::memory_order_relaxed);
-    });
+    m_changed.wait(lock, m_thread.get_stop_token(), [this] { return m_next == m_end; });
 }
 
 /// Sleeps where there is nothing to do; nothing where the run is over.
-std::optional<model::PacketDigests::Excerpt> PacketFilterRun::nextExcerpt() {
+std::optional<model::PacketDigests::Excerpt> PacketFilterRun::nextExcerpt(const std::stop_token& stop) {
     std::unique_lock lock(m_mutex);
-    m_changed.wait(lock, [this] { return isCancelled() || !m_excerpts.empty(); });
-    if (isCancelled()) {
+    m_changed.wait(lock, stop, [this] { return !m_excerpts.empty(); });
+    if (stop.stop_requested()) {
         return std::nullopt;
     }
     model::PacketDigests::Excerpt excerpt = std::move(m_excerpts.front());
@@ -170,13 +142,14 @@ void PacketFilterRun::hand(Found& found, std::uint64_t next) {
     m_found.problems.insert(m_found.problems.end(), found.problems.begin(), found.problems.end());
     found.packets.clear();
     found.problems.clear();
-    m_next.store(next, std::memory_order_relaxed);
+    m_next = next;
     m_changed.notify_all();
 }
 
-void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader) {
+void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader,
+                             const std::stop_token& stop) {
     Found found;
-    for (std::uint64_t number = excerpt.begin(); number < excerpt.end() && !isCancelled(); ++number) {
+    for (std::uint64_t number = excerpt.begin(); number < excerpt.end() && !stop.stop_requested(); ++number) {
         if ((number - excerpt.begin()) % kPacketsAtATime == 0) {
             hand(found, number);
             reader.refresh();
@@ -198,10 +171,10 @@ void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::
     hand(found, excerpt.end());
 }
 
-void PacketFilterRun::run() {
+void PacketFilterRun::run(const std::stop_token& stop) {
     log::LogReader reader(m_log);
-    while (const auto excerpt = nextExcerpt()) {
-        lookAt(*excerpt, reader);
+    while (const auto excerpt = nextExcerpt(stop)) {
+        lookAt(*excerpt, reader, stop);
     }
 }
 

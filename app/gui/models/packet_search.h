@@ -55,9 +55,6 @@ public:
 
     /// The log must outlive the search.
     PacketSearch(const log::PacketLog& log, Request request);
-    ~PacketSearch();
-    PacketSearch(const PacketSearch&) = delete;
-    PacketSearch& operator=(const PacketSearch&) = delete;
 
     /// Nothing while it is still looking.
     [[nodiscard]] std::optional<Result> result() const;
@@ -65,14 +62,13 @@ public:
     [[nodiscard]] Result wait();
 
 private:
-    void run();
+    void run(const std::stop_token& stop);
 
     const log::PacketLog& m_log;
     const Request m_request;
-    std::atomic<bool> m_isCancelled = false;
     std::atomic<bool> m_isDone = false;
-    Result m_result; ///< the thread's until m_isDone
-    std::thread m_thread;
+    Result m_result;       ///< the thread's until m_isDone
+    std::jthread m_thread; // last: it uses the others, and is stopped first
 };
 
 /// Finds the packets of a log that a filter lets through: a thread of its own reads those that the session
@@ -83,9 +79,6 @@ public:
     /// The log must outlive the run. `firstStamp` is where the filter's `time` begins.
     PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests, filter::Filter filter,
                     log::Stamp firstStamp);
-    ~PacketFilterRun();
-    PacketFilterRun(const PacketFilterRun&) = delete;
-    PacketFilterRun& operator=(const PacketFilterRun&) = delete;
 
     struct Found {
         std::vector<std::uint64_t> packets;  ///< in growing order
@@ -95,8 +88,8 @@ public:
     [[nodiscard]] Found take(const model::PacketDigests& digests);
 
     /// Ends the search; what was found stays.
-    void cancel();
-    [[nodiscard]] bool isCancelled() const { return m_isCancelled.load(std::memory_order_relaxed); }
+    void cancel() { m_thread.request_stop(); }
+    [[nodiscard]] bool isCancelled() const { return m_thread.get_stop_token().stop_requested(); }
 
     /// How far it is. Up to date where `done` has come to `total`.
     struct Progress {
@@ -109,24 +102,24 @@ public:
     void wait();
 
 private:
-    void run();
-    [[nodiscard]] std::optional<model::PacketDigests::Excerpt> nextExcerpt();
-    void lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader);
+    void run(const std::stop_token& stop);
+    [[nodiscard]] std::optional<model::PacketDigests::Excerpt> nextExcerpt(const std::stop_token& stop);
+    void lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader,
+                const std::stop_token& stop);
     void hand(Found& found, std::uint64_t next);
 
     const log::PacketLog& m_log;
     const filter::Filter m_filter;
     const log::Stamp m_firstStamp;
     const std::uint64_t m_begin; ///< the first packet there was
-    std::atomic<bool> m_isCancelled = false;
-    std::atomic<std::uint64_t> m_next; ///< the packet to be looked at next
-    std::atomic<std::uint64_t> m_end;  ///< of those handed to it
-    wire::Datagram m_datagram;         // the thread's
-    std::mutex m_mutex;                ///< guards all that follows
-    std::condition_variable m_changed;
+    wire::Datagram m_datagram;   // the thread's
+    mutable std::mutex m_mutex;  ///< guards all that follows but the thread
+    std::condition_variable_any m_changed;
+    std::uint64_t m_next; ///< the packet to be looked at next
+    std::uint64_t m_end;  ///< of those handed to it
     Found m_found;
     std::deque<model::PacketDigests::Excerpt> m_excerpts; ///< yet to be looked at
-    std::thread m_thread;                                 // last: it uses the others
+    std::jthread m_thread;                                // last: it uses the others, and is stopped first
 };
 
 } // namespace posewire::gui

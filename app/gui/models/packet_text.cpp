@@ -2,10 +2,10 @@
 #include "app/gui/models/packet_text.h"
 
 #include "app/gui/models/packet_model.h"
+#include "app/gui/models/text.h"
 #include "core/export/json.h"
 #include "core/export/sheets.h"
 #include "core/wire/text.h"
-#include "core/wire/type_table.h"
 
 #include <algorithm>
 
@@ -23,16 +23,11 @@ QString hexByte(std::byte byte) {
 QString hexText(wire::Bytes bytes) {
     QString text;
     for (std::size_t begin = 0; begin < bytes.size(); begin += kBytesInLine) {
-        QString digits;
-        QString letters;
-        for (const std::byte byte : bytes.subspan(begin, std::min(kBytesInLine, bytes.size() - begin))) {
-            const auto value = std::to_integer<char>(byte);
-            digits += hexByte(byte) + QLatin1Char(' ');
-            letters += value >= ' ' && value <= '~' ? QLatin1Char(value) : QLatin1Char('.');
-        }
+        const wire::Bytes line = bytes.subspan(begin, std::min(kBytesInLine, bytes.size() - begin));
+        const QString digits = QString::fromLatin1(QByteArrayView(line).toByteArray().toHex(' '));
         text += QStringLiteral("%1  %2 %3\n")
                     .arg(begin, 4, 16, QLatin1Char('0'))
-                    .arg(digits.leftJustified(kBytesInLine * 3), letters);
+                    .arg(digits.leftJustified(kBytesInLine * 3), readable(line));
     }
     return text;
 }

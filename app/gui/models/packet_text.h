@@ -6,7 +6,6 @@
 #include <QString>
 
 #include <span>
-#include <vector>
 
 namespace posewire::gui {
 

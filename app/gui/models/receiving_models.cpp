@@ -15,15 +15,10 @@ using Row = InputRow;
 using InputColumn = TableColumn<Row>;
 
 QString protocolText(const InputAddress& input) {
-    switch (input.kind) {
-    case Kind::Udp:
+    if (input.kind == Kind::Udp) {
         return input.groups.isEmpty() ? tr("UDP") : tr("UDP, multicast");
-    case Kind::TcpListener:
-        return tr("TCP, listening");
-    case Kind::TcpConnection:
-        break;
     }
-    return tr("TCP, connecting");
+    return input.kind == Kind::TcpListener ? tr("TCP, listening") : tr("TCP, connecting");
 }
 
 QString hostText(const InputAddress& input) {
@@ -55,18 +50,16 @@ PropertyValue inputState(const PortState& state) {
     if (!status.peers.empty() && state.port.kind == Kind::TcpListener) {
         return peersState(status.peers);
     }
-    const bool isReceiving = state.port.kind == Kind::Udp && state.datagramsPerSecond > 0;
-    if (status.state == net::InputState::Connected || isReceiving) {
-        const QString text = status.state == net::InputState::Connected ? QString::fromStdString(status.text)
-                                                                        : tr("receiving");
-        return {text, Health::Good, {}};
+    if (status.state == net::InputState::Connected) {
+        return {QString::fromStdString(status.text), Health::Good};
+    }
+    if (state.port.kind == Kind::Udp && state.datagramsPerSecond > 0) {
+        return {tr("receiving"), Health::Good};
     }
     if (status.state == net::InputState::Connecting) {
-        return {QString::fromStdString(status.text), Health::Unknown, {}};
+        return {QString::fromStdString(status.text)};
     }
-    return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening"),
-            Health::Unknown,
-            {}};
+    return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening")};
 }
 
 PropertyValue relayStage(const RelayState& relay) {
@@ -94,15 +87,15 @@ InputColumn figureColumn(const QString& title, const QString& help, QString (*fi
 }
 
 InputColumn hostColumn() {
-    InputColumn column = InputColumn::words(
-        tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
-        [](const Row& row) { return row.file.isEmpty() ? hostText(row.input.port) : row.file; });
-    column.more = [](const Row& row, int role) {
+    const auto text = [](const Row& row) { return row.file.isEmpty() ? hostText(row.input.port) : row.file; };
+    const auto suffix = [](const Row& row, int role) {
         const bool isEvery =
             row.file.isEmpty() && row.input.port.address.isEmpty() && row.input.port.groups.isEmpty();
         return role == kSuffixRole && isEvery ? QVariant(tr("· every address")) : QVariant();
     };
-    return column;
+    return InputColumn::words(tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
+                              text)
+        .withMore(suffix);
 }
 
 std::vector<InputColumn> inputColumns() {
@@ -148,14 +141,12 @@ RelayColumn troubleColumn(const QString& title, const QString& help, std::uint64
 }
 
 std::vector<RelayColumn> relayColumns() {
-    RelayColumn host =
-        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; });
-    host.more = [](const RelayState& relay, int role) {
+    const auto box = [](const RelayState& relay, int role) {
         return role == Qt::CheckStateRole ? QVariant(relay.target.isOn ? Qt::Checked : Qt::Unchecked)
                                           : QVariant();
     };
     return {
-        host,
+        RelayColumn::words(tr("Host"), {}, [](const auto& relay) { return relay.target.host; }).withMore(box),
         RelayColumn::numbers(tr("Port"), {},
                              [](const auto& relay) { return QString::number(relay.target.port); }),
         valueColumn(RelayColumn{.title = tr("State")}, relayStage),

@@ -18,7 +18,7 @@ struct InputRow {
 /// Named as MVN's Network Streamer names them: protocol, host, port.
 class InputModel : public TableModel<InputRow> {
 public:
-    enum Column : int { kProtocol, kHost, kPort, kState, kRate, kDatagrams, kDropped, kColumnCount };
+    enum Column : int { kProtocol, kHost, kPort, kState, kRate, kDatagrams, kDropped };
 
     explicit InputModel(QObject* parent = nullptr);
 
@@ -38,7 +38,7 @@ class RelayModel : public TableModel<RelayState> {
     Q_OBJECT
 
 public:
-    enum Column : int { kHost, kPort, kState, kSent, kRefused, kSkipped, kColumnCount };
+    enum Column : int { kHost, kPort, kState, kSent, kRefused, kSkipped };
 
     explicit RelayModel(QObject* parent = nullptr);
 

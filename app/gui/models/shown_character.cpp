@@ -14,10 +14,7 @@ std::optional<model::CharacterKey> shownCharacter(model::SessionView& view) {
     const auto first = std::ranges::find_if(characters, [&](const model::Character* character) {
         return !selection.sender || character->key.sender == *selection.sender;
     });
-    if (first == characters.end()) {
-        return std::nullopt;
-    }
-    return (*first)->key;
+    return first == characters.end() ? std::nullopt : std::optional((*first)->key);
 }
 
 model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key) {

@@ -97,11 +97,9 @@ QString figureNumber(const model::StreamFigures& figures, model::Figure figure) 
 
 /// Whether a figure is one to look at. Unknown for all that is neither good nor bad.
 Health figureHealth(const model::StreamFigures& figures, model::Figure figure) {
-    const model::FigureTrouble trouble = figures.trouble(figure);
-    if (trouble == model::FigureTrouble::Error) {
-        return Health::Error;
-    }
-    return trouble == model::FigureTrouble::Warning ? Health::Warning : Health::Unknown;
+    using enum Health;
+    constexpr std::array kHealths{Unknown, Unknown, Warning, Error}; // by FigureTrouble
+    return kHealths[static_cast<std::size_t>(figures.trouble(figure))];
 }
 
 /// A count of trouble that is zero is dim: nothing to look at.
@@ -190,12 +188,13 @@ TableColumn<StreamRow> StatisticsModel::curveColumn(const StatisticsModel& model
 }
 
 void StatisticsModel::refresh() {
-    ++m_turn;
     const auto second = std::chrono::time_point_cast<std::chrono::seconds>(view().cursorStamp());
-    if (second != m_curveSecond || m_choice != view().rangeChoice()) {
-        m_curveSecond = second;
-        m_choice = view().rangeChoice();
-        ++m_curveTurn;
+    const bool hasNewCurves = second != m_curveSecond || m_choice != view().rangeChoice();
+    m_curveSecond = second;
+    m_choice = view().rangeChoice();
+    for (Cached& kept : m_cache) {
+        kept.figures.reset();
+        kept.curve = hasNewCurves ? std::nullopt : std::move(kept.curve);
     }
     m_range = view().range();
     insertNew();
@@ -203,21 +202,18 @@ void StatisticsModel::refresh() {
 }
 
 StatisticsModel::Cached& StatisticsModel::cached(const QModelIndex& index) const {
-    const auto node = static_cast<std::size_t>(index.internalId());
-    if (node >= m_cache.size()) {
-        m_cache.resize(node + 1);
-    }
-    return m_cache[node];
+    const auto place = static_cast<std::size_t>(index.internalId());
+    m_cache.resize(std::max(m_cache.size(), place + 1));
+    return m_cache[place];
 }
 
 const model::StreamFigures& StatisticsModel::figures(const QModelIndex& index) const {
-    if (cached(index).turn != m_turn) {
+    Cached& kept = cached(index);
+    if (!kept.figures) {
         const model::Stream* shown = stream(index);
-        const auto made = shown != nullptr ? model::figuresOf(*shown, m_range) : sumOf(index);
-        cached(index).figures = made; // sums fill the cache of others: look again
-        cached(index).turn = m_turn;
+        kept.figures = shown != nullptr ? model::figuresOf(*shown, m_range) : sumOf(index);
     }
-    return cached(index).figures;
+    return *kept.figures;
 }
 
 model::StreamFigures StatisticsModel::sumOf(const QModelIndex& index) const {
@@ -226,8 +222,8 @@ model::StreamFigures StatisticsModel::sumOf(const QModelIndex& index) const {
     for (int row = 0; row < rowCount(parent); ++row) {
         sum.add(figures(this->index(row, 0, parent)));
     }
-    if (nodeOf(index).kind == Kind::Sender) {
-        const model::Sender& sender = view().senders()[nodeOf(index).entry]; // also those without a header
+    if (rowOf(index).kind == Kind::Sender) {
+        const model::Sender& sender = view().senders()[rowOf(index).entry]; // also those without a header
         sum.set(model::Figure::Malformed,
                 static_cast<double>(m_range ? sender.history.malformedBetween(m_range->from, m_range->to)
                                             : sender.malformed));
@@ -247,11 +243,10 @@ void StatisticsModel::addStreams(const QModelIndex& index, std::vector<const mod
 
 const StatisticsModel::Curve& StatisticsModel::curve(const QModelIndex& index) const {
     Cached& kept = cached(index);
-    if (kept.curveTurn != m_curveTurn) {
+    if (!kept.curve) {
         kept.curve = makeCurve(index);
-        kept.curveTurn = m_curveTurn;
     }
-    return kept.curve;
+    return *kept.curve;
 }
 
 StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) const {

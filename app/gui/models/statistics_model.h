@@ -56,10 +56,8 @@ private:
         QList<float> marks; ///< above 0 where samples were lost
     };
     struct Cached {
-        std::uint64_t turn = 0;      ///< of the figures
-        std::uint64_t curveTurn = 0; ///< likewise
-        model::StreamFigures figures;
-        Curve curve;
+        std::optional<model::StreamFigures> figures;
+        std::optional<Curve> curve;
     };
 
     [[nodiscard]] Cached& cached(const QModelIndex& index) const;
@@ -78,10 +76,8 @@ private:
 
     std::optional<model::TimeRange> m_range;
     model::RangeChoice m_choice;
-    std::uint64_t m_turn = 1;
-    std::uint64_t m_curveTurn = 1;
     std::chrono::sys_seconds m_curveSecond{};
-    mutable std::deque<Cached> m_cache; ///< by the node of the row
+    mutable std::deque<Cached> m_cache; ///< by the node of the row; what is in it stays where it is
 };
 
 /// Datagrams and losses of all streams over the whole history, in parts of equal length; read again once a

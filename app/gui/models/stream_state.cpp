@@ -31,7 +31,7 @@ PropertyValue malformedState(std::uint64_t count) {
 
 /// Another sender has taken over: nothing is wrong, and nothing more will come.
 PropertyValue ended() {
-    return {tr("ended"), Health::Unknown};
+    return {tr("ended")};
 }
 
 /// What is missing of one sample is missing in each of its types: the worst stream counts.
@@ -52,16 +52,12 @@ QString contradictionOf(const model::Sender* sender) {
 }
 
 bool hasEnded(model::SessionView& view, const model::Sender& sender) {
-    bool hasCharacters = false;
-    for (const model::Character& character : view.characters()) {
-        if (character.key.sender == sender.id) {
-            hasCharacters = true;
-            if (!view.isSuperseded(character.key)) {
-                return false;
-            }
-        }
-    }
-    return hasCharacters;
+    const auto& all = view.characters();
+    const auto isOwn = [&](const model::Character& character) { return character.key.sender == sender.id; };
+    return std::ranges::any_of(all, isOwn) &&
+           std::ranges::none_of(all, [&](const model::Character& character) {
+               return isOwn(character) && !view.isSuperseded(character.key);
+           });
 }
 
 /// Seconds; at least 0, also when the cursor lies before it.

@@ -8,24 +8,18 @@
 
 namespace posewire::gui {
 
-namespace {
-
-constexpr int kNone = -1;
-
-} // namespace
-
 model::CharacterKey characterOf(const log::StreamKey& key) {
     return {key.sender, key.character};
 }
 
 StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
                                  QObject* parent)
-    : ColumnModel(std::move(columns), parent), m_view(view) {}
+    : TreeModel(std::move(columns), parent), m_view(view) {}
 
 void StreamTreeModel::insertNew() {
-    nodesOf(Kind::Sender).resize(m_view.senders().size(), kNone);
-    nodesOf(Kind::Character).resize(m_view.characters().size(), kNone);
-    nodesOf(Kind::Stream).resize(m_view.streams().size(), kNone);
+    m_nodesOf[Kind::Sender].resize(m_view.senders().size(), kNone);
+    m_nodesOf[Kind::Character].resize(m_view.characters().size(), kNone);
+    m_nodesOf[Kind::Stream].resize(m_view.streams().size(), kNone);
     if (!insert(Kind::Sender) && !insert(Kind::Character)) {
         insert(Kind::Stream);
     }
@@ -34,8 +28,8 @@ void StreamTreeModel::insertNew() {
 bool StreamTreeModel::insert(Kind kind) {
     std::optional<int> parent;
     std::vector<std::size_t> entries;
-    for (std::size_t entry = 0; entry < nodesOf(kind).size(); ++entry) {
-        const auto wanted = nodesOf(kind)[entry] == kNone ? parentOf(kind, entry) : std::nullopt;
+    for (std::size_t entry = 0; entry < m_nodesOf[kind].size(); ++entry) {
+        const auto wanted = m_nodesOf[kind][entry] == kNone ? parentOf(kind, entry) : std::nullopt;
         if (wanted && (!parent || parent == wanted)) {
             parent = wanted;
             entries.push_back(entry);
@@ -44,8 +38,9 @@ bool StreamTreeModel::insert(Kind kind) {
     if (entries.empty()) {
         return false;
     }
-    const int first = static_cast<int>(childrenOf(*parent).size());
-    beginInsertRows(indexOfNode(*parent), first, first + static_cast<int>(entries.size()) - 1);
+    const QModelIndex above = TreeModel::indexOf(*parent);
+    const int first = rowCount(above);
+    beginInsertRows(above, first, first + static_cast<int>(entries.size()) - 1);
     for (const std::size_t entry : entries) {
         addNode(kind, entry, *parent);
     }
@@ -54,18 +49,16 @@ bool StreamTreeModel::insert(Kind kind) {
 }
 
 void StreamTreeModel::addNode(Kind kind, std::size_t entry, int parent) {
-    const int node = static_cast<int>(m_nodes.size());
-    std::vector<int>& siblings = childrenOf(parent);
-    const int row = static_cast<int>(siblings.size());
-    siblings.push_back(node);
-    m_nodes.push_back({kind, entry, parent, row, {}});
-    nodesOf(kind)[entry] = node;
+    const int node = static_cast<int>(m_rows.size());
+    m_rows.push_back({kind, entry});
+    place(node, parent);
+    m_nodesOf[kind][entry] = node;
     if (kind == Kind::Stream) {
         return;
     }
     const Kind below = kind == Kind::Sender ? Kind::Character : Kind::Stream;
-    for (std::size_t child = 0; child < nodesOf(below).size(); ++child) {
-        if (nodesOf(below)[child] == kNone && parentOf(below, child) == node) {
+    for (std::size_t child = 0; child < m_nodesOf[below].size(); ++child) {
+        if (m_nodesOf[below][child] == kNone && parentOf(below, child) == node) {
             addNode(below, child, node);
         }
     }
@@ -81,36 +74,28 @@ std::optional<int> StreamTreeModel::parentOf(Kind kind, std::size_t entry) const
         const auto found =
             std::ranges::find(senders, m_view.characters()[entry].key.sender, &model::Sender::id);
         if (found != senders.end()) {
-            parent = nodesOf(Kind::Sender)[static_cast<std::size_t>(found - senders.begin())];
+            parent = m_nodesOf[Kind::Sender][static_cast<std::size_t>(found - senders.begin())];
         }
     } else if (const auto* character = m_view.find(characterOf(m_view.streams()[entry].key))) {
-        parent = nodesOf(Kind::Character)[character->ordinal];
+        parent = m_nodesOf[Kind::Character][character->ordinal];
     }
     return parent == kNone ? std::nullopt : std::optional(parent);
 }
 
-const StreamTreeModel::Node& StreamTreeModel::nodeOf(const QModelIndex& index) const {
-    return m_nodes[static_cast<std::size_t>(index.internalId())];
+const StreamRow& StreamTreeModel::rowOf(const QModelIndex& index) const {
+    return m_rows[static_cast<std::size_t>(node(index))];
 }
 
-QModelIndex StreamTreeModel::indexOfNode(int node) const {
-    return node == kNone ? QModelIndex()
-                         : createIndex(m_nodes[static_cast<std::size_t>(node)].row, 0,
-                                       static_cast<quintptr>(static_cast<unsigned>(node)));
-}
-
-QModelIndex StreamTreeModel::indexOf(const Node& node) const {
-    return index(node.row, 0, indexOfNode(node.parent));
+QModelIndex StreamTreeModel::indexOf(const StreamRow& row) const {
+    return TreeModel::indexOf(m_nodesOf[row.kind][row.entry]);
 }
 
 QString StreamTreeModel::nameOf(const StreamRow& row) const {
-    switch (row.kind) {
-    case Kind::Sender:
+    if (row.kind == Kind::Sender) {
         return QString::fromStdString(m_view.senders()[row.entry].info.address);
-    case Kind::Character:
+    }
+    if (row.kind == Kind::Character) {
         return characterName(m_view, m_view.characters()[row.entry].key);
-    case Kind::Stream:
-        break;
     }
     return QString::fromStdString(wire::typeTitle(m_view.streams()[row.entry].key.type));
 }
@@ -125,12 +110,12 @@ QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
 }
 
 std::optional<model::CharacterKey> StreamTreeModel::character(const QModelIndex& index) const {
-    if (!index.isValid() || nodeOf(index).kind == Kind::Sender) {
+    if (!index.isValid() || rowOf(index).kind == Kind::Sender) {
         return std::nullopt;
     }
-    const Node& node = nodeOf(index);
-    return node.kind == Kind::Character ? m_view.characters()[node.entry].key
-                                        : characterOf(m_view.streams()[node.entry].key);
+    const auto [kind, entry] = rowOf(index);
+    return kind == Kind::Character ? m_view.characters()[entry].key
+                                   : characterOf(m_view.streams()[entry].key);
 }
 
 std::optional<log::SenderId> StreamTreeModel::sender(const QModelIndex& index) const {
@@ -138,43 +123,23 @@ std::optional<log::SenderId> StreamTreeModel::sender(const QModelIndex& index) c
         return std::nullopt;
     }
     const auto key = character(index);
-    return key ? key->sender : m_view.senders()[nodeOf(index).entry].id;
+    return key ? key->sender : m_view.senders()[rowOf(index).entry].id;
 }
 
 const model::Stream* StreamTreeModel::stream(const QModelIndex& index) const {
-    const bool isStream = index.isValid() && nodeOf(index).kind == Kind::Stream;
-    return isStream ? &m_view.streams()[nodeOf(index).entry] : nullptr;
+    const bool isStream = index.isValid() && rowOf(index).kind == Kind::Stream;
+    return isStream ? &m_view.streams()[rowOf(index).entry] : nullptr;
 }
 
 QModelIndex StreamTreeModel::indexOf(const model::CharacterKey& key) const {
     const model::Character* found = m_view.find(key);
-    const std::vector<int>& nodes = nodesOf(Kind::Character);
+    const std::vector<int>& nodes = m_nodesOf[Kind::Character];
     return found == nullptr || found->ordinal >= nodes.size() ? QModelIndex()
-                                                              : indexOfNode(nodes[found->ordinal]);
-}
-
-QModelIndex StreamTreeModel::index(int row, int column, const QModelIndex& parent) const {
-    if (!hasIndex(row, column, parent)) {
-        return {};
-    }
-    const std::vector<int>& children = parent.isValid() ? nodeOf(parent).children : m_roots;
-    return createIndex(row, column,
-                       static_cast<quintptr>(static_cast<unsigned>(children[static_cast<std::size_t>(row)])));
-}
-
-QModelIndex StreamTreeModel::parent(const QModelIndex& index) const {
-    return index.isValid() ? indexOfNode(nodeOf(index).parent) : QModelIndex();
-}
-
-int StreamTreeModel::rowCount(const QModelIndex& parent) const {
-    if (!parent.isValid()) {
-        return static_cast<int>(m_roots.size());
-    }
-    return parent.column() == 0 ? static_cast<int>(nodeOf(parent).children.size()) : 0;
+                                                              : TreeModel::indexOf(nodes[found->ordinal]);
 }
 
 QVariant StreamTreeModel::data(const QModelIndex& index, int role) const {
-    return checkIndex(index, CheckIndexOption::IndexIsValid) ? cell(nodeOf(index), index.column(), role)
+    return checkIndex(index, CheckIndexOption::IndexIsValid) ? cell(rowOf(index), index.column(), role)
                                                              : QVariant();
 }
 

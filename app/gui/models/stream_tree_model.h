@@ -12,19 +12,16 @@ namespace posewire::gui {
 
 /// A row of a table of senders, characters and streams.
 struct StreamRow {
-    enum class Kind : std::uint8_t { Sender, Character, Stream };
+    enum Kind : std::uint8_t { Sender, Character, Stream };
     Kind kind;
     std::size_t entry; ///< in the session's list of its kind
-    int parent;        ///< node, -1 for senders
-    int row;
-    std::vector<int> children;
 };
 
 [[nodiscard]] model::CharacterKey characterOf(const log::StreamKey& key);
 
 /// The rows of tables that show sender > character > stream, each in the order of first appearance, so that
 /// rows never jump. What they say is up to the columns.
-class StreamTreeModel : public ColumnModel<StreamRow, QAbstractItemModel> {
+class StreamTreeModel : public TreeModel<StreamRow> {
 public:
     StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
                     QObject* parent = nullptr);
@@ -37,22 +34,16 @@ public:
     /// The row of a character, or an invalid index.
     [[nodiscard]] QModelIndex indexOf(const model::CharacterKey& key) const;
 
-    [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
-    [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override;
-    [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
 protected:
     using Kind = StreamRow::Kind;
-    using Node = StreamRow;
 
     /// Announces at most one insertion: what appears under several parents at once arrives over the next
     /// calls.
     void insertNew();
-    /// Announces that anything may have changed, once, for the senders; views repaint what is under them too.
-    void announceChange() { ColumnModel::announceChange(0, rowCount() - 1); }
-    [[nodiscard]] const Node& nodeOf(const QModelIndex& index) const;
-    [[nodiscard]] QModelIndex indexOf(const Node& node) const;
+    [[nodiscard]] const StreamRow& rowOf(const QModelIndex& index) const;
+    [[nodiscard]] QModelIndex indexOf(const StreamRow& row) const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }
     /// Address of a sender, name of a character, title of a type.
     [[nodiscard]] QString nameOf(const StreamRow& row) const;
@@ -60,26 +51,18 @@ protected:
     [[nodiscard]] QVariant marksOf(const StreamRow& row, int role) const;
 
 private:
+    static constexpr int kNone = -1; ///< of nodes
     /// Adds the entries without a node that have the same parent as the first of them. False where none has.
     bool insert(Kind kind);
     /// With all that belongs under it.
     void addNode(Kind kind, std::size_t entry, int parent);
     /// -1 for the top; nothing where the parent has no node yet.
     [[nodiscard]] std::optional<int> parentOf(Kind kind, std::size_t entry) const;
-    [[nodiscard]] std::vector<int>& childrenOf(int node) {
-        return node < 0 ? m_roots : m_nodes[static_cast<std::size_t>(node)].children;
-    }
-    /// By place in the session's list; -1 before the row is there.
-    [[nodiscard]] std::vector<int>& nodesOf(Kind kind) { return m_nodesOf[static_cast<std::size_t>(kind)]; }
-    [[nodiscard]] const std::vector<int>& nodesOf(Kind kind) const {
-        return m_nodesOf[static_cast<std::size_t>(kind)];
-    }
-    [[nodiscard]] QModelIndex indexOfNode(int node) const;
 
     model::SessionView& m_view;
-    std::vector<Node> m_nodes;
-    std::vector<int> m_roots;
-    std::array<std::vector<int>, 3> m_nodesOf; ///< by kind
+    std::vector<StreamRow> m_rows; ///< by node
+    /// By kind, then by place in the session's list; kNone before the row is there.
+    std::array<std::vector<int>, 3> m_nodesOf;
 };
 
 } // namespace posewire::gui

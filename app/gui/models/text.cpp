@@ -7,16 +7,17 @@
 
 namespace posewire::gui {
 
-namespace {
-
-QString padded(std::int64_t value, int digits) {
-    return QString::number(value).rightJustified(digits, QLatin1Char('0'));
-}
-
-} // namespace
-
 QString fromUtf8(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
+}
+
+QString readable(std::span<const std::byte> bytes) {
+    QString text;
+    for (const std::byte byte : bytes) {
+        const auto value = std::to_integer<char>(byte);
+        text += value >= ' ' && value <= '~' ? QLatin1Char(value) : QLatin1Char('.');
+    }
+    return text;
 }
 
 QString grouped(std::uint64_t value) {
@@ -54,9 +55,9 @@ QStringList setBits(std::uint32_t flags) {
 
 QString milliClock(std::int64_t milliseconds) {
     const std::int64_t size = std::abs(milliseconds);
-    const QString text = padded(size / 3'600'000, 2) + QLatin1Char(':') + padded(size / 60'000 % 60, 2) +
-                         QLatin1Char(':') + padded(size / 1000 % 60, 2) + QLatin1Char('.') +
-                         padded(size % 1000, 3);
+    const QTime time = QTime::fromMSecsSinceStartOfDay(static_cast<int>(size % 3'600'000));
+    const QString text = QStringLiteral("%1").arg(size / 3'600'000, 2, 10, QLatin1Char('0')) +
+                         time.toString(QStringLiteral(":mm:ss.zzz"));
     return milliseconds < 0 ? QStringLiteral("−") + text : text;
 }
 
@@ -80,13 +81,10 @@ QString duration(double seconds) {
     if (seconds < 10) {
         return fixed(seconds, 1) + QStringLiteral(" s");
     }
-    if (seconds < 120) {
-        return fixed(std::floor(seconds), 0) + QStringLiteral(" s");
-    }
-    if (seconds < 7200) {
-        return fixed(std::floor(seconds / 60), 0) + QStringLiteral(" min");
-    }
-    return fixed(std::floor(seconds / 3600), 0) + QStringLiteral(" h");
+    const auto whole = [seconds](double unit) { return fixed(std::floor(seconds / unit), 0); };
+    return seconds < 120    ? whole(1) + QStringLiteral(" s")
+           : seconds < 7200 ? whole(60) + QStringLiteral(" min")
+                            : whole(3600) + QStringLiteral(" h");
 }
 
 QString megabytes(std::uint64_t bytes) {

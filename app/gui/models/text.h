@@ -6,7 +6,9 @@
 #include <QString>
 #include <QStringList>
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 
 /// How figures are written everywhere in the window: fixed decimals, a true minus, thousands set apart.
@@ -14,6 +16,9 @@ namespace posewire::gui {
 
 /// UTF-8 of the core as a text of the window.
 [[nodiscard]] QString fromUtf8(std::string_view text);
+
+/// The bytes as letters of ASCII, with a dot for each that is none.
+[[nodiscard]] QString readable(std::span<const std::byte> bytes);
 
 /// "–": nothing to show.
 [[nodiscard]] inline QString dash() {

@@ -6,10 +6,8 @@
 #include "app/gui/theme/words.h"
 #include "core/model/body/segments.h"
 #include "core/model/body/spaces.h"
-#include "core/model/session/ingest.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <span>
 
@@ -119,19 +117,15 @@ void TrackerHistory::computeMedians() {
         for (const Norm& norm : lately.norms) {
             sorted.push_back(norm.norm);
         }
-        lately.hasMedian = sorted.size() >= kLeastNorms;
-        if (lately.hasMedian) {
-            const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-            std::nth_element(sorted.begin(), middle, sorted.end());
-            lately.median = *middle;
-        }
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+        std::ranges::nth_element(sorted, middle);
+        lately.median = sorted.size() >= kLeastNorms ? std::optional(*middle) : std::nullopt;
     }
 }
 
 std::optional<float> TrackerHistory::magneticMedian(std::uint32_t trackerId) const {
     const auto found = m_trackers.find(trackerId);
-    return found != m_trackers.end() && found->second.hasMedian ? std::optional(found->second.median)
-                                                                : std::nullopt;
+    return found == m_trackers.end() ? std::nullopt : found->second.median;
 }
 
 bool TrackerHistory::isDisturbed(const wire::Tracker& tracker) const {
@@ -242,11 +236,6 @@ QString components(std::span<const float> values, int decimals) {
     return texts.join(QLatin1Char(' '));
 }
 
-/// What was sent, neither good nor bad.
-PropertyValue sent(const QString& text, const QString& toolTip) {
-    return {text, Health::Unknown, toolTip};
-}
-
 QString eulerText(const wire::Tracker& tracker) {
     const Eigen::Vector3d radians =
         model::eulerFromQuaternion(model::normalizedOrIdentity(model::toQuaternion(tracker.orientation)));
@@ -277,43 +266,41 @@ PropertyValue flags(const TrackerModel& trackers, const wire::Tracker& tracker) 
 } // namespace
 
 std::vector<Property> trackerFacts(const TrackerModel& trackers) {
-    const auto row = [&trackers](const QString& label, auto read) {
+    using Read = std::function<PropertyValue(const wire::Tracker&)>;
+    const auto row = [&trackers](const QString& label, const Read& read) {
         return Property{label, [&trackers, read] {
                             const wire::Tracker* tracker = trackers.shown();
                             return tracker == nullptr ? PropertyValue{} : read(*tracker);
                         }};
     };
-    const auto inertial = [&trackers](const wire::Vec3& vector) {
-        return trackers.hasInertialData() ? components(vector, 2) : tr("not in the 44-byte form");
+    // What was sent, neither good nor bad.
+    const auto sent = [&row](const QString& label, const QString& help, auto text) {
+        return row(label, [text, help](const auto& tracker) {
+            return PropertyValue{text(tracker), Health::Unknown, help};
+        });
     };
-    return {row(tr("Orientation w x y z"),
-                [](const auto& tracker) {
-                    return sent(components(tracker.orientation, 3),
-                                tr("Quaternion w x y z, world from tracker"));
-                }),
-            row(tr("Euler x y z °"),
-                [](const auto& tracker) {
-                    return sent(eulerText(tracker), tr("About fixed x, then y, then z, in the Z-up world"));
-                }),
-            row(tr("Free acceleration m/s²"),
-                [](const auto& tracker) {
-                    return sent(components(tracker.freeAcceleration, 2),
-                                tr("x y z in the world, gravity taken away"));
-                }),
-            row(tr("Acceleration m/s²"),
-                [inertial](const auto& tracker) {
-                    return sent(inertial(tracker.acceleration),
-                                tr("x y z in the tracker's axes, gravity included"));
-                }),
-            row(tr("Angular velocity rad/s"),
-                [inertial](const auto& tracker) {
-                    return sent(inertial(tracker.angularVelocity), tr("x y z in the tracker's axes"));
-                }),
-            row(tr("Magnetic field"),
-                [](const auto& tracker) {
-                    return sent(components(tracker.magneticField, 2),
-                                tr("x y z in the tracker's axes, without unit"));
-                }),
+    const auto vector = [&](const QString& label, const QString& help, wire::Vec3 wire::Tracker::*quantity) {
+        return sent(label, help,
+                    [quantity](const auto& tracker) { return components(tracker.*quantity, 2); });
+    };
+    const auto inertial = [&](const QString& label, const QString& help,
+                              wire::Vec3 wire::Tracker::*quantity) {
+        return sent(label, help, [&trackers, quantity](const auto& tracker) {
+            return trackers.hasInertialData() ? components(tracker.*quantity, 2)
+                                              : tr("not in the 44-byte form");
+        });
+    };
+    return {sent(tr("Orientation w x y z"), tr("Quaternion w x y z, world from tracker"),
+                 [](const auto& tracker) { return components(tracker.orientation, 3); }),
+            sent(tr("Euler x y z °"), tr("About fixed x, then y, then z, in the Z-up world"), eulerText),
+            vector(tr("Free acceleration m/s²"), tr("x y z in the world, gravity taken away"),
+                   &wire::Tracker::freeAcceleration),
+            inertial(tr("Acceleration m/s²"), tr("x y z in the tracker's axes, gravity included"),
+                     &wire::Tracker::acceleration),
+            inertial(tr("Angular velocity rad/s"), tr("x y z in the tracker's axes"),
+                     &wire::Tracker::angularVelocity),
+            vector(tr("Magnetic field"), tr("x y z in the tracker's axes, without unit"),
+                   &wire::Tracker::magneticField),
             row(tr("Field norm · dip"),
                 [&trackers](const auto& tracker) { return fieldNorm(trackers, tracker); }),
             row(tr("Flags"), [&trackers](const auto& tracker) { return flags(trackers, tracker); })};

@@ -53,8 +53,7 @@ private:
     };
     struct Lately {
         std::deque<Norm> norms; ///< twenty a second
-        float median = 0;
-        bool hasMedian = false;
+        std::optional<float> median;
         std::optional<log::Stamp> saturated;
     };
     void add(const model::Message& message, std::uint32_t step);
@@ -80,7 +79,7 @@ private:
 /// The trackers of the shown character in wire order, as of the newest type 23 at the cursor.
 class TrackerModel : public TableModel<wire::Tracker> {
 public:
-    enum Column : int { kName, kFree, kAcceleration, kGyro, kMagnetic, kState, kColumnCount };
+    enum Column : int { kName, kFree, kAcceleration, kGyro, kMagnetic, kState };
 
     explicit TrackerModel(model::SessionView& view, QObject* parent = nullptr);
 
