@@ -67,19 +67,18 @@ SampleWindow::Mark SampleWindow::mark(std::size_t index, std::uint8_t datagram, 
             return Mark::Duplicate;
         }
         entry.parts = takeMask();
-        m_masks[entry.parts][0] = 1;
+        m_masks[entry.parts][0] = true;
     }
     Mask& mask = m_masks[entry.parts];
-    const std::uint64_t bit = std::uint64_t{1} << (datagram & 63);
-    std::uint64_t& half = mask[(datagram >> 6) & 1];
-    if ((half & bit) != 0) {
+    if (mask[datagram & 127]) {
         return Mark::Duplicate;
     }
-    half |= bit;
+    mask[datagram & 127] = true;
     if (isLast && entry.last == 0xff) {
         entry.last = datagram;
     }
-    if (!entry.isComplete && entry.last != 0xff && isWhole(mask, entry.last)) {
+    const bool isWhole = entry.last != 0xff && (~mask << (127 - entry.last)).none();
+    if (isWhole && !entry.isComplete) {
         entry.isComplete = true;
         return Mark::Completing;
     }
@@ -91,16 +90,7 @@ bool SampleWindow::contains(std::size_t index, std::uint8_t datagram) const {
     if (entry.parts == kWhole || entry.parts == kUnmarked) {
         return entry.parts == kWhole && datagram == 0;
     }
-    return (m_masks[entry.parts][(datagram >> 6) & 1] >> (datagram & 63) & 1) != 0;
-}
-
-bool SampleWindow::isWhole(const Mask& mask, std::uint8_t last) {
-    const auto isFull = [](std::uint64_t bits, int count) {
-        const auto all = count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-        return (bits & all) == all;
-    };
-    const int count = last + 1;
-    return isFull(mask[0], count) && isFull(mask[1], std::max(0, count - 64));
+    return m_masks[entry.parts][datagram & 127];
 }
 
 std::uint16_t SampleWindow::takeMask() {

@@ -10,7 +10,7 @@
 #include "core/model/accounting/stream_counts.h"
 #include "core/wire/header.h"
 
-#include <array>
+#include <bitset>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -53,16 +53,15 @@ public:
     /// The newest message included.
     [[nodiscard]] std::uint64_t incomplete() const { return m_incomplete; }
     /// Whether the newest message still lacks something.
-    [[nodiscard]] bool isPartial() const { return isOpen() && !isWhole(); }
+    [[nodiscard]] bool isPartial() const { return m_arrived.any() && !isWhole(); }
 
 private:
-    [[nodiscard]] bool isOpen() const { return (m_arrived[0] | m_arrived[1]) != 0; }
-    [[nodiscard]] bool isWhole() const;
+    [[nodiscard]] bool isWhole() const { return static_cast<int>(m_arrived.count()) == m_last + 1; }
 
     std::uint64_t m_incomplete = 0;
     // Of the newest message:
     log::Stamp m_first{};
-    std::array<std::uint64_t, 2> m_arrived{};
+    std::bitset<128> m_arrived; ///< by index
     int m_last = -1; ///< index of its last datagram; -1 before that is known
 };
 
