@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
 
 namespace posewire::model {
 namespace {
@@ -39,15 +40,9 @@ constexpr std::array<KindFacts, kEventKinds> kKinds{{
     {EventKind::RateLimit, "rate limit", EventSeverity::Warning, EventGroup::Limit, true},
 }};
 
-constexpr bool rowsFollowTheEnum() {
-    for (std::size_t i = 0; i < kKinds.size(); ++i) {
-        if (kKinds[i].kind != static_cast<EventKind>(i)) {
-            return false;
-        }
-    }
-    return true;
-}
-static_assert(rowsFollowTheEnum());
+// Each once, in the order of the enum.
+static_assert(std::ranges::adjacent_find(kKinds, std::ranges::greater_equal(), &KindFacts::kind) ==
+              kKinds.end());
 
 const KindFacts& factsOf(EventKind kind) {
     return kKinds[static_cast<std::size_t>(kind)];
@@ -65,8 +60,7 @@ std::string fixed(double value, int decimals) {
 }
 
 std::string lossText(const Event& event) {
-    std::string text =
-        counted(event.samples, "sample", "samples") + " lost in " + counted(event.count, "gap", "gaps");
+    std::string text = counted(event.samples, "sample") + " lost in " + counted(event.count, "gap");
     if (event.cause) {
         text += ", cause: " + std::string(nameOf(*event.cause)) + '.';
     }
@@ -113,11 +107,11 @@ std::string Event::text() const {
     case EventKind::Restart:
         return "The sample counter restarted.";
     case EventKind::Malformed:
-        return counted(count, "datagram", "datagrams") + " could not be decoded.";
+        return counted(count, "datagram") + " could not be decoded.";
     case EventKind::Foreign:
         return counted(count, "datagram is", "datagrams are") + " not MXTP.";
     case EventKind::Dropped:
-        return "This computer dropped " + counted(samples, "datagram", "datagrams") + '.';
+        return "This computer dropped " + counted(samples, "datagram") + '.';
     case EventKind::MetadataChange:
         return detail;
     case EventKind::ScaleChange:

@@ -57,15 +57,16 @@ std::int64_t SampleSequence::lostNow() const {
     return lost;
 }
 
-SampleSequence::Totals SampleSequence::totals() const {
+void SampleSequence::addTo(StreamCounts& counts) const {
     std::int64_t samples = m_past.samples;
     std::int64_t incomplete = m_past.incomplete;
     for (std::size_t i = 0; i < m_runCount; ++i) {
         samples += m_runs[i].samples;
         incomplete += m_runs[i].incomplete;
     }
-    return {static_cast<std::uint64_t>(samples), static_cast<std::uint64_t>(incomplete),
-            static_cast<std::uint64_t>(lostNow())};
+    counts.samples += static_cast<std::uint64_t>(samples);
+    counts.incomplete += static_cast<std::uint64_t>(incomplete);
+    counts.lost += static_cast<std::uint64_t>(lostNow());
 }
 
 /// The run that a position lies in; the first that it would extend where it lies between two.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace posewire::model {
@@ -189,17 +190,10 @@ constexpr std::array kRows{
     FigureRow{Bandwidth, "", "kB/s", kKilobytes, Sum::Sum, Trouble::None, kilobytes,
               "Thousands of payload bytes of UDP or TCP per second", Of::Messages},
 };
+// Each once, in the order of the enum.
 static_assert(kRows.size() == kFigures);
-
-constexpr bool rowsFollowTheEnum() {
-    for (std::size_t i = 0; i < kRows.size(); ++i) {
-        if (kRows[i].figure != static_cast<Figure>(i)) {
-            return false;
-        }
-    }
-    return true;
-}
-static_assert(rowsFollowTheEnum());
+static_assert(std::ranges::adjacent_find(kRows, std::ranges::greater_equal(), &FigureRow::figure) ==
+              kRows.end());
 
 /// Between the first and the last, so that a stream that ended long ago keeps its rate.
 double wholeRate(const Stream& stream, const StreamCounts& counts, const std::optional<TimeRange>& range) {
