@@ -83,16 +83,14 @@ void findUnknownNames(const NullPose& pose, Findings& findings) {
     if (!unknown.empty()) {
         findings.push_back(
             {NullPoseFault::UnknownName, Severity::Warning, -1,
-             counted(unknown.size(), "segment name") +
-                 " not in the specification: " + listed(unknown, kListed) + ".",
+             counted(unknown.size(), "segment name") + " not in the specification: " + listed(unknown) + ".",
              "Posewire goes by the order of the segments; receivers that go by names lack these."});
     }
     if (!respelled.empty()) {
-        findings.push_back(
-            {NullPoseFault::UnknownName, Severity::Note, -1,
-             counted(respelled.size(), "segment name") +
-                 " spelled otherwise than in the specification: " + listed(respelled, kListed) + ".",
-             "Receivers that compare names letter by letter do not find these segments."});
+        findings.push_back({NullPoseFault::UnknownName, Severity::Note, -1,
+                            counted(respelled.size(), "segment name") +
+                                " spelled otherwise than in the specification: " + listed(respelled) + ".",
+                            "Receivers that compare names letter by letter do not find these segments."});
     }
 }
 
@@ -205,7 +203,7 @@ void findAboutNames(const NullPoseEvidence& evidence, Findings& findings) {
     if (!moved.empty()) {
         findings.push_back(
             {NullPoseFault::NameOrder, Severity::Warning, first,
-             "The names come in another order than the specification's: " + listed(moved, kListed) + ".",
+             "The names come in another order than the specification's: " + listed(moved) + ".",
              "Receivers that go by the order put these origins on the wrong segments. Posewire goes by "
              "the names where all 23 are there once, else by the order."});
     }
@@ -268,17 +266,14 @@ std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence
 }
 
 std::string findingsSummary(const std::vector<NullPoseFinding>& findings) {
-    const auto count = [&](Severity severity) {
-        return static_cast<std::size_t>(std::ranges::count(findings, severity, &NullPoseFinding::severity));
-    };
-    std::vector<std::string> words;
+    std::string text;
     for (const auto& [severity, noun] :
          {std::pair{Severity::Error, "error"}, std::pair{Severity::Warning, "warning"}}) {
-        if (const std::size_t found = count(severity)) {
-            words.push_back(counted(found, noun));
+        if (const auto found = std::ranges::count(findings, severity, &NullPoseFinding::severity)) {
+            text += (text.empty() ? "" : ", ") + counted(static_cast<std::uint64_t>(found), noun);
         }
     }
-    return words.empty() ? std::string() : words.size() == 1 ? words[0] : words[0] + ", " + words[1];
+    return text;
 }
 
 } // namespace posewire::model
