@@ -411,14 +411,10 @@ std::uint32_t SampleSequence::missingBetween(std::uint32_t from, std::uint32_t t
 void SampleSequence::clear(CountHistory* history) {
     settle(0, history);
     noteBurst(m_bursts.endRun(), history);
-    m_window.clear();
-    m_runCount = 0;
-    m_past = {};
-    m_hasPast = false;
-    m_pastLost = 0;
-    m_bursts = {};
-    m_longestGap = 0;
-    m_settled = 0;
+    SampleWindow window = std::move(m_window); // whose memory stays
+    window.clear();
+    *this = {};
+    m_window = std::move(window);
 }
 
 } // namespace posewire::model

@@ -43,12 +43,7 @@ std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, log::S
     for (std::size_t i = m_size - 1; i > index; --i) {
         at(i) = at(i - 1);
     }
-    Entry& entry = at(index);
-    entry = {};
-    entry.stamp = stamp;
-    entry.sample = sample;
-    entry.parts = kUnmarked;
-    entry.isAdvance = index + 1 == m_size;
+    at(index) = {.stamp = stamp, .sample = sample, .isAdvance = index + 1 == m_size};
     return index;
 }
 

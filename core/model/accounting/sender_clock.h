@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/accounting/stream_counts.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -42,12 +43,6 @@ private:
     std::int64_t m_timeCodeMs = 0; ///< since the first sample, without wrap-around
     double m_differenceMs = 0;
     std::uint32_t m_generation = 0;
-};
-
-/// How much faster the sender's clock goes than ours, and what that made; both 0 where it is not known.
-struct ClockSkew {
-    double skewPpm = 0;
-    double driftMs = 0;
 };
 
 /// Fits a line to how far our clock is ahead of the sender's, by the least delayed sample of each of equal

@@ -177,9 +177,8 @@ LossPattern StreamAccounting::lossPattern(const Range& range) const {
 ClockFigures StreamAccounting::clock(const Range& range) const {
     const bool isFromTimeCode = m_clock.isFromTimeCode();
     const auto [from, to] = range.value_or(kEver);
-    const ClockSkew skew = isFromTimeCode ? m_history.skewBetween(from, to) : ClockSkew{};
-    return {isFromTimeCode, range ? m_history.jitterMsAt(to) : m_clock.jitterMs(), skew.skewPpm,
-            skew.driftMs};
+    return {isFromTimeCode, range ? m_history.jitterMsAt(to) : m_clock.jitterMs(),
+            isFromTimeCode ? m_history.skewBetween(from, to) : ClockSkew{}};
 }
 
 std::uint64_t StreamAccounting::malformed(const Range& range) const {

@@ -29,7 +29,7 @@ double spacing(const RangeFigures& read) {
 }
 template <auto Member>
 double clockOf(const RangeFigures& read) {
-    return read.clock.isFromTimeCode ? read.clock.*Member : kUnknown;
+    return read.clock.isFromTimeCode ? read.clock.skew.*Member : kUnknown;
 }
 template <LossCause Cause>
 double lostBy(const RangeFigures& read) {
@@ -60,7 +60,7 @@ using Counts = StreamCounts;
 using Rates = RateFigures;
 using Pattern = LossPattern;
 using Spacing = InterArrival;
-using Clock = ClockFigures;
+using Clock = ClockSkew;
 
 constexpr FigureStyle kCount;
 constexpr FigureStyle kCounter{Form::Counter};

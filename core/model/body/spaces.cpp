@@ -9,11 +9,6 @@ namespace posewire::model {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-LengthUnit detectLengthUnit(double length) {
-    constexpr double kLongestInMetres = 5.0;
-    return std::abs(length) > kLongestInMetres ? LengthUnit::Centimetre : LengthUnit::Metre;
-}
-
 Vector3d zUpFromYUp(const Vector3d& yUp) {
     return {yUp.z(), yUp.x(), yUp.y()};
 }
