@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/time.h"
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -50,10 +48,6 @@ inline std::string fixedText(double value, int decimals) {
         digits.insert(digits.size() - static_cast<std::size_t>(decimals), ".");
     }
     return value < 0 && rounded != 0 ? "−" + digits : digits;
-}
-
-inline std::string seconds(log::Duration duration) {
-    return fixedText(log::secondsOf(duration), 1) + " s";
 }
 
 /// "1.684 m".

@@ -169,28 +169,23 @@ BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
 }
 
 ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
-    const std::size_t begin = firstFrom(from);
     const std::size_t end = firstFrom(to);
-    // The newest generation: from where on it is alone, and what it spans.
-    std::size_t first = end;
-    const Bucket* newest = nullptr;
-    for (std::size_t i = end; i > begin; --i) {
-        const Bucket& bucket = m_buckets[i - 1];
-        if (bucket.hasDifference && newest != nullptr && bucket.generation != newest->generation) {
-            break;
-        }
+    const Bucket* first = nullptr; // of the newest generation
+    const Bucket* last = nullptr;
+    for (std::size_t i = firstFrom(from); i < end; ++i) {
+        const Bucket& bucket = m_buckets[i];
         if (bucket.hasDifference) {
-            newest = newest == nullptr ? &bucket : newest;
-            first = i - 1;
+            first = last != nullptr && last->generation == bucket.generation ? first : &bucket;
+            last = &bucket;
         }
     }
-    if (newest == nullptr) {
+    if (first == nullptr) {
         return {};
     }
-    ClockFit fit(newest->leastDelayed - m_buckets[first].leastDelayed);
-    for (std::size_t i = first; i < end; ++i) {
-        if (m_buckets[i].hasDifference) {
-            fit.add(m_buckets[i].leastDelayed, m_buckets[i].differenceMs);
+    ClockFit fit(last->leastDelayed - first->leastDelayed);
+    for (const Bucket* bucket = first; bucket <= last; ++bucket) {
+        if (bucket->hasDifference) {
+            fit.add(bucket->leastDelayed, bucket->differenceMs);
         }
     }
     return fit.skew();

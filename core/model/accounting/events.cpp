@@ -166,16 +166,17 @@ const Event* Events::find(std::uint64_t number) const {
     return index < m_events.size() && m_events[index].number == number ? &m_events[index] : nullptr;
 }
 
-const Event* Events::findCurrent(const Event& like) const {
+/// Its index.
+std::optional<std::size_t> Events::findCurrent(const Event& like) const {
     const auto found = std::find_if(m_current.rbegin(), m_current.rend(),
                                     [&](std::uint64_t number) { return isSameEpisode(at(number), like); });
-    return found == m_current.rend() ? nullptr : &at(*found);
+    return found == m_current.rend() ? std::nullopt : std::optional(indexOf(*found));
 }
 
 void Events::report(const Event& event) {
     ++m_version;
-    if (const Event* current = findCurrent(event)) {
-        Event& known = m_events[indexOf(current->number)];
+    if (const auto index = findCurrent(event)) {
+        Event& known = m_events[*index];
         known.lastStamp = std::max(known.lastStamp, event.lastStamp);
         known.lastPacket = std::max(known.lastPacket, event.lastPacket);
         known.count += event.count;
@@ -192,15 +193,13 @@ void Events::report(const Event& event) {
 }
 
 void Events::end(const Event& like, log::Stamp stamp) {
-    const Event* current = findCurrent(like);
-    if (current == nullptr) {
-        return;
+    if (const auto index = findCurrent(like)) {
+        Event& known = m_events[*index];
+        known.isCurrent = false;
+        known.lastStamp = std::max(known.lastStamp, stamp);
+        std::erase(m_current, known.number);
+        ++m_version;
     }
-    Event& known = m_events[indexOf(current->number)];
-    known.isCurrent = false;
-    known.lastStamp = std::max(known.lastStamp, stamp);
-    std::erase(m_current, known.number);
-    ++m_version;
 }
 
 void Events::advance(log::Stamp stamp) {

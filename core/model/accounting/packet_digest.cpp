@@ -95,15 +95,13 @@ void PacketDigests::amend(const Verdict& verdict) {
     }
     const std::uint64_t place = verdict.packet - m_firstOfBlocks;
     std::shared_ptr<Block>& block = m_blocks[place / kBlock];
-    PacketDigest amended = block->digests[place % kBlock];
-    const bool wasProblem = amended.isProblem();
-    applyVerdict(verdict, amended);
     if (block.use_count() > 1) {
         block = std::make_shared<Block>(*block);
     }
-    block->digests[place % kBlock] = amended;
-    block->problems += amended.isProblem() ? 1 : 0;
-    block->problems -= wasProblem ? 1 : 0;
+    PacketDigest& digest = block->digests[place % kBlock];
+    block->problems -= digest.isProblem() ? 1 : 0;
+    applyVerdict(verdict, digest);
+    block->problems += digest.isProblem() ? 1 : 0;
 }
 
 PacketDigests PacketDigests::excerpt(std::uint64_t from) const {

@@ -140,10 +140,9 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
         return placement;
     }
     const bool isHighest = index + 1 == m_window.size();
-    placement.kind = isHighest ? Placement::Kind::Advance : Placement::Kind::Filled;
-    if (!isFirst) {
-        placement.kind = Placement::Kind::Part;
-    }
+    placement.kind = !isFirst    ? Placement::Kind::Part
+                     : isHighest ? Placement::Kind::Advance
+                                 : Placement::Kind::Filled;
     const log::Stamp due = dueStamp(index);
     if (!isHighest) {
         placement.isReordered = true;

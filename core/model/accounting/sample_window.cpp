@@ -37,7 +37,8 @@ std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, log::S
         forgetFront();
         index = index == 0 ? 0 : index - 1;
     } else if (m_size == m_entries.size()) {
-        grow();
+        // Nothing has been forgotten yet: the ring begins at the front.
+        m_entries.resize(std::max(kFirstCapacity, m_entries.size() * 2));
     }
     ++m_size;
     for (std::size_t i = m_size - 1; i > index; --i) {
@@ -99,26 +100,13 @@ std::uint16_t SampleWindow::takeMask() {
     return parts;
 }
 
-void SampleWindow::giveMask(std::uint16_t parts) {
-    if (parts < kUnmarked) {
+void SampleWindow::forgetFront() {
+    if (const std::uint16_t parts = at(0).parts; parts < kUnmarked) {
         m_spareMasks.push_back(parts);
     }
-}
-
-void SampleWindow::forgetFront() {
-    giveMask(at(0).parts);
     ++m_front;
     --m_size;
     m_hasForgotten = true;
-}
-
-void SampleWindow::grow() {
-    std::vector<Entry> larger(m_entries.empty() ? kFirstCapacity : m_entries.size() * 2);
-    for (std::size_t i = 0; i < m_size; ++i) {
-        larger[i] = (*this)[i];
-    }
-    m_entries = std::move(larger);
-    m_front = 0;
 }
 
 void SampleWindow::clear() {

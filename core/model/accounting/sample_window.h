@@ -67,9 +67,7 @@ private:
         return m_entries[(m_front + index) & (m_entries.size() - 1)];
     }
     std::uint16_t takeMask();
-    void giveMask(std::uint16_t parts);
     void forgetFront();
-    void grow();
 
     std::vector<Entry> m_entries; ///< a ring; its size is a power of two
     std::size_t m_front = 0;

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace posewire::model {
 
@@ -32,8 +33,7 @@ public:
     [[nodiscard]] std::uint32_t generation() const { return m_generation; }
 
 private:
-    bool m_hasFirst = false;
-    Sample m_first;
+    std::optional<Sample> m_first;
     Sample m_previous;
     double m_jitterMs = 0;
     std::uint64_t m_timed = 0;   ///< successive samples whose time code advanced with them

@@ -122,12 +122,11 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Out
         m_highest = datagram;
     }
     m_clock.add({verdict.stamp, verdict.sample, datagram.timeCode});
-    if (m_hasSample) {
-        m_history.addArrival(verdict.stamp, std::max(log::Duration::zero(), verdict.stamp - m_lastSample),
+    if (m_lastSample) {
+        m_history.addArrival(verdict.stamp, std::max(log::Duration::zero(), verdict.stamp - *m_lastSample),
                              m_clock.jitterMs());
     }
     m_history.addDifference(verdict.stamp, m_clock.differenceMs(), m_clock.generation());
-    m_hasSample = true;
     m_lastSample = verdict.stamp;
 }
 

@@ -126,9 +126,8 @@ private:
     std::uint64_t m_malformed = 0;
     log::Stamp m_firstStamp{};
     log::Stamp m_lastStamp{};
-    log::Stamp m_lastSample{}; ///< stamp of the newest first arrival of a sample
-    bool m_hasSample = false;
-    Probation::Waiting m_highest; ///< the first datagram of the highest sample
+    std::optional<log::Stamp> m_lastSample{}; ///< stamp of the newest first arrival of a sample
+    Probation::Waiting m_highest;             ///< the first datagram of the highest sample
     SampleLedger m_ledger;
     Probation m_probation;
     MessageRounds m_rounds;

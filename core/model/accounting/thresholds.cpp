@@ -46,8 +46,7 @@ void ThresholdWatch::check(const std::deque<Stream>& streams, log::Stamp stamp, 
 
 void ThresholdWatch::check(const Stream& stream, double& usualHz, log::Stamp stamp, Events& events) const {
     const StreamAccounting& accounting = stream.accounting;
-    const auto window = log::durationOf(m_thresholds.windowS);
-    const log::Stamp from = stamp - window;
+    const log::Stamp from = stamp - log::durationOf(m_thresholds.windowS);
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
     hold(stream, {EventKind::AgeLimit, ageS, m_thresholds.ageS}, stamp, events);
     const RangeFigures read = countedFigures(accounting, TimeRange{from, stamp});

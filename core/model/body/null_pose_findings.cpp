@@ -17,10 +17,6 @@ namespace {
 
 using Findings = std::vector<NullPoseFinding>;
 
-double secondsSince(log::Stamp stamp, log::Stamp now) {
-    return log::secondsOf(now - stamp);
-}
-
 /// "Parts 2 and 3 of 6", "The last part".
 std::string partsText(const NullPoseMessage& message) {
     const bool isOpen = message.partsExpected == 0;
@@ -160,22 +156,21 @@ void compareWithNullPose(const wire::ScaleInformation& scale, const NullPose& po
 void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
     const NullPoseMessage* newest = evidence.record.newest;
     const NullPose* pose = evidence.record.pose;
+    const bool isWhole = pose != nullptr && pose->isComplete();
     if (newest != nullptr && !newest->isComplete() &&
-        secondsSince(newest->stamp, evidence.now) >= kPartOverdue) {
-        const bool hasWhole = pose != nullptr && pose->isComplete();
-        findings.push_back(
-            {NullPoseFault::MissingPart, hasWhole ? Severity::Warning : Severity::Error, -1,
-             partsText(*newest) + " of the newest scale message never came; " +
-                 counted(newest->partsReceived, "part") + " did.",
-             std::string(hasWhole ? "What an earlier message said is shown. "
-                                  : "Segments or points are missing below. ") +
-                 "Parts get lost on the way, mostly where the network drops datagrams" +
-                 (evidence.record.repetition > log::Duration::zero()
-                      ? "; the next message is due every " + seconds(evidence.record.repetition) + "."
-                      : ".")});
+        log::secondsOf(evidence.now - newest->stamp) >= kPartOverdue) {
+        findings.push_back({NullPoseFault::MissingPart, isWhole ? Severity::Warning : Severity::Error, -1,
+                            partsText(*newest) + " of the newest scale message never came; " +
+                                counted(newest->partsReceived, "part") + " did.",
+                            std::string(isWhole ? "What an earlier message said is shown. "
+                                                : "Segments or points are missing below. ") +
+                                "Parts get lost on the way, mostly where the network drops datagrams" +
+                                (evidence.record.repetition > log::Duration::zero()
+                                     ? "; the next message is due every " +
+                                           fixedText(log::secondsOf(evidence.record.repetition), 1) + " s."
+                                     : ".")});
     }
     if (evidence.record.incompleteMessages > 0) {
-        const bool isWhole = pose != nullptr && pose->isComplete();
         findings.push_back(
             {NullPoseFault::EarlierPartMissing, isWhole ? Severity::Note : Severity::Warning, -1,
              counted(evidence.record.incompleteMessages, "earlier scale message") +
