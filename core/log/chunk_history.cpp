@@ -138,8 +138,6 @@ std::shared_ptr<Chunk> ChunkHistory::beginChunk(std::uint64_t first) {
     }
     const std::lock_guard lock(m_mutex);
     m_chunks.push_back({first, chunk});
-    m_chunkCount.store(m_chunks.size(), std::memory_order_relaxed);
-    m_begin.store(m_chunks.front().first, std::memory_order_release);
     m_version.fetch_add(1, std::memory_order_release);
     return chunk;
 }
@@ -156,11 +154,12 @@ std::vector<ChunkHistory::Entry> ChunkHistory::entries() const {
 
 LogFigures ChunkHistory::figures() const {
     LogFigures figures;
-    figures.end = end();
-    figures.begin = std::min(begin(), figures.end);
-    figures.memoryInUse = m_chunkCount.load(std::memory_order_relaxed) * m_limits.chunkSize;
     figures.memoryAllocated = m_pool->existing() * m_limits.chunkSize;
     figures.memoryCap = m_limits.memoryCap;
+    const std::lock_guard lock(m_mutex);
+    figures.end = end();
+    figures.begin = m_chunks.empty() ? 0 : std::min(m_chunks.front().first, figures.end);
+    figures.memoryInUse = m_chunks.size() * m_limits.chunkSize;
     return figures;
 }
 

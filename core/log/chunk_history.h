@@ -134,7 +134,6 @@ public:
     void publish(std::uint64_t end) { m_end.store(end, std::memory_order_release); }
 
     [[nodiscard]] std::uint64_t end() const { return m_end.load(std::memory_order_acquire); }
-    [[nodiscard]] std::uint64_t begin() const { return m_begin.load(std::memory_order_acquire); }
 
     /// Grows with every change of the list of chunks. Read it after end(): then the list contains every
     /// packet below that.
@@ -155,9 +154,7 @@ private:
     const std::shared_ptr<ChunkPool> m_pool;
     mutable std::mutex m_mutex;
     std::deque<Held> m_chunks;
-    std::atomic<std::size_t> m_chunkCount = 0;
     std::atomic<std::uint64_t> m_version = 0;
-    std::atomic<std::uint64_t> m_begin = 0;
     std::thread m_preparer;                           ///< gets the next chunk ready; begins with the first
     alignas(64) std::atomic<std::uint64_t> m_end = 0; // written with every batch: on a cache line of its own
 };

@@ -137,12 +137,9 @@ std::optional<IpEndpoint> parseIpEndpoint(std::string_view text) {
 }
 
 bool isLoopback(const IpAddress& address) {
-    if (!address.isIpv6) {
-        return address.bytes[0] == std::byte{127};
-    }
-    return std::all_of(address.bytes.begin(), address.bytes.end() - 1,
-                       [](std::byte byte) { return byte == std::byte{}; }) &&
-           address.bytes.back() == std::byte{1};
+    IpAddress ipv6{{}, true};
+    ipv6.bytes.back() = std::byte{1};
+    return address.isIpv6 ? address == ipv6 : address.bytes[0] == std::byte{127};
 }
 
 } // namespace posewire::log

@@ -12,15 +12,14 @@ LogReader::LogReader(const PacketLog& log) : m_history(&log.history()) {
 }
 
 bool LogReader::refresh() {
-    letGo();
+    m_held.clear();
+    m_current = nullptr;
+    m_currentCount = 0;
     const std::uint64_t before = m_end;
     m_end = m_history->end(); // first: the list read after it then contains every packet below
     if (const std::uint64_t version = m_history->version(); version != m_version) {
         m_version = version;
-        m_entries.clear();
-        for (ChunkHistory::Entry& entry : m_history->entries()) {
-            m_entries.push_back({entry.first, std::move(entry.chunk), nullptr});
-        }
+        m_entries = m_history->entries();
     }
     // The list may be younger than the end: all that was to be seen can have been dropped in between.
     m_begin = m_entries.empty() ? 0 : std::min(m_entries.front().first, m_end);
@@ -31,28 +30,17 @@ std::optional<Packet> LogReader::packetElsewhere(std::uint64_t number) {
     if (number < m_begin || number >= m_end) {
         return std::nullopt;
     }
-    const auto next = std::ranges::upper_bound(m_entries, number, {}, &Entry::first);
+    const auto next = std::ranges::upper_bound(m_entries, number, {}, &ChunkHistory::Entry::first);
     const auto entry = next - 1;
-    if (!entry->held) {
-        entry->held = entry->chunk.lock();
-        if (!entry->held) {
-            return std::nullopt;
-        }
-        m_heldEntries.push_back(static_cast<std::size_t>(entry - m_entries.begin()));
+    std::shared_ptr<const Chunk>& held = m_held[entry->first];
+    held = held ? held : entry->chunk.lock();
+    if (!held) {
+        return std::nullopt;
     }
-    m_current = entry->held.get();
+    m_current = held.get();
     m_currentFirst = entry->first;
     m_currentCount = (next == m_entries.end() ? m_end : std::min(next->first, m_end)) - m_currentFirst;
     return view(number);
-}
-
-void LogReader::letGo() {
-    for (const std::size_t index : m_heldEntries) {
-        m_entries[index].held.reset();
-    }
-    m_heldEntries.clear();
-    m_current = nullptr;
-    m_currentCount = 0;
 }
 
 } // namespace posewire::log

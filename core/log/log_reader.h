@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -42,14 +43,7 @@ public:
     }
 
 private:
-    struct Entry {
-        std::uint64_t first;
-        std::weak_ptr<const Chunk> chunk;
-        std::shared_ptr<const Chunk> held;
-    };
-
     std::optional<Packet> packetElsewhere(std::uint64_t number);
-    void letGo();
 
     [[nodiscard]] Packet view(std::uint64_t number) const {
         const Record& record = m_current->record(static_cast<std::size_t>(number - m_currentFirst));
@@ -62,8 +56,8 @@ private:
     std::uint64_t m_begin = 0;
     std::uint64_t m_end = 0;
     std::uint64_t m_version = 0;
-    std::vector<Entry> m_entries;
-    std::vector<std::size_t> m_heldEntries;
+    std::vector<ChunkHistory::Entry> m_entries;
+    std::map<std::uint64_t, std::shared_ptr<const Chunk>> m_held; ///< what was looked at, by first packet
 
     const Chunk* m_current = nullptr; ///< the chunk of the last packet looked at
     std::uint64_t m_currentFirst = 0;

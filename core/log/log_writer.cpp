@@ -25,15 +25,11 @@ void prefetchForWriting(const std::byte* begin, std::size_t size) {
 #endif
 }
 
-std::size_t blockSizeFor(std::size_t chunkSize) {
-    return std::clamp<std::size_t>(chunkSize / 256, 4096, std::size_t{32} << 10);
-}
-
 } // namespace
 
 LogWriter::LogWriter(ChunkHistory& history)
     : m_history(history),
-      m_blockSize(blockSizeFor(history.limits().chunkSize)),
+      m_blockSize(std::clamp<std::size_t>(history.limits().chunkSize / 256, 4096, std::size_t{32} << 10)),
       m_spill(new std::byte[kLaneLimit * kSpillSize]) { // left as it is: its pages exist once a packet spills
     for (std::size_t i = 0; i < kLaneLimit; ++i) {
         m_lanes[i].spill = {m_spill.get() + i * kSpillSize, kSpillSize};
@@ -53,7 +49,7 @@ std::span<const LogWriter::Lane> LogWriter::lanes() {
         m_lanes[i].bytes = m_lanes[--m_laneCount].bytes;
     }
     if (m_laneCount < kFewestLanes || m_chunk->room() < m_laneCount * sizeof(Record)) {
-        beginChunk();
+        m_chunk = m_history.beginChunk(m_next);
         openLanes();
     }
     return std::span<const Lane>(m_lanes).first(m_laneCount);
@@ -89,13 +85,9 @@ void LogWriter::append(std::span<const std::byte> bytes, const Arrival& arrival)
     addRecord(copy, head.size(), kept);
 }
 
-void LogWriter::beginChunk() {
-    m_chunk = m_history.beginChunk(m_next);
-}
-
 void LogWriter::openLanes() {
     if (!m_chunk) {
-        beginChunk();
+        m_chunk = m_history.beginChunk(m_next);
     }
     m_laneChunk = m_chunk;
     m_laneCount = 0;
@@ -116,7 +108,7 @@ bool LogWriter::refill(std::size_t lane) {
 
 std::byte* LogWriter::place(std::size_t size) {
     if (!m_chunk || m_chunk->room() < aligned(size) + sizeof(Record)) {
-        beginChunk();
+        m_chunk = m_history.beginChunk(m_next);
     }
     return m_chunk->take(aligned(size));
 }

@@ -52,7 +52,6 @@ public:
     void publish() { m_history.publish(m_next); }
 
 private:
-    void beginChunk();
     void openLanes();
     bool refill(std::size_t lane);
     std::byte* place(std::size_t size);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/recording_file.h"
 
-#include "core/log/pcapng_format.h"
+#include "core/log/pcapng_writer.h"
 #include "core/log/reassembly.h"
 #include "core/log/tcp_framer.h"
 #include "core/wire/byte_order.h"
@@ -18,6 +18,11 @@ using Bytes = std::span<const std::byte>;
 
 /// No packet and no block of a sound file is longer.
 constexpr std::uint32_t kLongestBlock = 16U << 20;
+
+/// What pcap files begin with: in microseconds, then in nanoseconds, each in either byte order.
+constexpr std::array<std::uint32_t, 4> kPcapMagics{0xa1b2c3d4, 0xd4c3b2a1, 0xa1b23c4d, 0x4d3cb2a1};
+/// What pcapng files begin with; reads the same in both byte orders.
+constexpr auto kSectionHeader = static_cast<std::uint32_t>(PcapngBlockType::SectionHeader);
 
 /// Fills `into`, unless the source ends before.
 tl::expected<std::size_t, FileError> readFully(ByteSource& source, std::span<std::byte> into) {
@@ -184,10 +189,9 @@ private:
     // The functions that read are false where there is nothing more to be read.
 
     bool readBlock() {
-        constexpr std::uint32_t sectionHeader = 0x0a0d0d0a; // reads the same in both byte orders
         const auto type = m_reader.take(4);
         const std::uint32_t number = type ? m_reader.read32(type->data()) : 0;
-        if (number == sectionHeader) {
+        if (number == kSectionHeader) {
             return readSectionHeader();
         }
         const auto length = type ? m_reader.take(4) : std::nullopt;
@@ -325,8 +329,7 @@ private:
     std::vector<Interface> m_interfaces;
 };
 
-tl::expected<void, FileError> readCapture(ByteSource& source, FileFormat format, Bytes magic,
-                                          const FileVisitor& visit) {
+tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit) {
     FrameNotes notes;
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
@@ -335,10 +338,10 @@ tl::expected<void, FileError> readCapture(ByteSource& source, FileFormat format,
     };
     Reassembly reassembly(noted);
     PieceReader reader(source);
-    if (format == FileFormat::Pcap) {
-        readPcap(reader, wire::load32(magic.data()), reassembly);
-    } else {
+    if (magic == kSectionHeader) {
         PcapngReader(reader, reassembly, notes).read();
+    } else {
+        readPcap(reader, magic, reassembly);
     }
     notes.setComments({});
     reassembly.finish();
@@ -366,33 +369,16 @@ tl::expected<void, FileError> readRaw(ByteSource& source, Bytes front, const Fil
 
 } // namespace
 
-FileFormat fileFormat(std::span<const std::byte> firstBytes) {
-    if (firstBytes.size() < 4) {
-        return FileFormat::Raw;
-    }
-    switch (wire::load32(firstBytes.data())) {
-    case 0xa1b2c3d4: // microseconds, either byte order
-    case 0xd4c3b2a1:
-    case 0xa1b23c4d: // nanoseconds
-    case 0x4d3cb2a1:
-        return FileFormat::Pcap;
-    case 0x0a0d0d0a:
-        return FileFormat::Pcapng;
-    default:
-        return FileFormat::Raw;
-    }
-}
-
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit) {
     std::array<std::byte, 4> first{};
     const auto count = readFully(source, first);
     if (!count) {
         return tl::unexpected(count.error());
     }
-    const Bytes front = std::span(first).first(*count);
-    const FileFormat format = fileFormat(front);
-    return format == FileFormat::Raw ? readRaw(source, front, visit)
-                                     : readCapture(source, format, front, visit);
+    const std::uint32_t magic = *count == first.size() ? wire::load32(first.data()) : 0;
+    const bool isPcap = std::ranges::find(kPcapMagics, magic) != kPcapMagics.end();
+    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit)
+                                             : readRaw(source, std::span(first).first(*count), visit);
 }
 
 } // namespace posewire::log

@@ -13,10 +13,6 @@
 
 namespace posewire::log {
 
-/// What a file is by its first bytes, whatever its name. Fewer than four bytes are Raw.
-enum class FileFormat : std::uint8_t { Raw, Pcap, Pcapng };
-[[nodiscard]] FileFormat fileFormat(std::span<const std::byte> firstBytes);
-
 /// One datagram of a file, or bytes between datagrams. A run of those that is longer than 64 KiB comes in
 /// several records.
 struct FileRecord {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/time.h"
-
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,11 +11,9 @@
 /// Pieces of sentences about what was found.
 namespace posewire::model {
 
-/// As many things are named one by one; of more only their number.
-inline constexpr std::size_t kListed = 4;
-
-/// "a, b and c"; beyond `most` "a, b and 7 more".
-inline std::string listed(const std::vector<std::string>& names, std::size_t most = kListed) {
+/// "a, b and c"; beyond four "a, b, c and 7 more".
+inline std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t most = 4;
     const bool isCut = names.size() > most;
     const std::size_t shown = isCut ? most - 1 : names.size();
     std::string text;
@@ -52,10 +48,6 @@ inline std::string fixedText(double value, int decimals) {
         digits.insert(digits.size() - static_cast<std::size_t>(decimals), ".");
     }
     return value < 0 && rounded != 0 ? "−" + digits : digits;
-}
-
-inline std::string seconds(log::Duration duration) {
-    return fixedText(log::secondsOf(duration), 1) + " s";
 }
 
 /// "1.684 m".

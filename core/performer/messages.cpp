@@ -47,7 +47,7 @@ std::uint32_t segmentId(const model::SegmentLayout& layout, int position, const 
 
 void perform(const Subject& subject, wire::PoseEuler& message) {
     const auto make = [](std::uint32_t id, const SegmentState& state) {
-        const model::EulerItem item = model::eulerFromPose(state.pose);
+        const wire::SegmentEuler item = model::eulerFromPose(state.pose);
         return wire::SegmentEuler{id, item.position, item.rotation};
     };
     perSegment(subject, message.segments, make);
@@ -91,7 +91,7 @@ void perform(const Subject& subject, wire::PoseUnity& message) {
         const auto index = static_cast<std::size_t>(order[place]);
         const int parent = model::bodySegments()[index].parent;
         const model::SegmentPose& world = segments[index].pose;
-        const model::QuaternionItem item = model::unityFromPose(
+        const wire::SegmentQuaternion item = model::unityFromPose(
             parent < 0 ? world : model::relativeTo(segments[static_cast<std::size_t>(parent)].pose, world));
         message.segments.push_back({static_cast<std::uint32_t>(place + 1), item.position, item.orientation});
     }

@@ -2,6 +2,7 @@
 #include "core/model/accounting/attribution.h"
 
 #include "core/model/text.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -30,37 +31,32 @@ void keepNewest(std::deque<Value>& values, const Value& value, std::size_t most)
     }
 }
 
-std::string twoDigits(std::uint8_t type) {
-    return {static_cast<char>('0' + type / 10 % 10), static_cast<char>('0' + type % 10)};
-}
-
 } // namespace
 
 std::string Gap::evidenceText() const {
     const std::int64_t lastedMs = (toStamp - fromStamp) / std::chrono::milliseconds(1);
     switch (evidence) {
     case Evidence::Dropped:
-        return "This computer dropped " + counted(figure, "datagram", "datagrams") +
-               " of the port between packets " + std::to_string(fromPacket) + " and " +
-               std::to_string(toPacket) + ".";
+        return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
+               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + ".";
     case Evidence::Damaged:
         return "Sample " + std::to_string(figure) + " came truncated or damaged.";
     case Evidence::Partial:
         return "Of sample " + std::to_string(figure) + ", next to the gap, only a part came.";
     case Evidence::OtherStream:
-        return "Type " + twoDigits(otherType) + " of the same source brought sample " +
+        return "Type " + wire::typeDigits(otherType) + " of the same source brought sample " +
                std::to_string(figure) + ", which is missing here.";
     case Evidence::Reliable:
         return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
     case Evidence::Paused:
-        return "All " + counted(figure, "stream", "streams") + " of the source paused together for " +
+        return "All " + counted(figure, "stream") + " of the source paused together for " +
                std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
                " ms.";
     case Evidence::None:
         break;
     }
     return isJudged ? "Nothing was dropped here, and nothing else of the source shows where " +
-                          counted(lost, "sample", "samples") + " went in " + std::to_string(lastedMs) + " ms."
+                          counted(lost, "sample") + " went in " + std::to_string(lastedMs) + " ms."
                     : "Late arrivals are still waited for.";
 }
 
@@ -79,12 +75,12 @@ void Attribution::addStream(std::size_t stream, const log::SenderInfo& info) {
 std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
     m_judged.clear();
     while (!m_due.empty()) {
-        const Gap* gap = find(m_due.front().gap);
+        Gap* gap = find(m_due.front().gap);
         if (gap != nullptr && packet.stamp - gap->toStamp < kPatience) {
             break;
         }
         if (gap != nullptr) {
-            judge(m_due.front().gap, m_due.front().stream);
+            judge(*gap, m_due.front().stream);
             m_judged.push_back(*gap);
         }
         m_due.pop_front();
@@ -118,17 +114,15 @@ void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
     const std::uint32_t step = m_streams[stream].accounting.step();
     takePartial(stream, verdict);
     if (verdict.gap != 0) {
-        Gap gap;
-        gap.stream = m_streams[stream].key;
-        gap.fromSample = verdict.sampleBefore;
-        gap.toSample = verdict.sample;
-        gap.fromStamp = verdict.stampBefore;
-        gap.toStamp = verdict.stamp;
-        gap.fromPacket = verdict.packetBefore;
-        gap.toPacket = verdict.packet;
-        gap.lost = verdict.gap;
-        gap.timeCodeMoved = verdict.timeCode - verdict.timeCodeBefore;
-        m_gaps.push_back(gap);
+        m_gaps.push_back({.stream = m_streams[stream].key,
+                          .fromSample = verdict.sampleBefore,
+                          .toSample = verdict.sample,
+                          .fromStamp = verdict.stampBefore,
+                          .toStamp = verdict.stamp,
+                          .fromPacket = verdict.packetBefore,
+                          .toPacket = verdict.packet,
+                          .lost = verdict.gap,
+                          .timeCodeMoved = verdict.timeCode - verdict.timeCodeBefore});
         m_due.push_back({m_firstGap + m_gaps.size() - 1, stream});
         if (m_gaps.size() > kMostGaps) {
             m_gaps.pop_front();
@@ -223,8 +217,7 @@ void Attribution::recount(Gap& gap, std::size_t stream) {
     gap.lost = lost;
 }
 
-void Attribution::judge(std::uint64_t number, std::size_t stream) {
-    Gap& gap = *find(number);
+void Attribution::judge(Gap& gap, std::size_t stream) {
     recount(gap, stream);
     findCause(gap, m_streams[stream]);
     gap.isJudged = true;
@@ -310,12 +303,11 @@ const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {
 
 bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
     const log::Duration lasted = gap.toStamp - gap.fromStamp;
-    const bool isSilent =
-        std::any_of(sender.silences.begin(), sender.silences.end(), [&](const auto& silence) {
-            const log::Duration common =
-                std::min(silence.to, gap.toStamp) - std::max(silence.from, gap.fromStamp);
-            return common >= kPause && 10 * common >= 9 * lasted;
-        });
+    const bool isSilent = std::ranges::any_of(sender.silences, [&](const TimeRange& silence) {
+        const log::Duration common =
+            std::min(silence.to, gap.toStamp) - std::max(silence.from, gap.fromStamp);
+        return common >= kPause && 10 * common >= 9 * lasted;
+    });
     const std::int64_t lastedMs = lasted / std::chrono::milliseconds(1);
     const std::int64_t moved = static_cast<std::int32_t>(gap.timeCodeMoved);
     return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);

@@ -111,7 +111,7 @@ private:
         std::size_t stream = 0;
     };
 
-    void judge(std::uint64_t number, std::size_t stream);
+    void judge(Gap& gap, std::size_t stream);
     void judgePartials(const log::Packet& packet);
     void takePartial(std::size_t stream, const Verdict& verdict);
     void complete(std::size_t stream, std::uint32_t sample);

@@ -42,8 +42,9 @@ CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
             Bucket next = m_buckets.back();
             next.start = roundedDown(stamp, m_width);
             next.longestGap = 0;
-            next.leastMs = next.mostMs = 0;
-            next.hasArrivals = next.hasDifference = false;
+            next.leastMs = Bucket().leastMs;
+            next.mostMs = 0;
+            next.hasDifference = false;
             m_buckets.push_back(next);
         }
     }
@@ -53,11 +54,8 @@ CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
 /// Into a bucket, the one before it.
 void CountHistory::merge(Bucket& bucket, const Bucket& before) {
     bucket.longestGap = std::max(bucket.longestGap, before.longestGap);
-    if (before.hasArrivals) {
-        bucket.leastMs = bucket.hasArrivals ? std::min(bucket.leastMs, before.leastMs) : before.leastMs;
-        bucket.mostMs = std::max(bucket.mostMs, before.mostMs);
-        bucket.hasArrivals = true;
-    }
+    bucket.leastMs = std::min(bucket.leastMs, before.leastMs);
+    bucket.mostMs = std::max(bucket.mostMs, before.mostMs);
     const bool isLess = !bucket.hasDifference ||
                         (bucket.generation == before.generation && before.differenceMs < bucket.differenceMs);
     if (before.hasDifference && isLess) {
@@ -109,10 +107,9 @@ void CountHistory::addArrival(log::Stamp stamp, log::Duration since, double jitt
     bucket.sum += since;
     bucket.sumSquares += sinceMs * sinceMs;
     ++bucket.arrivals;
-    bucket.leastMs = bucket.hasArrivals ? std::min(bucket.leastMs, shown) : shown;
+    bucket.leastMs = std::min(bucket.leastMs, shown);
     bucket.mostMs = std::max(bucket.mostMs, shown);
     bucket.jitterMs = static_cast<float>(jitterMs);
-    bucket.hasArrivals = true;
 }
 
 void CountHistory::addDifference(log::Stamp stamp, double differenceMs, std::uint32_t generation) {
@@ -172,28 +169,23 @@ BurstCounts CountHistory::burstsBetween(log::Stamp from, log::Stamp to) const {
 }
 
 ClockSkew CountHistory::skewBetween(log::Stamp from, log::Stamp to) const {
-    const std::size_t begin = firstFrom(from);
     const std::size_t end = firstFrom(to);
-    // The newest generation: from where on it is alone, and what it spans.
-    std::size_t first = end;
-    const Bucket* newest = nullptr;
-    for (std::size_t i = end; i > begin; --i) {
-        const Bucket& bucket = m_buckets[i - 1];
-        if (bucket.hasDifference && newest != nullptr && bucket.generation != newest->generation) {
-            break;
-        }
+    const Bucket* first = nullptr; // of the newest generation
+    const Bucket* last = nullptr;
+    for (std::size_t i = firstFrom(from); i < end; ++i) {
+        const Bucket& bucket = m_buckets[i];
         if (bucket.hasDifference) {
-            newest = newest == nullptr ? &bucket : newest;
-            first = i - 1;
+            first = last != nullptr && last->generation == bucket.generation ? first : &bucket;
+            last = &bucket;
         }
     }
-    if (newest == nullptr) {
+    if (first == nullptr) {
         return {};
     }
-    ClockFit fit(newest->leastDelayed - m_buckets[first].leastDelayed);
-    for (std::size_t i = first; i < end; ++i) {
-        if (m_buckets[i].hasDifference) {
-            fit.add(m_buckets[i].leastDelayed, m_buckets[i].differenceMs);
+    ClockFit fit(last->leastDelayed - first->leastDelayed);
+    for (const Bucket* bucket = first; bucket <= last; ++bucket) {
+        if (bucket->hasDifference) {
+            fit.add(bucket->leastDelayed, bucket->differenceMs);
         }
     }
     return fit.skew();
@@ -213,16 +205,14 @@ InterArrival CountHistory::arrivalsBetween(log::Stamp from, log::Stamp to) const
     result.meanMs = log::millisecondsOf(last.sum - earlier.sum) / count;
     const double squares = (last.sumSquares - earlier.sumSquares) / count;
     result.deviationMs = std::sqrt(std::max(0.0, squares - result.meanMs * result.meanMs));
-    bool isFirst = true;
+    float least = Bucket().leastMs;
+    float most = 0;
     for (std::size_t i = begin; i < end; ++i) {
-        const Bucket& bucket = m_buckets[i];
-        if (bucket.hasArrivals) {
-            const auto least = static_cast<double>(bucket.leastMs);
-            result.leastMs = isFirst ? least : std::min(result.leastMs, least);
-            result.mostMs = std::max(result.mostMs, static_cast<double>(bucket.mostMs));
-            isFirst = false;
-        }
+        least = std::min(least, m_buckets[i].leastMs);
+        most = std::max(most, m_buckets[i].mostMs);
     }
+    result.leastMs = static_cast<double>(least);
+    result.mostMs = static_cast<double>(most);
     return result;
 }
 

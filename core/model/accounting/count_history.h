@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace posewire::model {
@@ -68,10 +69,9 @@ private:
         std::uint32_t arrivals = 0;
         // Of this bucket alone:
         std::uint32_t longestGap = 0;
-        float leastMs = 0;
+        float leastMs = std::numeric_limits<float>::infinity(); ///< where nothing came
         float mostMs = 0;
         float jitterMs = 0;
-        bool hasArrivals = false;
         bool hasDifference = false;
         std::uint32_t generation = 0;
         log::Stamp leastDelayed{}; ///< stamp of the least difference

@@ -84,24 +84,19 @@ void EventFollower::noteSampled(const log::Packet& packet, const wire::Header& h
 
 /// Two senders that take turns with one character in one type.
 void EventFollower::noteClaim(const log::Packet& packet, const wire::Header& header) {
-    Claim& claim = m_claims[{header.character, header.type()}];
-    if (claim.stamp == log::Stamp()) {
-        claim.sender = packet.sender;
-    } else if (claim.sender != packet.sender) {
-        const bool isBack = claim.hasBefore && claim.before == packet.sender &&
-                            packet.stamp - claim.stampBefore < std::chrono::seconds(1);
+    auto& [newest, before] = m_claims[{header.character, header.type()}];
+    if (newest.stamp != log::Stamp() && newest.sender != packet.sender) {
+        const bool isBack = before.stamp != log::Stamp() && before.sender == packet.sender &&
+                            packet.stamp - before.stamp < std::chrono::seconds(1);
         if (isBack) {
             Event event = eventOf(EventKind::CharacterConflict, packet);
-            event.sender = std::min(packet.sender, claim.sender);
+            event.sender = std::min(packet.sender, newest.sender);
             event.character = header.character;
             m_events.report(event);
         }
-        claim.before = claim.sender;
-        claim.stampBefore = claim.stamp;
-        claim.hasBefore = true;
-        claim.sender = packet.sender;
+        before = newest;
     }
-    claim.stamp = packet.stamp;
+    newest = {packet.sender, packet.stamp};
 }
 
 void EventFollower::takeVerdict(const log::StreamKey& stream, const Verdict& verdict) {

@@ -59,13 +59,14 @@ private:
         std::uint32_t timeCode = 0;
         log::Stamp stamp{};
     };
-    /// Who sends a character in a type.
+    /// Who sends a character in a type, and who did before; without a stamp where there is none.
     struct Claim {
         log::SenderId sender{};
         log::Stamp stamp{};
-        log::SenderId before{}; ///< the other one
-        log::Stamp stampBefore{};
-        bool hasBefore = false;
+    };
+    struct Claims {
+        Claim newest;
+        Claim before;
     };
     void check(log::Stamp stamp);
     void noteSampled(const log::Packet& packet, const wire::Header& header);
@@ -76,7 +77,7 @@ private:
     ThresholdWatch m_watch;
     std::map<log::SenderId, Sender> m_senders;
     std::map<CharacterKey, Character> m_characters;
-    std::map<std::pair<std::uint8_t, std::uint8_t>, Claim> m_claims;
+    std::map<std::pair<std::uint8_t, std::uint8_t>, Claims> m_claims;
     log::Stamp m_nextCheck{};
     log::Stamp m_nextWatch{};
 };

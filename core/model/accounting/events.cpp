@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <functional>
 
 namespace posewire::model {
 namespace {
@@ -39,15 +40,9 @@ constexpr std::array<KindFacts, kEventKinds> kKinds{{
     {EventKind::RateLimit, "rate limit", EventSeverity::Warning, EventGroup::Limit, true},
 }};
 
-constexpr bool rowsFollowTheEnum() {
-    for (std::size_t i = 0; i < kKinds.size(); ++i) {
-        if (kKinds[i].kind != static_cast<EventKind>(i)) {
-            return false;
-        }
-    }
-    return true;
-}
-static_assert(rowsFollowTheEnum());
+// Each once, in the order of the enum.
+static_assert(std::ranges::adjacent_find(kKinds, std::ranges::greater_equal(), &KindFacts::kind) ==
+              kKinds.end());
 
 const KindFacts& factsOf(EventKind kind) {
     return kKinds[static_cast<std::size_t>(kind)];
@@ -65,8 +60,7 @@ std::string fixed(double value, int decimals) {
 }
 
 std::string lossText(const Event& event) {
-    std::string text =
-        counted(event.samples, "sample", "samples") + " lost in " + counted(event.count, "gap", "gaps");
+    std::string text = counted(event.samples, "sample") + " lost in " + counted(event.count, "gap");
     if (event.cause) {
         text += ", cause: " + std::string(nameOf(*event.cause)) + '.';
     }
@@ -113,11 +107,11 @@ std::string Event::text() const {
     case EventKind::Restart:
         return "The sample counter restarted.";
     case EventKind::Malformed:
-        return counted(count, "datagram", "datagrams") + " could not be decoded.";
+        return counted(count, "datagram") + " could not be decoded.";
     case EventKind::Foreign:
         return counted(count, "datagram is", "datagrams are") + " not MXTP.";
     case EventKind::Dropped:
-        return "This computer dropped " + counted(samples, "datagram", "datagrams") + '.';
+        return "This computer dropped " + counted(samples, "datagram") + '.';
     case EventKind::MetadataChange:
         return detail;
     case EventKind::ScaleChange:
@@ -172,16 +166,17 @@ const Event* Events::find(std::uint64_t number) const {
     return index < m_events.size() && m_events[index].number == number ? &m_events[index] : nullptr;
 }
 
-const Event* Events::findCurrent(const Event& like) const {
+/// Its index.
+std::optional<std::size_t> Events::findCurrent(const Event& like) const {
     const auto found = std::find_if(m_current.rbegin(), m_current.rend(),
                                     [&](std::uint64_t number) { return isSameEpisode(at(number), like); });
-    return found == m_current.rend() ? nullptr : &at(*found);
+    return found == m_current.rend() ? std::nullopt : std::optional(indexOf(*found));
 }
 
 void Events::report(const Event& event) {
     ++m_version;
-    if (const Event* current = findCurrent(event)) {
-        Event& known = m_events[indexOf(current->number)];
+    if (const auto index = findCurrent(event)) {
+        Event& known = m_events[*index];
         known.lastStamp = std::max(known.lastStamp, event.lastStamp);
         known.lastPacket = std::max(known.lastPacket, event.lastPacket);
         known.count += event.count;
@@ -198,15 +193,13 @@ void Events::report(const Event& event) {
 }
 
 void Events::end(const Event& like, log::Stamp stamp) {
-    const Event* current = findCurrent(like);
-    if (current == nullptr) {
-        return;
+    if (const auto index = findCurrent(like)) {
+        Event& known = m_events[*index];
+        known.isCurrent = false;
+        known.lastStamp = std::max(known.lastStamp, stamp);
+        std::erase(m_current, known.number);
+        ++m_version;
     }
-    Event& known = m_events[indexOf(current->number)];
-    known.isCurrent = false;
-    known.lastStamp = std::max(known.lastStamp, stamp);
-    std::erase(m_current, known.number);
-    ++m_version;
 }
 
 void Events::advance(log::Stamp stamp) {

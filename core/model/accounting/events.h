@@ -109,12 +109,12 @@ public:
     void report(const Event& event);
     /// An episode is over.
     void end(const Event& like, log::Stamp stamp);
-    [[nodiscard]] bool isCurrent(const Event& like) const { return findCurrent(like) != nullptr; }
+    [[nodiscard]] bool isCurrent(const Event& like) const { return findCurrent(like).has_value(); }
     /// Ends what has been quiet for long, by the time of the log.
     void advance(log::Stamp stamp);
 
 private:
-    [[nodiscard]] const Event* findCurrent(const Event& like) const;
+    [[nodiscard]] std::optional<std::size_t> findCurrent(const Event& like) const;
     [[nodiscard]] const Event& at(std::uint64_t number) const { return m_events[indexOf(number)]; }
     [[nodiscard]] std::size_t indexOf(std::uint64_t number) const;
     void forget();

@@ -95,38 +95,25 @@ void PacketDigests::amend(const Verdict& verdict) {
     }
     const std::uint64_t place = verdict.packet - m_firstOfBlocks;
     std::shared_ptr<Block>& block = m_blocks[place / kBlock];
-    PacketDigest amended = block->digests[place % kBlock];
-    const bool wasProblem = amended.isProblem();
-    applyVerdict(verdict, amended);
     if (block.use_count() > 1) {
         block = std::make_shared<Block>(*block);
     }
-    block->digests[place % kBlock] = amended;
-    block->problems += amended.isProblem() ? 1 : 0;
-    block->problems -= wasProblem ? 1 : 0;
+    PacketDigest& digest = block->digests[place % kBlock];
+    block->problems -= digest.isProblem() ? 1 : 0;
+    applyVerdict(verdict, digest);
+    block->problems += digest.isProblem() ? 1 : 0;
 }
 
-const PacketDigest* PacketDigests::find(std::uint64_t number) const {
-    if (number < m_begin || number >= m_end) {
-        return nullptr;
-    }
-    const std::uint64_t place = number - m_firstOfBlocks;
-    return &m_blocks[place / kBlock]->digests[place % kBlock];
-}
-
-PacketDigests::Excerpt PacketDigests::excerpt(std::uint64_t from) const {
-    Excerpt excerpt;
+PacketDigests PacketDigests::excerpt(std::uint64_t from) const {
+    PacketDigests excerpt;
     excerpt.m_begin = std::clamp(from, m_begin, m_end);
     excerpt.m_end = m_end;
-    if (excerpt.m_begin == m_end) {
-        return excerpt;
-    }
     const std::uint64_t first = (excerpt.m_begin - m_firstOfBlocks) / kBlock;
     excerpt.m_firstOfBlocks = m_firstOfBlocks + first * kBlock;
     excerpt.m_blocks.assign(m_blocks.begin() + static_cast<std::ptrdiff_t>(first), m_blocks.end());
     const bool isLastComplete = (m_end - m_firstOfBlocks) % kBlock == 0;
-    if (!isLastComplete) {
-        excerpt.m_blocks.back() = std::make_shared<const Block>(*m_blocks.back());
+    if (excerpt.m_begin != m_end && !isLastComplete) {
+        excerpt.m_blocks.back() = std::make_shared<Block>(*m_blocks.back());
     }
     return excerpt;
 }
@@ -136,7 +123,7 @@ std::optional<std::uint64_t> PacketDigests::nextProblem(std::uint64_t after) con
         const std::uint64_t place = number - m_firstOfBlocks;
         if (m_blocks[place / kBlock]->problems == 0) {
             number += kBlock - place % kBlock;
-        } else if (find(number)->isProblem()) {
+        } else if (at(number).isProblem()) {
             return number;
         } else {
             ++number;
@@ -150,7 +137,7 @@ std::optional<std::uint64_t> PacketDigests::previousProblem(std::uint64_t before
         const std::uint64_t place = end - 1 - m_firstOfBlocks;
         if (m_blocks[place / kBlock]->problems == 0) {
             end -= std::min(end - m_begin, place % kBlock + 1);
-        } else if (find(end - 1)->isProblem()) {
+        } else if (at(end - 1).isProblem()) {
             return end - 1;
         } else {
             --end;

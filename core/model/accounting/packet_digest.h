@@ -13,7 +13,6 @@
 #include <optional>
 #include <span>
 #include <unordered_map>
-#include <vector>
 
 namespace posewire::model {
 
@@ -73,31 +72,9 @@ private:
 
 /// The digests of the packets that a log holds. Belongs to one thread.
 class PacketDigests {
-    static constexpr std::size_t kBlock = 4096;
-    struct Block {
-        std::array<PacketDigest, kBlock> digests;
-        std::size_t problems = 0; ///< a block without one is passed over
-    };
-
 public:
-    /// Digests [begin(), end()) as they were; for one other thread to read while more are appended.
-    class Excerpt {
-    public:
-        [[nodiscard]] std::uint64_t begin() const { return m_begin; }
-        [[nodiscard]] std::uint64_t end() const { return m_end; }
-        /// The number must lie within.
-        [[nodiscard]] const PacketDigest& at(std::uint64_t number) const {
-            const std::uint64_t place = number - m_firstOfBlocks;
-            return m_blocks[place / kBlock]->digests[place % kBlock];
-        }
-
-    private:
-        friend class PacketDigests;
-        std::vector<std::shared_ptr<const Block>> m_blocks;
-        std::uint64_t m_firstOfBlocks = 0;
-        std::uint64_t m_begin = 0;
-        std::uint64_t m_end = 0;
-    };
+    /// Digests as they were; for one other thread to read while more are appended.
+    using Excerpt = PacketDigests;
 
     /// Numbers grow; those that are left out have an empty digest.
     void append(std::uint64_t number, const PacketDigest& digest);
@@ -108,8 +85,15 @@ public:
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_end; }
 
+    /// The number must lie within.
+    [[nodiscard]] const PacketDigest& at(std::uint64_t number) const {
+        const std::uint64_t place = number - m_firstOfBlocks;
+        return m_blocks[place / kBlock]->digests[place % kBlock];
+    }
     /// Null outside [begin, end).
-    [[nodiscard]] const PacketDigest* find(std::uint64_t number) const;
+    [[nodiscard]] const PacketDigest* find(std::uint64_t number) const {
+        return number < m_begin || number >= m_end ? nullptr : &at(number);
+    }
 
     /// The nearest problem after or before a packet; nothing where there is none.
     [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
@@ -119,6 +103,12 @@ public:
     [[nodiscard]] Excerpt excerpt(std::uint64_t from) const;
 
 private:
+    static constexpr std::size_t kBlock = 4096;
+    struct Block {
+        std::array<PacketDigest, kBlock> digests;
+        std::size_t problems = 0; ///< a block without one is passed over
+    };
+
     std::deque<std::shared_ptr<Block>> m_blocks; ///< all but the last are complete
     std::uint64_t m_firstOfBlocks = 0;           ///< number of the first digest of the first block
     std::uint64_t m_begin = 0;

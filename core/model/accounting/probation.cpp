@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -165,19 +166,13 @@ void Probation::decide(const SampleLedger& ledger, bool isEnd, Decision& decisio
     Scan found;
     scan(ledger, found);
     decision.decided = 0;
-    const auto settle = [&](std::size_t count, std::uint8_t winner, Outcome begun) {
+    const auto settle = [&](std::size_t count, std::uint8_t winner, Outcome first) {
         decision.decided = count;
-        bool isFirst = true;
         for (std::size_t i = 0; i < count; ++i) {
             const std::uint8_t label = found.labels[i];
-            if (label == kExpected) {
-                decision.outcomes[i] = Outcome::Expected;
-            } else if (label != winner) {
-                decision.outcomes[i] = Outcome::Alone;
-            } else {
-                decision.outcomes[i] = isFirst ? begun : Outcome::Begun;
-                isFirst = false;
-            }
+            decision.outcomes[i] = label == kExpected ? Outcome::Expected
+                                   : label != winner  ? Outcome::Alone
+                                                      : std::exchange(first, Outcome::Begun);
         }
     };
     if (found.newest != kExpected) {

@@ -86,19 +86,11 @@ void readSpread(const StreamAccounting& stream, const TimeRange& air, RateFigure
 
 RangeFigures countedFigures(const StreamAccounting& stream, const std::optional<TimeRange>& range) {
     RangeFigures figures;
-    if (range) {
-        figures.counts = stream.countsBetween(range->from, range->to);
-        figures.arrivals = stream.interArrivalBetween(range->from, range->to);
-        figures.clock = stream.clockBetween(range->from, range->to);
-        figures.pattern = stream.lossPatternBetween(range->from, range->to);
-        figures.malformed = stream.malformedBetween(range->from, range->to);
-    } else {
-        figures.counts = stream.counts();
-        figures.arrivals = stream.interArrival();
-        figures.clock = stream.clock();
-        figures.pattern = stream.lossPattern();
-        figures.malformed = stream.malformed();
-    }
+    figures.counts = stream.counts(range);
+    figures.arrivals = stream.interArrival(range);
+    figures.clock = stream.clock(range);
+    figures.pattern = stream.lossPattern(range);
+    figures.malformed = stream.malformed(range);
     return figures;
 }
 

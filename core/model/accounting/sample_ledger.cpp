@@ -5,16 +5,7 @@
 #include <utility>
 
 namespace posewire::model {
-namespace {
 
-void addTotals(const SampleSequence& sequence, StreamCounts& counts) {
-    const auto totals = sequence.totals();
-    counts.samples += totals.samples;
-    counts.incomplete += totals.incomplete;
-    counts.lost += totals.lost;
-}
-
-} // namespace
 Placement SampleLedger::count(const Placement& placement, log::Stamp stamp, CountHistory* history) {
     const bool isDuplicate = placement.kind == Placement::Kind::Duplicate;
     const bool isLate = placement.isReordered && placement.late > kLateAfter;
@@ -60,7 +51,7 @@ void SampleLedger::restart(log::Stamp stamp, CountHistory* history) {
     if (!m_before.empty()) {
         // A straggler may have been the first sample of all.
         m_firstSample = m_settled.restarts == 1 ? m_before.first() : m_firstSample;
-        addTotals(m_before, m_settled);
+        m_before.addTo(m_settled);
         m_longestGap = std::max(m_longestGap, m_before.longestGap());
         m_before.clear(history);
     }
@@ -79,7 +70,7 @@ StreamCounts SampleLedger::counts() const {
     StreamCounts counts = m_settled;
     counts.longestGapSamples = m_longestGap;
     for (const SampleSequence* sequence : {&m_before, &m_present}) {
-        addTotals(*sequence, counts);
+        sequence->addTo(counts);
         if (!sequence->empty()) {
             counts.longestGapSamples = std::max(counts.longestGapSamples, sequence->longestGap());
         }

@@ -57,15 +57,16 @@ std::int64_t SampleSequence::lostNow() const {
     return lost;
 }
 
-SampleSequence::Totals SampleSequence::totals() const {
+void SampleSequence::addTo(StreamCounts& counts) const {
     std::int64_t samples = m_past.samples;
     std::int64_t incomplete = m_past.incomplete;
     for (std::size_t i = 0; i < m_runCount; ++i) {
         samples += m_runs[i].samples;
         incomplete += m_runs[i].incomplete;
     }
-    return {static_cast<std::uint64_t>(samples), static_cast<std::uint64_t>(incomplete),
-            static_cast<std::uint64_t>(lostNow())};
+    counts.samples += static_cast<std::uint64_t>(samples);
+    counts.incomplete += static_cast<std::uint64_t>(incomplete);
+    counts.lost += static_cast<std::uint64_t>(lostNow());
 }
 
 /// The run that a position lies in; the first that it would extend where it lies between two.
@@ -139,10 +140,9 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
         return placement;
     }
     const bool isHighest = index + 1 == m_window.size();
-    placement.kind = isHighest ? Placement::Kind::Advance : Placement::Kind::Filled;
-    if (!isFirst) {
-        placement.kind = Placement::Kind::Part;
-    }
+    placement.kind = !isFirst    ? Placement::Kind::Part
+                     : isHighest ? Placement::Kind::Advance
+                                 : Placement::Kind::Filled;
     const log::Stamp due = dueStamp(index);
     if (!isHighest) {
         placement.isReordered = true;
@@ -410,14 +410,10 @@ std::uint32_t SampleSequence::missingBetween(std::uint32_t from, std::uint32_t t
 void SampleSequence::clear(CountHistory* history) {
     settle(0, history);
     noteBurst(m_bursts.endRun(), history);
-    m_window.clear();
-    m_runCount = 0;
-    m_past = {};
-    m_hasPast = false;
-    m_pastLost = 0;
-    m_bursts = {};
-    m_longestGap = 0;
-    m_settled = 0;
+    SampleWindow window = std::move(m_window); // whose memory stays
+    window.clear();
+    *this = {};
+    m_window = std::move(window);
 }
 
 } // namespace posewire::model

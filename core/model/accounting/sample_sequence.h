@@ -44,12 +44,8 @@ public:
     /// null.
     Placement place(const Datagram& datagram, CountHistory* history);
 
-    struct Totals {
-        std::uint64_t samples = 0;
-        std::uint64_t incomplete = 0;
-        std::uint64_t lost = 0;
-    };
-    [[nodiscard]] Totals totals() const;
+    /// Adds samples, incomplete and lost ones.
+    void addTo(StreamCounts& counts) const;
 
     [[nodiscard]] bool empty() const { return m_window.empty(); }
     [[nodiscard]] const SampleWindow& window() const { return m_window; }

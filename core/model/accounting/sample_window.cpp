@@ -37,18 +37,14 @@ std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, log::S
         forgetFront();
         index = index == 0 ? 0 : index - 1;
     } else if (m_size == m_entries.size()) {
-        grow();
+        // Nothing has been forgotten yet: the ring begins at the front.
+        m_entries.resize(std::max(kFirstCapacity, m_entries.size() * 2));
     }
     ++m_size;
     for (std::size_t i = m_size - 1; i > index; --i) {
         at(i) = at(i - 1);
     }
-    Entry& entry = at(index);
-    entry = {};
-    entry.stamp = stamp;
-    entry.sample = sample;
-    entry.parts = kUnmarked;
-    entry.isAdvance = index + 1 == m_size;
+    at(index) = {.stamp = stamp, .sample = sample, .isAdvance = index + 1 == m_size};
     return index;
 }
 
@@ -67,19 +63,18 @@ SampleWindow::Mark SampleWindow::mark(std::size_t index, std::uint8_t datagram, 
             return Mark::Duplicate;
         }
         entry.parts = takeMask();
-        m_masks[entry.parts][0] = 1;
+        m_masks[entry.parts][0] = true;
     }
     Mask& mask = m_masks[entry.parts];
-    const std::uint64_t bit = std::uint64_t{1} << (datagram & 63);
-    std::uint64_t& half = mask[(datagram >> 6) & 1];
-    if ((half & bit) != 0) {
+    if (mask[datagram & 127]) {
         return Mark::Duplicate;
     }
-    half |= bit;
+    mask[datagram & 127] = true;
     if (isLast && entry.last == 0xff) {
         entry.last = datagram;
     }
-    if (!entry.isComplete && entry.last != 0xff && isWhole(mask, entry.last)) {
+    const bool isWhole = entry.last != 0xff && (~mask << (127 - entry.last)).none();
+    if (isWhole && !entry.isComplete) {
         entry.isComplete = true;
         return Mark::Completing;
     }
@@ -91,16 +86,7 @@ bool SampleWindow::contains(std::size_t index, std::uint8_t datagram) const {
     if (entry.parts == kWhole || entry.parts == kUnmarked) {
         return entry.parts == kWhole && datagram == 0;
     }
-    return (m_masks[entry.parts][(datagram >> 6) & 1] >> (datagram & 63) & 1) != 0;
-}
-
-bool SampleWindow::isWhole(const Mask& mask, std::uint8_t last) {
-    const auto isFull = [](std::uint64_t bits, int count) {
-        const auto all = count >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << count) - 1;
-        return (bits & all) == all;
-    };
-    const int count = last + 1;
-    return isFull(mask[0], count) && isFull(mask[1], std::max(0, count - 64));
+    return m_masks[entry.parts][datagram & 127];
 }
 
 std::uint16_t SampleWindow::takeMask() {
@@ -114,26 +100,13 @@ std::uint16_t SampleWindow::takeMask() {
     return parts;
 }
 
-void SampleWindow::giveMask(std::uint16_t parts) {
-    if (parts < kUnmarked) {
+void SampleWindow::forgetFront() {
+    if (const std::uint16_t parts = at(0).parts; parts < kUnmarked) {
         m_spareMasks.push_back(parts);
     }
-}
-
-void SampleWindow::forgetFront() {
-    giveMask(at(0).parts);
     ++m_front;
     --m_size;
     m_hasForgotten = true;
-}
-
-void SampleWindow::grow() {
-    std::vector<Entry> larger(m_entries.empty() ? kFirstCapacity : m_entries.size() * 2);
-    for (std::size_t i = 0; i < m_size; ++i) {
-        larger[i] = (*this)[i];
-    }
-    m_entries = std::move(larger);
-    m_front = 0;
 }
 
 void SampleWindow::clear() {

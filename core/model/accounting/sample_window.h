@@ -3,7 +3,7 @@
 
 #include "core/log/time.h"
 
-#include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -61,16 +61,13 @@ public:
     void clear();
 
 private:
-    using Mask = std::array<std::uint64_t, 2>;
+    using Mask = std::bitset<128>; ///< by datagram index
 
     [[nodiscard]] Entry& at(std::size_t index) {
         return m_entries[(m_front + index) & (m_entries.size() - 1)];
     }
-    [[nodiscard]] static bool isWhole(const Mask& mask, std::uint8_t last);
     std::uint16_t takeMask();
-    void giveMask(std::uint16_t parts);
     void forgetFront();
-    void grow();
 
     std::vector<Entry> m_entries; ///< a ring; its size is a power of two
     std::size_t m_front = 0;

@@ -19,15 +19,14 @@ constexpr std::size_t kLeastParts = 8;
 } // namespace
 
 void SenderClock::restart() {
-    m_hasFirst = false;
+    m_first.reset();
     m_timeCodeMs = 0;
     m_differenceMs = 0;
     ++m_generation;
 }
 
 void SenderClock::add(const Sample& sample) {
-    if (!m_hasFirst) {
-        m_hasFirst = true;
+    if (!m_first) {
         m_first = m_previous = sample;
         return;
     }
@@ -50,7 +49,7 @@ void SenderClock::add(const Sample& sample) {
     const double periodMs = m_sumMoved > 0 ? m_sumSinceMs / m_sumMoved : 0;
     const double senderMs = isFromTimeCode() ? timeCodeMoved : moved * periodMs;
     m_jitterMs += (std::abs(sinceMs - senderMs) - m_jitterMs) / 16;
-    m_differenceMs = log::millisecondsOf(sample.stamp - m_first.stamp) - static_cast<double>(m_timeCodeMs);
+    m_differenceMs = log::millisecondsOf(sample.stamp - m_first->stamp) - static_cast<double>(m_timeCodeMs);
     m_previous = sample;
 }
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/accounting/stream_counts.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 namespace posewire::model {
 
@@ -31,8 +33,7 @@ public:
     [[nodiscard]] std::uint32_t generation() const { return m_generation; }
 
 private:
-    bool m_hasFirst = false;
-    Sample m_first;
+    std::optional<Sample> m_first;
     Sample m_previous;
     double m_jitterMs = 0;
     std::uint64_t m_timed = 0;   ///< successive samples whose time code advanced with them
@@ -42,12 +43,6 @@ private:
     std::int64_t m_timeCodeMs = 0; ///< since the first sample, without wrap-around
     double m_differenceMs = 0;
     std::uint32_t m_generation = 0;
-};
-
-/// How much faster the sender's clock goes than ours, and what that made; both 0 where it is not known.
-struct ClockSkew {
-    double skewPpm = 0;
-    double driftMs = 0;
 };
 
 /// Fits a line to how far our clock is ahead of the sender's, by the least delayed sample of each of equal

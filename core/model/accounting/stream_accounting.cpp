@@ -2,29 +2,26 @@
 #include "core/model/accounting/stream_accounting.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdlib>
 
 namespace posewire::model {
+namespace {
 
-bool MessageRounds::isWhole() const {
-    const int count = std::popcount(m_arrived[0]) + std::popcount(m_arrived[1]);
-    return m_last >= 0 && count == m_last + 1;
-}
+constexpr TimeRange kEver{log::Stamp::min(), log::Stamp::max()};
+
+} // namespace
 
 bool MessageRounds::add(log::Stamp stamp, std::uint8_t datagram, bool isLast) {
-    const std::size_t half = datagram >> 6 & 1;
-    const std::uint64_t bit = std::uint64_t{1} << (datagram & 63);
-    const bool isRepeated = (m_arrived[half] & bit) != 0;
-    const bool isBegin = !isOpen() || isRepeated || std::chrono::abs(stamp - m_first) > kTogether;
+    auto arrived = m_arrived[datagram & 127];
+    const bool isBegin = m_arrived.none() || arrived || std::chrono::abs(stamp - m_first) > kTogether;
     if (isBegin) {
-        m_arrived = {};
+        m_arrived.reset();
         m_last = -1;
         m_first = stamp;
     } else {
         m_incomplete -= isWhole() ? 0 : 1;
     }
-    m_arrived[half] |= bit;
+    arrived = true;
     m_last = isLast ? datagram : m_last;
     m_incomplete += isWhole() ? 0 : 1;
     return isBegin;
@@ -50,14 +47,12 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     const bool isBegin = m_rounds.add(packet.stamp, header.datagramIndex(), header.isLast());
     change.incomplete = static_cast<std::uint32_t>(m_rounds.incomplete() - incomplete);
     m_history.add(packet.stamp, change);
-    Verdict verdict;
-    verdict.packet = packet.number;
-    verdict.stamp = packet.stamp;
-    verdict.sample = header.sampleCounter;
-    verdict.packetBefore = m_messagePacket;
-    verdict.isAfterPartial = isBegin && isPartial;
+    m_verdicts.push_back({.packet = packet.number,
+                          .stamp = packet.stamp,
+                          .sample = header.sampleCounter,
+                          .packetBefore = m_messagePacket,
+                          .isAfterPartial = isBegin && isPartial});
     m_messagePacket = isBegin ? packet.number : m_messagePacket;
-    m_verdicts.push_back(verdict);
     return m_verdicts;
 }
 
@@ -69,14 +64,12 @@ void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
     m_probation.add(datagram);
     Probation::Decision decision;
     m_probation.decide(m_ledger, false, decision);
-    if (decision.decided != 0) {
-        bool isMoved = false;
-        for (std::size_t i = 0; i < decision.decided; ++i) {
-            settle(m_probation.waiting()[i], decision.outcomes[i], isMoved);
-            isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
-        }
-        m_probation.drop(decision.decided);
+    bool isMoved = false;
+    for (std::size_t i = 0; i < decision.decided; ++i) {
+        settle(m_probation.waiting()[i], decision.outcomes[i], isMoved);
+        isMoved = isMoved || decision.outcomes[i] == Probation::Outcome::Restarted;
     }
+    m_probation.drop(decision.decided);
 }
 
 /// `isMoved`: the counter restarted among those that waited, so that what was expected before is now past.
@@ -129,12 +122,11 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Out
         m_highest = datagram;
     }
     m_clock.add({verdict.stamp, verdict.sample, datagram.timeCode});
-    if (m_hasSample) {
-        m_history.addArrival(verdict.stamp, std::max(log::Duration::zero(), verdict.stamp - m_lastSample),
+    if (m_lastSample) {
+        m_history.addArrival(verdict.stamp, std::max(log::Duration::zero(), verdict.stamp - *m_lastSample),
                              m_clock.jitterMs());
     }
     m_history.addDifference(verdict.stamp, m_clock.differenceMs(), m_clock.generation());
-    m_hasSample = true;
     m_lastSample = verdict.stamp;
 }
 
@@ -150,7 +142,10 @@ SampleLedger StreamAccounting::ledgerInHindsight() const {
     return ledger;
 }
 
-StreamCounts StreamAccounting::counts() const {
+StreamCounts StreamAccounting::counts(const Range& range) const {
+    if (range) {
+        return countsBetween(range->from, range->to);
+    }
     StreamCounts counts = m_probation.empty() ? m_ledger.counts() : ledgerInHindsight().counts();
     counts.datagrams = m_datagrams;
     counts.bytes = m_bytes;
@@ -166,36 +161,27 @@ StreamCounts StreamAccounting::countsBetween(log::Stamp from, log::Stamp to) con
     return counts;
 }
 
-LossPattern StreamAccounting::patternIn(const TimeRange& range, const StreamCounts& counts) const {
-    BurstCounts bursts = m_history.burstsBetween(range.from, range.to);
-    m_ledger.addNewestBursts(range, bursts);
-    return patternOf(bursts, counts);
+InterArrival StreamAccounting::interArrival(const Range& range) const {
+    const auto [from, to] = range.value_or(kEver);
+    return m_history.arrivalsBetween(from, to);
 }
 
-LossPattern StreamAccounting::lossPattern() const {
-    return patternIn({kBeginning, kEnd}, counts());
+LossPattern StreamAccounting::lossPattern(const Range& range) const {
+    const TimeRange when = range.value_or(kEver);
+    BurstCounts bursts = m_history.burstsBetween(when.from, when.to);
+    m_ledger.addNewestBursts(when, bursts);
+    return patternOf(bursts, counts(range));
 }
 
-LossPattern StreamAccounting::lossPatternBetween(log::Stamp from, log::Stamp to) const {
-    return patternIn({from, to}, countsBetween(from, to));
+ClockFigures StreamAccounting::clock(const Range& range) const {
+    const bool isFromTimeCode = m_clock.isFromTimeCode();
+    const auto [from, to] = range.value_or(kEver);
+    return {isFromTimeCode, range ? m_history.jitterMsAt(to) : m_clock.jitterMs(),
+            isFromTimeCode ? m_history.skewBetween(from, to) : ClockSkew{}};
 }
 
-ClockFigures StreamAccounting::clockBetween(log::Stamp from, log::Stamp to) const {
-    ClockFigures figures;
-    figures.jitterMs = m_history.jitterMsAt(to);
-    figures.isFromTimeCode = m_clock.isFromTimeCode();
-    if (figures.isFromTimeCode) {
-        const ClockSkew skew = m_history.skewBetween(from, to);
-        figures.skewPpm = skew.skewPpm;
-        figures.driftMs = skew.driftMs;
-    }
-    return figures;
-}
-
-ClockFigures StreamAccounting::clock() const {
-    ClockFigures figures = clockBetween(kBeginning, kEnd);
-    figures.jitterMs = m_clock.jitterMs();
-    return figures;
+std::uint64_t StreamAccounting::malformed(const Range& range) const {
+    return range ? m_history.malformedBetween(range->from, range->to) : m_malformed;
 }
 
 void StreamAccounting::addMalformed(log::Stamp stamp) {

@@ -10,7 +10,7 @@
 #include "core/model/accounting/stream_counts.h"
 #include "core/wire/header.h"
 
-#include <array>
+#include <bitset>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -53,17 +53,16 @@ public:
     /// The newest message included.
     [[nodiscard]] std::uint64_t incomplete() const { return m_incomplete; }
     /// Whether the newest message still lacks something.
-    [[nodiscard]] bool isPartial() const { return isOpen() && !isWhole(); }
+    [[nodiscard]] bool isPartial() const { return m_arrived.any() && !isWhole(); }
 
 private:
-    [[nodiscard]] bool isOpen() const { return (m_arrived[0] | m_arrived[1]) != 0; }
-    [[nodiscard]] bool isWhole() const;
+    [[nodiscard]] bool isWhole() const { return static_cast<int>(m_arrived.count()) == m_last + 1; }
 
     std::uint64_t m_incomplete = 0;
     // Of the newest message:
     log::Stamp m_first{};
-    std::array<std::uint64_t, 2> m_arrived{};
-    int m_last = -1; ///< index of its last datagram; -1 before that is known
+    std::bitset<128> m_arrived; ///< by index
+    int m_last = -1;            ///< index of its last datagram; -1 before that is known
 };
 
 /// Counts exactly what came and what did not come of one stream. Follows the log: figures are of what was
@@ -84,26 +83,18 @@ public:
     /// A datagram of the stream that could not be decoded.
     void addMalformed(log::Stamp stamp);
 
-    [[nodiscard]] StreamCounts counts() const;
-    [[nodiscard]] ClockFigures clock() const;
-    [[nodiscard]] InterArrival interArrival() const { return interArrivalBetween(kBeginning, kEnd); }
-    [[nodiscard]] LossPattern lossPattern() const;
-
-    /// Figures of a range of time, at a cost that does not depend on it. The ends are rounded to the
-    /// resolution, at first 0.1 s. What belongs to samples counts when they were due.
+    // Figures of all there is, or of a range of time, at a cost that does not depend on it. The ends are
+    // rounded to the resolution, at first 0.1 s. What belongs to samples counts when they were due.
+    using Range = std::optional<TimeRange>;
+    [[nodiscard]] StreamCounts counts(const Range& range = {}) const;
     [[nodiscard]] StreamCounts countsBetween(log::Stamp from, log::Stamp to) const;
-    [[nodiscard]] InterArrival interArrivalBetween(log::Stamp from, log::Stamp to) const {
-        return m_history.arrivalsBetween(from, to);
-    }
+    [[nodiscard]] InterArrival interArrival(const Range& range = {}) const;
     [[nodiscard]] double jitterMsAt(log::Stamp to) const { return m_history.jitterMsAt(to); }
     /// A burst counts where it ended.
-    [[nodiscard]] LossPattern lossPatternBetween(log::Stamp from, log::Stamp to) const;
+    [[nodiscard]] LossPattern lossPattern(const Range& range = {}) const;
     /// The jitter at the end of the range; skew and drift from its beginning or the newest restart in it on.
-    [[nodiscard]] ClockFigures clockBetween(log::Stamp from, log::Stamp to) const;
-    [[nodiscard]] std::uint64_t malformed() const { return m_malformed; }
-    [[nodiscard]] std::uint64_t malformedBetween(log::Stamp from, log::Stamp to) const {
-        return m_history.malformedBetween(from, to);
-    }
+    [[nodiscard]] ClockFigures clock(const Range& range = {}) const;
+    [[nodiscard]] std::uint64_t malformed(const Range& range = {}) const;
     [[nodiscard]] log::Duration resolution() const { return m_history.width(); }
 
     /// The first sample of this stream between two counters, both exclusive, that came in a span of time.
@@ -117,17 +108,12 @@ public:
     [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
 
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
-    [[nodiscard]] std::uint64_t bytes() const { return m_bytes; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
     [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
     [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp; }
     [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 
 private:
-    static constexpr log::Stamp kBeginning = log::Stamp::min();
-    static constexpr log::Stamp kEnd = log::Stamp::max();
-
-    [[nodiscard]] LossPattern patternIn(const TimeRange& range, const StreamCounts& counts) const;
     void takeSample(const Probation::Waiting& datagram);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
     static Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved,
@@ -140,9 +126,8 @@ private:
     std::uint64_t m_malformed = 0;
     log::Stamp m_firstStamp{};
     log::Stamp m_lastStamp{};
-    log::Stamp m_lastSample{}; ///< stamp of the newest first arrival of a sample
-    bool m_hasSample = false;
-    Probation::Waiting m_highest; ///< the first datagram of the highest sample
+    std::optional<log::Stamp> m_lastSample{}; ///< stamp of the newest first arrival of a sample
+    Probation::Waiting m_highest;             ///< the first datagram of the highest sample
     SampleLedger m_ledger;
     Probation m_probation;
     MessageRounds m_rounds;

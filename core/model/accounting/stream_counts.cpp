@@ -2,20 +2,14 @@
 #include "core/model/accounting/stream_counts.h"
 
 #include <algorithm>
+#include <array>
 
 namespace posewire::model {
+
 std::string_view nameOf(LossCause cause) {
-    switch (cause) {
-    case LossCause::ThisComputer:
-        return "this computer";
-    case LossCause::Network:
-        return "network";
-    case LossCause::Sender:
-        return "sender";
-    case LossCause::Unknown:
-        break;
-    }
-    return "unknown";
+    constexpr std::array<std::string_view, kLossCauses> names{"this computer", "network", "sender",
+                                                              "unknown"};
+    return names[static_cast<std::size_t>(cause)];
 }
 
 StreamCounts& StreamCounts::operator+=(const StreamCounts& other) {

@@ -88,14 +88,18 @@ struct InterArrival {
     double deviationMs = 0;
 };
 
+/// How much faster the sender's clock goes than ours, in parts per million, and what that made; both 0 where
+/// it is not known: where only the sample counter shows the sender's time, and in the first seconds.
+struct ClockSkew {
+    double skewPpm = 0;
+    double driftMs = 0;
+};
+
 /// The sender's clock against ours.
 struct ClockFigures {
     bool isFromTimeCode = false; ///< else the sample counter times its own period is the sender's clock
     double jitterMs = 0;         ///< RFC 3550 §6.4.1
-    /// How much faster the sender's clock goes than ours, in parts per million, and what that made since the
-    /// first sample; both 0 where only the sample counter shows the sender's time, and in the first seconds.
-    double skewPpm = 0;
-    double driftMs = 0;
+    ClockSkew skew{};
 };
 
 /// Finds bursts and gaps of loss in one pass over the samples that arrived, in the order of their counters

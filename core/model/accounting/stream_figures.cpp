@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace posewire::model {
@@ -28,7 +29,7 @@ double spacing(const RangeFigures& read) {
 }
 template <auto Member>
 double clockOf(const RangeFigures& read) {
-    return read.clock.isFromTimeCode ? read.clock.*Member : kUnknown;
+    return read.clock.isFromTimeCode ? read.clock.skew.*Member : kUnknown;
 }
 template <LossCause Cause>
 double lostBy(const RangeFigures& read) {
@@ -59,7 +60,7 @@ using Counts = StreamCounts;
 using Rates = RateFigures;
 using Pattern = LossPattern;
 using Spacing = InterArrival;
-using Clock = ClockFigures;
+using Clock = ClockSkew;
 
 constexpr FigureStyle kCount;
 constexpr FigureStyle kCounter{Form::Counter};
@@ -189,17 +190,10 @@ constexpr std::array kRows{
     FigureRow{Bandwidth, "", "kB/s", kKilobytes, Sum::Sum, Trouble::None, kilobytes,
               "Thousands of payload bytes of UDP or TCP per second", Of::Messages},
 };
+// Each once, in the order of the enum.
 static_assert(kRows.size() == kFigures);
-
-constexpr bool rowsFollowTheEnum() {
-    for (std::size_t i = 0; i < kRows.size(); ++i) {
-        if (kRows[i].figure != static_cast<Figure>(i)) {
-            return false;
-        }
-    }
-    return true;
-}
-static_assert(rowsFollowTheEnum());
+static_assert(std::ranges::adjacent_find(kRows, std::ranges::greater_equal(), &FigureRow::figure) ==
+              kRows.end());
 
 /// Between the first and the last, so that a stream that ended long ago keeps its rate.
 double wholeRate(const Stream& stream, const StreamCounts& counts, const std::optional<TimeRange>& range) {

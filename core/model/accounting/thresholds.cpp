@@ -36,18 +36,17 @@ std::span<const ThresholdRow> thresholdTable() {
 }
 
 void ThresholdWatch::check(const std::deque<Stream>& streams, log::Stamp stamp, Events& events) {
-    m_habits.resize(streams.size());
+    m_usualHz.resize(streams.size());
     for (std::size_t i = 0; i < streams.size(); ++i) {
         if (countsSamples(streams[i].key.type)) {
-            check(streams[i], m_habits[i], stamp, events);
+            check(streams[i], m_usualHz[i], stamp, events);
         }
     }
 }
 
-void ThresholdWatch::check(const Stream& stream, Habit& habit, log::Stamp stamp, Events& events) const {
+void ThresholdWatch::check(const Stream& stream, double& usualHz, log::Stamp stamp, Events& events) const {
     const StreamAccounting& accounting = stream.accounting;
-    const auto window = log::durationOf(m_thresholds.windowS);
-    const log::Stamp from = stamp - window;
+    const log::Stamp from = stamp - log::durationOf(m_thresholds.windowS);
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
     hold(stream, {EventKind::AgeLimit, ageS, m_thresholds.ageS}, stamp, events);
     const RangeFigures read = countedFigures(accounting, TimeRange{from, stamp});
@@ -65,13 +64,13 @@ void ThresholdWatch::check(const Stream& stream, Habit& habit, log::Stamp stamp,
         return;
     }
     const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
-    if (habit.rateHz > 0) {
-        const double offPercent = 100 * std::abs(rateHz - habit.rateHz) / habit.rateHz;
+    if (usualHz > 0) {
+        const double offPercent = 100 * std::abs(rateHz - usualHz) / usualHz;
         hold(stream, {EventKind::RateLimit, offPercent, m_thresholds.ratePercent}, stamp, events);
     }
     // What lasts becomes usual: half of the way in about a minute of two checks a second.
     constexpr double kShare = 1.0 / 180;
-    habit.rateHz += habit.rateHz > 0 ? (rateHz - habit.rateHz) * kShare : rateHz;
+    usualHz += usualHz > 0 ? (rateHz - usualHz) * kShare : rateHz;
 }
 
 void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Stamp stamp,

@@ -53,19 +53,16 @@ public:
     void check(const std::deque<Stream>& streams, log::Stamp stamp, Events& events);
 
 private:
-    struct Habit {
-        double rateHz = 0; ///< what was usual before the window; 0 before it is known
-    };
     struct Measure {
         EventKind kind;
         double value;
         double limit;
     };
-    void check(const Stream& stream, Habit& habit, log::Stamp stamp, Events& events) const;
+    void check(const Stream& stream, double& usualHz, log::Stamp stamp, Events& events) const;
     void hold(const Stream& stream, const Measure& measure, log::Stamp stamp, Events& events) const;
 
     Thresholds m_thresholds;
-    std::vector<Habit> m_habits; ///< of the streams
+    std::vector<double> m_usualHz; ///< of each stream, before the window; 0 before it is known
 };
 
 } // namespace posewire::model

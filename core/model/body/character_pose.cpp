@@ -45,7 +45,7 @@ bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
     const auto& places = unityPlaces();
     for (std::size_t i = 0; i < kBody; ++i) {
         const auto& item = message.segments[static_cast<std::size_t>(places[i])];
-        const SegmentPose local = poseFromUnity({item.position, item.orientation}, unit);
+        const SegmentPose local = poseFromUnity(item, unit);
         const int parent = bodySegments()[i].parent;
         if (parent < 0) {
             place(pose, i, local);
@@ -74,14 +74,12 @@ SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
 bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
                      LengthUnit unit, CharacterPose& pose) {
     if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {
-        return read(euler->segments, datagram.header, pose, [unit](const wire::SegmentEuler& item) {
-            return poseFromEuler({item.position, item.rotation}, unit);
-        });
+        return read(euler->segments, datagram.header, pose,
+                    [unit](const auto& item) { return poseFromEuler(item, unit); });
     }
     if (const auto* quaternion = std::get_if<wire::PoseQuaternion>(&datagram.body)) {
-        return read(quaternion->segments, datagram.header, pose, [unit](const wire::SegmentQuaternion& item) {
-            return poseFromQuaternion({item.position, item.orientation}, unit);
-        });
+        return read(quaternion->segments, datagram.header, pose,
+                    [unit](const auto& item) { return poseFromQuaternion(item, unit); });
     }
     if (const auto* unity = std::get_if<wire::PoseUnity>(&datagram.body)) {
         return readUnity(*unity, datagram.header, nullPose, unit, pose);

@@ -11,9 +11,7 @@
 
 namespace posewire::model {
 
-inline constexpr int kAnatomicalJointCount = 22;
-inline constexpr int kErgonomicJointCount = 6;
-inline constexpr int kJointCount = kAnatomicalJointCount + kErgonomicJointCount;
+inline constexpr int kJointCount = 28; ///< 22 joints and 6 ergonomic angles
 
 /// A row of type 20. The place in the datagram tells rows apart: two ergonomic angles carry the same pair of
 /// IDs.

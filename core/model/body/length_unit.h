@@ -15,6 +15,8 @@ constexpr double metresPer(LengthUnit unit) {
 
 /// Metres or centimetres, by a length of about a human's size in wire units, such as the height of a pelvis
 /// or how far the segments reach from it: nobody is five metres tall.
-[[nodiscard]] LengthUnit detectLengthUnit(double length);
+constexpr LengthUnit detectLengthUnit(double length) {
+    return length > 5.0 || length < -5.0 ? LengthUnit::Centimetre : LengthUnit::Metre;
+}
 
 } // namespace posewire::model

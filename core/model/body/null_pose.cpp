@@ -145,13 +145,11 @@ void NullPoseHistory::keep(const NullPose& pose, std::uint64_t packet, log::Stam
 }
 
 const NullPoseHistory::Version* NullPoseHistory::versionAt(std::uint64_t packet) const {
-    const Version* found = m_versions.size() < kMost ? nullptr : &m_versions.front();
-    for (const Version& version : m_versions) {
-        if (version.firstPacket <= packet) {
-            found = &version;
-        }
+    const auto later = std::ranges::upper_bound(m_versions, packet, {}, &Version::firstPacket);
+    if (later != m_versions.begin()) {
+        return &*std::prev(later);
     }
-    return found;
+    return m_versions.size() < kMost ? nullptr : &m_versions.front();
 }
 
 const NullPose* NullPoseHistory::at(std::uint64_t packet) const {

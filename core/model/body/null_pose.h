@@ -103,9 +103,6 @@ public:
     /// The same with its circumstances.
     [[nodiscard]] NullPoseRecord record(std::uint64_t packet) const;
 
-    /// The message whose parts are arriving.
-    [[nodiscard]] const NullPose& arriving() const { return m_assembler.arriving(); }
-
 private:
     struct Version {
         std::uint64_t firstPacket;

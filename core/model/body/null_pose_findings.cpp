@@ -17,10 +17,6 @@ namespace {
 
 using Findings = std::vector<NullPoseFinding>;
 
-double secondsSince(log::Stamp stamp, log::Stamp now) {
-    return log::secondsOf(now - stamp);
-}
-
 /// "Parts 2 and 3 of 6", "The last part".
 std::string partsText(const NullPoseMessage& message) {
     const bool isOpen = message.partsExpected == 0;
@@ -83,16 +79,14 @@ void findUnknownNames(const NullPose& pose, Findings& findings) {
     if (!unknown.empty()) {
         findings.push_back(
             {NullPoseFault::UnknownName, Severity::Warning, -1,
-             counted(unknown.size(), "segment name") +
-                 " not in the specification: " + listed(unknown, kListed) + ".",
+             counted(unknown.size(), "segment name") + " not in the specification: " + listed(unknown) + ".",
              "Posewire goes by the order of the segments; receivers that go by names lack these."});
     }
     if (!respelled.empty()) {
-        findings.push_back(
-            {NullPoseFault::UnknownName, Severity::Note, -1,
-             counted(respelled.size(), "segment name") +
-                 " spelled otherwise than in the specification: " + listed(respelled, kListed) + ".",
-             "Receivers that compare names letter by letter do not find these segments."});
+        findings.push_back({NullPoseFault::UnknownName, Severity::Note, -1,
+                            counted(respelled.size(), "segment name") +
+                                " spelled otherwise than in the specification: " + listed(respelled) + ".",
+                            "Receivers that compare names letter by letter do not find these segments."});
     }
 }
 
@@ -162,22 +156,21 @@ void compareWithNullPose(const wire::ScaleInformation& scale, const NullPose& po
 void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
     const NullPoseMessage* newest = evidence.record.newest;
     const NullPose* pose = evidence.record.pose;
+    const bool isWhole = pose != nullptr && pose->isComplete();
     if (newest != nullptr && !newest->isComplete() &&
-        secondsSince(newest->stamp, evidence.now) >= kPartOverdue) {
-        const bool hasWhole = pose != nullptr && pose->isComplete();
-        findings.push_back(
-            {NullPoseFault::MissingPart, hasWhole ? Severity::Warning : Severity::Error, -1,
-             partsText(*newest) + " of the newest scale message never came; " +
-                 counted(newest->partsReceived, "part") + " did.",
-             std::string(hasWhole ? "What an earlier message said is shown. "
-                                  : "Segments or points are missing below. ") +
-                 "Parts get lost on the way, mostly where the network drops datagrams" +
-                 (evidence.record.repetition > log::Duration::zero()
-                      ? "; the next message is due every " + seconds(evidence.record.repetition) + "."
-                      : ".")});
+        log::secondsOf(evidence.now - newest->stamp) >= kPartOverdue) {
+        findings.push_back({NullPoseFault::MissingPart, isWhole ? Severity::Warning : Severity::Error, -1,
+                            partsText(*newest) + " of the newest scale message never came; " +
+                                counted(newest->partsReceived, "part") + " did.",
+                            std::string(isWhole ? "What an earlier message said is shown. "
+                                                : "Segments or points are missing below. ") +
+                                "Parts get lost on the way, mostly where the network drops datagrams" +
+                                (evidence.record.repetition > log::Duration::zero()
+                                     ? "; the next message is due every " +
+                                           fixedText(log::secondsOf(evidence.record.repetition), 1) + " s."
+                                     : ".")});
     }
     if (evidence.record.incompleteMessages > 0) {
-        const bool isWhole = pose != nullptr && pose->isComplete();
         findings.push_back(
             {NullPoseFault::EarlierPartMissing, isWhole ? Severity::Note : Severity::Warning, -1,
              counted(evidence.record.incompleteMessages, "earlier scale message") +
@@ -205,7 +198,7 @@ void findAboutNames(const NullPoseEvidence& evidence, Findings& findings) {
     if (!moved.empty()) {
         findings.push_back(
             {NullPoseFault::NameOrder, Severity::Warning, first,
-             "The names come in another order than the specification's: " + listed(moved, kListed) + ".",
+             "The names come in another order than the specification's: " + listed(moved) + ".",
              "Receivers that go by the order put these origins on the wrong segments. Posewire goes by "
              "the names where all 23 are there once, else by the order."});
     }
@@ -268,17 +261,14 @@ std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence
 }
 
 std::string findingsSummary(const std::vector<NullPoseFinding>& findings) {
-    const auto count = [&](Severity severity) {
-        return static_cast<std::size_t>(std::ranges::count(findings, severity, &NullPoseFinding::severity));
-    };
-    std::vector<std::string> words;
+    std::string text;
     for (const auto& [severity, noun] :
          {std::pair{Severity::Error, "error"}, std::pair{Severity::Warning, "warning"}}) {
-        if (const std::size_t found = count(severity)) {
-            words.push_back(counted(found, noun));
+        if (const auto found = std::ranges::count(findings, severity, &NullPoseFinding::severity)) {
+            text += (text.empty() ? "" : ", ") + counted(static_cast<std::uint64_t>(found), noun);
         }
     }
-    return words.empty() ? std::string() : words.size() == 1 ? words[0] : words[0] + ", " + words[1];
+    return text;
 }
 
 } // namespace posewire::model

@@ -83,17 +83,15 @@ double floorOf(const NullPose& pose, double soleDrop) {
     return std::isfinite(lowest) ? lowest - soleDrop : 0.0;
 }
 
-std::optional<double> lowerOf(std::optional<double> a, std::optional<double> b) {
-    return a && b ? std::min(*a, *b) : a ? a : b;
-}
-
-std::optional<double> heightOf(const std::optional<Vector3d>& place) {
-    return place ? std::optional(place->z()) : std::nullopt;
-}
-
 /// The ball of the lower foot.
 std::optional<double> standOf(const Body& body) {
-    return lowerOf(heightOf(body.origin(kRightToe)), heightOf(body.origin(kLeftToe)));
+    std::optional<double> lowest;
+    for (const int toe : {kRightToe, kLeftToe}) {
+        if (const auto ball = body.origin(toe)) {
+            lowest = std::min(lowest.value_or(ball->z()), ball->z());
+        }
+    }
+    return lowest;
 }
 
 /// Height of the head's joint over the ball of the foot against that of the reference body.

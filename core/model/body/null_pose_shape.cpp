@@ -4,6 +4,8 @@
 #include "core/model/body/points.h"
 #include "core/model/text.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,15 +37,13 @@ bool isStature(double metres) {
 
 /// The largest extent of the segments along each axis.
 Vector3d extentOf(const NullPose& pose) {
-    Vector3d least = Vector3d::Constant(std::numeric_limits<double>::infinity());
-    Vector3d most = -least;
+    Eigen::AlignedBox3d box;
     for (const NullPose::Segment& segment : pose.segments) {
         if (segment.position.allFinite()) {
-            least = least.cwiseMin(segment.position);
-            most = most.cwiseMax(segment.position);
+            box.extend(segment.position);
         }
     }
-    return least.x() <= most.x() ? Vector3d(most - least) : Vector3d(Vector3d::Zero());
+    return box.isEmpty() ? Vector3d(Vector3d::Zero()) : Vector3d(box.sizes());
 }
 
 /// True where the size is no person's: what else is found about places would only repeat it.

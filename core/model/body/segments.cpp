@@ -110,21 +110,22 @@ std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position) {
     if (position < 0 || position >= layout.count()) {
         return std::nullopt;
     }
-    if (position < layout.body) {
-        return position < kBodySegmentCount ? std::optional(SegmentPlace{SegmentKind::Body, position})
-                                            : std::nullopt;
-    }
-    const int afterBody = position - layout.body;
-    if (afterBody < layout.props) {
-        return afterBody < kMaxPropCount ? std::optional(SegmentPlace{SegmentKind::Prop, afterBody})
-                                         : std::nullopt;
-    }
-    const int finger = afterBody - layout.props;
-    if (finger < kHandSegmentCount) {
-        return SegmentPlace{SegmentKind::LeftFinger, finger};
-    }
-    if (finger < kFingerSegmentCount) {
-        return SegmentPlace{SegmentKind::RightFinger, finger - kHandSegmentCount};
+    struct Part {
+        SegmentKind kind;
+        int size;
+        int known; ///< more have no name
+    };
+    const std::array<Part, 4> parts{{
+        {SegmentKind::Body, layout.body, kBodySegmentCount},
+        {SegmentKind::Prop, layout.props, kMaxPropCount},
+        {SegmentKind::LeftFinger, kHandSegmentCount, kHandSegmentCount},
+        {SegmentKind::RightFinger, kHandSegmentCount, kHandSegmentCount},
+    }};
+    for (const auto& [kind, size, known] : parts) {
+        if (position < size) {
+            return position < known ? std::optional(SegmentPlace{kind, position}) : std::nullopt;
+        }
+        position -= size;
     }
     return std::nullopt;
 }
@@ -155,16 +156,15 @@ int segmentParent(const SegmentLayout& layout, int position) {
     if (!place || place->kind == SegmentKind::Prop) {
         return -1;
     }
+    const auto index = static_cast<std::size_t>(place->index);
     if (place->kind == SegmentKind::Body) {
-        return kBody[static_cast<std::size_t>(place->index)].parent;
+        return kBody[index].parent;
     }
-    const bool left = place->kind == SegmentKind::LeftFinger;
-    const int parent = kHand[static_cast<std::size_t>(place->index)].parent;
-    if (parent < 0) {
-        const int hand = left ? kLeftHand : kRightHand;
-        return hand < layout.body ? hand : -1;
+    if (kHand[index].parent >= 0) {
+        return position - place->index + kHand[index].parent;
     }
-    return layout.body + layout.props + (left ? 0 : kHandSegmentCount) + parent;
+    const int hand = place->kind == SegmentKind::LeftFinger ? kLeftHand : kRightHand;
+    return hand < layout.body ? hand : -1;
 }
 
 std::optional<int> findBodySegment(std::string_view name) {
@@ -175,15 +175,9 @@ std::optional<int> findBodySegment(std::string_view name) {
 int mirrored(int bodySegment) {
     constexpr int kArmLength = kLeftShoulder - kRightShoulder;
     constexpr int kLegLength = kLeftUpperLeg - kRightUpperLeg;
-    switch (kBody[static_cast<std::size_t>(bodySegment)].side) {
-    case Centre:
-        return bodySegment;
-    case Right:
-        return bodySegment + (bodySegment < kRightUpperLeg ? kArmLength : kLegLength);
-    case Left:
-        return bodySegment - (bodySegment < kRightUpperLeg ? kArmLength : kLegLength);
-    }
-    return bodySegment;
+    const int length = bodySegment < kRightUpperLeg ? kArmLength : kLegLength;
+    const Side side = kBody[static_cast<std::size_t>(bodySegment)].side;
+    return side == Centre ? bodySegment : bodySegment + (side == Right ? length : -length);
 }
 
 } // namespace posewire::model

@@ -9,11 +9,6 @@ namespace posewire::model {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-LengthUnit detectLengthUnit(double length) {
-    constexpr double kLongestInMetres = 5.0;
-    return std::abs(length) > kLongestInMetres ? LengthUnit::Centimetre : LengthUnit::Metre;
-}
-
 Vector3d zUpFromYUp(const Vector3d& yUp) {
     return {yUp.z(), yUp.x(), yUp.y()};
 }
@@ -64,28 +59,28 @@ Vector3d eulerFromQuaternion(const Quaterniond& orientation) {
     return {std::atan2(r(2, 1), r(2, 2)), std::asin(sine), std::atan2(r(1, 0), r(0, 0))};
 }
 
-SegmentPose poseFromEuler(const EulerItem& item, LengthUnit unit) {
+SegmentPose poseFromEuler(const wire::SegmentEuler& item, LengthUnit unit) {
     const Vector3d radians = toVector(item.rotation) * kRadiansPerDegree;
     return {pointFromYUp(item.position, unit),
             normalizedOrIdentity(zUpFromYUp(quaternionFromEuler(radians)))};
 }
 
-EulerItem eulerFromPose(const SegmentPose& pose, LengthUnit unit) {
+wire::SegmentEuler eulerFromPose(const SegmentPose& pose, LengthUnit unit) {
     const Vector3d radians = eulerFromQuaternion(yUpFromZUp(pose.orientation));
-    return {yUpFromPoint(pose.position, unit), toFloats(Vector3d(radians * kDegreesPerRadian))};
+    return {0, yUpFromPoint(pose.position, unit), toFloats(Vector3d(radians * kDegreesPerRadian))};
 }
 
-SegmentPose poseFromQuaternion(const QuaternionItem& item, LengthUnit unit) {
+SegmentPose poseFromQuaternion(const wire::SegmentQuaternion& item, LengthUnit unit) {
     return {toVector(item.position) * metresPer(unit), normalizedOrIdentity(toQuaternion(item.orientation))};
 }
 
-SegmentPose poseFromUnity(const QuaternionItem& item, LengthUnit unit) {
+SegmentPose poseFromUnity(const wire::SegmentQuaternion& item, LengthUnit unit) {
     return {zUpFromUnity(Vector3d(toVector(item.position) * metresPer(unit))),
             normalizedOrIdentity(zUpFromUnity(toQuaternion(item.orientation)))};
 }
 
-QuaternionItem unityFromPose(const SegmentPose& pose) {
-    return {toFloats(unityFromZUp(pose.position)), toFloats(unityFromZUp(pose.orientation))};
+wire::SegmentQuaternion unityFromPose(const SegmentPose& pose) {
+    return {0, toFloats(unityFromZUp(pose.position)), toFloats(unityFromZUp(pose.orientation))};
 }
 
 SegmentPose composed(const SegmentPose& parent, const SegmentPose& local) {
@@ -102,7 +97,7 @@ Vector3d pointFromYUp(const std::array<float, 3>& wire, LengthUnit unit) {
 }
 
 std::array<float, 3> yUpFromPoint(const Vector3d& point, LengthUnit unit) {
-    const double scale = unit == LengthUnit::Metre ? 1.0 : kCentimetresPerMetre;
+    const double scale = 1.0 / metresPer(unit);
     return toFloats(Vector3d(yUpFromZUp(point) * scale));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/model/body/length_unit.h"
+#include "core/wire/messages.h"
 
 #include <Eigen/Geometry>
 
@@ -27,7 +28,6 @@ struct SegmentPose {
 
 inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
 inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-inline constexpr double kCentimetresPerMetre = 100.0;
 inline constexpr double kGravity = 9.81; ///< m/s²
 
 // Y-up right-handed (types 01, 03, 04): a cyclic permutation, X_y = Y_z, Y_y = Z_z, Z_y = X_z.
@@ -47,24 +47,14 @@ Eigen::Quaterniond quaternionFromEuler(const Eigen::Vector3d& radians);
 /// The inverse: x and z in (-pi, pi], y in [-pi/2, pi/2]. At y = ±pi/2 x carries the whole turn and z is 0.
 Eigen::Vector3d eulerFromQuaternion(const Eigen::Quaterniond& orientation);
 
-/// One item of type 01 as sent: Y-up, wire unit, degrees.
-struct EulerItem {
-    std::array<float, 3> position{};
-    std::array<float, 3> rotation{};
-};
-SegmentPose poseFromEuler(const EulerItem& item, LengthUnit unit = LengthUnit::Centimetre);
-EulerItem eulerFromPose(const SegmentPose& pose, LengthUnit unit = LengthUnit::Centimetre);
-
-/// One item of type 02 or 05 as sent: metres, quaternion w x y z.
-struct QuaternionItem {
-    std::array<float, 3> position{};
-    std::array<float, 4> orientation{1.0F, 0.0F, 0.0F, 0.0F};
-};
+// Items of types 01, 02 and 05 as sent; those that are made have no ID.
+SegmentPose poseFromEuler(const wire::SegmentEuler& item, LengthUnit unit = LengthUnit::Centimetre);
+wire::SegmentEuler eulerFromPose(const SegmentPose& pose, LengthUnit unit = LengthUnit::Centimetre);
 /// A quaternion that cannot be normalized (zero, NaN) becomes the identity.
-SegmentPose poseFromQuaternion(const QuaternionItem& item, LengthUnit unit = LengthUnit::Metre);
+SegmentPose poseFromQuaternion(const wire::SegmentQuaternion& item, LengthUnit unit = LengthUnit::Metre);
 /// Type 05: the pelvis in the world, every other segment relative to its parent.
-SegmentPose poseFromUnity(const QuaternionItem& item, LengthUnit unit = LengthUnit::Metre);
-QuaternionItem unityFromPose(const SegmentPose& pose);
+SegmentPose poseFromUnity(const wire::SegmentQuaternion& item, LengthUnit unit = LengthUnit::Metre);
+wire::SegmentQuaternion unityFromPose(const SegmentPose& pose);
 
 /// `parent` o `local`, and back: a pose relative to the parent's frame.
 SegmentPose composed(const SegmentPose& parent, const SegmentPose& local);

@@ -6,6 +6,7 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -47,17 +48,8 @@ std::string declaredText(Revision revision) {
 } // namespace
 
 std::string_view revisionName(Revision revision) {
-    switch (revision) {
-    case Revision::Unknown:
-        return "not known yet";
-    case Revision::E:
-        return "E";
-    case Revision::JOrK:
-        return "J or K";
-    case Revision::N:
-        return "L to N";
-    }
-    return "";
+    constexpr std::array<std::string_view, 4> names{"not known yet", "E", "J or K", "L to N"};
+    return names[static_cast<std::size_t>(revision)];
 }
 
 std::string_view unitName(LengthUnit unit) {
@@ -84,10 +76,8 @@ void Detector::addHeader(const wire::Header& header) {
 }
 
 void Detector::conclude(Revision revision, std::string evidence) {
-    if (m_revision < revision) {
-        m_revision = revision;
-        m_revisionEvidence = std::move(evidence);
-    }
+    m_revision = revision;
+    m_revisionEvidence = std::move(evidence);
 }
 
 void Detector::noteHeaderForm(std::uint8_t type, HeaderForm form) {
@@ -123,18 +113,18 @@ void UnitFinder::add(double height, double reach) {
 }
 
 void Detector::addBody(const wire::Body& body) {
-    const auto add = [](UnitFinder& finder, const auto& segments, std::size_t vertical) {
-        if (!segments.empty()) {
-            finder.add(segments.front().position[vertical], reachOf(segments));
+    const auto add = [this](const auto& message) {
+        if constexpr (requires { message.segments.front().position; }) {
+            static const wire::TypeInfo& info = *wire::findType(message.kType);
+            const bool isYUp = info.frame == wire::Frame::YUp;
+            const bool isZUp = info.frame == wire::Frame::ZUp && info.isSampled;
+            if ((isYUp || isZUp) && !message.segments.empty()) {
+                UnitFinder& finder = isYUp ? m_yUp : m_zUp;
+                finder.add(message.segments.front().position[isYUp ? 1 : 2], reachOf(message.segments));
+            }
         }
     };
-    if (const auto* pose = std::get_if<wire::PoseQuaternion>(&body)) {
-        add(m_zUp, pose->segments, 2);
-    } else if (const auto* linear = std::get_if<wire::LinearKinematics>(&body)) {
-        add(m_zUp, linear->segments, 2);
-    } else if (const auto* euler = std::get_if<wire::PoseEuler>(&body)) {
-        add(m_yUp, euler->segments, 1);
-    }
+    std::visit(add, body);
 }
 
 std::optional<Contradiction> Detector::againstRevision(Revision declared) const {

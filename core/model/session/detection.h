@@ -72,7 +72,7 @@ private:
 class Detector {
 public:
     void addHeader(const wire::Header& header);
-    /// Types 01, 02 and 21 show the unit of the sender's positions; others nothing.
+    /// Types of which each segment has a place in the world show the unit of positions; others nothing.
     void addBody(const wire::Body& body);
 
     [[nodiscard]] Detection result() const {

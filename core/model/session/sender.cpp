@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/sender.h"
 
-#include "core/wire/messages.h"
+#include "core/wire/text.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <string_view>
 
 namespace posewire::model {
 
@@ -22,27 +22,19 @@ void Sender::takeForeign(wire::Bytes datagram) {
 }
 
 std::string Sender::foreignText() const {
-    constexpr std::string_view kDigits = "0123456789abcdef";
     std::string text;
-    for (const std::byte byte : foreignHead) {
-        text += text.empty() ? "" : " ";
-        text += kDigits[std::to_integer<unsigned>(byte) >> 4];
-        text += kDigits[std::to_integer<unsigned>(byte) & 0xf];
+    for (const std::byte& byte : foreignHead) {
+        text += (text.empty() ? "" : " ") + wire::hexadecimal({&byte, 1});
     }
     return text;
 }
 
 LengthUnit Sender::positionUnit(std::uint8_t type) const {
-    switch (type) {
-    case wire::PoseEuler::kType:
-    case wire::PointPositions::kType:
-    case wire::TagPositions::kType:
-        return detector.result().yUpUnit;
-    case wire::NullPose::kType:
+    if (!countsSamples(type)) {
         return LengthUnit::Metre;
-    default:
-        return positionUnit();
     }
+    const wire::TypeInfo* row = wire::findType(type);
+    return row != nullptr && row->frame == wire::Frame::YUp ? detector.result().yUpUnit : positionUnit();
 }
 
 } // namespace posewire::model

@@ -46,8 +46,8 @@ struct Sender {
     [[nodiscard]] LengthUnit positionUnit() const {
         return overrides.positionUnit.value_or(detector.result().positionUnit);
     }
-    /// Of any type. Those with Y up (01, 03, 04) have a unit of their own, usually centimetres, and a scale
-    /// message (13) is in metres by definition.
+    /// Of any type. Those with Y up have a unit of their own, usually centimetres, and what describes the
+    /// body (13) is in metres by definition.
     [[nodiscard]] LengthUnit positionUnit(std::uint8_t type) const;
     [[nodiscard]] std::vector<Contradiction> contradictions() const {
         return detector.contradictions(overrides);

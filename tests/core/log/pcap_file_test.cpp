@@ -130,12 +130,6 @@ TEST(PcapFile, KeepsWhatCameBeforeAFailureOfTheDevice) {
     }
 }
 
-TEST(PcapFile, IsToldByItsFirstFourBytesOnly) {
-    for (const char* text : {"", "MXT", "MXTP02", "\xa1\xb2\xc3\xd5", "\xa1\xb2\xcd\x34 another kind"}) {
-        EXPECT_EQ(fileFormat(textBytes(text)), FileFormat::Raw) << text;
-    }
-}
-
 /// Any packets: what goes in comes out, in order, with stamps.
 TEST(PcapFile, GivesBackGeneratedPackets) {
     std::mt19937 random(8);

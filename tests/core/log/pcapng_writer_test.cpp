@@ -2,7 +2,6 @@
 #include "core/log/pcapng_writer.h"
 
 #include "core/log/ip_packet.h"
-#include "core/log/pcapng_format.h"
 #include "core/wire/byte_order.h"
 #include "tests/core/log/recording_fixture.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/log/pcapng_format.h"
+#include "core/log/pcapng_writer.h"
 #include "core/log/recording.h"
 #include "core/wire/text.h"
 #include "tests/core/log/log_fixture.h"

@@ -46,10 +46,8 @@ TEST_P(Consistency, SendsTheSamePoseInTypes01And02) {
         const auto& euler = bodyOf<wire::PoseEuler>(datagrams);
         const auto& quaternion = bodyOf<wire::PoseQuaternion>(datagrams);
         for (std::size_t index = 0; index < 23; ++index) {
-            const auto a =
-                model::poseFromEuler({euler.segments[index].position, euler.segments[index].rotation});
-            const auto b = model::poseFromQuaternion(
-                {quaternion.segments[index].position, quaternion.segments[index].orientation});
+            const auto a = model::poseFromEuler(euler.segments[index]);
+            const auto b = model::poseFromQuaternion(quaternion.segments[index]);
             EXPECT_LT((a.position - b.position).cwiseAbs().maxCoeff(), 1e-6);
             EXPECT_LT(
                 (a.orientation.toRotationMatrix() - b.orientation.toRotationMatrix()).cwiseAbs().maxCoeff(),
@@ -68,12 +66,10 @@ TEST_P(Consistency, RebuildsType02FromType05) {
             EXPECT_EQ(unity.segments[place].id, place + 1);
             const auto index = static_cast<std::size_t>(model::unityOrder()[place]);
             const int parent = model::bodySegments()[index].parent;
-            const auto local =
-                model::poseFromUnity({unity.segments[place].position, unity.segments[place].orientation});
+            const auto local = model::poseFromUnity(unity.segments[place]);
             world[index] =
                 parent < 0 ? local : model::composed(world[static_cast<std::size_t>(parent)], local);
-            const auto sent = model::poseFromQuaternion(
-                {quaternion.segments[index].position, quaternion.segments[index].orientation});
+            const auto sent = model::poseFromQuaternion(quaternion.segments[index]);
             EXPECT_LT((world[index].position - sent.position).norm(), 3e-6);
             EXPECT_GT(std::abs(world[index].orientation.dot(sent.orientation)), 1.0 - 1e-9);
         }

@@ -76,8 +76,8 @@ TEST(Captures, AgreeBetweenEulerAnglesAndQuaternions) {
     ASSERT_EQ(euler.segments.size(), pose.segments.size());
     for (std::size_t i = 0; i < pose.segments.size(); ++i) {
         EXPECT_EQ(euler.segments[i].id, pose.segments[i].id);
-        const auto a = model::poseFromEuler({euler.segments[i].position, euler.segments[i].rotation});
-        const auto b = model::poseFromQuaternion({pose.segments[i].position, pose.segments[i].orientation});
+        const auto a = model::poseFromEuler(euler.segments[i]);
+        const auto b = model::poseFromQuaternion(pose.segments[i]);
         EXPECT_LE((a.position - b.position).cwiseAbs().maxCoeff(), 1e-6) << "segment " << i + 1;
         const Eigen::Matrix3d difference =
             a.orientation.toRotationMatrix() - b.orientation.toRotationMatrix();

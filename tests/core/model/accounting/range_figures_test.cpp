@@ -112,12 +112,12 @@ TEST(RangeFigures, TellBurstsAndMalformedOfTheRangeAlone) {
 TEST(RangeFigures, TellTheSkewOfTheRangeAlone) {
     const StreamAccounting stream = troubledMinute();
     const RangeFigures before = figuresOf(stream, TimeRange{kStart, kStart + 29s});
-    EXPECT_NEAR(before.clock.skewPpm, 0, 1);
+    EXPECT_NEAR(before.clock.skew.skewPpm, 0, 1);
     const RangeFigures after = figuresOf(stream, TimeRange{kStart + 31s, kStart + 60s});
-    EXPECT_NEAR(after.clock.skewPpm, 500, 25);
-    EXPECT_NEAR(after.clock.driftMs, 0.5 * 29, 1);
+    EXPECT_NEAR(after.clock.skew.skewPpm, 500, 25);
+    EXPECT_NEAR(after.clock.skew.driftMs, 0.5 * 29, 1);
     const RangeFigures moment = figuresOf(stream, TimeRange{kStart + 31s, kStart + 32s});
-    EXPECT_EQ(moment.clock.skewPpm, 0) << "too short to tell";
+    EXPECT_EQ(moment.clock.skew.skewPpm, 0) << "too short to tell";
 }
 
 TEST(RangeFigures, KeepTheRateOfAStreamThatBeganOrEndedWithinTheRange) {

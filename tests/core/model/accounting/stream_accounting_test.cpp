@@ -498,8 +498,8 @@ TEST_F(Accounting, MeasuresJitterAndSkewOfTheSendersClock) {
     const ClockFigures clock = stream.clock();
     EXPECT_TRUE(clock.isFromTimeCode);
     EXPECT_NEAR(clock.jitterMs, 2, 0.1);
-    EXPECT_NEAR(clock.skewPpm, 200, 10);
-    EXPECT_NEAR(clock.driftMs, 12, 1);
+    EXPECT_NEAR(clock.skew.skewPpm, 200, 10);
+    EXPECT_NEAR(clock.skew.driftMs, 12, 1);
 }
 
 TEST_F(Accounting, TakesTheCounterForAClockWhereThereIsNoTimeCode) {

@@ -119,7 +119,7 @@ TEST(SpaceMatrices, SendAndReadBackAPoseOfEveryType) {
 }
 
 TEST(SpaceMatrices, ReadEulerItemsInTheUnitOfTheirSender) {
-    const EulerItem item{{10.0F, 105.0F, -20.0F}, {}}; // Y-up: x is the y of Z-up
+    const wire::SegmentEuler item{1, {10.0F, 105.0F, -20.0F}, {}}; // Y-up: x is the y of Z-up
     const SegmentPose centimetres = poseFromEuler(item, LengthUnit::Centimetre);
     EXPECT_LT((centimetres.position - Vector3d(-0.2, 0.1, 1.05)).norm(), 1e-6);
     const SegmentPose metres = poseFromEuler(item, LengthUnit::Metre);

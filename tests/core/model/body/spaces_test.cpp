@@ -85,9 +85,9 @@ TEST(Spaces, TakesCentimetresWhereAPelvisWouldBeMetresHigh) {
 
 TEST(Spaces, ReadsTheRecordedPelvisFromBothTypes) {
     const SegmentPose euler =
-        poseFromEuler({{41.07322F, 104.83481F, 6.89773F}, {-8.50283F, -14.79928F, 0.56439F}});
+        poseFromEuler({1, {41.07322F, 104.83481F, 6.89773F}, {-8.50283F, -14.79928F, 0.56439F}});
     const SegmentPose quaternion =
-        poseFromQuaternion({{0.06898F, 0.41073F, 1.04835F}, {0.98898F, -0.00468F, -0.07288F, -0.12880F}});
+        poseFromQuaternion({1, {0.06898F, 0.41073F, 1.04835F}, {0.98898F, -0.00468F, -0.07288F, -0.12880F}});
     EXPECT_TRUE(euler.position.isApprox(quaternion.position, 1e-5));
     EXPECT_TRUE(
         euler.orientation.toRotationMatrix().isApprox(quaternion.orientation.toRotationMatrix(), 1e-4));
@@ -96,11 +96,11 @@ TEST(Spaces, ReadsTheRecordedPelvisFromBothTypes) {
 TEST(Spaces, TurnsUnusableQuaternionsIntoTheIdentity) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     EXPECT_TRUE(
-        poseFromQuaternion({{}, {0.0F, 0.0F, 0.0F, 0.0F}}).orientation.isApprox(Quaterniond::Identity()));
+        poseFromQuaternion({1, {}, {0.0F, 0.0F, 0.0F, 0.0F}}).orientation.isApprox(Quaterniond::Identity()));
     EXPECT_TRUE(
-        poseFromQuaternion({{}, {nan, 0.0F, 0.0F, 1.0F}}).orientation.isApprox(Quaterniond::Identity()));
+        poseFromQuaternion({1, {}, {nan, 0.0F, 0.0F, 1.0F}}).orientation.isApprox(Quaterniond::Identity()));
     EXPECT_TRUE(
-        poseFromQuaternion({{}, {2.0F, 0.0F, 0.0F, 0.0F}}).orientation.isApprox(Quaterniond::Identity()));
+        poseFromQuaternion({1, {}, {2.0F, 0.0F, 0.0F, 0.0F}}).orientation.isApprox(Quaterniond::Identity()));
 }
 
 TEST(Spaces, ComposesAndTakesApartPoses) {

@@ -105,10 +105,10 @@ TEST_F(SessionTest, PosesOfTypes01And02And05AgreeInTheOneFrame) {
     unity.segments.resize(kBodySegmentCount);
     for (std::size_t i = 0; i < quaternion.segments.size(); ++i) {
         const auto& item = quaternion.segments[i];
-        const SegmentPose pose = poseFromQuaternion({item.position, item.orientation});
-        const EulerItem e = eulerFromPose(pose);
+        const SegmentPose pose = poseFromQuaternion(item);
+        const wire::SegmentEuler e = eulerFromPose(pose);
         euler.segments.push_back({item.id, e.position, e.rotation});
-        const QuaternionItem u = unityFromPose(pose);
+        const wire::SegmentQuaternion u = unityFromPose(pose);
         const auto place = static_cast<std::size_t>(unityPlaces()[i]);
         unity.segments[place] = {static_cast<std::uint32_t>(place + 1), u.position, u.orientation};
     }
