@@ -107,8 +107,9 @@ struct FieldMatch {
 /// (and no tag) if nothing has that name.
 [[nodiscard]] FieldMatch findFields(std::string_view name);
 
-/// The names of a vector's components: "x", "y" …; empty beyond its end.
-[[nodiscard]] std::string_view componentName(std::size_t components, std::size_t component);
+/// The names of a vector's components, as the tables of core/wire have them: "x", "y" …; those of a matrix,
+/// which are no words there, are its places from "1" to "9". Empty for other numbers.
+[[nodiscard]] std::span<const std::string_view> componentNames(std::size_t components);
 
 /// The name to use for `field`: with its qualifier only if another field shares the name.
 [[nodiscard]] std::string askedName(const FieldInfo& field);
@@ -125,6 +126,8 @@ struct KindWords {
 };
 [[nodiscard]] KindWords kindWords(Kind kind);
 
+/// "x, y, z": the components of a vector.
+[[nodiscard]] std::string componentsText(const FieldInfo& field);
 /// "02 20": the message types that have the field.
 [[nodiscard]] std::string typesText(const FieldInfo& field);
 

@@ -166,13 +166,10 @@ FilterError complaint(const FieldMatch& match, const WrittenCondition& written) 
     const FieldInfo& field = *match.fields.front();
     const std::string name(written.fieldName);
     if (field.kind == Kind::Vector && !match.hasComponent) {
-        std::string names;
-        for (std::size_t i = 0; i < field.components; ++i) {
-            names += (i == 0 ? "" : ", ") + std::string(componentName(field.components, i));
-        }
+        const std::string last(componentNames(field.components).back());
         return {written.field.offset, written.field.length,
-                "`" + name + "` has the components " + names + ": write `" + name + "." +
-                    std::string(componentName(field.components, field.components - 1)) + "`."};
+                "`" + name + "` has the components " + componentsText(field) + ": write `" + name + "." +
+                    last + "`."};
     }
     const Token& op = written.operatorToken;
     if (needsText(written.op)) {

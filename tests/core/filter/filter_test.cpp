@@ -97,6 +97,24 @@ TEST(Filter, ComparesAnyItemOfAList) {
     EXPECT_TRUE(matches(packet, "orientation.w == 1 && !(orientation.x == 1)"));
 }
 
+TEST(Filter, KnowsTheComponentsOfAQuaternionByTheTablesNamesAndByLetters) {
+    wire::Datagram datagram;
+    datagram.body = wire::PoseQuaternion{{{1, {}, {0.5F, -0.5F, 0.5F, 0.25F}}}};
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    const Case packet(datagram);
+    for (const char* text :
+         {"orientation.re == 0.5 && orientation.i == -0.5 && orientation.j == 0.5 && orientation.k == 0.25",
+          "orientation.w == 0.5 && orientation.x == -0.5 && orientation.y == 0.5 && orientation.z == 0.25",
+          "segments.orientation.re == 0.5 && segments.orientation.w == 0.5"}) {
+        EXPECT_TRUE(matches(packet, text)) << text;
+    }
+    EXPECT_FALSE(matches(packet, "orientation.i == 0.5"));
+    EXPECT_FALSE(Filter::compile("position.re == 0"));
+    EXPECT_FALSE(Filter::compile("position.w == 0"));
+    EXPECT_FALSE(Filter::compile("orientation.1 == 0"));
+    EXPECT_FALSE(Filter::compile("sample.re == 0"));
+}
+
 TEST(Filter, SpeaksOfOneItemWithinOneGroup) {
     const Case packet = pose({{0, 0, 1}, {0, 0, 3}});
     EXPECT_TRUE(matches(packet, "segment == L5 && position.z > 2"));
