@@ -89,7 +89,7 @@ const wire::FieldRow* leftOut(std::span<const wire::FieldRow> standard,
 }
 
 /// True for a body that lacks what the short form leaves out, itself or in its first item.
-bool isShort(const Json& body, const wire::MessageRow& message) {
+bool isShort(const Json& body, const wire::TypeInfo& message) {
     const auto standard = message.fields();
     const auto other = message.forms.back().fields;
     if (const wire::FieldRow* field = leftOut(standard, other)) {
@@ -129,7 +129,7 @@ template <class T>
 bool readMessage(const Json& body, std::optional<std::uint64_t> payload, T& message, FieldFault& fault) {
     wire::Form form = wire::Form::Standard;
     if constexpr (wire::kHasForm<T, wire::Form::Short>) {
-        form = isShort(body, *wire::findMessage(T::kType)) ? wire::Form::Short : form;
+        form = isShort(body, *wire::findType(T::kType)) ? wire::Form::Short : form;
     }
     wire::setForm(message, form);
     const bool isRead =
