@@ -13,9 +13,6 @@ namespace {
 constexpr log::Duration kDoubtfulFrom = std::chrono::milliseconds(25);
 constexpr log::Duration kDoubtfulTo = std::chrono::milliseconds(100);
 constexpr log::Duration kClearlyLate = std::chrono::milliseconds(110);
-/// A jump back by more than the first or forward by more than the second may be a restart (RFC 3550 A.1).
-constexpr std::int64_t kMostBack = 100;
-constexpr std::int64_t kMostForward = 3000;
 /// A stream advances by this many samples between two that are far behind.
 constexpr std::uint64_t kAdvancesBetween = 4;
 constexpr std::uint64_t kSettled = 16;
@@ -24,10 +21,6 @@ constexpr std::size_t kRecent = 4096;
 constexpr auto kIsLater = [](const auto& a, const auto& b) {
     return std::pair(a.sending.due, a.order) > std::pair(b.sending.due, b.order);
 };
-
-std::int64_t distance(std::uint32_t to, std::uint32_t from) {
-    return static_cast<std::int32_t>(to - from);
-}
 
 } // namespace
 

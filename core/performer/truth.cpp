@@ -9,20 +9,8 @@
 namespace posewire::performer {
 namespace {
 
-/// A jump of the counter further back or forward is a restart (RFC 3550 A.1).
-constexpr std::int64_t kMostBack = 100;
-constexpr std::int64_t kMostForward = 3000;
-
 /// Parts of a message that is sent again and again come within this time.
 constexpr log::Duration kTogether = std::chrono::milliseconds(250);
-
-std::int64_t distance(std::uint32_t to, std::uint32_t from) {
-    return static_cast<std::int32_t>(to - from);
-}
-
-bool isRestart(std::int64_t moved) {
-    return moved < -kMostBack || moved > kMostForward;
-}
 
 } // namespace
 
@@ -105,7 +93,8 @@ StreamTruth::Run* StreamTruth::runOf(const wire::Header& header, const Origin& o
     }
     const std::int64_t moved =
         m_runs.empty() ? 0 : distance(sample, static_cast<std::uint32_t>(m_runs.back().last));
-    if (isRestart(moved) && (!isKnown || moved > 0)) {
+    const bool isRestart = moved < -kMostBack || moved > kMostForward;
+    if (isRestart && (!isKnown || moved > 0)) {
         ++m_figures.restarts;
         return &beginRun(header, origin);
     }
