@@ -73,11 +73,7 @@ bool readError(Subject& subject, std::size_t index, Value& value) {
 
 bool readNotice(Subject& subject, std::size_t index, Value& value) {
     const wire::Datagram* datagram = subject.candidate.datagram;
-    if (datagram == nullptr) {
-        value.text = {};
-        return index == 0 && subject.candidate.digest.hasNotices;
-    }
-    if (index >= datagram->notices.size()) {
+    if (datagram == nullptr || index >= datagram->notices.size()) {
         return false;
     }
     value.text = wire::noticeName(datagram->notices[index].code);
@@ -177,8 +173,7 @@ const wire::Header* Subject::header() {
     if (candidate.datagram != nullptr) {
         return &candidate.datagram->header;
     }
-    const PacketKind kind = candidate.digest.kind;
-    if (!m_isHeaderRead && (kind == PacketKind::Datagram || kind == PacketKind::Malformed)) {
+    if (!m_isHeaderRead && candidate.digest.kind == PacketKind::Malformed) {
         if (const auto header = wire::decodeHeader(candidate.packet.bytes)) {
             m_header = *header;
         }
@@ -198,7 +193,6 @@ std::vector<FieldInfo> computedFields() {
         info.readPacket = row.read;
         info.words = wordsOf(row);
         info.isTrueByValue = row.isTrueByValue;
-        info.isDecoded = row.read == &readNotice;
         fields.push_back(std::move(info));
     }
     return fields;

@@ -28,7 +28,7 @@ struct Value {
     std::string_view text;
 };
 
-/// A packet while it is looked at; the header of one that was not decoded is read at most once.
+/// A packet while it is looked at; the header of one that cannot be decoded is read at most once.
 struct Subject {
     explicit Subject(const Candidate& from) : candidate(from) {}
 
@@ -68,7 +68,6 @@ struct FieldInfo {
     std::size_t components = 1;
     bool isFloat = false;                ///< constants are rounded to 32 bits to compare with it
     bool isTrueByValue = false;          ///< alone it means "not zero" rather than "present"
-    bool isDecoded = false;              ///< a packet field that needs the decoded datagram
     std::string unit;                    ///< where types differ: "cm (01), m (02)"
     std::string text;                    ///< the same
     std::vector<std::string_view> words; ///< its possible values, if they are words

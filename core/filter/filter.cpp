@@ -138,10 +138,6 @@ bool Filter::matches(const Candidate& candidate) const {
     return m_program->holds(subject, m_program->root);
 }
 
-bool Filter::needsDatagram() const {
-    return m_program != nullptr && m_program->needsDatagram;
-}
-
 bool Program::holds(Subject& subject, std::uint32_t index) const {
     const Node& node = nodes[index];
     const auto isTrue = [&](std::uint32_t child) { return holds(subject, child); };

@@ -265,7 +265,7 @@ void setPlaces(const FieldMatch& match, const WrittenCondition& written, const F
 
 tl::expected<Condition, FilterError> tagCondition(const FieldMatch& match, const WrittenCondition& written) {
     Condition condition;
-    condition.isTag = condition.needsDatagram = true;
+    condition.isTag = true;
     condition.tag = match.tag;
     condition.test.op = written.op;
     if (ordersOnly(written.op)) {
@@ -314,7 +314,6 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
     Condition condition;
     condition.test.op = written.op;
     condition.readPacket = field.readPacket;
-    condition.needsDatagram = field.isOfItems() || (field.isDecoded && written.op != Operator::IsThere);
     if (field.isOfItems()) {
         setPlaces(match, written, field, condition);
         condition.firstComponent = match.hasComponent ? match.component : 0;

@@ -67,24 +67,14 @@ TEST(Filter, ReadsTheFieldsOfTheHeader) {
     EXPECT_TRUE(matches(packet, "timeCode == " + std::to_string(header.timeCode)));
 }
 
-TEST(Filter, ReadsTheHeaderOfAPacketThatWasNotDecoded) {
-    Case packet = golden("02_quaternion_counted");
-    const auto sample = packet.datagram.header.sampleCounter;
-    Candidate candidate = packet.candidate();
-    candidate.datagram = nullptr;
-    const auto filter = Filter::compile("sample == " + std::to_string(sample) + " && type == 2");
-    EXPECT_FALSE(filter->needsDatagram());
-    EXPECT_TRUE(filter->matches(candidate));
-}
-
-TEST(Filter, KnowsWhetherItNeedsThePayload) {
-    for (const char* text :
-         {"type == 2", "duplicate", "notice", "source contains \"1\"", "error == badMagic"}) {
-        EXPECT_FALSE(Filter::compile(text)->needsDatagram()) << text;
-    }
-    for (const char* text : {"position.z > 1", "tag", "notice == notFinite", "sample == 1 || segments"}) {
-        EXPECT_TRUE(Filter::compile(text)->needsDatagram()) << text;
-    }
+TEST(Filter, ReadsTheHeaderOfAPacketThatCannotBeDecoded) {
+    auto bytes = posewire::test::golden("02_quaternion_counted").bytes;
+    const std::string sample = std::to_string(wire::decodeHeader(bytes)->sampleCounter);
+    bytes.resize(bytes.size() - 1);
+    const Case packet(bytes);
+    ASSERT_TRUE(packet.fault);
+    EXPECT_TRUE(matches(packet, "malformed && sample == " + sample + " && type == 2 && datagram == 0"));
+    EXPECT_FALSE(matches(packet, "notice"));
 }
 
 TEST(Filter, ComparesAnyItemOfAList) {
