@@ -101,13 +101,7 @@ Delivery::Judgement Delivery::begin(Front& front, const Sending& sending, std::u
     if (sample != sending.origin.sample) {
         return Judgement::GiveUp;
     }
-    const bool isNative = front.isNative;
-    front = {};
-    front.hasBegun = true;
-    front.isNative = isNative;
-    front.epoch = sending.origin.epoch;
-    front.regime = sending.origin.regime;
-    front.first = sample;
+    front = {front.isNative, sending.origin.epoch, sending.origin.regime, sample};
     advance(front, sample, sending.due);
     return Judgement::Deliver;
 }
@@ -124,7 +118,7 @@ Delivery::Judgement Delivery::judge(Sending& sending, bool isAtEnd) {
     const bool wasNative = std::exchange(front.isNative, front.isNative || isNative);
     const std::int64_t moved = distance(sample, front.highest);
     const bool isRestart = origin.epoch > front.epoch && (moved < -kMostBack || moved > kMostForward);
-    if (!front.hasBegun || isRestart || (isNative && !wasNative)) {
+    if (front.advances == 0 || isRestart || (isNative && !wasNative)) {
         return begin(front, sending, sample);
     }
     if (!front.isNative) {

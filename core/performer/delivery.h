@@ -63,15 +63,14 @@ private:
     };
     /// How far a stream has come, as a receiver sees it.
     struct Front {
-        bool hasBegun = false;
         bool isNative = false; ///< false while all of it is damaged datagrams of other streams
         std::uint32_t epoch = 0;
         std::uint32_t regime = 0;
         std::uint32_t first = 0;
         std::uint32_t highest = 0;
-        std::uint64_t advances = 0;
+        std::uint64_t advances = 0; ///< 0: it has not begun
         std::uint64_t advancesAtFar = 0;
-        std::deque<Advance> recent;
+        std::deque<Advance> recent{};
     };
     enum class Judgement : std::uint8_t { Deliver, Wait, GiveUp };
 

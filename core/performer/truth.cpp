@@ -15,24 +15,18 @@ constexpr log::Duration kTogether = std::chrono::milliseconds(250);
 } // namespace
 
 bool StreamTruth::Parts::isComplete() const {
-    for (unsigned index = 0; last >= 0 && index <= static_cast<unsigned>(last); ++index) {
-        if ((arrived[index / 64] >> (index % 64) & 1U) == 0) {
-            return false;
-        }
-    }
-    return last >= 0;
+    const auto upToLast = arrived << (arrived.size() - 1 - static_cast<std::size_t>(std::max(last, 0)));
+    return last >= 0 && std::cmp_equal(upToLast.count(), last + 1);
 }
 
 bool StreamTruth::Parts::add(const wire::Header& header) {
-    const unsigned index = header.datagramIndex();
-    std::uint64_t& word = arrived[index / 64];
-    const std::uint64_t bit = std::uint64_t{1} << (index % 64);
-    if ((word & bit) != 0) {
+    const std::uint8_t index = header.datagramIndex();
+    if (arrived.test(index)) {
         return false;
     }
-    word |= bit;
+    arrived.set(index);
     if (header.isLast()) {
-        last = static_cast<std::int16_t>(index);
+        last = index;
     }
     return true;
 }
@@ -67,7 +61,7 @@ void StreamTruth::addMessage(const wire::Header& header, log::Duration time) {
     if (isOpen && time - m_messageAt <= kTogether && m_message.add(header)) {
         return;
     }
-    m_incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
+    m_figures.incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
     m_message = {};
     m_messageAt = time;
     m_message.add(header);
@@ -143,7 +137,7 @@ void StreamTruth::addTo(Run& run, const wire::Header& header, log::Duration time
 
 SentFigures StreamTruth::figures() const {
     SentFigures figures = m_figures;
-    figures.incomplete = m_incomplete + (m_message.isTouched() && !m_message.isComplete() ? 1 : 0);
+    figures.incomplete += m_message.isTouched() && !m_message.isComplete() ? 1 : 0;
     for (const Run& run : m_runs) {
         std::uint64_t touched = 0;
         for (const Parts& parts : run.samples) {
