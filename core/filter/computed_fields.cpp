@@ -173,12 +173,10 @@ const wire::Header* Subject::header() {
     if (candidate.datagram != nullptr) {
         return &candidate.datagram->header;
     }
-    if (!m_isHeaderRead && candidate.digest.kind == PacketKind::Malformed) {
-        if (const auto header = wire::decodeHeader(candidate.packet.bytes)) {
-            m_header = *header;
-        }
+    if (!m_header && candidate.digest.kind == PacketKind::Malformed) {
+        const auto header = wire::decodeHeader(candidate.packet.bytes);
+        m_header = header ? std::optional(*header) : std::nullopt;
     }
-    m_isHeaderRead = true;
     return m_header ? &*m_header : nullptr;
 }
 

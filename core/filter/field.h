@@ -38,7 +38,6 @@ struct Subject {
     const Candidate& candidate;
 
 private:
-    bool m_isHeaderRead = false;
     std::optional<wire::Header> m_header;
 };
 
