@@ -104,13 +104,11 @@ public:
         beginGroup(about, offset);
         m_tree.nodes.back().index = static_cast<std::uint32_t>(count);
     }
-    void endList(std::size_t offset) { endGroup(offset); }
     void beginItem(std::size_t index, std::size_t offset) {
         beginGroup({std::to_string(index + 1), Unit::None, "", m_section, m_about}, offset);
         m_tree.nodes.back().kind = NodeKind::Item;
         m_tree.nodes.back().index = static_cast<std::uint32_t>(index);
     }
-    void endItem(std::size_t offset) { endGroup(offset); }
     void rest(std::size_t offset, std::size_t size) {
         FieldNode& node = add({"bytes", Unit::None, "no field has these bytes", ""}, offset, size);
         node.value = std::to_string(size);
