@@ -147,18 +147,15 @@ Character::Character(const CharacterSettings& settings, double rateHz)
     m_moment.segments.resize(static_cast<std::size_t>(settings.layout.count()));
 }
 
-void Character::fill(Poses& poses, double seconds) const {
-    const BodyPose body = m_motion->sample(seconds);
-    poses.assign(body.begin(), body.end());
-    const double curl = 0.35 + 0.2 * std::sin(2.0 * std::numbers::pi * 0.3 * seconds + m_settings.id);
-    appendExtraSegments(m_settings.layout, m_body, curl, poses);
-}
-
 const Character::Poses& Character::sampleAt(std::int64_t key) {
     Sample& sample = m_samples[static_cast<std::size_t>((key + 4) & 3)];
     if (sample.poses.empty() || sample.key != key) {
+        const double seconds = static_cast<double>(key) / (m_rateHz * m_stepsPerFrame);
+        const BodyPose body = m_motion->sample(seconds);
+        const double curl = 0.35 + 0.2 * std::sin(2.0 * std::numbers::pi * 0.3 * seconds + m_settings.id);
         sample.key = key;
-        fill(sample.poses, static_cast<double>(key) / (m_rateHz * m_stepsPerFrame));
+        sample.poses.assign(body.begin(), body.end());
+        appendExtraSegments(m_settings.layout, m_body, curl, sample.poses);
     }
     return sample.poses;
 }

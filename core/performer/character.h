@@ -72,7 +72,6 @@ private:
         Poses poses; ///< none at first
     };
 
-    void fill(Poses& poses, double seconds) const;
     const Poses& sampleAt(std::int64_t key);
 
     CharacterSettings m_settings;

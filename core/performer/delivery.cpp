@@ -54,13 +54,6 @@ void Delivery::notePassed(log::Duration time) {
     std::erase_if(m_counted, [](const Counted& counted) { return counted.sending.bytes.empty(); });
 }
 
-Delivery::Entry Delivery::pop() {
-    std::ranges::pop_heap(m_heap, kIsLater);
-    Entry entry = std::move(m_heap.back());
-    m_heap.pop_back();
-    return entry;
-}
-
 void Delivery::advance(Front& front, std::uint32_t sample, log::Duration time) {
     front.highest = sample;
     ++front.advances;
@@ -155,7 +148,9 @@ Delivery::Judgement Delivery::judgeNative(Sending& sending, Front& front, std::u
 
 void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& into) {
     while (!m_heap.empty() && (!until || m_heap.front().sending.due < *until)) {
-        Entry entry = pop();
+        std::ranges::pop_heap(m_heap, kIsLater);
+        Entry entry = std::move(m_heap.back());
+        m_heap.pop_back();
         switch (judge(entry.sending, !until.has_value())) {
         case Judgement::Deliver:
             m_latest = entry.sending.due;

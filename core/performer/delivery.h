@@ -83,7 +83,6 @@ private:
                                         bool isAtEnd) const;
     static void advance(Front& front, std::uint32_t sample, log::Duration time);
     void take(std::optional<log::Duration> until, std::vector<Sending>& into);
-    Entry pop();
 
     log::Duration m_period;
     QuietTimes m_quiet;
