@@ -53,8 +53,8 @@ inline constexpr std::size_t kLists = 3;
 
 /// Reads a field of the item at `item`; `component` counts the numbers of a vector.
 using ReadItem = Value (*)(const wire::Datagram& datagram, std::size_t item, std::size_t component);
-/// Reads the value at `index` of a packet's field; false where there is none. Most have one value at most.
-using ReadPacket = bool (*)(Subject& subject, std::size_t index, Value& value);
+/// Reads the value at `index` of a packet's field, where there is one. Most have one value at most.
+using ReadPacket = std::optional<Value> (*)(Subject& subject, std::size_t index);
 
 /// Where a field of the payload is read: null where there is none.
 using Places = std::array<std::array<ReadItem, kLists>, kShapes>;

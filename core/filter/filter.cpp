@@ -73,9 +73,9 @@ bool Condition::holds(Subject& subject) const {
     if (isTag) {
         return holdsForTags(subject.candidate.datagram);
     }
-    Value value;
-    for (std::size_t index = 0; readPacket(subject, index, value); ++index) {
-        if (test.holds(value)) {
+    std::optional<Value> value;
+    for (std::size_t index = 0; (value = readPacket(subject, index)); ++index) {
+        if (test.holds(*value)) {
             return true;
         }
     }

@@ -75,13 +75,9 @@ Value readNamedSegment(const Datagram& datagram, std::size_t item, std::size_t) 
     return {namedSegment<ItemForm>(datagram.header, bodyOf<T>(datagram).*List, item), {}};
 }
 template <auto Member>
-bool readHeader(Subject& subject, std::size_t index, Value& value) {
-    const wire::Header* header = subject.header();
-    if (header == nullptr || index != 0) {
-        return false;
-    }
-    value = valueOf(header->*Member, 0);
-    return true;
+std::optional<Value> readHeader(Subject& subject, std::size_t index) {
+    const wire::Header* header = index == 0 ? subject.header() : nullptr;
+    return header != nullptr ? std::optional(valueOf(header->*Member, 0)) : std::nullopt;
 }
 
 using CountItems = std::size_t (*)(const Datagram&);
