@@ -108,17 +108,14 @@ using ScaleInformation = SegmentMessage<10, SegmentScale>;
 using LinearKinematics = SegmentMessage<21, LinearSegment>;
 using AngularKinematics = SegmentMessage<22, AngularSegment>;
 
-struct PointPositions {
-    static constexpr std::uint8_t kType = 3;
+template <std::uint8_t Type>
+struct PointMessage {
+    static constexpr std::uint8_t kType = Type;
     std::vector<Point> points;
-    friend bool operator==(const PointPositions&, const PointPositions&) = default;
+    friend bool operator==(const PointMessage&, const PointMessage&) = default;
 };
-
-struct TagPositions {
-    static constexpr std::uint8_t kType = 4;
-    std::vector<Point> points;
-    friend bool operator==(const TagPositions&, const TagPositions&) = default;
-};
+using PointPositions = PointMessage<3>;
+using TagPositions = PointMessage<4>;
 
 struct PropInformation {
     static constexpr std::uint8_t kType = 11;
