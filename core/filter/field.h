@@ -65,15 +65,15 @@ struct FieldInfo {
     std::string qualifier; ///< the list it is in, "header", or empty
     Kind kind = Kind::Number;
     std::size_t components = 1;
-    bool isFloat = false;                ///< constants are rounded to 32 bits to compare with it
-    bool isTrueByValue = false;          ///< alone it means "not zero" rather than "present"
-    std::string unit;                    ///< where types differ: "cm (01), m (02)"
-    std::string text;                    ///< the same
-    std::vector<std::string_view> words; ///< its possible values, if they are words
-    std::vector<std::uint8_t> types;     ///< message types that have it, in order; empty for packet fields
-    ReadPacket readPacket = nullptr;     ///< of a packet field
-    Places places{};                     ///< of a field of the payload
-    std::optional<Places> named{};       ///< for segments: reads the number that a name means
+    bool isFloat = false;                  ///< constants are rounded to 32 bits to compare with it
+    bool isTrueByValue = false;            ///< alone it means "not zero" rather than "present"
+    std::string unit{};                    ///< where types differ: "cm (01), m (02)"
+    std::string text{};                    ///< the same
+    std::vector<std::string_view> words{}; ///< its possible values, if they are words
+    std::vector<std::uint8_t> types{};     ///< message types that have it, in order; empty for packet fields
+    ReadPacket readPacket = nullptr;       ///< of a packet field
+    Places places{};                       ///< of a field of the payload
+    std::optional<Places> named{};         ///< for segments: reads the number that a name means
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr; }
 };

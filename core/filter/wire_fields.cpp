@@ -117,13 +117,9 @@ void add(Found& found, const Spot& spot, const wire::About& about, const Reading
     };
     auto draft = std::ranges::find_if(found.drafts, isSame, &Draft::field);
     if (draft == found.drafts.end()) {
-        FieldInfo info;
-        info.name = about.name;
-        info.qualifier = spot.qualifier;
-        info.kind = reading.kind;
-        info.components = reading.components;
-        info.isFloat = reading.isFloat;
-        draft = found.drafts.insert(draft, {std::move(info)});
+        FieldInfo field{std::string(about.name), std::string(spot.qualifier), reading.kind,
+                        reading.components, reading.isFloat};
+        draft = found.drafts.insert(draft, Draft{std::move(field)});
     }
     FieldInfo& field = draft->field;
     if (field.types.empty() || field.types.back() != spot.type) {

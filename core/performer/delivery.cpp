@@ -166,10 +166,6 @@ void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& in
     }
 }
 
-void Delivery::takeUntil(log::Duration until, std::vector<Sending>& into) {
-    take(until, into);
-}
-
 void Delivery::takeRest(std::vector<Sending>& into) {
     for (Counted& counted : m_counted) {
         counted.sending.due = std::max(counted.sending.due, m_latest);

@@ -41,8 +41,9 @@ public:
     /// with.
     void keepStragglers(bool keeps) { m_keepsStragglers = keeps; }
 
-    /// All that are due before this time, in order, appended. Nothing due earlier may be pushed afterwards.
-    void takeUntil(log::Duration until, std::vector<Sending>& into);
+    /// All that are due before this time (without one, all there are), in order, appended. Nothing due
+    /// earlier may be pushed afterwards.
+    void take(std::optional<log::Duration> until, std::vector<Sending>& into);
     /// The rest: the streams have ended.
     void takeRest(std::vector<Sending>& into);
 
@@ -82,7 +83,6 @@ private:
     [[nodiscard]] Judgement judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
                                         bool isAtEnd) const;
     static void advance(Front& front, std::uint32_t sample, log::Duration time);
-    void take(std::optional<log::Duration> until, std::vector<Sending>& into);
 
     log::Duration m_period;
     QuietTimes m_quiet;

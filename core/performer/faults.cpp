@@ -192,13 +192,11 @@ void Faults::restartAt(log::Duration due, Sending& sending) {
 }
 
 void Faults::offer(std::vector<std::byte> datagram, log::Duration due) {
-    m_delivery.takeUntil(due, m_ready);
+    m_delivery.take(due, m_ready);
     const auto header = wire::decodeHeader(datagram);
     Sending sending{std::move(datagram), due, {}, header.has_value()};
     if (header) {
-        sending.origin.sample = header->sampleCounter;
-        sending.origin.type = header->type();
-        sending.origin.character = header->character;
+        sending.origin = {header->sampleCounter, header->type(), header->character};
     }
     if (header && wire::isSampled(header->type())) {
         if (isReduced(header->sampleCounter, due)) {
@@ -315,7 +313,7 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
 void Faults::takeUntil(log::Duration until, std::vector<Sending>& into) {
     std::ranges::move(m_ready, std::back_inserter(into));
     m_ready.clear();
-    m_delivery.takeUntil(until, into);
+    m_delivery.take(until, into);
 }
 
 void Faults::takeRest(std::vector<Sending>& into) {

@@ -104,13 +104,9 @@ StreamTruth::Run* StreamTruth::runOf(const wire::Header& header, const Origin& o
 }
 
 StreamTruth::Run& StreamTruth::beginRun(const wire::Header& header, const Origin& origin) {
-    Run& run = m_runs.emplace_back();
-    run.epoch = origin.epoch;
-    run.regime = origin.regime;
-    run.step = origin.step;
-    run.restarts = m_figures.restarts;
-    run.first = run.last = run.base = header.sampleCounter;
-    return run;
+    const std::int64_t first = header.sampleCounter;
+    m_runs.push_back({origin.epoch, origin.regime, origin.step, m_figures.restarts, first, first, first});
+    return m_runs.back();
 }
 
 void StreamTruth::addTo(Run& run, const wire::Header& header, log::Duration time) {

@@ -67,8 +67,8 @@ private:
         std::int64_t first = 0;     ///< counters without wrap-around
         std::int64_t last = 0;
         std::int64_t base = 0; ///< of samples.front()
-        std::deque<Parts> samples;
-        std::vector<std::pair<std::int64_t, log::Duration>> advances; ///< counter, time
+        std::deque<Parts> samples{};
+        std::vector<std::pair<std::int64_t, log::Duration>> advances{}; ///< counter, time
 
         [[nodiscard]] std::int64_t place(std::uint32_t sample) const;
         Parts& at(std::int64_t position);
