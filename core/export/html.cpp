@@ -130,20 +130,17 @@ double placeOf(std::size_t step, std::size_t count) {
                        static_cast<double>(std::max<std::size_t>(count, 1));
 }
 
-std::string curve(const SvgPlot::Series& series, const Scale& scale) {
+/// A line through the values that are there; `at` gives the place or places of one.
+template <class At>
+std::string curve(const std::vector<double>& values, std::size_t colour, At at) {
     std::string path;
     bool isPenDown = false;
-    for (std::size_t i = 0; i < series.values.size(); ++i) {
-        const bool isThere = std::isfinite(series.values[i]);
-        if (isThere) {
-            // Each value stands for its whole step.
-            path += (isPenDown ? "L" : "M") + number(placeOf(i, series.values.size())) + ' ' +
-                    number(scale.y(series.values[i])) + 'L' + number(placeOf(i + 1, series.values.size())) +
-                    ' ' + number(scale.y(series.values[i]));
-        }
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const bool isThere = std::isfinite(values[i]);
+        path += isThere ? (isPenDown ? "L" : "M") + at(i) : "";
         isPenDown = isThere;
     }
-    return "<path class=\"curve " + colourClass(series.colour) + "\" d=\"" + path + "\"/>";
+    return "<path class=\"curve " + colourClass(colour) + "\" d=\"" + path + "\"/>";
 }
 
 std::string bars(const SvgPlot& plot, const Scale& scale) {
@@ -209,8 +206,8 @@ std::string fixed(double number, int places) {
     return error == std::errc() ? std::string(digits.data(), end) : "–";
 }
 
-void HtmlTable::add(const std::vector<std::string>& cells, std::string_view kind) {
-    m_rows += kind.empty() ? std::string("<tr>") : "<tr class=\"" + escaped(kind) + "\">";
+void HtmlTable::add(const std::vector<std::string>& cells) {
+    m_rows += "<tr>";
     for (std::size_t i = 0; i < cells.size() && i < m_columns.size(); ++i) {
         m_rows += m_columns[i].isNumber ? "<td class=\"n\">" : "<td>";
         m_rows += cells[i] + "</td>";
@@ -238,34 +235,32 @@ std::string svgPlot(const SvgPlot& plot) {
         svg += bars(plot, scale);
     } else {
         for (const SvgPlot::Series& series : plot.series) {
-            svg += curve(series, scale);
+            // Each value stands for its whole step.
+            svg += curve(series.values, series.colour, [&](std::size_t i) {
+                const std::string y = ' ' + number(scale.y(series.values[i]));
+                const std::size_t count = series.values.size();
+                return number(placeOf(i, count)) + y + 'L' + number(placeOf(i + 1, count)) + y;
+            });
         }
     }
     return svg + "</svg></figure>\n";
 }
 
-std::string svgSparkline(const std::vector<double>& values, std::size_t colour, double top) {
+std::string svgSparkline(const std::vector<double>& values, std::size_t colour) {
     constexpr double width = 90;
     constexpr double height = 18;
-    double most = top;
+    double most = 0;
     for (const double value : values) {
         most = std::isfinite(value) ? std::max(most, value) : most;
     }
     const double perValue = most > 0 ? (height - 2) / most : 0;
-    std::string path;
-    bool isPenDown = false;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const bool isThere = std::isfinite(values[i]);
-        if (isThere) {
-            const double x = values.size() > 1
-                                 ? width * static_cast<double>(i) / static_cast<double>(values.size() - 1)
-                                 : 0;
-            path += (isPenDown ? "L" : "M") + number(x) + ' ' + number(height - 1 - values[i] * perValue);
-        }
-        isPenDown = isThere;
-    }
-    return "<svg class=\"spark\" viewBox=\"0 0 90 18\" aria-hidden=\"true\"><path class=\"curve " +
-           colourClass(colour) + "\" d=\"" + path + "\"/></svg>";
+    const auto at = [&](std::size_t i) {
+        const double x =
+            values.size() > 1 ? width * static_cast<double>(i) / static_cast<double>(values.size() - 1) : 0;
+        return number(x) + ' ' + number(height - 1 - values[i] * perValue);
+    };
+    return "<svg class=\"spark\" viewBox=\"0 0 90 18\" aria-hidden=\"true\">" + curve(values, colour, at) +
+           "</svg>";
 }
 
 } // namespace posewire::exporting

@@ -30,8 +30,8 @@ public:
 
     explicit HtmlTable(std::vector<Column> columns) : m_columns(std::move(columns)) {}
 
-    /// One cell for each column. `kind` is a class for the row, "" for none.
-    void add(const std::vector<std::string>& cells, std::string_view kind = {});
+    /// A row with one cell for each column.
+    void add(const std::vector<std::string>& cells);
     [[nodiscard]] bool isEmpty() const { return m_rows.empty(); }
     [[nodiscard]] std::string html() const;
 
@@ -60,7 +60,7 @@ struct SvgPlot {
 /// With axes, legend and a text for who cannot see it.
 [[nodiscard]] std::string svgPlot(const SvgPlot& plot);
 
-/// Only the curve, in the height of a line. `top`: the value at its upper edge, 0 for its own greatest.
-[[nodiscard]] std::string svgSparkline(const std::vector<double>& values, std::size_t colour, double top = 0);
+/// Only the curve, in the height of a line; its greatest value is at the upper edge.
+[[nodiscard]] std::string svgSparkline(const std::vector<double>& values, std::size_t colour);
 
 } // namespace posewire::exporting

@@ -7,8 +7,76 @@
 #include "core/wire/text.h"
 #include "core/wire/walk.h"
 
+#include <cmath>
+
 namespace posewire::exporting {
 namespace {
+
+Json jsonOf(float value) {
+    if (std::isnan(value)) {
+        return "NaN";
+    }
+    if (std::isinf(value)) {
+        return value > 0 ? "Infinity" : "-Infinity";
+    }
+    return value;
+}
+
+template <std::size_t N>
+Json jsonOf(const std::array<float, N>& values) {
+    Json list = Json::array();
+    for (const float value : values) {
+        list.push_back(jsonOf(value));
+    }
+    return list;
+}
+
+/// Text that is not UTF-8 cannot be in JSON: each byte out of place becomes a question mark.
+Json jsonOf(std::string text) {
+    for (std::size_t bad = 0; (bad = wire::firstInvalidUtf8(text)) != text.size();) {
+        text[bad] = '?';
+    }
+    return text;
+}
+
+template <std::size_t N>
+Json jsonOf(const std::array<char, N>& characters) {
+    return jsonOf(std::string(characters.data(), N));
+}
+
+Json jsonOf(std::integral auto value) {
+    return value;
+}
+
+Json tagsOf(const std::string& text) {
+    Json tags = Json::array();
+    for (const wire::Tag& tag : wire::parseTags(text).tags) {
+        tags.push_back(Json::array({std::string(tag.name), std::string(tag.value)}));
+    }
+    return tags;
+}
+
+/// A message's or item's fields as an object.
+template <class T, wire::Form F>
+Json objectOf(const T& value) {
+    Json object = Json::object();
+    wire::forEachField<T, F>([&]<class FieldType>(const FieldType& field) {
+        const auto& member = value.*FieldType::kMember;
+        const std::string key(field.about.name);
+        if constexpr (requires { FieldType::kItemForm; }) {
+            Json& list = object[key] = Json::array();
+            for (const auto& item : member) {
+                list.push_back(objectOf<typename FieldType::Item, FieldType::kItemForm>(item));
+            }
+        } else if constexpr (requires { FieldType::kKind; }) {
+            const bool isTags = field.about.unit == wire::Unit::TagLines;
+            object[isTags ? kTagsKey : key] = isTags ? tagsOf(member) : jsonOf(member);
+        } else if (!isLength(field.about)) {
+            object[key] = jsonOf(member);
+        }
+    });
+    return object;
+}
 
 /// Adds the header's fields as far as they could be read.
 class HeaderToJson : public wire::SilentVisitor {

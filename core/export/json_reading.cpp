@@ -8,11 +8,166 @@
 #include "core/wire/write.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 namespace posewire::exporting {
 namespace {
 
 using Kind = JsonFault::Kind;
+
+/// Collects where reading went wrong, from the inside out.
+struct FieldFault {
+    std::string path;
+    std::string text;
+
+    bool fail(std::string what) {
+        text = std::move(what);
+        return false;
+    }
+    bool under(std::string_view key) {
+        path = std::string(key) + (path.empty() || path.front() == '[' ? "" : ".") + path;
+        return false;
+    }
+};
+
+bool readJson(const Json& json, float& value, FieldFault& fault) {
+    if (json.is_number()) {
+        value = json.get<float>();
+        return true;
+    }
+    const auto* text = json.get_ptr<const std::string*>();
+    if (text != nullptr && *text == "NaN") {
+        value = std::numeric_limits<float>::quiet_NaN();
+    } else if (text != nullptr && *text == "Infinity") {
+        value = std::numeric_limits<float>::infinity();
+    } else if (text != nullptr && *text == "-Infinity") {
+        value = -std::numeric_limits<float>::infinity();
+    } else {
+        return fault.fail("needs a number, or \"NaN\", \"Infinity\" or \"-Infinity\"");
+    }
+    return true;
+}
+
+template <std::size_t N>
+bool readJson(const Json& json, std::array<float, N>& values, FieldFault& fault) {
+    if (!json.is_array() || json.size() != N) {
+        return fault.fail("needs " + std::to_string(N) + " numbers in brackets");
+    }
+    for (std::size_t i = 0; i < N; ++i) {
+        if (!readJson(json[i], values[i], fault)) {
+            return fault.under("[" + std::to_string(i) + "]");
+        }
+    }
+    return true;
+}
+
+bool readJson(const Json& json, std::string& text, FieldFault& fault) {
+    const auto* string = json.get_ptr<const std::string*>();
+    if (string == nullptr) {
+        return fault.fail("needs a string");
+    }
+    text = *string;
+    return true;
+}
+
+template <std::size_t N>
+bool readJson(const Json& json, std::array<char, N>& characters, FieldFault& fault) {
+    const auto* string = json.get_ptr<const std::string*>();
+    if (string == nullptr || string->size() != N) {
+        return fault.fail("needs a string of " + std::to_string(N) + " characters");
+    }
+    std::copy(string->begin(), string->end(), characters.begin());
+    return true;
+}
+
+template <std::integral Integer>
+bool readJson(const Json& json, Integer& value, FieldFault& fault) {
+    using Limits = std::numeric_limits<Integer>;
+    const bool isNumber = json.is_number_integer();
+    const bool isBelow = isNumber && !json.is_number_unsigned();
+    const bool fits = isBelow ? std::cmp_greater_equal(json.get<std::int64_t>(), Limits::min())
+                              : isNumber && std::cmp_less_equal(json.get<std::uint64_t>(), Limits::max());
+    if (!fits) {
+        return fault.fail("needs a whole number from " + std::to_string(Limits::min()) + " to " +
+                          std::to_string(Limits::max()));
+    }
+    value = json.get<Integer>();
+    return true;
+}
+
+bool readJson(const Json& json, bool& value, FieldFault& fault) {
+    if (!json.is_boolean()) {
+        return fault.fail("needs true or false");
+    }
+    value = json.get<bool>();
+    return true;
+}
+
+/// Reads a member of an object that must be there.
+template <class Value>
+bool readMember(const Json& object, std::string_view key, Value& value, FieldFault& fault) {
+    const auto found = object.find(std::string(key));
+    const bool isThere = found != object.end();
+    const bool isRead = isThere ? readJson(*found, value, fault) : fault.fail("is missing");
+    return isRead || fault.under(key);
+}
+
+template <class T, wire::Form F>
+bool readObject(const Json& json, T& value, FieldFault& fault);
+
+template <wire::Form F, class Item>
+bool readList(const Json& object, std::string_view key, std::vector<Item>& items, FieldFault& fault) {
+    const auto list = object.find(std::string(key));
+    if (list == object.end() || !list->is_array()) {
+        return fault.fail("needs a list") || fault.under(key);
+    }
+    items.resize(list->size());
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        if (!readObject<Item, F>((*list)[i], items[i], fault)) {
+            return fault.under("[" + std::to_string(i) + "]") || fault.under(key);
+        }
+    }
+    return true;
+}
+
+bool readTags(const Json& object, std::string& into, FieldFault& fault) {
+    const auto tags = object.find(kTagsKey);
+    bool isList = tags != object.end() && tags->is_array();
+    std::string text;
+    for (std::size_t i = 0; isList && i < tags->size(); ++i) {
+        const Json& tag = (*tags)[i];
+        isList = tag.is_array() && tag.size() == 2 && tag[0].is_string() && tag[1].is_string();
+        if (isList) {
+            text += tag[0].get<std::string>() + ':' + tag[1].get<std::string>() + '\n';
+        }
+    }
+    into = std::move(text);
+    return isList || fault.fail("needs a list of [name, value] pairs") || fault.under(kTagsKey);
+}
+
+/// Reads a message's or item's fields from an object.
+template <class T, wire::Form F>
+bool readObject(const Json& json, T& value, FieldFault& fault) {
+    if (!json.is_object()) {
+        return fault.fail("needs an object in braces");
+    }
+    const auto read = [&]<class FieldType>(const FieldType& field) {
+        auto& member = value.*FieldType::kMember;
+        if constexpr (requires { FieldType::kItemForm; }) {
+            return readList<FieldType::kItemForm>(json, field.about.name, member, fault);
+        } else if constexpr (requires { FieldType::kKind; }) {
+            return field.about.unit == wire::Unit::TagLines
+                       ? readTags(json, member, fault)
+                       : readMember(json, field.about.name, member, fault);
+        } else {
+            return isLength(field.about) || readMember(json, field.about.name, member, fault);
+        }
+    };
+    bool isRead = true;
+    wire::forEachField<T, F>([&](const auto& field) { isRead = isRead && read(field); });
+    return isRead;
+}
 
 /// Reads a member of an object that keeps its value where it is not there.
 template <class Value>
@@ -89,7 +244,7 @@ const wire::FieldRow* leftOut(std::span<const wire::FieldRow> standard,
 }
 
 /// True for a body that lacks what the short form leaves out, itself or in its first item.
-bool isShort(const Json& body, const wire::MessageRow& message) {
+bool isShort(const Json& body, const wire::TypeInfo& message) {
     const auto standard = message.fields();
     const auto other = message.forms.back().fields;
     if (const wire::FieldRow* field = leftOut(standard, other)) {
@@ -129,7 +284,7 @@ template <class T>
 bool readMessage(const Json& body, std::optional<std::uint64_t> payload, T& message, FieldFault& fault) {
     wire::Form form = wire::Form::Standard;
     if constexpr (wire::kHasForm<T, wire::Form::Short>) {
-        form = isShort(body, *wire::findMessage(T::kType)) ? wire::Form::Short : form;
+        form = isShort(body, *wire::findType(T::kType)) ? wire::Form::Short : form;
     }
     wire::setForm(message, form);
     const bool isRead =

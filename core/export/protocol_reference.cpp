@@ -63,9 +63,9 @@ std::string itemSize(const wire::FormRow& form) {
     return size;
 }
 
-std::string itemSizes(const wire::MessageRow& message) {
+std::string itemSizes(const wire::TypeInfo& info) {
     std::string sizes;
-    for (const wire::FormRow& form : message.forms) {
+    for (const wire::FormRow& form : info.forms) {
         const std::string size = itemSize(form);
         sizes += (sizes.empty() || size.empty() ? "" : " or ") + size;
     }
@@ -81,10 +81,9 @@ std::string row(std::initializer_list<std::string_view> cells) {
     return text + "|\n";
 }
 
-std::string typeRow(const wire::MessageRow& message) {
-    const wire::TypeInfo& info = *wire::findType(message.type);
-    const std::string title = wire::typeTitle(message.type);
-    return row({"[" + title + "](#" + headingAnchor(title) + ")", itemSizes(message),
+std::string typeRow(const wire::TypeInfo& info) {
+    const std::string title = wire::typeTitle(info.type);
+    return row({"[" + title + "](#" + headingAnchor(title) + ")", itemSizes(info),
                 info.frame == wire::Frame::None ? "–" : wire::frameName(info.frame),
                 info.isSampled ? "yes" : "no", info.revisions, info.section});
 }
@@ -97,8 +96,8 @@ void writeOverview(std::string& out) {
            "others are sent now and then.\n\n"
            "| type | bytes an item | frame | sampled | revisions | section |\n"
            "|---|---|---|---|---|---|\n";
-    for (const wire::MessageRow& message : wire::messageRows()) {
-        out += typeRow(message);
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        out += typeRow(info);
     }
     out +=
         "\n## Transport\n\nUDP, or TCP since revision H; port 9763 unless set otherwise. Over UDP the sender "
@@ -169,17 +168,16 @@ void writeForm(std::string& out, const wire::FormRow& form) {
     }
 }
 
-void writeMessage(std::string& out, const wire::MessageRow& message) {
-    const wire::TypeInfo& info = *wire::findType(message.type);
+void writeMessage(std::string& out, const wire::TypeInfo& info) {
     const std::string_view frame = wire::frameName(info.frame);
-    out.append("\n## ").append(wire::typeTitle(message.type)).append("\n\n");
+    out.append("\n## ").append(wire::typeTitle(info.type)).append("\n\n");
     out.append("Section ").append(info.section).append(", revisions ").append(info.revisions);
     out.append(frame.empty() ? "" : ", ").append(frame).append(".");
     out.append(info.remark.empty() ? "" : " ").append(info.remark).append("\n\n");
-    for (const wire::FormRow& form : message.forms) {
+    for (const wire::FormRow& form : info.forms) {
         writeForm(out, form);
     }
-    if (std::ranges::any_of(message.fields(),
+    if (std::ranges::any_of(info.fields(),
                             [](const FieldRow& row) { return row.about.unit == wire::Unit::TagLines; })) {
         out += "\nKnown tags:";
         for (const std::string_view tag : wire::knownTags()) {
@@ -283,8 +281,8 @@ std::string protocolReference() {
         "0x80. The sample counter may skip: a stream sent at half the rate of capture counts 2, 4, 6. "
         "Quaternions "
         "are re, i, j, k of unit length; q and −q are the same orientation, and senders may use either.\n";
-    for (const wire::MessageRow& message : wire::messageRows()) {
-        writeMessage(out, message);
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        writeMessage(out, info);
     }
     writeSegments(out);
     writeFingers(out);

@@ -2,15 +2,125 @@
 #include "core/export/report_sections.h"
 
 #include "core/export/html.h"
+#include "core/export/session_reading.h"
 #include "core/model/accounting/attribution.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace posewire::exporting {
 namespace {
+
+constexpr std::int64_t kMostSteps = 120;
+constexpr std::size_t kMostCurves = 8;
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<const model::Stream*> sampledStreams(const model::SessionView& session,
+                                                 const model::CharacterKey& key) {
+    std::vector<const model::Stream*> streams = streamsByType(session, key);
+    std::erase_if(streams, [](const auto* stream) { return !model::countsSamples(stream->key.type); });
+    return streams;
+}
+
+/// Seconds of all steps.
+double plottedS(const ReportSteps& steps) {
+    return log::secondsOf(steps.width) * static_cast<double>(steps.count);
+}
+
+log::Stamp startOf(const ReportSteps& steps, std::size_t step) {
+    return steps.first + static_cast<std::int64_t>(step) * steps.width;
+}
+
+/// Samples a second of a step. A step that the report covers by a sliver says nothing of a rate.
+double rateOf(std::uint64_t samples, const ReportSteps& steps, std::size_t step) {
+    const log::Stamp from = std::max(startOf(steps, step), steps.from);
+    const log::Stamp to = std::min(startOf(steps, step + 1), steps.to);
+    const double seconds = log::secondsOf(std::max(to - from, log::Duration::zero()));
+    const bool isCovered = seconds > 0.3e-9 * static_cast<double>(steps.width.count());
+    return isCovered ? static_cast<double>(samples) / seconds : kNothing;
+}
+
+/// Of some streams in each step; NaN where nothing was expected.
+struct Series {
+    std::vector<double> rate;   ///< samples a second, of the fastest
+    std::vector<double> loss;   ///< percent of all
+    std::vector<double> jitter; ///< milliseconds, of the worst
+};
+
+Series seriesOf(std::span<const model::Stream* const> streams, const ReportSteps& steps) {
+    Series series;
+    for (std::size_t step = 0; step < steps.count; ++step) {
+        model::StreamCounts sum;
+        std::uint64_t most = 0;
+        double jitterMs = kNothing;
+        for (const model::Stream* stream : streams) {
+            const auto& accounting = stream->accounting;
+            const auto counts = accounting.countsBetween(startOf(steps, step), startOf(steps, step + 1));
+            sum += counts;
+            most = std::max(most, counts.samples);
+            if (counts.samples != 0) {
+                jitterMs = std::fmax(jitterMs, accounting.jitterMsAt(startOf(steps, step + 1)));
+            }
+        }
+        series.rate.push_back(rateOf(most, steps, step));
+        series.loss.push_back(sum.expected() == 0 ? kNothing : 100 * sum.lossRatio());
+        series.jitter.push_back(jitterMs);
+    }
+    return series;
+}
+
+/// Rate, loss and jitter over time; a curve for each character, of its fastest, all and its worst stream.
+std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportSteps& steps) {
+    const double durationS = plottedS(steps);
+    std::vector<SvgPlot> plots{
+        {"Samples a second, of the fastest stream", SvgPlot::Form::Curves, durationS, {}, 1},
+        {"Lost samples, percent of those expected", SvgPlot::Form::Curves, durationS, {}, 1},
+        {"Jitter, milliseconds, of the worst stream", SvgPlot::Form::Curves, durationS, {}, 0.1}};
+    for (const model::Character& character : session.characters()) {
+        const std::size_t colour = plots[0].series.size();
+        const auto streams = sampledStreams(session, character.key);
+        if (colour == kMostCurves || streams.empty()) {
+            continue;
+        }
+        Series series = seriesOf(streams, steps);
+        const std::string name = session.displayName(character.key);
+        plots[0].series.push_back({name, colour, std::move(series.rate)});
+        plots[1].series.push_back({name, colour, std::move(series.loss)});
+        plots[2].series.push_back({name, colour, std::move(series.jitter)});
+    }
+    return plots;
+}
+
+/// The gaps with losses that end within the report, in the order of the session.
+std::vector<const model::Gap*> gapsIn(const model::SessionView& session, const ReportSteps& steps) {
+    std::vector<const model::Gap*> gaps;
+    for (const model::Gap& gap : session.gaps()) {
+        if (gap.lost != 0 && gap.toStamp >= steps.from && gap.toStamp <= steps.to) {
+            gaps.push_back(&gap);
+        }
+    }
+    return gaps;
+}
+
+/// Samples lost over time, in a colour for each cause.
+SvgPlot causePlot(const model::SessionView& session, const ReportSteps& steps) {
+    // Three colours and a grey: unknown is no culprit.
+    constexpr std::array<std::size_t, model::kLossCauses> kColours{1, 0, 3, 6};
+    SvgPlot plot{"Samples lost, by cause", SvgPlot::Form::StackedBars, plottedS(steps), {}, 1};
+    for (std::size_t cause = 0; cause < model::kLossCauses; ++cause) {
+        plot.series.push_back({std::string(model::nameOf(static_cast<model::LossCause>(cause))),
+                               kColours[cause], std::vector<double>(steps.count)});
+    }
+    for (const model::Gap* gap : gapsIn(session, steps)) {
+        const std::int64_t step = (gap->toStamp - steps.first) / steps.width;
+        auto& values = plot.series[static_cast<std::size_t>(gap->cause)].values;
+        values[std::min(static_cast<std::size_t>(step), values.size() - 1)] += gap->lost;
+    }
+    return plot;
+}
 
 // More of them nobody reads.
 constexpr std::size_t kMostEvents = 300;
@@ -109,10 +219,11 @@ void addCells(std::vector<std::string>& cells, const model::StreamFigures& figur
 std::vector<std::string> deliveryCells(const model::StreamFigures& figures, const model::Stream& stream,
                                        const ReportSteps& steps) {
     const bool isSampled = figures.isSampled();
+    const Series series = isSampled ? seriesOf(std::array{&stream}, steps) : Series();
     std::vector<std::string> cells{escaped(wire::typeTitle(stream.key.type)),
-                                   isSampled ? svgSparkline(rateSeries(stream, steps), 0) : ""};
+                                   isSampled ? svgSparkline(series.rate, 0) : ""};
     addCells(cells, figures, kRate);
-    cells.push_back(isSampled && figures[Missing] > 0 ? svgSparkline(lossSeries(stream, steps), 1) : "");
+    cells.push_back(isSampled && figures[Missing] > 0 ? svgSparkline(series.loss, 1) : "");
     addCells(cells, figures, kOrder);
     return cells;
 }
@@ -127,6 +238,29 @@ std::vector<std::string> timingCells(const model::StreamFigures& figures) {
 
 } // namespace
 
+ReportSteps stepsOf(const model::SessionView& session, const std::optional<model::TimeRange>& range) {
+    const model::TimeRange part = range.value_or(model::kAllTime);
+    ReportSteps steps;
+    log::Stamp first = log::Stamp::max();
+    log::Stamp last = log::Stamp::min();
+    log::Duration resolution(1);
+    for (const model::Stream& stream : session.streams()) {
+        first = std::min(first, stream.accounting.firstStamp());
+        last = std::max(last, stream.accounting.lastStamp());
+        resolution = std::max(resolution, stream.accounting.resolution());
+    }
+    steps.from = std::max(first, part.from);
+    steps.to = std::min(last, part.to);
+    if (first > last || steps.from > steps.to) {
+        return {};
+    }
+    const log::Duration least = (steps.to - steps.from) / kMostSteps + log::Duration(1);
+    steps.width = (least + resolution - log::Duration(1)) / resolution * resolution;
+    steps.first = steps.from - steps.from.time_since_epoch() % steps.width;
+    steps.count = static_cast<std::size_t>((steps.to - steps.first) / steps.width + 1);
+    return steps;
+}
+
 std::string_view severityName(model::EventSeverity severity) {
     constexpr std::array<std::string_view, 3> names{"good", "warning", "error"};
     return names[static_cast<std::size_t>(severity)];
@@ -135,6 +269,17 @@ std::string_view severityName(model::EventSeverity severity) {
 std::string_view severityMark(model::EventSeverity severity) {
     constexpr std::array<std::string_view, 3> marks{"●", "▲", "■"};
     return marks[static_cast<std::size_t>(severity)];
+}
+
+std::string plotSection(const model::SessionView& session, const ReportSteps& steps) {
+    if (steps.count < 2) {
+        return {};
+    }
+    std::string html = "<h2>Over time</h2>\n<div class=\"plots\">\n";
+    for (const SvgPlot& plot : plotsOf(session, steps)) {
+        html += svgPlot(plot);
+    }
+    return html + svgPlot(causePlot(session, steps)) + "</div>\n";
 }
 
 std::string streamTable(const model::SessionView& session, const model::CharacterKey& key,

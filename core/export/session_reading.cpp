@@ -60,11 +60,9 @@ std::string figureText(const model::StreamFigures& figures, model::Figure figure
         return std::to_string(figures.count(figure));
     case model::FigureForm::Share:
         return fixed(100 * figures.orZero(figure), decimals);
-    case model::FigureForm::Number:
-    case model::FigureForm::Signed:
-        break;
+    default:
+        return fixed(figures.orZero(figure), decimals);
     }
-    return fixed(figures.orZero(figure), decimals);
 }
 
 bool hasSentMxtp(const model::Sender& sender) {

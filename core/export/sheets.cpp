@@ -150,9 +150,8 @@ void addPose(const model::NullPose& pose, JsonValue& object) {
     object["partsExpected"] = pose.partsExpected;
     std::uint32_t id = 0;
     object["segments"] = listOf(pose.segments, [&id](const auto& segment) {
-        return JsonValue{{"id", ++id},
-                         {"name", segment.name},
-                         {"position", vectorOf(model::toFloats(segment.position))}};
+        return JsonValue{
+            {"id", ++id}, {"name", segment.name}, {"position", vectorOf(model::toFloats(segment.position))}};
     });
     object["points"] = listOf(pose.points, [](const auto& point) {
         return JsonValue{{"segment", point.segment},
@@ -161,14 +160,6 @@ void addPose(const model::NullPose& pose, JsonValue& object) {
                          {"flags", point.flags},
                          {"position", vectorOf(model::toFloats(point.position))}};
     });
-}
-
-JsonValue objectOf(const wire::SegmentScale& segment) {
-    return {{"id", segment.id}, {"offset", vectorOf(segment.offset)}, {"matrix", vectorOf(segment.matrix)}};
-}
-
-JsonValue objectOf(const wire::Prop& prop) {
-    return {{"id", prop.id}, {"name", prop.name}};
 }
 
 } // namespace
@@ -239,12 +230,17 @@ std::string nullPoseJson(const NullPoseSheet& sheet) {
     if (sheet.pose != nullptr) {
         addPose(*sheet.pose, object);
     }
-    const auto toObject = [](const auto& item) { return objectOf(item); };
     if (sheet.scale != nullptr) {
-        object["scale"] = listOf(sheet.scale->segments, toObject);
+        object["scale"] = listOf(sheet.scale->segments, [](const wire::SegmentScale& segment) {
+            return JsonValue{{"id", segment.id},
+                             {"offset", vectorOf(segment.offset)},
+                             {"matrix", vectorOf(segment.matrix)}};
+        });
     }
     if (sheet.props != nullptr) {
-        object["props"] = listOf(sheet.props->props, toObject);
+        object["props"] = listOf(sheet.props->props, [](const wire::Prop& prop) {
+            return JsonValue{{"id", prop.id}, {"name", prop.name}};
+        });
     }
     return object.text(2) + "\n";
 }

@@ -3,6 +3,7 @@
 
 #include "core/export/html.h"
 #include "core/export/report_sections.h"
+#include "core/export/session_reading.h"
 
 #include <algorithm>
 #include <chrono>
@@ -237,17 +238,6 @@ std::string verdictList(const std::vector<Finding>& findings) {
                 escaped(finding.text) + "</span></li>\n";
     }
     return html + "</ul>\n";
-}
-
-std::string plotSection(const model::SessionView& session, const ReportSteps& steps) {
-    if (steps.count < 2) {
-        return {};
-    }
-    std::string html = "<h2>Over time</h2>\n<div class=\"plots\">\n";
-    for (const SvgPlot& plot : plotsOf(session, steps)) {
-        html += svgPlot(plot);
-    }
-    return html + svgPlot(causePlot(session, steps)) + "</div>\n";
 }
 
 std::string senderSection(const model::SessionView& session, const std::vector<model::StreamFigures>& figures,

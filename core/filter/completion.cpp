@@ -108,8 +108,8 @@ void offerFields(Collector& into) {
         const std::string base = wire::lowered(name);
         if (field.kind == Kind::Vector &&
             (into.written() == base || into.written().starts_with(base + '.'))) {
-            for (std::size_t i = 0; i < field.components; ++i) {
-                into.offer(name + '.' + std::string(componentName(field.components, i)), aboutField(field));
+            for (const std::string_view component : componentNames(field.components)) {
+                into.offer(name + '.' + std::string(component), aboutField(field));
             }
         }
     }
@@ -189,16 +189,15 @@ std::string compared(std::string_view field, const std::string& constant) {
 /// Each component of a vector, as the field tree writes it: "1  2  3".
 std::string vectorExpression(std::string_view name, const FieldInfo& field, std::string_view value) {
     std::string all;
-    for (std::size_t i = 0; i < field.components; ++i) {
-        const std::size_t start = std::min(value.find_first_not_of(' '), value.size());
-        value.remove_prefix(start);
+    for (const std::string_view component : componentNames(field.components)) {
+        value.remove_prefix(std::min(value.find_first_not_of(' '), value.size()));
         const std::string number = numeral(value.substr(0, value.find(' ')));
         value.remove_prefix(std::min(value.find(' '), value.size()));
         if (number.empty()) {
             return {};
         }
-        all.append(i == 0 ? "" : " && ").append(name).append(".");
-        all.append(componentName(field.components, i)).append(" == ").append(number);
+        all.append(all.empty() ? "" : " && ").append(name).append(".");
+        all.append(component).append(" == ").append(number);
     }
     return all;
 }

@@ -8,80 +8,54 @@ namespace {
 
 using model::PacketKind;
 
+using Read = std::optional<Value>;
+
+Value number(auto from) {
+    return {static_cast<double>(from), {}};
+}
+
 /// A field that every packet has, one value each.
-template <auto Read>
-bool always(Subject& subject, std::size_t index, Value& value) {
-    value.number = static_cast<double>(Read(subject.candidate));
-    return index == 0;
+template <auto Get>
+Read always(Subject& subject, std::size_t index) {
+    return index == 0 ? Read(number(Get(subject.candidate))) : std::nullopt;
 }
 
-template <auto Read>
-bool fromHeader(Subject& subject, std::size_t index, Value& value) {
-    const wire::Header* header = subject.header();
-    if (header == nullptr || index != 0) {
-        return false;
-    }
-    value.number = static_cast<double>(Read(*header));
-    return true;
-}
-
-bool readDelta(Subject& subject, std::size_t index, Value& value) {
-    value.number = static_cast<double>(subject.candidate.digest.deltaS);
-    return index == 0 && value.number >= 0;
-}
-
-bool readType(Subject& subject, std::size_t index, Value& value) {
-    const model::PacketDigest& digest = subject.candidate.digest;
-    value.number = digest.type;
-    const bool isKnown = digest.kind == PacketKind::Datagram ||
-                         (digest.kind == PacketKind::Malformed && subject.header() != nullptr);
-    return index == 0 && isKnown;
+template <auto Get>
+Read fromHeader(Subject& subject, std::size_t index) {
+    const wire::Header* header = index == 0 ? subject.header() : nullptr;
+    return header != nullptr ? Read(number(Get(*header))) : std::nullopt;
 }
 
 /// What is known of where the packet came from.
-template <auto Read>
-bool fromSender(Subject& subject, std::size_t index, Value& value) {
+template <auto Get>
+Read fromSender(Subject& subject, std::size_t index) {
     const log::SenderInfo* sender = subject.candidate.sender;
-    if (sender == nullptr || index != 0) {
-        return false;
-    }
-    value = Read(*sender);
-    return true;
+    return sender != nullptr && index == 0 ? Get(*sender) : std::nullopt;
 }
 
-bool readPort(Subject& subject, std::size_t index, Value& value) {
-    const log::SenderInfo* sender = subject.candidate.sender;
-    value.number = sender != nullptr ? sender->localPort : 0;
-    return index == 0 && value.number != 0;
+Read readDelta(Subject& subject, std::size_t index) {
+    const float deltaS = subject.candidate.digest.deltaS;
+    return index == 0 && deltaS >= 0 ? Read(number(deltaS)) : std::nullopt;
 }
 
-bool readError(Subject& subject, std::size_t index, Value& value) {
+Read readError(Subject& subject, std::size_t index) {
     const Candidate& candidate = subject.candidate;
     const PacketKind kind = candidate.digest.kind;
     if (index != 0 || (kind != PacketKind::Malformed && kind != PacketKind::Foreign)) {
-        return false;
+        return std::nullopt;
     }
     if (candidate.fault != nullptr) {
-        value.text = wire::errorName(candidate.fault->code);
-        return true;
+        return Value{0, wire::errorName(candidate.fault->code)};
     }
     static thread_local wire::Datagram scratch; // its memory is reused: no allocation for each packet
     const auto decoded = wire::decodeInto(candidate.packet.bytes, scratch);
-    value.text = decoded ? std::string_view() : wire::errorName(decoded.error().code);
-    return true;
+    return Value{0, decoded ? std::string_view() : wire::errorName(decoded.error().code)};
 }
 
-bool readNotice(Subject& subject, std::size_t index, Value& value) {
+Read readNotice(Subject& subject, std::size_t index) {
     const wire::Datagram* datagram = subject.candidate.datagram;
-    if (datagram == nullptr) {
-        value.text = {};
-        return index == 0 && subject.candidate.digest.hasNotices;
-    }
-    if (index >= datagram->notices.size()) {
-        return false;
-    }
-    value.text = wire::noticeName(datagram->notices[index].code);
-    return true;
+    const bool isThere = datagram != nullptr && index < datagram->notices.size();
+    return isThere ? Read({0, wire::noticeName(datagram->notices[index].code)}) : std::nullopt;
 }
 
 struct Row {
@@ -113,15 +87,19 @@ constexpr auto kUtc = [](const Candidate& c) {
     const auto second = std::chrono::floor<std::chrono::seconds>(c.packet.stamp);
     return static_cast<double>(second.time_since_epoch().count()) + log::secondsOf(c.packet.stamp - second);
 };
-constexpr auto kAddress = [](const log::SenderInfo& sender) { return Value{0, sender.address}; };
+constexpr auto kAddress = [](const log::SenderInfo& sender) { return Read({0, sender.address}); };
 constexpr auto kTransport = [](const log::SenderInfo& sender) {
-    return Value{0, log::nameOf(sender.transport)};
+    return Read({0, log::nameOf(sender.transport)});
 };
+constexpr auto kPort = [](const log::SenderInfo& sender) {
+    return sender.localPort != 0 ? Read(number(sender.localPort)) : std::nullopt;
+};
+constexpr auto kType = [](const wire::Header& header) { return header.type(); };
 constexpr auto kIndex = [](const wire::Header& header) { return header.datagramIndex(); };
 constexpr auto kLast = [](const wire::Header& header) { return header.isLast(); };
 
 constexpr std::array kRows{
-    Row{"type", Kind::Type, "", "message type: 02 and 2 are the same", readType},
+    Row{"type", Kind::Type, "", "message type: 02 and 2 are the same", fromHeader<kType>},
     Row{"source", Kind::Text, "", "where the packet came from: address and port, or file",
         fromSender<kAddress>},
     Row{"time", Kind::Number, "s", "since the first packet", always<kTime>},
@@ -145,7 +123,7 @@ constexpr std::array kRows{
     Row{"datagram", Kind::Number, "", "index of the datagram in its sample, from 0", fromHeader<kIndex>},
     Row{"last", Kind::Flag, "", "the last datagram of its sample", fromHeader<kLast>},
     Row{"transport", Kind::Transport, "", "udp, tcp, file or performer", fromSender<kTransport>},
-    Row{"port", Kind::Number, "", "of this computer, that the packet arrived at", readPort},
+    Row{"port", Kind::Number, "", "of this computer, that the packet arrived at", fromSender<kPort>},
 };
 
 template <class Code, std::size_t Count>
@@ -177,13 +155,10 @@ const wire::Header* Subject::header() {
     if (candidate.datagram != nullptr) {
         return &candidate.datagram->header;
     }
-    const PacketKind kind = candidate.digest.kind;
-    if (!m_isHeaderRead && (kind == PacketKind::Datagram || kind == PacketKind::Malformed)) {
-        if (const auto header = wire::decodeHeader(candidate.packet.bytes)) {
-            m_header = *header;
-        }
+    if (!m_header && candidate.digest.kind == PacketKind::Malformed) {
+        const auto header = wire::decodeHeader(candidate.packet.bytes);
+        m_header = header ? std::optional(*header) : std::nullopt;
     }
-    m_isHeaderRead = true;
     return m_header ? &*m_header : nullptr;
 }
 
@@ -198,7 +173,6 @@ std::vector<FieldInfo> computedFields() {
         info.readPacket = row.read;
         info.words = wordsOf(row);
         info.isTrueByValue = row.isTrueByValue;
-        info.isDecoded = row.read == &readNotice;
         fields.push_back(std::move(info));
     }
     return fields;

@@ -28,7 +28,7 @@ struct Value {
     std::string_view text;
 };
 
-/// A packet while it is looked at; the header of one that was not decoded is read at most once.
+/// A packet while it is looked at; the header of one that cannot be decoded is read at most once.
 struct Subject {
     explicit Subject(const Candidate& from) : candidate(from) {}
 
@@ -38,7 +38,6 @@ struct Subject {
     const Candidate& candidate;
 
 private:
-    bool m_isHeaderRead = false;
     std::optional<wire::Header> m_header;
 };
 
@@ -54,8 +53,8 @@ inline constexpr std::size_t kLists = 3;
 
 /// Reads a field of the item at `item`; `component` counts the numbers of a vector.
 using ReadItem = Value (*)(const wire::Datagram& datagram, std::size_t item, std::size_t component);
-/// Reads the value at `index` of a packet's field; false where there is none. Most have one value at most.
-using ReadPacket = bool (*)(Subject& subject, std::size_t index, Value& value);
+/// Reads the value at `index` of a packet's field, where there is one. Most have one value at most.
+using ReadPacket = std::optional<Value> (*)(Subject& subject, std::size_t index);
 
 /// Where a field of the payload is read: null where there is none.
 using Places = std::array<std::array<ReadItem, kLists>, kShapes>;
@@ -66,16 +65,15 @@ struct FieldInfo {
     std::string qualifier; ///< the list it is in, "header", or empty
     Kind kind = Kind::Number;
     std::size_t components = 1;
-    bool isFloat = false;                ///< constants are rounded to 32 bits to compare with it
-    bool isTrueByValue = false;          ///< alone it means "not zero" rather than "present"
-    bool isDecoded = false;              ///< a packet field that needs the decoded datagram
-    std::string unit;                    ///< where types differ: "cm (01), m (02)"
-    std::string text;                    ///< the same
-    std::vector<std::string_view> words; ///< its possible values, if they are words
-    std::vector<std::uint8_t> types;     ///< message types that have it, in order; empty for packet fields
-    ReadPacket readPacket = nullptr;     ///< of a packet field
-    Places places{};                     ///< of a field of the payload
-    std::optional<Places> named{};       ///< for segments: reads the number that a name means
+    bool isFloat = false;                  ///< constants are rounded to 32 bits to compare with it
+    bool isTrueByValue = false;            ///< alone it means "not zero" rather than "present"
+    std::string unit{};                    ///< where types differ: "cm (01), m (02)"
+    std::string text{};                    ///< the same
+    std::vector<std::string_view> words{}; ///< its possible values, if they are words
+    std::vector<std::uint8_t> types{};     ///< message types that have it, in order; empty for packet fields
+    ReadPacket readPacket = nullptr;       ///< of a packet field
+    Places places{};                       ///< of a field of the payload
+    std::optional<Places> named{};         ///< for segments: reads the number that a name means
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr; }
 };
@@ -107,8 +105,9 @@ struct FieldMatch {
 /// (and no tag) if nothing has that name.
 [[nodiscard]] FieldMatch findFields(std::string_view name);
 
-/// The names of a vector's components: "x", "y" …; empty beyond its end.
-[[nodiscard]] std::string_view componentName(std::size_t components, std::size_t component);
+/// The names of a vector's components, as the tables of core/wire have them: "x", "y" …; those of a matrix,
+/// which are no words there, are its places from "1" to "9". Empty for other numbers.
+[[nodiscard]] std::span<const std::string_view> componentNames(std::size_t components);
 
 /// The name to use for `field`: with its qualifier only if another field shares the name.
 [[nodiscard]] std::string askedName(const FieldInfo& field);
@@ -125,6 +124,8 @@ struct KindWords {
 };
 [[nodiscard]] KindWords kindWords(Kind kind);
 
+/// "x, y, z": the components of a vector.
+[[nodiscard]] std::string componentsText(const FieldInfo& field);
 /// "02 20": the message types that have the field.
 [[nodiscard]] std::string typesText(const FieldInfo& field);
 

@@ -12,15 +12,16 @@
 namespace posewire::filter {
 namespace {
 
-constexpr std::array<std::string_view, 3> kVec{"x", "y", "z"};
-constexpr std::array<std::string_view, 4> kQuat{"w", "x", "y", "z"};
-constexpr std::array<std::string_view, 9> kMat{"1", "2", "3", "4", "5", "6", "7", "8", "9"};
-
-std::span<const std::string_view> componentNames(std::size_t components) {
-    return components == 3   ? std::span<const std::string_view>(kVec)
-           : components == 4 ? std::span<const std::string_view>(kQuat)
-           : components == 9 ? std::span<const std::string_view>(kMat)
-                             : std::span<const std::string_view>();
+/// The component of that name; of a quaternion also by the letters that mathematics has for it.
+std::optional<std::size_t> componentAt(std::size_t components, std::string_view name) {
+    static constexpr std::array<std::string_view, 4> kLetters{"w", "x", "y", "z"};
+    for (const auto names : {componentNames(components), std::span<const std::string_view>(kLetters)}) {
+        const auto found = std::ranges::find(names, name);
+        if (names.size() == components && found != names.end()) {
+            return static_cast<std::size_t>(found - names.begin());
+        }
+    }
+    return std::nullopt;
 }
 
 bool isNamed(const FieldInfo& field, std::string_view name) {
@@ -39,17 +40,12 @@ void collect(std::string_view name, std::optional<std::string_view> component, F
             match.fields.push_back(&field);
             continue;
         }
-        const auto names = componentNames(field.components);
-        const auto found = std::ranges::find(names, *component);
-        if (found != names.end()) {
-            // Vectors and quaternions number their components differently, so only fields of one length
-            // combine.
-            const auto place = static_cast<std::size_t>(found - names.begin());
-            if (match.fields.empty() || match.fields.front()->components == field.components) {
-                match.fields.push_back(&field);
-                match.component = place;
-                match.hasComponent = true;
-            }
+        const auto place = componentAt(field.components, *component);
+        // Vectors and quaternions number their components differently, so only fields of one length combine.
+        if (place && (match.fields.empty() || match.fields.front()->components == field.components)) {
+            match.fields.push_back(&field);
+            match.component = *place;
+            match.hasComponent = true;
         }
     }
 }
@@ -87,9 +83,9 @@ FieldMatch findFields(std::string_view name) {
     return match;
 }
 
-std::string_view componentName(std::size_t components, std::size_t component) {
-    const auto names = componentNames(components);
-    return component < names.size() ? names[component] : std::string_view();
+std::span<const std::string_view> componentNames(std::size_t components) {
+    static constexpr std::array<std::string_view, 9> kPlaces{"1", "2", "3", "4", "5", "6", "7", "8", "9"};
+    return components == kPlaces.size() ? kPlaces : wire::componentNames(components);
 }
 
 std::string askedName(const FieldInfo& field) {
@@ -117,8 +113,8 @@ std::string nearestOf(std::string_view word, std::span<const std::string_view> w
 
 std::string nearestField(std::string_view name) {
     const std::string_view last = name.substr(name.rfind('.') + 1);
-    const bool hasComponent = name.size() > last.size() && last.size() == 1;
-    const std::string_view base = hasComponent ? name.substr(0, name.size() - 2) : name;
+    const bool hasComponent = name.size() > last.size() && (last.size() == 1 || componentAt(4, last));
+    const std::string_view base = hasComponent ? name.substr(0, name.size() - last.size() - 1) : name;
     std::vector<std::string_view> names{"tag"};
     for (const FieldInfo& field : fieldTable()) {
         names.push_back(field.name);
@@ -147,6 +143,14 @@ std::optional<double> numberOf(std::string_view word) {
         return std::nullopt;
     }
     return isNegative ? -value : value;
+}
+
+std::string componentsText(const FieldInfo& field) {
+    std::string text;
+    for (const std::string_view name : componentNames(field.components)) {
+        text.append(text.empty() ? "" : ", ").append(name);
+    }
+    return text;
 }
 
 std::string typesText(const FieldInfo& field) {

@@ -73,9 +73,9 @@ bool Condition::holds(Subject& subject) const {
     if (isTag) {
         return holdsForTags(subject.candidate.datagram);
     }
-    Value value;
-    for (std::size_t index = 0; readPacket(subject, index, value); ++index) {
-        if (test.holds(value)) {
+    std::optional<Value> value;
+    for (std::size_t index = 0; (value = readPacket(subject, index)); ++index) {
+        if (test.holds(*value)) {
             return true;
         }
     }
@@ -136,10 +136,6 @@ bool Filter::matches(const Candidate& candidate) const {
     }
     Subject subject(candidate);
     return m_program->holds(subject, m_program->root);
-}
-
-bool Filter::needsDatagram() const {
-    return m_program != nullptr && m_program->needsDatagram;
 }
 
 bool Program::holds(Subject& subject, std::uint32_t index) const {

@@ -28,7 +28,7 @@ struct FilterError {
 struct Candidate {
     const log::Packet& packet;
     const model::PacketDigest& digest;
-    const wire::Datagram* datagram = nullptr; ///< null if not decoded; see needsDatagram
+    const wire::Datagram* datagram = nullptr; ///< null if it cannot be read
     const log::SenderInfo* sender = nullptr;  ///< null if not known
     log::Stamp firstStamp{};                  ///< of the first packet: where `time` begins
     const wire::WireError* fault = nullptr; ///< why it could not be decoded; null: decoded again to find out
@@ -53,10 +53,6 @@ public:
     [[nodiscard]] bool matches(const Candidate& candidate) const;
 
     [[nodiscard]] bool matchesEverything() const { return m_program == nullptr; }
-
-    /// Whether it uses fields of the payload. If not, a candidate needs no decoded datagram: header fields
-    /// are read from the bytes.
-    [[nodiscard]] bool needsDatagram() const;
 
 private:
     std::shared_ptr<const Program> m_program;

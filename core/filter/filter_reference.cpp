@@ -48,7 +48,8 @@ characters; a single word needs none. Constants are compared with the values on 
 * Conditions on items that `&&` joins speak of the same item: `segment == LeftHand && position.z > 2`. So does an
   `||` in parentheses among them. Parentheses around an `&&` make a group of its own:
   `(segment == LeftHand && position.z > 2) && (segment == RightHand && position.z > 2)`.
-* A vector is asked for by its components: x, y, z; w, x, y, z for orientations; 1 to 9 for matrices.
+* A vector is asked for by its components: x, y, z; re, i, j, k for orientations, where w, x, y, z mean the
+  same; 1 to 9 for matrices.
 * Comparisons with a value that is not a number are false. `position == NaN` finds such values.
 * A name that several messages have means each of them; `points.position.x` and `header.sample` say which.
   Where the header has a field of the same name, the constant decides by its kind.
@@ -56,14 +57,11 @@ characters; a single word needs none. Constants are compared with the values on 
 * `tag` stands for the names of the metadata tags, `tag.color` for the value of the tag `color`.
 )";
 
-std::string_view kindOf(const FieldInfo& field) {
+std::string kindOf(const FieldInfo& field) {
     if (field.kind != Kind::Vector) {
-        return field.kind == Kind::Type ? "type" : kindWords(field.kind).name;
+        return std::string(field.kind == Kind::Type ? "type" : kindWords(field.kind).name);
     }
-    if (field.components == 3) {
-        return "x, y, z";
-    }
-    return field.components == 4 ? "w, x, y, z" : "1 … 9";
+    return field.components == 9 ? "1 … 9" : componentsText(field);
 }
 
 void writeRow(std::string& out, const FieldInfo& field, bool isOfPayload) {

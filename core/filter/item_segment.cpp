@@ -15,17 +15,9 @@ constexpr model::SegmentLayout kAll{model::kBodySegmentCount, model::kMaxPropCou
                                     model::kFingerSegmentCount};
 
 int numberAt(const model::SegmentPlace& place) {
-    switch (place.kind) {
-    case model::SegmentKind::Body:
-        return place.index + 1;
-    case model::SegmentKind::Prop:
-        return model::kBodySegmentCount + place.index + 1;
-    case model::SegmentKind::LeftFinger:
-        return model::kBodySegmentCount + model::kMaxPropCount + place.index + 1;
-    case model::SegmentKind::RightFinger:
-        return model::kBodySegmentCount + model::kMaxPropCount + model::kHandSegmentCount + place.index + 1;
-    }
-    return 0;
+    constexpr std::array<int, 4> kBefore{0, kAll.body, kAll.body + kAll.props,
+                                         kAll.body + kAll.props + model::kHandSegmentCount};
+    return kBefore[static_cast<std::size_t>(place.kind)] + place.index + 1;
 }
 
 /// Nothing where no segment has such a point.

@@ -110,7 +110,6 @@ private:
         if (!condition) {
             return Failure(condition.error());
         }
-        m_program.needsDatagram = m_program.needsDatagram || condition->needsDatagram;
         const bool isOfItems = condition->isOfItems();
         m_program.conditions.push_back(std::move(*condition));
         const auto index = static_cast<std::uint32_t>(m_program.conditions.size() - 1);

@@ -41,7 +41,6 @@ struct Condition {
     std::size_t components = 1; ///< any of them will do
     bool isTag = false;
     std::string tag; ///< its value is tested; the names of all tags where empty
-    bool needsDatagram = false;
     Test test;
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr && !isTag; }
@@ -92,7 +91,6 @@ struct Program {
     std::vector<Condition> conditions;
     std::vector<Node> nodes;
     std::uint32_t root = 0;
-    bool needsDatagram = false;
 
     [[nodiscard]] bool holds(Subject& subject, std::uint32_t node) const;
 

@@ -14,8 +14,12 @@ namespace {
 
 using Failure = tl::unexpected<FilterError>;
 
+FilterError errorAt(const Token& token, std::string text) {
+    return {token.offset, token.length, std::move(text)};
+}
+
 Failure failure(const Token& token, std::string text) {
-    return Failure(FilterError{token.offset, token.length, std::move(text)});
+    return Failure(errorAt(token, std::move(text)));
 }
 
 bool isNan(const Constant& constant) {
@@ -23,12 +27,8 @@ bool isNan(const Constant& constant) {
 }
 
 std::optional<double> typeNumber(const Constant& constant) {
-    for (const wire::TypeInfo& info : wire::typeTable()) {
-        if (info.name == constant.text) {
-            return info.type;
-        }
-    }
-    return numberOf(constant.text);
+    const auto named = std::ranges::find(wire::typeTable(), constant.text, &wire::TypeInfo::name);
+    return named != wire::typeTable().end() ? std::optional<double>(named->type) : numberOf(constant.text);
 }
 
 /// Reads a number of that many digits, after `before` unless that is 0.
@@ -166,35 +166,30 @@ FilterError complaint(const FieldMatch& match, const WrittenCondition& written) 
     const FieldInfo& field = *match.fields.front();
     const std::string name(written.fieldName);
     if (field.kind == Kind::Vector && !match.hasComponent) {
-        std::string names;
-        for (std::size_t i = 0; i < field.components; ++i) {
-            names += (i == 0 ? "" : ", ") + std::string(componentName(field.components, i));
-        }
-        return {written.field.offset, written.field.length,
-                "`" + name + "` has the components " + names + ": write `" + name + "." +
-                    std::string(componentName(field.components, field.components - 1)) + "`."};
+        const std::string last(componentNames(field.components).back());
+        return errorAt(written.field, "`" + name + "` has the components " + componentsText(field) +
+                                          ": write `" + name + "." + last + "`.");
     }
     const Token& op = written.operatorToken;
     if (needsText(written.op)) {
-        return {op.offset, op.length,
-                "`" + name + "` is not text: compare it with ==, !=, <, <=, > or >=, or use `in`."};
+        return errorAt(op,
+                       "`" + name + "` is not text: compare it with ==, !=, <, <=, > or >=, or use `in`.");
     }
     if (isTextKind(field.kind) && ordersOnly(written.op)) {
-        return {op.offset, op.length,
-                "`" + name + "` is text: compare it with ==, !=, `in`, `contains` or `matches`."};
+        return errorAt(op, "`" + name + "` is text: compare it with ==, !=, `in`, `contains` or `matches`.");
     }
     for (const auto& pair : written.constants) {
         for (const Constant* constant : {&pair.first, &pair.second}) {
             if (isTextKind(field.kind) || !numberFor(field, *constant)) {
                 const std::string near =
                     field.kind == Kind::Segment ? nearestOf(constant->text, segmentNames()) : std::string();
-                return {constant->token.offset, constant->token.length,
-                        "`" + name + "` is compared with " + std::string(kindWords(field.kind).value) +
-                            (near.empty() ? "." : "; did you mean `" + near + "`?")};
+                return errorAt(constant->token, "`" + name + "` is compared with " +
+                                                    std::string(kindWords(field.kind).value) +
+                                                    (near.empty() ? "." : "; did you mean `" + near + "`?"));
             }
         }
     }
-    return {op.offset, op.length, "`" + name + "` cannot be compared like this."};
+    return errorAt(op, "`" + name + "` cannot be compared like this.");
 }
 
 tl::expected<void, FilterError> setTexts(const WrittenCondition& written, Test& test) {
@@ -268,7 +263,7 @@ void setPlaces(const FieldMatch& match, const WrittenCondition& written, const F
 
 tl::expected<Condition, FilterError> tagCondition(const FieldMatch& match, const WrittenCondition& written) {
     Condition condition;
-    condition.isTag = condition.needsDatagram = true;
+    condition.isTag = true;
     condition.tag = match.tag;
     condition.test.op = written.op;
     if (ordersOnly(written.op)) {
@@ -317,7 +312,6 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
     Condition condition;
     condition.test.op = written.op;
     condition.readPacket = field.readPacket;
-    condition.needsDatagram = field.isOfItems() || (field.isDecoded && written.op != Operator::IsThere);
     if (field.isOfItems()) {
         setPlaces(match, written, field, condition);
         condition.firstComponent = match.hasComponent ? match.component : 0;

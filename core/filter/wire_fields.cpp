@@ -75,27 +75,22 @@ Value readNamedSegment(const Datagram& datagram, std::size_t item, std::size_t) 
     return {namedSegment<ItemForm>(datagram.header, bodyOf<T>(datagram).*List, item), {}};
 }
 template <auto Member>
-bool readHeader(Subject& subject, std::size_t index, Value& value) {
-    const wire::Header* header = subject.header();
-    if (header == nullptr || index != 0) {
-        return false;
-    }
-    value = valueOf(header->*Member, 0);
-    return true;
+std::optional<Value> readHeader(Subject& subject, std::size_t index) {
+    const wire::Header* header = index == 0 ? subject.header() : nullptr;
+    return header != nullptr ? std::optional(valueOf(header->*Member, 0)) : std::nullopt;
 }
 
 using CountItems = std::size_t (*)(const Datagram&);
 using Counts = std::array<std::array<CountItems, kLists>, kShapes>;
 
-/// What each message type says about a field; in the order of its types.
-struct Said {
-    std::vector<std::string_view> units;
-    std::vector<std::string_view> texts;
+/// A field as it is found, with what each of its types says about it.
+struct Draft {
+    FieldInfo field;
+    std::vector<wire::About> said{};
 };
 
 struct Found {
-    std::vector<FieldInfo> fields;
-    std::vector<Said> said; ///< one for each field
+    std::vector<Draft> drafts;
     Counts counts{};
 };
 
@@ -120,27 +115,21 @@ void add(Found& found, const Spot& spot, const wire::About& about, const Reading
         return field.name == about.name && field.qualifier == spot.qualifier && field.kind == reading.kind &&
                field.components == reading.components;
     };
-    auto field = std::ranges::find_if(found.fields, isSame);
-    if (field == found.fields.end()) {
-        FieldInfo info;
-        info.name = about.name;
-        info.qualifier = spot.qualifier;
-        info.kind = reading.kind;
-        info.components = reading.components;
-        info.isFloat = reading.isFloat;
-        field = found.fields.insert(field, std::move(info));
-        found.said.emplace_back();
+    auto draft = std::ranges::find_if(found.drafts, isSame, &Draft::field);
+    if (draft == found.drafts.end()) {
+        FieldInfo field{std::string(about.name), std::string(spot.qualifier), reading.kind,
+                        reading.components, reading.isFloat};
+        draft = found.drafts.insert(draft, Draft{std::move(field)});
     }
-    if (field->types.empty() || field->types.back() != spot.type) {
-        Said& said = found.said[static_cast<std::size_t>(field - found.fields.begin())];
-        field->types.push_back(spot.type);
-        said.units.push_back(wire::unitSymbol(about.unit));
-        said.texts.push_back(about.text);
+    FieldInfo& field = draft->field;
+    if (field.types.empty() || field.types.back() != spot.type) {
+        field.types.push_back(spot.type);
+        draft->said.push_back(about);
     }
-    field->places[spot.shape][spot.list] = reading.read;
+    field.places[spot.shape][spot.list] = reading.read;
     if (reading.readNamed != nullptr) {
-        field->named = field->named.value_or(Places{});
-        (*field->named)[spot.shape][spot.list] = reading.readNamed;
+        field.named = field.named.value_or(Places{});
+        (*field.named)[spot.shape][spot.list] = reading.readNamed;
     }
 }
 
@@ -210,7 +199,8 @@ void walkMessage(Found& found) {
     }
 }
 
-void walkHeader(Found& found) {
+std::vector<FieldInfo> headerFields() {
+    std::vector<FieldInfo> fields;
     wire::forEachField<wire::Header, Form::Standard>([&]<auto Member>(const wire::Field<Member>& field) {
         FieldInfo info;
         info.name = field.about.name;
@@ -219,48 +209,36 @@ void walkHeader(Found& found) {
         info.unit = wire::unitSymbol(field.about.unit);
         info.text = field.about.text;
         info.readPacket = &readHeader<Member>;
-        found.fields.push_back(std::move(info));
-        found.said.emplace_back();
+        fields.push_back(std::move(info));
     });
+    return fields;
 }
 
 /// What the types say, each thing once: "m", or "cm (01), m (02 21)" where they differ.
-std::string together(const std::vector<std::string_view>& said, const std::vector<std::uint8_t>& types) {
+template <class Read>
+std::string together(const Draft& draft, Read read) {
+    std::vector<std::pair<std::string_view, std::string>> said; // with the types that say it
+    for (std::size_t i = 0; i < draft.said.size(); ++i) {
+        const std::string_view text = read(draft.said[i]);
+        auto place = std::ranges::find(said, text, &std::pair<std::string_view, std::string>::first);
+        place = place == said.end() ? said.insert(place, {text, ""}) : place;
+        place->second += (place->second.empty() ? "" : " ") + wire::typeDigits(draft.field.types[i]);
+    }
+    std::erase_if(said, [](const auto& one) { return one.first.empty(); });
     std::string all;
-    for (std::size_t i = 0; i < said.size(); ++i) {
-        if (said[i].empty() || std::find(said.begin(), said.begin() + static_cast<std::ptrdiff_t>(i),
-                                         said[i]) != said.begin() + static_cast<std::ptrdiff_t>(i)) {
-            continue;
-        }
-        std::string who;
-        for (std::size_t j = i; j < said.size(); ++j) {
-            if (said[j] == said[i]) {
-                who += (who.empty() ? " (" : " ") + wire::typeDigits(types[j]);
-            }
-        }
-        const bool isAgreed =
-            std::count(said.begin(), said.end(), said[i]) == static_cast<std::ptrdiff_t>(said.size());
-        all.append(all.empty() ? "" : ", ").append(said[i]).append(isAgreed ? "" : who + ')');
+    for (const auto& [text, types] : said) {
+        all.append(all.empty() ? "" : ", ").append(text);
+        all += types == typesText(draft.field) ? "" : " (" + types + ')';
     }
     return all;
 }
 
-Found walkAll() {
-    Found found;
-    walkHeader(found);
-    wire::Messages::forEach([&]<class T>() { walkMessage<T>(found); });
-    for (std::size_t i = 0; i < found.fields.size(); ++i) {
-        FieldInfo& field = found.fields[i];
-        if (field.isOfItems()) {
-            field.unit = together(found.said[i].units, field.types);
-            field.text = together(found.said[i].texts, field.types);
-        }
-    }
-    return found;
-}
-
 const Found& walked() {
-    static const Found found = walkAll();
+    static const Found found = [] {
+        Found all;
+        wire::Messages::forEach([&]<class T>() { walkMessage<T>(all); });
+        return all;
+    }();
     return found;
 }
 
@@ -281,7 +259,13 @@ std::size_t itemCount(const Datagram& datagram, std::size_t shape, std::size_t l
 }
 
 std::vector<FieldInfo> wireFields() {
-    return walked().fields;
+    std::vector<FieldInfo> fields = headerFields();
+    for (const Draft& draft : walked().drafts) {
+        FieldInfo& field = fields.emplace_back(draft.field);
+        field.unit = together(draft, [](const wire::About& about) { return wire::unitSymbol(about.unit); });
+        field.text = together(draft, [](const wire::About& about) { return about.text; });
+    }
+    return fields;
 }
 
 } // namespace posewire::filter

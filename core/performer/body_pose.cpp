@@ -61,25 +61,25 @@ constexpr std::array<SolePoint, kSolePointCount> kSolePoints{{
     {true, {0.060, 0.0, -0.013}},
 }};
 
+/// Computes the segments `first` to `last` from their parents.
+void poseRange(const model::ReferenceBody& body, const LocalRotations& rotations, int first, int last,
+               BodyPose& pose) {
+    for (int index = first; index <= last; ++index) {
+        const auto place = static_cast<std::size_t>(index);
+        const auto parent = static_cast<std::size_t>(model::bodySegments()[place].parent);
+        pose[place] = model::composed(pose[parent],
+                                      {body.origins[place] - body.origins[parent], rotations.values[place]});
+    }
+}
+
 } // namespace
 
 BodyPose posed(const model::ReferenceBody& body, const Eigen::Vector3d& root,
                const LocalRotations& rotations) {
     BodyPose pose;
     pose[0] = {root, rotations[0]};
-    poseRange(body, rotations, {1, model::kBodySegmentCount - 1}, pose);
+    poseRange(body, rotations, 1, model::kBodySegmentCount - 1, pose);
     return pose;
-}
-
-void poseRange(const model::ReferenceBody& body, const LocalRotations& rotations, SegmentRange range,
-               BodyPose& pose) {
-    const auto& segments = model::bodySegments();
-    for (int index = range.first; index <= range.last; ++index) {
-        const auto place = static_cast<std::size_t>(index);
-        const auto parent = static_cast<std::size_t>(segments[place].parent);
-        pose[place] = model::composed(pose[parent],
-                                      {body.origins[place] - body.origins[parent], rotations.values[place]});
-    }
 }
 
 Quaterniond aboutX(double degrees) {
@@ -121,7 +121,7 @@ void reach(const model::ReferenceBody& body, model::Side side, const LegGoal& go
     rotations[leg.upperLeg] = pelvis.orientation.conjugate() * upperLeg;
     rotations[leg.lowerLeg] = knee;
     rotations[leg.foot] = (upperLeg * knee).conjugate() * goal.foot;
-    poseRange(body, rotations, {leg.upperLeg, leg.toe}, pose);
+    poseRange(body, rotations, leg.upperLeg, leg.toe, pose);
 }
 
 std::array<Vector3d, kSolePointCount> worldSolePoints(const model::ReferenceBody& body, model::Side side,

@@ -26,14 +26,6 @@ struct LocalRotations {
 BodyPose posed(const model::ReferenceBody& body, const Eigen::Vector3d& root,
                const LocalRotations& rotations);
 
-/// Recomputes the segments `first` to `last` from their parents, as for a limb whose rotations have changed.
-struct SegmentRange {
-    int first = 0;
-    int last = 0;
-};
-void poseRange(const model::ReferenceBody& body, const LocalRotations& rotations, SegmentRange range,
-               BodyPose& pose);
-
 /// Rotations about the axes, in degrees, the unit of the motions.
 Eigen::Quaterniond aboutX(double degrees);
 Eigen::Quaterniond aboutY(double degrees);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/performer/character.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace posewire::performer {
@@ -34,12 +36,9 @@ constexpr std::array<PropMount, model::kMaxPropCount> kProps{{
     {"Golfclub", kPelvis, {0.0, 0.17, 0.02}},
 }};
 
-Vector3d toVector(const std::array<double, 3>& values) {
-    return {values[0], values[1], values[2]};
-}
-
 Vector3d boneOrigin(int index, double side) {
-    return toVector(kBones[static_cast<std::size_t>(index)]).cwiseProduct(Vector3d(1.0, side, 1.0));
+    const auto& bone = kBones[static_cast<std::size_t>(index)];
+    return {bone[0], side * bone[1], bone[2]};
 }
 
 /// Metacarpals stay flat; the thumb closes across the palm, the fingers bend joint by joint.
@@ -92,13 +91,10 @@ int stepsPerFrame(double rateHz) {
     return static_cast<int>(std::ceil(kLeastHz / rateHz - 1e-9));
 }
 
-std::string hexadecimal(std::uint32_t value) {
-    constexpr const char* kDigits = "0123456789ABCDEF";
-    std::string text(8, '0');
-    for (std::size_t place = text.size(); place-- > 0; value >>= 4) {
-        text[place] = kDigits[value & 0xfU];
-    }
-    return text;
+std::string suitId(std::size_t character) {
+    std::array<char, 9> digits{};
+    std::snprintf(digits.data(), digits.size(), "%08zX", 0x00342B10U + character);
+    return digits.data();
 }
 
 } // namespace
@@ -107,16 +103,16 @@ std::string_view propName(int prop) {
     return kProps[static_cast<std::size_t>(prop)].name;
 }
 
-void ExtraSegments::append(const model::ReferenceBody& body, double curl,
-                           std::vector<SegmentPose>& poses) const {
+void appendExtraSegments(const model::SegmentLayout& layout, const model::ReferenceBody& body, double curl,
+                         std::vector<SegmentPose>& poses) {
     const double scale = body.stature / model::kReferenceStature;
     for (int position = layout.body; position < layout.count(); ++position) {
         const model::SegmentPlace place = *model::placeOf(layout, position);
         if (place.kind == SegmentKind::Prop) {
             const PropMount& mount = kProps[static_cast<std::size_t>(place.index)];
             const SegmentPose& carrier = poses[static_cast<std::size_t>(mount.segment)];
-            poses.push_back(
-                model::composed(carrier, {scale * toVector(mount.place), Eigen::Quaterniond::Identity()}));
+            poses.push_back(model::composed(
+                carrier, {scale * Vector3d(mount.place.data()), Eigen::Quaterniond::Identity()}));
             continue;
         }
         const double side = place.kind == SegmentKind::LeftFinger ? 1.0 : -1.0;
@@ -128,23 +124,11 @@ void ExtraSegments::append(const model::ReferenceBody& body, double curl,
     }
 }
 
-void ExtraSegments::appendNullPose(const model::ReferenceBody& body, std::vector<Vector3d>& origins) const {
-    std::vector<SegmentPose> poses(origins.size());
-    for (std::size_t index = 0; index < origins.size(); ++index) {
-        poses[index].position = origins[index];
-    }
-    append(body, 0.0, poses);
-    for (std::size_t index = origins.size(); index < poses.size(); ++index) {
-        origins.push_back(poses[index].position);
-    }
-}
-
 Identity identityOf(int character) {
     const auto index = static_cast<std::size_t>(character);
     const Role& role = kRoles[index % kRoles.size()];
     const std::size_t round = index / kRoles.size();
-    Identity identity{role.name, role.colour, hexadecimal(0x00342B10U + static_cast<std::uint32_t>(index)),
-                      role.stature};
+    Identity identity{role.name, role.colour, suitId(index), role.stature};
     if (round > 0) {
         identity.name += ' ';
         identity.name += std::to_string(round + 1);
@@ -159,24 +143,19 @@ Character::Character(const CharacterSettings& settings, double rateHz)
       m_identity(identityOf(settings.id)),
       m_body(bodyFor(settings)),
       m_motion(makeMotion(settings.motion, {m_body, settings.seed, settings.id, settings.count})),
-      m_extra{settings.layout},
       m_trackers(m_body, randomOf(settings).fork(kTrackers), KeyedRandom(settings.seed).fork(kSession)) {
     m_moment.segments.resize(static_cast<std::size_t>(settings.layout.count()));
 }
 
-void Character::fill(Poses& poses, double seconds) const {
-    const BodyPose body = m_motion->sample(seconds);
-    poses.assign(body.begin(), body.end());
-    const double curl = 0.35 + 0.2 * std::sin(2.0 * std::numbers::pi * 0.3 * seconds + m_settings.id);
-    m_extra.append(m_body, curl, poses);
-}
-
 const Character::Poses& Character::sampleAt(std::int64_t key) {
     Sample& sample = m_samples[static_cast<std::size_t>((key + 4) & 3)];
-    if (!sample.isFilled || sample.key != key) {
+    if (sample.poses.empty() || sample.key != key) {
+        const double seconds = static_cast<double>(key) / (m_rateHz * m_stepsPerFrame);
+        const BodyPose body = m_motion->sample(seconds);
+        const double curl = 0.35 + 0.2 * std::sin(2.0 * std::numbers::pi * 0.3 * seconds + m_settings.id);
         sample.key = key;
-        sample.isFilled = true;
-        fill(sample.poses, static_cast<double>(key) / (m_rateHz * m_stepsPerFrame));
+        sample.poses.assign(body.begin(), body.end());
+        appendExtraSegments(m_settings.layout, m_body, curl, sample.poses);
     }
     return sample.poses;
 }
@@ -200,12 +179,13 @@ const CharacterMoment& Character::at(std::uint64_t frame) {
 }
 
 std::vector<Vector3d> Character::nullPose() const {
-    std::vector<Vector3d> origins;
-    origins.reserve(static_cast<std::size_t>(m_settings.layout.count()));
+    Poses poses(model::kBodySegmentCount);
     for (int index = 0; index < model::kBodySegmentCount; ++index) {
-        origins.push_back(m_body.nullPoseOrigin(index));
+        poses[static_cast<std::size_t>(index)].position = m_body.nullPoseOrigin(index);
     }
-    m_extra.appendNullPose(m_body, origins);
+    appendExtraSegments(m_settings.layout, m_body, 0.0, poses);
+    std::vector<Vector3d> origins(poses.size());
+    std::ranges::transform(poses, origins.begin(), &SegmentPose::position);
     return origins;
 }
 

@@ -14,16 +14,10 @@
 
 namespace posewire::performer {
 
-/// Poses of the props and fingers that follow the body in a pose datagram.
-struct ExtraSegments {
-    model::SegmentLayout layout;
-
-    /// Appends them to `poses`, which holds the body alone. `curl` from 0 (flat hand) to 1 (fist).
-    void append(const model::ReferenceBody& body, double curl, std::vector<model::SegmentPose>& poses) const;
-
-    /// Appends their origins in the null pose to `origins`, in the frame of the body's own.
-    void appendNullPose(const model::ReferenceBody& body, std::vector<Eigen::Vector3d>& origins) const;
-};
+/// Appends the props and fingers that follow the body in a pose datagram to `poses`, which hold the body
+/// alone. `curl` from 0 (flat hand) to 1 (fist).
+void appendExtraSegments(const model::SegmentLayout& layout, const model::ReferenceBody& body, double curl,
+                         std::vector<model::SegmentPose>& poses);
 
 /// "Sword", "Crutch", "Generic" and "Golfclub", as a sender names its props.
 std::string_view propName(int prop);
@@ -75,11 +69,9 @@ private:
     using Poses = std::vector<model::SegmentPose>;
     struct Sample {
         std::int64_t key = -1;
-        bool isFilled = false;
-        Poses poses;
+        Poses poses; ///< none at first
     };
 
-    void fill(Poses& poses, double seconds) const;
     const Poses& sampleAt(std::int64_t key);
 
     CharacterSettings m_settings;
@@ -88,7 +80,6 @@ private:
     Identity m_identity;
     model::ReferenceBody m_body;
     std::unique_ptr<Motion> m_motion;
-    ExtraSegments m_extra;
     TrackerSet m_trackers;
     std::array<Sample, 4> m_samples;
     CharacterMoment m_moment;

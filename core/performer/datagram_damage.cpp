@@ -18,7 +18,7 @@ constexpr std::int64_t kFar = 1'000'000;
 /// Up to this far ahead, the samples in between are reordered but clearly not late.
 constexpr double kNearMs = 20.0;
 /// Less than a jump back that could be a restart.
-constexpr std::int64_t kMostBack = 90;
+constexpr std::int64_t kClearlyBack = 90;
 
 std::uint64_t flip(std::vector<std::byte>& bytes, const KeyedRandom& random, std::uint64_t key) {
     const std::uint64_t count = 1 + random.bits(key) % 4;
@@ -30,12 +30,12 @@ std::uint64_t flip(std::vector<std::byte>& bytes, const KeyedRandom& random, std
 }
 
 bool isClearCounter(const Origin& origin, std::uint32_t sample, double periodMs) {
-    const std::int64_t moved = static_cast<std::int32_t>(sample - origin.sample);
+    const std::int64_t moved = distance(sample, origin.sample);
     if (std::abs(moved) >= kFar) {
         return true;
     }
     const auto most = static_cast<std::int64_t>(std::floor(kNearMs / periodMs));
-    return moved % origin.step == 0 && moved <= most && moved >= -kMostBack;
+    return moved % origin.step == 0 && moved <= most && moved >= -kClearlyBack;
 }
 
 /// Whether there is one answer to what a datagram with this header counts as.

@@ -13,9 +13,6 @@ namespace {
 constexpr log::Duration kDoubtfulFrom = std::chrono::milliseconds(25);
 constexpr log::Duration kDoubtfulTo = std::chrono::milliseconds(100);
 constexpr log::Duration kClearlyLate = std::chrono::milliseconds(110);
-/// A jump back by more than the first or forward by more than the second may be a restart (RFC 3550 A.1).
-constexpr std::int64_t kMostBack = 100;
-constexpr std::int64_t kMostForward = 3000;
 /// A stream advances by this many samples between two that are far behind.
 constexpr std::uint64_t kAdvancesBetween = 4;
 constexpr std::uint64_t kSettled = 16;
@@ -24,10 +21,6 @@ constexpr std::size_t kRecent = 4096;
 constexpr auto kIsLater = [](const auto& a, const auto& b) {
     return std::pair(a.sending.due, a.order) > std::pair(b.sending.due, b.order);
 };
-
-std::int64_t distance(std::uint32_t to, std::uint32_t from) {
-    return static_cast<std::int32_t>(to - from);
-}
 
 } // namespace
 
@@ -59,13 +52,6 @@ void Delivery::notePassed(log::Duration time) {
         }
     }
     std::erase_if(m_counted, [](const Counted& counted) { return counted.sending.bytes.empty(); });
-}
-
-Delivery::Entry Delivery::pop() {
-    std::ranges::pop_heap(m_heap, kIsLater);
-    Entry entry = std::move(m_heap.back());
-    m_heap.pop_back();
-    return entry;
 }
 
 void Delivery::advance(Front& front, std::uint32_t sample, log::Duration time) {
@@ -108,13 +94,7 @@ Delivery::Judgement Delivery::begin(Front& front, const Sending& sending, std::u
     if (sample != sending.origin.sample) {
         return Judgement::GiveUp;
     }
-    const bool isNative = front.isNative;
-    front = {};
-    front.hasBegun = true;
-    front.isNative = isNative;
-    front.epoch = sending.origin.epoch;
-    front.regime = sending.origin.regime;
-    front.first = sample;
+    front = {front.isNative, sending.origin.epoch, sending.origin.regime, sample};
     advance(front, sample, sending.due);
     return Judgement::Deliver;
 }
@@ -131,7 +111,7 @@ Delivery::Judgement Delivery::judge(Sending& sending, bool isAtEnd) {
     const bool wasNative = std::exchange(front.isNative, front.isNative || isNative);
     const std::int64_t moved = distance(sample, front.highest);
     const bool isRestart = origin.epoch > front.epoch && (moved < -kMostBack || moved > kMostForward);
-    if (!front.hasBegun || isRestart || (isNative && !wasNative)) {
+    if (front.advances == 0 || isRestart || (isNative && !wasNative)) {
         return begin(front, sending, sample);
     }
     if (!front.isNative) {
@@ -168,7 +148,9 @@ Delivery::Judgement Delivery::judgeNative(Sending& sending, Front& front, std::u
 
 void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& into) {
     while (!m_heap.empty() && (!until || m_heap.front().sending.due < *until)) {
-        Entry entry = pop();
+        std::ranges::pop_heap(m_heap, kIsLater);
+        Entry entry = std::move(m_heap.back());
+        m_heap.pop_back();
         switch (judge(entry.sending, !until.has_value())) {
         case Judgement::Deliver:
             m_latest = entry.sending.due;
@@ -182,10 +164,6 @@ void Delivery::take(std::optional<log::Duration> until, std::vector<Sending>& in
             break;
         }
     }
-}
-
-void Delivery::takeUntil(log::Duration until, std::vector<Sending>& into) {
-    take(until, into);
 }
 
 void Delivery::takeRest(std::vector<Sending>& into) {

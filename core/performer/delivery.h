@@ -41,8 +41,9 @@ public:
     /// with.
     void keepStragglers(bool keeps) { m_keepsStragglers = keeps; }
 
-    /// All that are due before this time, in order, appended. Nothing due earlier may be pushed afterwards.
-    void takeUntil(log::Duration until, std::vector<Sending>& into);
+    /// All that are due before this time (without one, all there are), in order, appended. Nothing due
+    /// earlier may be pushed afterwards.
+    void take(std::optional<log::Duration> until, std::vector<Sending>& into);
     /// The rest: the streams have ended.
     void takeRest(std::vector<Sending>& into);
 
@@ -63,15 +64,14 @@ private:
     };
     /// How far a stream has come, as a receiver sees it.
     struct Front {
-        bool hasBegun = false;
         bool isNative = false; ///< false while all of it is damaged datagrams of other streams
         std::uint32_t epoch = 0;
         std::uint32_t regime = 0;
         std::uint32_t first = 0;
         std::uint32_t highest = 0;
-        std::uint64_t advances = 0;
+        std::uint64_t advances = 0; ///< 0: it has not begun
         std::uint64_t advancesAtFar = 0;
-        std::deque<Advance> recent;
+        std::deque<Advance> recent{};
     };
     enum class Judgement : std::uint8_t { Deliver, Wait, GiveUp };
 
@@ -83,8 +83,6 @@ private:
     [[nodiscard]] Judgement judgeBehind(Sending& sending, Front& front, std::uint32_t sample,
                                         bool isAtEnd) const;
     static void advance(Front& front, std::uint32_t sample, log::Duration time);
-    void take(std::optional<log::Duration> until, std::vector<Sending>& into);
-    Entry pop();
 
     log::Duration m_period;
     QuietTimes m_quiet;

@@ -2,6 +2,7 @@
 #include "core/performer/faults.h"
 
 #include "core/performer/datagram_damage.h"
+#include "core/wire/byte_order.h"
 #include "core/wire/codec.h"
 #include "core/wire/type_table.h"
 
@@ -99,12 +100,6 @@ QuietTimes quietTimes(const FaultSettings& settings) {
     return quiet;
 }
 
-void writeCounter(std::vector<std::byte>& bytes, std::uint32_t sample) {
-    for (std::size_t place = 0; place < 4; ++place) {
-        bytes[kCounterOffset + place] = static_cast<std::byte>(sample >> (24 - 8 * place));
-    }
-}
-
 } // namespace
 
 std::optional<std::string> findProblem(const FaultSettings& settings) {
@@ -193,18 +188,15 @@ void Faults::restartAt(log::Duration due, Sending& sending) {
     }
     m_epoch = 1;
     m_shift = sending.origin.sample - restart->firstSample;
-    const std::int64_t jump = static_cast<std::int32_t>(m_shift);
-    m_delivery.keepStragglers(std::abs(jump) > kFarRestart);
+    m_delivery.keepStragglers(std::abs(distance(sending.origin.sample, restart->firstSample)) > kFarRestart);
 }
 
 void Faults::offer(std::vector<std::byte> datagram, log::Duration due) {
-    m_delivery.takeUntil(due, m_ready);
+    m_delivery.take(due, m_ready);
     const auto header = wire::decodeHeader(datagram);
     Sending sending{std::move(datagram), due, {}, header.has_value()};
     if (header) {
-        sending.origin.sample = header->sampleCounter;
-        sending.origin.type = header->type();
-        sending.origin.character = header->character;
+        sending.origin = {header->sampleCounter, header->type(), header->character};
     }
     if (header && wire::isSampled(header->type())) {
         if (isReduced(header->sampleCounter, due)) {
@@ -218,7 +210,7 @@ void Faults::offer(std::vector<std::byte> datagram, log::Duration due) {
         restartAt(due, sending);
         sending.origin.epoch = m_epoch;
         sending.origin.sample -= m_shift;
-        writeCounter(sending.bytes, sending.origin.sample);
+        wire::store32(sending.bytes.data() + kCounterOffset, sending.origin.sample);
     }
     if (isPaused(due)) {
         ++m_tally.withheld;
@@ -321,7 +313,7 @@ void Faults::sendCopy(const Sending& sending, std::uint64_t key) {
 void Faults::takeUntil(log::Duration until, std::vector<Sending>& into) {
     std::ranges::move(m_ready, std::back_inserter(into));
     m_ready.clear();
-    m_delivery.takeUntil(until, into);
+    m_delivery.take(until, into);
 }
 
 void Faults::takeRest(std::vector<Sending>& into) {

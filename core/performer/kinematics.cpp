@@ -2,6 +2,7 @@
 #include "core/performer/kinematics.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace posewire::performer {
 namespace {
@@ -25,13 +26,8 @@ constexpr std::array<Mass, model::kBodySegmentCount> kMasses{{
     {0.100, 0.433}, {0.0465, 0.433}, {0.0115, 0.5},  {0.003, 0.5},   // left leg
 }};
 
-constexpr double tabulatedSum() {
-    double sum = 0.0;
-    for (const Mass& mass : kMasses) {
-        sum += mass.share;
-    }
-    return sum;
-}
+constexpr double kTabulatedSum = std::accumulate(
+    kMasses.begin(), kMasses.end(), 0.0, [](double sum, const Mass& mass) { return sum + mass.share; });
 
 /// Place of the first point of each segment in the table of points.
 std::array<std::size_t, model::kBodySegmentCount> firstPoints() {
@@ -82,7 +78,7 @@ Vector3d centreOfMass(const model::ReferenceBody& body, std::span<const model::S
         const Vector3d& far = body.points[first[index] + 1];
         sum += mass.share * (segments[index].position + segments[index].orientation * (mass.centre * far));
     }
-    return sum / tabulatedSum();
+    return sum / kTabulatedSum;
 }
 
 } // namespace posewire::performer

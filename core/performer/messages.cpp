@@ -46,18 +46,16 @@ std::uint32_t segmentId(const model::SegmentLayout& layout, int position, const 
 }
 
 void perform(const Subject& subject, wire::PoseEuler& message) {
-    const auto make = [](std::uint32_t id, const SegmentState& state) {
+    perSegment(subject, message.segments, [](std::uint32_t id, const SegmentState& state) {
         const wire::SegmentEuler item = model::eulerFromPose(state.pose);
         return wire::SegmentEuler{id, item.position, item.rotation};
-    };
-    perSegment(subject, message.segments, make);
+    });
 }
 
 void perform(const Subject& subject, wire::PoseQuaternion& message) {
-    const auto make = [](std::uint32_t id, const SegmentState& state) {
+    perSegment(subject, message.segments, [](std::uint32_t id, const SegmentState& state) {
         return wire::SegmentQuaternion{id, toFloats(state.pose.position), toFloats(state.pose.orientation)};
-    };
-    perSegment(subject, message.segments, make);
+    });
 }
 
 void perform(const Subject& subject, wire::PointPositions& message) {
@@ -110,19 +108,17 @@ void perform(const Subject& subject, wire::JointAngles& message) {
 }
 
 void perform(const Subject& subject, wire::LinearKinematics& message) {
-    const auto make = [](std::uint32_t id, const SegmentState& state) {
+    perSegment(subject, message.segments, [](std::uint32_t id, const SegmentState& state) {
         return wire::LinearSegment{id, toFloats(state.pose.position), toFloats(state.velocity),
                                    toFloats(state.acceleration)};
-    };
-    perSegment(subject, message.segments, make);
+    });
 }
 
 void perform(const Subject& subject, wire::AngularKinematics& message) {
-    const auto make = [](std::uint32_t id, const SegmentState& state) {
+    perSegment(subject, message.segments, [](std::uint32_t id, const SegmentState& state) {
         return wire::AngularSegment{id, toFloats(state.pose.orientation), toFloats(state.angularVelocity),
                                     toFloats(state.angularAcceleration)};
-    };
-    perSegment(subject, message.segments, make);
+    });
 }
 
 void perform(const Subject& subject, wire::TrackerKinematics& message) {

@@ -19,6 +19,15 @@ struct Origin {
     std::uint32_t step = 1;   ///< samples from one that is sent to the next
 };
 
+/// From one sample counter to another, by the shorter way around.
+inline std::int64_t distance(std::uint32_t to, std::uint32_t from) {
+    return static_cast<std::int32_t>(to - from);
+}
+
+/// A jump of the counter further back or forward may be a restart (RFC 3550 A.1).
+inline constexpr std::int64_t kMostBack = 100;
+inline constexpr std::int64_t kMostForward = 3000;
+
 /// A datagram on its way.
 struct Sending {
     std::vector<std::byte> bytes;

@@ -115,7 +115,7 @@ TrackerSet::TrackerSet(const model::ReferenceBody& body, const KeyedRandom& rand
         Mount& mount = m_mounts[index];
         const MountPlan& plan = kPlans[index];
         mount.segment = plan.segment;
-        mount.place = scale * Vector3d(plan.place[0], plan.place[1], plan.place[2]);
+        mount.place = scale * Vector3d(plan.place.data());
         mount.fromTracker = lieOf(plan) * aboutX(crooked.x()) * aboutY(crooked.y()) * aboutZ(crooked.z());
         for (std::size_t axis = 0; axis < 3; ++axis) {
             mount.bias[axis] =

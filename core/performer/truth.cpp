@@ -9,42 +9,24 @@
 namespace posewire::performer {
 namespace {
 
-/// A jump of the counter further back or forward is a restart (RFC 3550 A.1).
-constexpr std::int64_t kMostBack = 100;
-constexpr std::int64_t kMostForward = 3000;
-
 /// Parts of a message that is sent again and again come within this time.
 constexpr log::Duration kTogether = std::chrono::milliseconds(250);
-
-std::int64_t distance(std::uint32_t to, std::uint32_t from) {
-    return static_cast<std::int32_t>(to - from);
-}
-
-bool isRestart(std::int64_t moved) {
-    return moved < -kMostBack || moved > kMostForward;
-}
 
 } // namespace
 
 bool StreamTruth::Parts::isComplete() const {
-    for (unsigned index = 0; last >= 0 && index <= static_cast<unsigned>(last); ++index) {
-        if ((arrived[index / 64] >> (index % 64) & 1U) == 0) {
-            return false;
-        }
-    }
-    return last >= 0;
+    const auto upToLast = arrived << (arrived.size() - 1 - static_cast<std::size_t>(std::max(last, 0)));
+    return last >= 0 && std::cmp_equal(upToLast.count(), last + 1);
 }
 
 bool StreamTruth::Parts::add(const wire::Header& header) {
-    const unsigned index = header.datagramIndex();
-    std::uint64_t& word = arrived[index / 64];
-    const std::uint64_t bit = std::uint64_t{1} << (index % 64);
-    if ((word & bit) != 0) {
+    const std::uint8_t index = header.datagramIndex();
+    if (arrived.test(index)) {
         return false;
     }
-    word |= bit;
+    arrived.set(index);
     if (header.isLast()) {
-        last = static_cast<std::int16_t>(index);
+        last = index;
     }
     return true;
 }
@@ -79,7 +61,7 @@ void StreamTruth::addMessage(const wire::Header& header, log::Duration time) {
     if (isOpen && time - m_messageAt <= kTogether && m_message.add(header)) {
         return;
     }
-    m_incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
+    m_figures.incomplete += isOpen && !m_message.isComplete() ? 1 : 0;
     m_message = {};
     m_messageAt = time;
     m_message.add(header);
@@ -105,7 +87,8 @@ StreamTruth::Run* StreamTruth::runOf(const wire::Header& header, const Origin& o
     }
     const std::int64_t moved =
         m_runs.empty() ? 0 : distance(sample, static_cast<std::uint32_t>(m_runs.back().last));
-    if (isRestart(moved) && (!isKnown || moved > 0)) {
+    const bool isRestart = moved < -kMostBack || moved > kMostForward;
+    if (isRestart && (!isKnown || moved > 0)) {
         ++m_figures.restarts;
         return &beginRun(header, origin);
     }
@@ -121,13 +104,9 @@ StreamTruth::Run* StreamTruth::runOf(const wire::Header& header, const Origin& o
 }
 
 StreamTruth::Run& StreamTruth::beginRun(const wire::Header& header, const Origin& origin) {
-    Run& run = m_runs.emplace_back();
-    run.epoch = origin.epoch;
-    run.regime = origin.regime;
-    run.step = origin.step;
-    run.restarts = m_figures.restarts;
-    run.first = run.last = run.base = header.sampleCounter;
-    return run;
+    const std::int64_t first = header.sampleCounter;
+    m_runs.push_back({origin.epoch, origin.regime, origin.step, m_figures.restarts, first, first, first});
+    return m_runs.back();
 }
 
 void StreamTruth::addTo(Run& run, const wire::Header& header, log::Duration time) {
@@ -154,7 +133,7 @@ void StreamTruth::addTo(Run& run, const wire::Header& header, log::Duration time
 
 SentFigures StreamTruth::figures() const {
     SentFigures figures = m_figures;
-    figures.incomplete = m_incomplete + (m_message.isTouched() && !m_message.isComplete() ? 1 : 0);
+    figures.incomplete += m_message.isTouched() && !m_message.isComplete() ? 1 : 0;
     for (const Run& run : m_runs) {
         std::uint64_t touched = 0;
         for (const Parts& parts : run.samples) {

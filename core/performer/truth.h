@@ -6,7 +6,7 @@
 #include "core/performer/sending.h"
 #include "core/wire/codec.h"
 
-#include <array>
+#include <bitset>
 #include <compare>
 #include <cstdint>
 #include <deque>
@@ -50,10 +50,10 @@ public:
 private:
     /// The datagrams of a sample, or of a message outside sample accounting.
     struct Parts {
-        std::array<std::uint64_t, 2> arrived{};
-        std::int16_t last = -1; ///< index of the one with the last flag; -1 where that has not come
+        std::bitset<128> arrived;
+        int last = -1; ///< index of the one with the last flag; -1 where that has not come
 
-        [[nodiscard]] bool isTouched() const { return (arrived[0] | arrived[1]) != 0; }
+        [[nodiscard]] bool isTouched() const { return arrived.any(); }
         [[nodiscard]] bool isComplete() const;
         /// False where it is there already.
         bool add(const wire::Header& header);
@@ -67,8 +67,8 @@ private:
         std::int64_t first = 0;     ///< counters without wrap-around
         std::int64_t last = 0;
         std::int64_t base = 0; ///< of samples.front()
-        std::deque<Parts> samples;
-        std::vector<std::pair<std::int64_t, log::Duration>> advances; ///< counter, time
+        std::deque<Parts> samples{};
+        std::vector<std::pair<std::int64_t, log::Duration>> advances{}; ///< counter, time
 
         [[nodiscard]] std::int64_t place(std::uint32_t sample) const;
         Parts& at(std::int64_t position);
@@ -82,9 +82,8 @@ private:
 
     SentFigures m_figures; ///< those that are counted as they come
     std::vector<Run> m_runs;
-    Parts m_message;                ///< the newest one of types 10 to 13
-    log::Duration m_messageAt{};    ///< when it began
-    std::uint64_t m_incomplete = 0; ///< messages before it
+    Parts m_message;             ///< the newest one of types 10 to 13
+    log::Duration m_messageAt{}; ///< when it began
 };
 
 /// What a receiver that misses nothing has to count about one sender.

@@ -24,9 +24,8 @@ struct GaitAngles {
 /// Mean pelvis tilt over a cycle, and so the hip flexion of a person standing upright.
 inline constexpr double kMeanPelvisTilt = 11.588;
 
-/// Walking speed and stride time that belong to the curves.
-inline constexpr double kFreeSpeed = 1.33;      ///< m/s
-inline constexpr double kFreeStrideTime = 1.08; ///< s
+/// Walking speed that belongs to the curves, in m/s; the stride takes 1.08 s.
+inline constexpr double kFreeSpeed = 1.33;
 
 /// Mean walking at free speed; `phase` 0 and 1 are heel strikes of the leg. Any phase is taken modulo 1.
 ///

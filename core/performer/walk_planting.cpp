@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace posewire::performer {
 namespace {
@@ -113,10 +114,7 @@ std::vector<Vector3d> integrated(const std::vector<Vector3d>& velocities) {
 }
 
 Vector3d mean(const std::vector<Vector3d>& values) {
-    Vector3d sum = Vector3d::Zero();
-    for (const Vector3d& value : values) {
-        sum += value;
-    }
+    const Vector3d sum = std::accumulate(values.begin(), values.end(), Vector3d(Vector3d::Zero()));
     return sum / static_cast<double>(values.size());
 }
 

@@ -44,22 +44,17 @@ void loadValue(const std::byte* from, Value& value) {
     }
 }
 
-template <std::size_t N>
-void loadValue(const std::byte* from, std::array<float, N>& values) {
+template <class Element, std::size_t N>
+void loadValue(const std::byte* from, std::array<Element, N>& values) {
     for (std::size_t i = 0; i < N; ++i) {
-        loadValue(from + 4 * i, values[i]);
+        loadValue(from + sizeof(Element) * i, values[i]);
     }
-}
-
-template <std::size_t N>
-void loadValue(const std::byte* from, std::array<char, N>& characters) {
-    std::memcpy(characters.data(), from, N);
 }
 
 template <class Value>
 void storeValue(std::byte* to, Value value) {
     if constexpr (sizeof(Value) == 1) {
-        *to = std::byte{value};
+        *to = static_cast<std::byte>(value);
     } else if constexpr (sizeof(Value) == 2) {
         store16(to, value);
     } else {
@@ -68,16 +63,11 @@ void storeValue(std::byte* to, Value value) {
     }
 }
 
-template <std::size_t N>
-void storeValue(std::byte* to, const std::array<float, N>& values) {
+template <class Element, std::size_t N>
+void storeValue(std::byte* to, const std::array<Element, N>& values) {
     for (std::size_t i = 0; i < N; ++i) {
-        storeValue(to + 4 * i, values[i]);
+        storeValue(to + sizeof(Element) * i, values[i]);
     }
-}
-
-template <std::size_t N>
-void storeValue(std::byte* to, const std::array<char, N>& characters) {
-    std::memcpy(to, characters.data(), N);
 }
 
 } // namespace posewire::wire

@@ -42,6 +42,14 @@ void forEachListOf(BodyType& body, Function&& f) {
         body);
 }
 
+/// What a header says as "number of items" (§2.4.1.4): of a list its items, 1 for a message without a list, 0
+/// where lists have counts of their own, and for raw bytes.
+std::size_t announcedItems(const Body& body) {
+    bool hasList = std::holds_alternative<RawBody>(body);
+    forEachListOf(body, [&](const auto&, bool) { hasList = true; });
+    return hasList ? dividableItems(body) : 1;
+}
+
 } // namespace
 
 Result<void> decodeInto(Bytes bytes, Datagram& into) {
@@ -106,12 +114,6 @@ std::size_t payloadSize(const Body& body) {
     std::size_t size = raw != nullptr ? raw->bytes.size() : 0;
     visitMessage(body, [&]<Form F, class T>(const T& message) { size = writtenSize<T, F>(message); });
     return size;
-}
-
-std::size_t announcedItems(const Body& body) {
-    bool hasList = std::holds_alternative<RawBody>(body);
-    forEachListOf(body, [&](const auto&, bool) { hasList = true; });
-    return hasList ? dividableItems(body) : 1;
 }
 
 std::size_t dividableItems(const Body& body) {

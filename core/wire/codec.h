@@ -41,10 +41,6 @@ void completeHeader(Datagram& datagram, HeaderEra era);
 
 // Messages in parts: one sample in several datagrams (§2.4.1.3), each with some of the items.
 
-/// What a header says as "number of items" (§2.4.1.4): of a list its items, 1 for a message without a list, 0
-/// where lists have counts of their own, and for raw bytes.
-[[nodiscard]] std::size_t announcedItems(const Body& body);
-
 /// Items that can be divided among datagrams: those that the header counts.
 [[nodiscard]] std::size_t dividableItems(const Body& body);
 

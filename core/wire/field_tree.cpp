@@ -99,28 +99,24 @@ public:
         m_parents.pop_back();
     }
     void beginList(const About& about, std::size_t offset, std::size_t count) {
-        m_section = about.section;
-        m_about = about.refersTo;
+        m_list = about;
         beginGroup(about, offset);
         m_tree.nodes.back().index = static_cast<std::uint32_t>(count);
     }
-    void endList(std::size_t offset) { endGroup(offset); }
     void beginItem(std::size_t index, std::size_t offset) {
-        beginGroup({std::to_string(index + 1), Unit::None, "", m_section, m_about}, offset);
+        beginGroup({std::to_string(index + 1), Unit::None, "", m_list.section, m_list.refersTo}, offset);
         m_tree.nodes.back().kind = NodeKind::Item;
         m_tree.nodes.back().index = static_cast<std::uint32_t>(index);
     }
-    void endItem(std::size_t offset) { endGroup(offset); }
     void rest(std::size_t offset, std::size_t size) {
         FieldNode& node = add({"bytes", Unit::None, "no field has these bytes", ""}, offset, size);
         node.value = std::to_string(size);
         node.kind = NodeKind::Unread;
     }
-    [[nodiscard]] std::size_t end() const { return m_end; }
-    /// Ends the groups that a fault left open.
-    void close(std::size_t offset) {
+    /// Ends the groups that are open, as a fault leaves them.
+    void close() {
         while (!m_parents.empty()) {
-            endGroup(std::max(offset, m_end));
+            endGroup(m_end);
         }
     }
     /// What a fault left unread, once all groups are closed.
@@ -207,9 +203,8 @@ private:
 
     FieldTree& m_tree;
     std::vector<std::int32_t> m_parents;
-    std::string_view m_section;           ///< of the list that is being read
-    RefersTo m_about = RefersTo::Nothing; ///< of that list
-    std::size_t m_end = 0;                ///< one past the last byte that has a node
+    About m_list;          ///< that is being read
+    std::size_t m_end = 0; ///< one past the last byte that has a node
     bool m_hasParts;
 };
 
@@ -219,7 +214,7 @@ void readHeader(Bytes bytes, TreeWriter& writer) {
     Cursor cursor{bytes.first(std::min(bytes.size(), kHeaderSize)), 0, 0, {}};
     writer.beginGroup({"header", Unit::None, "24 bytes, the same for all types", "2.4.1"}, 0);
     readLayout<Header, Form::Standard>(cursor, header, writer);
-    writer.close(cursor.offset);
+    writer.close();
 }
 
 void writeTree(Bytes bytes, FieldTree& tree, TreeWriter& writer) {
@@ -241,7 +236,7 @@ void writeTree(Bytes bytes, FieldTree& tree, TreeWriter& writer) {
         }
     } else {
         tree.fault = cursor.error;
-        writer.close(writer.end());
+        writer.close();
     }
     tree.notices = std::move(datagram.notices);
 }

@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-/// One struct for each message type and for the items in their lists, as plain values; core/wire/layouts.h
+/// A type for each message and for the items in their lists, as plain values; core/wire/layouts.h
 /// has their layouts.
 namespace posewire::wire {
 
@@ -94,41 +94,28 @@ struct Tracker {
     friend bool operator==(const Tracker&, const Tracker&) = default;
 };
 
-struct PoseEuler {
-    static constexpr std::uint8_t kType = 1;
-    std::vector<SegmentEuler> segments;
-    friend bool operator==(const PoseEuler&, const PoseEuler&) = default;
+/// A message that is a list of items, each about a segment.
+template <std::uint8_t Type, class Item>
+struct SegmentMessage {
+    static constexpr std::uint8_t kType = Type;
+    std::vector<Item> segments;
+    friend bool operator==(const SegmentMessage&, const SegmentMessage&) = default;
 };
+using PoseEuler = SegmentMessage<1, SegmentEuler>;
+using PoseQuaternion = SegmentMessage<2, SegmentQuaternion>;
+using PoseUnity = SegmentMessage<5, SegmentQuaternion>;
+using ScaleInformation = SegmentMessage<10, SegmentScale>;
+using LinearKinematics = SegmentMessage<21, LinearSegment>;
+using AngularKinematics = SegmentMessage<22, AngularSegment>;
 
-struct PoseQuaternion {
-    static constexpr std::uint8_t kType = 2;
-    std::vector<SegmentQuaternion> segments;
-    friend bool operator==(const PoseQuaternion&, const PoseQuaternion&) = default;
-};
-
-struct PointPositions {
-    static constexpr std::uint8_t kType = 3;
+template <std::uint8_t Type>
+struct PointMessage {
+    static constexpr std::uint8_t kType = Type;
     std::vector<Point> points;
-    friend bool operator==(const PointPositions&, const PointPositions&) = default;
+    friend bool operator==(const PointMessage&, const PointMessage&) = default;
 };
-
-struct TagPositions {
-    static constexpr std::uint8_t kType = 4;
-    std::vector<Point> points;
-    friend bool operator==(const TagPositions&, const TagPositions&) = default;
-};
-
-struct PoseUnity {
-    static constexpr std::uint8_t kType = 5;
-    std::vector<SegmentQuaternion> segments;
-    friend bool operator==(const PoseUnity&, const PoseUnity&) = default;
-};
-
-struct ScaleInformation {
-    static constexpr std::uint8_t kType = 10;
-    std::vector<SegmentScale> segments;
-    friend bool operator==(const ScaleInformation&, const ScaleInformation&) = default;
-};
+using PointPositions = PointMessage<3>;
+using TagPositions = PointMessage<4>;
 
 struct PropInformation {
     static constexpr std::uint8_t kType = 11;
@@ -156,18 +143,6 @@ struct JointAngles {
     static constexpr std::uint8_t kType = 20;
     std::vector<Joint> joints;
     friend bool operator==(const JointAngles&, const JointAngles&) = default;
-};
-
-struct LinearKinematics {
-    static constexpr std::uint8_t kType = 21;
-    std::vector<LinearSegment> segments;
-    friend bool operator==(const LinearKinematics&, const LinearKinematics&) = default;
-};
-
-struct AngularKinematics {
-    static constexpr std::uint8_t kType = 22;
-    std::vector<AngularSegment> segments;
-    friend bool operator==(const AngularKinematics&, const AngularKinematics&) = default;
 };
 
 struct TrackerKinematics {

@@ -8,81 +8,77 @@
 namespace posewire::wire {
 
 template <>
-constexpr auto kRow<PoseEuler> =
-    TypeInfo("Pose, Euler", Frame::YUp, "E–N", "2.5.1",
-             "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it. "
-             "Since N the fingers of both hands follow body and props.");
+constexpr TypeInfo kRow<PoseEuler>{
+    "Pose, Euler", Frame::YUp, "E–N", "2.5.1",
+    "Centimetres and degrees. The same data as type 02: (x, y, z) is 100 · (y, z, x) of it. "
+    "Since N the fingers of both hands follow body and props."};
 template <>
-constexpr auto
-    kRow<PoseQuaternion> = TypeInfo("Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
-                                    "Metres on the wire, although the text says centimetres. The text "
-                                    "also allows Y-up; no sender is known to use it.");
+constexpr TypeInfo kRow<PoseQuaternion>{"Pose, quaternion", Frame::ZUp, "E–N", "2.5.2",
+                                        "Metres on the wire, although the text says centimetres. The text "
+                                        "also allows Y-up; no sender is known to use it."};
 template <>
-constexpr auto kRow<PointPositions> =
-    TypeInfo("Point positions", Frame::YUp, "E–N", "2.5.3",
-             "Point IDs are 256 × segment + point, in older revisions 100 × segment + point. The "
-             "text says 38 to 46 points; the usual set has 64.");
+constexpr TypeInfo kRow<PointPositions>{
+    "Point positions", Frame::YUp, "E–N", "2.5.3",
+    "Point IDs are 256 × segment + point, in older revisions 100 × segment + point. The "
+    "text says 38 to 46 points; the usual set has 64."};
 template <>
-constexpr auto
-    kRow<TagPositions> = TypeInfo("Tag positions", Frame::YUp, "E", "E 2.5",
-                                  "Only tags that were updated are sent. Deprecated since J. Newer "
-                                  "programs use the number for a layout that is not published.");
+constexpr TypeInfo kRow<TagPositions>{"Tag positions", Frame::YUp, "E", "E 2.5",
+                                      "Only tags that were updated are sent. Deprecated since J. Newer "
+                                      "programs use the number for a layout that is not published."};
 template <>
-constexpr auto
-    kRow<PoseUnity> = TypeInfo("Pose, Unity3D", Frame::Unity, "F–N", "2.5.5",
-                               "The pelvis is global, all others are relative to their parents, in an "
-                               "order of their own. N says of props both that they are global and that "
-                               "they are not supported: here they are neither named nor drawn.");
+constexpr TypeInfo kRow<PoseUnity>{"Pose, Unity3D", Frame::Unity, "F–N", "2.5.5",
+                                   "The pelvis is global, all others are relative to their parents, in an "
+                                   "order of their own. N says of props both that they are global and that "
+                                   "they are not supported: here they are neither named nor drawn."};
 template <>
-constexpr auto kRow<ScaleInformation> = TypeInfo("Scale (deprecated)", Frame::ZUp, "E", "E 2.6",
-                                                 "Replaced by type 13.", false);
+constexpr TypeInfo kRow<ScaleInformation>{"Scale (deprecated)",   Frame::ZUp, "E", "E 2.6",
+                                          "Replaced by type 13.", false};
 template <>
-constexpr auto kRow<PropInformation> = TypeInfo("Props (deprecated)", Frame::None, "E", "E 2.6",
-                                                "Names end with a zero byte. Replaced by type 13.", false);
+constexpr TypeInfo kRow<PropInformation>{"Props (deprecated)",
+                                         Frame::None,
+                                         "E",
+                                         "E 2.6",
+                                         "Names end with a zero byte. Replaced by type 13.",
+                                         false};
 template <>
-constexpr auto
-    kRow<MetaData> = TypeInfo("Metadata", Frame::None, "E–N", "2.6.3",
-                              "Real senders put a length before the text; revision E has the bare text. "
-                              "The tags count and timeOffset are not documented.",
-                              false);
+constexpr TypeInfo kRow<MetaData>{"Metadata",
+                                  Frame::None,
+                                  "E–N",
+                                  "2.6.3",
+                                  "Real senders put a length before the text; revision E has the bare text. "
+                                  "The tags count and timeOffset are not documented.",
+                                  false};
 template <>
-constexpr auto kRow<NullPose> =
-    TypeInfo("Null pose", Frame::ZUp, "J–N", "2.6.4",
-             "Comes in several datagrams with sample counter 0: segments first, then points. Metres.", false);
+constexpr TypeInfo kRow<NullPose>{
+    "Null pose",
+    Frame::ZUp,
+    "J–N",
+    "2.6.4",
+    "Comes in several datagrams with sample counter 0: segments first, then points. Metres.",
+    false};
 template <>
-constexpr auto kRow<JointAngles> =
-    TypeInfo("Joint angles", Frame::Isb, "J–N", "2.7.1",
-             "22 joints in the text; real senders add 4 or 6 ergonomic angles (26 or 28 items), two "
-             "of which have the same pair of IDs. Angles are about the ISB axes of the joint, "
-             "although the text names the axes of the segment.");
+constexpr TypeInfo kRow<JointAngles>{
+    "Joint angles", Frame::Isb, "J–N", "2.7.1",
+    "22 joints in the text; real senders add 4 or 6 ergonomic angles (26 or 28 items), two "
+    "of which have the same pair of IDs. Angles are about the ISB axes of the joint, "
+    "although the text names the axes of the segment."};
 template <>
-constexpr auto kRow<LinearKinematics> = TypeInfo("Linear kinematics", Frame::ZUp, "J–N", "2.7.2");
+constexpr TypeInfo kRow<LinearKinematics>{"Linear kinematics", Frame::ZUp, "J–N", "2.7.2"};
 template <>
-constexpr auto kRow<AngularKinematics> = TypeInfo("Angular kinematics", Frame::ZUp, "J–N", "2.7.3",
-                                                  "Radians per second.");
+constexpr TypeInfo kRow<AngularKinematics>{"Angular kinematics", Frame::ZUp, "J–N", "2.7.3",
+                                           "Radians per second."};
 template <>
-constexpr auto kRow<TrackerKinematics> =
-    TypeInfo("Trackers", Frame::ZUp, "J–N", "2.7.4",
-             "68 bytes an item on the wire; 44 in the text since M. The payload size shows which.");
+constexpr TypeInfo kRow<TrackerKinematics>{
+    "Trackers", Frame::ZUp, "J–N", "2.7.4",
+    "68 bytes an item on the wire; 44 in the text since M. The payload size shows which."};
 template <>
-constexpr auto kRow<CentreOfMass> = TypeInfo("Centre of mass", Frame::ZUp, "J–N", "2.7.5",
-                                             "Recent senders add velocity and acceleration (36 bytes).");
+constexpr TypeInfo kRow<CentreOfMass>{"Centre of mass", Frame::ZUp, "J–N", "2.7.5",
+                                      "Recent senders add velocity and acceleration (36 bytes)."};
 template <>
-constexpr auto kRow<TimeCode> = TypeInfo("Time code", Frame::None, "J–N", "2.7.6",
-                                         "Real senders put the length 12 before the text.");
+constexpr TypeInfo kRow<TimeCode>{"Time code", Frame::None, "J–N", "2.7.6",
+                                  "Real senders put the length 12 before the text."};
 
 namespace {
-
-template <class... Message>
-constexpr auto typesOf(MessageList<Message...>) {
-    std::array rows{kRow<Message>...};
-    const std::array types{Message::kType...};
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        rows[i].type = types[i];
-    }
-    return rows;
-}
-constexpr auto kTypes = typesOf(Messages{});
 
 template <class T, Form F>
 constexpr auto rowsOf();
@@ -135,11 +131,18 @@ constexpr auto formsOf() {
 template <class T>
 constexpr auto kForms = formsOf<T>();
 
-template <class... Message>
-constexpr auto rowsOf(MessageList<Message...>) {
-    return std::array{MessageRow{Message::kType, kForms<Message>}...};
+template <class Message>
+constexpr TypeInfo typeOf() {
+    TypeInfo row = kRow<Message>;
+    row.type = Message::kType;
+    row.forms = kForms<Message>;
+    return row;
 }
-constexpr auto kMessages = rowsOf(Messages{});
+template <class... Message>
+constexpr auto typesOf(MessageList<Message...>) {
+    return std::array{typeOf<Message>()...};
+}
+constexpr auto kTypes = typesOf(Messages{});
 
 constexpr bool identifiersReferToSomething(std::span<const FieldRow> rows) {
     return std::ranges::all_of(rows, [](const FieldRow& row) {
@@ -147,17 +150,17 @@ constexpr bool identifiersReferToSomething(std::span<const FieldRow> rows) {
         return (refers || row.about.unit != Unit::Identifier) && identifiersReferToSomething(row.items);
     });
 }
-static_assert(std::ranges::all_of(kMessages,
-                                  [](const MessageRow& message) {
-                                      return std::ranges::all_of(message.forms, [](const FormRow& form) {
+static_assert(std::ranges::all_of(kTypes,
+                                  [](const TypeInfo& row) {
+                                      return std::ranges::all_of(row.forms, [](const FormRow& form) {
                                           return identifiersReferToSomething(form.fields);
                                       });
                                   }),
               "an identifier has to say what it refers to");
 
 bool hasList(std::uint8_t type, bool (*isWanted)(const FieldRow&)) {
-    const MessageRow* message = findMessage(type);
-    return message != nullptr && std::ranges::any_of(message->fields(), isWanted);
+    const TypeInfo* row = findType(type);
+    return row != nullptr && std::ranges::any_of(row->fields(), isWanted);
 }
 
 } // namespace
@@ -218,15 +221,6 @@ std::span<const std::string_view> componentNames(std::size_t components) {
     default:
         return {};
     }
-}
-
-std::span<const MessageRow> messageRows() {
-    return kMessages;
-}
-
-const MessageRow* findMessage(std::uint8_t type) {
-    const auto found = std::ranges::find(kMessages, type, &MessageRow::type);
-    return found == kMessages.end() ? nullptr : &*found;
 }
 
 std::span<const FieldRow> headerRows() {

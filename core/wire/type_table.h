@@ -17,48 +17,6 @@ enum class Frame : std::uint8_t {
 /// "Z-up, right-handed"; empty for none.
 [[nodiscard]] std::string_view frameName(Frame frame);
 
-/// What people call a message type, and what the specification says about it as a whole.
-struct TypeInfo {
-    std::uint8_t type = 0;
-    std::string_view name; ///< "Pose, quaternion"
-    Frame frame;
-    std::string_view revisions; ///< "E–N": of the specification, the first and the last that have it
-    std::string_view section;
-    std::string_view remark; ///< where real senders and the text differ
-    bool isSampled;          ///< carries a sample counter that counts frames (not types 10 to 13)
-
-    constexpr TypeInfo(std::string_view name_, Frame frame_, std::string_view revisions_,
-                       std::string_view section_, std::string_view remark_ = {}, bool isSampled_ = true)
-        : name(name_),
-          frame(frame_),
-          revisions(revisions_),
-          section(section_),
-          remark(remark_),
-          isSampled(isSampled_) {}
-
-    [[nodiscard]] constexpr char firstRevision() const { return revisions.front(); }
-    [[nodiscard]] constexpr bool isInOneRevision() const { return revisions.size() == 1; }
-};
-
-/// The row of a message type, specialised for each of wire::Messages; the type itself comes from there.
-template <class Message>
-inline constexpr TypeInfo kRow = Message::needsARowInTheTypeTable;
-
-/// All message types, in order.
-[[nodiscard]] std::span<const TypeInfo> typeTable();
-
-/// The row of a type; null where the type is not known.
-[[nodiscard]] const TypeInfo* findType(std::uint8_t type);
-
-/// The type as the two digits on the wire, "02".
-[[nodiscard]] std::string typeDigits(std::uint8_t type);
-
-/// "02 Pose, quaternion", or "77 unknown type".
-[[nodiscard]] std::string typeTitle(std::uint8_t type);
-
-/// True for types whose sample counter counts frames; unknown types are taken to.
-[[nodiscard]] bool isSampled(std::uint8_t type);
-
 // The layouts as plain data, made from them once: for who lists what is declared rather than reads bytes.
 
 /// One declared field.
@@ -89,18 +47,40 @@ struct FormRow {
     std::span<const FieldRow> fields;
 };
 
-/// A message type in all its forms, the standard one first.
-struct MessageRow {
-    std::uint8_t type = 0;
-    std::span<const FormRow> forms;
+/// What people call a message type, what the specification says about it as a whole, and its layouts.
+struct TypeInfo {
+    std::string_view name; ///< "Pose, quaternion"
+    Frame frame;
+    std::string_view revisions; ///< "E–N": of the specification, the first and the last that have it
+    std::string_view section;
+    std::string_view remark{};        ///< where real senders and the text differ
+    bool isSampled = true;            ///< carries a sample counter that counts frames (not types 10 to 13)
+    std::uint8_t type = 0;            ///< as the message has it
+    std::span<const FormRow> forms{}; ///< from its layouts, the standard one first
 
     [[nodiscard]] constexpr std::span<const FieldRow> fields() const { return forms.front().fields; }
+    [[nodiscard]] constexpr char firstRevision() const { return revisions.front(); }
+    [[nodiscard]] constexpr bool isInOneRevision() const { return revisions.size() == 1; }
 };
 
+/// The row of a message type, specialised for each of wire::Messages; type and forms come from there.
+template <class Message>
+inline constexpr TypeInfo kRow = Message::needsARowInTheTypeTable;
+
 /// All message types, in order.
-[[nodiscard]] std::span<const MessageRow> messageRows();
-/// Null where the type is not known.
-[[nodiscard]] const MessageRow* findMessage(std::uint8_t type);
+[[nodiscard]] std::span<const TypeInfo> typeTable();
+
+/// The row of a type; null where the type is not known.
+[[nodiscard]] const TypeInfo* findType(std::uint8_t type);
+
+/// The type as the two digits on the wire, "02".
+[[nodiscard]] std::string typeDigits(std::uint8_t type);
+
+/// "02 Pose, quaternion", or "77 unknown type".
+[[nodiscard]] std::string typeTitle(std::uint8_t type);
+
+/// True for types whose sample counter counts frames; unknown types are taken to.
+[[nodiscard]] bool isSampled(std::uint8_t type);
 
 /// The fields of the header.
 [[nodiscard]] std::span<const FieldRow> headerRows();

@@ -31,16 +31,15 @@ struct Cursor {
 };
 
 /// Takes no notice of anything. What a visitor is shown; `wantsCuts`: also the field for which the bytes did
-/// not suffice, and what there is of an item that is cut off.
+/// not suffice, and what there is of an item that is cut off. `endGroup` ends a list or an item.
 struct SilentVisitor {
     static constexpr bool wantsCuts() { return false; }
     void field(const About&, std::size_t, std::size_t, const auto&) {}
     void count(const About&, std::size_t, std::size_t) {}
     void cut(const About&, std::size_t, std::size_t, const WireError&) {}
     void beginList(const About&, std::size_t, std::size_t) {}
-    void endList(std::size_t) {}
     void beginItem(std::size_t, std::size_t) {}
-    void endItem(std::size_t) {}
+    void endGroup(std::size_t) {}
     void rest(std::size_t, std::size_t) {}
 };
 
@@ -151,7 +150,7 @@ bool readItems(Cursor& cursor, const About& about, std::size_t count, std::vecto
         for (std::size_t i = 0; i < whole; ++i) {
             visitor.beginItem(i, cursor.offset);
             readFixed<Item, ItemForm>(cursor, list[i], visitor);
-            visitor.endItem(cursor.offset);
+            visitor.endGroup(cursor.offset);
         }
         if (whole < count) {
             if (visitor.wantsCuts()) { // the fields that are there of the item that is cut off
@@ -170,10 +169,10 @@ bool readItems(Cursor& cursor, const About& about, std::size_t count, std::vecto
             if (!readLayout<Item, ItemForm>(cursor, list.emplace_back(), visitor)) {
                 return false;
             }
-            visitor.endItem(cursor.offset);
+            visitor.endGroup(cursor.offset);
         }
     }
-    visitor.endList(cursor.offset);
+    visitor.endGroup(cursor.offset);
     return true;
 }
 

@@ -164,15 +164,14 @@ std::string_view formName(wire::Form form) {
     return form == wire::Form::Bare ? "bare" : form == wire::Form::Short ? "short" : "standard";
 }
 
-void writeMessage(std::string& out, const wire::MessageRow& message) {
-    const wire::TypeInfo& info = *wire::findType(message.type);
+void writeMessage(std::string& out, const wire::TypeInfo& info) {
     const std::string_view frame = wire::frameName(info.frame);
     out += "-- Section " + std::string(info.section) + ", revisions " + std::string(info.revisions);
     out.append(frame.empty() ? "" : ", ").append(frame).append(".\n");
-    out += "messages[" + std::to_string(message.type) + "] = {\n  " + entry("title", info.name);
-    out += wire::countsSegments(message.type) ? "has_segments = true,\n" : "\n";
+    out += "messages[" + std::to_string(info.type) + "] = {\n  " + entry("title", info.name);
+    out += wire::countsSegments(info.type) ? "has_segments = true,\n" : "\n";
     out += "  forms = {\n";
-    for (const wire::FormRow& form : message.forms) {
+    for (const wire::FormRow& form : info.forms) {
         out.append("    ").append(formName(form.form)).append(" = {\n");
         LayoutWriter(out, "mxtp", "      ").write(form.fields);
         out += "    },\n";
@@ -275,8 +274,8 @@ std::string dissectorTables() {
     out += "\nlocal header_layout = {\n";
     LayoutWriter(out, "mxtp", "  ", true).write(wire::headerRows());
     out += "}\n\nlocal messages = {}\n";
-    for (const wire::MessageRow& message : wire::messageRows()) {
-        writeMessage(out, message);
+    for (const wire::TypeInfo& info : wire::typeTable()) {
+        writeMessage(out, info);
     }
     return out;
 }

@@ -129,7 +129,7 @@ TEST(FurtherMessage, IsPerformedSplitAndJoined) {
 
 TEST(FurtherMessage, IsKnownBySchema) {
     EXPECT_TRUE(wire::countsSegments(wire::Probe::kType));
-    EXPECT_EQ(wire::messageRows().back().type, wire::Probe::kType);
+    EXPECT_EQ(wire::typeTable().back().type, wire::Probe::kType);
 }
 
 } // namespace

@@ -47,7 +47,7 @@ inline constexpr auto kLayout<Probe> = std::tuple{
 
 #ifndef WITHOUT_ROW
 template <>
-inline constexpr auto kRow<Probe> = TypeInfo("Probes", Frame::ZUp, "N", "P 1", "Only a test.");
+inline constexpr TypeInfo kRow<Probe>{"Probes", Frame::ZUp, "N", "P 1", "Only a test."};
 #endif
 
 } // namespace posewire::wire

@@ -47,7 +47,10 @@ TEST(Completion, ReplacesTheWholeWord) {
 
 TEST(Completion, OffersComponents) {
     EXPECT_THAT(texts(at("position.|")), IsSupersetOf({"position.x", "position.y", "position.z"}));
-    EXPECT_THAT(texts(at("orientation|")), Contains("orientation.w"));
+    EXPECT_THAT(texts(at("orientation.|")),
+                AllOf(IsSupersetOf({"orientation.re", "orientation.i", "orientation.j", "orientation.k"}),
+                      Not(Contains("orientation.w"))));
+    EXPECT_THAT(texts(at("matrix|")), IsSupersetOf({"matrix.1", "matrix.9"}));
     EXPECT_THAT(texts(at("segments.pos|")), Contains("segments.position"));
 }
 
@@ -99,6 +102,11 @@ TEST(ExpressionFor, WritesWhatPeopleWouldWrite) {
     EXPECT_EQ(expressionFor("nothing", "1"), "");
 }
 
+TEST(ExpressionFor, NamesTheComponentsOfAQuaternionAsTheInspectorDoes) {
+    EXPECT_EQ(expressionFor("orientation", "1  0  0  -0.5"),
+              "orientation.re == 1 && orientation.i == 0 && orientation.j == 0 && orientation.k == -0.5");
+}
+
 TEST(FilterReference, NamesEveryFieldOfTheTables) {
     const std::string page = filterReference();
     for (const char* field :
@@ -109,6 +117,8 @@ TEST(FilterReference, NamesEveryFieldOfTheTables) {
 
 TEST(FilterReference, SaysWhichTypesHaveWhichUnit) {
     EXPECT_THAT(filterReference(), HasSubstr("| `segments.position` | x, y, z | cm (01), m (02 05 13 21) |"));
+    EXPECT_THAT(filterReference(), HasSubstr("| `segments.orientation` | re, i, j, k |"));
+    EXPECT_THAT(filterReference(), HasSubstr("| `segments.matrix` | 1 … 9 |"));
 }
 
 } // namespace

@@ -67,24 +67,14 @@ TEST(Filter, ReadsTheFieldsOfTheHeader) {
     EXPECT_TRUE(matches(packet, "timeCode == " + std::to_string(header.timeCode)));
 }
 
-TEST(Filter, ReadsTheHeaderOfAPacketThatWasNotDecoded) {
-    Case packet = golden("02_quaternion_counted");
-    const auto sample = packet.datagram.header.sampleCounter;
-    Candidate candidate = packet.candidate();
-    candidate.datagram = nullptr;
-    const auto filter = Filter::compile("sample == " + std::to_string(sample) + " && type == 2");
-    EXPECT_FALSE(filter->needsDatagram());
-    EXPECT_TRUE(filter->matches(candidate));
-}
-
-TEST(Filter, KnowsWhetherItNeedsThePayload) {
-    for (const char* text :
-         {"type == 2", "duplicate", "notice", "source contains \"1\"", "error == badMagic"}) {
-        EXPECT_FALSE(Filter::compile(text)->needsDatagram()) << text;
-    }
-    for (const char* text : {"position.z > 1", "tag", "notice == notFinite", "sample == 1 || segments"}) {
-        EXPECT_TRUE(Filter::compile(text)->needsDatagram()) << text;
-    }
+TEST(Filter, ReadsTheHeaderOfAPacketThatCannotBeDecoded) {
+    auto bytes = posewire::test::golden("02_quaternion_counted").bytes;
+    const std::string sample = std::to_string(wire::decodeHeader(bytes)->sampleCounter);
+    bytes.resize(bytes.size() - 1);
+    const Case packet(bytes);
+    ASSERT_TRUE(packet.fault);
+    EXPECT_TRUE(matches(packet, "malformed && sample == " + sample + " && type == 2 && datagram == 0"));
+    EXPECT_FALSE(matches(packet, "notice"));
 }
 
 TEST(Filter, ComparesAnyItemOfAList) {
@@ -95,6 +85,24 @@ TEST(Filter, ComparesAnyItemOfAList) {
     EXPECT_TRUE(matches(packet, "position.z in {7, 2.5..3.5}"));
     EXPECT_TRUE(matches(packet, "segments == 3"));
     EXPECT_TRUE(matches(packet, "orientation.w == 1 && !(orientation.x == 1)"));
+}
+
+TEST(Filter, KnowsTheComponentsOfAQuaternionByTheTablesNamesAndByLetters) {
+    wire::Datagram datagram;
+    datagram.body = wire::PoseQuaternion{{{1, {}, {0.5F, -0.5F, 0.5F, 0.25F}}}};
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    const Case packet(datagram);
+    for (const char* text :
+         {"orientation.re == 0.5 && orientation.i == -0.5 && orientation.j == 0.5 && orientation.k == 0.25",
+          "orientation.w == 0.5 && orientation.x == -0.5 && orientation.y == 0.5 && orientation.z == 0.25",
+          "segments.orientation.re == 0.5 && segments.orientation.w == 0.5"}) {
+        EXPECT_TRUE(matches(packet, text)) << text;
+    }
+    EXPECT_FALSE(matches(packet, "orientation.i == 0.5"));
+    EXPECT_FALSE(Filter::compile("position.re == 0"));
+    EXPECT_FALSE(Filter::compile("position.w == 0"));
+    EXPECT_FALSE(Filter::compile("orientation.1 == 0"));
+    EXPECT_FALSE(Filter::compile("sample.re == 0"));
 }
 
 TEST(Filter, SpeaksOfOneItemWithinOneGroup) {

@@ -90,12 +90,12 @@ TEST(Kinematics, FindsSteadyTurningWhateverTheSignsOfTheQuaternions) {
 
 TEST(ExtraSegments, FollowTheHands) {
     const model::ReferenceBody body = model::makeReferenceBody();
-    const ExtraSegments extra{{model::kBodySegmentCount, 4, model::kFingerSegmentCount}};
+    const model::SegmentLayout layout{model::kBodySegmentCount, 4, model::kFingerSegmentCount};
     LocalRotations rotations;
     rotations[kLeftUpperArm] = aboutX(-76.0);
     const BodyPose pose = posed(body, body.origins[kPelvis], rotations);
     std::vector<model::SegmentPose> poses(pose.begin(), pose.end());
-    extra.append(body, 0.4, poses);
+    appendExtraSegments(layout, body, 0.4, poses);
     ASSERT_EQ(poses.size(), 67U);
     for (std::size_t index = 27; index < 47; ++index) {
         EXPECT_LT((poses[index].position - pose[kLeftHand].position).norm(), 0.2);
@@ -108,10 +108,10 @@ TEST(ExtraSegments, FollowTheHands) {
 
 TEST(ExtraSegments, MirrorTheHands) {
     const model::ReferenceBody body = model::makeReferenceBody();
-    const ExtraSegments extra{{model::kBodySegmentCount, 0, model::kFingerSegmentCount}};
+    const model::SegmentLayout layout{model::kBodySegmentCount, 0, model::kFingerSegmentCount};
     const BodyPose pose = posed(body, body.origins[kPelvis], LocalRotations());
     std::vector<model::SegmentPose> poses(pose.begin(), pose.end());
-    extra.append(body, 0.7, poses);
+    appendExtraSegments(layout, body, 0.7, poses);
     for (std::size_t index = 23; index < 43; ++index) {
         const Vector3d left = poses[index].position;
         EXPECT_LT((poses[index + 20].position - left.cwiseProduct(Vector3d(1.0, -1.0, 1.0))).norm(), 1e-9);

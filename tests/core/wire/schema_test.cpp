@@ -32,25 +32,23 @@ constexpr std::array<ItemTotals, 11> kItems{{{1, 28, 28},
                                              {22, 44, 44},
                                              {23, 68, 68}}};
 
-TEST(Schema, HasTheTypesOfTheTypeTableInOrder) {
-    ASSERT_EQ(messageRows().size(), typeTable().size());
-    for (std::size_t i = 0; i < messageRows().size(); ++i) {
-        EXPECT_EQ(messageRows()[i].type, typeTable()[i].type);
-        EXPECT_EQ(findMessage(typeTable()[i].type), &messageRows()[i]);
+TEST(Schema, HasAllTypesInOrder) {
+    EXPECT_TRUE(std::ranges::equal(typeTable(), test::kAllTypes, {}, &TypeInfo::type));
+    for (const TypeInfo& row : typeTable()) {
+        EXPECT_EQ(findType(row.type), &row);
     }
 }
 
 TEST(Schema, KnowsNoOtherTypes) {
     for (unsigned type = 0; type < 256; ++type) {
         const bool isKnown = std::ranges::find(test::kAllTypes, type) != test::kAllTypes.end();
-        EXPECT_EQ(findMessage(static_cast<std::uint8_t>(type)) != nullptr, isKnown) << type;
         EXPECT_EQ(findType(static_cast<std::uint8_t>(type)) != nullptr, isKnown) << type;
     }
 }
 
 TEST(Schema, GivesItemsTheSizesOfTheSpecification) {
     for (const ItemTotals& totals : kItems) {
-        const auto fields = findMessage(totals.type)->fields();
+        const auto fields = findType(totals.type)->fields();
         ASSERT_EQ(fields.size(), 1U) << int{totals.type};
         EXPECT_EQ(fields[0].kind, Kind::Items);
         EXPECT_TRUE(fields[0].isList());
@@ -83,7 +81,7 @@ TEST(Schema, ListsTheOtherFormsOfTypesThatHaveThem) {
         {23, {{Form::Standard, 0}, {Form::Short, 0}}},
         {24, {{Form::Standard, 36}, {Form::Short, 12}}},
         {25, {{Form::Standard, 16}, {Form::Bare, 12}}}};
-    for (const MessageRow& message : messageRows()) {
+    for (const TypeInfo& message : typeTable()) {
         const auto found = sizes.find(message.type);
         if (found == sizes.end()) {
             EXPECT_EQ(message.forms.size(), 1U) << int{message.type};
@@ -96,11 +94,11 @@ TEST(Schema, ListsTheOtherFormsOfTypesThatHaveThem) {
             EXPECT_EQ(message.forms[i].size, found->second[i].second) << int{message.type};
         }
     }
-    EXPECT_EQ(findMessage(23)->forms[1].fields[0].size, 44U);
+    EXPECT_EQ(findType(23)->forms[1].fields[0].size, 44U);
 }
 
 TEST(Schema, TellsTheTwoListsOfANullPoseByTheirCounts) {
-    const auto fields = findMessage(13)->fields();
+    const auto fields = findType(13)->fields();
     ASSERT_EQ(fields.size(), 2U);
     for (const FieldRow& field : fields) {
         EXPECT_EQ(field.kind, Kind::CountedItems);
@@ -116,24 +114,24 @@ TEST(Schema, TellsTheTwoListsOfANullPoseByTheirCounts) {
 }
 
 TEST(Schema, SaysHowTextsEnd) {
-    EXPECT_EQ(findMessage(12)->forms[0].fields[0].textKind, TextKind::Prefixed);
-    EXPECT_EQ(findMessage(12)->forms[1].fields[0].textKind, TextKind::ToEnd);
-    EXPECT_EQ(findMessage(11)->fields()[0].items[1].textKind, TextKind::ZeroTerminated);
-    EXPECT_EQ(findMessage(13)->fields()[0].items[0].textKind, TextKind::Prefixed);
-    for (const MessageRow& message : messageRows()) {
+    EXPECT_EQ(findType(12)->forms[0].fields[0].textKind, TextKind::Prefixed);
+    EXPECT_EQ(findType(12)->forms[1].fields[0].textKind, TextKind::ToEnd);
+    EXPECT_EQ(findType(11)->fields()[0].items[1].textKind, TextKind::ZeroTerminated);
+    EXPECT_EQ(findType(13)->fields()[0].items[0].textKind, TextKind::Prefixed);
+    for (const TypeInfo& message : typeTable()) {
         EXPECT_EQ(message.fields()[0].kind == Kind::Text, message.type == 12) << int{message.type};
     }
 }
 
 TEST(Schema, GivesVectorsTheirComponents) {
-    const auto quaternion = findMessage(2)->fields()[0].items;
+    const auto quaternion = findType(2)->fields()[0].items;
     EXPECT_EQ(quaternion[0].components, 1);
     EXPECT_EQ(quaternion[0].scalar, Scalar::Uint32);
     EXPECT_EQ(quaternion[1].components, 3);
     EXPECT_EQ(quaternion[2].components, 4);
     EXPECT_EQ(quaternion[2].scalar, Scalar::Float32);
-    EXPECT_EQ(findMessage(10)->fields()[0].items[2].components, 9);
-    EXPECT_EQ(findMessage(25)->fields()[1].scalar, Scalar::Characters);
+    EXPECT_EQ(findType(10)->fields()[0].items[2].components, 9);
+    EXPECT_EQ(findType(25)->fields()[1].scalar, Scalar::Characters);
     for (const std::size_t components : {3U, 4U, 9U}) {
         EXPECT_EQ(componentNames(components).size(), components);
     }
@@ -145,7 +143,7 @@ TEST(Schema, GivesVectorsTheirComponents) {
 /// The positions of type 02 and 21 are metres, of type 01 and 03 centimetres.
 TEST(Schema, TellsMetresFromCentimetres) {
     const auto positionUnit = [](std::uint8_t type) {
-        const MessageRow* message = findMessage(type);
+        const TypeInfo* message = findType(type);
         const auto items = message->fields()[0].items;
         const auto place =
             std::ranges::find_if(items, [](const FieldRow& row) { return row.about.name == "position"; });
@@ -157,12 +155,12 @@ TEST(Schema, TellsMetresFromCentimetres) {
     EXPECT_EQ(positionUnit(5), "m");
     EXPECT_EQ(positionUnit(13), "m");
     EXPECT_EQ(positionUnit(21), "m");
-    EXPECT_EQ(unitSymbol(findMessage(1)->fields()[0].items[2].about.unit), "°");
-    EXPECT_EQ(unitSymbol(findMessage(22)->fields()[0].items[2].about.unit), "rad/s");
-    EXPECT_EQ(unitSymbol(findMessage(22)->fields()[0].items[3].about.unit), "rad/s²");
-    EXPECT_EQ(unitSymbol(findMessage(23)->fields()[0].items[2].about.unit), "m/s²");
-    EXPECT_EQ(unitSymbol(findMessage(23)->fields()[0].items[5].about.unit), "a.u.");
-    EXPECT_EQ(unitSymbol(findMessage(24)->fields()[1].about.unit), "m/s");
+    EXPECT_EQ(unitSymbol(findType(1)->fields()[0].items[2].about.unit), "°");
+    EXPECT_EQ(unitSymbol(findType(22)->fields()[0].items[2].about.unit), "rad/s");
+    EXPECT_EQ(unitSymbol(findType(22)->fields()[0].items[3].about.unit), "rad/s²");
+    EXPECT_EQ(unitSymbol(findType(23)->fields()[0].items[2].about.unit), "m/s²");
+    EXPECT_EQ(unitSymbol(findType(23)->fields()[0].items[5].about.unit), "a.u.");
+    EXPECT_EQ(unitSymbol(findType(24)->fields()[1].about.unit), "m/s");
     EXPECT_EQ(unitSymbol(headerRows()[4].about.unit), "ms");
     EXPECT_EQ(unitSymbol(headerRows()[10].about.unit), "bytes");
     EXPECT_EQ(unitSymbol(headerRows()[9].about.unit), "");
