@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
 namespace posewire::performer {
@@ -92,9 +91,12 @@ int stepsPerFrame(double rateHz) {
 }
 
 std::string suitId(std::size_t character) {
-    std::array<char, 9> digits{};
-    std::snprintf(digits.data(), digits.size(), "%08zX", 0x00342B10U + character);
-    return digits.data();
+    constexpr const char* kDigits = "0123456789ABCDEF";
+    std::string text(8, '0');
+    for (std::size_t value = 0x00342B10U + character, place = text.size(); place-- > 0; value >>= 4) {
+        text[place] = kDigits[value & 0xfU];
+    }
+    return text;
 }
 
 } // namespace
