@@ -2,6 +2,7 @@
 #include "core/export/sheets.h"
 
 #include "core/export/json_value.h"
+#include "core/model/body/null_pose.h"
 #include "core/model/body/spaces.h"
 #include "core/wire/byte_order.h"
 #include "core/wire/text.h"

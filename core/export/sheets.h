@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/body/null_pose.h"
 #include "core/model/session/session_view.h"
+#include "core/wire/messages.h"
 
 #include <span>
 #include <string>

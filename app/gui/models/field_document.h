@@ -6,7 +6,8 @@
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/body/points.h"
-#include "core/model/body/spaces.h"
+#include "core/model/body/segments.h"
+#include "core/model/body/units.h"
 #include "core/wire/field_tree.h"
 
 #include <QString>

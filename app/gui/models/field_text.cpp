@@ -3,6 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/body/spaces.h"
 #include "core/wire/type_table.h"
 
 #include <cmath>

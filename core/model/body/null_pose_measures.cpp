@@ -121,7 +121,7 @@ void measureSpan(const Body& body, NullPoseMeasures& measures) {
     if (right && left) {
         measures.armSpan = (*left - *right).norm();
     } else if (rightHand && leftHand && measures.height) {
-        const double hand = findPoint("pRightTopOfHand")->position().norm();
+        const double hand = Eigen::Vector3d(findPoint("pRightTopOfHand")->reference.data()).norm();
         measures.armSpan = (*leftHand - *rightHand).norm() + 2 * hand * *measures.height / kReferenceStature;
         measures.isEstimated = true;
     }

@@ -3,8 +3,7 @@
 
 #include "core/model/body/segments.h"
 
-#include <Eigen/Core>
-
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -19,8 +18,6 @@ struct AnatomicalPoint {
     int localId = 0;       ///< 1-based within the segment
     std::string_view name; ///< "pSacrum"; joints begin with j
     std::array<double, 3> reference{};
-
-    Eigen::Vector3d position() const { return {reference[0], reference[1], reference[2]}; }
 };
 
 inline constexpr int kPointCount = 127;

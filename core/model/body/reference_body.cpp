@@ -90,8 +90,8 @@ ReferenceBody makeReferenceBody(const BodyProportions& proportions) {
     }
     const auto points = anatomicalPoints();
     for (std::size_t place = 0; place < points.size(); ++place) {
-        body.points[place] =
-            scale * points[place].position().cwiseProduct(stretch(points[place].segment, proportions));
+        body.points[place] = scale * Eigen::Vector3d(points[place].reference.data())
+                                         .cwiseProduct(stretch(points[place].segment, proportions));
     }
     return body;
 }

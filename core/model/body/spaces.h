@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/body/length_unit.h"
+#include "core/model/body/units.h"
 #include "core/wire/messages.h"
 
 #include <Eigen/Geometry>
 
 #include <array>
 #include <cstdint>
-#include <numbers>
 
 /// Every change of space and unit between the wire and the rest of the program.
 ///
@@ -25,10 +24,6 @@ struct SegmentPose {
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
     Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
-
-inline constexpr double kDegreesPerRadian = 180.0 / std::numbers::pi;
-inline constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
-inline constexpr double kGravity = 9.81; ///< m/s²
 
 // Y-up right-handed (types 01, 03, 04): a cyclic permutation, X_y = Y_z, Y_y = Z_z, Z_y = X_z.
 Eigen::Vector3d zUpFromYUp(const Eigen::Vector3d& yUp);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/body/length_unit.h"
+#include "core/model/body/units.h"
 #include "core/wire/codec.h"
 
 #include <array>
