@@ -203,7 +203,7 @@ void EventFollower::check(log::Stamp stamp) {
 
 std::vector<const Event*> EventFollower::troublesOf(const CharacterKey& key,
                                                     std::optional<log::Stamp> stamp) const {
-    std::vector<const Event*> troubles = stamp ? m_events.currentAt(*stamp) : m_events.current();
+    std::vector<const Event*> troubles = stamp ? m_events.currentAt(*stamp) : m_events.currentOf(key.sender);
     std::erase_if(troubles, [&key](const Event* event) {
         return event->sender != key.sender || event->character.value_or(key.character) != key.character ||
                event->severity() == EventSeverity::Info;

@@ -48,11 +48,6 @@ const KindFacts& factsOf(EventKind kind) {
     return kKinds[static_cast<std::size_t>(kind)];
 }
 
-bool isSameEpisode(const Event& a, const Event& b) {
-    return a.kind == b.kind && a.sender == b.sender && a.character == b.character && a.type == b.type &&
-           a.cause == b.cause;
-}
-
 std::string fixed(double value, int decimals) {
     std::array<char, 64> text{};
     std::snprintf(text.data(), text.size(), "%.*f", decimals, value);
@@ -143,8 +138,18 @@ std::size_t Events::indexOf(std::uint64_t number) const {
 
 std::vector<const Event*> Events::current() const {
     std::vector<const Event*> events;
-    for (const std::uint64_t number : m_current) {
+    for (const auto& [episode, number] : m_current) {
         events.push_back(&at(number));
+    }
+    std::ranges::sort(events, {}, &Event::number);
+    return events;
+}
+
+std::vector<const Event*> Events::currentOf(log::SenderId sender) const {
+    std::vector<const Event*> events;
+    for (auto current = m_current.lower_bound({sender});
+         current != m_current.end() && current->first.sender == sender; ++current) {
+        events.push_back(&at(current->second));
     }
     return events;
 }
@@ -166,11 +171,14 @@ const Event* Events::find(std::uint64_t number) const {
     return index < m_events.size() && m_events[index].number == number ? &m_events[index] : nullptr;
 }
 
+Events::Episode Events::episodeOf(const Event& event) {
+    return {event.sender, event.kind, event.character, event.type, event.cause};
+}
+
 /// Its index.
 std::optional<std::size_t> Events::findCurrent(const Event& like) const {
-    const auto found = std::find_if(m_current.rbegin(), m_current.rend(),
-                                    [&](std::uint64_t number) { return isSameEpisode(at(number), like); });
-    return found == m_current.rend() ? std::nullopt : std::optional(indexOf(*found));
+    const auto found = m_current.find(episodeOf(like));
+    return found == m_current.end() ? std::nullopt : std::optional(indexOf(found->second));
 }
 
 void Events::report(const Event& event) {
@@ -187,7 +195,7 @@ void Events::report(const Event& event) {
     }
     m_events.push_back(event);
     m_events.back().number = m_next;
-    m_current.push_back(m_next);
+    m_current.emplace(episodeOf(event), m_next);
     ++m_next;
     forget();
 }
@@ -197,14 +205,14 @@ void Events::end(const Event& like, log::Stamp stamp) {
         Event& known = m_events[*index];
         known.isCurrent = false;
         known.lastStamp = std::max(known.lastStamp, stamp);
-        std::erase(m_current, known.number);
+        m_current.erase(episodeOf(known));
         ++m_version;
     }
 }
 
 void Events::advance(log::Stamp stamp) {
-    std::erase_if(m_current, [&](std::uint64_t number) {
-        Event& event = m_events[indexOf(number)];
+    std::erase_if(m_current, [&](const auto& current) {
+        Event& event = m_events[indexOf(current.second)];
         const bool isOver = !factsOf(event.kind).lasts && stamp - event.lastStamp >= kQuiet;
         event.isCurrent = !isOver;
         m_version += isOver ? 1 : 0;
@@ -219,7 +227,9 @@ void Events::forget() {
     }
     auto oldest = std::ranges::find(m_events, false, &Event::isCurrent);
     oldest = oldest == m_events.end() ? m_events.begin() : oldest;
-    std::erase(m_current, oldest->number);
+    if (oldest->isCurrent) {
+        m_current.erase(episodeOf(*oldest));
+    }
     m_events.erase(oldest);
 }
 

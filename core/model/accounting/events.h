@@ -5,9 +5,11 @@
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/keys.h"
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -99,6 +101,8 @@ public:
 
     /// Those that last, in the order in which they began.
     [[nodiscard]] std::vector<const Event*> current() const;
+    /// Those of one sender that last, in any order.
+    [[nodiscard]] std::vector<const Event*> currentOf(log::SenderId sender) const;
     /// Those that lasted at a time in the past, in the same order, with all that is known of them now.
     [[nodiscard]] std::vector<const Event*> currentAt(log::Stamp stamp) const;
     /// Null where there is none of that number, or none any more.
@@ -114,13 +118,24 @@ public:
     void advance(log::Stamp stamp);
 
 private:
+    /// What makes two events one episode; those of a sender are next to each other.
+    struct Episode {
+        log::SenderId sender{};
+        EventKind kind{};
+        std::optional<std::uint8_t> character{};
+        std::optional<std::uint8_t> type{};
+        std::optional<LossCause> cause{};
+
+        friend auto operator<=>(const Episode&, const Episode&) = default;
+    };
+    [[nodiscard]] static Episode episodeOf(const Event& event);
     [[nodiscard]] std::optional<std::size_t> findCurrent(const Event& like) const;
     [[nodiscard]] const Event& at(std::uint64_t number) const { return m_events[indexOf(number)]; }
     [[nodiscard]] std::size_t indexOf(std::uint64_t number) const;
     void forget();
 
     std::deque<Event> m_events;
-    std::vector<std::uint64_t> m_current; ///< numbers of those that last
+    std::map<Episode, std::uint64_t> m_current; ///< numbers of those that last
     std::uint64_t m_next = 0;
     std::uint64_t m_version = 0;
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/sheets.h"
 
+#include "core/model/body/null_pose.h"
 #include "core/model/body/spaces.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/events.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <set>
@@ -88,6 +89,24 @@ TEST(EventList, KeepsEpisodesApartThatDifferInAnythingThatTheyAreOf) {
     events.report(other);
     EXPECT_EQ(events.all().size(), 7U);
     EXPECT_EQ(numbersOf(events.current()), (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5, 6}));
+}
+
+TEST(EventList, KnowsWhatLastsOfOneSender) {
+    Events events;
+    Event event = eventAt(EventKind::SenderDown, at(1s));
+    for (const std::uint32_t sender : {1U, 2U, 3U}) {
+        event.sender = static_cast<log::SenderId>(sender);
+        events.report(event);
+    }
+    event.sender = static_cast<log::SenderId>(2);
+    event.kind = EventKind::Gap;
+    event.character = 0;
+    events.report(event);
+    std::vector<std::uint64_t> numbers = numbersOf(events.currentOf(event.sender));
+    EXPECT_THAT(numbers, testing::UnorderedElementsAre(1, 3));
+    events.end(event, at(2s));
+    EXPECT_EQ(numbersOf(events.currentOf(event.sender)), (std::vector<std::uint64_t>{1}));
+    EXPECT_TRUE(events.currentOf(static_cast<log::SenderId>(4)).empty());
 }
 
 TEST(EventList, EndsWhatHasBeenQuietForFiveSeconds) {
