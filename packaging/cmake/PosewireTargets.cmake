@@ -9,11 +9,10 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE RelWithDebInfo)
 endif()
 
-# ccache takes a unit with a precompiled header only where it may trust the header's own stamp. What one preset has
-# compiled another takes: paths count from the tree, and a unit that passes with -Werror is the same without.
+# ccache takes a unit with a precompiled header only where it may trust the header's own stamp.
 find_program(POSEWIRE_CCACHE ccache)
 if(POSEWIRE_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_IGNOREOPTIONS=-Werror
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env
     CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${POSEWIRE_CCACHE}")
 endif()
 
