@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
 
+#include "core/wire/text.h"
+
 #include <algorithm>
 #include <array>
 #include <filesystem>
@@ -54,14 +56,11 @@ bool isQualisys(Bytes bytes) {
 /// "4d 58 54 50  MXTP", at most 16 bytes, with dots for unprintable ones.
 std::string shownBytes(Bytes bytes) {
     constexpr std::size_t kShown = 16;
-    constexpr std::string_view kDigits = "0123456789abcdef";
     std::string hexadecimal;
     std::string readable;
-    for (const std::byte byte : bytes.first(std::min(bytes.size(), kShown))) {
+    for (const std::byte& byte : bytes.first(std::min(bytes.size(), kShown))) {
         const auto value = std::to_integer<unsigned char>(byte);
-        hexadecimal += kDigits[value >> 4];
-        hexadecimal += kDigits[value & 0xf];
-        hexadecimal += ' ';
+        hexadecimal += wire::hexadecimal({&byte, 1}) + ' ';
         readable += value >= ' ' && value <= '~' ? static_cast<char>(value) : '.';
     }
     return hexadecimal + ' ' + readable;

@@ -38,8 +38,8 @@ struct Process {
 using UdpSockets = std::vector<std::unique_ptr<QUdpSocket>>;
 
 /// Unshared sockets, bound in the calling thread, that have requested a receive buffer of `bufferBytes` each
-/// and joined their groups. Tells the input its port and what buffer was granted. Every error says what to do
-/// about it.
+/// and joined their groups. Sets the input's port and the buffer that was granted. Every error says what to
+/// do about it.
 [[nodiscard]] NetResult<UdpSockets> bindUdp(Input& input, int bufferBytes);
 
 } // namespace posewire::net
