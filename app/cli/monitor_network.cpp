@@ -71,7 +71,7 @@ public:
             note(stopped ? std::nullopt : std::optional(stopped.error()));
             if (const std::uint64_t missed = m_recording->figures().missed; missed != 0) {
                 m_console.complain(std::to_string(missed) +
-                                   " packets came faster than the disk could take them and are not in the "
+                                   " packets arrived faster than the disk could take them and are not in the "
                                    "recording; choose a faster disk");
                 m_status = worse(m_status, ExitStatus::Faults);
             }

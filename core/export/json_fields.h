@@ -22,7 +22,7 @@ inline bool isLength(const wire::About& about) {
     return about.unit == wire::Unit::ByteCount;
 }
 
-/// The bytes of the datagram that an object stands for.
+/// The bytes of the datagram that an object describes.
 [[nodiscard]] tl::expected<std::vector<std::byte>, JsonFault> datagramFromObject(const Json& object);
 
 } // namespace posewire::exporting

@@ -339,10 +339,10 @@ tl::expected<std::vector<std::byte>, JsonFault> datagramFromObject(const Json& o
         return std::move(*whole);
     }
     if (object.contains("skipped")) {
-        return failure(Kind::NotDatagram, "stands for bytes that belong to no datagram");
+        return failure(Kind::NotDatagram, "is about bytes that belong to no datagram");
     }
     if (object.contains("error")) {
-        return failure(Kind::NotDatagram, "stands for a datagram that could not be decoded");
+        return failure(Kind::NotDatagram, "is about a datagram that could not be decoded");
     }
     wire::Datagram datagram;
     FieldFault fault;

@@ -325,7 +325,7 @@ std::string gapSection(const model::SessionView& session, const ReportSteps& ste
     HtmlTable table({{"At s", true, "seconds since the report's beginning"},
                      {"Stream", false, ""},
                      {"Lost", true, "samples"},
-                     {"Between", true, "the samples around it, which came"},
+                     {"Between", true, "the samples around it, which arrived"},
                      {"Lasted ms", true, "between the arrivals of the samples around it"},
                      {"Whose loss", false, ""},
                      {"Evidence", false, ""}});

@@ -54,7 +54,7 @@ characters; a single word needs none. Constants are compared with the values on 
 * A name that several messages have means each of them; `points.position.x` and `header.sample` say which.
   Where the header has a field of the same name, the constant decides by its kind.
 * Segments are named in any case (`LeftHand`, `Prop1`, `LeftFirstPP`) or numbered as on the wire.
-* `tag` stands for the names of the metadata tags, `tag.color` for the value of the tag `color`.
+* `tag` means the names of the metadata tags, `tag.color` for the value of the tag `color`.
 )";
 
 std::string kindOf(const FieldInfo& field) {

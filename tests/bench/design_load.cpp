@@ -32,7 +32,7 @@ struct Plan {
     int blockedEveryMs = 30'000;
 };
 
-/// What the window tells of itself, a few times a second.
+/// What the window says about itself, a few times a second.
 class Watch {
 public:
     explicit Watch(const SessionDriver& driver) : m_driver(driver) {}

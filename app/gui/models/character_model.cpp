@@ -89,7 +89,7 @@ std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel
                 return row.kind == Kind::Sender ? QVariant(theme().dim) : QVariant();
             })
             .withToolTip([&model](const auto& row) { return model.rateHelp(row); }),
-        valueColumn(Column::numbers(tr("Lost"), tr("Samples that did not come; or what is wrong"), {}),
+        valueColumn(Column::numbers(tr("Lost"), tr("Samples that never arrived, or what is wrong"), {}),
                     [&model](const StreamRow& row) { return model.stateOf(row); }),
     };
 }

@@ -152,7 +152,7 @@ PropertyValue delay(const Source& from) {
     const double milliseconds = log::millisecondsOf(longest);
     return {tr("%1 ms").arg(QLocale().toString(milliseconds, 'f', 1)),
             longest < kLongDelay ? Health::Good : Health::Warning,
-            tr("The longest time the receiving thread did not come to look at its ports; the buffer has to "
+            tr("The longest time the receiving thread took between two looks at its ports; the buffer has to "
                "last that long")};
 }
 

@@ -84,7 +84,7 @@ private:
     /// Marks all of them, or none where all are marked.
     void toggleMark();
     void editComment();
-    /// The condition that the current cell stands for; empty where it has none.
+    /// The condition that the current cell means; empty where it has none.
     [[nodiscard]] QString cellFilter() const;
     void applyCell(FilterJoin join);
 

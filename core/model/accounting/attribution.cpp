@@ -40,9 +40,9 @@ std::string Gap::evidenceText() const {
         return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
                std::to_string(fromPacket) + " and " + std::to_string(toPacket) + ".";
     case Evidence::Damaged:
-        return "Sample " + std::to_string(figure) + " came truncated or damaged.";
+        return "Sample " + std::to_string(figure) + " arrived truncated or damaged.";
     case Evidence::Partial:
-        return "Of sample " + std::to_string(figure) + ", next to the gap, only a part came.";
+        return "Of sample " + std::to_string(figure) + ", next to the gap, only a part arrived.";
     case Evidence::OtherStream:
         return "Type " + wire::typeDigits(otherType) + " of the same source brought sample " +
                std::to_string(figure) + ", which is missing here.";

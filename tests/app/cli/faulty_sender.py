@@ -242,13 +242,13 @@ class FaultySender:
                 datagram = replace(datagram, time=datagram.time + self.hold(is_sampled))
             sent.append(datagram)
         if plan.restart and plan.restart[0] > 0:
-            # What is still on its way when the counter begins anew is told apart only where it is far from it.
+            # What is still on its way when the counter restarts is told apart only where it is far from it.
             jump = abs(plan.restart[1] - plan.first)
             if jump < 20_000:
                 restart = self.runs.index(next(run for run in self.runs if run.restart))
                 new = min((d.time for d in sent if d.run == restart), default=plan.seconds)
                 sent = [d for d in sent if d.kind not in SAMPLED or d.run >= restart or d.time < new]
-        # Once a stream has ended, nothing tells what comes from far behind from a counter that begins anew there.
+        # Once a stream has ended, what comes from far behind and a counter that restarts there look the same.
         end = datagrams[-1].time
         return [d for d in sent if d.time <= end or (d.run + 1 == len(self.runs) and
                                                      (d.time - d.message) * plan.rate < 90)]

@@ -87,7 +87,7 @@ class Values:
         else:
             raw = struct.pack(">I", self.random.getrandbits(32))
             if raw[0] & 0x7F == 0x7F and raw[1] & 0x80:
-                raw = b"\x42\xf6\xe9\x79"  # the JSON does not tell one NaN from another
+                raw = b"\x42\xf6\xe9\x79"  # in JSON all NaNs are the same
         return raw, json_number(raw)
 
     def numbers(self, count: int) -> tuple[bytes, list]:

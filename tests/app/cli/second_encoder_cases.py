@@ -127,7 +127,7 @@ def empty_and_full(values: Values) -> list:
         payload, body = item_list(layout, ids, values)
         header = Header(layout[:2], count, payload_size=len(payload) if sized else 0)
         if layout == "23 short" and count == 0:
-            continue  # nothing tells it from the long form
+            continue  # it looks the same as the long form
         cases.append(Case(f"{layout} with {count} items, sized {sized}", header, payload, body))
     cases.append(Case("11 without props", Header("11", 0), b"", {"props": []}))
     cases.append(Case("12 without tags", Header("12", 1, payload_size=4), *metadata([], True)))

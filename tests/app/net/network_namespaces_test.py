@@ -87,7 +87,7 @@ class Namespaces:
 
 
 def impair(spaces, seed):
-    """Tells what the path does from now on, and what to send over it. A rate limit loses in a pattern that may look like
+    """Sets what the path does from now on, and what to send over it. A rate limit loses in a pattern that may look like
     a stream sent at a fraction of its rate; with one stream, evenly spaced, it does not."""
     netem = ["tc", "qdisc", "add", "dev", "sender", "root", "netem", "delay", "2ms", "1ms", "loss", f"{2 + seed % 5}%",
              "duplicate", "2%", "reorder", "3%", "50%"]

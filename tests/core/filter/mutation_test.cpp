@@ -95,7 +95,7 @@ std::vector<Filter> filters() {
     return all;
 }
 
-/// The fault as JSON tells it.
+/// The fault as it is in JSON.
 std::string jsonFault(const wire::WireError& error) {
     return "\"error\":{\"code\":\"" + std::string(wire::errorName(error.code)) +
            "\",\"offset\":" + std::to_string(error.offset);

@@ -16,7 +16,7 @@ class Writer {
 public:
     explicit Writer(std::uint32_t seed) : m_random(seed) {}
 
-    /// A filter of at least so many words.
+    /// A filter of at least that many words.
     std::string filter(std::size_t words) {
         m_text.clear();
         for (std::size_t i = 0; i < words || !Filter::compile(m_text); ++i) {

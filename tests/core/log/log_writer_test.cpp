@@ -11,7 +11,7 @@
 namespace posewire::log {
 namespace {
 
-/// Does what the kernel does with a message of two parts: fills the first, goes on in the second.
+/// Does what the kernel does with a message of two parts: fills the first, continues in the second.
 void writeInto(const LogWriter::Lane& lane, std::span<const std::byte> bytes) {
     const std::size_t head = std::min(bytes.size(), lane.bytes.size());
     std::copy_n(bytes.begin(), head, lane.bytes.begin());

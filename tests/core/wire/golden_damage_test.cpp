@@ -7,7 +7,7 @@ namespace {
 
 class GoldenDamage : public GoldenTest {
 protected:
-    /// The only cuts that give another datagram in good order: where older headers do not tell the size, and
+    /// The only cuts that give another datagram in good order: where older headers do not say the size, and
     /// the rest is a whole message of its own.
     [[nodiscard]] bool readsAsAnotherMessage(std::size_t length) const {
         if (isNamed({"12_metadata_bare"})) {

@@ -10,7 +10,7 @@ using State = Extent::State;
 
 class GoldenExtent : public GoldenTest {
 protected:
-    /// Neither the header nor the content tells how long these are.
+    /// Neither the header nor the content says how long these are.
     [[nodiscard]] bool isUntold() const { return isNamed({"12_metadata_bare", "77_unknown_reserved"}); }
 
     static std::vector<std::byte> followedBy(std::vector<std::byte> bytes, const std::string& next) {

@@ -45,7 +45,7 @@ TEST_P(GoldenCodec, HasTheHeaderThatCompleteHeaderMakes) {
     Datagram datagram = expectedDatagram(name());
     const Header expected = datagram.header;
     if (std::holds_alternative<RawBody>(datagram.body) || isNamed({"25_time_code_miscounted"})) {
-        return; // bytes tell nothing of their items, and one sender miscounts
+        return; // bytes say nothing about their items, and one sender miscounts
     }
     datagram.header.items = 99;
     datagram.header.payloadSize = 999;

@@ -160,7 +160,7 @@ TEST(MessagePartsWithNotices, CarryThemInOrder) {
                                           Notice{NoticeCode::NotUnitQuaternion, 24, 1}}));
 }
 
-/// 128 datagrams are the most that the seven bits of the counter can tell apart.
+/// 128 datagrams are the most that the seven bits of the counter can number.
 TEST(MessagePartsOfOneItem, FillTheDatagramCounter) {
     std::mt19937 random(1);
     const auto parts = sentInParts(generated(random, PointPositions::kType, 128), 1);

@@ -62,7 +62,7 @@ TEST_P(RoundTripLimits, HoldForEveryNumberOfItems) {
             const auto read = decode(*bytes);
             ASSERT_TRUE(read) << items << ": " << errorText(read.error());
             ASSERT_EQ(encode(*read), bytes) << items;
-            // Nothing tells the two forms of an empty list of trackers apart.
+            // The two forms of an empty list of trackers look the same.
             ASSERT_TRUE(read->body == sent.body || (type() == 23 && items == 0)) << items;
         }
     }

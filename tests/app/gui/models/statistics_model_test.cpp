@@ -35,7 +35,7 @@ protected:
         return text(row, column).remove(QChar(0x202f)).toDouble();
     }
 
-    /// 100 samples a second for so many seconds; frame 520 never arrives.
+    /// 100 samples a second for that many seconds; frame 520 never arrives.
     void performSeconds(std::uint64_t seconds) {
         performer::Performer performer(sending(1, {2}, 100.0));
         m_stage.perform(performer, 0, seconds * 100, [](std::uint64_t frame) { return frame != 520; });

@@ -7,7 +7,7 @@ namespace {
 
 class EventBounds : public EventsTest {
 protected:
-    /// Nothing more comes: the time of day goes on by so much after the newest packet.
+    /// Nothing more comes: time passes by this much after the newest packet.
     void waitFor(log::Duration time) {
         follow();
         m_session.follow(m_now + time);

@@ -152,9 +152,9 @@ TEST(GapTexts, SayOneAndMany) {
     EXPECT_EQ(gap.evidenceText(),
               "This computer dropped 30 datagrams of the port between packets 10 and 12.");
     gap.evidence = Gap::Evidence::Damaged;
-    EXPECT_EQ(gap.evidenceText(), "Sample 30 came truncated or damaged.");
+    EXPECT_EQ(gap.evidenceText(), "Sample 30 arrived truncated or damaged.");
     gap.evidence = Gap::Evidence::Partial;
-    EXPECT_EQ(gap.evidenceText(), "Of sample 30, next to the gap, only a part came.");
+    EXPECT_EQ(gap.evidenceText(), "Of sample 30, next to the gap, only a part arrived.");
     gap.evidence = Gap::Evidence::Paused;
     gap.timeCodeMoved = 1'990;
     gap.figure = 2;

@@ -119,7 +119,7 @@ TEST(PacketDigests, GiveAnEmptyExcerptWhereThereIsNothing) {
     EXPECT_EQ(all.at(4'195).gap, 1U);
 }
 
-/// A packet of so many bytes, with their text.
+/// A packet of that many bytes, with their text.
 log::Packet packetOf(std::string_view text) {
     log::Packet packet;
     packet.bytes = std::as_bytes(std::span(text.data(), text.size()));
