@@ -61,6 +61,11 @@ function(posewire_precompile kind)
   target_precompile_headers(precompiled_${kind} PRIVATE ${ARG_HEADERS})
 endfunction()
 
+# Sources of a test that run for long: as well compiled as what they test.
+function(posewire_optimize_tests)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -O1 SKIP_PRECOMPILE_HEADERS ON)
+endfunction()
+
 function(posewire_use_precompiled target kind)
   if(POSEWIRE_PRECOMPILED AND kind AND NOT kind STREQUAL "none")
     target_precompile_headers(${target} REUSE_FROM precompiled_${kind})
