@@ -74,22 +74,31 @@ public:
         packet.stamp = record.stamp.value_or(log::Stamp());
         packet.flags = record.flags;
         packet.kernelDropsBefore = record.kernelDropsBefore;
-        packet.sender =
-            m_senders.intern(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
+        packet.sender = numberOf(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
         m_firstStamp = m_firstStamp.value_or(packet.stamp);
         const auto decoded = record.flags.skipped ? tl::unexpected(wire::WireError{})
                                                   : wire::decodeInto(record.bytes, m_datagram);
         const wire::Datagram* datagram = decoded ? &m_datagram : nullptr;
         const model::PacketDigest digest = m_digester.add(packet, datagram);
-        return m_filter.matches({packet, digest, datagram,
-                                 record.sender ? m_senders.find(packet.sender) : nullptr, *m_firstStamp,
-                                 decoded ? nullptr : &decoded.error()});
+        return m_filter.matches({packet, digest, datagram, record.sender ? &*record.sender : nullptr,
+                                 *m_firstStamp, decoded ? nullptr : &decoded.error()});
     }
 
 private:
+    /// The same for the same sender as long as there are not too many.
+    log::SenderId numberOf(const log::SenderInfo& sender) {
+        constexpr std::size_t kMostSenders = 65'536;
+        const log::SenderId id = m_senders.intern(sender);
+        if (m_held.size() < kMostSenders && !m_held.contains(id)) {
+            m_held.emplace(id, m_senders.find(id));
+        }
+        return id;
+    }
+
     filter::Filter m_filter;
     model::PacketDigester m_digester;
     log::SenderTable m_senders;
+    std::unordered_map<log::SenderId, log::SenderTable::Held> m_held;
     wire::Datagram m_datagram;
     std::optional<log::Stamp> m_firstStamp;
 };

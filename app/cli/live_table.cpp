@@ -84,19 +84,14 @@ std::string streamLine(const model::SessionView& session, const model::Stream& s
 }
 
 std::string summaryLine(const model::SessionView& session, double elapsedS) {
-    std::uint64_t datagrams = 0;
-    std::uint64_t malformed = 0;
-    std::uint64_t foreign = 0;
-    std::uint64_t dropped = 0;
-    for (const model::Sender& sender : session.senders()) {
-        datagrams += sender.datagrams;
-        malformed += sender.malformed;
-        foreign += sender.foreign;
-        dropped += sender.kernelDrops;
+    const model::SenderTotals all = session.allSenders();
+    std::string line = fixed(elapsedS, 1) + " s   " + grouped(all.datagrams) + " datagrams   malformed " +
+                       grouped(all.malformed) + "   not MXTP " + grouped(all.foreign) +
+                       "   dropped by this computer " + grouped(all.kernelDrops);
+    if (session.overtaken() != 0) {
+        line += "   not looked at in time " + grouped(session.overtaken());
     }
-    return fixed(elapsedS, 1) + " s   " + grouped(datagrams) + " datagrams   malformed " +
-           grouped(malformed) + "   not MXTP " + grouped(foreign) + "   dropped by this computer " +
-           grouped(dropped);
+    return line;
 }
 
 } // namespace
@@ -138,16 +133,19 @@ std::vector<std::string> liveTable(const model::SessionView& session, double ela
         }
         lines.push_back(printable(sender.info.address) + " (" +
                         std::string(log::nameOf(sender.info.transport)) + ")");
-        for (const model::Character& character : session.characters()) {
-            if (character.key.sender != sender.id) {
-                continue;
-            }
-            lines.push_back("  " + printable(session.displayName(character.key)) + " (" +
-                            std::to_string(character.key.character) + ")");
-            for (const model::Stream* stream : exporting::streamsByType(session, character.key)) {
+        for (const model::Character* character : sender.characters) {
+            lines.push_back("  " + printable(session.displayName(character->key)) + " (" +
+                            std::to_string(character->key.character) + ")");
+            for (const model::Stream* stream : exporting::streamsByType(session, character->key)) {
                 lines.push_back(streamLine(session, *stream));
             }
         }
+    }
+    const model::RetiredTotals& retired = session.retired();
+    if (retired.senders != 0) {
+        lines.push_back("Retired senders: " + grouped(retired.senders) + ", with " +
+                        grouped(retired.wellFormed()) + " datagrams, " + grouped(retired.samples) +
+                        " samples, " + grouped(retired.lost) + " lost");
     }
     return lines;
 }

@@ -127,9 +127,10 @@ Received MessageBatch::received(std::size_t index) const {
 log::SenderId SenderCache::look(const sockaddr_in6& address) {
     Entry& entry = m_entries[hashOf(address)];
     if (std::memcmp(&entry.address, &address, sizeof address) != 0) {
-        entry = {address, m_table->intern({senderText(address), log::Transport::Udp, m_localPort})};
+        const auto id = m_table->intern({senderText(address), log::Transport::Udp, m_localPort});
+        entry = {address, id, m_table->find(id)};
     }
-    m_last = entry;
+    m_last = &entry;
     return entry.id;
 }
 

@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <utility>
+#include <vector>
 
 /// A UDP socket of Linux as the receiving thread uses it.
 namespace posewire::net {
@@ -90,25 +91,29 @@ private:
 /// for each socket.
 class SenderCache {
 public:
-    SenderCache(log::SenderTable& table, std::uint16_t localPort) : m_table(&table), m_localPort(localPort) {}
+    SenderCache(log::SenderTable& table, std::uint16_t localPort)
+        : m_table(&table), m_localPort(localPort), m_entries(kEntries), m_last(m_entries.data()) {}
+    SenderCache(SenderCache&&) = default; // the entries stay where they are
 
     /// `address` is IPv4 or IPv6; all other families count as one sender.
     log::SenderId idOf(const sockaddr_in6& address) {
-        return std::memcmp(&m_last.address, &address, sizeof address) == 0 ? m_last.id : look(address);
+        return std::memcmp(&m_last->address, &address, sizeof address) == 0 ? m_last->id : look(address);
     }
 
 private:
+    static constexpr std::size_t kEntries = 64;
     struct Entry {
         sockaddr_in6 address{};
         log::SenderId id{};
+        log::SenderTable::Held held{}; ///< so that the number stays
     };
 
     log::SenderId look(const sockaddr_in6& address);
 
     log::SenderTable* m_table;
     std::uint16_t m_localPort;
-    Entry m_last;
-    std::array<Entry, 64> m_entries; ///< one slot for each hash; a newcomer replaces the old entry
+    std::vector<Entry> m_entries; ///< one slot for each hash; a newcomer replaces the old entry
+    const Entry* m_last;
 };
 
 } // namespace posewire::net

@@ -16,6 +16,8 @@ constexpr std::uint64_t kAtOnce = 1024;
 constexpr std::chrono::milliseconds kNap{2};
 /// A packet this much older than the last time the relay had caught up is not live.
 constexpr log::Duration kOld = std::chrono::seconds(1);
+/// Senders that are known to be forwarded or not.
+constexpr std::size_t kMostVerdicts = 4'096;
 /// How long to wait for the network to empty the socket's send buffer.
 constexpr int kAttempts = 10;
 constexpr std::chrono::microseconds kAttemptPause{200};
@@ -204,20 +206,20 @@ void Relay::skipWhatIsOld() {
 }
 
 bool Relay::isForwarded(const log::Packet& packet) {
-    const auto index = static_cast<std::size_t>(packet.sender);
-    if (index >= m_verdicts.size()) {
-        m_verdicts.resize(index + 1, Verdict::Unknown);
+    if (m_verdicts.size() >= kMostVerdicts) {
+        m_verdicts.clear();
     }
-    if (m_verdicts[index] == Verdict::Unknown) {
-        m_verdicts[index] = judge(packet.sender);
+    const auto [verdict, isNew] = m_verdicts.try_emplace(packet.sender, Verdict::Ignore);
+    if (isNew) {
+        verdict->second = judge(packet.sender);
     }
-    return m_verdicts[index] == Verdict::Forward && !packet.flags.skipped &&
+    return verdict->second == Verdict::Forward && !packet.flags.skipped &&
            packet.stamp >= m_caughtUp - kOld;
 }
 
 /// Leaves out what this relay itself has sent, should it come back by a path that add() did not see.
 Relay::Verdict Relay::judge(log::SenderId sender) const {
-    const log::SenderInfo* info = m_log.senders().find(sender);
+    const auto info = m_log.senders().find(sender);
     if (info == nullptr ||
         (info->transport != log::Transport::Udp && info->transport != log::Transport::Tcp)) {
         return Verdict::Ignore;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <unordered_map>
 #include <vector>
 
 namespace posewire::net {
@@ -57,7 +58,7 @@ public:
 private:
     struct Target;
     struct Sockets;
-    enum class Verdict : std::uint8_t { Unknown, Forward, Ignore };
+    enum class Verdict : std::uint8_t { Forward, Ignore };
 
     void run();
     void wake();
@@ -83,7 +84,7 @@ private:
     log::LogReader m_reader;
     std::uint64_t m_next = 0;        ///< the packet to forward
     log::Stamp m_caughtUp{};         ///< when it last had caught up, wall clock
-    std::vector<Verdict> m_verdicts; ///< of senders, by id
+    std::unordered_map<log::SenderId, Verdict> m_verdicts;
     std::unique_ptr<Sockets> m_sockets;
     std::thread m_thread;
 };

@@ -55,10 +55,8 @@ std::string sentName(const model::SessionView& session, const model::CharacterKe
 
 JsonValue charactersJson(const model::SessionView& session, const model::Sender& sender) {
     std::vector<model::CharacterKey> keys;
-    for (const model::Character& character : session.characters()) {
-        if (character.key.sender == sender.id) {
-            keys.push_back(character.key);
-        }
+    for (const model::Character* character : sender.characters) {
+        keys.push_back(character->key);
     }
     std::ranges::sort(keys);
     JsonValue::List characters;
@@ -85,13 +83,11 @@ JsonValue senderJson(const model::SessionView& session, const model::Sender& sen
 } // namespace
 
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
-    std::uint64_t kernelDropped = 0;
-    std::uint64_t foreign = 0;
+    const model::SenderTotals all = session.allSenders();
+    const model::RetiredTotals& retired = session.retired();
     JsonValue::List senders;
     JsonValue::List foreignSenders;
     for (const model::Sender& sender : session.senders()) {
-        kernelDropped += sender.kernelDrops;
-        foreign += sender.foreign;
         if (hasSentMxtp(sender)) {
             senders.push_back(senderJson(session, sender));
         }
@@ -102,11 +98,17 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
         }
     }
     const JsonValue report{{"durationS", rounded(facts.durationS, 3)},
-                           {"local", JsonValue{{"kernelDropped", kernelDropped},
-                                               {"receiveBufferBytes", facts.receiveBufferBytes}}},
-                           {"foreignDatagrams", foreign},
+                           {"local", JsonValue{{"kernelDropped", all.kernelDrops},
+                                               {"receiveBufferBytes", facts.receiveBufferBytes},
+                                               {"overtaken", session.overtaken()}}},
+                           {"foreignDatagrams", all.foreign},
                            {"sources", std::move(senders)},
                            {"foreignSources", std::move(foreignSenders)},
+                           {"retired", JsonValue{{"sources", retired.senders},
+                                                 {"streams", retired.streams},
+                                                 {"datagrams", retired.wellFormed()},
+                                                 {"samples", retired.samples},
+                                                 {"lost", retired.lost}}},
                            {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())}};
     return report.text();
 }

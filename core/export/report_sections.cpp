@@ -135,8 +135,7 @@ std::string listed(const std::string& which, std::size_t count, std::size_t all,
 
 /// Sender, character and type, as far as the event is about them.
 std::string whose(const model::SessionView& session, const model::Event& event) {
-    const model::Sender* sender = session.find(event.sender);
-    std::string text = sender != nullptr ? sender->info.address : "";
+    std::string text = session.addressOf(event.sender);
     if (event.character) {
         text += ", " + session.displayName({event.sender, *event.character});
     }

@@ -42,11 +42,10 @@ model::StreamFigures figuresOf(const model::SessionView& session, const model::S
 
 std::vector<const model::Stream*> streamsByType(const model::SessionView& session,
                                                 const model::CharacterKey& key) {
+    const model::Character* character = session.find(key);
     std::vector<const model::Stream*> streams;
-    for (const model::Stream& stream : session.streams()) {
-        if (stream.key.sender == key.sender && stream.key.character == key.character) {
-            streams.push_back(&stream);
-        }
+    if (character != nullptr) {
+        streams = character->streams;
     }
     std::ranges::sort(streams, {}, [](const model::Stream* stream) { return stream->key.type; });
     return streams;

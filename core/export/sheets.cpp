@@ -45,8 +45,7 @@ std::string_view nameOf(model::EventGroup group) {
 }
 
 std::string addressOf(const model::SessionView& session, const Event& event) {
-    const model::Sender* sender = session.find(event.sender);
-    return sender == nullptr ? std::string() : sender->info.address;
+    return session.addressOf(event.sender);
 }
 
 std::string secondsText(log::Stamp stamp) {

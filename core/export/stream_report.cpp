@@ -134,6 +134,26 @@ void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
                "times a sample counter restarted.");
 }
 
+/// What this computer did not do in time, and what is no longer listed.
+void addSession(std::vector<Finding>& findings, const model::SessionView& session) {
+    if (session.overtaken() != 0) {
+        findings.push_back({Severity::Error, "This computer did not look at " +
+                                                 counted(session.overtaken(), "packet", "packets") +
+                                                 " in time: what was lost with them is counted as lost here."});
+    }
+    addCounted(findings, session.unfollowed(), "datagram", "datagrams",
+               " of too many streams at once could not be accounted for.");
+    const model::RetiredTotals& retired = session.retired();
+    if (retired.senders != 0) {
+        findings.push_back({retired.lost == 0 ? Severity::Info : Severity::Warning,
+                            counted(retired.senders, "sender", "senders") +
+                                                " fell silent and made room for others; together: " +
+                                                counted(retired.wellFormed(), "datagram", "datagrams") + ", " +
+                                                counted(retired.samples, "sample", "samples") + ", " +
+                                                grouped(retired.lost) + " lost."});
+    }
+}
+
 void addSenders(std::vector<Finding>& findings, const model::SessionView& session) {
     for (const model::Sender& sender : session.senders()) {
         if (sender.kernelDrops != 0) {
@@ -167,6 +187,7 @@ std::vector<Finding> verdictOn(const model::SessionView& session,
         addCauses(findings, sum);
         addOrder(findings, sum);
     }
+    addSession(findings, session);
     addSenders(findings, session);
     for (const std::string& line : options.exceeded) {
         findings.push_back({Severity::Error, line + '.'});
@@ -252,13 +273,11 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
                 fact("Malformed", grouped(sender.malformed)) + fact("Not MXTP", grouped(sender.foreign)) +
                 (sender.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(sender.skippedBytes)) : "") +
                 fact("Dropped by this computer", grouped(sender.kernelDrops)) + "</dl>\n";
-        for (const model::Character& character : session.characters()) {
-            if (character.key.sender == sender.id) {
-                html += "<h3>" + escaped(session.displayName(character.key)) +
-                        " <span class=\"dim\">character " + std::to_string(character.key.character) +
-                        "</span></h3>\n" + metadataList(session, character.key) +
-                        streamTable(session, character.key, figures, steps);
-            }
+        for (const model::Character* character : sender.characters) {
+            html += "<h3>" + escaped(session.displayName(character->key)) +
+                    " <span class=\"dim\">character " + std::to_string(character->key.character) +
+                    "</span></h3>\n" + metadataList(session, character->key) +
+                    streamTable(session, character->key, figures, steps);
         }
     }
     return html;

@@ -13,6 +13,8 @@ namespace {
 
 constexpr std::size_t kSmallestChunk = std::size_t{256} << 10;
 constexpr std::size_t kLargestChunk = std::size_t{1} << 30;
+/// Bytes that a sender takes in the table and in a chunk, about.
+constexpr std::size_t kSenderCost = 256;
 
 LogLimits sensible(LogLimits limits) {
     limits.chunkSize = std::clamp(limits.chunkSize, kSmallestChunk, kLargestChunk) & ~std::size_t{4095};
@@ -40,6 +42,11 @@ void Chunk::addRecord(const Record& record) {
     ++m_recordCount;
 }
 
+void Chunk::hold(SenderTable::Held sender) {
+    m_senders.push_back(std::move(sender));
+    m_bytesBegin -= std::min(kSenderCost, room());
+}
+
 void Chunk::touch() {
     constexpr std::size_t kPage = 4096;
     for (std::size_t at = 0; at < m_size; at += kPage) {
@@ -60,9 +67,7 @@ std::shared_ptr<Chunk> ChunkPool::take() {
         }
     }
     m_changed.notify_all();
-    if (chunk) {
-        chunk->clear();
-    } else {
+    if (!chunk) {
         chunk = std::make_unique<Chunk>(m_chunkSize);
     }
     return {chunk.release(),
@@ -102,6 +107,7 @@ std::size_t ChunkPool::existing() const {
 }
 
 void ChunkPool::give(std::unique_ptr<Chunk> chunk) {
+    chunk->clear(); // here, so that the receiving thread need not let go of the senders
     const std::lock_guard lock(m_mutex);
     if (m_spare.size() < m_limit) {
         m_spare.push_back(std::move(chunk));

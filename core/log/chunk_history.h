@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/sender_table.h"
 #include "core/log/time.h"
 
 #include <atomic>
@@ -47,6 +48,7 @@ public:
 
     /// Forgets everything; the memory stays.
     void clear() {
+        m_senders.clear();
         m_recordCount = 0;
         m_bytesBegin = m_size;
     }
@@ -58,6 +60,9 @@ public:
 
     void addRecord(const Record& record);
 
+    /// Keeps the sender of a record for as long as the record, and gives up as much room as it takes.
+    void hold(SenderTable::Held sender);
+
     [[nodiscard]] const Record& record(std::size_t index) const {
         return *reinterpret_cast<const Record*>(m_memory + index * sizeof(Record));
     }
@@ -67,6 +72,7 @@ private:
     std::size_t m_size;
     std::size_t m_recordCount = 0;
     std::size_t m_bytesBegin;
+    std::vector<SenderTable::Held> m_senders;
 };
 
 /// Chunks that nobody holds any more, to be used again: memory stays flat, and its pages are there already.

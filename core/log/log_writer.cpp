@@ -27,8 +27,9 @@ void prefetchForWriting(const std::byte* begin, std::size_t size) {
 
 } // namespace
 
-LogWriter::LogWriter(ChunkHistory& history)
+LogWriter::LogWriter(ChunkHistory& history, const SenderTable& senders)
     : m_history(history),
+      m_senders(senders),
       m_blockSize(std::clamp<std::size_t>(history.limits().chunkSize / 256, 4096, std::size_t{32} << 10)),
       m_spill(new std::byte[kLaneLimit * kSpillSize]) { // left as it is: its pages exist once a packet spills
     for (std::size_t i = 0; i < kLaneLimit; ++i) {
@@ -49,7 +50,7 @@ std::span<const LogWriter::Lane> LogWriter::lanes() {
         m_lanes[i].bytes = m_lanes[--m_laneCount].bytes;
     }
     if (m_laneCount < kFewestLanes || m_chunk->room() < m_laneCount * sizeof(Record)) {
-        m_chunk = m_history.beginChunk(m_next);
+        beginChunk();
         openLanes();
     }
     return std::span<const Lane>(m_lanes).first(m_laneCount);
@@ -87,7 +88,7 @@ void LogWriter::append(std::span<const std::byte> bytes, const Arrival& arrival)
 
 void LogWriter::openLanes() {
     if (!m_chunk) {
-        m_chunk = m_history.beginChunk(m_next);
+        beginChunk();
     }
     m_laneChunk = m_chunk;
     m_laneCount = 0;
@@ -108,7 +109,7 @@ bool LogWriter::refill(std::size_t lane) {
 
 std::byte* LogWriter::place(std::size_t size) {
     if (!m_chunk || m_chunk->room() < aligned(size) + sizeof(Record)) {
-        m_chunk = m_history.beginChunk(m_next);
+        beginChunk();
     }
     return m_chunk->take(aligned(size));
 }
@@ -117,6 +118,26 @@ void LogWriter::addRecord(const std::byte* data, std::size_t size, const Arrival
     m_chunk->addRecord({data, arrival.stamp, static_cast<std::uint32_t>(size), arrival.sender,
                         arrival.kernelDropsBefore, arrival.flags});
     ++m_next;
+    Noted& noted = m_noted[static_cast<std::uint32_t>(arrival.sender) % m_noted.size()];
+    if (noted.sender != arrival.sender || noted.chunk != m_chunkCount) {
+        noted = {arrival.sender, m_chunkCount};
+        holdSender(arrival.sender);
+    }
+}
+
+void LogWriter::beginChunk() {
+    m_chunk = m_history.beginChunk(m_next);
+    ++m_chunkCount;
+    m_heldSenders.clear();
+}
+
+void LogWriter::holdSender(SenderId sender) {
+    if (!m_heldSenders.insert(sender).second) {
+        return;
+    }
+    if (auto held = m_senders.find(sender)) {
+        m_chunk->hold(std::move(held));
+    }
 }
 
 } // namespace posewire::log

@@ -2,12 +2,14 @@
 #pragma once
 
 #include "core/log/chunk_history.h"
+#include "core/log/sender_table.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <unordered_set>
 
 namespace posewire::log {
 
@@ -33,7 +35,8 @@ public:
         std::span<std::byte> spill;
     };
 
-    explicit LogWriter(ChunkHistory& history);
+    /// Arrivals name their senders as the table numbers them.
+    LogWriter(ChunkHistory& history, const SenderTable& senders);
     LogWriter(const LogWriter&) = delete;
     LogWriter& operator=(const LogWriter&) = delete;
 
@@ -56,13 +59,26 @@ private:
     bool refill(std::size_t lane);
     std::byte* place(std::size_t size);
     void addRecord(const std::byte* data, std::size_t size, const Arrival& arrival);
+    void beginChunk();
+    /// The chunk keeps the sender.
+    void holdSender(SenderId sender);
 
     ChunkHistory& m_history;
+    const SenderTable& m_senders;
     const std::size_t m_blockSize;
     std::shared_ptr<Chunk> m_chunk;
     std::shared_ptr<Chunk>
         m_laneChunk; ///< where the lanes lie: differs from m_chunk only while a batch is cut in two
     std::uint64_t m_next = 0;
+    std::uint64_t m_chunkCount = 0; ///< begun so far
+    /// Senders that the chunk keeps, and the last of each place with its chunk, so that most packets need no
+    /// more than a comparison.
+    std::unordered_set<SenderId> m_heldSenders;
+    struct Noted {
+        SenderId sender{};
+        std::uint64_t chunk = 0;
+    };
+    std::array<Noted, 64> m_noted{};
     std::size_t m_laneCount = 0;
     std::array<Lane, kLaneLimit> m_lanes{};
     std::unique_ptr<std::byte[]> m_spill;

@@ -12,8 +12,10 @@
 
 namespace posewire::log {
 
-/// Index of a SenderInfo in the SenderTable of the log; dense, from 0.
+/// Number of a SenderInfo in the SenderTable of the log.
 enum class SenderId : std::uint32_t {};
+/// Of what no sender has to do with, but this computer.
+inline constexpr SenderId kNoSender{UINT32_MAX};
 
 enum class Transport : std::uint8_t { Udp, Tcp, File, Performer };
 

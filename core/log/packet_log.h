@@ -23,12 +23,11 @@ namespace posewire::log {
 ///     }
 class PacketLog {
 public:
-    explicit PacketLog(LogLimits limits = {}) : m_history(limits), m_writer(m_history) {}
+    explicit PacketLog(LogLimits limits = {}) : m_history(limits), m_writer(m_history, m_senders) {}
 
     /// For one thread at a time; another may take over when the first has ended.
     [[nodiscard]] LogWriter& writer() { return m_writer; }
 
-    /// To be interned by the writing thread, to be read by all.
     [[nodiscard]] SenderTable& senders() { return m_senders; }
     [[nodiscard]] const SenderTable& senders() const { return m_senders; }
 

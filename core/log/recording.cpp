@@ -15,7 +15,7 @@ constexpr std::chrono::milliseconds kPause{50};
 } // namespace
 
 Recorder::Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from)
-    : m_log(log), m_sink(sink), m_reader(log), m_writer(sink), m_next(std::max(from, m_reader.begin())) {}
+    : m_sink(sink), m_follower(log, from), m_senders(log.senders()), m_writer(sink) {}
 
 Recorder::Result Recorder::begin(const RecordingInfo& info) {
     const auto begun = m_writer.begin(info);
@@ -23,9 +23,9 @@ Recorder::Result Recorder::begin(const RecordingInfo& info) {
 }
 
 Recorder::Result Recorder::follow() {
-    const std::uint64_t before = m_next;
+    const std::uint64_t before = m_writer.packets();
     const auto written = writeNew();
-    return written && m_next != before ? m_sink.flush() : written;
+    return written && m_writer.packets() != before ? m_sink.flush() : written;
 }
 
 Recorder::Result Recorder::finish() {
@@ -37,19 +37,13 @@ Recorder::Result Recorder::finish() {
 }
 
 Recorder::Result Recorder::writeNew() {
-    m_reader.refresh();
-    for (; m_next < m_reader.end(); ++m_next) {
-        auto packet = m_reader.packet(m_next);
-        const SenderInfo* sender = packet ? m_log.senders().find(packet->sender) : nullptr;
-        if (sender == nullptr) {
-            ++m_missed;
-            ++m_missedBeforeNext;
-            continue;
-        }
-        const std::uint64_t drops = packet->kernelDropsBefore + std::exchange(m_missedBeforeNext, 0);
+    m_follower.refresh();
+    while (auto packet = m_follower.next()) {
+        const std::uint64_t drops = packet->kernelDropsBefore + m_follower.takeOvertaken();
         packet->kernelDropsBefore =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(drops, std::uint64_t{UINT32_MAX}));
-        if (auto added = m_writer.add(*packet, *sender); !added) {
+        const SenderInfo* sender = m_senders.find(packet->sender);
+        if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}); !added) {
             return added;
         }
     }

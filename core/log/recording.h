@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/log_reader.h"
+#include "core/log/log_follower.h"
 #include "core/log/pcapng_writer.h"
 
 #include <condition_variable>
@@ -40,19 +40,16 @@ public:
     Result finish();
 
     [[nodiscard]] RecordingFigures figures() const {
-        return {m_writer.packets(), m_writer.bytes(), m_missed};
+        return {m_writer.packets(), m_writer.bytes(), m_follower.overtaken()};
     }
 
 private:
     Result writeNew();
 
-    const PacketLog& m_log;
     ByteSink& m_sink;
-    LogReader m_reader;
+    LogFollower m_follower;
+    SenderFinder m_senders;
     PcapngWriter m_writer;
-    std::uint64_t m_next;
-    std::uint64_t m_missed = 0;
-    std::uint64_t m_missedBeforeNext = 0;
 };
 
 /// A Recorder on a thread of its own: a slow disk delays nobody. What was received is in the file within a

@@ -3,49 +3,55 @@
 
 #include "core/log/packet.h"
 
-#include <array>
-#include <atomic>
 #include <cstddef>
-#include <functional>
 #include <memory>
-#include <unordered_map>
 
 namespace posewire::log {
 
-/// The senders of a log. One thread (the log's writer) interns, any thread reads; nothing ever moves or
-/// disappears.
+/// The senders of a log, by number. An entry lasts as long as somebody holds it: the log those of the packets
+/// that it has, a session those that it lists. So forged addresses cannot fill the table for good, and no
+/// packet is without its sender. Safe from any thread.
 class SenderTable {
 public:
-    /// A sender that forges its address must not grow the table for ever: all senders beyond this many share
-    /// the last entry.
-    static constexpr std::size_t kCapacity = 4096;
+    using Held = std::shared_ptr<const SenderInfo>;
 
-    /// The id of `info`, new if need be. Writer's thread only.
+    /// The newest ones are held by the table itself, until their first packet is in the log.
+    static constexpr std::size_t kNewest = 1024;
+
+    SenderTable();
+
+    /// The number of `info`, a new one where nobody holds it. Numbers grow and are never used twice.
     SenderId intern(const SenderInfo& info);
 
-    [[nodiscard]] std::size_t size() const { return m_size.load(std::memory_order_acquire); }
+    /// Null where nobody holds it any more.
+    [[nodiscard]] Held find(SenderId id) const;
 
-    /// Null where there is no such sender. The result stays valid as long as the table.
-    [[nodiscard]] const SenderInfo* find(SenderId id) const;
+    /// How many are held by anybody.
+    [[nodiscard]] std::size_t size() const;
 
 private:
-    static constexpr std::size_t kBlock = 64;
-    using Block = std::array<SenderInfo, kBlock>;
+    struct State;
+    std::shared_ptr<State> m_state; ///< shared with the entries, which may outlive the table
+};
 
-    [[nodiscard]] SenderInfo& slot(std::size_t index) const {
-        return (*m_blocks[index / kBlock])[index % kBlock];
+/// Finds senders for one reader, the last one without asking the table again.
+class SenderFinder {
+public:
+    explicit SenderFinder(const SenderTable& table) : m_table(table) {}
+
+    /// Null where nobody holds it any more. Valid until the next call.
+    [[nodiscard]] const SenderInfo* find(SenderId id) {
+        if (m_last == nullptr || id != m_lastId) {
+            m_last = m_table.find(id);
+            m_lastId = id;
+        }
+        return m_last.get();
     }
 
-    std::array<std::unique_ptr<Block>, kCapacity / kBlock> m_blocks;
-    std::atomic<std::size_t> m_size = 0;
-
-    struct Hash {
-        std::size_t operator()(const SenderInfo& info) const {
-            return std::hash<std::string>{}(info.address) + std::size_t{31} * info.localPort +
-                   static_cast<std::size_t>(info.transport);
-        }
-    };
-    std::unordered_map<SenderInfo, SenderId, Hash> m_ids; ///< the writer's own
+private:
+    const SenderTable& m_table;
+    SenderTable::Held m_last;
+    SenderId m_lastId{};
 };
 
 } // namespace posewire::log

@@ -42,6 +42,11 @@ void StreamIndex::add(const Packet& packet, const wire::Header& header) {
     }
 }
 
+void StreamIndex::forget(const StreamKey& key) {
+    m_streams.erase(key);
+    m_lastEntries = nullptr;
+}
+
 void StreamIndex::dropBefore(std::uint64_t begin) {
     if (begin <= m_begin) {
         return;

@@ -76,6 +76,8 @@ public:
 
     /// Takes in one datagram of the log. Numbers must grow.
     void add(const Packet& packet, const wire::Header& header);
+    /// Forgets a stream.
+    void forget(const StreamKey& key);
     /// Forgets entries of packets below `begin`, and streams of which nothing is left.
     void dropBefore(std::uint64_t begin);
 

@@ -4,7 +4,9 @@
 #include "core/log/packet.h"
 
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 
 namespace posewire::model {
 
@@ -17,3 +19,10 @@ struct CharacterKey {
 };
 
 } // namespace posewire::model
+
+template <>
+struct std::hash<posewire::model::CharacterKey> {
+    std::size_t operator()(const posewire::model::CharacterKey& key) const noexcept {
+        return std::hash<std::uint64_t>{}(static_cast<std::uint64_t>(key.sender) << 8 | key.character);
+    }
+};

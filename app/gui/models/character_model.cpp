@@ -21,17 +21,18 @@ QString transportName(log::Transport transport) {
 }
 
 /// Shows how fast a character comes: its pose, or else the fastest of its streams.
-const model::Stream* leadingStream(model::SessionView& view, const model::CharacterKey& key) {
+const model::Stream* leadingStream(const model::Character& character) {
     for (const std::uint8_t type : std::array<std::uint8_t, 3>{2, 1, 5}) {
-        if (const auto* stream = view.find(log::StreamKey{key.sender, key.character, type})) {
-            return stream;
+        const auto pose = std::ranges::find(character.streams, type, [](const auto* stream) { return stream->key.type; });
+        if (pose != character.streams.end()) {
+            return *pose;
         }
     }
     const model::Stream* fastest = nullptr;
-    for (const model::Stream& stream : view.streams()) {
-        if (characterOf(stream.key) == key && wire::isSampled(stream.key.type) &&
-            (fastest == nullptr || stream.statistics.rateHz() > fastest->statistics.rateHz())) {
-            fastest = &stream;
+    for (const model::Stream* stream : character.streams) {
+        if (wire::isSampled(stream->key.type) &&
+            (fastest == nullptr || stream->statistics.rateHz() > fastest->statistics.rateHz())) {
+            fastest = stream;
         }
     }
     return fastest;
@@ -43,26 +44,26 @@ CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QOb
     : StreamTreeModel(view, columns(*this), parent), m_commands(commands) {}
 
 void CharacterModel::refresh() {
-    insertNew();
-    m_rates.resize(view().characters().size());
-    for (std::size_t i = 0; i < m_rates.size(); ++i) {
-        const model::CharacterKey& key = view().characters()[i].key;
-        const model::Stream* stream = leadingStream(view(), key);
-        const auto* message = stream == nullptr ? nullptr : view().message(key, stream->key.type);
+    if (insertNew()) {
+        std::erase_if(m_rates, [this](const auto& entry) { return view().find(entry.first) == nullptr; });
+    }
+    for (const model::Character& character : view().characters()) {
+        const model::Stream* stream = leadingStream(character);
+        const auto* message = stream == nullptr ? nullptr : view().message(character.key, stream->key.type);
         if (message != nullptr) {
-            m_rates[i].add(message->datagram.header.sampleCounter, message->datagram.header.timeCode);
+            m_rates[character.key].add(message->datagram.header.sampleCounter,
+                                       message->datagram.header.timeCode);
         }
     }
     announceChange();
 }
 
 std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) const {
-    const model::Character* character = view().find(characterOf(stream.key));
-    if (character == nullptr || character->ordinal >= m_rates.size() || stream.accounting.step() == 0 ||
-        !wire::isSampled(stream.key.type)) {
+    const auto rate = m_rates.find(characterOf(stream.key));
+    if (rate == m_rates.end() || stream.accounting.step() == 0 || !wire::isSampled(stream.key.type)) {
         return std::nullopt;
     }
-    const auto frameHz = m_rates[character->ordinal].frameHz();
+    const auto frameHz = rate->second.frameHz();
     return frameHz ? std::optional(*frameHz / stream.accounting.step()) : std::nullopt;
 }
 
@@ -71,13 +72,13 @@ std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel
     const auto help = [&model](const StreamRow& row) {
         return row.kind == Kind::Character ? tr("Character ID %1. Check mark: shown in the viewport. Double "
                                                 "click: frame in the viewport.")
-                                                 .arg(model.view().characters()[row.entry].key.character)
+                                                 .arg(row.key.character)
                                            : QString();
     };
     const auto name = [&model](const StreamRow& row) { return model.nameOf(row); };
     const auto marks = [&model](const StreamRow& row, int role) {
         if (role == Qt::CheckStateRole && row.kind == Kind::Character) {
-            const bool isHidden = model.view().isHidden(model.view().characters()[row.entry].key);
+            const bool isHidden = model.view().isHidden(characterOf(row.key));
             return QVariant(isHidden ? Qt::Unchecked : Qt::Checked);
         }
         return model.marksOf(row, role);
@@ -96,13 +97,13 @@ std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel
 
 QString CharacterModel::rateOf(const StreamRow& row) const {
     if (row.kind == Kind::Sender) {
-        return transportName(view().senders()[row.entry].info.transport);
+        return transportName(senderOf(row).info.transport);
     }
     if (row.kind == Kind::Character) {
-        const model::Stream* leading = leadingStream(view(), view().characters()[row.entry].key);
+        const model::Stream* leading = leadingStream(characterAt(row));
         return leading == nullptr ? QString() : fixed(leading->statistics.rateHz(), 1);
     }
-    const model::Stream& stream = view().streams()[row.entry];
+    const model::Stream& stream = streamOf(row);
     const auto nominal = nominalHz(stream);
     const QString measured = fixed(stream.statistics.rateHz(), 1);
     return nominal ? QStringLiteral("%1/%2").arg(QString::number(*nominal, 'g', 5), measured) : measured;
@@ -112,7 +113,7 @@ QString CharacterModel::rateHelp(const StreamRow& row) const {
     if (row.kind != Kind::Stream) {
         return {};
     }
-    return nominalHz(view().streams()[row.entry]) ? tr("Nominal rate, from the sender's time code and sample "
+    return nominalHz(streamOf(row)) ? tr("Nominal rate, from the sender's time code and sample "
                                                        "counter / measured by arrival at this "
                                                        "computer")
                                                   : tr("Measured by arrival at this computer");
@@ -125,16 +126,16 @@ PropertyValue CharacterModel::stateOf(const StreamRow& row) const {
     QStringList lines;
     switch (row.kind) {
     case Kind::Sender:
-        state = senderState(view(), view().senders()[row.entry]);
-        for (const model::Contradiction& one : view().senders()[row.entry].contradictions()) {
+        state = senderState(view(), senderOf(row));
+        for (const model::Contradiction& one : senderOf(row).contradictions()) {
             lines += healthText(Health::Warning, QString::fromStdString(one.text));
         }
         break;
     case Kind::Character:
-        state = characterState(view(), view().characters()[row.entry]);
+        state = characterState(view(), characterAt(row));
         break;
     case Kind::Stream:
-        state = streamState(view(), view().streams()[row.entry]);
+        state = streamState(view(), streamOf(row));
         break;
     }
     lines.prepend(state.display());
@@ -148,7 +149,7 @@ bool CharacterModel::setData(const QModelIndex& index, const QVariant& value, in
         index.column() != kName || rowOf(index).kind != Kind::Character) {
         return false;
     }
-    m_commands.setCharacterVisible(view().characters()[rowOf(index).entry].key, value.toInt() == Qt::Checked);
+    m_commands.setCharacterVisible(characterOf(rowOf(index).key), value.toInt() == Qt::Checked);
     emit dataChanged(index, index, {Qt::CheckStateRole});
     return true;
 }

@@ -33,7 +33,7 @@ private:
     [[nodiscard]] PropertyValue stateOf(const StreamRow& row) const;
 
     Commands& m_commands;
-    std::vector<NominalRate> m_rates; ///< by place of the character
+    std::unordered_map<model::CharacterKey, NominalRate> m_rates;
 };
 
 } // namespace posewire::gui

@@ -33,14 +33,6 @@ QString percent(const std::optional<double>& share, int decimals = 0) {
     return share ? fixed(*share * 100, decimals) + QStringLiteral(" %") : dash();
 }
 
-std::uint64_t sum(const Source& from, std::uint64_t model::Sender::*count) {
-    std::uint64_t total = 0;
-    for (const model::Sender& sender : from.view.senders()) {
-        total += sender.*count;
-    }
-    return total;
-}
-
 PropertyValue lostByCause(const Source& from) {
     using enum model::LossCause;
     std::array<std::uint64_t, model::kLossCauses> lost{};
@@ -93,7 +85,7 @@ PropertyValue longestGap(const Source& from) {
 
 PropertyValue computer(const Source& from) {
     const MonitorHealth health = from.program.monitorHealth();
-    const std::uint64_t dropped = sum(from, &model::Sender::kernelDrops);
+    const std::uint64_t dropped = from.view.allSenders().kernelDrops;
     Health state = health.bufferFill.value_or(0) >= kFullBuffer ? Health::Warning : Health::Good;
     if (dropped != 0) {
         state = Health::Error;
@@ -169,6 +161,27 @@ PropertyValue packets(const Source& from) {
             tr("Packets that can be looked back at, of all that were received")};
 }
 
+PropertyValue overtaken(const Source& from) {
+    const std::uint64_t late = from.view.overtaken();
+    const std::uint64_t beyond = from.view.unfollowed();
+    const QString beyondText = tr("%1 of too many streams").arg(grouped(beyond));
+    return {beyond == 0 ? grouped(late) : grouped(late) + QStringLiteral(" · ") + beyondText,
+            late + beyond == 0 ? Health::Good : Health::Error,
+            tr("Packets that were received, and gone from memory before this program could look at them: "
+               "samples that were lost with them are counted as lost here")};
+}
+
+PropertyValue retired(const Source& from) {
+    const model::RetiredTotals& sums = from.view.retired();
+    const QString toolTip =
+        tr("Senders that fell silent and made room for others. Their rows are gone; these are their sums, "
+           "which all totals include.");
+    return sums.senders == 0 ? PropertyValue{tr("none"), Health::Good, toolTip}
+                        : PropertyValue{tr("%1 · %2 datagrams · %3 lost")
+                                            .arg(grouped(sums.senders), grouped(sums.datagrams), grouped(sums.lost)),
+                                        Health::Unknown, toolTip};
+}
+
 } // namespace
 
 std::vector<Property> computerFacts(model::SessionView& view, const ProgramView& program) {
@@ -176,10 +189,11 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
     const auto row = [from](const QString& label, PropertyValue (*read)(const Source&)) {
         return Property{label, [from, read] { return read(from); }};
     };
-    const auto trouble = [from](const QString& label, std::uint64_t model::Sender::*counted, Health health,
+    using Sums = model::SenderTotals;
+    const auto trouble = [from](const QString& label, std::uint64_t Sums::*counted, Health health,
                                 const QString& toolTip) {
         return Property{label, [=] {
-                            const std::uint64_t count = sum(from, counted);
+                            const std::uint64_t count = from.view.allSenders().*counted;
                             return PropertyValue{grouped(count), count == 0 ? Health::Good : health, toolTip};
                         }};
     };
@@ -193,13 +207,15 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
             row(tr("Longest delay"), delay),
             row(tr("History"), history),
             row(tr("Packets kept"), packets),
-            trouble(tr("Dropped here"), &model::Sender::kernelDrops, Health::Error,
+            trouble(tr("Dropped here"), &Sums::kernelDrops, Health::Error,
                     tr("Datagrams that reached this computer and found its receive buffer full "
                        "(SO_RXQ_OVFL)")),
-            trouble(tr("Malformed"), &model::Sender::malformed, Health::Error,
+            row(tr("Not looked at"), overtaken),
+            trouble(tr("Malformed"), &Sums::malformed, Health::Error,
                     tr("Datagrams that begin with MXTP and cannot be decoded")),
-            trouble(tr("Foreign datagrams"), &model::Sender::foreign, Health::Warning,
-                    tr("Datagrams that do not begin with MXTP: another program sends to this port"))};
+            trouble(tr("Foreign datagrams"), &Sums::foreign, Health::Warning,
+                    tr("Datagrams that do not begin with MXTP: another program sends to this port")),
+            row(tr("Retired senders"), retired)};
 }
 
 } // namespace posewire::gui

@@ -139,7 +139,7 @@ QString packetCellFilter(model::SessionView& view, std::uint64_t number, int col
                    ? QString()
                    : QStringLiteral("delta >= %1").arg(static_cast<double>(facts->digest.deltaS), 0, 'f', 6);
     case PacketModel::kSender: {
-        const log::SenderInfo* sender = view.log().senders().find(facts->sender);
+        const auto sender = view.log().senders().find(facts->sender);
         return sender == nullptr ? QString() : expression("source", sender->address);
     }
     case PacketModel::kSize:

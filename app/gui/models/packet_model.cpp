@@ -265,7 +265,7 @@ double PacketModel::deltaMs(const PacketFacts& facts) const {
 }
 
 QString PacketModel::senderText(const PacketFacts& facts) const {
-    const log::SenderInfo* info = m_view.log().senders().find(facts.sender);
+    const auto info = m_view.log().senders().find(facts.sender);
     return info != nullptr ? QString::fromStdString(info->address) : QString();
 }
 

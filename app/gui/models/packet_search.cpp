@@ -149,6 +149,7 @@ void PacketFilterRun::hand(Found& found, std::uint64_t next) {
 void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader,
                              const std::stop_token& stop) {
     Found found;
+    log::SenderFinder senders(m_log.senders());
     for (std::uint64_t number = excerpt.begin(); number < excerpt.end() && !stop.stop_requested(); ++number) {
         if ((number - excerpt.begin()) % kPacketsAtATime == 0) {
             hand(found, number);
@@ -160,7 +161,7 @@ void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::
         }
         const model::PacketDigest& digest = excerpt.at(number);
         const bool isRead = !packet->flags.skipped && wire::decodeInto(packet->bytes, m_datagram).has_value();
-        const log::SenderInfo* sender = m_log.senders().find(packet->sender);
+        const log::SenderInfo* sender = senders.find(packet->sender);
         if (m_filter.matches({*packet, digest, isRead ? &m_datagram : nullptr, sender, m_firstStamp})) {
             found.packets.push_back(number);
             if (digest.isProblem()) {

@@ -197,7 +197,9 @@ void StatisticsModel::refresh() {
         kept.curve = hasNewCurves ? std::nullopt : std::move(kept.curve);
     }
     m_range = view().range();
-    insertNew();
+    if (insertNew()) {
+        m_cache.clear();
+    }
     announceChange();
 }
 
@@ -223,7 +225,7 @@ model::StreamFigures StatisticsModel::sumOf(const QModelIndex& index) const {
         sum.add(figures(this->index(row, 0, parent)));
     }
     if (rowOf(index).kind == Kind::Sender) {
-        const model::Sender& sender = view().senders()[rowOf(index).entry]; // also those without a header
+        const model::Sender& sender = senderOf(rowOf(index)); // also those without a header
         sum.set(model::Figure::Malformed,
                 static_cast<double>(m_range ? sender.history.malformedBetween(m_range->from, m_range->to)
                                             : sender.malformed));

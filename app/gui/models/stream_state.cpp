@@ -35,12 +35,10 @@ PropertyValue ended() {
 }
 
 /// What is missing of one sample is missing in each of its types: the worst stream counts.
-std::uint64_t lostOf(model::SessionView& view, const model::CharacterKey& key) {
+std::uint64_t lostOf(const model::Character& character) {
     std::uint64_t lost = 0;
-    for (const model::Stream& stream : view.streams()) {
-        if (stream.key.sender == key.sender && stream.key.character == key.character) {
-            lost = std::max(lost, stream.accounting.counts().lost);
-        }
+    for (const model::Stream* stream : character.streams) {
+        lost = std::max(lost, stream->accounting.counts().lost);
     }
     return lost;
 }
@@ -52,11 +50,8 @@ QString contradictionOf(const model::Sender* sender) {
 }
 
 bool hasEnded(model::SessionView& view, const model::Sender& sender) {
-    const auto& all = view.characters();
-    const auto isOwn = [&](const model::Character& character) { return character.key.sender == sender.id; };
-    return std::ranges::any_of(all, isOwn) &&
-           std::ranges::none_of(all, [&](const model::Character& character) {
-               return isOwn(character) && !view.isSuperseded(character.key);
+    return sender.isPerforming() && std::ranges::all_of(sender.characters, [&](const auto* character) {
+               return view.isSuperseded(character->key);
            });
 }
 
@@ -91,7 +86,7 @@ PropertyValue characterState(model::SessionView& view, const model::Character& c
     }
     const model::Condition condition = view.conditionOf(character.key);
     if (condition.level == model::Condition::Level::Good) {
-        return {grouped(lostOf(view, character.key)), Health::Good};
+        return {grouped(lostOf(character)), Health::Good};
     }
     const Health health = condition.level == model::Condition::Level::Error ? Health::Error : Health::Warning;
     const double age = view.ageSeconds(character.key);

@@ -12,74 +12,117 @@ model::CharacterKey characterOf(const log::StreamKey& key) {
     return {key.sender, key.character};
 }
 
+namespace {
+
+StreamRow characterRow(const model::CharacterKey& key) {
+    return {StreamRow::Character, {key.sender, key.character, 0}};
+}
+
+} // namespace
+
 StreamTreeModel::StreamTreeModel(model::SessionView& view, std::vector<TableColumn<StreamRow>> columns,
                                  QObject* parent)
     : TreeModel(std::move(columns), parent), m_view(view) {}
 
-void StreamTreeModel::insertNew() {
-    m_nodesOf[Kind::Sender].resize(m_view.senders().size(), kNone);
-    m_nodesOf[Kind::Character].resize(m_view.characters().size(), kNone);
-    m_nodesOf[Kind::Stream].resize(m_view.streams().size(), kNone);
-    if (!insert(Kind::Sender) && !insert(Kind::Character)) {
-        insert(Kind::Stream);
+bool StreamTreeModel::insertNew() {
+    const std::uint64_t retired = m_view.retired().senders;
+    if (m_retired == retired) {
+        if (!insert(Kind::Sender) && !insert(Kind::Character)) {
+            insert(Kind::Stream);
+        }
+        return false;
     }
+    m_retired = retired;
+    beginResetModel();
+    m_rows.clear();
+    m_nodes = {};
+    clearPlaces();
+    for (const StreamRow& row : rowsWithout(Kind::Sender)) {
+        addNode(row, kNone);
+    }
+    endResetModel();
+    return true;
+}
+
+/// All rows of a kind that have no node yet.
+std::vector<StreamRow> StreamTreeModel::rowsWithout(Kind kind) const {
+    std::vector<StreamRow> rows;
+    const auto add = [&](const StreamRow& row) {
+        if (!m_nodes[kind].contains(row.key)) {
+            rows.push_back(row);
+        }
+    };
+    if (kind == Kind::Sender) {
+        for (const model::Sender& sender : m_view.senders()) {
+            add({kind, {sender.id, 0, 0}});
+        }
+    } else if (kind == Kind::Character) {
+        for (const model::Character& character : m_view.characters()) {
+            add(characterRow(character.key));
+        }
+    } else {
+        for (const model::Stream& stream : m_view.streams()) {
+            add({kind, stream.key});
+        }
+    }
+    return rows;
 }
 
 bool StreamTreeModel::insert(Kind kind) {
-    std::optional<int> parent;
-    std::vector<std::size_t> entries;
-    for (std::size_t entry = 0; entry < m_nodesOf[kind].size(); ++entry) {
-        const auto wanted = m_nodesOf[kind][entry] == kNone ? parentOf(kind, entry) : std::nullopt;
-        if (wanted && (!parent || parent == wanted)) {
-            parent = wanted;
-            entries.push_back(entry);
-        }
-    }
-    if (entries.empty()) {
+    std::vector<StreamRow> rows = rowsWithout(kind);
+    std::erase_if(rows, [this](const StreamRow& row) { return !parentOf(row); });
+    if (rows.empty()) {
         return false;
     }
-    const QModelIndex above = TreeModel::indexOf(*parent);
+    const int parent = *parentOf(rows.front());
+    std::erase_if(rows, [&](const StreamRow& row) { return parentOf(row) != parent; });
+    const QModelIndex above = TreeModel::indexOf(parent);
     const int first = rowCount(above);
-    beginInsertRows(above, first, first + static_cast<int>(entries.size()) - 1);
-    for (const std::size_t entry : entries) {
-        addNode(kind, entry, *parent);
+    beginInsertRows(above, first, first + static_cast<int>(rows.size()) - 1);
+    for (const StreamRow& row : rows) {
+        addNode(row, parent);
     }
     endInsertRows();
     return true;
 }
 
-void StreamTreeModel::addNode(Kind kind, std::size_t entry, int parent) {
+void StreamTreeModel::addNode(const StreamRow& row, int parent) {
     const int node = static_cast<int>(m_rows.size());
-    m_rows.push_back({kind, entry});
+    m_rows.push_back(row);
+    m_nodes[row.kind][row.key] = node;
     place(node, parent);
-    m_nodesOf[kind][entry] = node;
-    if (kind == Kind::Stream) {
-        return;
-    }
-    const Kind below = kind == Kind::Sender ? Kind::Character : Kind::Stream;
-    for (std::size_t child = 0; child < m_nodesOf[below].size(); ++child) {
-        if (m_nodesOf[below][child] == kNone && parentOf(below, child) == node) {
-            addNode(below, child, node);
+    if (row.kind == Kind::Sender) {
+        for (const model::Character* character : senderOf(row).characters) {
+            addNode(characterRow(character->key), node);
+        }
+    } else if (row.kind == Kind::Character) {
+        for (const model::Stream* stream : characterAt(row).streams) {
+            addNode({Kind::Stream, stream->key}, node);
         }
     }
 }
 
-std::optional<int> StreamTreeModel::parentOf(Kind kind, std::size_t entry) const {
-    int parent = kNone;
-    if (kind == Kind::Sender) {
+std::optional<int> StreamTreeModel::parentOf(const StreamRow& row) const {
+    if (row.kind == Kind::Sender) {
         return kNone;
     }
-    if (kind == Kind::Character) {
-        const auto& senders = m_view.senders();
-        const auto found =
-            std::ranges::find(senders, m_view.characters()[entry].key.sender, &model::Sender::id);
-        if (found != senders.end()) {
-            parent = m_nodesOf[Kind::Sender][static_cast<std::size_t>(found - senders.begin())];
-        }
-    } else if (const auto* character = m_view.find(characterOf(m_view.streams()[entry].key))) {
-        parent = m_nodesOf[Kind::Character][character->ordinal];
+    const bool isCharacter = row.kind == Kind::Character;
+    const Nodes& above = m_nodes[isCharacter ? Kind::Sender : Kind::Character];
+    const auto found = above.find({row.key.sender, isCharacter ? std::uint8_t{0} : row.key.character, 0});
+    return found == above.end() ? std::nullopt : std::optional(found->second);
+}
+
+/// The session may have retired its sender since the rows were made.
+bool StreamTreeModel::isThere(const StreamRow& row) const {
+    switch (row.kind) {
+    case Kind::Sender:
+        return m_view.find(row.key.sender) != nullptr;
+    case Kind::Character:
+        return m_view.find(characterOf(row.key)) != nullptr;
+    case Kind::Stream:
+        break;
     }
-    return parent == kNone ? std::nullopt : std::optional(parent);
+    return m_view.find(row.key) != nullptr;
 }
 
 const StreamRow& StreamTreeModel::rowOf(const QModelIndex& index) const {
@@ -87,60 +130,52 @@ const StreamRow& StreamTreeModel::rowOf(const QModelIndex& index) const {
 }
 
 QModelIndex StreamTreeModel::indexOf(const StreamRow& row) const {
-    return TreeModel::indexOf(m_nodesOf[row.kind][row.entry]);
+    const auto found = m_nodes[row.kind].find(row.key);
+    return found == m_nodes[row.kind].end() ? QModelIndex() : TreeModel::indexOf(found->second);
 }
 
 QString StreamTreeModel::nameOf(const StreamRow& row) const {
     if (row.kind == Kind::Sender) {
-        return QString::fromStdString(m_view.senders()[row.entry].info.address);
+        return QString::fromStdString(senderOf(row).info.address);
     }
     if (row.kind == Kind::Character) {
-        return characterName(m_view, m_view.characters()[row.entry].key);
+        return characterName(m_view, characterOf(row.key));
     }
-    return QString::fromStdString(wire::typeTitle(m_view.streams()[row.entry].key.type));
+    return QString::fromStdString(wire::typeTitle(row.key.type));
 }
 
 QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
     if (row.kind != Kind::Character || (role != kSuffixRole && role != kDotRole)) {
         return {};
     }
-    const model::CharacterKey& key = m_view.characters()[row.entry].key;
+    const model::CharacterKey key = characterOf(row.key);
     return role == kSuffixRole ? QVariant(QStringLiteral("· %1").arg(key.character))
                                : characterColour(m_view, key);
 }
 
 std::optional<model::CharacterKey> StreamTreeModel::character(const QModelIndex& index) const {
-    if (!index.isValid() || rowOf(index).kind == Kind::Sender) {
-        return std::nullopt;
-    }
-    const auto [kind, entry] = rowOf(index);
-    return kind == Kind::Character ? m_view.characters()[entry].key
-                                   : characterOf(m_view.streams()[entry].key);
+    return index.isValid() && rowOf(index).kind != Kind::Sender
+               ? std::optional(characterOf(rowOf(index).key))
+               : std::nullopt;
 }
 
 std::optional<log::SenderId> StreamTreeModel::sender(const QModelIndex& index) const {
-    if (!index.isValid()) {
-        return std::nullopt;
-    }
-    const auto key = character(index);
-    return key ? key->sender : m_view.senders()[rowOf(index).entry].id;
+    return index.isValid() ? std::optional(rowOf(index).key.sender) : std::nullopt;
 }
 
 const model::Stream* StreamTreeModel::stream(const QModelIndex& index) const {
     const bool isStream = index.isValid() && rowOf(index).kind == Kind::Stream;
-    return isStream ? &m_view.streams()[rowOf(index).entry] : nullptr;
+    return isStream ? m_view.find(rowOf(index).key) : nullptr;
 }
 
 QModelIndex StreamTreeModel::indexOf(const model::CharacterKey& key) const {
-    const model::Character* found = m_view.find(key);
-    const std::vector<int>& nodes = m_nodesOf[Kind::Character];
-    return found == nullptr || found->ordinal >= nodes.size() ? QModelIndex()
-                                                              : TreeModel::indexOf(nodes[found->ordinal]);
+    return indexOf(characterRow(key));
 }
 
 QVariant StreamTreeModel::data(const QModelIndex& index, int role) const {
-    return checkIndex(index, CheckIndexOption::IndexIsValid) ? cell(rowOf(index), index.column(), role)
-                                                             : QVariant();
+    return checkIndex(index, CheckIndexOption::IndexIsValid) && isThere(rowOf(index))
+               ? cell(rowOf(index), index.column(), role)
+               : QVariant();
 }
 
 } // namespace posewire::gui

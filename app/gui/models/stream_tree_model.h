@@ -6,6 +6,7 @@
 
 #include <array>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace posewire::gui {
@@ -14,7 +15,7 @@ namespace posewire::gui {
 struct StreamRow {
     enum Kind : std::uint8_t { Sender, Character, Stream };
     Kind kind;
-    std::size_t entry; ///< in the session's list of its kind
+    log::StreamKey key; ///< as far as the kind has one
 };
 
 [[nodiscard]] model::CharacterKey characterOf(const log::StreamKey& key);
@@ -40,9 +41,15 @@ protected:
     using Kind = StreamRow::Kind;
 
     /// Announces at most one insertion: what appears under several parents at once arrives over the next
-    /// calls.
-    void insertNew();
+    /// calls. Where senders were retired the model is reset; true then.
+    bool insertNew();
     [[nodiscard]] const StreamRow& rowOf(const QModelIndex& index) const;
+    // What a row is of. Cells are asked for only where it is there.
+    [[nodiscard]] const model::Sender& senderOf(const StreamRow& row) const { return *m_view.find(row.key.sender); }
+    [[nodiscard]] const model::Character& characterAt(const StreamRow& row) const {
+        return *m_view.find(characterOf(row.key));
+    }
+    [[nodiscard]] const model::Stream& streamOf(const StreamRow& row) const { return *m_view.find(row.key); }
     [[nodiscard]] QModelIndex indexOf(const StreamRow& row) const;
     [[nodiscard]] model::SessionView& view() const { return m_view; }
     /// Address of a sender, name of a character, title of a type.
@@ -52,17 +59,21 @@ protected:
 
 private:
     static constexpr int kNone = -1; ///< of nodes
-    /// Adds the entries without a node that have the same parent as the first of them. False where none has.
+    using Nodes = std::unordered_map<log::StreamKey, int>;
+
+    [[nodiscard]] std::vector<StreamRow> rowsWithout(Kind kind) const;
+    /// Adds the rows without a node that have the same parent as the first of them. False where none has.
     bool insert(Kind kind);
     /// With all that belongs under it.
-    void addNode(Kind kind, std::size_t entry, int parent);
+    void addNode(const StreamRow& row, int parent);
     /// -1 for the top; nothing where the parent has no node yet.
-    [[nodiscard]] std::optional<int> parentOf(Kind kind, std::size_t entry) const;
+    [[nodiscard]] std::optional<int> parentOf(const StreamRow& row) const;
+    [[nodiscard]] bool isThere(const StreamRow& row) const;
 
     model::SessionView& m_view;
     std::vector<StreamRow> m_rows; ///< by node
-    /// By kind, then by place in the session's list; kNone before the row is there.
-    std::array<std::vector<int>, 3> m_nodesOf;
+    std::array<Nodes, 3> m_nodes;  ///< by kind and key
+    std::uint64_t m_retired = 0;  ///< senders whose rows are gone
 };
 
 } // namespace posewire::gui

@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace posewire::model {
 namespace {
 
 constexpr std::size_t kMostDrops = 4'096;
 constexpr std::size_t kMostDamages = 1'024;
+// Datagrams of a stream after which nothing of it waits to be judged any longer.
+constexpr std::uint64_t kMostWaiting = SampleWindow::kKept / 4;
 constexpr std::size_t kMostSilences = 64;
 // A sender with more streams than these is no performance.
 constexpr std::size_t kMostStreams = 64;
@@ -39,6 +42,9 @@ std::string Gap::evidenceText() const {
     case Evidence::Dropped:
         return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
                std::to_string(fromPacket) + " and " + std::to_string(toPacket) + ".";
+    case Evidence::Overtaken:
+        return "This computer did not look at " + counted(figure, "packet") + " between packets " +
+               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + " in time.";
     case Evidence::Damaged:
         return "Sample " + std::to_string(figure) + " arrived truncated or damaged.";
     case Evidence::Partial:
@@ -60,36 +66,53 @@ std::string Gap::evidenceText() const {
                     : "Late arrivals are still waited for.";
 }
 
-void Attribution::addStream(std::size_t stream, const log::SenderInfo& info) {
-    const log::StreamKey& key = m_streams[stream].key;
-    Sender& sender = m_senders[key.sender];
+void Attribution::addStream(Stream& stream, const log::SenderInfo& info) {
+    Sender& sender = m_senders[stream.key.sender];
     sender.transport = info.transport;
     sender.localPort = info.localPort;
-    if (countsSamples(key.type) && sender.streams.size() < kMostStreams) {
-        sender.streams.push_back(stream);
+    if (countsSamples(stream.key.type) && sender.streams.size() < kMostStreams) {
+        sender.streams.push_back(&stream);
     }
-    m_steps.resize(std::max(m_steps.size(), stream + 1));
-    m_openPartials.resize(m_steps.size());
+}
+
+void Attribution::retire(log::SenderId sender) {
+    m_senders.erase(sender);
+    for (Due& due : m_due) {
+        due.stream = due.stream != nullptr && due.stream->key.sender == sender ? nullptr : due.stream;
+    }
+    const auto isOf = [sender](const Partial& partial) { return partial.stream->key.sender == sender; };
+    std::erase_if(m_judgedPartials, isOf);
+    // Others know these by their place.
+    for (Partial& partial : m_partials) {
+        partial.stream = partial.stream != nullptr && isOf(partial) ? nullptr : partial.stream;
+    }
 }
 
 std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
     m_judged.clear();
+    m_judged.swap(m_judgedEarly);
     while (!m_due.empty()) {
-        Gap* gap = find(m_due.front().gap);
+        Due& due = m_due.front();
+        const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
         if (gap != nullptr && packet.stamp - gap->toStamp < kPatience) {
             break;
         }
-        if (gap != nullptr) {
-            judge(*gap, m_due.front().stream);
-            m_judged.push_back(*gap);
-        }
+        judge(due, m_judged);
         m_due.pop_front();
     }
-    judgePartials(packet);
+    for (; !m_partials.empty() && (m_partials.front().stream == nullptr ||
+                                   packet.stamp - m_partials.front().stamp >= kPatience);
+         m_partials.pop_front(), ++m_firstPartial) {
+        judge(m_partials.front(), packet.number);
+    }
     if (packet.kernelDropsBefore != 0) {
-        keepNewest(m_drops, {packet.number, packet.kernelDropsBefore, localPort}, kMostDrops);
+        keepNewest(m_drops, {packet.number, std::uint64_t{packet.kernelDropsBefore}, localPort}, kMostDrops);
     }
     return m_judged;
+}
+
+void Attribution::takeOvertaken(std::uint64_t packet, std::uint64_t count) {
+    keepNewest(m_drops, {packet, count, std::nullopt}, kMostDrops);
 }
 
 void Attribution::takeSampled(log::SenderId sender, log::Stamp stamp) {
@@ -110,11 +133,14 @@ void Attribution::takeMalformed(const log::Packet& packet, const wire::Header& h
                kMostDamages);
 }
 
-void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
-    const std::uint32_t step = m_streams[stream].accounting.step();
+void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
+    const std::uint32_t step = stream.accounting.step();
+    if (stream.accounting.datagrams() >= stream.judgeAt) {
+        judgeEarly(stream, verdict.packet);
+    }
     takePartial(stream, verdict);
     if (verdict.gap != 0) {
-        m_gaps.push_back({.stream = m_streams[stream].key,
+        m_gaps.push_back({.stream = stream.key,
                           .fromSample = verdict.sampleBefore,
                           .toSample = verdict.sample,
                           .fromStamp = verdict.stampBefore,
@@ -123,7 +149,8 @@ void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
                           .toPacket = verdict.packet,
                           .lost = verdict.gap,
                           .timeCodeMoved = verdict.timeCode - verdict.timeCodeBefore});
-        m_due.push_back({m_firstGap + m_gaps.size() - 1, stream});
+        m_due.push_back({m_firstGap + m_gaps.size() - 1, &stream, stream.accounting.datagrams()});
+        expectJudgement(stream);
         if (m_gaps.size() > kMostGaps) {
             m_gaps.pop_front();
             ++m_firstGap;
@@ -131,54 +158,80 @@ void Attribution::takeVerdict(std::size_t stream, const Verdict& verdict) {
     } else if (verdict.isReordered && verdict.isFirstOfSample) {
         recount(stream, verdict.sample); // it came after all
     }
-    if (step != m_steps[stream]) {
+    if (step != stream.judgedStep) {
         // Known in hindsight: what seemed lost may not be.
-        m_steps[stream] = step;
+        stream.judgedStep = step;
         recount(stream, {});
     }
 }
 
 /// Notes what lacks a part, and what does not any more.
-void Attribution::takePartial(std::size_t stream, const Verdict& verdict) {
+void Attribution::takePartial(Stream& stream, const Verdict& verdict) {
     if (verdict.isAfterPartial) {
-        const LossCause cause = causeOfPartial(m_streams[stream].key, verdict.packetBefore, verdict.packet);
-        ++m_streams[stream].attributed[static_cast<std::size_t>(cause)];
+        const LossCause cause = causeOfPartial(stream.key, verdict.packetBefore, verdict.packet);
+        ++stream.attributed[static_cast<std::size_t>(cause)];
     }
-    std::uint64_t& open = m_openPartials[stream];
+    std::uint64_t& open = stream.openPartial;
     if (verdict.isFirstOfSample && !verdict.isReordered && open > m_firstPartial) {
         m_partials[open - m_firstPartial - 1].nextPacket = verdict.packet;
         open = 0;
     }
     if (verdict.isFirstOfSample && !verdict.isCompleting) {
-        m_partials.push_back({stream, verdict.sample, verdict.stamp, verdict.packet});
+        m_partials.push_back(
+            {&stream, verdict.sample, verdict.stamp, verdict.packet, stream.accounting.datagrams()});
+        expectJudgement(stream);
         open = verdict.isReordered ? open : m_firstPartial + m_partials.size();
     } else if (verdict.isCompleting && !verdict.isFirstOfSample) {
         complete(stream, verdict.sample);
     }
 }
 
-void Attribution::judgePartials(const log::Packet& packet) {
-    for (; !m_partials.empty() && packet.stamp - m_partials.front().stamp >= kPatience;
-         m_partials.pop_front(), ++m_firstPartial) {
-        Partial& partial = m_partials.front();
-        Stream& stream = m_streams[partial.stream];
-        if (!stream.accounting.isIncomplete(partial.sample)) {
-            continue;
+/// By the packets up to one.
+void Attribution::judge(Partial& partial, std::uint64_t packet) {
+    Stream* const stream = std::exchange(partial.stream, nullptr);
+    if (stream == nullptr || !stream->accounting.isIncomplete(partial.sample)) {
+        return;
+    }
+    partial.cause = causeOfPartial(stream->key, partial.packet,
+                                   partial.nextPacket != 0 ? partial.nextPacket : packet);
+    ++stream->attributed[static_cast<std::size_t>(partial.cause)];
+    keepNewest(m_judgedPartials, partial, kMostBack);
+    m_judgedPartials.back().stream = stream;
+}
+
+/// A stream remembers only its newest samples: by then at the latest.
+void Attribution::expectJudgement(Stream& stream) {
+    stream.judgeAt = std::min(stream.judgeAt, stream.accounting.datagrams() + kMostWaiting);
+}
+
+/// In a flood the samples around a gap are forgotten before late arrivals have had their time.
+void Attribution::judgeEarly(Stream& stream, std::uint64_t packet) {
+    const std::uint64_t datagrams = stream.accounting.datagrams();
+    stream.judgeAt = UINT64_MAX;
+    const auto isWaiting = [&](std::uint64_t since) {
+        const bool isYoung = datagrams - since < kMostWaiting / 2;
+        stream.judgeAt = std::min(stream.judgeAt, isYoung ? since + kMostWaiting : UINT64_MAX);
+        return isYoung;
+    };
+    for (Due& due : m_due) {
+        if (due.stream == &stream && !isWaiting(due.datagrams)) {
+            judge(due, m_judgedEarly);
         }
-        const std::uint64_t to = partial.nextPacket != 0 ? partial.nextPacket : packet.number;
-        partial.cause = causeOfPartial(stream.key, partial.packet, to);
-        ++stream.attributed[static_cast<std::size_t>(partial.cause)];
-        keepNewest(m_judgedPartials, partial, kMostBack);
+    }
+    for (Partial& partial : m_partials) {
+        if (partial.stream == &stream && !isWaiting(partial.datagrams)) {
+            judge(partial, packet);
+        }
     }
 }
 
 /// The missing part of a sample came after all.
-void Attribution::complete(std::size_t stream, std::uint32_t sample) {
+void Attribution::complete(Stream& stream, std::uint32_t sample) {
     const auto found = std::ranges::find_if(m_judgedPartials, [&](const Partial& partial) {
-        return partial.stream == stream && partial.sample == sample;
+        return partial.stream == &stream && partial.sample == sample;
     });
     if (found != m_judgedPartials.end()) {
-        --m_streams[stream].attributed[static_cast<std::size_t>(found->cause)];
+        --stream.attributed[static_cast<std::size_t>(found->cause)];
         m_judgedPartials.erase(found);
     }
 }
@@ -192,7 +245,8 @@ LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_
     }
     // What was dropped just before the first part counts too: it may have been another part.
     const std::uint64_t before = fromPacket == 0 ? 0 : fromPacket - 1;
-    if (dropsBetween(before, toPacket, found->second.localPort) != 0) {
+    const LostHere lost = lostHere(before, toPacket, found->second.localPort);
+    if (lost.dropped + lost.overtaken != 0) {
         return LossCause::ThisComputer;
     }
     return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
@@ -204,32 +258,39 @@ const Gap* Attribution::endedBy(std::uint64_t packet) const {
 }
 
 /// Counts again what a gap still lacks, in it and in the sums of its stream.
-void Attribution::recount(Gap& gap, std::size_t stream) {
-    const std::uint32_t lost = m_streams[stream].accounting.missingBetween(gap.fromSample, gap.toSample);
+void Attribution::recount(Gap& gap, Stream& stream) {
+    const std::uint32_t lost =
+        stream.accounting.missingBetween(gap.fromSample, gap.toSample).value_or(gap.lost);
     if (lost == gap.lost) {
         return;
     }
     if (gap.isJudged) {
-        std::uint64_t& sum = m_streams[stream].attributed[static_cast<std::size_t>(gap.cause)];
+        std::uint64_t& sum = stream.attributed[static_cast<std::size_t>(gap.cause)];
         sum += lost;
         sum -= std::min<std::uint64_t>(sum, gap.lost);
     }
     gap.lost = lost;
 }
 
-void Attribution::judge(Gap& gap, std::size_t stream) {
-    recount(gap, stream);
-    findCause(gap, m_streams[stream]);
-    gap.isJudged = true;
-    m_streams[stream].attributed[static_cast<std::size_t>(gap.cause)] += gap.lost;
+/// Once; what it was is among `judged` then.
+void Attribution::judge(Due& due, std::vector<Gap>& judged) {
+    Stream* const stream = std::exchange(due.stream, nullptr);
+    Gap* const gap = find(due.gap);
+    if (stream == nullptr || gap == nullptr) {
+        return;
+    }
+    recount(*gap, *stream);
+    findCause(*gap, *stream);
+    gap->isJudged = true;
+    stream->attributed[static_cast<std::size_t>(gap->cause)] += gap->lost;
+    judged.push_back(*gap);
 }
 
 /// Counts again the newest gaps of a stream, or only the one around a sample.
-void Attribution::recount(std::size_t stream, std::optional<std::uint32_t> around) {
-    const log::StreamKey& key = m_streams[stream].key;
+void Attribution::recount(Stream& stream, std::optional<std::uint32_t> around) {
     std::size_t looked = 0;
     for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && looked < kMostBack; ++gap, ++looked) {
-        if (gap->stream == key && (!around || isBetween(*around, *gap))) {
+        if (gap->stream == stream.key && (!around || isBetween(*around, *gap))) {
             recount(*gap, stream);
             if (around) {
                 return;
@@ -249,9 +310,12 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
         gap.evidence = evidence;
         gap.figure = figure;
     };
-    if (const std::uint64_t drops = dropsBetween(gap.fromPacket, gap.toPacket, sender.localPort);
-        drops != 0) {
-        return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, drops);
+    const LostHere lost = lostHere(gap.fromPacket, gap.toPacket, sender.localPort);
+    if (lost.dropped != 0) {
+        return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, lost.dropped);
+    }
+    if (lost.overtaken != 0) {
+        return decide(LossCause::ThisComputer, Gap::Evidence::Overtaken, lost.overtaken);
     }
     if (sender.transport == log::Transport::Tcp) {
         return decide(LossCause::Sender, Gap::Evidence::Reliable, 0);
@@ -265,13 +329,12 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
         }
     }
     const TimeRange when{gap.fromStamp - kPatience, gap.toStamp + kPatience};
-    for (const std::size_t other : sender.streams) {
-        const Stream& candidate = m_streams[other];
-        if (candidate.key == gap.stream) {
+    for (const Stream* other : sender.streams) {
+        if (other->key == gap.stream) {
             continue;
         }
-        if (const auto sample = candidate.accounting.arrivedBetween(gap.fromSample, gap.toSample, when)) {
-            gap.otherType = candidate.key.type;
+        if (const auto sample = other->accounting.arrivedBetween(gap.fromSample, gap.toSample, when)) {
+            gap.otherType = other->key.type;
             return decide(LossCause::Network, Gap::Evidence::OtherStream, *sample);
         }
     }
@@ -280,13 +343,15 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
     }
 }
 
-std::uint64_t Attribution::dropsBetween(std::uint64_t fromPacket, std::uint64_t toPacket,
-                                        std::uint16_t localPort) const {
-    std::uint64_t drops = 0;
+Attribution::LostHere Attribution::lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
+                                            std::uint16_t localPort) const {
+    LostHere lost;
     for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > fromPacket; ++drop) {
-        drops += drop->packet <= toPacket && drop->localPort == localPort ? drop->count : 0;
+        if (drop->packet <= toPacket && drop->localPort.value_or(localPort) == localPort) {
+            (drop->localPort ? lost.dropped : lost.overtaken) += drop->count;
+        }
     }
-    return drops;
+    return lost;
 }
 
 const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {

@@ -22,6 +22,7 @@ struct Gap {
     enum class Evidence : std::uint8_t {
         None,        ///< nothing speaks for anybody
         Dropped,     ///< this computer dropped datagrams of the socket meanwhile
+        Overtaken,   ///< this computer did not look at packets of the log in time
         Damaged,     ///< one of the samples came truncated
         Partial,     ///< of a sample next to it only a part came
         OtherStream, ///< other streams of the sender brought one of the samples
@@ -58,20 +59,22 @@ public:
     /// A shorter silence of a sender is no pause.
     static constexpr log::Duration kPause = std::chrono::milliseconds(250);
 
-    /// The streams of the session, which outlive this.
-    explicit Attribution(std::deque<Stream>& streams) : m_streams(streams) {}
-
-    void addStream(std::size_t stream, const log::SenderInfo& info);
+    /// The stream outlives this, or is retired with its sender before it goes.
+    void addStream(Stream& stream, const log::SenderInfo& info);
+    /// What is yet to be judged of the sender's streams stays as it is.
+    void retire(log::SenderId sender);
 
     /// Each packet, before its content: notes drops and judges what is due. Returns the gaps that were
     /// judged, valid until the next call.
     std::span<const Gap> takePacket(const log::Packet& packet, std::uint16_t localPort);
+    /// Packets just below one were passed over: whatever they were of is missing for that.
+    void takeOvertaken(std::uint64_t packet, std::uint64_t count);
     /// Each datagram of a type that counts samples.
     void takeSampled(log::SenderId sender, log::Stamp stamp);
     /// One that has a header and cannot be decoded.
     void takeMalformed(const log::Packet& packet, const wire::Header& header);
     /// A verdict of the stream's accounting.
-    void takeVerdict(std::size_t stream, const Verdict& verdict);
+    void takeVerdict(Stream& stream, const Verdict& verdict);
 
     /// The newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
@@ -80,7 +83,7 @@ public:
 
 private:
     struct Sender {
-        std::vector<std::size_t> streams; ///< those that count samples
+        std::vector<const Stream*> streams; ///< those that count samples
         log::Transport transport = log::Transport::Udp;
         std::uint16_t localPort = 0;
         log::Stamp lastStamp{};
@@ -88,17 +91,23 @@ private:
     };
     /// A sample of which only a part has come yet.
     struct Partial {
-        std::size_t stream = 0;
+        Stream* stream = nullptr; ///< null where it was judged, or retired
         std::uint32_t sample = 0;
         log::Stamp stamp{};
         std::uint64_t packet = 0;     ///< the first that came of it
+        std::uint64_t datagrams = 0;  ///< of the stream until then
         std::uint64_t nextPacket = 0; ///< the first of the next sample of the stream; 0 until that comes
         LossCause cause = LossCause::Unknown;
     };
     struct Drop {
-        std::uint64_t packet = 0;
-        std::uint32_t count = 0;
-        std::uint16_t localPort = 0;
+        std::uint64_t packet = 0; ///< the first after them
+        std::uint64_t count = 0;
+        std::optional<std::uint16_t> localPort{}; ///< nothing: of the log, not looked at in time
+    };
+    /// What this computer lost between two packets.
+    struct LostHere {
+        std::uint64_t dropped = 0;
+        std::uint64_t overtaken = 0;
     };
     struct Damage {
         log::StreamKey stream;
@@ -108,38 +117,38 @@ private:
     /// A gap and the stream it is of.
     struct Due {
         std::uint64_t gap = 0;
-        std::size_t stream = 0;
+        Stream* stream = nullptr;    ///< null where it was judged, or retired
+        std::uint64_t datagrams = 0; ///< of the stream until then
     };
 
-    void judge(Gap& gap, std::size_t stream);
-    void judgePartials(const log::Packet& packet);
-    void takePartial(std::size_t stream, const Verdict& verdict);
-    void complete(std::size_t stream, std::uint32_t sample);
+    static void expectJudgement(Stream& stream);
+    void judgeEarly(Stream& stream, std::uint64_t packet);
+    void judge(Due& due, std::vector<Gap>& judged);
+    void judge(Partial& partial, std::uint64_t packet);
+    void takePartial(Stream& stream, const Verdict& verdict);
+    void complete(Stream& stream, std::uint32_t sample);
     [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
                                            std::uint64_t toPacket) const;
-    void recount(Gap& gap, std::size_t stream);
-    void recount(std::size_t stream, std::optional<std::uint32_t> around);
+    void recount(Gap& gap, Stream& stream);
+    void recount(Stream& stream, std::optional<std::uint32_t> around);
     void findCause(Gap& gap, const Stream& stream) const;
-    /// Datagrams that this computer dropped of a port behind one packet, up to another.
-    [[nodiscard]] std::uint64_t dropsBetween(std::uint64_t fromPacket, std::uint64_t toPacket,
-                                             std::uint16_t localPort) const;
+    /// Datagrams of a port behind one packet, up to another.
+    [[nodiscard]] LostHere lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
+                                    std::uint16_t localPort) const;
     [[nodiscard]] const Damage* damageWithin(const Gap& gap) const;
     [[nodiscard]] bool hasPaused(const Gap& gap, const Sender& sender) const;
     [[nodiscard]] Gap* find(std::uint64_t number) {
         return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
     }
 
-    std::deque<Stream>& m_streams;
     std::unordered_map<log::SenderId, Sender> m_senders;
-    std::vector<std::uint32_t> m_steps; ///< of the streams, when last looked at
     std::deque<Gap> m_gaps;
     std::uint64_t m_firstGap = 0;
     std::deque<Due> m_due; ///< yet to be judged, oldest first
     std::vector<Gap> m_judged;
+    std::vector<Gap> m_judgedEarly; ///< since the last packet
     std::deque<Partial> m_partials; ///< yet to be judged, oldest first
     std::uint64_t m_firstPartial = 0;
-    /// By stream: one past the number of the partial that its next sample ends, if it is still there.
-    std::vector<std::uint64_t> m_openPartials;
     std::deque<Partial> m_judgedPartials; ///< the newest ones
     std::deque<Drop> m_drops;
     std::deque<Damage> m_damages;

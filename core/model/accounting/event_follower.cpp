@@ -13,7 +13,6 @@ constexpr log::Duration kSilent = std::chrono::seconds(1);
 constexpr log::Duration kCheck = std::chrono::milliseconds(100);
 constexpr log::Duration kWatch = std::chrono::milliseconds(500);
 constexpr std::int64_t kJumpMs = 500;
-constexpr std::size_t kMostSenders = 4'096;
 /// This many samples lost in a row are a burst.
 constexpr std::uint32_t kBurstSamples = 10;
 
@@ -29,14 +28,13 @@ Event eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdi
 
 } // namespace
 
-void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
-                               const std::deque<Stream>& streams) {
+void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest) {
     if (packet.stamp >= m_nextCheck) {
         check(packet.stamp);
         m_nextCheck = packet.stamp + kCheck;
     }
     if (packet.stamp >= m_nextWatch) {
-        m_watch.check(streams, packet.stamp, m_events);
+        m_watch.check(packet.stamp, m_events);
         m_nextWatch = packet.stamp + kWatch;
     }
     if (packet.kernelDropsBefore != 0) {
@@ -51,12 +49,23 @@ void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& di
     }
 }
 
-void EventFollower::takeDatagram(const log::Packet& packet, const wire::Header& header) {
+void EventFollower::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
+    Event event = Event::of(EventKind::Overtaken, log::kNoSender, stamp, packet);
+    event.samples = count;
+    m_events.report(event);
+}
+
+void EventFollower::retire(log::SenderId sender) {
+    m_watch.retire(sender);
+    m_events.retire(sender);
+    m_senders.erase(sender);
+    std::erase_if(m_characters, [sender](const auto& entry) { return entry.first.sender == sender; });
+}
+
+void EventFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream) {
+    m_watch.wake(stream);
     auto sender = m_senders.find(packet.sender);
     if (sender == m_senders.end()) {
-        if (m_senders.size() == kMostSenders) {
-            return;
-        }
         sender = m_senders.try_emplace(packet.sender).first;
         m_events.report(eventOf(EventKind::SenderUp, packet));
     }

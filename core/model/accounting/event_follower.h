@@ -24,12 +24,17 @@ public:
     [[nodiscard]] const Thresholds& thresholds() const { return m_watch.thresholds(); }
 
     /// Each packet before its content: moves the time of the log, and notes what is no datagram.
-    void takePacket(const log::Packet& packet, const PacketDigest& digest, const std::deque<Stream>& streams);
+    void takePacket(const log::Packet& packet, const PacketDigest& digest);
+    /// Packets just below one were passed over.
+    void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
     /// Each datagram with its header.
-    void takeDatagram(const log::Packet& packet, const wire::Header& header);
+    void takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream);
     void takeVerdict(const log::StreamKey& stream, const Verdict& verdict);
     void takeGap(const Gap& gap);
     void takeChange(EventKind kind, const CharacterKey& key, const log::Packet& packet, std::string detail);
+
+    /// Nothing of a sender lasts any longer, and its streams are about to go.
+    void retire(log::SenderId sender);
 
     /// Time passes without packets: reports only who is silent.
     void advance(log::Stamp stamp);

@@ -38,6 +38,7 @@ constexpr std::array<KindFacts, kEventKinds> kKinds{{
     {EventKind::GapLimit, "gap limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::AgeLimit, "age limit", EventSeverity::Error, EventGroup::Limit, true},
     {EventKind::RateLimit, "rate limit", EventSeverity::Warning, EventGroup::Limit, true},
+    {EventKind::Overtaken, "overtaken", EventSeverity::Error, EventGroup::Loss, false},
 }};
 
 // Each once, in the order of the enum.
@@ -107,6 +108,8 @@ std::string Event::text() const {
         return counted(count, "datagram is", "datagrams are") + " not MXTP.";
     case EventKind::Dropped:
         return "This computer dropped " + counted(samples, "datagram") + '.';
+    case EventKind::Overtaken:
+        return "This computer did not look at " + counted(samples, "packet") + " in time.";
     case EventKind::MetadataChange:
         return detail;
     case EventKind::ScaleChange:
@@ -208,6 +211,16 @@ void Events::end(const Event& like, log::Stamp stamp) {
         m_current.erase(episodeOf(known));
         ++m_version;
     }
+}
+
+void Events::retire(log::SenderId sender) {
+    const auto from = m_current.lower_bound({sender});
+    auto to = from;
+    for (; to != m_current.end() && to->first.sender == sender; ++to) {
+        m_events[indexOf(to->second)].isCurrent = false;
+        ++m_version;
+    }
+    m_current.erase(from, to);
 }
 
 void Events::advance(log::Stamp stamp) {

@@ -36,8 +36,9 @@ enum class EventKind : std::uint8_t {
     GapLimit,
     AgeLimit,
     RateLimit,
+    Overtaken,
 };
-inline constexpr std::size_t kEventKinds = 18;
+inline constexpr std::size_t kEventKinds = 19;
 
 enum class EventSeverity : std::uint8_t { Info, Warning, Error };
 
@@ -50,7 +51,7 @@ enum class EventGroup : std::uint8_t { Sender, Loss, Content, Limit };
 struct Event {
     std::uint64_t number = 0; ///< counted from the beginning of the session
     EventKind kind = EventKind::SenderUp;
-    log::SenderId sender{};
+    log::SenderId sender{}; ///< kNoSender where it is of this computer
     std::optional<std::uint8_t> character{};
     std::optional<std::uint8_t> type{}; ///< of the stream, where it is of one
     log::Stamp firstStamp{};
@@ -58,7 +59,7 @@ struct Event {
     std::uint64_t firstPacket = 0;
     std::uint64_t lastPacket = 0;
     std::uint64_t count = 1;   ///< how often it happened
-    std::uint64_t samples = 0; ///< Gap, Burst: lost; Dropped: datagrams
+    std::uint64_t samples = 0; ///< Gap, Burst: lost; Dropped, Overtaken: datagrams
     double value = 0;          ///< limits: the worst; TimeCodeJump: ms
     double limit = 0;          ///< limits: what must not be exceeded
     std::optional<LossCause> cause{};
@@ -114,6 +115,8 @@ public:
     /// An episode is over.
     void end(const Event& like, log::Stamp stamp);
     [[nodiscard]] bool isCurrent(const Event& like) const { return findCurrent(like).has_value(); }
+    /// Nothing of a sender lasts any longer.
+    void retire(log::SenderId sender);
     /// Ends what has been quiet for long, by the time of the log.
     void advance(log::Stamp stamp);
 

@@ -3,6 +3,7 @@
 
 #include "core/log/stream_index.h"
 #include "core/model/accounting/stream_accounting.h"
+#include "core/model/message.h"
 
 #include <array>
 #include <cstddef>
@@ -44,6 +45,15 @@ struct Stream {
 
     /// All samples lost and incomplete by LossCause.
     [[nodiscard]] std::array<std::uint64_t, kLossCauses> lostByCause() const;
+
+    Message newest; ///< its newest datagram as it was decoded; see Ingest::newest
+
+    // What others remember of it.
+    std::uint64_t judgeAt = UINT64_MAX; ///< Attribution: this many datagrams; what waits is judged then
+    std::uint32_t judgedStep = 0;  ///< Attribution: the step by which its gaps were counted
+    std::uint64_t openPartial = 0; ///< Attribution: one past the number of the partial that its next sample ends
+    double usualHz = 0;            ///< ThresholdWatch: its rate before the window; 0 before it is known
+    bool isWatched = false;        ///< ThresholdWatch
 };
 
 } // namespace posewire::model

@@ -215,13 +215,13 @@ bool StreamAccounting::isIncomplete(std::uint32_t sample) const {
     return false;
 }
 
-std::uint32_t StreamAccounting::missingBetween(std::uint32_t from, std::uint32_t to) const {
+std::optional<std::uint32_t> StreamAccounting::missingBetween(std::uint32_t from, std::uint32_t to) const {
     for (const SampleSequence* sequence : {&m_ledger.present(), &m_ledger.before()}) {
         if (!sequence->empty() && sequence->window().find(from).isThere) {
             return sequence->missingBetween(from, to);
         }
     }
-    return 0;
+    return std::nullopt;
 }
 
 } // namespace posewire::model

@@ -104,8 +104,9 @@ public:
     /// a while.
     [[nodiscard]] bool isIncomplete(std::uint32_t sample) const;
 
-    /// Samples between two counters, both exclusive, that are still missing; likewise.
-    [[nodiscard]] std::uint32_t missingBetween(std::uint32_t from, std::uint32_t to) const;
+    /// Samples between two counters, both exclusive, that are still missing; nothing where the first of them
+    /// is forgotten.
+    [[nodiscard]] std::optional<std::uint32_t> missingBetween(std::uint32_t from, std::uint32_t to) const;
 
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }

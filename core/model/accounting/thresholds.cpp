@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/thresholds.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,6 +10,8 @@ namespace {
 
 constexpr double kMost = 100'000;
 constexpr double kPercent = 100;
+/// What has been silent for longer is looked at again when something comes.
+constexpr double kAsleepS = 10;
 
 using T = Thresholds;
 
@@ -35,16 +38,27 @@ std::span<const ThresholdRow> thresholdTable() {
     return kRows;
 }
 
-void ThresholdWatch::check(const std::deque<Stream>& streams, log::Stamp stamp, Events& events) {
-    m_usualHz.resize(streams.size());
-    for (std::size_t i = 0; i < streams.size(); ++i) {
-        if (countsSamples(streams[i].key.type)) {
-            check(streams[i], m_usualHz[i], stamp, events);
-        }
+void ThresholdWatch::wake(Stream& stream) {
+    if (!stream.isWatched && countsSamples(stream.key.type)) {
+        stream.isWatched = true;
+        m_awake.push_back(&stream);
     }
 }
 
-void ThresholdWatch::check(const Stream& stream, double& usualHz, log::Stamp stamp, Events& events) const {
+void ThresholdWatch::retire(log::SenderId sender) {
+    std::erase_if(m_awake, [sender](const Stream* stream) { return stream->key.sender == sender; });
+}
+
+void ThresholdWatch::check(log::Stamp stamp, Events& events) {
+    std::erase_if(m_awake, [&](Stream* stream) {
+        check(*stream, stamp, events);
+        const double ageS = log::secondsOf(stamp - stream->accounting.lastStamp());
+        stream->isWatched = ageS <= std::max({kAsleepS, m_thresholds.windowS, m_thresholds.ageS});
+        return !stream->isWatched;
+    });
+}
+
+void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Events& events) const {
     const StreamAccounting& accounting = stream.accounting;
     const log::Stamp from = stamp - log::durationOf(m_thresholds.windowS);
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
@@ -64,6 +78,7 @@ void ThresholdWatch::check(const Stream& stream, double& usualHz, log::Stamp sta
         return;
     }
     const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
+    double& usualHz = stream.usualHz;
     if (usualHz > 0) {
         const double offPercent = 100 * std::abs(rateHz - usualHz) / usualHz;
         hold(stream, {EventKind::RateLimit, offPercent, m_thresholds.ratePercent}, stamp, events);

@@ -49,8 +49,12 @@ public:
     void set(const Thresholds& thresholds) { m_thresholds = thresholds; }
     [[nodiscard]] const Thresholds& thresholds() const { return m_thresholds; }
 
-    /// Looks at all streams that count samples as they were just before a moment.
-    void check(const std::deque<Stream>& streams, log::Stamp stamp, Events& events);
+    /// A datagram of the stream came: it is looked at until it has been silent for long.
+    void wake(Stream& stream);
+    /// Forgets the streams of a sender, before they go.
+    void retire(log::SenderId sender);
+    /// Looks at the streams that are awake as they were just before a moment.
+    void check(log::Stamp stamp, Events& events);
 
 private:
     struct Measure {
@@ -58,11 +62,11 @@ private:
         double value;
         double limit;
     };
-    void check(const Stream& stream, double& usualHz, log::Stamp stamp, Events& events) const;
+    void check(Stream& stream, log::Stamp stamp, Events& events) const;
     void hold(const Stream& stream, const Measure& measure, log::Stamp stamp, Events& events) const;
 
     Thresholds m_thresholds;
-    std::vector<double> m_usualHz; ///< of each stream, before the window; 0 before it is known
+    std::vector<Stream*> m_awake;
 };
 
 } // namespace posewire::model

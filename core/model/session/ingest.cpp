@@ -7,12 +7,18 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <unordered_set>
 
 namespace posewire::model {
 namespace {
 
-constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
-constexpr std::size_t kMostCharacters = 1024;
+/// Room is made for several at once, so that a flood of senders costs little for each.
+constexpr std::size_t kAtOnce = 64;
+constexpr std::size_t kStrangersAtOnce = 16;
+/// Who has been silent for this long makes room for others.
+constexpr log::Duration kSilent = std::chrono::seconds(10);
+/// Who has sent this many datagrams is no passer-by.
+constexpr std::uint64_t kEstablished = 8;
 /// Packets that are not older than this when they are followed are live: silence after them is silence.
 constexpr log::Duration kLive = std::chrono::seconds(10);
 
@@ -36,49 +42,68 @@ std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
     return text;
 }
 
-/// Null where the key is not known.
-template <class Places, class Items>
-auto* itemAt(const Places& places, const typename Places::key_type& key, Items& items) {
-    const auto found = places.find(key);
-    return found == places.end() ? nullptr : &items[found->second];
+} // namespace
+
+void SenderTotals::add(const Sender& sender) {
+    ++senders;
+    datagrams += sender.datagrams;
+    bytes += sender.bytes;
+    malformed += sender.malformed;
+    foreign += sender.foreign;
+    kernelDrops += sender.kernelDrops;
 }
 
-} // namespace
+void RetiredTotals::retire(const Sender& sender) {
+    add(sender);
+    for (const Character* character : sender.characters) {
+        for (const Stream* stream : character->streams) {
+            const StreamCounts counts = stream->accounting.counts();
+            ++streams;
+            samples += counts.samples;
+            lost += counts.lost;
+        }
+    }
+}
 
 Ingest::Ingest(const log::PacketLog& log)
     : m_log(log),
-      m_reader(log),
-      m_attribution(std::make_unique<Attribution>(m_streams)),
-      m_follower(std::make_unique<EventFollower>()) {}
+      m_follower(log),
+      m_attribution(std::make_unique<Attribution>()),
+      m_events(std::make_unique<EventFollower>()) {}
 
 Ingest::~Ingest() = default;
 
 void Ingest::setThresholds(const Thresholds& thresholds) {
-    m_follower->setThresholds(thresholds);
+    m_events->setThresholds(thresholds);
 }
 
 bool Ingest::follow(log::Stamp now, std::size_t most) {
     m_now = now;
-    m_reader.refresh();
-    m_begin = m_reader.begin();
-    const std::uint64_t from = std::max(m_end, m_begin);
-    const std::uint64_t to = std::min(m_reader.end(), from + most);
-    for (std::uint64_t number = from; number < to; ++number) {
-        if (const auto packet = m_reader.packet(number)) {
-            take(*packet);
+    m_follower.refresh();
+    m_begin = m_follower.reader().begin();
+    std::size_t count = 0;
+    log::Stamp newest{};
+    while (count < most) {
+        const auto packet = m_follower.next();
+        if (const std::uint64_t overtaken = m_follower.takeOvertaken()) {
+            takeOvertaken(overtaken, packet ? &*packet : nullptr);
         }
+        if (!packet) {
+            break;
+        }
+        take(*packet);
+        newest = packet->stamp;
+        ++count;
     }
-    m_end = std::max(m_end, to);
-    if (to > from) {
-        const auto newest = m_reader.packet(to - 1);
-        m_isLive = newest && now - newest->stamp < kLive && newest->stamp - now < kLive;
+    if (count > 0) {
+        m_isLive = now - newest < kLive && newest - now < kLive;
     }
-    if (m_isLive && to == m_reader.end()) {
-        m_follower->advance(now);
+    if (m_isLive && m_follower.lag() == 0) {
+        m_events->advance(now);
     }
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
-    return to > from;
+    return count > 0;
 }
 
 void Ingest::followFile() {
@@ -88,13 +113,21 @@ void Ingest::followFile() {
     }
     m_now = now;
     m_isLive = false;
-    m_follower->endFile();
+    m_events->endFile();
+}
+
+/// What was lost of the packets that nobody looked at is this computer's loss.
+void Ingest::takeOvertaken(std::uint64_t count, const log::Packet* next) {
+    const std::uint64_t packet = next != nullptr ? next->number : m_follower.position();
+    m_attribution->takeOvertaken(packet, count);
+    m_events->takeOvertaken(packet, count, next != nullptr ? next->stamp : m_now);
 }
 
 void Ingest::take(const log::Packet& packet) {
     if (m_digests.end() == 0) {
         m_firstStamp = packet.stamp;
     }
+    m_observed = packet.stamp;
     Observation seen{packet};
     observe(seen);
     if (seen.sender != nullptr) {
@@ -105,6 +138,8 @@ void Ingest::take(const log::Packet& packet) {
         } else if (takeHeader(seen)) {
             account(seen);
             takeContent(seen);
+        } else {
+            ++m_unfollowed;
         }
     }
     m_digests.append(packet.number, seen.digest);
@@ -116,9 +151,9 @@ void Ingest::observe(Observation& seen) {
     seen.sender = senderOf(packet);
     if (const auto header = wire::decodeHeader(packet.bytes); header && !packet.flags.skipped) {
         seen.header = *header;
-        seen.stream = placeOf({packet.sender, header->character, header->type()});
-        const bool isKept = seen.stream && wire::findType(header->type()) != nullptr;
-        Message& into = isKept ? m_newest[*seen.stream] : m_unplaced;
+        seen.stream = m_streams.find({packet.sender, header->character, header->type()});
+        const bool isKept = seen.stream != nullptr && wire::findType(header->type()) != nullptr;
+        Message& into = isKept ? seen.stream->newest : m_unplaced;
         into.packet = UINT64_MAX;
         if (wire::decodeInto(packet.bytes, into.datagram)) {
             into.packet = packet.number;
@@ -136,12 +171,14 @@ void Ingest::countPacket(const Observation& seen) {
     sender.kernelDrops += seen.packet.kernelDropsBefore;
     sender.bytes += seen.packet.bytes.size();
     sender.datagrams += seen.digest.kind == PacketKind::Skipped ? 0 : 1;
-    m_follower->takePacket(seen.packet, seen.digest, m_streams);
+    const Place& place = m_recencies.at(sender.id);
+    place.list->splice(place.list->end(), *place.list, place.at);
+    m_events->takePacket(seen.packet, seen.digest);
 }
 
 void Ingest::judgeGaps(const Observation& seen) {
     for (const Gap& gap : m_attribution->takePacket(seen.packet, seen.sender->info.localPort)) {
-        m_follower->takeGap(gap);
+        m_events->takeGap(gap);
     }
 }
 
@@ -155,8 +192,8 @@ void Ingest::countFaulty(const Observation& seen) {
         if (seen.header) {
             m_attribution->takeMalformed(seen.packet, *seen.header);
         }
-        if (seen.stream) {
-            m_streams[*seen.stream].accounting.addMalformed(seen.packet.stamp);
+        if (seen.stream != nullptr) {
+            seen.stream->accounting.addMalformed(seen.packet.stamp);
         }
         break;
     case PacketKind::Foreign:
@@ -173,20 +210,25 @@ bool Ingest::takeHeader(Observation& seen) {
     const log::Packet& packet = seen.packet;
     const wire::Header& header = *seen.header;
     seen.sender->detector.addHeader(header);
-    if (!seen.stream) {
-        seen.stream = addStream({packet.sender, header.character, header.type()}, *seen.sender);
-        if (seen.stream && wire::findType(header.type()) != nullptr) {
-            std::swap(m_newest[*seen.stream], m_unplaced);
-            seen.datagram = &m_newest[*seen.stream].datagram;
-        }
-    }
-    seen.character = characterOf({packet.sender, header.character}, packet.number);
-    if (!seen.stream || seen.character == nullptr) {
+    promote(*seen.sender);
+    seen.character = characterOf(*seen.sender, header.character, packet.number);
+    if (seen.character == nullptr) {
         return false;
     }
+    if (seen.stream == nullptr) {
+        seen.stream = streamOf({packet.sender, header.character, header.type()}, *seen.sender);
+        if (seen.stream == nullptr) {
+            return false;
+        }
+        seen.character->streams.push_back(seen.stream);
+        if (wire::findType(header.type()) != nullptr) {
+            std::swap(seen.stream->newest, m_unplaced);
+            seen.datagram = &seen.stream->newest.datagram;
+        }
+    }
     m_index.add(packet, header);
-    m_streams[*seen.stream].statistics.add(packet.stamp, header.datagramIndex() == 0);
-    m_follower->takeDatagram(packet, header);
+    seen.stream->statistics.add(packet.stamp, header.datagramIndex() == 0);
+    m_events->takeDatagram(packet, header, *seen.stream);
     seen.character->lastStamp = packet.stamp;
     seen.character->lastPacket = packet.number;
     return true;
@@ -197,13 +239,13 @@ void Ingest::account(Observation& seen) {
     if (countsSamples(seen.digest.type)) {
         m_attribution->takeSampled(packet.sender, packet.stamp);
     }
-    Stream& stream = m_streams[*seen.stream];
+    Stream& stream = *seen.stream;
     for (const Verdict& verdict : addToStream(packet, *seen.header, stream.accounting, seen.digest)) {
         if (verdict.packet != packet.number) {
             m_digests.amend(verdict);
         }
-        m_attribution->takeVerdict(*seen.stream, verdict);
-        m_follower->takeVerdict(stream.key, verdict);
+        m_attribution->takeVerdict(stream, verdict);
+        m_events->takeVerdict(stream.key, verdict);
     }
 }
 
@@ -213,7 +255,7 @@ void Ingest::takeContent(const Observation& seen) {
         Metadata& metadata = seen.character->metadata;
         metadata.add(*message, packet.number, packet.stamp);
         if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
-            m_follower->takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
+            m_events->takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
         }
     } else if (const auto* part = std::get_if<wire::NullPose>(&seen.datagram->body)) {
         takeNullPose(*part, seen);
@@ -231,98 +273,137 @@ void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     history.add(part, seen.header->datagramCounter, packet.number, packet.stamp);
     const NullPoseRecord record = history.record(packet.number);
     if (record.before != nullptr && record.changed != changed) {
-        m_follower->takeChange(EventKind::ScaleChange, seen.character->key, packet, {});
+        m_events->takeChange(EventKind::ScaleChange, seen.character->key, packet, {});
     }
 }
 
 Sender* Ingest::senderOf(const log::Packet& packet) {
-    if (Sender* known = itemAt(m_senderPlaces, packet.sender, m_senders)) {
+    if (Sender* known = m_senders.find(packet.sender)) {
         return known;
     }
-    const log::SenderInfo* info = m_log.senders().find(packet.sender);
-    if (info == nullptr) {
+    auto held = m_log.senders().find(packet.sender);
+    if (held == nullptr) {
         return nullptr;
     }
-    const auto before = std::find_if(m_senders.rbegin(), m_senders.rend(),
-                                     [&](const Sender& other) { return isSameHost(other.info, *info); });
-    const SenderOverride inherited = before != m_senders.rend() ? before->overrides : SenderOverride{};
-    m_senderPlaces.emplace(packet.sender, m_senders.size());
-    Sender& sender = m_senders.emplace_back();
-    sender.id = packet.sender;
-    sender.info = *info;
+    if (m_strangers.size() >= kMostStrangers) {
+        retireOldest(m_strangers, kStrangersAtOnce);
+    }
+    SenderOverride inherited;
+    for (const Sender& other : m_senders) {
+        inherited = isSameHost(other.info, *held) ? other.overrides : inherited;
+    }
+    Sender& sender = m_senders.add(packet.sender);
+    sender.info = *held;
+    sender.held = std::move(held);
     sender.overrides = inherited;
+    m_recencies[sender.id] = {&m_strangers, m_strangers.insert(m_strangers.end(), sender.id)};
     return &sender;
 }
 
-Character* Ingest::characterOf(const CharacterKey& key, std::uint64_t packetNumber) {
-    if (Character* known = itemAt(m_characterPlaces, key, m_characters)) {
+Character* Ingest::characterOf(Sender& sender, std::uint8_t character, std::uint64_t packetNumber) {
+    const CharacterKey key{sender.id, character};
+    if (Character* known = m_characters.find(key)) {
         return known;
     }
-    if (m_characters.size() == kMostCharacters) {
+    if (m_characters.size() >= kMostCharacters && !retireSilent()) {
         return nullptr;
     }
-    const auto before = lastOfSameHost(key);
-    m_characterPlaces.emplace(key, m_characters.size());
-    Character& character = m_characters.emplace_back();
-    character.key = key;
-    character.firstPacket = packetNumber;
-    character.ordinal = m_characters.size() - 1;
-    if (before) {
-        Character& previous = m_characters[m_characterPlaces.at(*before)];
-        previous.after = key;
-        character.before = before;
-        character.ordinal = previous.ordinal;
+    Character* const before = lastOfSameHost(key);
+    Character& added = m_characters.add(key);
+    added.firstPacket = packetNumber;
+    added.ordinal = m_characterCount++;
+    if (before != nullptr) {
+        before->after = key;
+        added.before = before->key;
+        added.ordinal = before->ordinal;
     }
-    return &character;
+    sender.characters.push_back(&added);
+    return &added;
 }
 
-std::optional<std::size_t> Ingest::addStream(const log::StreamKey& key, const Sender& sender) {
-    if (m_streams.size() == kMostStreams) {
-        return std::nullopt;
+Stream* Ingest::streamOf(const log::StreamKey& key, const Sender& sender) {
+    std::size_t ofSender = 0;
+    for (const Character* character : sender.characters) {
+        ofSender += character->streams.size();
     }
-    const std::size_t place = m_streams.size();
-    m_streamPlaces.emplace(key, place);
-    m_streams.emplace_back(key);
-    m_newest.emplace_back();
-    m_attribution->addStream(place, sender.info);
-    return place;
+    if (ofSender >= kMostStreamsOfSender || (m_streams.size() >= kMostStreams && !retireSilent())) {
+        return nullptr;
+    }
+    Stream& added = m_streams.add(key);
+    m_attribution->addStream(added, sender.info);
+    return &added;
 }
 
-std::optional<CharacterKey> Ingest::lastOfSameHost(const CharacterKey& key) const {
+Character* Ingest::lastOfSameHost(const CharacterKey& key) {
     const Sender* own = find(key.sender);
     const Character* newest = nullptr;
     for (const Character& other : m_characters) {
-        const Sender* sender = find(other.key.sender);
-        if (other.key.character == key.character && own != nullptr && sender != nullptr &&
-            isSameHost(own->info, sender->info) &&
+        const Sender* sender = other.key.character == key.character ? find(other.key.sender) : nullptr;
+        if (own != nullptr && sender != nullptr && isSameHost(own->info, sender->info) &&
             (newest == nullptr || other.lastPacket > newest->lastPacket)) {
             newest = &other;
         }
     }
-    return newest != nullptr ? std::optional(newest->key) : std::nullopt;
+    return newest != nullptr ? m_characters.find(newest->key) : nullptr;
+}
+
+/// What it is and how long it has been there decide who makes room for a sender: first those who have been
+/// silent for long, then those who have said little.
+void Ingest::promote(const Sender& sender) {
+    Recency& list = sender.datagrams >= kEstablished ? m_performers : m_newcomers;
+    Place& place = m_recencies.at(sender.id);
+    if (place.list == &list) {
+        return;
+    }
+    const bool isNew = place.list == &m_strangers;
+    if (isNew && m_newcomers.size() + m_performers.size() >= kMostSenders && !retireSilent()) {
+        retireOldest(m_newcomers.empty() ? m_performers : m_newcomers, m_newcomers.empty() ? 1 : kAtOnce);
+    }
+    list.splice(list.end(), *place.list, place.at);
+    place.list = &list;
+}
+
+/// False where nobody has been silent for long.
+bool Ingest::retireSilent() {
+    for (const Recency* list : {&m_performers, &m_newcomers}) {
+        const auto silent = std::ranges::find_if(
+            *list, [this](log::SenderId id) { return m_observed - find(id)->lastStamp < kSilent; });
+        if (const auto count = static_cast<std::size_t>(std::distance(list->begin(), silent)); count != 0) {
+            retireOldest(*list, std::min(count, kAtOnce));
+            return true;
+        }
+    }
+    return false;
+}
+
+void Ingest::retireOldest(const Recency& recency, std::size_t count) {
+    std::unordered_set<log::SenderId> going;
+    for (auto id = recency.begin(); id != recency.end() && going.size() < count; ++id) {
+        going.insert(*id);
+    }
+    for (const log::SenderId id : going) {
+        m_retired.retire(*find(id));
+        m_attribution->retire(id);
+        m_events->retire(id);
+        const Place place = m_recencies.at(id);
+        place.list->erase(place.at);
+        m_recencies.erase(id);
+    }
+    std::erase_if(m_nullPoses, [&](const auto& entry) { return going.contains(entry.first.sender); });
+    for (const Stream& stream : m_streams) {
+        if (going.contains(stream.key.sender)) {
+            m_index.forget(stream.key);
+        }
+    }
+    m_streams.eraseIf([&](const Stream& stream) { return going.contains(stream.key.sender); });
+    m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
+    m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
 }
 
 void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) {
-    if (Sender* known = itemAt(m_senderPlaces, sender, m_senders)) {
+    if (Sender* known = m_senders.find(sender)) {
         known->overrides = overrides;
     }
-}
-
-const Sender* Ingest::find(log::SenderId id) const {
-    return itemAt(m_senderPlaces, id, m_senders);
-}
-
-const Character* Ingest::find(const CharacterKey& key) const {
-    return itemAt(m_characterPlaces, key, m_characters);
-}
-
-std::optional<std::size_t> Ingest::placeOf(const log::StreamKey& key) const {
-    const auto found = m_streamPlaces.find(key);
-    return found == m_streamPlaces.end() ? std::nullopt : std::optional(found->second);
-}
-
-const Stream* Ingest::find(const log::StreamKey& key) const {
-    return itemAt(m_streamPlaces, key, m_streams);
 }
 
 const NullPoseHistory* Ingest::nullPoses(const CharacterKey& key) const {
@@ -331,8 +412,8 @@ const NullPoseHistory* Ingest::nullPoses(const CharacterKey& key) const {
 }
 
 const Message* Ingest::newest(const log::StreamKey& key) const {
-    const Message* newest = itemAt(m_streamPlaces, key, m_newest);
-    return newest != nullptr && newest->packet != UINT64_MAX ? newest : nullptr;
+    const Stream* stream = find(key);
+    return stream != nullptr && stream->newest.packet != UINT64_MAX ? &stream->newest : nullptr;
 }
 
 } // namespace posewire::model

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/log_follower.h"
 #include "core/log/packet_log.h"
 #include "core/log/stream_index.h"
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
+#include "core/model/message.h"
+#include "core/model/roster.h"
 #include "core/model/session/sender.h"
 
-#include <deque>
+#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -21,12 +24,27 @@ class EventFollower;
 class NullPoseHistory;
 struct Thresholds;
 
-/// A complete message, decoded. Items of a sample that came in several datagrams are joined.
-struct Message {
-    wire::Datagram datagram;
-    log::Stamp stamp{};
-    std::uint64_t packet = UINT64_MAX; ///< its number in the log; of the last of several datagrams
-    log::SenderId sender{};
+/// Sums over senders.
+struct SenderTotals {
+    std::uint64_t senders = 0;
+    std::uint64_t datagrams = 0;
+    std::uint64_t bytes = 0;
+    std::uint64_t malformed = 0;
+    std::uint64_t foreign = 0;
+    std::uint64_t kernelDrops = 0;
+
+    void add(const Sender& sender);
+    /// Datagrams that could be decoded.
+    [[nodiscard]] std::uint64_t wellFormed() const { return datagrams - malformed - foreign; }
+};
+
+/// Sums over the senders that were retired.
+struct RetiredTotals : SenderTotals {
+    std::uint64_t streams = 0;
+    std::uint64_t samples = 0;
+    std::uint64_t lost = 0; ///< without incomplete ones
+
+    void retire(const Sender& sender);
 };
 
 /// Follows a PacketLog: who sends, which streams there are, what is missing of them and why, what happened.
@@ -34,10 +52,18 @@ struct Message {
 /// decoded once, since malformed datagrams and notices are counted, and that value is what all stages read.
 /// Nothing is kept that could not be read again from the log, except counts. One thread.
 ///
-/// Senders, characters and streams are in order of first appearance and are never removed, so that rows do
-/// not jump; their number is bounded by the log's own limits (4,096 senders and streams).
+/// Senders, characters and streams are in order of first appearance. Where there are too many, the sender
+/// that has been silent longest is retired with all that is its own, and remembered in sums; who has sent
+/// nothing but strange bytes takes no place that a performance could need.
 class Ingest {
 public:
+    static constexpr std::size_t kMostSenders = 512;
+    static constexpr std::size_t kMostStrangers = 128; ///< senders of nothing that could be decoded
+    static constexpr std::size_t kMostCharacters = 1024;
+    static constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
+    /// A sender with more streams than these is no performance.
+    static constexpr std::size_t kMostStreamsOfSender = 1024;
+
     explicit Ingest(const log::PacketLog& log);
     ~Ingest();
 
@@ -49,44 +75,58 @@ public:
     void setThresholds(const Thresholds& thresholds);
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
 
-    [[nodiscard]] const std::deque<Sender>& senders() const { return m_senders; }
-    [[nodiscard]] const std::deque<Character>& characters() const { return m_characters; }
-    [[nodiscard]] const std::deque<Stream>& streams() const { return m_streams; }
-    [[nodiscard]] const Sender* find(log::SenderId id) const;
-    [[nodiscard]] const Character* find(const CharacterKey& key) const;
-    [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
+    [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_senders; }
+    [[nodiscard]] const Roster<CharacterKey, Character>& characters() const { return m_characters; }
+    [[nodiscard]] const Roster<log::StreamKey, Stream>& streams() const { return m_streams; }
+    [[nodiscard]] const Sender* find(log::SenderId id) const { return m_senders.find(id); }
+    [[nodiscard]] const Character* find(const CharacterKey& key) const { return m_characters.find(key); }
+    [[nodiscard]] const Stream* find(const log::StreamKey& key) const { return m_streams.find(key); }
     /// Null where no scale message came.
     [[nodiscard]] const NullPoseHistory* nullPoses(const CharacterKey& key) const;
     /// The newest datagram of a stream as it was decoded; null where it was malformed or is of no known type.
     [[nodiscard]] const Message* newest(const log::StreamKey& key) const;
 
-    [[nodiscard]] const EventFollower& follower() const { return *m_follower; }
+    /// Those that made room; grows whenever rows go.
+    [[nodiscard]] const RetiredTotals& retired() const { return m_retired; }
+    /// Datagrams of streams and characters beyond what is followed: they are in the log, and nowhere else.
+    [[nodiscard]] std::uint64_t unfollowed() const { return m_unfollowed; }
+    /// Packets that the log had dropped before they were looked at.
+    [[nodiscard]] std::uint64_t overtaken() const { return m_follower.overtaken(); }
+
+    [[nodiscard]] const EventFollower& events() const { return *m_events; }
     [[nodiscard]] const Attribution& attribution() const { return *m_attribution; }
     [[nodiscard]] const PacketDigests& digests() const { return m_digests; }
     [[nodiscard]] const log::StreamIndex& index() const { return m_index; }
     [[nodiscard]] const log::PacketLog& log() const { return m_log; }
     /// Packets as of the last follow().
-    [[nodiscard]] log::LogReader& reader() { return m_reader; }
+    [[nodiscard]] log::LogReader& reader() { return m_follower.reader(); }
 
     [[nodiscard]] log::Stamp now() const { return m_now; }
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
-    [[nodiscard]] std::uint64_t end() const { return m_end; }
+    [[nodiscard]] std::uint64_t end() const { return m_follower.position(); }
     [[nodiscard]] log::Stamp firstStamp() const { return m_firstStamp; }
 
 private:
+    using Recency = std::list<log::SenderId>; ///< longest silent first
+    struct Place {
+        Recency* list;
+        Recency::iterator at;
+    };
+
     /// A packet on its way through the stages.
     struct Observation {
         const log::Packet& packet;
         std::optional<wire::Header> header{};     ///< nothing where it cannot be read
         const wire::Datagram* datagram = nullptr; ///< null where it cannot be decoded
         PacketDigest digest{};
-        Sender* sender = nullptr; ///< null where there are too many
-        std::optional<std::size_t> stream{};
+        Sender* sender = nullptr; ///< null where the log does not know it
+        Stream* stream = nullptr;
         Character* character = nullptr;
     };
 
     // The stages, in this order. Those from takeHeader() on are for datagrams that could be decoded.
     void take(const log::Packet& packet);
+    void takeOvertaken(std::uint64_t count, const log::Packet* next);
     void observe(Observation& seen);
     void countPacket(const Observation& seen);
     void judgeGaps(const Observation& seen);
@@ -96,33 +136,40 @@ private:
     void takeContent(const Observation& seen);
 
     void takeNullPose(const wire::NullPose& part, const Observation& seen);
-    // Null, or nothing, where there are too many already.
+    // Null where there are too many already.
     Sender* senderOf(const log::Packet& packet);
-    Character* characterOf(const CharacterKey& key, std::uint64_t packetNumber);
-    std::optional<std::size_t> addStream(const log::StreamKey& key, const Sender& sender);
-    [[nodiscard]] std::optional<std::size_t> placeOf(const log::StreamKey& key) const;
-    [[nodiscard]] std::optional<CharacterKey> lastOfSameHost(const CharacterKey& key) const;
+    Character* characterOf(Sender& sender, std::uint8_t character, std::uint64_t packetNumber);
+    Stream* streamOf(const log::StreamKey& key, const Sender& sender);
+    [[nodiscard]] Character* lastOfSameHost(const CharacterKey& key);
+
+    // Making room.
+    void promote(const Sender& sender);
+    bool retireSilent();
+    void retireOldest(const Recency& recency, std::size_t count);
 
     const log::PacketLog& m_log;
-    log::LogReader m_reader;
+    log::LogFollower m_follower;
     log::StreamIndex m_index;
     std::uint64_t m_begin = 0;
-    std::uint64_t m_end = 0;
     log::Stamp m_now{};
     log::Stamp m_firstStamp{};
+    log::Stamp m_observed{}; ///< of the newest packet
     PacketDigests m_digests;
-    std::deque<Sender> m_senders;
-    std::deque<Character> m_characters;
-    std::deque<Stream> m_streams;
-    std::deque<Message> m_newest; ///< of each stream: what its datagrams are decoded into
-    Message m_unplaced;           ///< the same for a datagram whose stream is not known yet
+    Roster<log::SenderId, Sender> m_senders;
+    Roster<CharacterKey, Character> m_characters;
+    Roster<log::StreamKey, Stream> m_streams;
+    Recency m_performers; ///< have sent a few datagrams at least
+    Recency m_newcomers;  ///< have sent one that could be decoded
+    Recency m_strangers;  ///< have not
+    std::unordered_map<log::SenderId, Place> m_recencies;
+    std::size_t m_characterCount = 0; ///< that there ever were
+    RetiredTotals m_retired;
+    std::uint64_t m_unfollowed = 0;
+    Message m_unplaced; ///< what a datagram is decoded into whose stream is not known yet
     std::map<CharacterKey, std::shared_ptr<NullPoseHistory>> m_nullPoses;
     std::unique_ptr<Attribution> m_attribution;
-    std::unique_ptr<EventFollower> m_follower;
+    std::unique_ptr<EventFollower> m_events;
     bool m_isLive = false; ///< packets have come as they were stamped
-    std::map<CharacterKey, std::size_t> m_characterPlaces;
-    std::unordered_map<log::StreamKey, std::size_t> m_streamPlaces;
-    std::map<log::SenderId, std::size_t> m_senderPlaces;
 };
 
 } // namespace posewire::model

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/sender_table.h"
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/accounting/stream.h"
 #include "core/model/keys.h"
 #include "core/model/session/detection.h"
 #include "core/model/session/metadata.h"
@@ -16,10 +18,16 @@
 
 namespace posewire::model {
 
+struct Character;
+
 /// One sender.
 struct Sender {
-    log::SenderId id{};
+    explicit Sender(log::SenderId senderId) : id(senderId) {}
+
+    log::SenderId id;
     log::SenderInfo info;
+    log::SenderTable::Held held; ///< so that the log knows it by the same number as long as it is listed
+    std::vector<const Character*> characters{}; ///< in order of first appearance
     std::uint64_t datagrams = 0;
     std::uint64_t bytes = 0;
     std::uint64_t malformed = 0; ///< begins with MXTP and cannot be decoded
@@ -52,11 +60,16 @@ struct Sender {
     [[nodiscard]] std::vector<Contradiction> contradictions() const {
         return detector.contradictions(overrides);
     }
+    /// Whether it has sent a datagram that could be decoded.
+    [[nodiscard]] bool isPerforming() const { return !characters.empty(); }
 };
 
 /// One character of a sender.
 struct Character {
+    explicit Character(const CharacterKey& characterKey) : key(characterKey) {}
+
     CharacterKey key;
+    std::vector<const Stream*> streams{}; ///< in order of first appearance
     std::size_t ordinal = 0; ///< place in the order of first appearance, for default colours
     Metadata metadata;
     log::Stamp lastStamp{};

@@ -42,6 +42,7 @@ struct SessionView::Decoded {
     };
     std::unordered_map<log::StreamKey, OfStream> messages;
     std::map<CharacterKey, OfCharacter> characters;
+    std::uint64_t retired = 0; ///< senders; where there are more, what is theirs goes
     Message part;
     Message visited;
 };
@@ -52,11 +53,11 @@ SessionView::SessionView(Ingest& ingest, const Choices& choices)
 SessionView::~SessionView() = default;
 
 const Events& SessionView::events() const {
-    return m_ingest.follower().events();
+    return m_ingest.events().events();
 }
 
 const Thresholds& SessionView::thresholds() const {
-    return m_ingest.follower().thresholds();
+    return m_ingest.events().thresholds();
 }
 
 const std::deque<Gap>& SessionView::gaps() const {
@@ -67,14 +68,39 @@ const Gap* SessionView::gapEndedBy(std::uint64_t packet) const {
     return m_ingest.attribution().endedBy(packet);
 }
 
+SenderTotals SessionView::allSenders() const {
+    SenderTotals sums = retired();
+    for (const Sender& sender : senders()) {
+        sums.add(sender);
+    }
+    return sums;
+}
+
+std::string SessionView::addressOf(log::SenderId id) const {
+    const Sender* sender = find(id);
+    if (sender != nullptr) {
+        return sender->info.address;
+    }
+    return id == log::kNoSender ? "this computer" : "a retired sender";
+}
+
 StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
     StreamCounts sum;
-    for (const Stream& stream : streams()) {
-        if (CharacterKey{stream.key.sender, stream.key.character} == key) {
-            sum += stream.accounting.countsBetween(range.from, range.to);
+    if (const Character* character = find(key)) {
+        for (const Stream* stream : character->streams) {
+            sum += stream->accounting.countsBetween(range.from, range.to);
         }
     }
     return sum;
+}
+
+SessionView::Decoded& SessionView::decoded() const {
+    if (m_decoded->retired != retired().senders) {
+        m_decoded->retired = retired().senders;
+        m_decoded->messages.clear();
+        m_decoded->characters.clear();
+    }
+    return *m_decoded;
 }
 
 std::uint64_t SessionView::packetFrom(log::Stamp stamp) const {
@@ -123,14 +149,14 @@ std::optional<log::Stamp> SessionView::pausedStamp() const {
 }
 
 std::vector<const Event*> SessionView::troublesOf(const CharacterKey& key) const {
-    return m_ingest.follower().troublesOf(key, pausedStamp());
+    return m_ingest.events().troublesOf(key, pausedStamp());
 }
 
 Condition SessionView::conditionOf(const CharacterKey& key) const {
     if (isSuperseded(key)) {
         return {};
     }
-    const Condition condition = m_ingest.follower().conditionOf(key, pausedStamp());
+    const Condition condition = m_ingest.events().conditionOf(key, pausedStamp());
     if (condition.level != Condition::Level::Good) {
         return condition;
     }
@@ -158,7 +184,7 @@ CharacterKey SessionView::current(const CharacterKey& key) const {
     CharacterKey current = key;
     for (const Character* character = find(key); character != nullptr && character->after;) {
         const Character* next = find(*character->after);
-        if (next->firstPacket >= end || next->firstPacket <= character->lastPacket) {
+        if (next == nullptr || next->firstPacket >= end || next->firstPacket <= character->lastPacket) {
             break;
         }
         current = next->key;
@@ -215,9 +241,8 @@ double SessionView::ageSeconds(const CharacterKey& key) const {
     log::Stamp newest = character->lastStamp;
     if (isPaused()) {
         newest = {};
-        for (const Stream& stream : streams()) {
-            const bool isOwn = stream.key.sender == key.sender && stream.key.character == key.character;
-            const log::StreamEntries* list = isOwn ? m_ingest.index().find(stream.key) : nullptr;
+        for (const Stream* stream : character->streams) {
+            const log::StreamEntries* list = m_ingest.index().find(stream->key);
             const std::size_t count = list != nullptr ? visibleCount(*list) : 0;
             newest = count != 0 ? std::max(newest, (*list)[count - 1].stamp) : newest;
         }
@@ -297,12 +322,12 @@ const Message* SessionView::message(const CharacterKey& key, std::uint8_t type) 
             return ingested;
         }
     }
-    Decoded::OfStream& decoded = m_decoded->messages[streamKey];
-    if (decoded.packet != newest.packet) {
-        decoded.isValid = readMessage(*stream, count, decoded.message);
-        decoded.packet = newest.packet;
+    Decoded::OfStream& read = decoded().messages[streamKey];
+    if (read.packet != newest.packet) {
+        read.isValid = readMessage(*stream, count, read.message);
+        read.packet = newest.packet;
     }
-    return decoded.isValid ? &decoded.message : nullptr;
+    return read.isValid ? &read.message : nullptr;
 }
 
 std::size_t SessionView::visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
@@ -336,17 +361,17 @@ const CharacterPose* SessionView::pose(const CharacterKey& key) const {
     if (best == nullptr) {
         return nullptr;
     }
-    Decoded::OfCharacter& decoded = m_decoded->characters[key];
+    Decoded::OfCharacter& read = decoded().characters[key];
     const std::uint8_t type = best->datagram.header.type();
     const Sender* sender = find(best->sender);
     const LengthUnit unit = sender != nullptr ? sender->positionUnit(type) : LengthUnit::Metre;
-    if (decoded.packet != best->packet || decoded.unit != unit) {
-        decoded.isValid = poseFromMessage(best->datagram, bodyOrigins(key).places, unit, decoded.pose);
-        decoded.packet = decoded.pose.packet = best->packet;
-        decoded.pose.stamp = best->stamp;
-        decoded.unit = unit;
+    if (read.packet != best->packet || read.unit != unit) {
+        read.isValid = poseFromMessage(best->datagram, bodyOrigins(key).places, unit, read.pose);
+        read.packet = read.pose.packet = best->packet;
+        read.pose.stamp = best->stamp;
+        read.unit = unit;
     }
-    return decoded.isValid ? &decoded.pose : nullptr;
+    return read.isValid ? &read.pose : nullptr;
 }
 
 const NullPose* SessionView::nullPose(const CharacterKey& key) const {
@@ -381,14 +406,14 @@ NullPoseEvidence SessionView::nullPoseEvidence(const CharacterKey& key) const {
 
 const BodyOrigins& SessionView::bodyOrigins(const CharacterKey& key) const {
     const NullPose* pose = nullPose(key);
-    Decoded::OfCharacter& decoded = m_decoded->characters[key];
+    Decoded::OfCharacter& read = decoded().characters[key];
     const std::uint64_t packet = pose != nullptr ? pose->packet : UINT64_MAX;
-    if (decoded.origins && decoded.nullPosePacket == packet) {
-        return *decoded.origins;
+    if (read.origins && read.nullPosePacket == packet) {
+        return *read.origins;
     }
-    decoded.nullPosePacket = packet;
-    decoded.origins = BodyOrigins{referenceOrigins()};
-    BodyOrigins& origins = *decoded.origins;
+    read.nullPosePacket = packet;
+    read.origins = BodyOrigins{referenceOrigins()};
+    BodyOrigins& origins = *read.origins;
     if (pose != nullptr && pose->segments.size() >= origins.places.size()) {
         const BodyPlaces places = bodyPlaces(*pose);
         for (std::size_t i = 0; i < origins.places.size(); ++i) {

@@ -32,12 +32,21 @@ public:
     SessionView& operator=(const SessionView&) = delete;
 
     // What was received, whatever the cursor.
-    [[nodiscard]] const std::deque<Sender>& senders() const { return m_ingest.senders(); }
-    [[nodiscard]] const std::deque<Character>& characters() const { return m_ingest.characters(); }
-    [[nodiscard]] const std::deque<Stream>& streams() const { return m_ingest.streams(); }
+    [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_ingest.senders(); }
+    [[nodiscard]] const Roster<CharacterKey, Character>& characters() const { return m_ingest.characters(); }
+    [[nodiscard]] const Roster<log::StreamKey, Stream>& streams() const { return m_ingest.streams(); }
     [[nodiscard]] const Sender* find(log::SenderId id) const { return m_ingest.find(id); }
     [[nodiscard]] const Character* find(const CharacterKey& key) const { return m_ingest.find(key); }
     [[nodiscard]] const Stream* find(const log::StreamKey& key) const { return m_ingest.find(key); }
+
+    /// Sums over the senders that were retired: their rows are gone.
+    [[nodiscard]] const RetiredTotals& retired() const { return m_ingest.retired(); }
+    /// Sums over all senders, the retired ones included.
+    [[nodiscard]] SenderTotals allSenders() const;
+    [[nodiscard]] std::uint64_t unfollowed() const { return m_ingest.unfollowed(); }
+    [[nodiscard]] std::uint64_t overtaken() const { return m_ingest.overtaken(); }
+    /// "10.0.0.5:40001"; "this computer" for kNoSender, and "a retired sender" for one that is not listed.
+    [[nodiscard]] std::string addressOf(log::SenderId id) const;
 
     /// What came in a range of time in all streams of a character, without what makes no sense of several.
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
@@ -144,6 +153,7 @@ protected:
 private:
     /// What was decoded when somebody asked for it, until the cursor has moved on.
     struct Decoded;
+    [[nodiscard]] Decoded& decoded() const;
 
     [[nodiscard]] bool isPaused() const { return m_choices.cursor.mode == Cursor::Mode::Paused; }
     /// One past the newest packet that the cursor lets through.

@@ -94,7 +94,7 @@ TEST_P(ReceiverTest, SeveralPortsShareOneLogAndTellTheirSendersApart) {
     EXPECT_EQ(receiving.log.senders().size(), 4U) << "two to one port, one to each of the others";
     log::LogReader reader(receiving.log);
     for (std::size_t i = 0; i < 4; ++i) {
-        const log::SenderInfo* sender = receiving.log.senders().find(reader.packet(i)->sender);
+        const auto sender = receiving.log.senders().find(reader.packet(i)->sender);
         ASSERT_NE(sender, nullptr);
         EXPECT_EQ(sender->transport, log::Transport::Udp);
         EXPECT_EQ(sender->address.find("127.0.0.1:"), 0U) << sender->address;

@@ -62,9 +62,9 @@ TEST_F(PacketTextTest, EveryCellMakesAFilterThatItsOwnPacketPasses) {
         ASSERT_TRUE(compiled.has_value()) << text.toStdString();
         const auto packet = m_stage.session.packet(42);
         const auto datagram = wire::decode(packet->bytes);
-        EXPECT_TRUE(
-            compiled->matches({*packet, *m_stage.session.digests().find(42), &*datagram,
-                               m_stage.log.senders().find(packet->sender), m_stage.session.firstStamp()}))
+        const auto sender = m_stage.log.senders().find(packet->sender);
+        EXPECT_TRUE(compiled->matches({*packet, *m_stage.session.digests().find(42), &*datagram, sender.get(),
+                                       m_stage.session.firstStamp()}))
             << text.toStdString();
     }
     EXPECT_EQ(packetCellFilter(m_stage.session, 42, PacketModel::kNote), "");

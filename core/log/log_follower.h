@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/log_reader.h"
+
+#include <cstdint>
+#include <optional>
+#include <utility>
+
+namespace posewire::log {
+
+/// Goes through a log once, packet by packet, and accounts for itself: every packet is taken, or counted as
+/// one that it was too late for. One thread.
+class LogFollower {
+public:
+    /// Begins with packet `from`, or the oldest one that the log still has.
+    explicit LogFollower(const PacketLog& log, std::uint64_t from = 0);
+
+    /// Looks at what the log holds now. Packets that it has dropped meanwhile are passed over.
+    void refresh();
+
+    /// The next packet there was at the last refresh(), valid until the next one; nothing where all were
+    /// taken.
+    std::optional<Packet> next();
+
+    /// Passes over the packets below one.
+    void skipTo(std::uint64_t number);
+
+    /// How many were passed over since this was last asked: just before the packet taken last, where it is
+    /// asked after each.
+    std::uint64_t takeOvertaken() { return std::exchange(m_overtakenSince, 0); }
+
+    /// Number of the next packet.
+    [[nodiscard]] std::uint64_t position() const { return m_next; }
+    /// Packets that waited at the last refresh().
+    [[nodiscard]] std::uint64_t lag() const { return m_reader.end() - m_next; }
+    /// All that were passed over.
+    [[nodiscard]] std::uint64_t overtaken() const { return m_overtaken; }
+
+    /// For a second look at what the log holds.
+    [[nodiscard]] LogReader& reader() { return m_reader; }
+
+private:
+    void passOver(std::uint64_t count);
+
+    LogReader m_reader;
+    std::uint64_t m_next;
+    std::uint64_t m_overtaken = 0;
+    std::uint64_t m_overtakenSince = 0;
+};
+
+} // namespace posewire::log
