@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
+#include <ranges>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -61,6 +62,11 @@ public:
     [[nodiscard]] const Item* find(const Key& key) const {
         const auto found = m_byKey.find(key);
         return found == m_byKey.end() ? nullptr : found->second;
+    }
+
+    /// All of them, to be changed.
+    [[nodiscard]] auto all() {
+        return m_items | std::views::transform([](const std::unique_ptr<Item>& item) { return item.get(); });
     }
 
     /// At the end; there must be none of that key.

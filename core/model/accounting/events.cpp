@@ -33,12 +33,12 @@ constexpr std::array<KindFacts, kEventKinds> kKinds{{
     {EventKind::TimeCodeJump, "time code jump", EventSeverity::Warning, EventGroup::Content, false},
     {EventKind::CharacterConflict, "character conflict", EventSeverity::Error, EventGroup::Sender, false},
     {EventKind::Stale, "stale", EventSeverity::Warning, EventGroup::Sender, true},
+    {EventKind::Overtaken, "overtaken", EventSeverity::Error, EventGroup::Loss, false},
     {EventKind::LossLimit, "loss limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::JitterLimit, "jitter limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::GapLimit, "gap limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::AgeLimit, "age limit", EventSeverity::Error, EventGroup::Limit, true},
     {EventKind::RateLimit, "rate limit", EventSeverity::Warning, EventGroup::Limit, true},
-    {EventKind::Overtaken, "overtaken", EventSeverity::Error, EventGroup::Loss, false},
 }};
 
 // Each once, in the order of the enum.

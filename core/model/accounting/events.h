@@ -31,12 +31,12 @@ enum class EventKind : std::uint8_t {
     TimeCodeJump,
     CharacterConflict,
     Stale,
+    Overtaken,
     LossLimit,
     JitterLimit,
     GapLimit,
     AgeLimit,
     RateLimit,
-    Overtaken,
 };
 inline constexpr std::size_t kEventKinds = 19;
 

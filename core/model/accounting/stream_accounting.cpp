@@ -56,8 +56,19 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     return m_verdicts;
 }
 
+bool StreamAccounting::isAfterPassedOver(const SampleLedger::Datagram& datagram) const {
+    if (m_passedOver == 0 || m_ledger.present().empty()) {
+        return false;
+    }
+    const std::int64_t moved = distance(datagram.sample, m_ledger.present().highest());
+    const std::uint64_t most = (m_passedOver + 1) * std::max(m_ledger.present().step(), 1U);
+    return moved > 0 && static_cast<std::uint64_t>(moved) <= most;
+}
+
 void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
-    if (m_probation.empty() && Probation::isExpected(m_ledger, datagram.datagram)) {
+    const bool isExplained = isAfterPassedOver(datagram.datagram);
+    m_passedOver = 0;
+    if (m_probation.empty() && (isExplained || Probation::isExpected(m_ledger, datagram.datagram))) {
         settle(datagram, Probation::Outcome::Expected, false);
         return;
     }

@@ -80,6 +80,10 @@ public:
     /// next call.
     std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
 
+    /// Packets were passed over, some of this stream perhaps: a counter that is as far ahead has lost those,
+    /// and did not restart.
+    void passOver(std::uint64_t packets) { m_passedOver += packets; }
+
     /// A datagram of the stream that could not be decoded.
     void addMalformed(log::Stamp stamp);
 
@@ -119,12 +123,14 @@ private:
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
     static Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved,
                               SampleLedger& ledger, CountHistory* history);
+    [[nodiscard]] bool isAfterPassedOver(const SampleLedger::Datagram& datagram) const;
     [[nodiscard]] SampleLedger ledgerInHindsight() const;
 
     bool m_countsSamples;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;
     std::uint64_t m_malformed = 0;
+    std::uint64_t m_passedOver = 0; ///< packets since the newest datagram
     log::Stamp m_firstStamp{};
     log::Stamp m_lastStamp{};
     std::optional<log::Stamp> m_lastSample{}; ///< stamp of the newest first arrival of a sample

@@ -7,6 +7,7 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <utility>
 #include <unordered_set>
 
 namespace posewire::model {
@@ -19,15 +20,19 @@ constexpr std::size_t kStrangersAtOnce = 16;
 constexpr log::Duration kSilent = std::chrono::seconds(10);
 /// Who has sent this many datagrams is no passer-by.
 constexpr std::uint64_t kEstablished = 8;
+/// Retired senders of which it is remembered how much they have sent.
+constexpr std::size_t kMostPassersBy = 65'536;
+/// Characters of one host and one ID among which a predecessor is looked for.
+constexpr std::size_t kMostNamesakes = 16;
 /// Packets that are not older than this when they are followed are live: silence after them is silence.
 constexpr log::Duration kLive = std::chrono::seconds(10);
 
-std::string_view hostOf(const log::SenderInfo& info) {
-    return std::string_view(info.address).substr(0, info.address.rfind(':'));
-}
-
-bool isSameHost(const log::SenderInfo& a, const log::SenderInfo& b) {
-    return a.transport == b.transport && a.transport != log::Transport::File && hostOf(a) == hostOf(b);
+/// The host that a sender is on, with the transport; nothing for what is no host.
+std::optional<std::string> hostOf(const log::SenderInfo& info) {
+    if (info.transport == log::Transport::File) {
+        return std::nullopt;
+    }
+    return std::string(log::nameOf(info.transport)) + ' ' + info.address.substr(0, info.address.rfind(':'));
 }
 
 /// What a packet changed, tag by tag; empty where it brought nothing new.
@@ -121,6 +126,9 @@ void Ingest::takeOvertaken(std::uint64_t count, const log::Packet* next) {
     const std::uint64_t packet = next != nullptr ? next->number : m_follower.position();
     m_attribution->takeOvertaken(packet, count);
     m_events->takeOvertaken(packet, count, next != nullptr ? next->stamp : m_now);
+    for (Stream* stream : m_streams.all()) {
+        stream->accounting.passOver(count);
+    }
 }
 
 void Ingest::take(const log::Packet& packet) {
@@ -288,14 +296,14 @@ Sender* Ingest::senderOf(const log::Packet& packet) {
     if (m_strangers.size() >= kMostStrangers) {
         retireOldest(m_strangers, kStrangersAtOnce);
     }
-    SenderOverride inherited;
-    for (const Sender& other : m_senders) {
-        inherited = isSameHost(other.info, *held) ? other.overrides : inherited;
-    }
     Sender& sender = m_senders.add(packet.sender);
     sender.info = *held;
     sender.held = std::move(held);
-    sender.overrides = inherited;
+    if (const auto host = hostOf(sender.info)) {
+        const auto [newest, isNew] = m_newestOfHost.try_emplace(*host, sender.id);
+        const Sender* before = isNew ? nullptr : find(std::exchange(newest->second, sender.id));
+        sender.overrides = before != nullptr ? before->overrides : SenderOverride{};
+    }
     m_recencies[sender.id] = {&m_strangers, m_strangers.insert(m_strangers.end(), sender.id)};
     return &sender;
 }
@@ -308,8 +316,8 @@ Character* Ingest::characterOf(Sender& sender, std::uint8_t character, std::uint
     if (m_characters.size() >= kMostCharacters && !retireSilent()) {
         return nullptr;
     }
-    Character* const before = lastOfSameHost(key);
     Character& added = m_characters.add(key);
+    Character* const before = predecessorOf(added);
     added.firstPacket = packetNumber;
     added.ordinal = m_characterCount++;
     if (before != nullptr) {
@@ -334,23 +342,32 @@ Stream* Ingest::streamOf(const log::StreamKey& key, const Sender& sender) {
     return &added;
 }
 
-Character* Ingest::lastOfSameHost(const CharacterKey& key) {
-    const Sender* own = find(key.sender);
-    const Character* newest = nullptr;
-    for (const Character& other : m_characters) {
-        const Sender* sender = other.key.character == key.character ? find(other.key.sender) : nullptr;
-        if (own != nullptr && sender != nullptr && isSameHost(own->info, sender->info) &&
-            (newest == nullptr || other.lastPacket > newest->lastPacket)) {
-            newest = &other;
-        }
+/// The one of the same host with the same ID that was heard last, among the newest; from now on the new one is
+/// one of them.
+Character* Ingest::predecessorOf(const Character& character) {
+    const auto host = hostOf(find(character.key.sender)->info);
+    if (!host) {
+        return nullptr;
     }
-    return newest != nullptr ? m_characters.find(newest->key) : nullptr;
+    std::deque<CharacterKey>& namesakes = m_namesakes[{*host, character.key.character}];
+    Character* newest = nullptr;
+    for (const CharacterKey& key : namesakes) {
+        Character* other = m_characters.find(key);
+        newest = newest == nullptr || other->lastPacket > newest->lastPacket ? other : newest;
+    }
+    namesakes.push_back(character.key);
+    if (namesakes.size() > kMostNamesakes) {
+        namesakes.pop_front();
+    }
+    return newest;
 }
 
 /// What it is and how long it has been there decide who makes room for a sender: first those who have been
 /// silent for long, then those who have said little.
 void Ingest::promote(const Sender& sender) {
-    Recency& list = sender.datagrams >= kEstablished ? m_performers : m_newcomers;
+    const auto before = m_passersBy.find(sender.id);
+    const std::uint64_t heard = sender.datagrams + (before == m_passersBy.end() ? 0 : before->second);
+    Recency& list = heard >= kEstablished ? m_performers : m_newcomers;
     Place& place = m_recencies.at(sender.id);
     if (place.list == &list) {
         return;
@@ -382,7 +399,13 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
         going.insert(*id);
     }
     for (const log::SenderId id : going) {
-        m_retired.retire(*find(id));
+        const Sender& sender = *find(id);
+        m_retired.retire(sender);
+        forgetHostOf(sender);
+        if (m_passersBy.size() >= kMostPassersBy) {
+            m_passersBy.clear();
+        }
+        m_passersBy[id] += sender.datagrams;
         m_attribution->retire(id);
         m_events->retire(id);
         const Place place = m_recencies.at(id);
@@ -398,6 +421,26 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
     m_streams.eraseIf([&](const Stream& stream) { return going.contains(stream.key.sender); });
     m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
     m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
+}
+
+void Ingest::forgetHostOf(const Sender& sender) {
+    const auto host = hostOf(sender.info);
+    if (!host) {
+        return;
+    }
+    if (const auto newest = m_newestOfHost.find(*host);
+        newest != m_newestOfHost.end() && newest->second == sender.id) {
+        m_newestOfHost.erase(newest);
+    }
+    for (const Character* character : sender.characters) {
+        const auto namesakes = m_namesakes.find({*host, character->key.character});
+        if (namesakes != m_namesakes.end()) {
+            std::erase(namesakes->second, character->key);
+            if (namesakes->second.empty()) {
+                m_namesakes.erase(namesakes);
+            }
+        }
+    }
 }
 
 void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) {

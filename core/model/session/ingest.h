@@ -11,11 +11,14 @@
 #include "core/model/roster.h"
 #include "core/model/session/sender.h"
 
+#include <deque>
 #include <list>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <unordered_map>
+#include <utility>
 
 namespace posewire::model {
 
@@ -140,7 +143,8 @@ private:
     Sender* senderOf(const log::Packet& packet);
     Character* characterOf(Sender& sender, std::uint8_t character, std::uint64_t packetNumber);
     Stream* streamOf(const log::StreamKey& key, const Sender& sender);
-    [[nodiscard]] Character* lastOfSameHost(const CharacterKey& key);
+    [[nodiscard]] Character* predecessorOf(const Character& character);
+    void forgetHostOf(const Sender& sender);
 
     // Making room.
     void promote(const Sender& sender);
@@ -162,6 +166,9 @@ private:
     Recency m_newcomers;  ///< have sent one that could be decoded
     Recency m_strangers;  ///< have not
     std::unordered_map<log::SenderId, Place> m_recencies;
+    std::unordered_map<log::SenderId, std::uint64_t> m_passersBy; ///< datagrams of retired senders
+    std::unordered_map<std::string, log::SenderId> m_newestOfHost;
+    std::map<std::pair<std::string, std::uint8_t>, std::deque<CharacterKey>> m_namesakes; ///< by host and ID
     std::size_t m_characterCount = 0; ///< that there ever were
     RetiredTotals m_retired;
     std::uint64_t m_unfollowed = 0;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/log_follower.h"
+#include "core/log/packet_log.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace posewire::log {
+namespace {
+
+/// A log of two small chunks, each with room for a few hundred packets.
+class LogFollowerTest : public testing::Test {
+protected:
+    void append(std::size_t count) {
+        const std::vector<std::byte> bytes(1'000);
+        const SenderId sender = m_log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+        for (std::size_t i = 0; i < count; ++i) {
+            m_log.writer().append(bytes, {.sender = sender});
+        }
+        m_log.writer().publish();
+        m_appended += count;
+    }
+    /// Takes up to `most` packets; their numbers and gaps must fit together.
+    std::uint64_t take(LogFollower& follower, std::uint64_t most = UINT64_MAX) {
+        std::uint64_t count = 0;
+        for (; count < most; ++count) {
+            const auto packet = follower.next();
+            if (!packet) {
+                break;
+            }
+            EXPECT_EQ(packet->number, m_next + follower.takeOvertaken());
+            m_next = packet->number + 1;
+        }
+        return count;
+    }
+
+    PacketLog m_log{{.memoryCap = 1, .chunkSize = std::size_t{256} << 10}};
+    std::uint64_t m_appended = 0;
+    std::uint64_t m_next = 0; ///< to be taken, if nothing is passed over
+};
+
+TEST_F(LogFollowerTest, TakesEveryPacketOnce) {
+    LogFollower follower(m_log);
+    append(100);
+    follower.refresh();
+    EXPECT_EQ(follower.lag(), 100U);
+    EXPECT_EQ(take(follower, 40), 40U);
+    EXPECT_EQ(follower.lag(), 60U);
+    follower.refresh();
+    EXPECT_EQ(take(follower), 60U);
+    EXPECT_EQ(follower.overtaken(), 0U);
+    EXPECT_EQ(follower.position(), 100U);
+}
+
+TEST_F(LogFollowerTest, CountsWhatTheLogDroppedBeforeItCame) {
+    LogFollower follower(m_log);
+    append(10'000);
+    follower.refresh();
+    const std::uint64_t taken = take(follower);
+    EXPECT_GT(follower.overtaken(), 9'000U);
+    EXPECT_EQ(taken + follower.overtaken(), m_appended);
+}
+
+TEST_F(LogFollowerTest, CountsWhatIsDroppedWhileItLooks) {
+    LogFollower follower(m_log);
+    append(400);
+    follower.refresh();
+    std::uint64_t taken = take(follower, 10);
+    append(10'000); // its chunk is held; the rest of what it saw is gone
+    taken += take(follower);
+    follower.refresh();
+    taken += take(follower);
+    EXPECT_GT(follower.overtaken(), 0U);
+    EXPECT_EQ(taken + follower.overtaken(), m_appended);
+}
+
+TEST_F(LogFollowerTest, CountsWhatItIsToldToPassOver) {
+    LogFollower follower(m_log);
+    append(100);
+    follower.refresh();
+    follower.skipTo(70);
+    follower.skipTo(50); // it never goes back
+    EXPECT_EQ(take(follower), 30U);
+    EXPECT_EQ(follower.overtaken(), 70U);
+}
+
+TEST_F(LogFollowerTest, BeginsWhereItIsToldToWithoutCountingWhatWasBefore) {
+    append(100);
+    LogFollower follower(m_log, 60);
+    m_next = 60;
+    follower.refresh();
+    EXPECT_EQ(take(follower), 40U);
+    EXPECT_EQ(follower.overtaken(), 0U);
+}
+
+} // namespace
+} // namespace posewire::log

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "tests/core/model/session/session_fixture.h"
+
+#include "core/model/accounting/attribution.h"
+
+#include <algorithm>
+#include <string>
+
+namespace posewire::model {
+namespace {
+
+/// Senders come and go.
+class LifecycleTest : public SessionTest {
+protected:
+    void sendPose(const std::string& address, std::uint32_t sample, std::uint8_t character = 0,
+                  std::uint8_t type = 2) {
+        wire::Datagram datagram;
+        if (type == 2) {
+            datagram.body = wire::PoseQuaternion{{{1, {0, 0, 1}, {1, 0, 0, 0}}}};
+        } else {
+            datagram.body = wire::CentreOfMass{};
+        }
+        datagram.header.sampleCounter = sample;
+        datagram.header.character = character;
+        datagram.header.datagramCounter = 0x80;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at, address);
+    }
+    void sendStrange(const std::string& address) {
+        const std::vector<std::byte> bytes(40, std::byte{'x'});
+        sendBytes(bytes, m_at, address);
+    }
+    [[nodiscard]] const Sender* find(const std::string& address) const {
+        const auto found = std::ranges::find_if(
+            m_session.senders(), [&](const Sender& sender) { return sender.info.address == address; });
+        return found == m_session.senders().end() ? nullptr : &*found;
+    }
+
+    log::Stamp m_at{100s};
+};
+
+TEST_F(LifecycleTest, StrangersTakeNoPlaceThatASenderCouldNeed) {
+    constexpr std::size_t kStrangers = 20'000;
+    for (std::size_t i = 0; i < kStrangers; ++i, m_at += 100us) {
+        sendStrange("stranger:" + std::to_string(i));
+    }
+    sendPose("honest:1", 1);
+    follow();
+    ASSERT_NE(find("honest:1"), nullptr);
+    EXPECT_EQ(m_session.streams().size(), 1U);
+    EXPECT_LE(m_session.senders().size(), Ingest::kMostStrangers + 1);
+    EXPECT_EQ(m_session.allSenders().foreign, kStrangers) << "none is forgotten";
+    EXPECT_EQ(m_session.allSenders().senders, kStrangers + 1);
+}
+
+TEST_F(LifecycleTest, TheLongestSilentMakesRoomAndIsRememberedInSums) {
+    constexpr std::size_t kRestarts = 10'000;
+    for (std::size_t i = 0; i < kRestarts; ++i, m_at += 1s) {
+        const std::string address = "10.0.0.1:" + std::to_string(i);
+        for (std::uint32_t sample = 1; sample <= 10; ++sample) {
+            sendPose(address, sample == 5 ? 105 : sample < 5 ? sample : sample + 100); // 100 are lost
+        }
+        if (i % 100 == 0) {
+            follow();
+        }
+    }
+    follow();
+    EXPECT_LE(m_session.senders().size(), Ingest::kMostSenders + Ingest::kMostStrangers);
+    EXPECT_LE(m_session.characters().size(), m_session.senders().size());
+    EXPECT_LE(m_session.streams().size(), m_session.senders().size());
+    EXPECT_NE(find("10.0.0.1:" + std::to_string(kRestarts - 1)), nullptr);
+    EXPECT_EQ(find("10.0.0.1:0"), nullptr);
+    const RetiredTotals& retired = m_session.retired();
+    std::uint64_t samples = retired.samples;
+    std::uint64_t lost = retired.lost;
+    for (const Stream& stream : m_session.streams()) {
+        samples += stream.accounting.counts().samples;
+        lost += stream.accounting.counts().lost;
+    }
+    EXPECT_EQ(samples, 10 * kRestarts);
+    EXPECT_EQ(lost, 100 * kRestarts);
+    EXPECT_EQ(m_session.allSenders().wellFormed(), 10 * kRestarts);
+    EXPECT_EQ(m_session.allSenders().senders, kRestarts);
+}
+
+TEST_F(LifecycleTest, WhatARetiredSenderHadLastsNoLonger) {
+    sendPose("old:1", 1);
+    for (std::size_t i = 0; i <= 2 * Ingest::kMostSenders; ++i, m_at += 1s) {
+        sendPose("10.0.0.1:" + std::to_string(i), 1);
+        sendPose("10.0.0.1:" + std::to_string(i), 2);
+    }
+    follow();
+    ASSERT_EQ(find("old:1"), nullptr);
+    for (const Event* event : m_session.events().current()) {
+        EXPECT_NE(m_session.find(event->sender), nullptr) << event->text();
+    }
+    const Event& first = m_session.events().all().front();
+    EXPECT_EQ(first.kind, EventKind::SenderUp);
+    EXPECT_EQ(m_session.addressOf(first.sender), "a retired sender");
+}
+
+TEST_F(LifecycleTest, ASenderThatIsHeardKeepsItsPlaceInAFloodOfForgedOnes) {
+    for (std::size_t i = 0; i < 30'000; ++i, m_at += 10us) {
+        if (i % 1'000 == 0) {
+            sendPose("honest:1", static_cast<std::uint32_t>(i / 1'000 + 1));
+        }
+        sendPose("forged:" + std::to_string(i), 1);
+    }
+    follow();
+    const Sender* honest = find("honest:1");
+    ASSERT_NE(honest, nullptr);
+    EXPECT_GE(honest->datagrams, 20U) << "once it was heard a few times, it was never retired";
+}
+
+TEST_F(LifecycleTest, ASenderOfEveryCharacterLeavesRoomForOthers) {
+    for (int character = 0; character < 256; ++character) {
+        for (const std::uint8_t type : std::array<std::uint8_t, 2>{2, 24}) {
+            sendPose("junk:1", 1, static_cast<std::uint8_t>(character), type);
+        }
+    }
+    sendPose("honest:1", 1);
+    follow();
+    EXPECT_NE(m_session.find(log::StreamKey{sender("honest:1"), 0, 2}), nullptr);
+    EXPECT_EQ(m_session.unfollowed(), 0U);
+}
+
+TEST_F(LifecycleTest, StreamsOfASenderBeyondTheLimitAreCounted) {
+    // Types that nobody knows are streams too.
+    std::uint64_t sent = 0;
+    for (int character = 0; character < 256; ++character) {
+        for (int type = 30; type < 40; ++type, ++sent) {
+            wire::Datagram datagram{{}, wire::RawBody{}, {}};
+            datagram.header.character = static_cast<std::uint8_t>(character);
+            datagram.header.id[4] = static_cast<char>('0' + type / 10);
+            datagram.header.id[5] = static_cast<char>('0' + type % 10);
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            sendBytes(*wire::encode(datagram), m_at, "junk:1");
+        }
+    }
+    follow();
+    EXPECT_EQ(m_session.streams().size(), Ingest::kMostStreamsOfSender);
+    EXPECT_EQ(m_session.unfollowed(), sent - Ingest::kMostStreamsOfSender);
+    EXPECT_EQ(m_session.allSenders().wellFormed(), sent);
+}
+
+/// A log that a session is too late for.
+TEST(Overtaken, PacketsAreThisComputersLossToTheSample) {
+    log::PacketLog small({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
+    Session session(small);
+    const auto sender = small.senders().intern({"a:1", log::Transport::Udp, 9763});
+    wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
+    log::Stamp stamp{100s};
+    std::uint32_t sample = 0;
+    const auto send = [&](int count) {
+        for (int i = 0; i < count; ++i, stamp += 4ms) {
+            datagram.header.sampleCounter = ++sample;
+            datagram.header.datagramCounter = 0x80;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            small.writer().append(*wire::encode(datagram), {.stamp = stamp, .sender = sender});
+        }
+        small.writer().publish();
+    };
+    send(200);
+    session.follow(stamp);
+    send(20'000); // more than the log holds
+    session.follow(stamp);
+    const Stream& stream = session.streams().front();
+    const StreamCounts counts = stream.accounting.counts();
+    EXPECT_GT(session.overtaken(), 0U);
+    EXPECT_EQ(session.senders().front().datagrams + session.overtaken(), 20'200U);
+    EXPECT_EQ(counts.lost, session.overtaken());
+    EXPECT_EQ(counts.samples + counts.lost, 20'200U);
+    EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
+    ASSERT_EQ(session.gaps().size(), 1U);
+    EXPECT_EQ(session.gaps().front().evidence, Gap::Evidence::Overtaken);
+    const auto told = std::ranges::find(session.events().all(), EventKind::Overtaken, &Event::kind);
+    ASSERT_NE(told, session.events().all().end());
+    EXPECT_EQ(told->samples, session.overtaken());
+    EXPECT_EQ(session.addressOf(told->sender), "this computer");
+}
+
+} // namespace
+} // namespace posewire::model
