@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/net/allow_list.h"
 #include "core/log/log_writer.h"
 #include "core/log/sender_table.h"
 #include "core/log/time.h"
@@ -15,6 +16,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 /// A UDP socket of Linux as the receiving thread uses it.
@@ -40,6 +42,10 @@ private:
 /// Has the kernel give stamps and its drop counter with each datagram; where it refuses, stamps come from the
 /// clock.
 void prepare(int descriptor);
+
+/// Joins a multicast group on an interface, or leaves it there; empty, or what the system says against it.
+[[nodiscard]] std::string changeMembership(int descriptor, const QHostAddress& group, int interface,
+                                           bool joins);
 
 /// What the kernel says about a socket's receive buffer.
 struct SocketMemory {
@@ -86,29 +92,39 @@ private:
     std::array<Control, log::LogWriter::kLaneLimit> m_controls{};
 };
 
-/// Maps the kernel's form of an address to the sender's id, without formatting text for recent senders. One
-/// for each socket.
+/// Maps the kernel's form of an address to the sender's id, without formatting text for recent senders; of
+/// those who are not listened to it knows only that. One for each socket.
 class SenderCache {
 public:
-    SenderCache(log::SenderTable& table, std::uint16_t localPort) : m_table(&table), m_localPort(localPort) {}
+    using Id = std::optional<log::SenderId>; ///< nothing for one who is not listened to
+
+    SenderCache(log::SenderTable& table, std::uint16_t localPort, const AllowList& allowed)
+        : m_table(&table), m_localPort(localPort), m_allowed(&allowed) {}
 
     /// `address` is IPv4 or IPv6; all other families count as one sender.
-    log::SenderId idOf(const sockaddr_in6& address) {
+    Id idOf(const sockaddr_in6& address) {
         return std::memcmp(&m_last.address, &address, sizeof address) == 0 ? m_last.id : look(address);
+    }
+
+    /// Asks for everyone anew: the list of those who are listened to has changed.
+    void forget() {
+        m_last = {};
+        m_entries = {};
     }
 
 private:
     struct Entry {
         sockaddr_in6 address{};
-        log::SenderId id{};
+        Id id{};
     };
 
-    log::SenderId look(const sockaddr_in6& address);
+    Id look(const sockaddr_in6& address);
 
     log::SenderTable* m_table;
     std::uint16_t m_localPort;
+    const AllowList* m_allowed;
     Entry m_last;
-    std::array<Entry, 64> m_entries; ///< one slot for each hash; a newcomer replaces the old entry
+    std::array<Entry, 64> m_entries{}; ///< one slot for each hash; a newcomer replaces the old entry
 };
 
 } // namespace posewire::net
