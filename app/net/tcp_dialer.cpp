@@ -66,7 +66,7 @@ public:
 
     [[nodiscard]] std::optional<log::Moment> due() const override {
         if (m_peer) {
-            return m_publish;
+            return m_publish ? m_publish : m_review;
         }
         return m_socket ? m_begun + kPatience : m_next;
     }
@@ -116,11 +116,15 @@ private:
     void publish(log::Moment now) {
         m_publish.reset();
         m_input->setState(InputState::Connected, "connected to " + textOf(m_endpoint));
+        m_review.reset();
         if (now - m_peer->lastByte() >= kSilence) {
             m_input->setProblem(textOf(m_endpoint) +
                                 ": connected, but nothing has arrived for 5 s; is the sender streaming?");
-        } else if (m_peer->status().bytes != 0 || now - m_begun >= kSettled) {
+        } else if (m_peer->status().bytes == 0 && now - m_begun < kSettled) {
+            m_review = m_begun + kSettled;
+        } else {
             m_input->setProblem({});
+            m_review = m_peer->lastByte() + kSilence;
         }
         m_input->setPeers({m_peer->status()});
     }
@@ -132,6 +136,7 @@ private:
     log::Moment m_next{};                 ///< of the next attempt
     log::Duration m_pause = kFirstPause;
     std::optional<log::Moment> m_publish;
+    std::optional<log::Moment> m_review; ///< when silence becomes a problem, or the last one is over
 };
 
 } // namespace

@@ -103,7 +103,8 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
     }
     const JsonValue report{{"durationS", rounded(facts.durationS, 3)},
                            {"local", JsonValue{{"kernelDropped", kernelDropped},
-                                               {"receiveBufferBytes", facts.receiveBufferBytes}}},
+                                               {"receiveBufferBytes", facts.receiveBufferBytes},
+                                               {"refusedDatagrams", facts.refusedDatagrams}}},
                            {"foreignDatagrams", foreign},
                            {"sources", std::move(senders)},
                            {"foreignSources", std::move(foreignSenders)},
