@@ -33,6 +33,7 @@ constexpr std::array<KindFacts, kEventKinds> kKinds{{
     {EventKind::TimeCodeJump, "time code jump", EventSeverity::Warning, EventGroup::Content, false},
     {EventKind::CharacterConflict, "character conflict", EventSeverity::Error, EventGroup::Sender, false},
     {EventKind::Stale, "stale", EventSeverity::Warning, EventGroup::Sender, true},
+    {EventKind::RelayLoop, "relay loop", EventSeverity::Error, EventGroup::Sender, false},
     {EventKind::LossLimit, "loss limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::JitterLimit, "jitter limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::GapLimit, "gap limit", EventSeverity::Warning, EventGroup::Limit, true},
@@ -108,6 +109,7 @@ std::string Event::text() const {
     case EventKind::Dropped:
         return "This computer dropped " + counted(samples, "datagram") + '.';
     case EventKind::MetadataChange:
+    case EventKind::RelayLoop:
         return detail;
     case EventKind::ScaleChange:
         return "The null pose changed.";

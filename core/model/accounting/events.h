@@ -31,13 +31,14 @@ enum class EventKind : std::uint8_t {
     TimeCodeJump,
     CharacterConflict,
     Stale,
+    RelayLoop,
     LossLimit,
     JitterLimit,
     GapLimit,
     AgeLimit,
     RateLimit,
 };
-inline constexpr std::size_t kEventKinds = 18;
+inline constexpr std::size_t kEventKinds = 19;
 
 enum class EventSeverity : std::uint8_t { Info, Warning, Error };
 
@@ -62,7 +63,8 @@ struct Event {
     double value = 0;          ///< limits: the worst; TimeCodeJump: ms
     double limit = 0;          ///< limits: what must not be exceeded
     std::optional<LossCause> cause{};
-    std::string detail{};  ///< content: what changed; Gap and Burst: evidence of the newest
+    std::string
+        detail{}; ///< content: what changed; RelayLoop: all of it; Gap and Burst: evidence of the newest
     bool isCurrent = true; ///< lasts, or may
 
     /// One that happened once, at one moment.

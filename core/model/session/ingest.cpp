@@ -57,6 +57,10 @@ void Ingest::setThresholds(const Thresholds& thresholds) {
     m_follower->setThresholds(thresholds);
 }
 
+void Ingest::report(const Event& event) {
+    m_follower->report(event);
+}
+
 bool Ingest::follow(log::Stamp now, std::size_t most) {
     m_now = now;
     m_reader.refresh();

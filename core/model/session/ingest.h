@@ -17,6 +17,7 @@
 namespace posewire::model {
 
 class Attribution;
+struct Event;
 class EventFollower;
 class NullPoseHistory;
 struct Thresholds;
@@ -47,6 +48,8 @@ public:
     void followFile();
 
     void setThresholds(const Thresholds& thresholds);
+    /// Something that no packet tells: it happened in this computer.
+    void report(const Event& event);
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
 
     [[nodiscard]] const std::deque<Sender>& senders() const { return m_senders; }
