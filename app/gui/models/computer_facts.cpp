@@ -196,6 +196,13 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
             trouble(tr("Dropped here"), &model::Sender::kernelDrops, Health::Error,
                     tr("Datagrams that reached this computer and found its receive buffer full "
                        "(SO_RXQ_OVFL)")),
+            Property{tr("Not listened to"),
+                     [from] {
+                         return PropertyValue{grouped(from.program.receivingState().refusedDatagrams),
+                                              Health::Good,
+                                              tr("Datagrams from hosts that are not among those to listen "
+                                                 "to; they are not recorded")};
+                     }},
             trouble(tr("Malformed"), &model::Sender::malformed, Health::Error,
                     tr("Datagrams that begin with MXTP and cannot be decoded")),
             trouble(tr("Foreign datagrams"), &model::Sender::foreign, Health::Warning,
