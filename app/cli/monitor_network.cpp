@@ -105,7 +105,10 @@ public:
                 continue;
             }
             known = input.problem;
-            m_console.complain(known.empty() ? net::textOf(input.endpoint) + ": all is well now" : known);
+            const std::string place = input.endpoint.host.empty()
+                                          ? "port " + std::to_string(input.endpoint.port)
+                                          : net::textOf(input.endpoint);
+            m_console.complain(known.empty() ? place + ": all is well now" : known);
         }
     }
 

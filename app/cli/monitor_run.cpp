@@ -146,6 +146,13 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     if (facts.receiveBufferBytes != 0) {
         options.settings.emplace_back("Receive buffer", std::to_string(facts.receiveBufferBytes) + " bytes");
     }
+    for (const std::string& allowed : m_options.allowed) {
+        options.settings.emplace_back("Listening only to", allowed);
+    }
+    if (facts.refusedDatagrams != 0) {
+        options.settings.emplace_back("From others, not looked at",
+                                      std::to_string(facts.refusedDatagrams) + " datagrams");
+    }
     options.settings.emplace_back(m_options.file.empty() ? "Source" : "File",
                                   m_options.file.empty() ? "network" : m_options.file);
     const auto written = Output::writeFile(m_options.report, exporting::streamReport(m_session, options));
