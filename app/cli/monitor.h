@@ -43,7 +43,8 @@ struct MonitorOptions {
     std::vector<std::string> multicast;
     std::vector<std::string> tcpListen;
     std::vector<std::string> tcp;
-    double durationSeconds = 0; ///< 0: until interrupted
+    std::vector<std::string> allowed; ///< hosts and nets to listen to; none: all
+    double durationSeconds = 0;       ///< 0: until interrupted
     double intervalSeconds = 1;
     std::string record; ///< empty: not
     std::string report; ///< empty: none
@@ -89,8 +90,10 @@ public:
     /// Nobody wants more: Ctrl+C, or the reader of the output has gone.
     [[nodiscard]] bool isOver() const;
 
-    /// Writes what was asked for at the end. `status` is what else went wrong.
-    [[nodiscard]] ExitStatus conclude(exporting::MonitorFacts facts, ExitStatus status);
+    /// Writes what was asked for at the end. `status` is what else went wrong; `facts` may name what was
+    /// exceeded already. `end` of a live stream: what has been missing until then is a gap too.
+    [[nodiscard]] ExitStatus conclude(exporting::MonitorFacts facts, ExitStatus status,
+                                      std::optional<log::Stamp> end = std::nullopt);
 
 private:
     ExitStatus writeReport(const exporting::MonitorFacts& facts);

@@ -17,7 +17,9 @@ Option addPlace(Arguments arguments, const std::string& name, std::vector<std::s
 
 void addPlaces(Arguments arguments, MonitorOptions& options) {
     const std::array<Option, 4> places{
-        addPlace(arguments, "--udp", options.udp, "[ADDRESS:]PORT", "listen there (default 9763)"),
+        addPlace(arguments, "--udp", options.udp, "[ADDRESS:]PORT",
+                 "listen there (default 9763); ADDRESS is one of this computer's, where it has several "
+                 "networks and only one is meant: broadcasts and multicast may then not arrive"),
         addPlace(arguments, "--multicast", options.multicast, "GROUP", "join it at the UDP ports"),
         addPlace(arguments, "--tcp-listen", options.tcpListen, "[ADDRESS:]PORT",
                  "wait there for MVN to connect"),
@@ -28,6 +30,9 @@ void addPlaces(Arguments arguments, MonitorOptions& options) {
     for (const Option place : places) {
         file.excludes(place);
     }
+    file.excludes(addPlace(arguments, "--from", options.allowed, "HOST|NET",
+                           "listen only to this address, net (such as 192.168.1.0/24) or host; others are "
+                           "not recorded, only counted"));
 }
 
 void addLimits(Arguments arguments, Limits& limits) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace posewire::cli {
 namespace {
@@ -92,8 +93,44 @@ private:
     ExitStatus m_status = ExitStatus::Fine;
 };
 
+/// Says what is wrong with an input, once, and when it is well again.
+class InputWatch {
+public:
+    InputWatch(const net::Receiver& receiver, Console& console) : m_receiver(receiver), m_console(console) {}
+
+    void look() {
+        for (const net::InputStatus& input : m_receiver.inputs()) {
+            std::string& known = m_problems[input.id];
+            if (known == input.problem) {
+                continue;
+            }
+            known = input.problem;
+            const std::string place = input.endpoint.host.empty()
+                                          ? "port " + std::to_string(input.endpoint.port)
+                                          : net::textOf(input.endpoint);
+            m_console.complain(known.empty() ? place + ": all is well now" : known);
+        }
+    }
+
+    /// A line for each sender that we were to connect to and that has sent nothing.
+    [[nodiscard]] std::vector<std::string> silent() const {
+        std::vector<std::string> lines;
+        for (const net::InputStatus& input : m_receiver.inputs()) {
+            if (input.kind == net::InputKind::TcpConnection && input.datagrams == 0) {
+                lines.push_back(net::textOf(input.endpoint) + ": nothing was received");
+            }
+        }
+        return lines;
+    }
+
+private:
+    const net::Receiver& m_receiver;
+    Console& m_console;
+    std::map<net::InputId, std::string> m_problems;
+};
+
 /// Until the time is over or nobody wants more. Returns how long it was.
-double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& recording) {
+double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& recording, InputWatch& inputs) {
     using namespace std::chrono;
     constexpr duration<double> pause{0.05};
     const log::SystemClock clock;
@@ -105,6 +142,7 @@ double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& rec
         run.follow(clock.wall());
         run.show(elapsed.count());
         recording.look();
+        inputs.look();
         if (run.isOver() || (hasEnd && left.count() <= 0)) {
             return elapsed.count();
         }
@@ -151,6 +189,10 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     int argumentCount = 1;
     const QCoreApplication application(argumentCount, arguments.data());
 
+    const auto allowed = net::AllowList::of(options.allowed);
+    if (!allowed) {
+        return console.unusable("--from: " + allowed.error().text);
+    }
     const log::SystemClock clock;
     MonitorRun run(options, console);
     std::unique_ptr<log::Recording> recording;
@@ -162,16 +204,21 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
         recording = std::move(*started);
     }
     auto receiver = std::make_unique<net::Receiver>(run.log(), clock);
+    receiver->listenTo(*allowed); // before the first port is open
     if (const auto opened = open(*receiver, *places); !opened) {
         return console.unusable(opened.error().text);
     }
     RecordingWatch recordingWatch(std::move(recording), console);
     exporting::MonitorFacts facts;
-    facts.durationS = watch(options, run, recordingWatch);
+    InputWatch inputs(*receiver, console);
+    facts.durationS = watch(options, run, recordingWatch, inputs);
+    const log::Stamp end = clock.wall();
     facts.receiveBufferBytes = receiver->totals().receiveBufferBytes;
+    facts.refusedDatagrams = receiver->totals().refusedDatagrams;
+    facts.exceeded = inputs.silent();
     receiver.reset(); // what is in the sockets still comes into the log
     run.follow(clock.wall());
-    return run.conclude(facts, recordingWatch.stop());
+    return run.conclude(facts, recordingWatch.stop(), end);
 }
 
 } // namespace posewire::cli

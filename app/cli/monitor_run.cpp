@@ -13,6 +13,7 @@
 #include <cctype>
 #include <cmath>
 #include <csignal>
+#include <iterator>
 
 namespace posewire::cli {
 namespace {
@@ -39,7 +40,8 @@ std::string placeOf(const model::SessionView& session, const log::StreamKey& key
 }
 
 /// One line for each limit that a stream exceeds; one if nothing was received although there are limits.
-std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits) {
+std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits,
+                                  std::optional<log::Stamp> end) {
     const bool isAny = std::ranges::any_of(limits, [](const auto& most) { return most.has_value(); });
     std::vector<std::string> lines;
     if (isAny && session.streams().empty()) {
@@ -52,10 +54,15 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
         }
         const model::StreamFigures figures = exporting::figuresOf(session, stream);
         for (std::size_t i = 0; i < kLimits.size(); ++i) {
-            const double value = figures[kLimits[i].figure];
+            const double lastsMs = end && kLimits[i].figure == model::Figure::SpacingMost
+                                       ? log::millisecondsOf(*end - stream.accounting.lastStamp())
+                                       : 0;
+            const bool lasts = lastsMs > figures[kLimits[i].figure];
+            const double value = lasts ? lastsMs : figures[kLimits[i].figure];
             if (limits[i] && value > *limits[i]) {
                 lines.push_back(placeOf(session, stream.key) + ": " + std::string(kLimits[i].name) + ' ' +
-                                exporting::fixed(value, 3) + unitOf(kLimits[i]) + " is above the limit of " +
+                                exporting::fixed(value, 3) + unitOf(kLimits[i]) +
+                                (lasts ? ", which lasted to the end," : "") + " is above the limit of " +
                                 exporting::fixed(*limits[i], 3) + unitOf(kLimits[i]));
             }
         }
@@ -109,8 +116,9 @@ void MonitorRun::show(double elapsedS) {
     m_console.out.flush();
 }
 
-ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status) {
-    facts.exceeded = exceeded(m_session, m_options.limits);
+ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status,
+                                std::optional<log::Stamp> end) {
+    std::ranges::copy(exceeded(m_session, m_options.limits, end), std::back_inserter(facts.exceeded));
     if (m_options.asJson) {
         m_console.out.write(exporting::monitorReport(m_session, facts) + '\n');
     } else {
@@ -137,6 +145,13 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     }
     if (facts.receiveBufferBytes != 0) {
         options.settings.emplace_back("Receive buffer", std::to_string(facts.receiveBufferBytes) + " bytes");
+    }
+    for (const std::string& allowed : m_options.allowed) {
+        options.settings.emplace_back("Listening only to", allowed);
+    }
+    if (facts.refusedDatagrams != 0) {
+        options.settings.emplace_back("From others, not looked at",
+                                      std::to_string(facts.refusedDatagrams) + " datagrams");
     }
     options.settings.emplace_back(m_options.file.empty() ? "Source" : "File",
                                   m_options.file.empty() ? "network" : m_options.file);

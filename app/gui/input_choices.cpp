@@ -2,8 +2,10 @@
 #include "app/gui/input_choices.h"
 
 #include "app/gui/theme/words.h"
+#include "app/net/allow_list.h"
 
 #include <QJsonArray>
+#include <QRegularExpression>
 
 #include <algorithm>
 #include <array>
@@ -71,6 +73,9 @@ QJsonObject jsonOf(const InputChoices& choices) {
         relays.append(QJsonObject{{"host", relay.host}, {"port", relay.port}, {"on", relay.isOn}});
     }
     object["relays"] = relays;
+    if (!choices.allowed.isEmpty()) {
+        object["from"] = QJsonArray::fromStringList(choices.allowed);
+    }
     return object;
 }
 
@@ -91,11 +96,28 @@ InputChoices inputChoicesOf(const QJsonObject& object) {
             choices.relays.push_back({relay["host"].toString(), *port, relay["on"].toBool(true)});
         }
     }
+    for (const QJsonValue& value : object["from"].toArray()) {
+        const auto allowed = parseAllowed(value.toString());
+        choices.allowed += allowed ? *allowed : QStringList();
+    }
     return choices;
 }
 
 QString kindName(Kind kind) {
     return QLatin1String(std::ranges::find(kKinds, kind, &std::pair<Kind, const char*>::first)->second);
+}
+
+tl::expected<QStringList, QString> parseAllowed(const QString& text) {
+    static const QRegularExpression separators(QStringLiteral("[,;\\s]+"));
+    const QStringList entries = text.split(separators, Qt::SkipEmptyParts);
+    for (const QString& entry : entries) {
+        if (!net::problemWithEntry(entry.toStdString()).empty()) {
+            return tl::unexpected(
+                tr("'%1' is not a host or a net. Type an address, a net such as 192.168.1.0/24, or a name.")
+                    .arg(entry));
+        }
+    }
+    return entries;
 }
 
 QString withoutBrackets(const QString& host) {

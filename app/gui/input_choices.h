@@ -54,8 +54,13 @@ parseInputAddress(const QString& text, InputAddress::Kind kind = InputAddress::K
 struct InputChoices {
     std::optional<std::vector<InputAddress>> inputs{}; ///< nothing where nobody has chosen yet
     std::vector<RelayChoice> relays{};
+    QStringList allowed{}; ///< hosts and nets to listen to; none: all
     friend bool operator==(const InputChoices&, const InputChoices&) = default;
 };
+
+/// "192.168.1.0/24, studio" as its parts, which may be separated by commas, semicolons or blanks; the error
+/// says in a sentence what is neither a host nor a net. Nothing is looked up.
+[[nodiscard]] tl::expected<QStringList, QString> parseAllowed(const QString& text);
 
 [[nodiscard]] QJsonObject jsonOf(const InputChoices& choices);
 

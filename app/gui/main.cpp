@@ -41,6 +41,7 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
 void openInputs(MainWindow& window, const Options& options) {
     SessionDriver& driver = window.driver();
     const InputChoices choices = window.settings().inputs;
+    driver.receiving().listenTo(allowedAtStart(options, choices)); // before the first port is open
     for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);
     }

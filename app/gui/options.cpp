@@ -31,8 +31,15 @@ void describe(QCommandLineParser& parser) {
                                  tr("Recording to look at: pcap, pcapng, or datagrams back to back."),
                                  QStringLiteral("[FILE]"));
     parser.addOptions({
-        {"udp", tr("Listen on a UDP port (repeatable; 9763 if nothing else is asked for)."),
+        {"udp",
+         tr("Listen on a UDP port (repeatable; 9763 if nothing else is asked for). ADDRESS is one of this "
+            "computer's, where it has several networks and only one is meant: broadcasts and multicast may "
+            "then not arrive."),
          "[ADDRESS:]PORT"},
+        {"from",
+         tr("Listen only to this address, net (such as 192.168.1.0/24) or host (repeatable). Others are "
+            "only counted."),
+         "HOST|NET"},
         {"multicast", tr("Join a multicast group at the UDP ports (repeatable)."), "GROUP"},
         {"tcp-listen", tr("Let senders connect by TCP, as MVN does (repeatable)."), "[ADDRESS:]PORT"},
         {"tcp", tr("Connect to a sender that listens (repeatable)."), "HOST:PORT"},
@@ -81,6 +88,18 @@ struct Reader {
         }
         for (InputAddress& port : options.udpPorts) {
             port.groups = groups;
+        }
+    }
+
+    void readAllowed() {
+        for (const QString& text : parser.values(QStringLiteral("from"))) {
+            const auto allowed = parseAllowed(text);
+            if (!allowed || allowed->isEmpty()) {
+                refuse(QStringLiteral("--from: ") +
+                       (allowed ? tr("a host or a net is missing.") : allowed.error()));
+                continue;
+            }
+            options.allowed += *allowed;
         }
     }
 
@@ -178,6 +197,10 @@ std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoice
     return inputs;
 }
 
+QStringList allowedAtStart(const Options& options, const InputChoices& choices) {
+    return options.allowed.isEmpty() ? choices.allowed : options.allowed;
+}
+
 tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {
     QCommandLineParser parser;
     describe(parser);
@@ -196,6 +219,7 @@ tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {
     }
     Reader reader{parser};
     reader.readAllInputs();
+    reader.readAllowed();
     reader.readTheme();
     reader.readTimes();
     reader.readNumbers();

@@ -20,6 +20,7 @@ struct Options {
     QString file;
     std::vector<InputAddress> udpPorts;  ///< multicast groups are joined at each
     std::vector<InputAddress> tcpInputs; ///< listening first
+    QStringList allowed;                 ///< hosts and nets to listen to; none: as kept in the settings
     int demoCharacters = 0;              ///< 0 for no demo
     QString layout;                      ///< name or file; empty for the one in use when the program ended
     bool resetsLayout = false;
@@ -45,6 +46,9 @@ struct EarlyExit {
 /// What to open at the start: what was asked for on the command line; where nothing was, what was open last,
 /// else the port that MVN sends to.
 [[nodiscard]] std::vector<InputAddress> inputsToOpen(const Options& options, const InputChoices& choices);
+
+/// Whom to listen to at the start: likewise, else everyone.
+[[nodiscard]] QStringList allowedAtStart(const Options& options, const InputChoices& choices);
 
 /// "dark", "light", "system": on the command line and in files.
 [[nodiscard]] QString themeName(ThemeChoice choice);

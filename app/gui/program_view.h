@@ -32,7 +32,8 @@ struct RelayState {
     QString problem{}; ///< why it was refused, or why the newest datagrams were
     std::uint64_t sent = 0;
     std::uint64_t refused = 0; ///< datagrams that this system did not take
-    std::uint64_t skipped = 0; ///< datagrams left out because the relay fell too far behind
+    std::uint64_t skipped = 0; ///< datagrams left out: fallen too far behind, or for fear of a loop
+    std::uint64_t behind = 0;  ///< packets that wait to be forwarded
 };
 
 /// What there is to say about receiving.
@@ -40,6 +41,8 @@ struct ReceivingState {
     std::vector<PortState> ports;
     QString file;                        ///< shown instead of ports, or beside them
     std::uint64_t kernelDropped = 0;     ///< in this computer, by the kernel or by the queue of the receiver
+    std::uint64_t refusedDatagrams = 0;  ///< from those who are not listened to
+    QString allowedProblem{};            ///< a host to listen to whose name is not known; empty for none
     std::int64_t receiveBufferBytes = 0; ///< the smallest that a UDP port was granted; 0 without one
     log::Duration longestDelay{}; ///< the longest time the receiving thread did not look at its sockets
     double datagramsPerSecond = 0;

@@ -125,6 +125,31 @@ void findFailed(const ConnectionFacts& facts, Findings& findings) {
     }
 }
 
+std::uint64_t refusedIn(const ConnectionFacts& facts) {
+    std::uint64_t refused = 0;
+    for (const InputStatus& input : facts.inputs) {
+        refused += input.refusedDatagrams;
+    }
+    return refused;
+}
+
+void findLeftOut(const ConnectionFacts& facts, Findings& findings) {
+    const std::uint64_t refused = refusedIn(facts);
+    for (const InputStatus& input : facts.inputs) {
+        if (input.kind == InputKind::Udp && !input.problem.empty()) {
+            findings.push_back(
+                {Kind::NotJoined, input.problem,
+                 "check that the network is connected; it is tried again whenever it changes"});
+        }
+    }
+    if (refused != 0 && facts.silence >= kSilence) {
+        findings.push_back({Kind::NotListenedTo,
+                            std::to_string(refused) + (refused == 1 ? " datagram has" : " datagrams have") +
+                                " arrived from hosts that are not listened to",
+                            "add the sender's address under Listen only to, or leave that empty"});
+    }
+}
+
 /// All that one program sends, even if it uses a new port for each datagram.
 struct ForeignHost {
     std::string host;
@@ -203,6 +228,9 @@ void findSilence(const ConnectionFacts& facts, Findings& findings) {
             {Kind::WentSilent, "no data for " + secondsText(facts.silence),
              "check that MVN is playing and streaming: while paused it sends only with Send Paused on"});
         return;
+    }
+    if (refusedIn(facts) != 0) {
+        return; // something does arrive
     }
     const auto open = std::ranges::find_if(
         facts.inputs, [](const InputStatus& input) { return input.kind != InputKind::TcpConnection; });
@@ -301,7 +329,8 @@ std::optional<Firewall> findFirewall(const std::string& root) {
 
 std::vector<Finding> connectionHelp(const ConnectionFacts& facts) {
     Findings findings;
-    for (const auto find : {findFailed, findForeign, findPeers, findSilence, findTransport, findBlocked}) {
+    for (const auto find :
+         {findFailed, findLeftOut, findForeign, findPeers, findSilence, findTransport, findBlocked}) {
         find(facts, findings);
     }
     return findings;

@@ -55,6 +55,8 @@ struct Finding {
     enum class Kind : std::uint8_t {
         NoInput,
         CannotOpen,
+        NotJoined,     ///< a multicast group, on some interface or all
+        NotListenedTo, ///< datagrams arrive, from hosts that are not listened to
         NotMxtp,
         NotReachable, ///< a TCP connection that keeps failing
         SilentPeer,   ///< connected by TCP but silent

@@ -48,6 +48,9 @@ struct InputCounters {
     std::atomic<std::uint64_t> skippedBytes = 0;  ///< TCP: bytes that belong to no datagram
     std::atomic<std::uint64_t> kernelDropped = 0; ///< UDP: lost on this computer because the buffer was full
     std::atomic<std::int64_t> receiveBufferBytes = 0; ///< UDP: what the kernel granted
+    std::atomic<std::uint64_t> refusedDatagrams = 0;  ///< UDP: from those who are not listened to
+    std::atomic<std::uint64_t> refusedPeers = 0;      ///< TCP: of those who are not listened to, or too many
+    std::atomic<std::uint64_t> closedPeers = 0;       ///< TCP: closed because others wanted in
 };
 
 /// The other end of a TCP connection.
@@ -66,14 +69,18 @@ struct InputStatus {
     Endpoint endpoint; ///< with the real port where 0 was requested
     std::vector<std::string> groups;
     InputState state = InputState::Listening;
-    std::string text; ///< the state in words, one line
+    std::string text;    ///< the state in words, one line
+    std::string problem; ///< what is wrong, with what to do; stays while it is tried again
+    std::string note;    ///< TCP: which connections were closed or refused, and why; empty for none
     std::uint64_t datagrams = 0;
     std::uint64_t bytes = 0;
     std::uint64_t skippedBytes = 0;
     std::uint64_t kernelDropped = 0;
     std::int64_t receiveBufferBytes = 0;
-    std::uint64_t refusedPeers = 0; ///< connections closed because too many were open
-    std::vector<Peer> peers;        ///< connected now
+    std::uint64_t refusedDatagrams = 0; ///< see InputCounters, as the next two
+    std::uint64_t refusedPeers = 0;
+    std::uint64_t closedPeers = 0;
+    std::vector<Peer> peers; ///< connected now
 };
 
 /// An input as its threads share it.
@@ -100,10 +107,14 @@ public:
         m_status.state = state;
         m_status.text = std::move(text);
     }
-    void setPeers(std::vector<Peer> peers, std::uint64_t refused) {
+    void setProblem(std::string problem) {
+        const std::lock_guard lock(m_mutex);
+        m_status.problem = std::move(problem);
+    }
+    void setPeers(std::vector<Peer> peers, std::string note = {}) {
         const std::lock_guard lock(m_mutex);
         m_status.peers = std::move(peers);
-        m_status.refusedPeers = refused;
+        m_status.note = std::move(note);
     }
     [[nodiscard]] InputStatus status() const {
         const std::lock_guard lock(m_mutex);
@@ -113,6 +124,9 @@ public:
         status.skippedBytes = m_counters.skippedBytes.load(std::memory_order_relaxed);
         status.kernelDropped = m_counters.kernelDropped.load(std::memory_order_relaxed);
         status.receiveBufferBytes = m_counters.receiveBufferBytes.load(std::memory_order_relaxed);
+        status.refusedDatagrams = m_counters.refusedDatagrams.load(std::memory_order_relaxed);
+        status.refusedPeers = m_counters.refusedPeers.load(std::memory_order_relaxed);
+        status.closedPeers = m_counters.closedPeers.load(std::memory_order_relaxed);
         return status;
     }
 

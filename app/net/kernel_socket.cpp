@@ -8,9 +8,11 @@
 #include <net/if.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
 #include <ctime>
 #include <string>
+#include <system_error>
 
 namespace posewire::net {
 namespace {
@@ -66,6 +68,27 @@ void prepare(int descriptor) {
     for (const int option : {IPV6_RECVPKTINFO, IPV6_RECVHOPLIMIT}) {
         ::setsockopt(descriptor, IPPROTO_IPV6, option, &off, sizeof off);
     }
+}
+
+std::string changeMembership(int descriptor, const QHostAddress& group, int interface, bool joins) {
+    const bool isIpv4 = group.protocol() == QAbstractSocket::IPv4Protocol;
+    group_req request{};
+    request.gr_interface = static_cast<std::uint32_t>(interface);
+    if (isIpv4) {
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(group.toIPv4Address());
+        std::memcpy(&request.gr_group, &address, sizeof address);
+    } else {
+        sockaddr_in6 address{};
+        const Q_IPV6ADDR bytes = group.toIPv6Address();
+        address.sin6_family = AF_INET6;
+        std::memcpy(&address.sin6_addr, &bytes, sizeof bytes);
+        std::memcpy(&request.gr_group, &address, sizeof address);
+    }
+    const int done = ::setsockopt(descriptor, isIpv4 ? IPPROTO_IP : IPPROTO_IPV6,
+                                  joins ? MCAST_JOIN_GROUP : MCAST_LEAVE_GROUP, &request, sizeof request);
+    return done == 0 ? std::string() : std::generic_category().message(errno);
 }
 
 std::optional<SocketMemory> memoryOf(int descriptor) {
@@ -124,11 +147,16 @@ Received MessageBatch::received(std::size_t index) const {
     return received;
 }
 
-log::SenderId SenderCache::look(const sockaddr_in6& address) {
+SenderCache::Id SenderCache::look(const sockaddr_in6& address) {
     Entry& entry = m_entries[hashOf(address)];
     if (std::memcmp(&entry.address, &address, sizeof address) != 0) {
-        const auto id = m_table->intern({senderText(address), log::Transport::Udp, m_localPort});
-        entry = {address, id, m_table->find(id)};
+        const bool isHeard = m_allowed->isEveryone() ||
+                             m_allowed->allows(QHostAddress(reinterpret_cast<const sockaddr*>(&address)));
+        entry = {address, std::nullopt};
+        if (isHeard) { // one who is not gets no place in the table of senders
+            entry.id = m_table->intern({senderText(address), log::Transport::Udp, m_localPort});
+            entry.held = m_table->find(*entry.id);
+        }
     }
     m_last = &entry;
     return entry.id;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/net/allow_list.h"
 #include "core/log/log_writer.h"
 #include "core/log/sender_table.h"
 #include "core/log/time.h"
@@ -15,6 +16,7 @@
 #include <cstring>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,10 @@ private:
 /// Has the kernel give stamps and its drop counter with each datagram; where it refuses, stamps come from the
 /// clock.
 void prepare(int descriptor);
+
+/// Joins a multicast group on an interface, or leaves it there; empty, or what the system says against it.
+[[nodiscard]] std::string changeMembership(int descriptor, const QHostAddress& group, int interface,
+                                           bool joins);
 
 /// What the kernel says about a socket's receive buffer.
 struct SocketMemory {
@@ -87,33 +93,42 @@ private:
     std::array<Control, log::LogWriter::kLaneLimit> m_controls{};
 };
 
-/// Maps the kernel's form of an address to the sender's id, without formatting text for recent senders. One
-/// for each socket.
+/// Maps the kernel's form of an address to the sender's id, without formatting text for recent senders; of
+/// those who are not listened to it knows only that. One for each socket.
 class SenderCache {
 public:
-    SenderCache(log::SenderTable& table, std::uint16_t localPort)
-        : m_table(&table), m_localPort(localPort), m_entries(kEntries), m_last(m_entries.data()) {}
-    SenderCache(SenderCache&&) = default; // the entries stay where they are
+    using Id = std::optional<log::SenderId>; ///< nothing for one who is not listened to
+
+    SenderCache(log::SenderTable& table, std::uint16_t localPort, const AllowList& allowed)
+        : m_table(&table), m_localPort(localPort), m_allowed(&allowed), m_entries(kEntries) {}
 
     /// `address` is IPv4 or IPv6; all other families count as one sender.
-    log::SenderId idOf(const sockaddr_in6& address) {
-        return std::memcmp(&m_last->address, &address, sizeof address) == 0 ? m_last->id : look(address);
+    Id idOf(const sockaddr_in6& address) {
+        const bool isLast = m_last != nullptr && std::memcmp(&m_last->address, &address, sizeof address) == 0;
+        return isLast ? m_last->id : look(address);
+    }
+
+    /// Asks for everyone anew: the list of those who are listened to has changed.
+    void forget() {
+        m_last = nullptr;
+        m_entries.assign(kEntries, {});
     }
 
 private:
     static constexpr std::size_t kEntries = 64;
     struct Entry {
         sockaddr_in6 address{};
-        log::SenderId id{};
+        Id id{};
         log::SenderTable::Held held{}; ///< so that the number stays
     };
 
-    log::SenderId look(const sockaddr_in6& address);
+    Id look(const sockaddr_in6& address);
 
     log::SenderTable* m_table;
     std::uint16_t m_localPort;
+    const AllowList* m_allowed;
     std::vector<Entry> m_entries; ///< one slot for each hash; a newcomer replaces the old entry
-    const Entry* m_last;
+    const Entry* m_last = nullptr;
 };
 
 } // namespace posewire::net

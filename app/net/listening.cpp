@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/listening.h"
 
-#include <QNetworkInterface>
 #include <QVariant>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <vector>
@@ -64,24 +64,6 @@ NetResult<std::unique_ptr<QUdpSocket>> bindOne(const QHostAddress& address, cons
     return socket;
 }
 
-/// Joins on every interface that is up, since the sender may be reached by any.
-NetResult<void> join(QUdpSocket& socket, const QHostAddress& group) {
-    int joined = 0;
-    for (const QNetworkInterface& interface : QNetworkInterface::allInterfaces()) {
-        const auto flags = interface.flags();
-        const bool canMulticast =
-            flags.testFlag(QNetworkInterface::CanMulticast) || flags.testFlag(QNetworkInterface::IsLoopBack);
-        if (flags.testFlag(QNetworkInterface::IsUp) && canMulticast) {
-            joined += socket.joinMulticastGroup(group, interface) ? 1 : 0;
-        }
-    }
-    if (joined == 0) {
-        return netError(Kind::Other, "cannot join the multicast group " + group.toString().toStdString() +
-                                         " on any network interface; check that the network is connected");
-    }
-    return {};
-}
-
 NetResult<std::vector<QHostAddress>> groupsOf(const std::vector<std::string>& texts) {
     std::vector<QHostAddress> groups;
     for (const std::string& text : texts) {
@@ -111,15 +93,10 @@ NetResult<UdpSockets> bindGroups(Endpoint endpoint, const std::vector<QHostAddre
             continue; // a computer without IPv6
         }
         endpoint.port = (*socket)->localPort();
-        for (const QHostAddress& group : groups) {
-            if (group.protocol() != protocol) {
-                continue;
-            }
-            if (const auto joined = join(**socket, group); !joined) {
-                return tl::unexpected(joined.error());
-            }
-        }
-        sockets.push_back(std::move(*socket));
+        UdpSocket bound{std::move(*socket), {}};
+        std::ranges::copy_if(groups, std::back_inserter(bound.groups),
+                             [&](const QHostAddress& group) { return group.protocol() == protocol; });
+        sockets.push_back(std::move(bound));
     }
     return sockets;
 }
@@ -151,7 +128,7 @@ NetResult<UdpSockets> bindAll(const Endpoint& endpoint, const std::vector<std::s
         return tl::unexpected(socket.error());
     }
     UdpSockets sockets;
-    sockets.push_back(std::move(*socket));
+    sockets.push_back({std::move(*socket), {}});
     return sockets;
 }
 
@@ -239,8 +216,8 @@ NetResult<UdpSockets> bindUdp(Input& input, int bufferBytes) {
     const InputStatus asked = input.status();
     auto sockets = bindAll(asked.endpoint, asked.groups, bufferBytes);
     if (sockets) {
-        input.setPort(sockets->front()->localPort());
-        input.counters().receiveBufferBytes = receiveBufferBytes(*sockets->front());
+        input.setPort(sockets->front().socket->localPort());
+        input.counters().receiveBufferBytes = receiveBufferBytes(*sockets->front().socket);
     }
     return sockets;
 }

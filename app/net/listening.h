@@ -33,13 +33,17 @@ struct Process {
 /// The error with the port's holder named, if the port is in use and the system reveals who has it.
 [[nodiscard]] NetError withHolder(NetError error, std::uint16_t port, bool isTcp);
 
+struct UdpSocket {
+    std::unique_ptr<QUdpSocket> socket;
+    std::vector<QHostAddress> groups; ///< to be joined with it
+};
+
 /// The sockets of one input, all on the same port: one, or one each for IPv4 and IPv6 if there are multicast
 /// groups, since not every system lets a dual-stack socket join IPv4 groups.
-using UdpSockets = std::vector<std::unique_ptr<QUdpSocket>>;
+using UdpSockets = std::vector<UdpSocket>;
 
-/// Unshared sockets, bound in the calling thread, that have requested a receive buffer of `bufferBytes` each
-/// and joined their groups. Sets the input's port and the buffer that was granted. Every error says what to
-/// do about it.
+/// Unshared sockets, bound in the calling thread, that have requested a receive buffer of `bufferBytes` each.
+/// Sets the input's port and the buffer that was granted. Every error says what to do about it.
 [[nodiscard]] NetResult<UdpSockets> bindUdp(Input& input, int bufferBytes);
 
 } // namespace posewire::net

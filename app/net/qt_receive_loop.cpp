@@ -3,6 +3,10 @@
 #include "app/net/receive_loop.h"
 #include "app/net/thread_events.h"
 
+#include <QNetworkInterface>
+#include <QTimer>
+
+#include <memory>
 #include <optional>
 
 namespace posewire::net {
@@ -18,10 +22,30 @@ public:
         if (!sockets) {
             return tl::unexpected(sockets.error());
         }
-        for (auto& socket : *sockets) {
+        Joined joined{input, {}};
+        for (auto& [socket, groups] : *sockets) {
+            for (const QHostAddress& group : groups) {
+                joined.groups.add(
+                    group, [socket = socket.get()](const auto& address, const auto& interface, bool joins) {
+                        const bool isDone = joins ? socket->joinMulticastGroup(address, interface)
+                                                  : socket->leaveMulticastGroup(address, interface);
+                        return isDone ? std::string() : socket->errorString().toStdString();
+                    });
+            }
             m_sockets.push_back({input, std::move(socket), std::nullopt});
         }
+        if (!joined.groups.isEmpty()) {
+            m_joined.push_back(std::move(joined));
+            followInterfaces();
+        }
         return {};
+    }
+
+    void listenTo(const AllowList& allowed) override {
+        m_allowed = allowed;
+        for (Socket& socket : m_sockets) {
+            socket.last.reset();
+        }
     }
 
     void remove(InputId id) override {
@@ -30,6 +54,7 @@ public:
                 drain(socket);
             }
         }
+        std::erase_if(m_joined, [id](const Joined& joined) { return joined.input->id() == id; });
         std::erase_if(m_sockets, [id](const Socket& socket) { return socket.input->id() == id; });
     }
 
@@ -43,13 +68,18 @@ public:
             if (!m_context.queue.isEmpty()) {
                 m_context.queue.moveTo(m_context.log);
             }
+            if (!m_joined.empty() && m_context.clock.monotonic() - m_followed >= kInterfacePause) {
+                followInterfaces();
+            }
             m_events.process(QEventLoop::WaitForMoreEvents);
         }
         for (Socket& socket : m_sockets) {
             drain(socket);
         }
         m_context.queue.moveTo(m_context.log);
+        m_joined.clear();
         m_sockets.clear();
+        m_interfaceTimer.reset();
         m_events.end();
     }
 
@@ -59,13 +89,30 @@ private:
     struct Last {
         QHostAddress address;
         quint16 port = 0;
-        log::SenderId id{};
+        std::optional<log::SenderId> id{}; ///< nothing for one who is not listened to
+    };
+    struct Joined {
+        std::shared_ptr<Input> input;
+        GroupMemberships groups;
     };
     struct Socket {
         std::shared_ptr<Input> input;
         std::unique_ptr<QUdpSocket> socket;
         std::optional<Last> last;
     };
+
+    void followInterfaces() {
+        if (!m_interfaceTimer) {
+            m_interfaceTimer = std::make_unique<QTimer>(); // ends the wait for events
+            m_interfaceTimer->start(std::chrono::duration_cast<std::chrono::milliseconds>(kInterfacePause));
+        }
+        const auto interfaces = QNetworkInterface::allInterfaces();
+        for (Joined& joined : m_joined) {
+            joined.groups.follow(interfaces);
+            tellGroups(*joined.input, joined.groups);
+        }
+        m_followed = m_context.clock.monotonic();
+    }
 
     /// Only what has arrived by now: other sockets are waiting.
     void drain(Socket& socket) {
@@ -93,9 +140,14 @@ private:
         if (size < 0) {
             return false;
         }
+        const auto sender = senderOf(socket, address, port);
+        if (!sender) {
+            increase(socket.input->counters().refusedDatagrams, 1);
+            return true;
+        }
         log::Arrival arrival;
         arrival.stamp = m_context.clock.wall();
-        arrival.sender = senderOf(socket, address, port);
+        arrival.sender = *sender;
         if (isSmall) {
             writer.commit(0, static_cast<std::size_t>(size), arrival);
         } else {
@@ -106,18 +158,24 @@ private:
         return true;
     }
 
-    log::SenderId senderOf(Socket& socket, const QHostAddress& address, quint16 port) {
+    std::optional<log::SenderId> senderOf(Socket& socket, const QHostAddress& address, quint16 port) {
         if (!socket.last || socket.last->port != port || socket.last->address != address) {
-            const log::SenderInfo info{textOf(address, port), log::Transport::Udp,
-                                       socket.socket->localPort()};
-            socket.last = Last{address, port, m_context.log.senders().intern(info)};
+            socket.last = Last{address, port, std::nullopt};
+            if (m_allowed.allows(address)) {
+                socket.last->id = m_context.log.senders().intern(
+                    {textOf(address, port), log::Transport::Udp, socket.socket->localPort()});
+            }
         }
         return socket.last->id;
     }
 
     ReceiveContext m_context;
     ThreadEvents m_events;
+    AllowList m_allowed;
     std::vector<Socket> m_sockets;
+    std::vector<Joined> m_joined;
+    std::unique_ptr<QTimer> m_interfaceTimer; ///< from the first group on
+    log::Moment m_followed{};                 ///< when interfaces were last asked for
 };
 
 } // namespace

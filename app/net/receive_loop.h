@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/net/allow_list.h"
 #include "app/net/command_queue.h"
+#include "app/net/group_memberships.h"
 #include "app/net/input.h"
 #include "app/net/packet_queue.h"
 #include "app/net/receiver.h"
@@ -23,15 +25,27 @@ struct ReceiveContext {
     ReceiverOptions options;
 };
 
+/// What an input of the receiving thread says about itself.
+inline void tellGroups(Input& input, const GroupMemberships& groups) {
+    input.setState(InputState::Listening, groups.text());
+    input.setProblem(groups.problem());
+}
+
+/// How often interfaces are asked for where the system does not tell when they change.
+inline constexpr log::Duration kInterfacePause = std::chrono::seconds(3);
+
 /// What the receiving thread runs. Created, used and destroyed in that thread; only stop() and wake() may be
 /// called from others.
 class ReceiveLoop {
 public:
     virtual ~ReceiveLoop() = default;
 
-    /// Opens the input's sockets and sets its port and buffer size. The error for a port in use does not name
-    /// its holder: finding that takes time, and other sockets are waiting.
+    /// Opens the input's sockets, joins its groups and sets its port, buffer size and state. The error for a
+    /// port in use does not name its holder: finding that takes time, and other sockets are waiting.
     virtual NetResult<void> add(const std::shared_ptr<Input>& input) = 0;
+
+    /// Who is listened to from now on; the rest is counted and forgotten.
+    virtual void listenTo(const AllowList& allowed) = 0;
 
     /// Reads what the input's sockets still hold and closes them.
     virtual void remove(InputId id) = 0;

@@ -21,6 +21,9 @@ void add(InputCounters& counters, ReceiveTotals& totals) {
     totals.datagrams += counters.datagrams;
     totals.bytes += counters.bytes;
     totals.kernelDropped += counters.kernelDropped;
+    totals.refusedDatagrams += counters.refusedDatagrams;
+    totals.refusedPeers += counters.refusedPeers;
+    totals.closedPeers += counters.closedPeers;
 }
 
 } // namespace
@@ -55,7 +58,7 @@ void Receiver::keep(const std::shared_ptr<Input>& input) {
 TcpThread& Receiver::tcp() {
     const std::lock_guard lock(m_mutex);
     if (!m_tcp) {
-        m_tcp = std::make_unique<TcpThread>(TcpContext{m_clock, m_queue});
+        m_tcp = std::make_unique<TcpThread>(TcpContext{m_clock, m_queue, m_allowed});
     }
     return *m_tcp;
 }
@@ -63,12 +66,12 @@ TcpThread& Receiver::tcp() {
 NetResult<InputId> Receiver::addUdp(const UdpInput& where) {
     // Qt's sockets belong to the thread that makes them, so the receiving thread has to open them.
     const auto input = makeInput(InputKind::Udp, where.endpoint, where.groups);
+    input->setState(InputState::Listening, "listening");
     NetResult<void> result;
     m_commands.call([&] { result = m_loop->add(input); });
     if (!result) {
         return tl::unexpected(withHolder(result.error(), where.endpoint.port, false));
     }
-    input->setState(InputState::Listening, "listening");
     keep(input);
     return input->id();
 }
@@ -88,6 +91,19 @@ InputId Receiver::addTcpConnection(const Endpoint& endpoint) {
     keep(input);
     tcp().connect(input);
     return input->id();
+}
+
+void Receiver::listenTo(const AllowList& allowed) {
+    m_commands.call([&] { m_loop->listenTo(allowed); });
+    TcpThread* tcp = nullptr;
+    {
+        const std::lock_guard lock(m_mutex);
+        m_allowed = allowed;
+        tcp = m_tcp.get();
+    }
+    if (tcp != nullptr) {
+        tcp->listenTo(allowed);
+    }
 }
 
 bool Receiver::remove(InputId id) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/net/allow_list.h"
 #include "app/net/command_queue.h"
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
@@ -55,6 +56,9 @@ struct ReceiveTotals {
     std::uint64_t kernelDropped = 0;     ///< see InputCounters
     std::int64_t receiveBufferBytes = 0; ///< the smallest granted to an open UDP input; 0 if none is open
     log::Duration longestDelay{};
+    std::uint64_t refusedDatagrams = 0; ///< see InputCounters, as the next two
+    std::uint64_t refusedPeers = 0;
+    std::uint64_t closedPeers = 0;
 };
 
 /// The one thread that writes a PacketLog for as long as the program runs. It receives UDP datagrams straight
@@ -76,12 +80,17 @@ public:
     NetResult<InputId> addUdp(const UdpInput& where);
     NetResult<InputId> addUdp(const Endpoint& endpoint) { return addUdp(UdpInput{endpoint, {}}); }
 
-    /// MVN connects to a listener; up to kMostPeers senders may connect.
+    /// MVN connects to a listener; up to kMostPeers senders may connect. Where more want in, one that has
+    /// sent nothing for long gives way, after what it had sent has been read.
     NetResult<InputId> addTcpListener(const Endpoint& endpoint);
 
     /// Connects, and reconnects whenever that fails or the connection ends, with pauses that grow to five
     /// seconds. Its status has the current state.
     InputId addTcpConnection(const Endpoint& endpoint);
+
+    /// Listens only to these from now on, on all inputs, those to come included; connections of others are
+    /// closed. A connection that we make ourselves names its host already and is not asked.
+    void listenTo(const AllowList& allowed);
 
     /// Reads what has already arrived there, then closes. False if there is no such input.
     bool remove(InputId id);
@@ -126,6 +135,7 @@ private:
     mutable std::mutex m_mutex; ///< guards the members below
     std::vector<std::shared_ptr<Input>> m_inputs;
     ReceiveTotals m_past; ///< of removed inputs
+    AllowList m_allowed;
     std::uint32_t m_nextId = 0;
     std::unique_ptr<TcpThread> m_tcp; ///< from the first TCP input on
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/interface_watch.h"
 #include "app/net/kernel_socket.h"
 #include "app/net/listening.h"
 #include "app/net/receive_loop.h"
 
 #include <QEventLoop>
+#include <QNetworkInterface>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -11,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <optional>
 #include <thread>
 
 namespace posewire::net {
@@ -40,6 +43,12 @@ struct Socket {
     MessageBatch batch{};
 };
 
+/// An input with multicast groups.
+struct JoinedInput {
+    std::shared_ptr<Input> input;
+    GroupMemberships groups;
+};
+
 class RecvmmsgLoop final : public ReceiveLoop {
 public:
     explicit RecvmmsgLoop(const ReceiveContext& context)
@@ -51,15 +60,34 @@ public:
         if (!bound) {
             return tl::unexpected(bound.error());
         }
-        for (const auto& socket : *bound) {
+        JoinedInput joined{input, {}};
+        for (const auto& [socket, groups] : *bound) {
             // A descriptor of our own, without Qt's notifiers; Qt closes its own at the end of this turn.
             Descriptor descriptor(::fcntl(static_cast<int>(socket->socketDescriptor()), F_DUPFD_CLOEXEC, 0));
             prepare(descriptor.get());
-            m_sockets.push_back(std::unique_ptr<Socket>(new Socket{
-                input, std::move(descriptor), SenderCache(m_context.log.senders(), socket->localPort())}));
+            for (const QHostAddress& group : groups) {
+                joined.groups.add(
+                    group, [fd = descriptor.get()](const auto& address, const auto& interface, bool joins) {
+                        return changeMembership(fd, address, interface.index(), joins);
+                    });
+            }
+            m_sockets.push_back(std::unique_ptr<Socket>(
+                new Socket{input, std::move(descriptor),
+                           SenderCache(m_context.log.senders(), socket->localPort(), m_allowed)}));
+        }
+        if (!joined.groups.isEmpty()) {
+            m_joined.push_back(std::move(joined));
+            followInterfaces();
         }
         measureBuffers();
         return {};
+    }
+
+    void listenTo(const AllowList& allowed) override {
+        m_allowed = allowed;
+        for (const auto& socket : m_sockets) {
+            socket->senders.forget();
+        }
     }
 
     void remove(InputId id) override {
@@ -68,6 +96,7 @@ public:
                 drainToTheEnd(*socket);
             }
         }
+        std::erase_if(m_joined, [id](const JoinedInput& joined) { return joined.input->id() == id; });
         std::erase_if(m_sockets, [id](const auto& socket) { return socket->input->id() == id; });
         measureBuffers();
     }
@@ -116,14 +145,19 @@ private:
             const auto lanes = writer.lanes();
             const std::size_t count = socket.batch.receive(socket.descriptor.get(), lanes);
             std::size_t bytes = 0;
+            std::size_t heard = 0;
             for (std::size_t i = 0; i < count; ++i) {
-                bytes += commit(socket, i);
+                if (const auto sender = socket.senders.idOf(socket.batch.sender(i))) {
+                    bytes += commit(socket, i, *sender);
+                    ++heard;
+                }
             }
             total += count;
             if (count > 0) {
                 writer.publish();
-                increase(socket.input->counters().datagrams, count);
+                increase(socket.input->counters().datagrams, heard);
                 increase(socket.input->counters().bytes, bytes);
+                increase(socket.input->counters().refusedDatagrams, count - heard);
             }
             if (count < lanes.size()) {
                 break;
@@ -144,11 +178,11 @@ private:
     }
 
     /// Bytes of the datagram.
-    std::size_t commit(Socket& socket, std::size_t index) {
+    std::size_t commit(Socket& socket, std::size_t index, log::SenderId sender) {
         const Received received = socket.batch.received(index);
         log::Arrival arrival;
-        arrival.sender = socket.senders.idOf(socket.batch.sender(index));
-        socket.lastSender = arrival.sender;
+        arrival.sender = sender;
+        socket.lastSender = sender;
         socket.hasSender = true;
         arrival.flags.truncated = received.isTruncated;
         arrival.flags.stampedByKernel = received.stamp != log::Stamp();
@@ -205,6 +239,26 @@ private:
         for (const auto& socket : m_sockets) {
             checkDrops(*socket);
         }
+        if (!m_joined.empty() && haveInterfacesChanged()) {
+            followInterfaces();
+        }
+    }
+
+    bool haveInterfacesChanged() {
+        return m_watch->descriptor() >= 0 ? m_watch->hasChanged()
+                                          : m_context.clock.monotonic() - m_followed >= kInterfacePause;
+    }
+
+    void followInterfaces() {
+        if (!m_watch) {
+            m_watch.emplace(); // before the interfaces are asked for, so that no change is missed
+        }
+        const auto interfaces = QNetworkInterface::allInterfaces();
+        for (JoinedInput& joined : m_joined) {
+            joined.groups.follow(interfaces);
+            tellGroups(*joined.input, joined.groups);
+        }
+        m_followed = m_context.clock.monotonic();
     }
 
     void measureBuffers() {
@@ -261,7 +315,14 @@ private:
         for (const auto& socket : m_sockets) {
             watched.push_back({socket->descriptor.get(), POLLIN, 0});
         }
-        ::poll(watched.data(), watched.size(), -1);
+        int longestMs = -1;
+        if (!m_joined.empty()) {
+            watched.push_back({m_watch->descriptor(), POLLIN, 0}); // -1 is passed over
+            longestMs = m_watch->descriptor() >= 0
+                            ? -1
+                            : static_cast<int>(kInterfacePause / std::chrono::milliseconds(1));
+        }
+        ::poll(watched.data(), watched.size(), longestMs);
         std::uint64_t wakes = 0;
         [[maybe_unused]] const auto read = ::read(m_wake.get(), &wakes, sizeof wakes);
     }
@@ -270,7 +331,11 @@ private:
     Descriptor m_wake;
     log::Duration m_nap;
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes
+    AllowList m_allowed;                     ///< the senders' caches point to it
     std::vector<std::unique_ptr<Socket>> m_sockets;
+    std::vector<JoinedInput> m_joined;
+    std::optional<InterfaceWatch> m_watch; ///< from the first group on
+    log::Moment m_followed{};              ///< when interfaces were last asked for
     int m_idleNaps = 0;
     bool m_isDelayed = false; ///< the sockets waited longer than usual
     int m_roundsSinceDropCheck = 0;

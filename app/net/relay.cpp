@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
+#include <string_view>
 
 namespace posewire::net {
 namespace {
@@ -66,7 +68,9 @@ struct Relay::Target {
     std::atomic<std::uint64_t> sent = 0;
     std::atomic<std::uint64_t> refused = 0;
     std::atomic<std::uint64_t> skipped = 0;
-    std::string problem{}; ///< guarded by m_mutex
+    std::string problem{};  ///< guarded by m_mutex, as the next two
+    bool isStopped = false; ///< its datagrams came back
+    log::SenderId returner{};
 };
 
 /// Created and used in the relay's thread. Bound, so that its port identifies what comes back from it.
@@ -107,12 +111,14 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
     m_commands.call([&] {
         const std::lock_guard lock(m_mutex);
         added->id = RelayId{m_nextId++};
-        if (m_targets.empty()) {
+        if (m_going.empty()) {
             m_reader.refresh();
             m_next = m_reader.end();
             m_caughtUp = m_clock.wall();
         }
         m_targets.push_back(added);
+        m_going.push_back(added);
+        m_loops.endTrial();
     });
     return added->id;
 }
@@ -128,7 +134,10 @@ bool Relay::remove(RelayId id) {
     bool isRemoved = false;
     m_commands.call([&] {
         const std::lock_guard lock(m_mutex);
-        isRemoved = std::erase_if(m_targets, [id](const auto& target) { return target->id == id; }) != 0;
+        const auto isMeant = [id](const auto& target) { return target->id == id; };
+        isRemoved = std::erase_if(m_targets, isMeant) != 0;
+        std::erase_if(m_going, isMeant);
+        m_loops.endTrial();
     });
     return isRemoved;
 }
@@ -137,8 +146,9 @@ std::vector<RelayTarget> Relay::targets() const {
     const std::lock_guard lock(m_mutex);
     std::vector<RelayTarget> result;
     for (const auto& target : m_targets) {
-        result.push_back(
-            {target->id, target->endpoint, target->sent, target->refused, target->skipped, target->problem});
+        result.push_back({target->id, target->endpoint, target->sent, target->refused, target->skipped,
+                          target->isStopped ? 0 : m_behind.load(), target->problem, target->isStopped,
+                          target->returner});
     }
     return result;
 }
@@ -158,12 +168,12 @@ void Relay::run() {
         if (m_isStopping) {
             break; // before it waits: nobody would wake it afterwards
         }
-        if (!m_targets.empty() && forwardSome()) {
+        if (!m_going.empty() && forwardSome()) {
             continue;
         }
         std::unique_lock lock(m_wakeMutex);
         const auto isWoken = [this] { return m_isWoken; };
-        if (m_targets.empty()) {
+        if (m_going.empty()) {
             m_wake.wait(lock, isWoken);
         } else {
             m_wake.wait_for(lock, kNap, isWoken);
@@ -180,11 +190,11 @@ bool Relay::forwardSome() {
     const std::uint64_t end = std::min(m_reader.end(), m_next + kAtOnce);
     for (; m_next < end; ++m_next) {
         if (const auto packet = m_reader.packet(m_next); packet && isForwarded(*packet)) {
-            for (const auto& target : m_targets) {
-                sendTo(*target, *packet);
-            }
+            forward(*packet);
         }
     }
+    m_behind = m_reader.end() - m_next;
+    stopLoops();
     if (m_next == m_reader.end()) {
         m_caughtUp = m_clock.wall();
         return false;
@@ -200,7 +210,7 @@ void Relay::skipWhatIsOld() {
         const auto packet = m_reader.packet(m_next);
         skipped += !packet || isForwarded(*packet) ? 1 : 0;
     }
-    for (const auto& target : m_targets) {
+    for (const auto& target : m_going) {
         increase(target->skipped, skipped);
     }
 }
@@ -230,6 +240,37 @@ Relay::Verdict Relay::judge(log::SenderId sender) const {
     return hasOurPort && isOfThisComputer(QHostAddress(QString::fromStdString(endpoint->host)))
                ? Verdict::Ignore
                : Verdict::Forward;
+}
+
+void Relay::forward(const log::Packet& packet) {
+    const std::string_view bytes(reinterpret_cast<const char*>(packet.bytes.data()), packet.bytes.size());
+    const LoopWatch::Route route = m_loops.route(std::hash<std::string_view>{}(bytes), packet.sender,
+                                                 m_clock.monotonic(), m_going.size());
+    for (std::size_t i = 0; i < m_going.size(); ++i) {
+        if (route.leadsTo(i)) {
+            sendTo(*m_going[i], packet);
+        } else {
+            increase(m_going[i]->skipped, 1);
+        }
+    }
+}
+
+void Relay::stopLoops() {
+    const auto loops = m_loops.takeLoops(m_clock.monotonic());
+    if (loops.empty()) {
+        return;
+    }
+    const std::lock_guard lock(m_mutex);
+    for (const std::size_t index : loops) {
+        Target& target = *m_going[index];
+        target.isStopped = true;
+        target.returner = m_loops.lastReturner();
+        target.problem =
+            textOf(target.endpoint) +
+            " sent back what was relayed there: relaying to it was stopped; have nothing relayed "
+            "from there to this computer, then switch it on again";
+    }
+    std::erase_if(m_going, [](const auto& target) { return target->isStopped; });
 }
 
 void Relay::sendTo(Target& target, const log::Packet& packet) {

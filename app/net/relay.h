@@ -4,10 +4,12 @@
 #include "app/net/command_queue.h"
 #include "app/net/endpoint.h"
 #include "app/net/input.h"
+#include "app/net/loop_watch.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <memory>
@@ -23,18 +25,23 @@ namespace posewire::net {
 /// Identifies a host that gets every datagram; never reused.
 enum class RelayId : std::uint32_t {};
 
+/// Of the live datagrams that came since it was added, each is sent, refused, skipped, or still behind.
 struct RelayTarget {
     RelayId id{};
     Endpoint endpoint;
     std::uint64_t sent = 0;
     std::uint64_t refused = 0; ///< refused by this system: no route, or too long for UDP
-    std::uint64_t skipped = 0; ///< skipped because the relay had fallen too far behind
-    std::string problem;       ///< why the newest was refused; empty if it was not
+    std::uint64_t skipped = 0; ///< left out: fallen too far behind, or for fear of a loop
+    std::uint64_t behind = 0;  ///< packets of the log that wait to be looked at
+    std::string problem;       ///< why the newest was refused, or why nothing is sent; empty if all is well
+    bool isStopped = false;    ///< its datagrams came back: nothing is sent or counted any more
+    log::SenderId returner{};  ///< who sent them back, where it is stopped
 };
 
 /// Forwards every received datagram unchanged to other hosts by UDP. It follows the log in a thread of its
 /// own, so it never delays receiving. Packets from files are not forwarded. Targets can be added and removed
-/// while it runs. Every member may be called from any thread.
+/// while it runs. One whose datagrams come back is stopped, and says so (see LoopWatch). Every member may be
+/// called from any thread.
 class Relay {
 public:
     /// Further behind than this many packets it skips some: old data is useless to someone who wants it live.
@@ -64,7 +71,9 @@ private:
     void wake();
     bool forwardSome();
     void skipWhatIsOld();
+    void forward(const log::Packet& packet);
     void sendTo(Target& target, const log::Packet& packet);
+    void stopLoops();
     [[nodiscard]] bool isForwarded(const log::Packet& packet);
     [[nodiscard]] Verdict judge(log::SenderId sender) const;
 
@@ -82,8 +91,11 @@ private:
 
     // Of the thread alone.
     log::LogReader m_reader;
-    std::uint64_t m_next = 0;        ///< the packet to forward
-    log::Stamp m_caughtUp{};         ///< when it last had caught up, wall clock
+    std::uint64_t m_next = 0; ///< the packet to forward
+    std::atomic<std::uint64_t> m_behind = 0;
+    LoopWatch m_loops;
+    std::vector<std::shared_ptr<Target>> m_going; ///< targets that are not stopped
+    log::Stamp m_caughtUp{};                      ///< when it last had caught up, wall clock
     std::unordered_map<log::SenderId, Verdict> m_verdicts;
     std::unique_ptr<Sockets> m_sockets;
     std::thread m_thread;

@@ -68,6 +68,15 @@ void TcpThread::connect(const std::shared_ptr<Input>& input) {
     m_commands.call([&] { m_inputs.push_back(makeTcpDialer(m_context, input)); });
 }
 
+void TcpThread::listenTo(const AllowList& allowed) {
+    m_commands.call([&] {
+        m_context.allowed = allowed;
+        for (const auto& input : m_inputs) {
+            input->heedAllowed();
+        }
+    });
+}
+
 void TcpThread::remove(InputId id) {
     m_commands.call([&] {
         const auto place = std::ranges::find(m_inputs, id, &TcpInput::id);

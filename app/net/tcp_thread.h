@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/net/allow_list.h"
 #include "app/net/command_queue.h"
 #include "app/net/input.h"
 #include "app/net/packet_queue.h"
@@ -22,6 +23,7 @@ namespace posewire::net {
 struct TcpContext {
     const log::Clock& clock;
     PacketQueue& queue;
+    AllowList allowed; ///< changes only between turns
 };
 
 /// An input that receives by TCP. Belongs to one thread, whose event loop runs between turns.
@@ -43,6 +45,9 @@ public:
 
     /// Reads what has arrived, before destruction.
     virtual void drain() = 0;
+
+    /// The list of those who are listened to has changed.
+    virtual void heedAllowed() {}
 
 protected:
     const TcpContext& m_context;
@@ -71,12 +76,13 @@ public:
     NetResult<void> listen(const std::shared_ptr<Input>& input);
     void connect(const std::shared_ptr<Input>& input);
     void remove(InputId id);
+    void listenTo(const AllowList& allowed);
 
 private:
     void run();
     bool turn(QTimer& timer);
 
-    const TcpContext m_context;
+    TcpContext m_context;
     ThreadEvents m_events;
     CommandQueue m_commands{[this] { m_events.wake(); }};
     std::atomic<bool> m_isStopping = false;

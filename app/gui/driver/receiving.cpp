@@ -178,8 +178,9 @@ void Receiving::readStatus() {
     for (net::InputStatus& status : m_receiver.inputs()) {
         const auto state = std::ranges::find(m_state.ports, std::optional(status.id), &PortState::id);
         if (state != m_state.ports.end()) {
-            const bool isRetrying = status.state == net::InputState::Retrying;
-            state->problem = isRetrying ? QString::fromStdString(status.text) : QString();
+            // A group that is joined in some places only is no reason to hear nothing: inputState() says it.
+            const bool isConnection = state->port.kind == Kind::TcpConnection;
+            state->problem = isConnection ? QString::fromStdString(status.problem) : QString();
             state->status = std::move(status);
         }
     }
@@ -227,6 +228,37 @@ void Receiving::retry() {
     }
 }
 
+void Receiving::listenTo(const QStringList& allowed) {
+    m_allowed = allowed;
+    std::vector<std::string> entries;
+    for (const QString& entry : allowed) {
+        entries.push_back(entry.toStdString());
+    }
+    m_state.allowedProblem.clear();
+    m_receiver.listenTo(net::AllowList::withoutNames(entries));
+    if (m_lookUp.valid()) {
+        m_abandoned.push_back(std::move(m_lookUp));
+    }
+    if (!entries.empty()) {
+        m_lookUp = std::async(std::launch::async, [entries] { return net::AllowList::of(entries); });
+    }
+}
+
+void Receiving::takeAllowed() {
+    const auto isReady = [](const auto& answer) {
+        return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    };
+    std::erase_if(m_abandoned, isReady);
+    if (!m_lookUp.valid() || !isReady(m_lookUp)) {
+        return;
+    }
+    if (const auto list = m_lookUp.get()) {
+        m_receiver.listenTo(*list);
+    } else {
+        m_state.allowedProblem = QString::fromStdString(list.error().text);
+    }
+}
+
 QString Receiving::openFile(const QString& path) {
     const QString problem = importRawFile(
         path,
@@ -242,9 +274,11 @@ QString Receiving::openFile(const QString& path) {
 }
 
 void Receiving::measure(log::Stamp now) {
+    takeAllowed();
     readStatus();
     const net::ReceiveTotals figures = m_receiver.totals();
     m_state.kernelDropped = figures.kernelDropped;
+    m_state.refusedDatagrams = figures.refusedDatagrams;
     m_state.receiveBufferBytes = figures.receiveBufferBytes;
     m_state.longestDelay = figures.longestDelay;
     const Totals totals{now, figures.datagrams, figures.bytes};
@@ -324,6 +358,7 @@ InputChoices Receiving::choices() const {
     for (const RelayState& relay : m_relaying.states()) {
         choices.relays.push_back(relay.target);
     }
+    choices.allowed = m_allowed;
     return choices;
 }
 

@@ -3,6 +3,7 @@
 
 #include "app/gui/driver/relaying.h"
 #include "app/gui/program_view.h"
+#include "app/net/allow_list.h"
 #include "app/net/receiver.h"
 #include "core/log/clock.h"
 #include "core/log/packet_log.h"
@@ -10,8 +11,10 @@
 
 #include <deque>
 #include <functional>
+#include <future>
 #include <map>
 #include <span>
+#include <vector>
 
 namespace posewire::gui {
 
@@ -53,6 +56,11 @@ public:
     /// nothing.
     [[nodiscard]] QString openFile(const QString& path);
 
+    /// Hosts and nets to listen to, on all inputs; none: everyone. Names are looked up beside the window, and
+    /// until they are known they are not listened to.
+    void listenTo(const QStringList& allowed);
+    [[nodiscard]] const QStringList& allowed() const { return m_allowed; }
+
     /// `now` is what rates are measured against.
     void measure(log::Stamp now);
     /// Finds out why no characters are seen, at most four times a second; after measure(). What it asks the
@@ -77,6 +85,7 @@ private:
     };
     using Window = std::deque<Totals>;
 
+    void takeAllowed();
     void open(PortState& state);
     void readStatus();
     void measurePorts(log::Stamp now);
@@ -95,6 +104,9 @@ private:
     std::optional<net::Firewall> m_firewall;
     log::Stamp m_examined{};
     log::Stamp m_asked{};
+    QStringList m_allowed;
+    std::future<net::NetResult<net::AllowList>> m_lookUp;                 ///< of the names in it
+    std::vector<std::future<net::NetResult<net::AllowList>>> m_abandoned; ///< no longer wanted
 };
 
 } // namespace posewire::gui

@@ -73,6 +73,7 @@ void Relaying::stop(std::size_t row) {
         work.answer = {};
     }
     m_states[row].stage = RelayState::Stage::Off;
+    m_states[row].behind = 0;
     m_states[row].problem.clear();
 }
 
@@ -80,6 +81,7 @@ void Relaying::measure(const std::vector<net::InputStatus>& inputs) {
     dropAbandoned();
     takeAnswers();
     readCounters();
+    stopLoops();
     heedInputs(inputs);
 }
 
@@ -127,7 +129,25 @@ void Relaying::readCounters() {
         state.sent = work.before.sent + target->sent;
         state.refused = work.before.refused + target->refused;
         state.skipped = work.before.skipped + target->skipped;
+        state.behind = target->behind;
         state.problem = QString::fromStdString(target->problem);
+    }
+}
+
+/// They stay off until the operator has seen to the loop and switches them on again.
+void Relaying::stopLoops() {
+    for (const net::RelayTarget& target : m_relay ? m_relay->targets() : std::vector<net::RelayTarget>()) {
+        const auto work = std::ranges::find(m_work, std::optional(target.id), &Work::id);
+        if (!target.isStopped || work == m_work.end()) {
+            continue;
+        }
+        const auto row = static_cast<std::size_t>(work - m_work.begin());
+        stop(row);
+        RelayState& state = m_states[row];
+        state.target.isOn = false;
+        state.stage = RelayState::Stage::Refused;
+        state.problem = QString::fromStdString(target.problem);
+        m_loops.push_back({target.returner, state.problem});
     }
 }
 
@@ -147,7 +167,7 @@ void Relaying::heedInputs(const std::vector<net::InputStatus>& inputs) {
         } else if (work.answer.valid()) {
             m_abandoned.push_back(std::move(work.answer)); // it was asked about other inputs
             begin(row);
-        } else if (m_states[row].stage == RelayState::Stage::Refused) {
+        } else if (m_states[row].stage == RelayState::Stage::Refused && m_states[row].target.isOn) {
             begin(row);
         }
     }

@@ -7,6 +7,7 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace posewire::gui {
@@ -28,6 +29,14 @@ public:
     void measure(const std::vector<net::InputStatus>& inputs);
     [[nodiscard]] const std::vector<RelayState>& states() const { return m_states; }
 
+    /// A target that was switched off because its datagrams came back: who sent them, and what is to be said.
+    struct Loop {
+        log::SenderId returner;
+        QString text;
+    };
+    /// Those found since the last call.
+    [[nodiscard]] std::vector<Loop> takeLoops() { return std::exchange(m_loops, {}); }
+
 private:
     using Answer = std::future<net::NetResult<net::RelayId>>;
     /// Beside each state.
@@ -42,6 +51,7 @@ private:
     void takeAnswers();
     void dropAbandoned();
     void readCounters();
+    void stopLoops();
     void heedInputs(const std::vector<net::InputStatus>& inputs);
 
     const log::PacketLog& m_log;
@@ -51,6 +61,7 @@ private:
     std::vector<Work> m_work;
     std::vector<Answer> m_abandoned; ///< no longer wanted, and not known yet
     std::vector<net::InputStatus> m_inputs;
+    std::vector<Loop> m_loops;
 };
 
 } // namespace posewire::gui

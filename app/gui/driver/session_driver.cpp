@@ -93,6 +93,12 @@ void SessionDriver::tick() {
     if (isTableTick) {
         m_tableTick = now;
         m_receiving.measure(now);
+        for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
+            model::Event event = model::Event::of(model::EventKind::RelayLoop, loop.returner, now,
+                                                  m_session.end() == 0 ? 0 : m_session.end() - 1);
+            event.detail = loop.text.toStdString();
+            m_session.report(event);
+        }
         m_receiving.examine(m_session, now);
         measureHealth();
         emit tableTick();

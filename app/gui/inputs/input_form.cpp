@@ -22,7 +22,15 @@ using Kind = InputAddress::Kind;
 
 constexpr int kMostPort = 65'535;
 
-QString explanation(Kind kind) {
+QString explanation(Kind kind, bool hasHost) {
+    if (hasHost && kind == Kind::Udp) {
+        return tr("Only what is sent to this address of this computer is heard: for a computer with several "
+                  "networks. Broadcasts and multicast may then not arrive.");
+    }
+    if (hasHost && kind == Kind::TcpListener) {
+        return tr("MVN can connect to this address of this computer alone: for a computer with several "
+                  "networks.");
+    }
     switch (kind) {
     case Kind::Udp:
         return tr("MVN sends to this computer. Leave the host empty to listen on every address; "
@@ -144,7 +152,8 @@ void InputForm::setProblem(const QString& problem) {
 }
 
 void InputForm::showNote() {
-    m_note->setText(m_problem.isEmpty() ? explanation(typed().kind) : healthText(Health::Error, m_problem));
+    m_note->setText(m_problem.isEmpty() ? explanation(typed().kind, !m_host->text().trimmed().isEmpty())
+                                        : healthText(Health::Error, m_problem));
     setTextColour(*m_note, m_problem.isEmpty() ? theme().dim : theme().error);
 }
 

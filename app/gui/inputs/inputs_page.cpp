@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_page.h"
 
+#include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/theme/words.h"
 
 #include <QClipboard>
 #include <QGridLayout>
@@ -12,6 +15,7 @@
 #include <QItemSelectionModel>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QShortcut>
 #include <QToolButton>
@@ -154,6 +158,8 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
       m_table(new TableView(tr("Inputs"), this)),
       m_form(new InputForm(this)),
       m_settings(new SenderSettings(this)),
+      m_allowed(new QLineEdit(this)),
+      m_allowedNote(new QLabel(this)),
       m_state(new QLabel(this)),
       m_edit(new QPushButton(tr("&Edit"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)),
@@ -165,7 +171,7 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
     const QString address = QStringLiteral("this computer · every address");
     m_table->setColumnSamples({tr("TCP, connecting"), address, QStringLiteral("65535"), QString(),
                                QStringLiteral("10 000"), QStringLiteral("100 000 000"),
-                               QStringLiteral("100 000")},
+                               QStringLiteral("100 000"), QStringLiteral("100 000")},
                               tr("listening, nobody has connected"));
     layOut();
     setFocusProxy(m_table);
@@ -180,6 +186,13 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
     connect(m_submit, &QPushButton::clicked, this, &InputsPage::submit);
     connect(m_cancel, &QPushButton::clicked, this, &InputsPage::endEditing);
     new QShortcut(QKeySequence::Delete, m_table, this, &InputsPage::removeSelected, Qt::WidgetShortcut);
+    m_allowed->setText(m_receiving.allowed().join(QStringLiteral(", ")));
+    connect(m_allowed, &QLineEdit::editingFinished, this, &InputsPage::applyAllowed);
+    connect(m_allowed, &QLineEdit::textEdited, this, [this] {
+        m_allowedProblem.clear();
+        showAllowedNote();
+    });
+    new EventWatch(this, QEvent::PaletteChange, [this] { showAllowedNote(); });
     endEditing();
     refresh();
 }
@@ -210,6 +223,18 @@ void InputsPage::layOut() {
     column->addWidget(new Line(this));
     column->addLayout(formRow);
     column->addWidget(new Line(this));
+    auto* allowedLabel = new QLabel(tr("&Listen only to"), this);
+    allowedLabel->setBuddy(m_allowed);
+    m_allowed->setPlaceholderText(tr("everyone"));
+    m_allowedNote->setWordWrap(true);
+    m_allowedNote->setAlignment(Qt::AlignTop);
+    m_allowedNote->setMinimumHeight(2 * fontMetrics().lineSpacing());
+    auto* allowed = new QGridLayout;
+    allowed->addWidget(allowedLabel, 0, 0);
+    allowed->addWidget(m_allowed, 0, 1);
+    allowed->addWidget(m_allowedNote, 1, 1);
+    column->addLayout(allowed);
+    column->addWidget(new Line(this));
     column->addWidget(m_settings);
 }
 
@@ -220,8 +245,38 @@ void InputsPage::keyPressEvent(QKeyEvent* event) {
     }
 }
 
+void InputsPage::applyAllowed() {
+    const auto allowed = parseAllowed(m_allowed->text());
+    m_allowedProblem = allowed ? QString() : allowed.error();
+    if (allowed && *allowed != m_receiving.allowed()) {
+        m_receiving.listenTo(*allowed);
+        emit choicesChanged();
+    }
+    showAllowedNote();
+}
+
+QString InputsPage::allowedNote() const {
+    return m_allowedNote->text();
+}
+
+/// What is wrong with what is typed, else with whose name is looked up, else what the field is for.
+void InputsPage::showAllowedNote() {
+    const ReceivingState& state = m_receiving.state();
+    const QString problem = m_allowedProblem.isEmpty() ? state.allowedProblem : m_allowedProblem;
+    const QString refused = m_receiving.allowed().isEmpty() && state.refusedDatagrams == 0
+                                ? QString()
+                                : tr(" %1 datagrams of others so far.").arg(grouped(state.refusedDatagrams));
+    m_allowedNote->setText(problem.isEmpty()
+                               ? tr("Hosts or nets, such as 192.168.1.0/24, for all inputs. Others are not "
+                                    "recorded, only counted. Empty for everyone.") +
+                                     refused
+                               : healthText(Health::Error, problem));
+    setTextColour(*m_allowedNote, problem.isEmpty() ? theme().dim : theme().error);
+}
+
 void InputsPage::refresh() {
     m_model->refresh(m_receiving.state());
+    showAllowedNote();
     if (!m_table->currentIndex().isValid() && m_model->rowCount() > 0) {
         m_table->setCurrentIndex(m_model->index(0, 0));
     }

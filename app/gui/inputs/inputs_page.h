@@ -82,8 +82,11 @@ public:
     void editSelected();
     void removeSelected();
     void endEditing();
+    void applyAllowed(); ///< listens to those who are typed, where that makes sense
 
     [[nodiscard]] InputForm& form() const { return *m_form; }
+    [[nodiscard]] QLineEdit& allowedEdit() const { return *m_allowed; }
+    [[nodiscard]] QString allowedNote() const;
     [[nodiscard]] TableView& table() const { return *m_table; }
     [[nodiscard]] const InputModel& model() const { return *m_model; }
 
@@ -98,6 +101,7 @@ private:
     void layOut();
     void select(const InputAddress& input);
     void showChoice();
+    void showAllowedNote();
     [[nodiscard]] std::optional<InputAddress> selected() const;
 
     Receiving& m_receiving;
@@ -105,7 +109,10 @@ private:
     TableView* m_table;
     InputForm* m_form;
     SenderSettings* m_settings;
-    QLabel* m_state; ///< of the selected one, in full
+    QLineEdit* m_allowed; ///< hosts and nets to listen to
+    QLabel* m_allowedNote;
+    QString m_allowedProblem; ///< with what is typed
+    QLabel* m_state;          ///< of the selected one, in full
     QPushButton* m_edit;
     QPushButton* m_remove;
     QPushButton* m_openFile;

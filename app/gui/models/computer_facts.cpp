@@ -211,6 +211,13 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
                     tr("Datagrams that reached this computer and found its receive buffer full "
                        "(SO_RXQ_OVFL)")),
             row(tr("Not looked at"), overtaken),
+            Property{tr("Not listened to"),
+                     [from] {
+                         return PropertyValue{grouped(from.program.receivingState().refusedDatagrams),
+                                              Health::Good,
+                                              tr("Datagrams from hosts that are not among those to listen "
+                                                 "to; they are not recorded")};
+                     }},
             trouble(tr("Malformed"), &Sums::malformed, Health::Error,
                     tr("Datagrams that begin with MXTP and cannot be decoded")),
             trouble(tr("Foreign datagrams"), &Sums::foreign, Health::Warning,

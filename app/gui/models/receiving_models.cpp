@@ -28,7 +28,8 @@ QString hostText(const InputAddress& input) {
     return input.address.isEmpty() ? tr("this computer") : input.address;
 }
 
-PropertyValue peersState(const std::vector<net::Peer>& peers) {
+PropertyValue peersState(const net::InputStatus& status) {
+    const std::vector<net::Peer>& peers = status.peers;
     QStringList lines;
     for (const net::Peer& peer : peers) {
         lines += tr("%1: %2 datagrams").arg(QString::fromStdString(peer.address), grouped(peer.datagrams));
@@ -37,7 +38,12 @@ PropertyValue peersState(const std::vector<net::Peer>& peers) {
     const QString text = peers.size() == 1
                              ? tr("connected from %1").arg(first)
                              : tr("connected from %1 and %2 more").arg(first).arg(peers.size() - 1);
-    return {text, Health::Good, lines.join(QLatin1Char('\n'))};
+    if (status.note.empty()) {
+        return {text, Health::Good, lines.join(QLatin1Char('\n'))};
+    }
+    const QString note = QString::fromStdString(status.note);
+    lines.prepend(note);
+    return {text + QStringLiteral("; ") + note, Health::Warning, lines.join(QLatin1Char('\n'))};
 }
 
 } // namespace
@@ -47,16 +53,22 @@ PropertyValue inputState(const PortState& state) {
         return {state.problem, state.id ? Health::Warning : Health::Error, state.problem};
     }
     const net::InputStatus& status = state.status;
+    if (!status.problem.empty()) {
+        const QString problem = QString::fromStdString(status.problem);
+        return {problem, Health::Warning, problem};
+    }
     if (!status.peers.empty() && state.port.kind == Kind::TcpListener) {
-        return peersState(status.peers);
+        return peersState(status);
     }
     if (status.state == net::InputState::Connected) {
         return {QString::fromStdString(status.text), Health::Good};
     }
     if (state.port.kind == Kind::Udp && state.datagramsPerSecond > 0) {
-        return {tr("receiving"), Health::Good};
+        return {tr("receiving"), Health::Good,
+                state.port.groups.isEmpty() ? QString() : QString::fromStdString(status.text)};
     }
-    if (status.state == net::InputState::Connecting) {
+    const bool saysMore = !state.port.groups.isEmpty() || !status.note.empty();
+    if (status.state == net::InputState::Connecting || saysMore) {
         return {QString::fromStdString(status.text)};
     }
     return {state.port.kind == Kind::TcpListener ? tr("listening, nobody has connected") : tr("listening")};
@@ -125,6 +137,12 @@ std::vector<InputColumn> inputColumns() {
             .withColour([](const Row& row) {
                 return row.input.status.kernelDropped > 0 ? QVariant(theme().error) : QVariant();
             }),
+        figureColumn(tr("Refused"),
+                     tr("Datagrams and connections from those who are not listened to, and connections for "
+                        "which there was no room"),
+                     [](const PortState& input) {
+                         return grouped(input.status.refusedDatagrams + input.status.refusedPeers);
+                     }),
     };
 }
 
@@ -154,8 +172,11 @@ std::vector<RelayColumn> relayColumns() {
         troubleColumn(tr("Refused"),
                       tr("Datagrams that this system did not take: no way there, or too long for UDP"),
                       &RelayState::refused),
-        troubleColumn(tr("Skipped"), tr("Datagrams left out because forwarding had fallen too far behind"),
+        troubleColumn(tr("Skipped"),
+                      tr("Datagrams left out because forwarding had fallen too far behind, or while it was "
+                         "found out whether they come back"),
                       &RelayState::skipped),
+        countColumn(tr("Behind"), tr("Packets received that wait to be forwarded"), &RelayState::behind),
     };
 }
 

@@ -18,7 +18,7 @@ struct InputRow {
 /// Named as MVN's Network Streamer names them: protocol, host, port.
 class InputModel : public TableModel<InputRow> {
 public:
-    enum Column : int { kProtocol, kHost, kPort, kState, kRate, kDatagrams, kDropped };
+    enum Column : int { kProtocol, kHost, kPort, kState, kRate, kDatagrams, kDropped, kRefused };
 
     explicit InputModel(QObject* parent = nullptr);
 
@@ -38,7 +38,7 @@ class RelayModel : public TableModel<RelayState> {
     Q_OBJECT
 
 public:
-    enum Column : int { kHost, kPort, kState, kSent, kRefused, kSkipped };
+    enum Column : int { kHost, kPort, kState, kSent, kRefused, kSkipped, kBehind };
 
     explicit RelayModel(QObject* parent = nullptr);
 

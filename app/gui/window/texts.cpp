@@ -96,11 +96,13 @@ QString plainText(const char* words) {
 void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
     for (const PortState& port : receiving.ports) {
         out << displayText(port.port) << ": " << inputState(port).text << ", " << port.status.datagrams
-            << " datagrams, " << port.status.kernelDropped << " dropped here\n";
+            << " datagrams, " << port.status.kernelDropped << " dropped here, "
+            << port.status.refusedDatagrams << " refused\n";
     }
     for (const RelayState& relay : receiving.relays) {
         out << "relay to " << displayText(relay.target) << ": " << relayStage(relay).text << ", "
-            << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped\n";
+            << relay.sent << " sent, " << relay.refused << " refused, " << relay.skipped << " skipped, "
+            << relay.behind << " behind\n";
     }
     for (const net::Finding& finding : receiving.findings) {
         out << "found: " << QString::fromStdString(finding.text) << '\n';

@@ -20,6 +20,8 @@ namespace posewire::model {
 class EventFollower {
 public:
     [[nodiscard]] const Events& events() const { return m_events; }
+    /// Something that no packet tells.
+    void report(const Event& event) { m_events.report(event); }
     void setThresholds(const Thresholds& thresholds) { m_watch.set(thresholds); }
     [[nodiscard]] const Thresholds& thresholds() const { return m_watch.thresholds(); }
 

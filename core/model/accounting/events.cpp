@@ -34,6 +34,7 @@ constexpr std::array<KindFacts, kEventKinds> kKinds{{
     {EventKind::CharacterConflict, "character conflict", EventSeverity::Error, EventGroup::Sender, false},
     {EventKind::Stale, "stale", EventSeverity::Warning, EventGroup::Sender, true},
     {EventKind::Overtaken, "overtaken", EventSeverity::Error, EventGroup::Loss, false},
+    {EventKind::RelayLoop, "relay loop", EventSeverity::Error, EventGroup::Sender, false},
     {EventKind::LossLimit, "loss limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::JitterLimit, "jitter limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::GapLimit, "gap limit", EventSeverity::Warning, EventGroup::Limit, true},
@@ -111,6 +112,7 @@ std::string Event::text() const {
     case EventKind::Overtaken:
         return "This computer did not look at " + counted(samples, "packet") + " in time.";
     case EventKind::MetadataChange:
+    case EventKind::RelayLoop:
         return detail;
     case EventKind::ScaleChange:
         return "The null pose changed.";

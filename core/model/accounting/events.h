@@ -32,13 +32,14 @@ enum class EventKind : std::uint8_t {
     CharacterConflict,
     Stale,
     Overtaken,
+    RelayLoop,
     LossLimit,
     JitterLimit,
     GapLimit,
     AgeLimit,
     RateLimit,
 };
-inline constexpr std::size_t kEventKinds = 19;
+inline constexpr std::size_t kEventKinds = 20;
 
 enum class EventSeverity : std::uint8_t { Info, Warning, Error };
 
@@ -63,7 +64,8 @@ struct Event {
     double value = 0;          ///< limits: the worst; TimeCodeJump: ms
     double limit = 0;          ///< limits: what must not be exceeded
     std::optional<LossCause> cause{};
-    std::string detail{};  ///< content: what changed; Gap and Burst: evidence of the newest
+    std::string
+        detail{}; ///< content: what changed; RelayLoop: all of it; Gap and Burst: evidence of the newest
     bool isCurrent = true; ///< lasts, or may
 
     /// One that happened once, at one moment.

@@ -82,6 +82,10 @@ void Ingest::setThresholds(const Thresholds& thresholds) {
     m_events->setThresholds(thresholds);
 }
 
+void Ingest::report(const Event& event) {
+    m_events->report(event);
+}
+
 bool Ingest::follow(log::Stamp now, std::size_t most) {
     m_now = now;
     m_follower.refresh();

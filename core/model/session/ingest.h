@@ -23,6 +23,7 @@
 namespace posewire::model {
 
 class Attribution;
+struct Event;
 class EventFollower;
 class NullPoseHistory;
 struct Thresholds;
@@ -76,6 +77,8 @@ public:
     void followFile();
 
     void setThresholds(const Thresholds& thresholds);
+    /// Something that no packet tells: it happened in this computer.
+    void report(const Event& event);
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
 
     [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_senders; }

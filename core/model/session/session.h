@@ -19,6 +19,8 @@ public:
 
     /// Holds for what comes from now on.
     void setThresholds(const Thresholds& thresholds) { m_ingest.setThresholds(thresholds); }
+    /// Something that no packet tells: it happened in this computer.
+    void report(const Event& event) { m_ingest.report(event); }
     /// What the operator declares about a sender counts instead of what was detected, also for the senders
     /// that follow it on the same host. Nothing happens where there is no such sender.
     void setOverride(log::SenderId sender, const SenderOverride& overrides) {

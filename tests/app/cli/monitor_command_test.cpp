@@ -37,7 +37,8 @@ TEST(MonitorCommand, ReportsWithTheKeysOfTheInterfaceInItsOrder) {
         return keys;
     };
     EXPECT_THAT(first(keysOf(report), 4), ElementsAre("durationS", "local", "foreignDatagrams", "sources"));
-    EXPECT_THAT(keysOf(report["local"]), ElementsAre("kernelDropped", "receiveBufferBytes"));
+    EXPECT_THAT(keysOf(report["local"]),
+                ElementsAre("kernelDropped", "receiveBufferBytes", "overtaken", "refusedDatagrams"));
     const Json& sender = report["sources"][0];
     EXPECT_THAT(first(keysOf(sender), 7), ElementsAre("address", "transport", "datagrams", "bytes",
                                                       "malformed", "skippedBytes", "characters"));

@@ -19,17 +19,33 @@ TEST(InputChoices, AreReadBackAsTheyWereWritten) {
                       {"::1", 9764, Kind::TcpListener},
                       {"studio", 9765, Kind::TcpConnection}};
     choices.relays = {{"10.0.0.9", 9763, true}, {"later", 9000, false}};
+    choices.allowed = QStringList{"192.168.1.0/24", "studio"};
     EXPECT_EQ(inputChoicesOf(jsonOf(choices)), choices);
 }
 
 TEST(InputChoices, LeaveOutWhatMakesNoSense) {
     const QByteArray text = R"({"inputs": [{"protocol": "udp", "port": 0}, {"protocol": "osc", "port": 5}, 7,
         {"protocol": "tcp", "host": "", "port": 5}, {"protocol": "udp", "port": 5}],
+        "from": ["10.0.0.0/99", 7, "10.0.0.5"],
         "relays": [{"host": "", "port": 5}, {"host": "a", "port": 70000}, {"host": "b", "port": 5}]})";
     const InputChoices choices = inputChoicesOf(QJsonDocument::fromJson(text).object());
     ASSERT_TRUE(choices.inputs);
     EXPECT_EQ(*choices.inputs, std::vector<InputAddress>({{"", 5}}));
     EXPECT_EQ(choices.relays, std::vector<RelayChoice>({{"b", 5}}));
+    EXPECT_EQ(choices.allowed, QStringList("10.0.0.5"));
+}
+
+TEST(InputChoices, HostsToListenToAreReadInAnyForm) {
+    EXPECT_EQ(parseAllowed("10.0.0.0/8; studio,\n fd00::/8 "),
+              QStringList({"10.0.0.0/8", "studio", "fd00::/8"}));
+    EXPECT_EQ(parseAllowed(" "), QStringList());
+    EXPECT_TRUE(parseAllowed("10.0.0.0/8 10.0.0").error().contains("'10.0.0' is not a host or a net"));
+    Options options;
+    InputChoices choices;
+    choices.allowed = QStringList("studio");
+    EXPECT_EQ(allowedAtStart(options, choices), choices.allowed);
+    options.allowed = QStringList("10.0.0.5");
+    EXPECT_EQ(allowedAtStart(options, choices), options.allowed);
 }
 
 TEST(InputChoices, AreOpenedUnlessTheCommandLineSaysOtherwise) {

@@ -42,6 +42,12 @@ TEST(Options, TakeTcpInputsAndMulticastGroups) {
     EXPECT_EQ(options->udpPorts[0].groups, (QStringList{"239.1.2.3", "ff15::7"}));
 }
 
+TEST(Options, TakeHostsAndNetsToListenTo) {
+    const auto options = parse({"--from", "192.168.1.0/24", "--from", "studio"});
+    ASSERT_TRUE(options);
+    EXPECT_EQ(options->allowed, QStringList({"192.168.1.0/24", "studio"}));
+}
+
 TEST(Options, InputsAreShownWithTheirTransport) {
     using Kind = InputAddress::Kind;
     EXPECT_EQ(displayText(InputAddress{"", 9763}), "UDP 9763");
@@ -97,7 +103,8 @@ INSTANTIATE_TEST_SUITE_P(All, WrongOption,
                                          QStringList{"--udp"}, QStringList{"--demo=0"},
                                          QStringList{"--demo=x"}, QStringList{"--size", "12"},
                                          QStringList{"--size", "0x5"}, QStringList{"--after", "soon"},
-                                         QStringList{"--theme", "pink"}, QStringList{"a.bin", "b.bin"}));
+                                         QStringList{"--theme", "pink"}, QStringList{"--from", "10.0.0.0/33"},
+                                         QStringList{"a.bin", "b.bin"}));
 
 TEST(Options, HelpAndVersionEndWithStatusZero) {
     EXPECT_EQ(parse({"--help"}).error().status, 0);

@@ -56,6 +56,23 @@ TEST_F(ConnectionHelpTest, SaysNothingWhereAllIsWell) {
     EXPECT_TRUE(connectionHelp(facts).empty());
 }
 
+TEST_F(ConnectionHelpTest, TellsThatOnlyOthersThanThoseListenedToSend) {
+    facts.inputs[0].refusedDatagrams = 34;
+    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotListenedTo));
+    EXPECT_THAT(connectionHelp(facts)[0].text,
+                HasSubstr("34 datagrams have arrived from hosts that are not"));
+    facts.silence = 100ms;
+    facts.mxtpDatagrams = 100;
+    EXPECT_TRUE(connectionHelp(facts).empty()) << "that is what the list is for";
+}
+
+TEST_F(ConnectionHelpTest, TellsWhereAGroupCouldNotBeJoined) {
+    facts.silence = 100ms;
+    facts.inputs[0].problem = "239.1.1.1 could not be joined on eth1: No buffer space available";
+    ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NotJoined));
+    EXPECT_EQ(connectionHelp(facts)[0].text, facts.inputs[0].problem);
+}
+
 TEST_F(ConnectionHelpTest, NothingArrivesTellsWhatToTypeIntoMvn) {
     ASSERT_THAT(kindsOf(facts), ElementsAre(Kind::NothingArrives));
     const Finding finding = connectionHelp(facts)[0];

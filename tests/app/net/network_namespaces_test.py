@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Two network namespaces joined by a veth pair that loses, doubles and reorders: what `posewire-cli monitor` counts
-must agree with what the kernel counted on the way.
+must agree with what the kernel counted on the way. And interfaces that come, go and change while it listens to a group.
 
     network_namespaces_test.py PATH/TO/posewire-cli [SEED…]
 
@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 SKIPPED = 77
 SENDER, RECEIVER = "10.77.0.1", "10.77.0.2"
@@ -101,6 +102,65 @@ def impair(spaces, seed):
     return skip("this kernel has neither netem nor tbf")
 
 
+GROUP = "239.77.0.1"
+
+
+def joined(spaces, device):
+    """Whether the receiver's namespace has the group joined on an interface, as the kernel says."""
+    return GROUP in spaces.run(spaces.names[1], "ip", "maddress", "show", "dev", device)
+
+
+def wait_for(condition, what):
+    for _ in range(100):
+        if condition():
+            return
+        time.sleep(0.1)
+    raise RuntimeError("in vain: " + what)
+
+
+def send_to_group(spaces, cli, device, seconds=1):
+    sender = spaces.names[0]
+    spaces.run(sender, "ip", "route", "replace", GROUP + "/32", "dev", device)
+    return spaces.run(sender, cli, "send", "--to", f"{GROUP}:{PORT}", "--characters", "1", "--types", "02", "--rate",
+                      "100", "--duration", str(seconds))
+
+
+def check_groups(cli):
+    """A group is joined where interfaces appear later, come up or change address, and left where they go."""
+    with Namespaces() as spaces:
+        sender, receiver = spaces.names
+        spaces.run(receiver, "ip", "link", "set", "receiver", "down")
+        monitor = subprocess.Popen([*inside(receiver), cli, "monitor", "--udp", str(PORT), "--multicast", GROUP, "--json",
+                                    "--duration", "60"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        wait_for(lambda: f":{PORT:04X} " in spaces.run(receiver, "cat", "/proc/net/udp"), "the monitor listens")
+        spaces.run(receiver, "ip", "link", "set", "receiver", "up")
+        wait_for(lambda: joined(spaces, "receiver"), "an interface that came up is joined")
+        send_to_group(spaces, cli, "sender")
+        spaces.run(sender, "ip", "link", "add", "late-out", "type", "veth", "peer", "name", "late", "netns", receiver)
+        for name, device, address in ((sender, "late-out", "10.78.0.1"), (receiver, "late", "10.78.0.2")):
+            spaces.run(name, "ip", "address", "add", address + "/24", "dev", device)
+            spaces.run(name, "ip", "link", "set", device, "up")
+        wait_for(lambda: joined(spaces, "late"), "an interface that appeared is joined")
+        send_to_group(spaces, cli, "late-out")
+        spaces.run(receiver, "ip", "address", "delete", "10.78.0.2/24", "dev", "late")
+        wait_for(lambda: not joined(spaces, "late"), "an interface without an address is left")
+        spaces.run(receiver, "ip", "address", "add", "10.78.0.9/24", "dev", "late")
+        wait_for(lambda: joined(spaces, "late"), "an interface with another address is joined")
+        send_to_group(spaces, cli, "late-out")
+        for number in range(30):  # more interfaces than a socket may have memberships at once
+            spaces.run(receiver, "ip", "link", "add", f"short{number}", "type", "veth", "peer", "name", f"end{number}")
+            spaces.run(receiver, "ip", "address", "add", f"10.79.{number}.1/24", "dev", f"short{number}")
+            spaces.run(receiver, "ip", "link", "set", f"short{number}", "up")
+            wait_for(lambda: joined(spaces, f"short{number}"), f"interface {number} of many is joined")
+            spaces.run(receiver, "ip", "link", "delete", f"short{number}")
+            time.sleep(0.3)
+        monitor.terminate()
+        report = json.loads(monitor.communicate(timeout=30)[0])
+        counted = [(source["address"], source["datagrams"]) for source in report["sources"]]
+        print(f"a group, by interfaces that came up, appeared and changed address: {counted}")
+        return len(counted) == 3 and all(datagrams >= 90 for _, datagrams in counted)
+
+
 def streams_of(report):
     return [stream for source in report["sources"] for character in source["characters"] for stream in character["streams"]]
 
@@ -160,7 +220,7 @@ def main():
         skip("this takes the rights of an administrator")
     if shutil.which("ip") is None or shutil.which("tc") is None:
         skip("there is no ip or no tc command (package iproute2)")
-    sys.exit(0 if all([check(seed, cli) for seed in seeds]) else 1)
+    sys.exit(0 if all([check_groups(cli)] + [check(seed, cli) for seed in seeds]) else 1)
 
 
 if __name__ == "__main__":

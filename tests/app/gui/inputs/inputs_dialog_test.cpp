@@ -7,12 +7,16 @@
 #include "app/gui/panels/table_view.h"
 #include "app/net/datagram_sender.h"
 
+#include <QLabel>
 #include <QLineEdit>
 #include <QSignalSpy>
 #include <QTest>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
 
 namespace posewire::gui {
 namespace {
@@ -176,9 +180,83 @@ TEST_F(InputsDialogTest, TellsWhoHasConnectedByTcp) {
 
 TEST_F(InputsDialogTest, TriesAgainForAsLongAsASenderDoesNotListen) {
     type({"127.0.0.1", freePort(), Kind::TcpConnection});
-    EXPECT_TRUE(tickUntil([&] { return ports()[0].problem.contains("trying again in"); }));
+    EXPECT_TRUE(tickUntil([&] { return ports()[0].problem.contains("Trying again"); }));
     dialog.open(InputsDialog::Page::Help);
     EXPECT_TRUE(tickUntil([&] { return dialog.helpText().contains("MVN itself does not listen"); }));
+}
+
+TEST_F(InputsDialogTest, ListensToThoseThatAreTypedAndCountsOthers) {
+    type({"127.0.0.1", freePort()});
+    dialog.inputs().allowedEdit().setText("192.0.2.0/33");
+    dialog.inputs().applyAllowed();
+    EXPECT_THAT(dialog.inputs().allowedNote().toStdString(),
+                HasSubstr("'192.0.2.0/33' is not a host or a net"));
+    EXPECT_TRUE(driver.receiving().allowed().isEmpty());
+
+    const auto changes = changed.size();
+    dialog.inputs().allowedEdit().setText("192.0.2.0/24, 10.0.0.5");
+    dialog.inputs().applyAllowed();
+    EXPECT_EQ(changed.size(), changes + 1);
+    EXPECT_EQ(driver.receiving().choices().allowed, QStringList({"192.0.2.0/24", "10.0.0.5"}));
+    auto sender = net::DatagramSender::connect({{"127.0.0.1", ports()[0].port.port}});
+    const std::vector<std::byte> bytes(100);
+    EXPECT_TRUE(tickUntil(
+        [&] { return sender->send(bytes).has_value() && driver.receiving().state().refusedDatagrams > 0; }));
+    EXPECT_EQ(driver.session().end(), 0U);
+    dialog.refresh();
+    EXPECT_THAT(dialog.inputs().allowedNote().toStdString(), HasSubstr("datagrams of others so far"));
+
+    dialog.inputs().allowedEdit().setText("127.0.0.1");
+    dialog.inputs().applyAllowed();
+    EXPECT_TRUE(tickUntil([&] { return sender->send(bytes).has_value() && driver.session().end() > 0; }));
+}
+
+TEST_F(InputsDialogTest, SaysWhoseNameIsNotKnownAndListensToTheRest) {
+    type({"127.0.0.1", freePort()});
+    dialog.inputs().allowedEdit().setText("no-such-host.invalid; 127.0.0.1");
+    dialog.inputs().applyAllowed();
+    EXPECT_TRUE(tickUntil([&] { return dialog.inputs().allowedNote().contains("no-such-host.invalid"); }));
+    auto sender = net::DatagramSender::connect({{"127.0.0.1", ports()[0].port.port}});
+    const std::vector<std::byte> bytes(100);
+    EXPECT_TRUE(tickUntil([&] { return sender->send(bytes).has_value() && driver.session().end() > 0; }));
+}
+
+TEST_F(InputsDialogTest, ExplainsWhatAnAddressToListenAtMeans) {
+    dialog.inputs().form().setInput({"127.0.0.1", 9763});
+    const auto says = [&](const char* text) {
+        const auto labels = dialog.inputs().form().findChildren<QLabel*>();
+        return std::ranges::any_of(labels, [&](const QLabel* label) { return label->text().contains(text); });
+    };
+    EXPECT_TRUE(says("Broadcasts and multicast may then not arrive"));
+    dialog.inputs().form().setInput({});
+    EXPECT_FALSE(says("Broadcasts and multicast may then not arrive"));
+}
+
+TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
+    type({"127.0.0.1", freePort()});
+    SessionDriver other{clock};
+    other.receiving().addPort({"127.0.0.1", 0});
+    ASSERT_TRUE(driver.receiving().relaying().add({"127.0.0.1", other.receiving().openPort()}));
+    ASSERT_TRUE(other.receiving().relaying().add({"127.0.0.1", ports()[0].port.port}));
+    auto sender = net::DatagramSender::connect({{"127.0.0.1", ports()[0].port.port}});
+    const RelayState& relay = driver.receiving().relaying().states()[0];
+    std::uint64_t sent = 0;
+    EXPECT_TRUE(tickUntil([&] {
+        other.tick();
+        std::vector<std::byte> bytes(100);
+        std::memcpy(bytes.data(), &++sent, sizeof sent);
+        return sender->send(bytes).has_value() && !relay.target.isOn;
+    })) << relay.sent;
+    EXPECT_THAT(relay.problem.toStdString(), HasSubstr("sent back what was relayed there"));
+    EXPECT_FALSE(driver.receiving().choices().relays[0].isOn);
+    driver.tick();
+    const auto& events = driver.session().events().all();
+    const auto loop = std::ranges::find(events, model::EventKind::RelayLoop, &model::Event::kind);
+    ASSERT_NE(loop, events.end());
+    EXPECT_EQ(loop->text(), relay.problem.toStdString());
+    driver.receiving().relaying().setOn(0, true);
+    EXPECT_TRUE(tickUntil([&] { return relay.stage == RelayState::Stage::Forwarding; }))
+        << "the operator may";
 }
 
 TEST_F(InputsDialogTest, HelpSaysThatNothingIsListenedTo) {

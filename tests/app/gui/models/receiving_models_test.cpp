@@ -29,6 +29,7 @@ TEST(InputModel, ShowsInputsInTheWordsOfMvnAndTheFileLast) {
                        openPort({"studio", 9765, Kind::TcpConnection}, 2),
                        openPort({"", 9766, Kind::Udp, {"239.1.2.3"}}, 3)};
     receiving.ports[0].status.kernelDropped = 7;
+    receiving.ports[0].status.refusedDatagrams = 12;
     receiving.ports[0].datagramsPerSecond = 240.4;
     receiving.file = "take.pcapng";
     model.refresh(receiving);
@@ -38,6 +39,7 @@ TEST(InputModel, ShowsInputsInTheWordsOfMvnAndTheFileLast) {
     EXPECT_EQ(cell(model, 0, InputModel::kPort), "9763");
     EXPECT_EQ(cell(model, 0, InputModel::kRate), "240");
     EXPECT_EQ(cell(model, 0, InputModel::kDropped), "7");
+    EXPECT_EQ(cell(model, 0, InputModel::kRefused), "12");
     EXPECT_EQ(cell(model, 1, InputModel::kProtocol), "TCP, listening");
     EXPECT_EQ(cell(model, 1, InputModel::kDropped), "–") << "TCP drops nothing";
     EXPECT_EQ(cell(model, 2, InputModel::kHost), "studio");
@@ -84,11 +86,23 @@ TEST(InputModel, SaysTheStateOfEachKindInWords) {
     EXPECT_EQ(inputState(listener).text, "connected from 10.0.0.5:50123 and 1 more");
     EXPECT_TRUE(inputState(listener).toolTip.contains("10.0.0.6:50124"));
 
+    listener.status.note = "1 idle connection was closed to make room";
+    EXPECT_EQ(inputState(listener).text,
+              "connected from 10.0.0.5:50123 and 1 more; 1 idle connection was closed to make room");
+    EXPECT_EQ(inputState(listener).health, Health::Warning);
+
+    PortState group = openPort({"", 9763, Kind::Udp, {"239.1.1.1"}});
+    group.status.text = "listening; 239.1.1.1 joined on 2 interfaces (eth0, lo)";
+    EXPECT_EQ(inputState(group).text.toStdString(), group.status.text);
+    group.status.problem = "239.1.1.1 could not be joined on eth1: No buffer space available";
+    EXPECT_EQ(inputState(group).text.toStdString(), group.status.problem);
+    EXPECT_EQ(inputState(group).health, Health::Warning);
+
     PortState dialer = openPort({"studio", 9763, Kind::TcpConnection});
     dialer.status.state = net::InputState::Retrying;
-    dialer.problem = "studio:9763 does not answer; trying again in 3 s";
+    dialer.problem = "studio:9763: no answer; is that computer on? Trying again";
     EXPECT_EQ(inputState(dialer).health, Health::Warning);
-    EXPECT_TRUE(inputState(dialer).text.endsWith("trying again in 3 s"));
+    EXPECT_TRUE(inputState(dialer).text.endsWith("Trying again"));
 }
 
 TEST(RelayModel, ShowsCountersAndAsksForWhatIsSwitched) {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/group_memberships.h"
+
+#include <algorithm>
+
+namespace posewire::net {
+namespace {
+
+QList<QHostAddress> addressesOf(const QNetworkInterface& interface,
+                                QAbstractSocket::NetworkLayerProtocol protocol) {
+    QList<QHostAddress> addresses;
+    for (const QNetworkAddressEntry& entry : interface.addressEntries()) {
+        if (entry.ip().protocol() == protocol) {
+            addresses.push_back(entry.ip());
+        }
+    }
+    return addresses;
+}
+
+bool canJoin(const QNetworkInterface& interface) {
+    const auto flags = interface.flags();
+    return flags.testFlag(QNetworkInterface::IsUp) &&
+           (flags.testFlag(QNetworkInterface::CanMulticast) || flags.testFlag(QNetworkInterface::IsLoopBack));
+}
+
+std::string nameOf(const QNetworkInterface& interface) {
+    return interface.humanReadableName().toStdString();
+}
+
+void append(std::string& text, const std::string& more, const char* separator) {
+    text += (text.empty() ? "" : separator) + more;
+}
+
+} // namespace
+
+void GroupMemberships::follow(const QList<QNetworkInterface>& interfaces) {
+    for (Group& group : m_groups) {
+        follow(group, interfaces);
+    }
+}
+
+void GroupMemberships::follow(Group& group, const QList<QNetworkInterface>& interfaces) {
+    std::vector<Place> places;
+    for (const QNetworkInterface& interface : interfaces) {
+        Place place{interface, addressesOf(interface, group.address.protocol()), {}};
+        if (canJoin(interface) && !place.addresses.isEmpty()) {
+            places.push_back(std::move(place));
+        }
+    }
+    const auto isSame = [](const Place& a, const Place& b) {
+        return a.interface.index() == b.interface.index() && a.addresses == b.addresses;
+    };
+    // First leave: a system allows a socket few memberships, and one of an interface that is gone counts too.
+    for (const Place& old : group.places) {
+        const bool stays =
+            std::ranges::any_of(places, [&](const Place& place) { return isSame(old, place); });
+        if (!stays && old.failure.empty()) {
+            group.change(group.address, old.interface, false);
+        }
+    }
+    for (Place& place : places) {
+        const bool isJoined = std::ranges::any_of(
+            group.places, [&](const Place& old) { return old.failure.empty() && isSame(old, place); });
+        place.failure = isJoined ? std::string() : group.change(group.address, place.interface, true);
+    }
+    group.places = std::move(places);
+}
+
+std::string GroupMemberships::text() const {
+    std::string text = "listening";
+    for (const Group& group : m_groups) {
+        std::string names;
+        std::size_t count = 0;
+        for (const Place& place : group.places) {
+            if (place.failure.empty()) {
+                append(names, nameOf(place.interface), ", ");
+                ++count;
+            }
+        }
+        text += "; " + group.address.toString().toStdString() + " joined on " +
+                (count == 0
+                     ? "no interface"
+                     : std::to_string(count) + (count == 1 ? " interface (" : " interfaces (") + names + ")");
+    }
+    return text;
+}
+
+std::string GroupMemberships::problem() const {
+    std::string text;
+    for (const Group& group : m_groups) {
+        const std::string address = group.address.toString().toStdString();
+        if (group.places.empty()) {
+            append(text,
+                   address + " is joined on no interface; connect the network, and it is joined at once",
+                   "; ");
+        }
+        for (const Place& place : group.places) {
+            if (!place.failure.empty()) {
+                append(text,
+                       address + " could not be joined on " + nameOf(place.interface) + ": " + place.failure,
+                       "; ");
+            }
+        }
+    }
+    return text;
+}
+
+} // namespace posewire::net

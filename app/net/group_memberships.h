@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QHostAddress>
+#include <QList>
+#include <QNetworkInterface>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace posewire::net {
+
+/// The multicast groups of one input, and the interfaces on which they are joined. A sender may be reached by
+/// any of them, so a group is joined on all that are up, also on those that appear later. Belongs to the
+/// receiving thread.
+class GroupMemberships {
+public:
+    /// Joins a group on an interface or leaves it there; empty, or what the system says against it.
+    using Change =
+        std::function<std::string(const QHostAddress& group, const QNetworkInterface& interface, bool joins)>;
+
+    /// A group is joined by follow(). `change` is called there and must stay callable.
+    void add(const QHostAddress& group, Change change) { m_groups.push_back({group, std::move(change), {}}); }
+    [[nodiscard]] bool isEmpty() const { return m_groups.empty(); }
+
+    /// Joins where it is not joined yet, leaves where an interface is down or gone, and joins anew where an
+    /// address has changed.
+    void follow(const QList<QNetworkInterface>& interfaces);
+
+    /// "listening; 239.1.1.1 joined on 2 interfaces (eth0, lo)".
+    [[nodiscard]] std::string text() const;
+    /// Where a group could not be joined, and why; empty where there is no problem.
+    [[nodiscard]] std::string problem() const;
+
+private:
+    struct Place {
+        QNetworkInterface interface;
+        QList<QHostAddress> addresses; ///< of the group's protocol, at the time of joining
+        std::string failure;           ///< empty: joined
+    };
+    struct Group {
+        QHostAddress address;
+        Change change;
+        std::vector<Place> places;
+    };
+    static void follow(Group& group, const QList<QNetworkInterface>& interfaces);
+
+    std::vector<Group> m_groups;
+};
+
+} // namespace posewire::net

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/group_memberships.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace posewire::net {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class GroupMembershipsTest : public ::testing::Test {
+protected:
+    GroupMembershipsTest() {
+        for (const QNetworkInterface& interface : QNetworkInterface::allInterfaces()) {
+            if (interface.flags().testFlag(QNetworkInterface::IsLoopBack) &&
+                interface.flags().testFlag(QNetworkInterface::IsUp)) {
+                loopback = {interface};
+            }
+        }
+        memberships.add(QHostAddress(QStringLiteral("239.1.1.1")),
+                        [this](const QHostAddress&, const QNetworkInterface& interface, bool joins) {
+                            done.push_back((joins ? "join " : "leave ") + interface.name().toStdString());
+                            return joins ? refusal : std::string();
+                        });
+    }
+
+    QList<QNetworkInterface> loopback;
+    GroupMemberships memberships;
+    std::vector<std::string> done;
+    std::string refusal;
+};
+
+TEST_F(GroupMembershipsTest, FollowInterfacesThatComeAndGo) {
+    if (loopback.isEmpty()) {
+        GTEST_SKIP() << "no loopback interface is up here";
+    }
+    memberships.follow({});
+    EXPECT_EQ(memberships.text(), "listening; 239.1.1.1 joined on no interface");
+    EXPECT_THAT(memberships.problem(), HasSubstr("239.1.1.1 is joined on no interface; connect the network"));
+    memberships.follow(loopback);
+    memberships.follow(loopback);
+    EXPECT_THAT(done, ElementsAre("join lo")) << "once";
+    EXPECT_EQ(memberships.text(), "listening; 239.1.1.1 joined on 1 interface (lo)");
+    EXPECT_EQ(memberships.problem(), "");
+    memberships.follow({});
+    memberships.follow(loopback);
+    EXPECT_THAT(done, ElementsAre("join lo", "leave lo", "join lo"));
+}
+
+TEST_F(GroupMembershipsTest, SayWhereAGroupCouldNotBeJoinedAndTryAgain) {
+    if (loopback.isEmpty()) {
+        GTEST_SKIP() << "no loopback interface is up here";
+    }
+    refusal = "No buffer space available";
+    memberships.follow(loopback);
+    EXPECT_EQ(memberships.problem(), "239.1.1.1 could not be joined on lo: No buffer space available");
+    refusal.clear();
+    memberships.follow(loopback);
+    EXPECT_EQ(memberships.problem(), "");
+    EXPECT_THAT(done, ElementsAre("join lo", "join lo"));
+}
+
+} // namespace
+} // namespace posewire::net

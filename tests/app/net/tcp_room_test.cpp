@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/net/receiver.h"
+#include "core/wire/codec.h"
+#include "tests/app/net/net_fixture.h"
+
+#include <QHostAddress>
+#include <QTcpSocket>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+namespace posewire::net {
+namespace {
+
+using std::chrono::seconds;
+using ::testing::HasSubstr;
+
+/// The system's clock, which a test can set forward.
+class ForwardClock final : public log::Clock {
+public:
+    [[nodiscard]] log::Stamp wall() const override { return m_system.wall() + m_ahead.load(); }
+    [[nodiscard]] log::Moment monotonic() const override { return m_system.monotonic() + m_ahead.load(); }
+    void forward(log::Duration by) { m_ahead = m_ahead.load() + by; }
+
+private:
+    log::SystemClock m_system;
+    std::atomic<log::Duration> m_ahead{};
+};
+
+std::vector<std::byte> datagram(std::uint32_t sample) {
+    wire::Datagram datagram;
+    wire::PoseQuaternion pose;
+    pose.segments.push_back({1, {0, 0, 1}, {1, 0, 0, 0}});
+    datagram.body = pose;
+    datagram.header.sampleCounter = sample;
+    datagram.header.datagramCounter = 0x80;
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    return *wire::encode(datagram);
+}
+
+void send(QTcpSocket& socket, std::span<const std::byte> bytes) {
+    socket.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
+    while (socket.bytesToWrite() > 0 && socket.waitForBytesWritten(5000)) {
+    }
+}
+
+/// A TCP listener with all its places taken, or not.
+class TcpRoomTest : public ::testing::Test {
+protected:
+    using Socket = std::unique_ptr<QTcpSocket>;
+
+    TcpRoomTest() { EXPECT_TRUE(receiver->addTcpListener({"127.0.0.1", 0})); }
+
+    Socket connected() {
+        auto socket = std::make_unique<QTcpSocket>();
+        socket->connectToHost(QHostAddress::LocalHost, status().endpoint.port);
+        EXPECT_TRUE(socket->waitForConnected(5000));
+        return socket;
+    }
+    std::vector<Socket> fill() {
+        std::vector<Socket> sockets;
+        while (sockets.size() < Receiver::kMostPeers) {
+            sockets.push_back(connected());
+        }
+        EXPECT_TRUE(eventually([&] { return status().peers.size() == Receiver::kMostPeers; }));
+        return sockets;
+    }
+    /// One whole datagram by each.
+    void allSend(std::vector<Socket>& sockets) {
+        const std::uint64_t before = status().datagrams;
+        for (const Socket& socket : sockets) {
+            send(*socket, datagram(1));
+        }
+        EXPECT_TRUE(eventually([&] { return status().datagrams == before + sockets.size(); }));
+    }
+    [[nodiscard]] InputStatus status() const { return receiver->inputs().at(0); }
+    static bool isOpen(QTcpSocket& socket) {
+        socket.waitForReadyRead(50);
+        return socket.state() == QAbstractSocket::ConnectedState;
+    }
+
+    log::PacketLog log;
+    ForwardClock clock;
+    std::unique_ptr<Receiver> receiver = std::make_unique<Receiver>(log, clock);
+};
+
+TEST_F(TcpRoomTest, SilentConnectionsKeepNobodyOut) {
+    const auto silent = fill();
+    const Socket mvn = connected();
+    send(*mvn, datagram(1));
+    ASSERT_TRUE(eventually([&] { return status().datagrams == 1; }));
+    EXPECT_EQ(status().closedPeers, 1U);
+    EXPECT_EQ(status().refusedPeers, 0U);
+    EXPECT_EQ(status().peers.size(), Receiver::kMostPeers);
+    EXPECT_EQ(status().text, "64 connected; 1 idle connection was closed to make room");
+    EXPECT_FALSE(isOpen(*silent[0])) << "the oldest goes";
+    EXPECT_TRUE(isOpen(*silent[1]));
+}
+
+TEST_F(TcpRoomTest, ConnectionsInUseAreKeptAndTheNewOneIsRefused) {
+    auto peers = fill();
+    allSend(peers);
+    const Socket late = connected();
+    ASSERT_TRUE(eventually([&] { return status().refusedPeers == 1; }));
+    EXPECT_EQ(status().closedPeers, 0U);
+    EXPECT_THAT(status().note, HasSubstr("1 connection was refused: 64 are open and in use"));
+}
+
+TEST_F(TcpRoomTest, AHalfOpenConnectionGoesBeforeAnIdleOne) {
+    auto peers = fill();
+    for (std::size_t i = 0; i + 1 < peers.size(); ++i) {
+        send(*peers[i], datagram(1));
+    }
+    ASSERT_TRUE(eventually([&] { return status().datagrams == peers.size() - 1; }));
+    clock.forward(seconds(31)); // now all of them are idle, and the last is half-open
+    const Socket late = connected();
+    ASSERT_TRUE(eventually([&] { return status().closedPeers == 1; }));
+    EXPECT_FALSE(isOpen(*peers.back()));
+    EXPECT_TRUE(isOpen(*peers.front()));
+}
+
+TEST_F(TcpRoomTest, WhoTricklesBytesGivesWayLikeWhoIsSilent) {
+    auto peers = fill();
+    allSend(peers);
+    clock.forward(seconds(31));
+    const auto whole = datagram(2);
+    for (std::size_t i = 1; i < peers.size(); ++i) {
+        send(*peers[i], whole);
+    }
+    send(*peers[0], std::span(whole).first(5)); // bytes, and no datagram
+    ASSERT_TRUE(eventually([&] { return status().datagrams == 2 * peers.size() - 1; }));
+    const Socket late = connected();
+    ASSERT_TRUE(eventually([&] { return status().closedPeers == 1; }));
+    EXPECT_FALSE(isOpen(*peers[0]));
+    EXPECT_TRUE(eventually([&] { return log.figures().end == 2 * peers.size(); })) << "the five bytes too";
+}
+
+TEST_F(TcpRoomTest, WhatTheClosedConnectionHadSentIsKept) {
+    auto peers = fill();
+    std::vector<std::byte> garbage(300'000, std::byte{0x55}); // in no hurry to become a datagram
+    send(*peers[0], garbage);
+    const Socket late = connected();
+    ASSERT_TRUE(eventually([&] { return status().closedPeers == 1; }));
+    EXPECT_FALSE(isOpen(*peers[0]));
+    EXPECT_EQ(status().bytes, garbage.size());
+    EXPECT_EQ(status().skippedBytes, garbage.size());
+}
+
+TEST_F(TcpRoomTest, OthersThanThoseListenedToAreClosedAndCounted) {
+    const Socket before = connected();
+    ASSERT_TRUE(eventually([&] { return status().peers.size() == 1; }));
+    receiver->listenTo(*AllowList::of({"192.0.2.0/24"}));
+    EXPECT_FALSE(isOpen(*before));
+    const Socket after = connected();
+    ASSERT_TRUE(eventually([&] { return status().refusedPeers == 2; }));
+    EXPECT_TRUE(status().peers.empty());
+    EXPECT_THAT(status().text, HasSubstr("2 connections were closed: only chosen hosts are listened to"));
+    EXPECT_EQ(receiver->totals().refusedPeers, 2U);
+    receiver->listenTo({});
+    const Socket again = connected();
+    EXPECT_TRUE(eventually([&] { return status().peers.size() == 1; }));
+}
+
+} // namespace
+} // namespace posewire::net
