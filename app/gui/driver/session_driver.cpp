@@ -19,8 +19,10 @@ constexpr std::chrono::milliseconds kTick(16);
 constexpr std::chrono::milliseconds kSlowestTick(200);
 constexpr log::Duration kTableTick = std::chrono::milliseconds(100);
 constexpr log::Duration kRetry = std::chrono::seconds(2);
-/// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake.
-constexpr std::size_t kPacketsPerTick = 50'000;
+/// A backlog (a file, or a window that was blocked) is followed in pieces, so that the window stays awake: as
+/// many as fit into this time of each tick.
+constexpr std::size_t kPacketsAtOnce = 1'000;
+constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
 /// A demo that fell behind (a sleeping computer) continues from now instead of flooding the receiver with the
 /// past.
 constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
@@ -77,7 +79,11 @@ void SessionDriver::tick() {
     const log::Stamp now = m_clock.wall();
     const std::uint64_t endBefore = m_session.end();
     const log::Moment begin = m_clock.monotonic();
-    const bool hasNew = m_session.follow(now, kPacketsPerTick);
+    bool hasNew = false;
+    while (m_session.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
+        hasNew = true;
+    }
+    hasNew = hasNew || m_session.end() != endBefore;
     m_meter.addFollow(m_clock.monotonic() - begin, m_session.end() - endBefore);
     const bool isTableTick = std::chrono::abs(now - m_tableTick) >= kTableTick;
     if (std::chrono::abs(now - m_retry) >= kRetry) {

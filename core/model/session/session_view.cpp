@@ -179,16 +179,22 @@ const Character* SessionView::predecessor(const CharacterKey& key) const {
     return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
 }
 
+const Character* SessionView::successor(const Character& character) const {
+    const Character* next = character.after ? find(*character.after) : nullptr;
+    const bool hasTakenOver = next != nullptr && next->firstPacket < visibleEnd() &&
+                              next->firstPacket > character.lastPacket;
+    return hasTakenOver ? next : nullptr;
+}
+
+bool SessionView::isSuperseded(const CharacterKey& key) const {
+    const Character* character = find(key);
+    return character != nullptr && successor(*character) != nullptr;
+}
+
 CharacterKey SessionView::current(const CharacterKey& key) const {
-    const std::uint64_t end = visibleEnd();
     CharacterKey current = key;
-    for (const Character* character = find(key); character != nullptr && character->after;) {
-        const Character* next = find(*character->after);
-        if (next == nullptr || next->firstPacket >= end || next->firstPacket <= character->lastPacket) {
-            break;
-        }
-        current = next->key;
-        character = next;
+    for (const Character* character = find(key); character != nullptr; character = successor(*character)) {
+        current = character->key;
     }
     return current;
 }

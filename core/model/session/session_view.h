@@ -103,7 +103,7 @@ public:
     /// to send at the same time.
     [[nodiscard]] const Character* predecessor(const CharacterKey& key) const;
     /// True where another sender has taken over at the cursor; its character is shown instead of this one.
-    [[nodiscard]] bool isSuperseded(const CharacterKey& key) const { return current(key) != key; }
+    [[nodiscard]] bool isSuperseded(const CharacterKey& key) const;
     /// The one that is shown for a character: itself, or the newest that has taken over.
     [[nodiscard]] CharacterKey current(const CharacterKey& key) const;
     /// All characters that are to be shown at the cursor, in order of first appearance.
@@ -155,6 +155,8 @@ private:
     struct Decoded;
     [[nodiscard]] Decoded& decoded() const;
 
+    /// Null where nobody has taken over at the cursor.
+    [[nodiscard]] const Character* successor(const Character& character) const;
     [[nodiscard]] bool isPaused() const { return m_choices.cursor.mode == Cursor::Mode::Paused; }
     /// One past the newest packet that the cursor lets through.
     [[nodiscard]] std::uint64_t visibleEnd() const;
