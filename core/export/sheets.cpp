@@ -117,12 +117,12 @@ std::string nullPoseLine(std::vector<std::string> cells, std::span<const float> 
 void addPoseRows(const model::NullPose& pose, std::string& text) {
     int id = 0;
     for (const auto& segment : pose.segments) {
-        text += nullPoseLine({"segment", std::to_string(++id), "", segment.name, ""},
+        text += nullPoseLine({"segment", std::to_string(++id), "", segment.name.csv(), ""},
                              model::toFloats(segment.position));
     }
     for (const auto& point : pose.points) {
-        text += nullPoseLine({"point", std::to_string(point.segment), std::to_string(point.id), point.name,
-                              flagsText(point.flags)},
+        text += nullPoseLine({"point", std::to_string(point.segment), std::to_string(point.id),
+                              point.name.csv(), flagsText(point.flags)},
                              model::toFloats(point.position));
     }
 }
@@ -151,13 +151,14 @@ void addPose(const model::NullPose& pose, JsonValue& object) {
     object["partsExpected"] = pose.partsExpected;
     std::uint32_t id = 0;
     object["segments"] = listOf(pose.segments, [&id](const auto& segment) {
-        return JsonValue{
-            {"id", ++id}, {"name", segment.name}, {"position", vectorOf(model::toFloats(segment.position))}};
+        return JsonValue{{"id", ++id},
+                         {"name", segment.name.exact()},
+                         {"position", vectorOf(model::toFloats(segment.position))}};
     });
     object["points"] = listOf(pose.points, [](const auto& point) {
         return JsonValue{{"segment", point.segment},
                          {"point", point.id},
-                         {"name", point.name},
+                         {"name", point.name.exact()},
                          {"flags", point.flags},
                          {"position", vectorOf(model::toFloats(point.position))}};
     });
@@ -182,7 +183,7 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::string(nameOf(event->severity())),
             std::string(nameOf(event->group())),
             std::string(model::nameOf(event->kind)),
-            addressOf(sheet.session, *event),
+            model::ForeignText(addressOf(sheet.session, *event)).csv(),
             event->character ? std::to_string(*event->character) : std::string(),
             event->type ? wire::typeDigits(*event->type) : std::string(),
             secondsText(event->firstStamp),
@@ -193,7 +194,7 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::to_string(event->samples),
             event->cause ? std::string(model::nameOf(*event->cause)) : std::string(),
             event->isCurrent ? "yes" : "no",
-            event->text()};
+            model::csvText(event->text())};
         text += csvLine(cells);
     }
     return text;
@@ -220,14 +221,15 @@ std::string nullPoseCsv(const NullPoseSheet& sheet) {
     }
     if (sheet.props != nullptr) {
         for (const wire::Prop& prop : sheet.props->props) {
-            text += nullPoseLine({"prop", std::to_string(prop.id), "", prop.name}, {});
+            text +=
+                nullPoseLine({"prop", std::to_string(prop.id), "", model::ForeignText(prop.name).csv()}, {});
         }
     }
     return text;
 }
 
 std::string nullPoseJson(const NullPoseSheet& sheet) {
-    JsonValue object{{"character", sheet.character}};
+    JsonValue object{{"character", sheet.character.exact()}};
     if (sheet.pose != nullptr) {
         addPose(*sheet.pose, object);
     }

@@ -30,7 +30,7 @@ constexpr std::size_t kMostHosts = 4;
 constexpr int kFirstHostRow = 3;
 
 QLabel* valueLabel(QWidget* parent) {
-    auto* label = new QLabel(parent);
+    auto* label = plainLabel(parent);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     label->setFont(monospaceFont());
     return label;
@@ -69,7 +69,7 @@ public:
     explicit SenderSettings(QWidget* parent)
         : QWidget(parent),
           m_grid(new QGridLayout(this)),
-          m_title(new QLabel(this)),
+          m_title(plainLabel(this)),
           m_port(valueLabel(this)),
           m_protocol(valueLabel(this)) {
         m_title->setWordWrap(true);
@@ -154,7 +154,7 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
       m_table(new TableView(tr("Inputs"), this)),
       m_form(new InputForm(this)),
       m_settings(new SenderSettings(this)),
-      m_state(new QLabel(this)),
+      m_state(plainLabel(this)),
       m_edit(new QPushButton(tr("&Edit"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)),
       m_openFile(new QPushButton(tr("&Open file…"), this)),

@@ -44,7 +44,7 @@ QString groupWord(model::EventGroup group) {
 QString whoseWords(model::SessionView& view, const model::Event& event) {
     if (!event.character) {
         const model::Sender* sender = view.find(event.sender);
-        return sender == nullptr ? QString() : QString::fromStdString(sender->info.address);
+        return sender == nullptr ? QString() : shown(sender->address());
     }
     const QString name = characterName(view, {event.sender, *event.character});
     return event.type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*event.type))

@@ -2,6 +2,7 @@
 #include "app/gui/models/stream_tree_model.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -92,7 +93,7 @@ QModelIndex StreamTreeModel::indexOf(const StreamRow& row) const {
 
 QString StreamTreeModel::nameOf(const StreamRow& row) const {
     if (row.kind == Kind::Sender) {
-        return QString::fromStdString(m_view.senders()[row.entry].info.address);
+        return shown(m_view.senders()[row.entry].address());
     }
     if (row.kind == Kind::Character) {
         return characterName(m_view, m_view.characters()[row.entry].key);

@@ -6,6 +6,7 @@
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
+#include "core/model/keeping.h"
 #include "core/model/session/sender.h"
 
 #include <deque>
@@ -38,6 +39,10 @@ struct Message {
 /// not jump; their number is bounded by the log's own limits (4,096 senders and streams).
 class Ingest {
 public:
+    /// Of all characters together: what they hold goes, oldest first, where it would be more.
+    static constexpr std::size_t kMetadataBudget = std::size_t{8} << 20;
+    static constexpr std::size_t kNullPoseBudget = std::size_t{16} << 20;
+
     explicit Ingest(const log::PacketLog& log);
     ~Ingest();
 
@@ -57,6 +62,9 @@ public:
     [[nodiscard]] const Stream* find(const log::StreamKey& key) const;
     /// Null where no scale message came.
     [[nodiscard]] const NullPoseHistory* nullPoses(const CharacterKey& key) const;
+    /// What metadata and null poses of all characters take, about.
+    [[nodiscard]] std::size_t metadataBytes() const;
+    [[nodiscard]] std::size_t nullPoseBytes() const;
     /// The newest datagram of a stream as it was decoded; null where it was malformed or is of no known type.
     [[nodiscard]] const Message* newest(const log::StreamKey& key) const;
 
@@ -95,6 +103,7 @@ private:
     void account(Observation& seen);
     void takeContent(const Observation& seen);
 
+    void takeMetadata(const wire::MetaData& message, const Observation& seen);
     void takeNullPose(const wire::NullPose& part, const Observation& seen);
     // Null, or nothing, where there are too many already.
     Sender* senderOf(const log::Packet& packet);
@@ -117,6 +126,8 @@ private:
     std::deque<Message> m_newest; ///< of each stream: what its datagrams are decoded into
     Message m_unplaced;           ///< the same for a datagram whose stream is not known yet
     std::map<CharacterKey, std::shared_ptr<NullPoseHistory>> m_nullPoses;
+    Keeping m_metadataKeeping{kMetadataBudget};
+    Keeping m_nullPoseKeeping{kNullPoseBudget};
     std::unique_ptr<Attribution> m_attribution;
     std::unique_ptr<EventFollower> m_follower;
     bool m_isLive = false; ///< packets have come as they were stamped
