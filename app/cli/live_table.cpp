@@ -3,7 +3,6 @@
 
 #include "core/export/html.h"
 #include "core/export/session_reading.h"
-#include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -100,26 +99,6 @@ std::size_t widthOf(std::string_view text) {
     return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, isContinuation));
 }
 
-std::string printable(std::string_view text) {
-    std::string result;
-    while (!text.empty()) {
-        const std::size_t sound = wire::firstInvalidUtf8(text);
-        for (std::size_t i = 0; i < sound; ++i) {
-            const auto byte = static_cast<unsigned char>(text[i]);
-            const bool isLateControl =
-                byte == 0xc2 && i + 1 < sound && static_cast<unsigned char>(text[i + 1]) < 0xa0;
-            result += byte < 0x20 || byte == 0x7f || isLateControl ? '?' : text[i];
-            i += isLateControl ? 1 : 0;
-        }
-        text.remove_prefix(sound);
-        if (!text.empty()) {
-            result += '?';
-            text.remove_prefix(1);
-        }
-    }
-    return result;
-}
-
 std::vector<std::string> liveTable(const model::SessionView& session, double elapsedS) {
     std::vector<std::string> lines{summaryLine(session, elapsedS)};
     if (session.streams().empty()) {
@@ -131,10 +110,10 @@ std::vector<std::string> liveTable(const model::SessionView& session, double ela
         if (!exporting::hasSentMxtp(sender)) {
             continue;
         }
-        lines.push_back(printable(sender.info.address) + " (" +
-                        std::string(log::nameOf(sender.info.transport)) + ")");
+        lines.push_back(sender.address().shown() + " (" + std::string(log::nameOf(sender.info.transport)) +
+                        ")");
         for (const model::Character* character : sender.characters) {
-            lines.push_back("  " + printable(session.displayName(character->key)) + " (" +
+            lines.push_back("  " + session.displayName(character->key).shown() + " (" +
                             std::to_string(character->key.character) + ")");
             for (const model::Stream* stream : exporting::streamsByType(session, character->key)) {
                 lines.push_back(streamLine(session, *stream));

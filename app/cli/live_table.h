@@ -12,9 +12,6 @@ namespace posewire::cli {
 /// for each of their streams. Texts from the wire are made harmless for a terminal.
 [[nodiscard]] std::vector<std::string> liveTable(const model::SessionView& session, double elapsedS);
 
-/// Characters as they may be printed: what controls a terminal, or is no UTF-8, becomes "?".
-[[nodiscard]] std::string printable(std::string_view text);
-
 /// How many characters of UTF-8 a text has.
 [[nodiscard]] std::size_t widthOf(std::string_view text);
 

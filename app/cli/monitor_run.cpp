@@ -35,8 +35,8 @@ std::string limitText(const std::optional<double>& limit, const std::string& uni
 
 std::string placeOf(const model::SessionView& session, const log::StreamKey& key) {
     const model::Sender* sender = session.find(key.sender);
-    return (sender != nullptr ? sender->info.address : std::string("unknown source")) + ", " +
-           session.displayName({key.sender, key.character}) + ", type " + wire::typeTitle(key.type);
+    return (sender != nullptr ? sender->address().shown() : std::string("unknown source")) + ", " +
+           session.displayName({key.sender, key.character}).shown() + ", type " + wire::typeTitle(key.type);
 }
 
 /// One line for each limit that a stream exceeds; one if nothing was received although there are limits.
@@ -127,7 +127,7 @@ ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status
         show(facts.durationS);
     }
     for (const std::string& line : facts.exceeded) {
-        m_console.complain(printable(line));
+        m_console.complain(line);
     }
     status = worse(status, facts.exceeded.empty() ? ExitStatus::Fine : ExitStatus::Faults);
     return m_options.report.empty() ? status : worse(status, writeReport(facts));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/html.h"
 
-#include "core/wire/text.h"
+#include "core/model/foreign_text.h"
 
 #include <algorithm>
 #include <array>
@@ -10,23 +10,6 @@
 
 namespace posewire::exporting {
 namespace {
-
-constexpr std::string_view kReplacement = "\xef\xbf\xbd";
-
-constexpr std::array<std::pair<char, std::string_view>, 5> kEntities{
-    {{'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}}};
-
-void addEscaped(char character, std::string& text) {
-    const auto byte = static_cast<unsigned char>(character);
-    const auto entity = std::ranges::find(kEntities, character, &std::pair<char, std::string_view>::first);
-    if (entity != kEntities.end()) {
-        text += entity->second;
-    } else if (byte == 0x7f || (byte < 0x20 && character != '\n' && character != '\t')) {
-        text += kReplacement;
-    } else {
-        text += character;
-    }
-}
 
 constexpr double kWidth = 720;
 constexpr double kHeight = 170;
@@ -176,16 +159,7 @@ std::string legend(const SvgPlot& plot) {
 } // namespace
 
 std::string escaped(std::string_view text) {
-    std::string result;
-    while (!text.empty()) {
-        const std::size_t valid = wire::firstInvalidUtf8(text);
-        for (const char character : text.substr(0, valid)) {
-            addEscaped(character, result);
-        }
-        result += valid < text.size() ? kReplacement : "";
-        text.remove_prefix(std::min(valid + 1, text.size()));
-    }
-    return result;
+    return model::htmlText(model::visibleText(text));
 }
 
 std::string grouped(std::uint64_t number) {

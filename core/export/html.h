@@ -11,7 +11,8 @@
 /// whatever came over the wire ends up as text.
 namespace posewire::exporting {
 
-/// Safe in text and in quoted attributes. Control characters and what is no UTF-8 become U+FFFD.
+/// Safe in text and in quoted attributes: of our own words, also where they quote what a sender wrote. What
+/// is a ForeignText has html(), which is clipped.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// A number as people read it: "12,345".

@@ -50,7 +50,7 @@ JsonValue streamsJson(const model::SessionView& session, const model::CharacterK
 /// The name that was sent; empty where there was none.
 std::string sentName(const model::SessionView& session, const model::CharacterKey& key) {
     const model::MetadataTag* tag = session.metadata(key).find("name");
-    return tag != nullptr ? tag->values.back().text : std::string();
+    return tag != nullptr ? std::string(tag->values.back().text.exact()) : std::string();
 }
 
 JsonValue charactersJson(const model::SessionView& session, const model::Sender& sender) {

@@ -86,7 +86,7 @@ std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportStep
             continue;
         }
         Series series = seriesOf(streams, steps);
-        const std::string name = session.displayName(character.key);
+        const std::string name = session.displayName(character.key).shown();
         plots[0].series.push_back({name, colour, std::move(series.rate)});
         plots[1].series.push_back({name, colour, std::move(series.loss)});
         plots[2].series.push_back({name, colour, std::move(series.jitter)});
@@ -135,9 +135,9 @@ std::string listed(const std::string& which, std::size_t count, std::size_t all,
 
 /// Sender, character and type, as far as the event is about them.
 std::string whose(const model::SessionView& session, const model::Event& event) {
-    std::string text = session.addressOf(event.sender);
+    std::string text = session.addressOf(event.sender).shown();
     if (event.character) {
-        text += ", " + session.displayName({event.sender, *event.character});
+        text += ", " + session.displayName({event.sender, *event.character}).shown();
     }
     if (event.type) {
         text += ", " + wire::typeTitle(*event.type);
@@ -153,7 +153,7 @@ std::vector<std::string> cellsOf(const model::SessionView& session, const model:
                                  const ReportSteps& steps) {
     const model::CharacterKey key{gap.stream.sender, gap.stream.character};
     return {fixed(log::millisecondsOf(gap.fromStamp - steps.from) * 1e-3, 3),
-            escaped(session.displayName(key)) + ", " + escaped(wire::typeTitle(gap.stream.type)),
+            session.displayName(key).html() + ", " + escaped(wire::typeTitle(gap.stream.type)),
             grouped(gap.lost),
             std::to_string(gap.fromSample) + "–" + std::to_string(gap.toSample),
             fixed(log::millisecondsOf(gap.toStamp - gap.fromStamp), 1),
@@ -303,11 +303,11 @@ std::string streamTable(const model::SessionView& session, const model::Characte
 std::string metadataList(const model::SessionView& session, const model::CharacterKey& key) {
     std::string html;
     for (const model::MetadataTag& tag : session.metadata(key).tags()) {
-        const std::string& value = tag.values.back().text;
-        const auto colour = tag.name == "color" ? model::parseColour(value) : std::nullopt;
-        html += "<dt>" + escaped(tag.name) + "</dt><dd>" +
+        const model::ForeignText& value = tag.values.back().text;
+        const auto colour = tag.name == "color" ? model::parseColour(value.shown()) : std::nullopt;
+        html += "<dt>" + tag.name.html() + "</dt><dd>" +
                 (colour ? "<i class=\"swatch\" style=\"background:" + cssColour(*colour) + "\"></i>" : "") +
-                escaped(value) + "</dd>\n";
+                value.html() + "</dd>\n";
     }
     return html.empty() ? html : "<dl class=\"facts\">\n" + html + "</dl>\n";
 }

@@ -44,10 +44,6 @@ std::string_view nameOf(model::EventGroup group) {
     return kNames[static_cast<std::size_t>(group)];
 }
 
-std::string addressOf(const model::SessionView& session, const Event& event) {
-    return session.addressOf(event.sender);
-}
-
 std::string secondsText(log::Stamp stamp) {
     constexpr std::chrono::seconds kSecond(1);
     const log::Duration time = stamp.time_since_epoch();
@@ -60,7 +56,7 @@ JsonValue objectOf(const model::SessionView& session, const Event& event) {
                      {"severity", nameOf(event.severity())},
                      {"group", nameOf(event.group())},
                      {"event", model::nameOf(event.kind)},
-                     {"source", addressOf(session, event)}};
+                     {"source", std::string(session.addressOf(event.sender).exact())}};
     if (event.character) {
         object["character"] = *event.character;
     }
@@ -116,12 +112,12 @@ std::string nullPoseLine(std::vector<std::string> cells, std::span<const float> 
 void addPoseRows(const model::NullPose& pose, std::string& text) {
     int id = 0;
     for (const auto& segment : pose.segments) {
-        text += nullPoseLine({"segment", std::to_string(++id), "", segment.name, ""},
+        text += nullPoseLine({"segment", std::to_string(++id), "", segment.name.csv(), ""},
                              model::toFloats(segment.position));
     }
     for (const auto& point : pose.points) {
-        text += nullPoseLine({"point", std::to_string(point.segment), std::to_string(point.id), point.name,
-                              flagsText(point.flags)},
+        text += nullPoseLine({"point", std::to_string(point.segment), std::to_string(point.id),
+                              point.name.csv(), flagsText(point.flags)},
                              model::toFloats(point.position));
     }
 }
@@ -150,13 +146,14 @@ void addPose(const model::NullPose& pose, JsonValue& object) {
     object["partsExpected"] = pose.partsExpected;
     std::uint32_t id = 0;
     object["segments"] = listOf(pose.segments, [&id](const auto& segment) {
-        return JsonValue{
-            {"id", ++id}, {"name", segment.name}, {"position", vectorOf(model::toFloats(segment.position))}};
+        return JsonValue{{"id", ++id},
+                         {"name", segment.name.exact()},
+                         {"position", vectorOf(model::toFloats(segment.position))}};
     });
     object["points"] = listOf(pose.points, [](const auto& point) {
         return JsonValue{{"segment", point.segment},
                          {"point", point.id},
-                         {"name", point.name},
+                         {"name", point.name.exact()},
                          {"flags", point.flags},
                          {"position", vectorOf(model::toFloats(point.position))}};
     });
@@ -181,7 +178,7 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::string(nameOf(event->severity())),
             std::string(nameOf(event->group())),
             std::string(model::nameOf(event->kind)),
-            addressOf(sheet.session, *event),
+            sheet.session.addressOf(event->sender).csv(),
             event->character ? std::to_string(*event->character) : std::string(),
             event->type ? wire::typeDigits(*event->type) : std::string(),
             secondsText(event->firstStamp),
@@ -192,7 +189,7 @@ std::string eventsCsv(const EventSheet& sheet) {
             std::to_string(event->samples),
             event->cause ? std::string(model::nameOf(*event->cause)) : std::string(),
             event->isCurrent ? "yes" : "no",
-            event->text()};
+            model::csvText(event->text())};
         text += csvLine(cells);
     }
     return text;
@@ -219,14 +216,15 @@ std::string nullPoseCsv(const NullPoseSheet& sheet) {
     }
     if (sheet.props != nullptr) {
         for (const wire::Prop& prop : sheet.props->props) {
-            text += nullPoseLine({"prop", std::to_string(prop.id), "", prop.name}, {});
+            text +=
+                nullPoseLine({"prop", std::to_string(prop.id), "", model::ForeignText(prop.name).csv()}, {});
         }
     }
     return text;
 }
 
 std::string nullPoseJson(const NullPoseSheet& sheet) {
-    JsonValue object{{"character", sheet.character}};
+    JsonValue object{{"character", sheet.character.exact()}};
     if (sheet.pose != nullptr) {
         addPose(*sheet.pose, object);
     }

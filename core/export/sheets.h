@@ -11,7 +11,7 @@
 namespace posewire::exporting {
 
 /// One line of a table of comma-separated values (RFC 4180): cells in quotation marks where they need them,
-/// CR LF at the end.
+/// CR LF at the end. Texts that begin like a formula come through model::csvText().
 [[nodiscard]] std::string csvLine(std::span<const std::string> cells);
 
 /// Events of a session, in the order given.
@@ -36,7 +36,7 @@ struct EventSheet {
 /// are written with as few digits as distinguish each from its neighbours, so that they read back to the same
 /// 32 bits.
 struct NullPoseSheet {
-    std::string character; ///< its name
+    model::ForeignText character; ///< its name
     const model::NullPose* pose = nullptr;
     const wire::ScaleInformation* scale = nullptr; ///< type 10
     const wire::PropInformation* props = nullptr;  ///< type 11

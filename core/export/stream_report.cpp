@@ -160,10 +160,10 @@ void addSenders(std::vector<Finding>& findings, const model::SessionView& sessio
             findings.push_back(
                 {Severity::Error, "This computer dropped " +
                                       counted(sender.kernelDrops, "datagram", "datagrams") +
-                                      " at the socket that hears " + sender.info.address +
+                                      " at the socket that hears " + sender.address().shown() +
                                       ": it was too busy, or its receive buffer is too small."});
         }
-        const std::string from = " from " + sender.info.address;
+        const std::string from = " from " + sender.address().shown();
         addCounted(findings, sender.malformed, "datagram", "datagrams", from + " could not be decoded.");
         addCounted(findings, sender.skippedBytes, "byte", "bytes", from + " belonged to no datagram.");
         addCounted(findings, sender.foreign, "datagram", "datagrams",
@@ -265,7 +265,7 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
                           const ReportSteps& steps) {
     std::string html;
     for (const model::Sender& sender : session.senders()) {
-        html += "<h2>" + escaped(sender.info.address) + " <span class=\"dim\">" +
+        html += "<h2>" + sender.address().html() + " <span class=\"dim\">" +
                 escaped(log::nameOf(sender.info.transport)) +
                 (sender.info.localPort != 0 ? " to port " + std::to_string(sender.info.localPort) : "") +
                 "</span></h2>\n<dl class=\"facts\">\n" +
@@ -274,7 +274,7 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
                 (sender.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(sender.skippedBytes)) : "") +
                 fact("Dropped by this computer", grouped(sender.kernelDrops)) + "</dl>\n";
         for (const model::Character* character : sender.characters) {
-            html += "<h3>" + escaped(session.displayName(character->key)) +
+            html += "<h3>" + session.displayName(character->key).html() +
                     " <span class=\"dim\">character " + std::to_string(character->key.character) +
                     "</span></h3>\n" + metadataList(session, character->key) +
                     streamTable(session, character->key, figures, steps);

@@ -48,7 +48,7 @@ void checkHistory(const wire::MetaData& message) {
     require(history.tags().size() <= model::Metadata::kMaxTags);
     for (const model::MetadataTag& tag : history.tags()) {
         require(!tag.values.empty() && tag.values.size() <= model::Metadata::kMaxValues);
-        require(history.find(tag.name) == &tag);
+        require(history.find(tag.name.exact()) == &tag);
     }
 }
 

@@ -45,6 +45,24 @@ FORBIDDEN = [
 ]
 # Core may format text with snprintf; printing is what the rule is about.
 ALLOWED_LINES = {("core/model", "<cstdio>")}
+# What a sender wrote is plain text wherever it is shown: what would let Qt guess otherwise has one place. A tooltip is a
+# literal of ours or comes through toolTipText().
+PLAIN_TEXT = [
+    (r"\bnew QLabel\b|\bQLabel \w+[;({]|\w\(new QLabel", "a label is made by plainLabel() or richLabel()"),
+    (r"\bsetTextFormat\(|Qt::(Rich|Auto)Text\b|\bconvertFromPlainText\(|\bmightBeRichText\(",
+     "plainLabel(), richLabel() and toolTipText() choose the format of a text"),
+    (r"\bQMessageBox::(about|critical|information|question|warning)\(|\bQMessageBox \w+[;({]|\bnew QMessageBox\b",
+     "a message is a MessageBox"),
+    (r'\bsetToolTip\((?!\s*(\{\}|toolTipText\(|tr\((\s*"(\\.|[^"\\])*")+\s*\))\s*\)|\s*toolTipText\()',
+     "a tooltip comes through toolTipText()"),
+    (r"\bQToolTip::showText\((?![^;]*\btoolTipText\()", "a tooltip comes through toolTipText()"),
+    (r"\bset(WhatsThis|StatusTip)\(", "nothing is shown there"),
+]
+PLAIN_TEXT_PLACES = ("app/gui/theme/widgets.cpp", "app/gui/theme/plain_text.cpp")
+# HTML and Markdown of ours, with the names in it escaped.
+MARKUP = re.compile(r"\b(setHtml|setMarkdown|insertHtml|appendHtml)\(|\brichLabel\(")
+MARKUP_PLACES = PLAIN_TEXT_PLACES + ("app/gui/theme/widgets.h", "app/gui/panels/inspector_panel.cpp",
+                                     "app/gui/panels/nullpose_panel.cpp", "app/gui/window/texts.cpp")
 PANEL_HEADER = re.compile(r'"app/gui/panels/(\w+_panel)\.h"')
 MAY_INCLUDE_PANELS = ("app/gui/panels/panels.cpp", "app/gui/window/main_window.cpp", "tests/")
 LIMITS = [("tests/", 600), (".h", 300), (".cpp", 500)]
@@ -83,6 +101,10 @@ def breaches(path, text):
             allowed_here = any(path.startswith(p + "/") and line == include for p, line in ALLOWED_LINES)
             if path.startswith(folder + "/") and re.match(pattern, include) and not allowed_here:
                 found.append(f"{path}: {folder} must not include {what}: {include}")
+    if path.startswith("app/") and path not in PLAIN_TEXT_PLACES:
+        found += [f"{path}: {why}: {match.group()}" for pattern, why in PLAIN_TEXT for match in re.finditer(pattern, text)]
+    if path.startswith("app/") and path not in MARKUP_PLACES and (markup := MARKUP.search(text)):
+        found.append(f"{path}: this file writes no HTML: {markup.group()}")
     limit = next((most for mark, most in LIMITS if path.startswith(mark) or path.endswith(mark)), None)
     lines = text.count("\n")
     if limit and lines > limit:
@@ -120,6 +142,20 @@ def self_test():
         ("core/wire/a.h", head + "\n" * 300, 1),
         ("app/gui/a.cpp", "// SPDX-License-Identifier: MIT\n", 1),
         ("core/wire/a.h", "// SPDX-License-Identifier: MIT\n", 1),
+        ("app/gui/a.cpp", gpl + "auto* label = new QLabel(text, this);\n", 1),
+        ("app/gui/a.cpp", gpl + "    : m_label(new QLabel(this)) {\n", 1),
+        ("app/gui/a.cpp", gpl + "QLabel label(name);\n", 1),
+        ("app/gui/a.h", gpl + "#pragma once\nclass QLabel;\nQLabel* m_label;\nvoid colour(QLabel& label);\n", 0),
+        ("app/gui/theme/widgets.cpp", gpl + "auto* label = new QLabel(parent);\n", 0),
+        ("app/gui/a.cpp", gpl + "label->setTextFormat(Qt::RichText);\n", 2),
+        ("app/gui/a.cpp", gpl + "QMessageBox::warning(this, title, problem);\n", 1),
+        ("app/gui/a.cpp", gpl + "button->setToolTip(name);\n", 1),
+        ("app/gui/a.cpp", gpl + 'button->setToolTip(tr("Of %1").arg(name));\n', 1),
+        ("app/gui/a.cpp", gpl + 'button->setToolTip(\n    tr("One \\"word\\" "\n       "and two"));\n', 0),
+        ("app/gui/a.cpp", gpl + "button->setToolTip({});\nbutton->setToolTip(toolTipText(name));\n", 0),
+        ("app/gui/a.cpp", gpl + "QToolTip::showText(at, name, this);\n", 1),
+        ("app/gui/a.cpp", gpl + "QToolTip::showText(at, toolTipText(name), this);\n", 0),
+        ("app/gui/a.cpp", gpl + "browser->setHtml(name);\n", 1),
     ]
     for path, text, expected in cases:
         found = breaches(path, text)

@@ -66,7 +66,7 @@ net::ConnectionFacts connectionFacts(const model::SessionView& session, const Re
             newest = std::max(newest, sender.lastStamp);
         }
         if (sender.foreign != 0) {
-            facts.foreign.push_back({sender.info.address, sender.foreign, sender.foreignHead});
+            facts.foreign.push_back({sender.address().shown(), sender.foreign, sender.foreignHead});
         }
     }
     facts.silence = std::max(log::Duration::zero(), now - newest);

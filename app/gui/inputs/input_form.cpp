@@ -82,7 +82,7 @@ InputForm::InputForm(QWidget* parent)
       m_host(new QLineEdit(this)),
       m_port(new QSpinBox(this)),
       m_groups(new QLineEdit(this)),
-      m_note(new QLabel(this)) {
+      m_note(plainLabel(this)) {
     m_protocol->addItem(tr("UDP"), static_cast<int>(Kind::Udp));
     m_protocol->addItem(tr("TCP, listening"), static_cast<int>(Kind::TcpListener));
     m_protocol->addItem(tr("TCP, connecting"), static_cast<int>(Kind::TcpConnection));

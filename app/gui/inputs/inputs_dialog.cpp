@@ -34,7 +34,7 @@ struct Entry {
 };
 
 QLabel* proseLabel(QWidget* parent) {
-    auto* label = new QLabel(parent);
+    auto* label = plainLabel(parent);
     label->setWordWrap(true);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     return label;
@@ -88,7 +88,7 @@ std::vector<Entry> entriesOf(const ReceivingState& receiving) {
 class FindingView final : public QWidget {
 public:
     explicit FindingView(QWidget* parent)
-        : QWidget(parent), m_symbol(new QLabel(this)), m_text(proseLabel(this)), m_remedy(proseLabel(this)) {
+        : QWidget(parent), m_symbol(plainLabel(this)), m_text(proseLabel(this)), m_remedy(proseLabel(this)) {
         QFont font = m_text->font();
         font.setWeight(QFont::DemiBold);
         m_text->setFont(font);

@@ -34,7 +34,7 @@ constexpr std::size_t kMostHosts = 4;
 constexpr int kFirstHostRow = 3;
 
 QLabel* valueLabel(QWidget* parent) {
-    auto* label = new QLabel(parent);
+    auto* label = plainLabel(parent);
     label->setTextInteractionFlags(Qt::TextSelectableByMouse | Qt::TextSelectableByKeyboard);
     label->setFont(monospaceFont());
     return label;
@@ -73,7 +73,7 @@ public:
     explicit SenderSettings(QWidget* parent)
         : QWidget(parent),
           m_grid(new QGridLayout(this)),
-          m_title(new QLabel(this)),
+          m_title(plainLabel(this)),
           m_port(valueLabel(this)),
           m_protocol(valueLabel(this)) {
         m_title->setWordWrap(true);
@@ -159,8 +159,8 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
       m_form(new InputForm(this)),
       m_settings(new SenderSettings(this)),
       m_allowed(new QLineEdit(this)),
-      m_allowedNote(new QLabel(this)),
-      m_state(new QLabel(this)),
+      m_allowedNote(plainLabel(this)),
+      m_state(plainLabel(this)),
       m_edit(new QPushButton(tr("&Edit"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)),
       m_openFile(new QPushButton(tr("&Open file…"), this)),

@@ -55,7 +55,7 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
       m_model(new RelayModel(this)),
       m_table(new TableView(tr("Relay targets"), this)),
       m_target(new QLineEdit(this)),
-      m_note(new QLabel(this)),
+      m_note(plainLabel(this)),
       m_add(new QPushButton(tr("&Add target"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)) {
     m_table->setModel(m_model);
@@ -93,7 +93,7 @@ void RelayPage::layOut() {
     m_note->setAlignment(Qt::AlignTop);
     m_note->setMinimumHeight(2 * fontMetrics().lineSpacing());
     m_remove->setEnabled(false);
-    auto* label = new QLabel(tr("&Target"), this);
+    auto* label = plainLabel(tr("&Target"), this);
     label->setBuddy(m_target);
     auto* row = new QHBoxLayout;
     row->addWidget(label);

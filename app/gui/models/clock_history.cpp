@@ -199,7 +199,7 @@ PropertyValue header(const ClockHistory& clock) {
 }
 
 PropertyValue type25(const ClockHistory& clock) {
-    return {clock.type25() ? QString::fromStdString(*clock.type25()) : tr("not on the air"), Health::Unknown,
+    return {clock.type25() ? shownText(*clock.type25()) : tr("not on the air"), Health::Unknown,
             tr("Wall clock that the sender sends as text. In MVN: Network Streamer > Time Code (type 25)")};
 }
 
@@ -240,7 +240,7 @@ PropertyValue lastJump(const ClockHistory& clock) {
 QString clockText(const ClockHistory& clock, ClockChoice choice) {
     const QString none = QStringLiteral("--:--:--.---");
     if (choice == ClockChoice::Type25) {
-        return clock.type25() ? QString::fromStdString(*clock.type25()) : none;
+        return clock.type25() ? shownText(*clock.type25()) : none;
     }
     return clock.headerMs() ? milliClock(*clock.headerMs()) : none;
 }

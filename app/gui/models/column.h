@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 
 #include <QAbstractTableModel>
@@ -125,7 +126,7 @@ template <class Row>
     case Qt::TextAlignmentRole:
         return column.isNumber ? numberAlignment() : QVariant();
     case Qt::ToolTipRole:
-        return orNothing(column.toolTip);
+        return column.toolTip ? toolTipOf(column.toolTip(row)) : QVariant();
     case Qt::AccessibleTextRole:
         return orNothing(column.spoken);
     default:
@@ -151,7 +152,7 @@ public:
         case Qt::DisplayRole:
             return column.title;
         case Qt::ToolTipRole:
-            return column.help.isEmpty() ? QVariant() : column.help;
+            return toolTipOf(column.help);
         case Qt::TextAlignmentRole:
             return column.isNumber ? numberAlignment() : QVariant();
         default:

@@ -43,7 +43,7 @@ QString groupWord(model::EventGroup group) {
 
 QString whoseWords(model::SessionView& view, const model::Event& event) {
     if (!event.character) {
-        return QString::fromStdString(view.addressOf(event.sender));
+        return shown(view.addressOf(event.sender));
     }
     const QString name = characterName(view, {event.sender, *event.character});
     return event.type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*event.type))

@@ -2,6 +2,7 @@
 #include "app/gui/models/field_model.h"
 
 #include "app/gui/models/field_text.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 
 #include <unordered_map>
@@ -137,7 +138,7 @@ QString FieldModel::otherText(std::int32_t node) const {
 QString FieldModel::helpOf(std::int32_t node) const {
     return tr("%1\n%2\n%3")
         .arg(
-            QString::fromStdString(m_document->tree().path(node)), fieldPlace(*m_document, node),
+            shownText(m_document->tree().path(node)), fieldPlace(*m_document, node),
             (fieldMeaning(*m_document, node) + QLatin1Char(' ') + fieldSection(*m_document, node)).trimmed());
 }
 

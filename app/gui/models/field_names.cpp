@@ -14,7 +14,7 @@ using wire::FieldNode;
 using wire::RefersTo;
 
 QString withName(const QString& id, std::string_view name) {
-    return name.empty() ? id : id + QStringLiteral(" · ") + fromUtf8(name);
+    return name.empty() ? id : id + QStringLiteral(" · ") + shownText(name);
 }
 
 /// The number that an item is known by; its place where it has none.

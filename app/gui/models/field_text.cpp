@@ -144,15 +144,6 @@ QString headerText(const FieldDocument& document, std::int32_t index) {
     return {};
 }
 
-QString printable(const std::string& value) {
-    QString text = QString::fromStdString(value);
-    text.replace(QLatin1Char('\n'), QStringLiteral("↵"));
-    for (QChar& character : text) {
-        character = character.unicode() < 0x20 || character.unicode() == 0x7f ? QChar(0xb7) : character;
-    }
-    return text;
-}
-
 /// "freeAcceleration" as "Free acceleration".
 QString spacedName(std::string_view name) {
     QString text;
@@ -207,7 +198,7 @@ QString fieldTitle(const FieldDocument& document, std::int32_t index) {
                : document.hasHeader()                         ? tr("Unread")
                                                               : tr("Bytes");
     case NodeKind::Part:
-        return document.node(node.parent).unit == Unit::TagLines ? fromUtf8(node.name)
+        return document.node(node.parent).unit == Unit::TagLines ? shownText(node.name)
                                                                  : spacedName(node.name);
     default:
         return spacedName(node.name);
@@ -226,7 +217,7 @@ QString wireValue(const FieldDocument& document, std::int32_t index) {
                           ? document.node(node.parent).unit
                           : node.unit;
     const QString symbol = fromUtf8(wire::unitSymbol(unit));
-    const QString value = printable(node.value);
+    const QString value = shownText(node.value);
     return value.isEmpty() || symbol.isEmpty() || node.kind == NodeKind::Unread
                ? value
                : value + QLatin1Char(' ') + symbol;

@@ -38,7 +38,7 @@ QString labelOf(const MetadataRow& row) {
     if (row.fact != nullptr) {
         return row.fact->label;
     }
-    return row.isEarlier ? tr("before") : QString::fromStdString(row.tag->name);
+    return row.isEarlier ? tr("before") : shown(row.tag->name);
 }
 
 MetadataColumn nameColumn() {
@@ -64,7 +64,7 @@ PropertyValue shownValue(const MetadataRow& row) {
     if (row.value == nullptr) {
         return {tr("not sent yet")};
     }
-    return {QString::fromStdString(row.value->text), Health::Unknown,
+    return {shown(row.value->text), Health::Unknown,
             row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(row.value->stamp))};
 }
 
@@ -94,8 +94,9 @@ std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
         return row.isEarlier ? QVariant(theme().dim) : shownValue(row).colour();
     };
     value.more = [](const MetadataRow& row, int role) {
-        return role == kSwatchRole && row.value != nullptr ? swatchOf(row.tag->name, row.value->text)
-                                                           : QVariant();
+        return role == kSwatchRole && row.value != nullptr
+                   ? swatchOf(row.tag->name.shown(), row.value->text.shown())
+                   : QVariant();
     };
     return {nameColumn(), std::move(value), sentColumn(view)};
 }
@@ -140,7 +141,7 @@ PropertyValue units(const model::Sender& sender) {
 }
 
 PropertyValue address(const model::Sender& sender) {
-    return {QString::fromStdString(sender.info.address)};
+    return {shown(sender.address())};
 }
 
 PropertyValue segments(model::SessionView& view, const Key& key) {
@@ -193,7 +194,11 @@ MetadataModel::MetadataModel(model::SessionView& view, QObject* parent)
 
 void MetadataModel::refresh() {
     const auto key = shownCharacter(m_view);
-    if (key != m_key) {
+    const std::uint64_t dropped = key ? m_view.metadata(*key).droppedTags() : 0;
+    const std::size_t count = key ? m_view.metadata(*key).tags().size() : 0;
+    // Where tags were given up, others are at their places.
+    if (key != m_key || std::exchange(m_dropped, dropped) != dropped || count < m_earlier.size()) {
+        m_dropped = dropped;
         changeCharacter(key);
     } else if (m_key && !insertTags()) {
         fitHistories();
@@ -259,8 +264,11 @@ std::size_t MetadataModel::earlierValues(const model::MetadataTag& tag) const {
 }
 
 const model::MetadataTag* MetadataModel::tag(int row) const {
-    const bool isTag = m_key && row >= 0 && static_cast<std::size_t>(row) < m_earlier.size();
-    return isTag ? &m_view.metadata(*m_key).tags()[static_cast<std::size_t>(row)] : nullptr;
+    if (!m_key || row < 0 || static_cast<std::size_t>(row) >= m_earlier.size()) {
+        return nullptr;
+    }
+    const auto tags = m_view.metadata(*m_key).tags();
+    return static_cast<std::size_t>(row) < tags.size() ? &tags[static_cast<std::size_t>(row)] : nullptr;
 }
 
 QModelIndex MetadataModel::index(int row, int column, const QModelIndex& parent) const {
@@ -289,8 +297,9 @@ MetadataRow MetadataModel::rowAt(const QModelIndex& index) const {
     const bool isTop = index.internalId() == kTop;
     const model::MetadataTag* found = tag(isTop ? index.row() : static_cast<int>(index.internalId()));
     if (found == nullptr) {
-        return isTop ? MetadataRow{.fact = &m_facts[static_cast<std::size_t>(index.row()) - m_earlier.size()]}
-                     : MetadataRow{};
+        return isTop && static_cast<std::size_t>(index.row()) >= m_earlier.size()
+                   ? MetadataRow{.fact = &m_facts[static_cast<std::size_t>(index.row()) - m_earlier.size()]}
+                   : MetadataRow{};
     }
     const std::size_t earlier = earlierValues(*found);
     if (isTop) {

@@ -45,6 +45,7 @@ private:
     model::SessionView& m_view;
     std::optional<model::CharacterKey> m_key;
     std::vector<std::size_t> m_earlier; ///< rows under each tag
+    std::uint64_t m_dropped = 0;        ///< tags of the character that were given up so far
     std::vector<Property> m_facts;
 };
 

@@ -183,8 +183,13 @@ PropertyValue props(const NullPoseReading& reading) {
         return {tr("not sent")};
     }
     QStringList names;
-    for (const wire::Prop& prop : reading.props()->props) {
-        names += QStringLiteral("%1 %2").arg(prop.id).arg(QString::fromStdString(prop.name));
+    constexpr std::size_t kMost = 16;
+    const std::vector<wire::Prop>& sent = reading.props()->props;
+    for (std::size_t i = 0; i < std::min(sent.size(), kMost); ++i) {
+        names += QStringLiteral("%1 %2").arg(QString::number(sent[i].id), shownText(sent[i].name));
+    }
+    if (sent.size() > kMost) {
+        names += tr("%1 more").arg(sent.size() - kMost);
     }
     return names.isEmpty() ? PropertyValue{tr("none")} : PropertyValue{names.join(QStringLiteral(", "))};
 }

@@ -118,7 +118,7 @@ std::vector<TableColumn<SegmentRow>> segmentColumns() {
                         [](const auto& row) { return QString::number(row.place + 1); })
             .dimmed(),
         Column::words(tr("Segment"), tr("Name as sent"),
-                      [](const auto& row) { return QString::fromStdString(row.segment.name); }),
+                      [](const auto& row) { return shown(row.segment.name); }),
         positionColumn(tr("x m"), tr("Origin of the segment: x forward, Z-up"), 0),
         positionColumn(tr("y m"), tr("Origin of the segment: y to the left, Z-up"), 1),
         positionColumn(tr("z m"), tr("Origin of the segment: height over the balls of the feet"), 2),
@@ -160,7 +160,7 @@ std::vector<TableColumn<PointRow>> pointColumns() {
             .withColour(valueColour)
             .withToolTip(whose),
         Column::words(tr("Point"), tr("Name as sent; joints begin with j"),
-                      [](const auto& row) { return QString::fromStdString(row.point.name); })
+                      [](const auto& row) { return shown(row.point.name); })
             .withColour(pointColour)
             .withToolTip(whose),
         coordinate(tr("x m"), 0),

@@ -190,7 +190,8 @@ QString packetNote(model::SessionView& view, const PacketFacts& facts) {
     }
     if (const auto comment = annotations.comments.find(facts.number); comment != annotations.comments.end()) {
         note += (note.isEmpty() ? QStringLiteral("“") : QStringLiteral(" · “")) +
-                QString::fromStdString(comment->second).simplified() + QStringLiteral("”");
+                shownText(QString::fromStdString(comment->second).simplified().toStdString()) +
+                QStringLiteral("”");
     }
     return note;
 }

@@ -266,7 +266,7 @@ double PacketModel::deltaMs(const PacketFacts& facts) const {
 
 QString PacketModel::senderText(const PacketFacts& facts) const {
     const auto info = m_view.log().senders().find(facts.sender);
-    return info != nullptr ? QString::fromStdString(info->address) : QString();
+    return info != nullptr ? shownText(info->address) : QString();
 }
 
 QVariant PacketModel::characterMark(const PacketFacts& facts, int role) const {

@@ -94,8 +94,10 @@ QString packetRowsCsv(const PacketModel& model, std::span<const int> rows) {
             QString content = cellText(index);
             if (index.data(Qt::TextAlignmentRole).isValid()) {
                 content.remove(QChar(0x202f)).replace(QChar(0x2212), QLatin1Char('-'));
+                cells.push_back(content.toStdString());
+            } else {
+                cells.push_back(model::csvText(content.toStdString()));
             }
-            cells.push_back(content.toStdString());
         }
         text += exporting::csvLine(cells);
     }

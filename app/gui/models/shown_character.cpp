@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/shown_character.h"
 
+#include "app/gui/models/text.h"
+
 #include <algorithm>
 
 namespace posewire::gui {
@@ -28,7 +30,7 @@ model::Selection selectionOf(model::SessionView& view, const model::CharacterKey
 }
 
 QString characterName(model::SessionView& view, const model::CharacterKey& key) {
-    return QString::fromStdString(view.displayName(key));
+    return shown(view.displayName(key));
 }
 
 QColor characterColour(model::SessionView& view, const model::CharacterKey& key) {

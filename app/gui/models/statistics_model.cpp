@@ -289,8 +289,8 @@ std::string StatisticsModel::csvLine(const model::Stream& stream) const {
     const model::StreamFigures figures = model::figuresOf(stream, m_range);
     const model::CharacterKey key = characterOf(stream.key);
     const model::Sender* sender = view().find(key.sender);
-    std::vector<std::string> cells{sender == nullptr ? std::string() : sender->info.address,
-                                   std::to_string(key.character), view().displayName(key),
+    std::vector<std::string> cells{sender == nullptr ? std::string() : sender->address().csv(),
+                                   std::to_string(key.character), view().displayName(key).csv(),
                                    wire::typeDigits(stream.key.type)};
     for (const Column& column : kColumns) {
         if (column.figure) {

@@ -2,6 +2,7 @@
 #include "app/gui/models/stream_tree_model.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -136,7 +137,7 @@ QModelIndex StreamTreeModel::indexOf(const StreamRow& row) const {
 
 QString StreamTreeModel::nameOf(const StreamRow& row) const {
     if (row.kind == Kind::Sender) {
-        return QString::fromStdString(senderOf(row).info.address);
+        return shown(senderOf(row).address());
     }
     if (row.kind == Kind::Character) {
         return characterName(m_view, characterOf(row.key));

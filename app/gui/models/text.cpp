@@ -11,6 +11,14 @@ QString fromUtf8(std::string_view text) {
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
 }
 
+QString shown(const model::ForeignText& text) {
+    return fromUtf8(text.shown());
+}
+
+QString shownText(std::string_view bytes) {
+    return fromUtf8(model::shownText(bytes));
+}
+
 QString readable(std::span<const std::byte> bytes) {
     QString text;
     for (const std::byte byte : bytes) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/foreign_text.h"
 
 #include <QString>
 #include <QStringList>
@@ -14,7 +15,12 @@
 /// How figures are written everywhere in the window: fixed decimals, a true minus, thousands set apart.
 namespace posewire::gui {
 
-/// UTF-8 of the core as a text of the window.
+/// What a sender wrote, as a text of the window.
+[[nodiscard]] QString shown(const model::ForeignText& text);
+/// The same of a text that the core keeps as it came.
+[[nodiscard]] QString shownText(std::string_view bytes);
+
+/// UTF-8 of the core's own words as a text of the window.
 [[nodiscard]] QString fromUtf8(std::string_view text);
 
 /// The bytes as letters of ASCII, with a dot for each that is none.

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/field_text.h"
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "core/filter/completion.h"
 #include "core/wire/text.h"
@@ -223,9 +224,10 @@ void FieldView::addFilters(QMenu& menu, const QString& displayFilter) {
         QString::fromStdString(filter::expressionFor(m_fields.document().tree(), currentNode()));
     QMenu* filters = menu.addMenu(tr("Apply as filter"));
     filters->setEnabled(!expression.isEmpty());
+    constexpr qsizetype kMostToolTip = 500;
     const auto add = [&](const QString& text, const QString& joined) {
-        filters->addAction(text, this, [this, joined] { m_commands.setDisplayFilter(joined); })
-            ->setToolTip(joined);
+        filters->addAction(menuText(text), this, [this, joined] { m_commands.setDisplayFilter(joined); })
+            ->setToolTip(toolTipText(joined.left(kMostToolTip)));
     };
     filters->setToolTipsVisible(true);
     add(expression, expression);

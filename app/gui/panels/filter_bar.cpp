@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/filter_bar.h"
 
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -44,7 +45,7 @@ FilterBar::FilterBar(QWidget* parent)
       m_buttons(new CommandBar(this)),
       m_progressRow(new QWidget(this)),
       m_progress(new QProgressBar(this)),
-      m_problem(new QLabel(this)),
+      m_problem(plainLabel(this)),
       m_saved(defaultFilters()) {
     m_line->setObjectName(QStringLiteral("displayFilter"));
     m_line->setAccessibleName(tr("Display filter"));
@@ -175,9 +176,10 @@ void FilterBar::restyle() {
         border = theme().good;
         fill = tinted(border);
     }
-    m_line->setToolTip(isApplied ? tr("Arrow down: earlier filters") : tr("Press Enter to filter"));
+    m_line->setToolTip(
+        toolTipText(isApplied ? tr("Arrow down: earlier filters") : tr("Press Enter to filter")));
     if (m_error) {
-        m_line->setToolTip(QString::fromStdString(m_error->text));
+        m_line->setToolTip(toolTipText(QString::fromStdString(m_error->text)));
     }
     const QString sheet =
         QStringLiteral("QLineEdit { border: 1px solid %1; background: %2; }").arg(border.name(), fill.name());

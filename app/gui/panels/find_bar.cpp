@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/find_bar.h"
 
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -10,7 +11,7 @@
 namespace posewire::gui {
 
 FindBar::FindBar(QWidget* parent)
-    : QWidget(parent), m_kind(new ComboBox(this)), m_edit(new QLineEdit(this)), m_answer(new QLabel(this)) {
+    : QWidget(parent), m_kind(new ComboBox(this)), m_edit(new QLineEdit(this)), m_answer(plainLabel(this)) {
     m_kind->addItems({tr("Text"), tr("Bytes")});
     m_kind->setAccessibleName(tr("What to find"));
     m_edit->setAccessibleName(tr("Find in packets"));
@@ -69,7 +70,7 @@ void FindBar::showKind() {
 void FindBar::say(const QString& text, bool isProblem) {
     setTextColour(*m_answer, isProblem ? theme().error : theme().dim);
     m_answer->setText(isProblem ? healthText(Health::Error, text) : text);
-    m_answer->setToolTip(text);
+    m_answer->setToolTip(toolTipText(text));
 }
 
 QString FindBar::said() const {

@@ -2,6 +2,7 @@
 #include "app/gui/panels/fitting_header.h"
 
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/plain_text.h"
 
 #include <QMenu>
 #include <QScopedValueRollback>
@@ -139,7 +140,8 @@ void FittingHeader::addColumnActions(QMenu& menu) {
     menu.addSeparator();
     for (int column = m_kept == Kept::First ? 1 : 0; column < columns(); ++column) {
         QAction* action = menu.addAction(model()->headerData(column, Qt::Horizontal).toString());
-        action->setToolTip(model()->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString());
+        action->setToolTip(
+            toolTipText(model()->headerData(column, Qt::Horizontal, Qt::ToolTipRole).toString()));
         action->setCheckable(true);
         action->setChecked(!isSectionHidden(column));
         action->setEnabled(m_kept == Kept::First || column != openColumn());

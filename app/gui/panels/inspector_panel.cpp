@@ -7,6 +7,8 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QMenu>
 
@@ -49,12 +51,12 @@ InspectorPanel::InspectorPanel(model::SessionView& view, Commands& commands, QWi
       m_next(flatButton(QStringLiteral("›"), tr("Next packet of this stream"), this)),
       m_hold(flatButton(tr("Hold"), tr("Keep showing this packet while the stream continues"), this)),
       m_compare(flatButton(tr("Compare ▾"), tr("Compare with another packet of the same type"), this)),
-      m_problems(new QLabel(this)),
+      m_problems(richLabel(this)),
       m_problemLine(new Line(this)),
       m_splitter(new QSplitter(Qt::Vertical, this)),
       m_fields(new FieldView(m_model, commands, this)),
       m_bytes(new ByteView(this)),
-      m_detail(new QLabel(this)) {
+      m_detail(richLabel(this)) {
     layOut();
     connectParts();
     showEmpty();
@@ -72,7 +74,6 @@ void InspectorPanel::layOut() {
     layout->addWidget(new Line(this));
     for (QLabel* label : {m_problems, m_detail}) {
         label->setWordWrap(true);
-        label->setTextFormat(Qt::RichText);
         label->setContentsMargins(margin, margin / 2, margin, margin / 2);
     }
     m_problems->setTextInteractionFlags(Qt::LinksAccessibleByMouse | Qt::LinksAccessibleByKeyboard);
@@ -198,7 +199,8 @@ void InspectorPanel::inspect(const log::Packet& packet) {
         owner = QStringLiteral(" · ") + characterName(m_view, key);
     }
     m_title->setText(documentTitle(*m_document), owner);
-    m_title->setToolTip(tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(packet.stamp)));
+    m_title->setToolTip(
+        toolTipText(tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(packet.stamp))));
     describeProblems();
     describeCurrent();
 }

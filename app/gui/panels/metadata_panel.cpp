@@ -4,6 +4,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 
 #include <QActionGroup>
 #include <QMenu>
@@ -39,7 +40,7 @@ DetectionBar::DetectionBar(model::SessionView& view, Commands& commands, QWidget
     : QWidget(parent),
       m_view(view),
       m_commands(commands),
-      m_contradictions(new QLabel(this)),
+      m_contradictions(plainLabel(this)),
       m_revision(addChoice<Revision>(tr("Protocol revision assumed for this sender"),
                                      &SenderOverride::revision,
                                      {{tr("automatic"), std::nullopt},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/null_pose_figure.h"
 
+#include "app/gui/models/text.h"
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 
 #include <QHelpEvent>
@@ -324,8 +326,8 @@ void NullPoseFigure::paintLabels(QPainter& painter, const Projection& projection
     }
     for (std::size_t i = 0; i < m_points.size(); ++i) {
         if (m_points[i] && static_cast<int>(i) != m_point && isOfSelected(i)) {
-            labels.add(projection.of(*m_points[i], view),
-                       QString::fromStdString(m_reading.pose()->points[i].name), theme().text, middle);
+            labels.add(projection.of(*m_points[i], view), shown(m_reading.pose()->points[i].name),
+                       theme().text, middle);
         }
     }
     for (int i = 0; i < static_cast<int>(m_segments.size()); ++i) {
@@ -362,14 +364,12 @@ NullPoseFigure::Hit NullPoseFigure::hitAt(const QPointF& pointer) const {
 QString NullPoseFigure::nameOf(const Hit& hit) const {
     if (hit.point >= 0 && hit.point < static_cast<int>(m_points.size())) {
         const auto& point = m_reading.pose()->points[static_cast<std::size_t>(hit.point)];
-        return QStringLiteral("%1.%2 %3")
-            .arg(point.segment)
-            .arg(point.id)
-            .arg(QString::fromStdString(point.name));
+        return QStringLiteral("%1.%2 %3").arg(point.segment).arg(point.id).arg(shown(point.name));
     }
     if (hit.segment >= 0 && hit.segment < static_cast<int>(m_segments.size())) {
-        const std::string& name = m_reading.pose()->segments[static_cast<std::size_t>(hit.segment)].name;
-        return QStringLiteral("%1 %2").arg(hit.segment + 1).arg(QString::fromStdString(name));
+        const model::ForeignText& name =
+            m_reading.pose()->segments[static_cast<std::size_t>(hit.segment)].name;
+        return QStringLiteral("%1 %2").arg(QString::number(hit.segment + 1), shown(name));
     }
     return {};
 }
@@ -401,7 +401,7 @@ void NullPoseFigure::keyPressEvent(QKeyEvent* event) {
 bool NullPoseFigure::event(QEvent* event) {
     if (event->type() == QEvent::ToolTip) {
         auto* help = static_cast<QHelpEvent*>(event);
-        QToolTip::showText(help->globalPos(), nameOf(hitAt(help->pos())), this);
+        QToolTip::showText(help->globalPos(), toolTipText(nameOf(hitAt(help->pos()))), this);
         return true;
     }
     return QWidget::event(event);

@@ -10,7 +10,6 @@
 #include <QFileDialog>
 #include <QItemSelectionModel>
 #include <QMenu>
-#include <QMessageBox>
 
 namespace posewire::gui {
 
@@ -97,7 +96,7 @@ NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidg
       m_scaleTable(new TableView(tr("Scale information, type 10"), commands, this)),
       m_ghost(framedButton(tr("Ghost"), tr("Show the null pose over the live figure (Shift+G)"), this)),
       m_export(framedButton(tr("Export ▾"), tr("Save or copy what was sent, as CSV or JSON"), this)),
-      m_comparison(new QLabel(this)),
+      m_comparison(plainLabel(this)),
       m_noticeLine(new Line(this)) {
     makeTables();
     makeButtons();
@@ -336,7 +335,7 @@ QString NullPosePanel::summary() const {
 }
 
 exporting::NullPoseSheet NullPosePanel::sheet() const {
-    return {m_reading.character() ? m_view.displayName(*m_reading.character()) : std::string(),
+    return {m_reading.character() ? m_view.displayName(*m_reading.character()) : model::ForeignText(),
             m_reading.pose(), m_reading.scale(), m_reading.props()};
 }
 
@@ -345,13 +344,14 @@ QString NullPosePanel::save(const QString& path) const {
 }
 
 void NullPosePanel::chooseFile(const SheetFormat& format) {
-    const QString name = m_reading.character() ? characterName(m_view, *m_reading.character()) : QString();
+    const std::string name = sheet().character.fileName("Character");
     const QString path = QFileDialog::getSaveFileName(
-        this, tr("Save null pose"), QStringLiteral("%1 null pose.%2").arg(name, QLatin1String(format.suffix)),
+        this, tr("Save null pose"),
+        QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)),
         fileFilter(format));
     const QString problem = path.isEmpty() ? QString() : save(path);
     if (!problem.isEmpty()) {
-        QMessageBox::warning(this, tr("Save null pose"), problem);
+        MessageBox(tr("Save null pose"), problem, QMessageBox::Ok, this).exec();
     }
 }
 

@@ -35,6 +35,8 @@ signals:
 
 protected:
     void changeEvent(QEvent* event) override;
+    /// Nothing: whatever was sent, no file is read for it.
+    QVariant loadResource(int /*type*/, const QUrl& /*name*/) override { return {}; }
 
 private:
     void write();

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 
@@ -233,7 +234,7 @@ QString RangeStrip::partText(double place) const {
 bool RangeStrip::event(QEvent* event) {
     if (event->type() == QEvent::ToolTip && !m_overview.empty()) {
         const auto* help = static_cast<QHelpEvent*>(event);
-        QToolTip::showText(help->globalPos(), partText(help->pos().x()), this);
+        QToolTip::showText(help->globalPos(), toolTipText(partText(help->pos().x())), this);
         return true;
     }
     return QWidget::event(event);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/widgets.h"
 
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 
 #include <QDialog>
@@ -42,8 +43,33 @@ void setTextColour(QLabel& label, const QColor& colour) {
     label.setPalette(palette);
 }
 
+QLabel* plainLabel(QWidget* parent) {
+    return plainLabel({}, parent);
+}
+
+QLabel* plainLabel(const QString& text, QWidget* parent) {
+    auto* label = new QLabel(parent);
+    label->setTextFormat(Qt::PlainText);
+    label->setText(text);
+    return label;
+}
+
+QLabel* richLabel(QWidget* parent) {
+    auto* label = new QLabel(parent);
+    label->setTextFormat(Qt::RichText);
+    return label;
+}
+
+MessageBox::MessageBox(const QString& title, const QString& text, StandardButtons buttons, QWidget* parent)
+    : QMessageBox(parent) {
+    setTextFormat(Qt::PlainText);
+    setWindowTitle(title);
+    setText(text);
+    setStandardButtons(buttons);
+}
+
 QLabel* dimLabel(const QString& text, QWidget* parent) {
-    auto* label = new QLabel(text, parent);
+    auto* label = plainLabel(text, parent);
     label->setForegroundRole(QPalette::PlaceholderText);
     return label;
 }
@@ -117,6 +143,7 @@ void ElidedLabel::paintEvent(QPaintEvent* /*event*/) {
 }
 
 PassingMessage::PassingMessage(int milliseconds, QWidget* parent) : QLabel(parent) {
+    setTextFormat(Qt::PlainText);
     hide();
     m_timer.setSingleShot(true);
     m_timer.setInterval(milliseconds);
@@ -125,7 +152,7 @@ PassingMessage::PassingMessage(int milliseconds, QWidget* parent) : QLabel(paren
 
 void PassingMessage::say(const QString& text) {
     setText(text);
-    setToolTip(text);
+    setToolTip(toolTipText(text));
     show();
     m_timer.start();
 }
@@ -133,7 +160,7 @@ void PassingMessage::say(const QString& text) {
 QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setText(text);
-    button->setToolTip(toolTip);
+    button->setToolTip(toolTipText(toolTip));
     button->setProperty("framed", true);
     return button;
 }
@@ -141,7 +168,7 @@ QToolButton* framedButton(const QString& text, const QString& toolTip, QWidget* 
 QToolButton* flatButton(const QString& text, const QString& toolTip, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setText(text);
-    button->setToolTip(toolTip);
+    button->setToolTip(toolTipText(toolTip));
     button->setAccessibleName(toolTip);
     button->setProperty("flat", true);
     return button;
@@ -162,7 +189,7 @@ CommandBar::CommandBar(QWidget* parent) : QToolBar(parent) {
 
 QAction* CommandBar::addCommand(const QString& name, const QString& text, const QString& toolTip) {
     QAction* action = addAction(text);
-    action->setToolTip(toolTip);
+    action->setToolTip(toolTipText(toolTip));
     QWidget* button = widgetForAction(action);
     button->setObjectName(name);
     button->setAccessibleName(toolTip);
@@ -178,9 +205,9 @@ std::optional<QString> askForText(const TextPrompt& words,
     auto* edit = new QLineEdit(words.text, &dialog);
     edit->setPlaceholderText(words.hint);
     edit->selectAll();
-    auto* label = new QLabel(words.label, &dialog);
+    auto* label = plainLabel(words.label, &dialog);
     label->setBuddy(edit);
-    auto* problem = new QLabel(&dialog);
+    auto* problem = plainLabel(&dialog);
     problem->setWordWrap(true);
     problem->setMinimumWidth(dialog.fontMetrics().averageCharWidth() * 56);
     // The room is there from the beginning, so that the dialog does not jump under the pointer.

@@ -3,6 +3,7 @@
 
 #include <QComboBox>
 #include <QLabel>
+#include <QMessageBox>
 #include <QTimer>
 #include <QToolBar>
 #include <QToolButton>
@@ -21,6 +22,20 @@ namespace posewire::gui {
 
 /// Gives the text of a label a colour.
 void setTextColour(QLabel& label, const QColor& colour);
+
+/// A label that shows plain text, whatever is in it. There are no others, but for richLabel().
+[[nodiscard]] QLabel* plainLabel(QWidget* parent);
+[[nodiscard]] QLabel* plainLabel(const QString& text, QWidget* parent);
+/// A label for HTML that we wrote ourselves; what is not ours in it has passed QString::toHtmlEscaped().
+[[nodiscard]] QLabel* richLabel(QWidget* parent);
+
+/// A message that shows plain text.
+class MessageBox final : public QMessageBox {
+    Q_OBJECT
+
+public:
+    MessageBox(const QString& title, const QString& text, StandardButtons buttons, QWidget* parent);
+};
 
 /// A label of secondary importance, in the theme's dim colour.
 [[nodiscard]] QLabel* dimLabel(const QString& text, QWidget* parent);

@@ -81,8 +81,7 @@ EmptyState foreign(const model::Sender& sender) {
                                        : tr("It looks like %1.").arg(QString::fromStdString(guess));
     return {Health::Warning,
             tr("These datagrams are not MXTP"),
-            {tr("%1 from %2, the newest begins with")
-                 .arg(grouped(sender.foreign), QString::fromStdString(sender.info.address)),
+            {tr("%1 from %2, the newest begins with").arg(grouped(sender.foreign), shown(sender.address())),
              bytesText(sender.foreignHead),
              tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what}};
 }

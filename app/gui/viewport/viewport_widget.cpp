@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_widget.h"
 
+#include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/viewport_overlay.h"
 
@@ -116,8 +117,8 @@ void ViewportWidget::updateOverlay() {
             labels.push_back(
                 {pointerAt(*place, size()),
                  QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
-                 QString::fromStdString(m_session.displayName(figure.key)),
-                 characterHealth(m_session, figure.key), m_session.selection().character == figure.key});
+                 shown(m_session.displayName(figure.key)), characterHealth(m_session, figure.key),
+                 m_session.selection().character == figure.key});
         }
     }
     m_overlay->setLabels(std::move(labels));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/alerts.h"
 
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QCheckBox>
@@ -101,7 +102,7 @@ void ThresholdsDialog::addLimit(QFormLayout& form, const model::ThresholdRow& ro
     box->setSuffix(tr(row.unit));
     box->setSpecialValueText(row.least == 0 ? tr("never an alert") : QString()); // at the least
     box->setStepType(QAbstractSpinBox::AdaptiveDecimalStepType);
-    box->setToolTip(tr(row.help));
+    box->setToolTip(toolTipText(tr(row.help)));
     form.addRow(tr(row.label), box);
     m_fields.push_back({&row, box});
     connect(box, &QDoubleSpinBox::valueChanged, this, &ThresholdsDialog::explainHysteresis);

@@ -3,6 +3,7 @@
 
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
@@ -101,7 +102,7 @@ QToolButton* flatButton(const QString& name, QWidget* parent) {
     button->setAutoRaise(true);
     button->setFocusPolicy(Qt::NoFocus);
     button->setAccessibleName(name);
-    button->setToolTip(name);
+    button->setToolTip(toolTipText(name));
     button->setVisible(false);
     return button;
 }
@@ -231,7 +232,7 @@ QStringList applyLayout(const DockLayout& layout, QMainWindow& window) {
 
 DockTitle::DockTitle(QDockWidget* dock)
     : QWidget(dock),
-      m_title(new QLabel(dock->windowTitle(), this)),
+      m_title(plainLabel(dock->windowTitle(), this)),
       m_summary(new ElidedLabel(Qt::AlignRight, this)),
       m_float(flatButton(tr("Float or dock"), this)),
       m_close(flatButton(tr("Close"), this)) {

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/viewport/captions.h"
 #include "app/gui/window/colour_text.h"
@@ -165,14 +166,12 @@ protected:
 private:
     void addTitle(QVBoxLayout& column) {
         const PropertyValue state = characterHealth(m_session, m_key);
-        auto* title = new QLabel(QString::fromStdString(m_session.displayName(m_key)), this);
+        auto* title = plainLabel(shown(m_session.displayName(m_key)), this);
         QFont bold = title->font();
         bold.setWeight(QFont::DemiBold);
         title->setFont(bold);
-        title->setTextFormat(Qt::PlainText);
-        auto* words = new QLabel(healthText(state.health, state.text), this);
+        auto* words = plainLabel(healthText(state.health, state.text), this);
         setTextColour(*words, healthColour(state.health));
-        words->setTextFormat(Qt::PlainText);
         auto* row = new QHBoxLayout;
         row->addWidget(title, 1);
         row->addWidget(words);
@@ -313,8 +312,8 @@ void HealthBar::refreshCharacters() {
     for (std::size_t i = 0; i < m_shown.size(); ++i) {
         const PropertyValue state = characterHealth(m_session, m_shown[i]);
         const QString words = state.health == Health::Good ? tr("good") : state.text;
-        m_entries[i]->setContent(state.health, QString::fromStdString(m_session.displayName(m_shown[i])) +
-                                                   QLatin1Char(' ') + words);
+        m_entries[i]->setContent(state.health,
+                                 shown(m_session.displayName(m_shown[i])) + QLatin1Char(' ') + words);
     }
     fitEntries();
 }

@@ -2,6 +2,7 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/theme/icons.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/health_bar.h"
@@ -52,7 +53,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
 }
 
 void MainWindow::makeBars() {
-    auto* name = new QLabel(QStringLiteral("Posewire"), this);
+    auto* name = plainLabel(QStringLiteral("Posewire"), this);
     QFont font = name->font();
     font.setWeight(QFont::Bold);
     name->setFont(font);

@@ -4,13 +4,13 @@
 #include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
 #include <QApplication>
 #include <QDateTime>
 #include <QDesktopServices>
 #include <QFileDialog>
-#include <QMessageBox>
 #include <QPushButton>
 #include <QUrl>
 
@@ -38,8 +38,8 @@ std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& s
     if (!range) {
         return std::optional<model::TimeRange>();
     }
-    QMessageBox question(
-        QMessageBox::NoIcon, tr("Save stream report"),
+    MessageBox question(
+        tr("Save stream report"),
         tr("A range of time is selected: from %1 to %2.").arg(timeOfDay(range->from), timeOfDay(range->to)),
         QMessageBox::Cancel, parent);
     const auto* selected = question.addButton(tr("&Selected range"), QMessageBox::AcceptRole);
@@ -52,9 +52,8 @@ std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& s
 }
 
 bool wantsToOpen(const QString& path, QWidget* parent) {
-    QMessageBox question(QMessageBox::NoIcon, tr("Save stream report"),
-                         tr("The report was saved as %1.").arg(path), QMessageBox::Close, parent);
-    question.setTextFormat(Qt::PlainText);
+    MessageBox question(tr("Save stream report"), tr("The report was saved as %1.").arg(path),
+                        QMessageBox::Close, parent);
     const auto* open = question.addButton(tr("&Open it"), QMessageBox::AcceptRole);
     question.exec();
     return question.clickedButton() == open;

@@ -2,8 +2,11 @@
 #include "app/gui/window/texts.h"
 
 #include "app/gui/models/receiving_models.h"
+#include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/menus.h"
 #include "core/export/protocol_reference.h"
@@ -69,7 +72,7 @@ void styleTables(QTextDocument& document) {
 QToolButton* arrow(Qt::ArrowType type, const QString& toolTip, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setArrowType(type);
-    button->setToolTip(toolTip);
+    button->setToolTip(toolTipText(toolTip));
     button->setAccessibleName(toolTip);
     button->setProperty("flat", true);
     button->setFocusPolicy(Qt::TabFocus);
@@ -114,15 +117,15 @@ void writeReceiving(QTextStream& out, const ReceivingState& receiving) {
 
 void writeSenders(QTextStream& out, model::SessionView& session) {
     for (const model::Sender& sender : session.senders()) {
-        out << "sender " << QString::fromStdString(sender.info.address) << ": " << sender.datagrams
-            << " datagrams, " << sender.malformed << " malformed, " << sender.foreign << " foreign, "
-            << sender.skippedBytes << " bytes skipped\n";
+        out << "sender " << shown(sender.address()) << ": " << sender.datagrams << " datagrams, "
+            << sender.malformed << " malformed, " << sender.foreign << " foreign, " << sender.skippedBytes
+            << " bytes skipped\n";
     }
     for (const model::Stream& stream : session.streams()) {
         const model::CharacterKey key{stream.key.sender, stream.key.character};
-        out << "stream " << QString::fromStdString(session.displayName(key)) << " type " << stream.key.type
-            << ": " << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz()
-            << " Hz, " << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed()
+        out << "stream " << shown(session.displayName(key)) << " type " << stream.key.type << ": "
+            << stream.accounting.datagrams() << " datagrams, " << stream.statistics.rateHz() << " Hz, "
+            << stream.accounting.counts().lost << " lost, " << stream.accounting.malformed()
             << " malformed\n";
     }
 }
@@ -153,7 +156,7 @@ ReferenceWindow::ReferenceWindow(const QString& title, const QString& markdown, 
       m_browser(new QTextBrowser(this)),
       m_contents(new QListWidget(this)),
       m_search(new QLineEdit(this)),
-      m_found(new QLabel(this)) {
+      m_found(plainLabel(this)) {
     setAttribute(Qt::WA_DeleteOnClose);
     setWindowTitle(title);
     setWindowFlag(Qt::WindowMaximizeButtonHint);

@@ -7,6 +7,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/colour_text.h"
 #include "core/model/body/character_pose.h"
@@ -31,7 +32,7 @@ QToolButton* framedButton(QAction* action, QWidget* parent) {
     auto* button = new QToolButton(parent);
     button->setProperty("framed", true);
     button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-    button->setToolTip(action->toolTip());
+    button->setToolTip(toolTipText(action->toolTip()));
     QObject::connect(button, &QToolButton::clicked, action, &QAction::trigger);
     return button;
 }
@@ -45,7 +46,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_live(framedButton(actions.live, this)),
       m_add(framedButton(actions.inputs, this)),
       m_relay(new ColourText(ColourText::Look::Pill, this)),
-      m_time(new QLabel(this)),
+      m_time(plainLabel(this)),
       m_detail(dimLabel({}, this)),
       m_pillLayout(new QHBoxLayout) {
     setObjectName(QStringLiteral("transport"));
@@ -107,7 +108,7 @@ void TransportBar::showMode(Mode mode) {
                            tr("The display follows the stream, but nothing is arriving."),
                            tr("The display is paused; receiving continues. Click to follow again (End).")};
     m_live->setText(texts[static_cast<std::size_t>(mode)]);
-    m_live->setToolTip(helps[static_cast<std::size_t>(mode)]);
+    m_live->setToolTip(toolTipText(helps[static_cast<std::size_t>(mode)]));
     m_live->setProperty("live", mode == Mode::Live);
     m_live->style()->unpolish(m_live);
     m_live->style()->polish(m_live);
@@ -139,7 +140,7 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
         ColourText* pill = m_pills[shown++];
         pill->setVisible(true);
         pill->setContent(level, text);
-        pill->setToolTip(toolTip);
+        pill->setToolTip(toolTipText(toolTip));
     };
     for (const PortState& state : receiving.ports) {
         const PropertyValue now = inputState(state);
@@ -169,7 +170,7 @@ void TransportBar::showRelays(const std::vector<RelayState>& relays) {
     }
     m_relay->setVisible(wanted > 0);
     m_relay->setContent(level, wanted == 1 ? tr("⇉ Relay") : tr("⇉ Relay to %1").arg(wanted));
-    m_relay->setToolTip(lines.join(QLatin1Char('\n')));
+    m_relay->setToolTip(toolTipText(lines.join(QLatin1Char('\n'))));
 }
 
 void TransportBar::paintEvent(QPaintEvent* /*event*/) {

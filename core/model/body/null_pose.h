@@ -2,14 +2,16 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/foreign_text.h"
+#include "core/model/keeping.h"
 #include "core/wire/messages.h"
 
 #include <Eigen/Core>
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace posewire::model {
@@ -22,6 +24,7 @@ struct NullPoseMessage {
     unsigned partsReceived = 0;
     unsigned partsExpected = 0;         ///< 0 as long as the last part has not arrived
     std::vector<unsigned> missingParts; ///< places from 0, below the last one that is known of
+    std::size_t leftOut = 0;            ///< segments and points beyond NullPose::kMostBytes
 
     [[nodiscard]] bool isComplete() const { return partsExpected != 0 && partsReceived == partsExpected; }
 };
@@ -29,15 +32,20 @@ struct NullPoseMessage {
 /// A scale message put together from its datagrams (type 13): the null pose, a T-pose with all orientations
 /// identity.
 struct NullPose : NullPoseMessage {
+    /// Segments and points that take more memory are left out; those of MVN take a tenth of it.
+    static constexpr std::size_t kMostBytes = 256 * 1024;
+    /// Of longer names only what is shown is kept.
+    static constexpr std::size_t kMostNameBytes = 1024;
+
     struct Segment {
-        std::string name;
+        ForeignText name;
         Eigen::Vector3d position; ///< metres, Z-up, world
         friend bool operator==(const Segment&, const Segment&) = default;
     };
     struct Point {
         int segment = 0; ///< wire ID, 1-based
         int id = 0;      ///< within the segment
-        std::string name;
+        ForeignText name;
         std::uint32_t flags = 0;
         Eigen::Vector3d position; ///< metres, from the segment's origin
         friend bool operator==(const Point&, const Point&) = default;
@@ -49,7 +57,8 @@ struct NullPose : NullPoseMessage {
 };
 
 /// Puts parts together. Datagram 0 begins a message, unless others of the same message have overtaken it;
-/// parts may come in any order and more than once; a part without segments adds to what is there.
+/// parts may come in any order and more than once; a part without segments adds to what is there. What a part
+/// costs is bounded by NullPose::kMostBytes, however many came before it.
 class NullPoseAssembler {
 public:
     /// Parts that come before datagram 0 are of its message if they come within this time of it.
@@ -63,19 +72,33 @@ public:
 
     /// The newest message that has segments: complete, or, before there is a complete one, what has arrived
     /// of the first.
-    [[nodiscard]] const NullPose* newest() const;
+    [[nodiscard]] const NullPose* newest() const { return m_settled.get(); }
+    [[nodiscard]] const std::shared_ptr<const NullPose>& settled() const { return m_settled; }
 
-    /// The message that is arriving; differs from newest() until it is complete.
+    /// The message that is arriving; differs from newest() until it is complete, and is without its segments
+    /// and points then.
     [[nodiscard]] const NullPose& arriving() const { return m_arriving; }
 
+    /// Of the message that is arriving, about.
+    [[nodiscard]] std::size_t memoryBytes() const;
+    /// Gives up all that has come.
+    void forget();
+
 private:
+    struct Part {
+        std::uint64_t hash = 0; ///< of what was sent
+        std::size_t segments = 0;
+        std::size_t points = 0;
+    };
     void begin(std::uint64_t packet, log::Stamp stamp);
     [[nodiscard]] bool isOvertaken(log::Stamp stamp) const;
+    [[nodiscard]] Part take(const wire::NullPose& part, std::size_t index);
     void settle();
 
     NullPose m_arriving;
-    NullPose m_settled;
-    std::vector<std::optional<wire::NullPose>> m_parts; ///< by place
+    std::size_t m_bytes = 0; ///< of its segments and points
+    std::shared_ptr<const NullPose> m_settled;
+    std::vector<std::optional<Part>> m_parts; ///< by place
 };
 
 /// What was known of a character's null pose at one moment. Valid until the history grows.
@@ -89,12 +112,16 @@ struct NullPoseRecord {
     log::Duration repetition{};              ///< median time between messages, 0 where unknown
 };
 
-/// The scale messages of one character over time, as far as they differ. Bounded: the oldest go first.
+/// The scale messages of one character over time, as far as they differ; the same body is kept once however
+/// often it comes. Bounded: the oldest go first. Who keeps many of these keeps them within a budget
+/// (keepWithin).
 class NullPoseHistory {
 public:
-    static constexpr std::size_t kMost = 64;
+    static constexpr std::size_t kMostVersions = 32; ///< 16 bodies: each may have two, see keep()
+    static constexpr std::size_t kMostMessages = 64;
 
-    void add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
+    /// True where it makes another body of what was known before.
+    bool add(const wire::NullPose& part, std::uint8_t datagramCounter, std::uint64_t packet,
              log::Stamp stamp);
 
     /// As of a packet number; null where there was none by then. What is older than the history counts as its
@@ -103,20 +130,33 @@ public:
     /// The same with its circumstances.
     [[nodiscard]] NullPoseRecord record(std::uint64_t packet) const;
 
+    /// Versions that were given up.
+    [[nodiscard]] std::uint64_t dropped() const { return m_dropped; }
+
+    [[nodiscard]] std::size_t memoryBytes() const;
+    /// What is older goes first, the body that is known now last.
+    [[nodiscard]] std::optional<Droppable> oldest() const;
+    /// Returns the bytes that are free now.
+    std::size_t dropOldest();
+
 private:
     struct Version {
         std::uint64_t firstPacket;
         log::Stamp firstStamp;
-        NullPose pose;
+        std::shared_ptr<const NullPose> pose;
+        std::size_t bytes;
+        bool isOtherBody; ///< than the version before
     };
     void note();
-    void keep(const NullPose& pose, std::uint64_t packet, log::Stamp stamp);
-    [[nodiscard]] const Version* versionAt(std::uint64_t packet) const;
+    bool keep(std::uint64_t packet, log::Stamp stamp);
+    void dropVersion();
+    [[nodiscard]] std::deque<Version>::const_iterator versionAt(std::uint64_t packet) const;
 
     NullPoseAssembler m_assembler;
     std::deque<Version> m_versions;
     std::deque<NullPoseMessage> m_messages;
     std::uint64_t m_messageCount = 0;
+    std::uint64_t m_dropped = 0;
 };
 
 } // namespace posewire::model

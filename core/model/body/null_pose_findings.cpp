@@ -52,16 +52,25 @@ bool isKnownApartFromSpelling(std::string_view name) {
 }
 
 void findDuplicateNames(const NullPose& pose, Findings& findings) {
-    std::map<std::string, std::size_t> first;
+    constexpr std::size_t kMostNamed = 8;
+    std::size_t twice = 0;
+    std::map<std::string, std::size_t, std::less<>> first;
     for (std::size_t place = 0; place < pose.segments.size(); ++place) {
-        const auto [entry, isNew] = first.try_emplace(pose.segments[place].name, place);
-        if (!isNew) {
+        const ForeignText& name = pose.segments[place].name;
+        const auto [entry, isNew] = first.try_emplace(std::string(name.exact()), place);
+        if (!isNew && ++twice <= kMostNamed) {
             findings.push_back(
                 {NullPoseFault::NameTwice, Severity::Error, findBodySegment(entry->first).value_or(-1),
-                 "The name " + quoted(entry->first) + " occurs twice: for segments " +
+                 "The name " + quoted(name.shown()) + " occurs twice: for segments " +
                      std::to_string(entry->second + 1) + " and " + std::to_string(place + 1) + ".",
                  "Receivers that go by names mix the two up; Posewire goes by the order."});
         }
+    }
+    if (twice > kMostNamed) {
+        findings.push_back({NullPoseFault::NameTwice, Severity::Error, -1,
+                            counted(twice - kMostNamed, "more segment has", "more segments have") +
+                                " a name that occurred before.",
+                            "Receivers that go by names mix them up; Posewire goes by the order."});
     }
 }
 
@@ -70,10 +79,10 @@ void findUnknownNames(const NullPose& pose, Findings& findings) {
     std::vector<std::string> respelled;
     for (std::size_t place = 0; place < std::min<std::size_t>(pose.segments.size(), kBodySegmentCount);
          ++place) {
-        const std::string& name = pose.segments[place].name;
-        if (!findBodySegment(name)) {
-            (isKnownApartFromSpelling(name) ? respelled : unknown)
-                .push_back(std::to_string(place + 1) + " " + quoted(name));
+        const ForeignText& name = pose.segments[place].name;
+        if (!findBodySegment(name.exact())) {
+            (isKnownApartFromSpelling(name.exact()) ? respelled : unknown)
+                .push_back(std::to_string(place + 1) + " " + quoted(name.shown()));
         }
     }
     if (!unknown.empty()) {
@@ -181,6 +190,16 @@ void findAboutParts(const NullPoseEvidence& evidence, Findings& findings) {
     }
 }
 
+void findLeftOut(const NullPose& pose, Findings& findings) {
+    if (pose.leftOut != 0) {
+        findings.push_back({NullPoseFault::TooLarge, Severity::Error, -1,
+                            counted(pose.leftOut, "segment or point", "segments and points") +
+                                " left out: the scale message takes more than " +
+                                std::to_string(NullPose::kMostBytes / 1024) + " KB.",
+                            "MVN's take a tenth of it. Whatever sends this is no MVN."});
+    }
+}
+
 void findAboutNames(const NullPoseEvidence& evidence, Findings& findings) {
     const NullPose& pose = *evidence.record.pose;
     findDuplicateNames(pose, findings);
@@ -188,11 +207,11 @@ void findAboutNames(const NullPoseEvidence& evidence, Findings& findings) {
     std::vector<std::string> moved;
     int first = -1;
     for (std::size_t place = 0; place < pose.segments.size(); ++place) {
-        const auto index = findBodySegment(pose.segments[place].name);
+        const auto index = findBodySegment(pose.segments[place].name.exact());
         if (index && *index != static_cast<int>(place)) {
             first = moved.empty() ? *index : first;
-            moved.push_back(pose.segments[place].name + " at " + std::to_string(place + 1) + " (should be " +
-                            std::to_string(*index + 1) + ")");
+            moved.push_back(pose.segments[place].name.shown() + " at " + std::to_string(place + 1) +
+                            " (should be " + std::to_string(*index + 1) + ")");
         }
     }
     if (!moved.empty()) {
@@ -252,6 +271,7 @@ std::vector<NullPoseFinding> findContradictions(const NullPoseEvidence& evidence
     Findings findings;
     findAboutParts(evidence, findings);
     if (evidence.record.pose != nullptr) {
+        findLeftOut(*evidence.record.pose, findings);
         findAboutNames(evidence, findings);
         findInShape(evidence.record, findings);
     }

@@ -19,6 +19,7 @@ enum class NullPoseFault : std::uint8_t {
     NeverSent,
     NotFinite,
     MissingPart,
+    TooLarge,
     EarlierPartMissing,
     SegmentCount,
     NameTwice,

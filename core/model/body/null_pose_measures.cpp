@@ -139,7 +139,7 @@ BodyPlaces bodyPlaces(const NullPose& pose) {
         if (place < byOrder.size()) {
             byOrder[place] = static_cast<int>(place);
         }
-        if (const auto index = findBodySegment(pose.segments[place].name)) {
+        if (const auto index = findBodySegment(pose.segments[place].name.exact())) {
             int& named = byName[static_cast<std::size_t>(*index)];
             isNamed = isNamed && named < 0;
             named = static_cast<int>(place);

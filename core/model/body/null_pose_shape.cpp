@@ -182,7 +182,7 @@ void findAsymmetry(const NullPoseMeasures& measures, Findings& findings) {
 }
 
 std::string idText(const NullPose::Point& point) {
-    return std::to_string(point.segment) + "." + std::to_string(point.id) + " " + point.name;
+    return std::to_string(point.segment) + "." + std::to_string(point.id) + " " + point.name.shown();
 }
 
 void findPointIds(const NullPose& pose, Findings& findings) {
@@ -217,7 +217,7 @@ void findPointNames(const NullPose& pose, Findings& findings) {
     std::vector<std::string> other;
     for (const NullPose::Point& point : pose.points) {
         const AnatomicalPoint* known = findPoint(point.segment - 1, point.id);
-        if (known != nullptr && known->name != point.name) {
+        if (known != nullptr && !(point.name == known->name)) {
             other.push_back(idText(point) + " (elsewhere " + std::string(known->name) + ")");
         }
     }
@@ -238,7 +238,7 @@ void findJoints(const NullPose& pose, Findings& findings) {
     std::map<int, std::string_view> joints;
     for (const NullPose::Point& point : pose.points) {
         if (point.id == 1) {
-            joints.emplace(point.segment, point.name);
+            joints.emplace(point.segment, point.name.exact());
         }
     }
     std::vector<std::string> apart;
@@ -255,7 +255,7 @@ void findJoints(const NullPose& pose, Findings& findings) {
             child && parent && point != pose.points.end() ? (*parent + point->position - *child).norm() : 0.0;
         if (distance >= tolerance) {
             first = first < 0 ? id - 1 : first;
-            apart.push_back(std::string(joint) + " by " + fixedText(distance * 1000.0, 0) + " mm");
+            apart.push_back(shownText(joint) + " by " + fixedText(distance * 1000.0, 0) + " mm");
         }
     }
     if (!apart.empty()) {
@@ -271,7 +271,7 @@ void findAboutShape(const NullPose& pose, Findings& findings) {
     std::vector<std::string> unusable;
     for (std::size_t place = 0; place < pose.segments.size(); ++place) {
         if (!pose.segments[place].position.allFinite()) {
-            unusable.push_back(std::to_string(place + 1) + " " + pose.segments[place].name);
+            unusable.push_back(std::to_string(place + 1) + " " + pose.segments[place].name.shown());
         }
     }
     if (!unusable.empty()) {

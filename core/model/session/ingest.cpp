@@ -4,11 +4,14 @@
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/event_follower.h"
 #include "core/model/body/null_pose.h"
+#include "core/model/text.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <utility>
+#include <functional>
+#include <numeric>
 #include <unordered_set>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -37,14 +40,14 @@ std::optional<std::string> hostOf(const log::SenderInfo& info) {
 
 /// What a packet changed, tag by tag; empty where it brought nothing new.
 std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
-    std::string text;
+    std::vector<std::string> changes;
     for (const MetadataTag& tag : metadata.tags()) {
         if (tag.values.size() > 1 && tag.values.back().packet == packet) {
-            text += (text.empty() ? "" : ", ") + tag.name + ": " + tag.values[tag.values.size() - 2].text +
-                    " → " + tag.values.back().text;
+            changes.push_back(tag.name.shown() + ": " + tag.values[tag.values.size() - 2].text.shown() +
+                              " → " + tag.values.back().text.shown());
         }
     }
-    return text;
+    return listed(changes);
 }
 
 } // namespace
@@ -262,17 +265,29 @@ void Ingest::account(Observation& seen) {
 }
 
 void Ingest::takeContent(const Observation& seen) {
-    const log::Packet& packet = seen.packet;
     if (const auto* message = std::get_if<wire::MetaData>(&seen.datagram->body)) {
-        Metadata& metadata = seen.character->metadata;
-        metadata.add(*message, packet.number, packet.stamp);
-        if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
-            m_events->takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
-        }
+        takeMetadata(*message, seen);
     } else if (const auto* part = std::get_if<wire::NullPose>(&seen.datagram->body)) {
         takeNullPose(*part, seen);
     } else if (seen.header->datagramIndex() == 0) {
         seen.sender->detector.addBody(seen.datagram->body);
+    }
+}
+
+void Ingest::takeMetadata(const wire::MetaData& message, const Observation& seen) {
+    const log::Packet& packet = seen.packet;
+    Metadata& metadata = seen.character->metadata;
+    const std::size_t before = metadata.memoryBytes();
+    metadata.add(message, packet.number, packet.stamp);
+    if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
+        m_events->takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
+    }
+    if (m_metadataKeeping.grew(before, metadata.memoryBytes())) {
+        std::vector<Metadata*> all;
+        for (Character* each : m_characters.all()) {
+            all.push_back(&each->metadata);
+        }
+        m_metadataKeeping.keepWithin(all);
     }
 }
 
@@ -281,11 +296,16 @@ void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     std::shared_ptr<NullPoseHistory>& kept = m_nullPoses[seen.character->key];
     kept = kept != nullptr ? kept : std::make_shared<NullPoseHistory>();
     NullPoseHistory& history = *kept;
-    const log::Stamp changed = history.record(packet.number).changed;
-    history.add(part, seen.header->datagramCounter, packet.number, packet.stamp);
-    const NullPoseRecord record = history.record(packet.number);
-    if (record.before != nullptr && record.changed != changed) {
+    const std::size_t before = history.memoryBytes();
+    if (history.add(part, seen.header->datagramCounter, packet.number, packet.stamp)) {
         m_events->takeChange(EventKind::ScaleChange, seen.character->key, packet, {});
+    }
+    if (m_nullPoseKeeping.grew(before, history.memoryBytes())) {
+        std::vector<NullPoseHistory*> all;
+        for (const auto& [key, each] : m_nullPoses) {
+            all.push_back(each.get());
+        }
+        m_nullPoseKeeping.keepWithin(all);
     }
 }
 
@@ -456,6 +476,16 @@ void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) 
 const NullPoseHistory* Ingest::nullPoses(const CharacterKey& key) const {
     const auto found = m_nullPoses.find(key);
     return found == m_nullPoses.end() ? nullptr : found->second.get();
+}
+
+std::size_t Ingest::metadataBytes() const {
+    return std::transform_reduce(m_characters.begin(), m_characters.end(), std::size_t{0}, std::plus(),
+                                 [](const Character& each) { return each.metadata.memoryBytes(); });
+}
+
+std::size_t Ingest::nullPoseBytes() const {
+    return std::transform_reduce(m_nullPoses.begin(), m_nullPoses.end(), std::size_t{0}, std::plus(),
+                                 [](const auto& each) { return each.second->memoryBytes(); });
 }
 
 const Message* Ingest::newest(const log::StreamKey& key) const {

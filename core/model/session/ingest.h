@@ -7,6 +7,7 @@
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
+#include "core/model/keeping.h"
 #include "core/model/message.h"
 #include "core/model/roster.h"
 #include "core/model/session/sender.h"
@@ -67,6 +68,9 @@ public:
     static constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
     /// A sender with more streams than these is no performance.
     static constexpr std::size_t kMostStreamsOfSender = 1024;
+    /// Of all characters together: what they hold goes, oldest first, where it would be more.
+    static constexpr std::size_t kMetadataBudget = std::size_t{8} << 20;
+    static constexpr std::size_t kNullPoseBudget = std::size_t{16} << 20;
 
     explicit Ingest(const log::PacketLog& log);
     ~Ingest();
@@ -89,6 +93,9 @@ public:
     [[nodiscard]] const Stream* find(const log::StreamKey& key) const { return m_streams.find(key); }
     /// Null where no scale message came.
     [[nodiscard]] const NullPoseHistory* nullPoses(const CharacterKey& key) const;
+    /// What metadata and null poses of all characters take, about.
+    [[nodiscard]] std::size_t metadataBytes() const;
+    [[nodiscard]] std::size_t nullPoseBytes() const;
     /// The newest datagram of a stream as it was decoded; null where it was malformed or is of no known type.
     [[nodiscard]] const Message* newest(const log::StreamKey& key) const;
 
@@ -141,6 +148,7 @@ private:
     void account(Observation& seen);
     void takeContent(const Observation& seen);
 
+    void takeMetadata(const wire::MetaData& message, const Observation& seen);
     void takeNullPose(const wire::NullPose& part, const Observation& seen);
     // Null where there are too many already.
     Sender* senderOf(const log::Packet& packet);
@@ -177,6 +185,8 @@ private:
     std::uint64_t m_unfollowed = 0;
     Message m_unplaced; ///< what a datagram is decoded into whose stream is not known yet
     std::map<CharacterKey, std::shared_ptr<NullPoseHistory>> m_nullPoses;
+    Keeping m_metadataKeeping{kMetadataBudget};
+    Keeping m_nullPoseKeeping{kNullPoseBudget};
     std::unique_ptr<Attribution> m_attribution;
     std::unique_ptr<EventFollower> m_events;
     bool m_isLive = false; ///< packets have come as they were stamped

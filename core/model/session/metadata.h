@@ -2,11 +2,12 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/foreign_text.h"
+#include "core/model/keeping.h"
 
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -19,26 +20,29 @@ namespace posewire::model {
 /// One tag of a character's metadata with its history.
 struct MetadataTag {
     struct Value {
-        std::string text;
+        ForeignText text;         ///< the bytes are known of the newest value alone
         std::uint64_t packet = 0; ///< the packet that brought it first
         log::Stamp stamp{};
     };
-    std::string name;
+    ForeignText name;
     bool isKnown = false;      ///< specified, or known from real senders
     log::Stamp lastSeen{};     ///< when it was last sent, changed or not
     std::vector<Value> values; ///< each change, oldest first; never empty
+    std::uint64_t dropped = 0; ///< older values that were given up
 
-    /// The value as of a packet number; null where the tag had not been sent by then.
+    /// The value as of a packet number; null where the tag had not been sent by then, or its value of then
+    /// was given up.
     [[nodiscard]] const Value* at(std::uint64_t packet) const;
+    [[nodiscard]] std::size_t memoryBytes() const;
 };
 
-/// The type 12 messages of one character. A packet may carry any of the tags (§2.6.3), so
-/// values are kept until they change. Bounded: at most kMaxTags tags of kMaxValues values; older values go
-/// first.
+/// The type 12 messages of one character. A packet may carry any of the tags (§2.6.3), so values are kept
+/// until they change, and each once however often it is sent. Bounded: at most kMaxTags tags of kMaxValues
+/// values; older values go first. Who keeps many of these keeps them within a budget (keepWithin).
 class Metadata {
 public:
     static constexpr std::size_t kMaxTags = 64;
-    static constexpr std::size_t kMaxValues = 256;
+    static constexpr std::size_t kMaxValues = 64;
 
     void add(const wire::MetaData& message, std::uint64_t packet, log::Stamp stamp);
 
@@ -47,10 +51,30 @@ public:
     [[nodiscard]] const MetadataTag* find(std::string_view name) const;
 
     /// Value of a tag as of a packet; empty where there is none.
-    [[nodiscard]] std::string_view value(std::string_view name, std::uint64_t packet) const;
+    [[nodiscard]] const ForeignText& value(std::string_view name, std::uint64_t packet) const;
+
+    /// Tags that were given up.
+    [[nodiscard]] std::uint64_t droppedTags() const { return m_droppedTags; }
+    /// How often a tag was not taken since there were kMaxTags.
+    [[nodiscard]] std::uint64_t refusedTags() const { return m_refusedTags; }
+
+    [[nodiscard]] std::size_t memoryBytes() const;
+    /// Values that have changed since go first, then the bytes of long values, then tags nobody knows, the
+    /// others last.
+    [[nodiscard]] std::optional<Droppable> oldest() const;
+    /// Returns the bytes that are free now.
+    std::size_t dropOldest();
 
 private:
+    struct Place {
+        Droppable what;
+        std::size_t tag = 0;
+    };
+    [[nodiscard]] std::optional<Place> oldestPlace() const;
+
     std::vector<MetadataTag> m_tags;
+    std::uint64_t m_droppedTags = 0;
+    std::uint64_t m_refusedTags = 0;
 };
 
 /// Colour as in the tag "color": RRGGBB, hexadecimal, with or without '#'. Components 0 to 1.

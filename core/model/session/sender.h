@@ -43,6 +43,8 @@ struct Sender {
 
     void takeMalformed(log::Stamp stamp);
     void takeForeign(wire::Bytes datagram);
+    /// Of a file: its name.
+    [[nodiscard]] ForeignText address() const { return info.address; }
     /// "7b 22 61": foreignHead in hexadecimal.
     [[nodiscard]] std::string foreignText() const;
 

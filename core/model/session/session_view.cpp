@@ -21,6 +21,9 @@ constexpr std::array<std::uint8_t, 3> kPoseTypes{wire::PoseQuaternion::kType, wi
 
 /// Entries that are looked at for the parts of one sample: 128 indices, each at most twice.
 constexpr std::size_t kPartSearch = 256;
+/// What a message has in parts beyond these bytes is left out: no sender of ours needs a tenth of them, and
+/// gathering is done anew for each that asks.
+constexpr std::size_t kMostPartBytes = 256 * 1024;
 
 } // namespace
 
@@ -76,10 +79,10 @@ SenderTotals SessionView::allSenders() const {
     return sums;
 }
 
-std::string SessionView::addressOf(log::SenderId id) const {
+ForeignText SessionView::addressOf(log::SenderId id) const {
     const Sender* sender = find(id);
     if (sender != nullptr) {
-        return sender->info.address;
+        return sender->address();
     }
     return id == log::kNoSender ? "this computer" : "a retired sender";
 }
@@ -219,22 +222,23 @@ const Metadata& SessionView::metadata(const CharacterKey& key) const {
     return character->metadata;
 }
 
-std::string_view SessionView::metadataValue(const CharacterKey& key, std::string_view tag) const {
+const ForeignText& SessionView::metadataValue(const CharacterKey& key, std::string_view tag) const {
+    static const ForeignText none;
     const Character* character = find(key);
     const std::uint64_t end = visibleEnd();
-    const std::string_view value =
-        character != nullptr && end != 0 ? character->metadata.value(tag, end - 1) : std::string_view();
-    const Character* before = value.empty() ? predecessor(key) : nullptr;
+    const ForeignText& value =
+        character != nullptr && end != 0 ? character->metadata.value(tag, end - 1) : none;
+    const Character* before = value.isEmpty() ? predecessor(key) : nullptr;
     return before != nullptr ? metadataValue(before->key, tag) : value;
 }
 
-std::string SessionView::displayName(const CharacterKey& key) const {
-    const std::string_view name = metadataValue(key, "name");
-    return name.empty() ? "Character " + std::to_string(key.character) : std::string(name);
+ForeignText SessionView::displayName(const CharacterKey& key) const {
+    const ForeignText& name = metadataValue(key, "name");
+    return name.isEmpty() ? ForeignText("Character " + std::to_string(key.character)) : name;
 }
 
 Colour SessionView::colour(const CharacterKey& key) const {
-    const auto sent = parseColour(metadataValue(key, "color"));
+    const auto sent = parseColour(metadataValue(key, "color").shown());
     const Character* character = find(key);
     return sent ? *sent : defaultColour(character != nullptr ? character->ordinal : 0);
 }
@@ -301,7 +305,10 @@ bool SessionView::readMessage(const log::StreamEntries& entries, std::size_t cou
         if (present != last.datagram + std::size_t{1} || !readWhole(entries[places[0] - 1], message)) {
             continue;
         }
-        for (std::size_t part = 1; part <= last.datagram; ++part) {
+        std::size_t bytes = 0;
+        for (std::size_t part = 1; part <= last.datagram && bytes <= kMostPartBytes; ++part) {
+            const auto packet = this->packet(entries[places[part] - 1].packet);
+            bytes += packet ? packet->bytes.size() : 0;
             if (readWhole(entries[places[part] - 1], m_decoded->part)) {
                 appendPart(message.datagram, m_decoded->part.datagram);
             }

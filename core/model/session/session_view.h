@@ -46,7 +46,7 @@ public:
     [[nodiscard]] std::uint64_t unfollowed() const { return m_ingest.unfollowed(); }
     [[nodiscard]] std::uint64_t overtaken() const { return m_ingest.overtaken(); }
     /// "10.0.0.5:40001"; "this computer" for kNoSender, and "a retired sender" for one that is not listed.
-    [[nodiscard]] std::string addressOf(log::SenderId id) const;
+    [[nodiscard]] ForeignText addressOf(log::SenderId id) const;
 
     /// What came in a range of time in all streams of a character, without what makes no sense of several.
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
@@ -60,6 +60,10 @@ public:
     [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const;
     /// One for every packet from begin() to end().
     [[nodiscard]] const PacketDigests& digests() const { return m_ingest.digests(); }
+
+    /// What metadata and null poses of all characters take, about.
+    [[nodiscard]] std::size_t metadataBytes() const { return m_ingest.metadataBytes(); }
+    [[nodiscard]] std::size_t nullPoseBytes() const { return m_ingest.nullPoseBytes(); }
 
     /// Packets followed so far: one past the newest packet number.
     [[nodiscard]] std::uint64_t end() const { return m_ingest.end(); }
@@ -110,7 +114,7 @@ public:
     [[nodiscard]] std::vector<const Character*> currentCharacters() const;
 
     /// "Factory", or "Character 1" with its ID where no name was sent, or there is no such character.
-    [[nodiscard]] std::string displayName(const CharacterKey& key) const;
+    [[nodiscard]] ForeignText displayName(const CharacterKey& key) const;
     [[nodiscard]] Colour colour(const CharacterKey& key) const;
     /// Seconds since the newest datagram of the character, against cursorStamp().
     [[nodiscard]] double ageSeconds(const CharacterKey& key) const;
@@ -162,7 +166,7 @@ private:
     [[nodiscard]] std::uint64_t visibleEnd() const;
     /// The cursor's time where it is paused.
     [[nodiscard]] std::optional<log::Stamp> pausedStamp() const;
-    [[nodiscard]] std::string_view metadataValue(const CharacterKey& key, std::string_view tag) const;
+    [[nodiscard]] const ForeignText& metadataValue(const CharacterKey& key, std::string_view tag) const;
     [[nodiscard]] std::size_t visibleCount(const log::StreamEntries& entries) const;
     bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
     bool readWhole(const log::StreamEntry& entry, Message& message) const;

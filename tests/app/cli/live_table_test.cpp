@@ -2,6 +2,10 @@
 #include "app/cli/live_table.h"
 
 #include "app/cli/monitor.h"
+#include "core/model/session/session.h"
+#include "core/wire/codec.h"
+#include "core/wire/text.h"
+#include "tests/support/hostile_text.h"
 
 #include <gmock/gmock.h>
 
@@ -29,11 +33,27 @@ TEST(LiveDisplay, WritesBlocksElsewhere) {
     EXPECT_EQ(display.show({"one", "two"}, 24, 80), "one\ntwo\n\n");
 }
 
-TEST(Printable, ReplacesWhatControlsATerminal) {
-    EXPECT_EQ(printable("Zoë \x1b[2J\n\x7f"), "Zoë ?[2J??");
-    EXPECT_EQ(printable("a\xc2\x9b"
-                        "31m\xff\xc3"),
-              "a?31m??");
+TEST(LiveTable, ShowsNamesAsTextOfALine) {
+    for (const std::string& name : test::hostileNames()) {
+        log::PacketLog log{{.memoryCap = std::size_t{1} << 22, .chunkSize = std::size_t{1} << 20}};
+        model::Session session{log};
+        wire::Datagram datagram;
+        datagram.body = wire::MetaData{true, "name:" + name + "\n"};
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        log::Arrival arrival;
+        arrival.stamp = log::Stamp(std::chrono::seconds(1));
+        arrival.sender = log.senders().intern({"recording " + name, log::Transport::File, 0});
+        log.writer().append(*wire::encode(datagram), arrival);
+        log.writer().publish();
+        session.follow(arrival.stamp);
+        const std::vector<std::string> lines = liveTable(session, 1);
+        const bool isText = wire::firstInvalidUtf8(name) == name.size(); // else it is malformed
+        EXPECT_EQ(lines.size(), isText ? 5U : 2U) << name.substr(0, 80);
+        for (const std::string& line : lines) {
+            EXPECT_EQ(test::harmIn(line), "") << line;
+            EXPECT_EQ(line.find('\n'), std::string::npos);
+        }
+    }
 }
 
 TEST(MonitorPlaces, AreTheUsualPortWhereNothingIsNamed) {

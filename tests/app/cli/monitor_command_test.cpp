@@ -142,7 +142,7 @@ TEST(MonitorCommand, LetsNoNameControlTheTerminal) {
     file.add(RecordingFile::metadata("\x1b[31mred\x07"), RecordingFile::kStart);
     const ProgramRun run = runProgram({"monitor", file.finish()});
     EXPECT_EQ(run.out.find('\x1b'), std::string::npos);
-    EXPECT_THAT(run.out, HasSubstr("?[31mred?"));
+    EXPECT_THAT(run.out, HasSubstr("␛[31mred␇"));
 }
 
 TEST(MonitorCommand, RecordsAFileThatTellsTheSame) {

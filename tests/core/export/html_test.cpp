@@ -16,10 +16,10 @@ TEST(Html, LetsNoTextBecomeMarkup) {
               "&lt;script&gt;alert(&quot;1&quot; &amp; &#39;2&#39;)&lt;/script&gt;");
 }
 
-TEST(Html, ReplacesWhatIsNoTextAtAll) {
-    EXPECT_EQ(escaped("Zoë\n\x01"), "Zoë\n\xef\xbf\xbd");
+TEST(Html, ShowsWhatIsNoText) {
+    EXPECT_EQ(escaped("Zoë\n\x01"), "Zoë\n␁");
     EXPECT_EQ(escaped("a\xff\xc3"), "a\xef\xbf\xbd\xef\xbf\xbd");
-    EXPECT_EQ(escaped(std::string_view("\0", 1)), "\xef\xbf\xbd");
+    EXPECT_EQ(escaped(std::string_view("\0", 1)), "␀");
 }
 
 TEST(Html, GroupsDigits) {

@@ -91,7 +91,7 @@ TEST(NullPoseSheet, JsonReadsBackToTheSameFloats) {
 TEST(NullPoseSheet, QuotesNamesThatWouldBreakTheTable) {
     model::NullPose pose;
     pose.segments = {{"a,\"b\"\nc", {0, 0, 0}}};
-    EXPECT_NE(nullPoseCsv({"", &pose, nullptr, nullptr}).find("segment,1,,\"a,\"\"b\"\"\nc\",,0,0,0,,,"),
+    EXPECT_NE(nullPoseCsv({"", &pose, nullptr, nullptr}).find("segment,1,,\"a,\"\"b\"\"␊c\",,0,0,0,,,"),
               std::string::npos);
 }
 

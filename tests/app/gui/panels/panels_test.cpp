@@ -87,7 +87,7 @@ TEST_F(PanelsTest, SummariesTellTheStateInAFewWords) {
     EXPECT_EQ(open<StatisticsPanel>()->summary(), "6 streams");
     EXPECT_EQ(open<TrackersPanel>()->summary(), QStringLiteral("Pelvis · 1"));
     EXPECT_EQ(open<MetadataPanel>()->summary(),
-              QString::fromStdString(m_stage.session.displayName(m_stage.key())));
+              QString::fromStdString(m_stage.session.displayName(m_stage.key()).shown()));
     m_stage.now += 5s;
     EXPECT_EQ(open<CharactersPanel>()->summary(), "0 of 2 live");
 }

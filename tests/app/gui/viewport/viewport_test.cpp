@@ -66,7 +66,8 @@ TEST_F(Viewport, PaintsACharacterInItsColourWithoutADisplay) {
 
 TEST_F(Viewport, NamesEveryCharacterInThePicture) {
     ASSERT_EQ(viewport.overlay().labels().size(), 1U);
-    EXPECT_EQ(viewport.overlay().labels()[0].name.toStdString(), stage.session.displayName(stage.key()));
+    EXPECT_EQ(viewport.overlay().labels()[0].name.toStdString(),
+              stage.session.displayName(stage.key()).shown());
     EXPECT_EQ(viewport.overlay().labels()[0].state.health, Health::Good);
     EXPECT_TRUE(viewport.overlay().card().title.isEmpty());
 }

@@ -86,7 +86,7 @@ TEST(NullPoseHistory, StaysBounded) {
     }
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(9'999)->segments[0].position.z()), 9'999.0F);
     EXPECT_FLOAT_EQ(static_cast<float>(history.at(0)->segments[0].position.z()),
-                    static_cast<float>(10'000 - NullPoseHistory::kMost));
+                    static_cast<float>(10'000 - NullPoseHistory::kMostVersions));
 }
 
 } // namespace

@@ -45,7 +45,9 @@ TEST(Metadata, StaysBoundedWhateverIsSent) {
         metadata.add({true, "tag" + std::to_string(i) + ":x\nname:" + std::to_string(i) + "\n"}, i, {});
     }
     EXPECT_EQ(metadata.tags().size(), Metadata::kMaxTags);
-    EXPECT_LE(metadata.find("name")->values.size(), Metadata::kMaxValues);
+    EXPECT_EQ(metadata.find("name")->values.size(), Metadata::kMaxValues);
+    EXPECT_EQ(metadata.find("name")->dropped, 2000 - Metadata::kMaxValues);
+    EXPECT_EQ(metadata.refusedTags(), 2000 - Metadata::kMaxTags + 1);
     EXPECT_EQ(metadata.value("name", 1'999), "1999");
 }
 

@@ -146,5 +146,38 @@ TEST_F(SplitMessages, CarryTheStampAndNumberOfTheirLastDatagram) {
     EXPECT_EQ(m_session.pose(key())->segments.size(), 23U);
 }
 
+TEST_F(SplitMessages, AreGatheredNoFurtherThanAnyoneNeeds) {
+    for (int part = 0; part < 128; ++part) {
+        wire::PropInformation props;
+        props.props = {{static_cast<std::uint32_t>(part), std::string(50'000, 'x')}};
+        send(props, 0, at(1s), static_cast<std::uint8_t>(part | (part == 127 ? 0x80 : 0)));
+    }
+    follow();
+    const Message* message = m_session.message(key(), wire::PropInformation::kType);
+    ASSERT_NE(message, nullptr);
+    const auto& props = std::get<wire::PropInformation>(message->datagram.body).props;
+    EXPECT_GE(props.size(), 5U);
+    EXPECT_LE(props.size(), 8U) << "256 KB of them";
+}
+
+TEST_F(SplitMessages, KeepMetadataAndNullPosesWithinTheirBudgets) {
+    for (std::uint32_t i = 0; i < 6'000; ++i) {
+        const std::string name = std::to_string(i) + std::string(2'000, 'x');
+        wire::MetaData metadata;
+        metadata.text = "name:" + name + "\n" + std::to_string(i % 64) + name + ":" + name + "\n";
+        send(metadata, 0, at(i * 1ms));
+        wire::NullPose part;
+        part.segments.assign(40, {name.substr(0, 300), {0, 0, static_cast<float>(i)}});
+        send(part, 0, at(i * 1ms));
+        if (i % 500 == 0) {
+            follow();
+        }
+    }
+    follow();
+    EXPECT_LE(m_session.metadataBytes(), Ingest::kMetadataBudget);
+    EXPECT_LE(m_session.nullPoseBytes(), Ingest::kNullPoseBudget);
+    EXPECT_TRUE(m_session.displayName(key()).shown().starts_with("5999x"));
+}
+
 } // namespace
 } // namespace posewire::model
