@@ -7,7 +7,6 @@
 #include "app/gui/saving.h"
 #include "app/gui/theme/widgets.h"
 
-#include <QFileDialog>
 #include <QItemSelectionModel>
 #include <QMenu>
 #include <QMessageBox>
@@ -346,7 +345,7 @@ QString NullPosePanel::save(const QString& path) const {
 
 void NullPosePanel::chooseFile(const SheetFormat& format) {
     const QString name = m_reading.character() ? characterName(m_view, *m_reading.character()) : QString();
-    const QString path = QFileDialog::getSaveFileName(
+    const QString path = askWhereToSave(
         this, tr("Save null pose"), QStringLiteral("%1 null pose.%2").arg(name, QLatin1String(format.suffix)),
         fileFilter(format));
     const QString problem = path.isEmpty() ? QString() : save(path);
