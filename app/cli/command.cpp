@@ -3,7 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include <functional>
+#include <charconv>
+#include <iomanip>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -39,23 +40,25 @@ std::string answer(const CLI::App& program, const CLI::ParseError& what) {
     return out.str();
 }
 
-/// `bounds` with its place in the help, and words that name what was typed: CLI11 writes the largest double
-/// out.
-CLI::Validator checked(CLI::Validator bounds, std::function<bool(double)> isGood, const std::string& wanted) {
-    bounds.operation([isGood = std::move(isGood), wanted](const std::string& text) {
-        double value = 0.0;
-        const bool isNumber = CLI::detail::lexical_cast(text, value);
-        return isNumber && isGood(value) ? std::string() : "\"" + text + "\" is not " + wanted;
-    });
-    return bounds;
+/// 1000000 and 0.25, not 1e+06.
+std::string plain(double number) {
+    std::ostringstream text;
+    text << std::setprecision(12) << number;
+    return text.str();
 }
 
-template <class T>
-CLI::Validator between(T least, T most) {
-    std::ostringstream wanted;
-    wanted << "a number from " << least << " to " << most;
-    return checked(
-        CLI::Range(least, most), [=](double value) { return value >= least && value <= most; }, wanted.str());
+/// In words that name what was typed and what is wanted, and in the help.
+CLI::Validator between(double least, double most) {
+    const std::string range = plain(least) + " to " + plain(most);
+    return CLI::Validator(
+        [=](const std::string& text) {
+            double value = 0.0;
+            const bool isNumber = CLI::detail::lexical_cast(text, value);
+            return isNumber && value >= least && value <= most // false for what is not a number
+                       ? std::string()
+                       : "\"" + text + "\" is not a number from " + range;
+        },
+        range);
 }
 
 } // namespace
@@ -75,19 +78,28 @@ Option Option::repeatable() {
 Option Option::showDefault() {
     return Option(*m_option->capture_default_str());
 }
-Option Option::notNegative() {
-    return Option(*m_option->check(checked(
-        CLI::NonNegativeNumber, [](double value) { return value >= 0.0; }, "a number from 0 up")));
-}
-Option Option::positive() {
-    return Option(*m_option->check(checked(
-        CLI::PositiveNumber, [](double value) { return value > 0.0; }, "a number greater than 0")));
-}
-Option Option::within(int least, int most) {
-    return Option(*m_option->check(between(least, most)));
-}
 Option Option::within(double least, double most) {
     return Option(*m_option->check(between(least, most)));
+}
+Option Option::wholeUpTo(std::uint64_t most) {
+    const std::string range = "0 to " + std::to_string(most);
+    return Option(*m_option->check(CLI::Validator(
+        [=](const std::string& text) {
+            std::uint64_t value = 0;
+            const char* end = text.data() + text.size();
+            const auto read = std::from_chars(text.data(), end, value);
+            const bool isGood = read.ec == std::errc{} && read.ptr == end && value <= most;
+            return isGood ? std::string() : "\"" + text + "\" is not a whole number from " + range;
+        },
+        range)));
+}
+Option Option::seconds() {
+    constexpr double year = 365.0 * 86'400.0;
+    return within(0.0, year);
+}
+Option Option::milliseconds() {
+    constexpr double day = 86'400'000.0;
+    return within(0.0, day);
 }
 Option Option::needs(Option other) {
     return Option(*m_option->needs(other.m_option));
@@ -114,6 +126,10 @@ Option Arguments::flag(const std::string& name, bool& isOn, const std::string& t
 
 Option Arguments::flag(const std::string& name, const std::string& text) {
     return Option(*m_parser->add_flag(name)->description(text));
+}
+
+Option Arguments::force(bool& isOn) {
+    return flag("--force", isOn, "replace output files that exist; an input file never is");
 }
 
 Option Arguments::option(const std::string& name) const {
@@ -150,6 +166,15 @@ CommandLine::Parsed CommandLine::parse(int argumentCount, const char* const* arg
                 m_parser->get_name() + ": a command is needed; see " + m_parser->get_name() + " --help"};
     }
     return {Parsed::Kind::Command, chosen.front()->get_name()};
+}
+
+ExitStatus readingStatus(const tl::expected<void, log::FileError>& result, const Console& console) {
+    using Kind = log::FileError::Kind;
+    if (result || result.error().kind == Kind::Cancelled) {
+        return ExitStatus::Fine;
+    }
+    console.complain(result.error().text);
+    return result.error().kind == Kind::Cut ? ExitStatus::Faults : ExitStatus::Unusable;
 }
 
 } // namespace posewire::cli

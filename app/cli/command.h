@@ -27,10 +27,12 @@ public:
     Option required();
     Option repeatable();  ///< may be given several times, with one value each
     Option showDefault(); ///< help names the value that it has now
-    Option notNegative();
-    Option positive();
-    Option within(int least, int most);
+    /// A number of this range, which the message names where it is not.
     Option within(double least, double most);
+    /// A whole number from 0 to `most`.
+    Option wholeUpTo(std::uint64_t most);
+    Option seconds();      ///< from 0 to a year
+    Option milliseconds(); ///< from 0 to a day
     Option needs(Option other);
     Option excludes(Option other);
 
@@ -51,6 +53,8 @@ public:
     Option flag(const std::string& name, bool& isOn, const std::string& text);
     /// Accepted and otherwise without effect: it names the default.
     Option flag(const std::string& name, const std::string& text);
+    /// `--force`: an output file that exists is replaced.
+    Option force(bool& isOn);
     /// One that was added before.
     [[nodiscard]] Option option(const std::string& name) const;
     /// Options that are added from now on come under this heading of the help.
@@ -109,6 +113,10 @@ struct Console {
         return ExitStatus::Unusable;
     }
 };
+
+/// What came of reading an input. Where something is wrong that is said; that nobody wants more is not.
+[[nodiscard]] ExitStatus readingStatus(const tl::expected<void, log::FileError>& result,
+                                       const Console& console);
 
 /// One command of the program: its name, and what it does once the command line is parsed.
 struct Command {

@@ -21,7 +21,8 @@ public:
 
     /// How long after the start this datagram, the next of the recording, is due.
     log::Duration due(wire::Bytes datagram, std::optional<log::Stamp> stamp) {
-        m_now += step(datagram, stamp) / m_speed;
+        constexpr Nanoseconds longest{1e18}; // 31 years: more may not fit into a duration
+        m_now = std::min(m_now + step(datagram, stamp) / m_speed, longest);
         return std::chrono::duration_cast<log::Duration>(m_now);
     }
 

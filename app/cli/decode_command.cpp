@@ -223,22 +223,18 @@ private:
 
 ExitStatus decodeFile(const std::string& path, const DecodeOptions& options, const filter::Filter& filter,
                       Console& console) {
-    const auto file = openInput(path);
+    const auto file = openInput(path, [&] { return !console.out.isWanted(); });
     if (!file) {
         return console.unusable(file.error().text);
     }
     RecordWriter writer(console.out, options.asJson, filter);
     const auto result = log::readFile(**file, std::ref(writer));
     writer.endSkipped();
-    if (!result) {
-        return console.unusable(result.error().text);
-    }
     const std::string complaint = writer.complaint((*file)->name());
-    if (complaint.empty()) {
-        return ExitStatus::Fine;
+    if (!complaint.empty()) {
+        console.complain(complaint);
     }
-    console.complain(complaint);
-    return ExitStatus::Faults;
+    return worse(complaint.empty() ? ExitStatus::Fine : ExitStatus::Faults, readingStatus(result, console));
 }
 
 ExitStatus decode(const DecodeOptions& options, Console& console) {

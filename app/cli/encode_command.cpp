@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/command.h"
+#include "app/cli/interruption.h"
 #include "core/export/json.h"
 
 namespace posewire::cli {
@@ -8,6 +9,7 @@ namespace {
 struct EncodeOptions {
     std::string input;
     std::string output = "-";
+    bool replaces = false;
 };
 
 class LineEncoder {
@@ -50,11 +52,12 @@ private:
 };
 
 ExitStatus encode(const EncodeOptions& options, Console& console) {
-    const auto source = openInput(options.input);
+    const Interruption interruption; // so that no half file is left
+    const auto source = openInput(options.input, Interruption::hasCome);
     if (!source) {
         return console.unusable(source.error().text);
     }
-    auto out = Output::open(options.output);
+    auto out = Output::open(options.output, {options.replaces, {options.input}});
     if (!out) {
         return console.unusable(out.error());
     }
@@ -87,6 +90,7 @@ Command addEncodeCommand(CommandLine& program) {
     arguments
         .add("-o,--output", options->output, "where the datagrams go, back to back; - for standard output")
         .showDefault();
+    arguments.force(options->replaces);
     return {"encode", [options](Console& console) { return encode(*options, console); }};
 }
 

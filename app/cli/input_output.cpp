@@ -2,16 +2,42 @@
 #include "app/cli/input_output.h"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <iostream>
 
 namespace posewire::cli {
+namespace {
 
-tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path) {
-    if (path == "-") {
-        return log::readingFrom(std::cin, "standard input");
+/// As the C library buffers it: by line on a terminal.
+class StandardOutput final : public log::ByteSink {
+public:
+    tl::expected<void, log::FileError> write(std::span<const std::byte> bytes) override {
+        return result(std::fwrite(bytes.data(), 1, bytes.size(), stdout) == bytes.size());
     }
-    return log::openFile(path);
+    tl::expected<void, log::FileError> flush() override { return result(std::fflush(stdout) == 0); }
+
+private:
+    static tl::expected<void, log::FileError> result(bool isWritten) {
+        using Kind = log::FileError::Kind;
+        if (isWritten) {
+            return {};
+        }
+        const int error = errno;
+        return tl::unexpected(log::FileError{std::string("standard output: writing failed (") +
+                                                 std::strerror(error) + "); is the disk full?",
+                                             error == EPIPE ? Kind::Unread : Kind::Failed});
+    }
+};
+
+} // namespace
+
+tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path,
+                                                                         log::IsCancelled isCancelled) {
+    if (const auto checked = log::checkOutput("/dev/stdout", {.inUse = {path}}); !checked) {
+        return tl::unexpected(checked.error());
+    }
+    return path == "-" ? log::openStandardInput(std::move(isCancelled))
+                       : log::openFile(path, std::move(isCancelled));
 }
 
 tl::expected<bool, log::FileError> LineReader::fill() {
@@ -34,8 +60,14 @@ tl::expected<std::optional<std::string_view>, log::FileError> LineReader::next()
         const std::string_view rest = std::string_view(m_kept).substr(m_start);
         const std::size_t end = rest.find('\n', searched);
         const bool isWhole = end != std::string_view::npos;
-        if (isWhole || rest.size() >= kLongestLine || (m_isAtEnd && !rest.empty())) {
-            std::string_view line = rest.substr(0, isWhole ? end : kLongestLine);
+        if (std::min(end, rest.size()) > kLongestLine) {
+            return tl::unexpected(log::FileError{m_source.name() + ": line " +
+                                                 std::to_string(m_lineNumber + 1) +
+                                                 " is longer than 4 MiB, the most that is read; is this JSON "
+                                                 "Lines of decode?"});
+        }
+        if (isWhole || (m_isAtEnd && !rest.empty())) {
+            std::string_view line = rest.substr(0, isWhole ? end : rest.size());
             m_start += line.size() + (isWhole ? 1 : 0);
             ++m_lineNumber;
             if (line.ends_with('\r')) {
@@ -55,50 +87,50 @@ tl::expected<std::optional<std::string_view>, log::FileError> LineReader::next()
     }
 }
 
-void Output::Closer::operator()(std::FILE* file) const {
-    if (file != stdout) {
-        std::fclose(file);
-    }
-}
-
-tl::expected<Output, std::string> Output::open(const std::string& path) {
+tl::expected<Output, std::string> Output::open(const std::string& path, const log::OutputRules& rules) {
     if (path == "-") {
         return standard();
     }
-    std::FILE* file = std::fopen(path.c_str(), "wb");
-    if (file == nullptr) {
-        return tl::unexpected(path + ": cannot be written (" + std::strerror(errno) +
-                              "); choose another file or folder");
+    auto sink = log::createWholeFile(path, rules);
+    if (!sink) {
+        return tl::unexpected(sink.error().text);
     }
-    return Output(file, path);
+    return Output(std::move(*sink));
 }
 
 Output Output::standard() {
-    return {stdout, "standard output"};
+    return Output(std::make_unique<StandardOutput>());
 }
 
 void Output::write(std::string_view text) {
-    note(std::fwrite(text.data(), 1, text.size(), m_file.get()) == text.size());
+    write(std::as_bytes(std::span(text)));
 }
 
 void Output::write(std::span<const std::byte> bytes) {
-    note(std::fwrite(bytes.data(), 1, bytes.size(), m_file.get()) == bytes.size());
+    if (m_isWanted) {
+        note(m_sink->write(bytes));
+    }
 }
 
 void Output::flush() {
-    note(std::fflush(m_file.get()) == 0);
+    if (m_isWanted) {
+        note(m_sink->flush());
+    }
 }
 
 tl::expected<void, std::string> Output::finish() {
-    flush();
+    if (m_isWanted) {
+        note(m_sink->finish());
+    }
     if (!m_failure.empty()) {
         return tl::unexpected(m_failure);
     }
     return {};
 }
 
-tl::expected<void, std::string> Output::writeFile(const std::string& path, std::string_view text) {
-    auto file = open(path);
+tl::expected<void, std::string> Output::writeFile(const std::string& path, const log::OutputRules& rules,
+                                                  std::string_view text) {
+    auto file = open(path, rules);
     if (!file) {
         return tl::unexpected(file.error());
     }
@@ -106,13 +138,13 @@ tl::expected<void, std::string> Output::writeFile(const std::string& path, std::
     return file->finish();
 }
 
-void Output::note(bool isWritten) {
-    if (isWritten || !m_isWanted) {
+void Output::note(const tl::expected<void, log::FileError>& result) {
+    if (result) {
         return;
     }
     m_isWanted = false;
-    if (errno != EPIPE) {
-        m_failure = m_name + ": writing failed (" + std::strerror(errno) + "); is the disk full?";
+    if (result.error().kind != log::FileError::Kind::Unread) {
+        m_failure = result.error().text;
     }
 }
 

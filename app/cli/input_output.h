@@ -2,8 +2,8 @@
 #pragma once
 
 #include "core/log/byte_io.h"
+#include "core/log/output_file.h"
 
-#include <cstdio>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,13 +12,15 @@
 
 namespace posewire::cli {
 
-/// The file of that name; standard input for "-".
-tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path);
+/// The file of that name; standard input for "-". Fails where it is what standard output goes to: that would
+/// have no end. `isCancelled` as in log::openFile().
+tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path,
+                                                                         log::IsCancelled isCancelled = {});
 
 /// Reads a byte source line by line.
 class LineReader {
 public:
-    /// No datagram needs a longer line; longer ones are cut here, so that memory stays bounded.
+    /// No datagram needs a longer line; reading ends there with an error, so that memory stays bounded.
     static constexpr std::size_t kLongestLine = std::size_t{4} << 20;
 
     explicit LineReader(log::ByteSource& source) : m_source(source) {}
@@ -39,11 +41,11 @@ private:
     bool m_isAtEnd = false;
 };
 
-/// A file that is written from front to back, or standard output.
+/// A file that is written from front to back and is there whole or not at all, or standard output.
 class Output {
 public:
     /// "-" is standard output. The error is one line for the user.
-    static tl::expected<Output, std::string> open(const std::string& path);
+    static tl::expected<Output, std::string> open(const std::string& path, const log::OutputRules& rules);
     static Output standard();
 
     void write(std::string_view text);
@@ -55,22 +57,19 @@ public:
     /// Flushes, so that the reader sees it at once.
     void flush();
 
-    /// Flushes and closes. The error is one line for the user; a reader that has left is not an error.
+    /// Last of all: without it a file does not come to be. The error is one line for the user; a reader that
+    /// has left is not an error.
     tl::expected<void, std::string> finish();
 
     /// A whole file at once.
-    static tl::expected<void, std::string> writeFile(const std::string& path, std::string_view text);
+    static tl::expected<void, std::string> writeFile(const std::string& path, const log::OutputRules& rules,
+                                                     std::string_view text);
 
 private:
-    struct Closer {
-        void operator()(std::FILE* file) const;
-    };
+    explicit Output(std::unique_ptr<log::ByteSink> sink) : m_sink(std::move(sink)) {}
+    void note(const tl::expected<void, log::FileError>& result);
 
-    Output(std::FILE* file, std::string name) : m_file(file), m_name(std::move(name)) {}
-    void note(bool isWritten);
-
-    std::unique_ptr<std::FILE, Closer> m_file;
-    std::string m_name;
+    std::unique_ptr<log::ByteSink> m_sink;
     std::string m_failure;
     bool m_isWanted = true;
 };

@@ -5,6 +5,8 @@
 #include <csignal>
 #include <iostream>
 
+#include <fcntl.h>
+
 namespace posewire::cli {
 namespace {
 
@@ -19,15 +21,24 @@ ExitStatus run(const Command& command) {
     return status;
 }
 
+/// Where one of the three is closed, a file that is opened would take its place, and be written to as that.
+void openStandardStreams() {
+    for (int number = 0; number < 3; ++number) {
+        if (::fcntl(number, F_GETFD) < 0) {
+            static_cast<void>(::open("/dev/null", O_RDWR));
+        }
+    }
+}
+
 } // namespace
 } // namespace posewire::cli
 
 int main(int argumentCount, char** arguments) {
     using namespace posewire::cli;
-#ifdef SIGPIPE
-    // When the reader closes the pipe, the failed write ends the program in good order.
+    // Where the reader closes the pipe, or a file may not grow, the failed write says so in good order.
     std::signal(SIGPIPE, SIG_IGN);
-#endif
+    std::signal(SIGXFSZ, SIG_IGN);
+    openStandardStreams();
     std::ios::sync_with_stdio(false);
     CommandLine program(
         "posewire-cli", "Decodes, encodes, sends and watches MXTP motion-capture datagrams.",

@@ -2,11 +2,12 @@
 #pragma once
 
 #include "app/cli/command.h"
-#include "app/cli/live_table.h"
+#include "app/cli/interruption.h"
+#include "app/cli/table_writer.h"
 #include "app/net/receiver.h"
 #include "core/export/reports.h"
 #include "core/log/packet_log.h"
-#include "core/log/pcapng_writer.h"
+#include "core/log/recording.h"
 #include "core/log/time.h"
 #include "core/model/accounting/stream_figures.h"
 #include "core/model/session/session.h"
@@ -46,8 +47,9 @@ struct MonitorOptions {
     std::vector<std::string> allowed; ///< hosts and nets to listen to; none: all
     double durationSeconds = 0;       ///< 0: until interrupted
     double intervalSeconds = 1;
-    std::string record; ///< empty: not
-    std::string report; ///< empty: none
+    std::string record; ///< empty: not; "-" for standard output
+    std::string report; ///< empty: none; "-" for standard output
+    bool replaces = false;
     bool asJson = false;
     bool isQuiet = false;              ///< neither tables nor JSON, only the report
     std::optional<double> fromSeconds; ///< what the report is about, from the first datagram on
@@ -69,15 +71,19 @@ struct Places {
 ExitStatus monitorNetwork(const MonitorOptions& options, Console& console);
 ExitStatus monitorFile(const MonitorOptions& options, Console& console);
 
+/// Whether what is to be written may be: to be asked before long work. The error is one line for the user.
+[[nodiscard]] tl::expected<void, std::string> checkOutputs(const MonitorOptions& options);
+
+/// Where a recording goes. It exists from then on.
+[[nodiscard]] tl::expected<std::unique_ptr<log::ByteSink>, log::FileError>
+createRecording(const MonitorOptions& options);
+
 /// What monitoring the network and monitoring a file have in common: a log, a session that follows it, what
-/// is shown meanwhile and what is said at the end. During its lifetime the first Ctrl+C (or SIGTERM) is only
-/// remembered; a second one ends the program. One object at a time.
+/// is shown meanwhile and what is said at the end. During its lifetime the first Ctrl+C is only remembered,
+/// see Interruption. One object at a time.
 class MonitorRun {
 public:
     MonitorRun(const MonitorOptions& options, Console& console);
-    ~MonitorRun();
-    MonitorRun(const MonitorRun&) = delete;
-    MonitorRun& operator=(const MonitorRun&) = delete;
 
     [[nodiscard]] log::PacketLog& log() { return m_log; }
 
@@ -87,24 +93,32 @@ public:
     /// Shows the table if it is time to.
     void show(double elapsedS);
 
-    /// Nobody wants more: Ctrl+C, or the reader of the output has gone.
+    /// Nobody wants more: Ctrl+C, or the reader of the table has gone and nothing is recorded.
     [[nodiscard]] bool isOver() const;
 
-    /// Writes what was asked for at the end. `status` is what else went wrong; `facts` may name what was
-    /// exceeded already. `end` of a live stream: what has been missing until then is a gap too.
+    /// Says how much was recorded, and if not all of it was, how much that is.
+    void tellRecorded(const log::RecordingFigures& recorded, bool hasFailed);
+
+    /// Writes what was asked for at the end, standard output last. `status` is what else went wrong; `facts`
+    /// may name what was exceeded already. `end` of a live stream: what has been missing until then is a gap
+    /// too.
     [[nodiscard]] ExitStatus conclude(exporting::MonitorFacts facts, ExitStatus status,
                                       std::optional<log::Stamp> end = std::nullopt);
 
 private:
     ExitStatus writeReport(const exporting::MonitorFacts& facts);
+    [[nodiscard]] bool isReaderGone() const { return m_table && !m_table->isWanted(); }
+    ExitStatus finishTable(double elapsedS);
 
     const MonitorOptions& m_options;
     Console& m_console;
+    Interruption m_interruption;
     log::PacketLog m_log;
     model::Session m_session{m_log};
     const bool m_isTerminal = LiveDisplay::isOnTerminal();
-    LiveDisplay m_display{m_isTerminal};
+    std::optional<TableWriter> m_table; ///< where one was asked for
     bool m_isConcluding = false;
+    bool m_isReaderTold = false;
     std::chrono::steady_clock::time_point m_nextShow;
 };
 

@@ -37,9 +37,11 @@ void addPlaces(Arguments arguments, MonitorOptions& options) {
 
 void addLimits(Arguments arguments, Limits& limits) {
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
-        arguments.add("--max-" + std::string(kLimits[i].name), limits[i], std::string(kLimits[i].help))
-            .form(unitOf(kLimits[i]) == " %" ? "PERCENT" : "MS")
-            .notNegative()
+        const bool isShare = unitOf(kLimits[i]) == " %";
+        const Option limit =
+            arguments.add("--max-" + std::string(kLimits[i].name), limits[i], std::string(kLimits[i].help));
+        (isShare ? Option(limit).within(0.0, 100.0) : Option(limit).milliseconds())
+            .form(isShare ? "PERCENT" : "MS")
             .group("Limits (of each stream; where one is exceeded the exit status is 1)");
     }
 }
@@ -55,20 +57,25 @@ Command addMonitorCommand(CommandLine& program) {
         .add("--duration", options->durationSeconds,
              "stop after this many seconds; 0: when interrupted, or at the end of FILE")
         .form("SECONDS")
-        .notNegative()
+        .seconds()
         .showDefault();
     arguments.flag("--json", options->asJson, "one report at the end instead of a live table");
     arguments.add("--interval", options->intervalSeconds, "seconds between two tables")
         .form("SECONDS")
-        .positive()
+        .within(0.001, 86'400.0)
         .showDefault();
-    arguments.add("--record", options->record, "write everything received there as pcapng").form("FILE");
+    arguments
+        .add("--record", options->record,
+             "write everything received there as pcapng; - for standard output, instead of the table")
+        .form("FILE");
     arguments
         .add("--report", options->report,
              "write a report there as HTML: what was received, what not, and whose fault it was")
         .form("FILE");
+    arguments.force(options->replaces);
     addLimits(arguments, options->limits);
     return {"monitor", [options](Console& console) {
+                options->isQuiet = options->record == "-";
                 return options->file.empty() ? monitorNetwork(*options, console)
                                              : monitorFile(*options, console);
             }};
@@ -85,12 +92,13 @@ Command addReportCommand(CommandLine& program) {
     arguments.add("-o,--output", options->report, "the HTML file; - for standard output")
         .form("FILE")
         .required();
+    arguments.force(options->replaces);
     arguments.add("--from", options->fromSeconds, "begin this many seconds after the first datagram")
         .form("SECONDS")
-        .notNegative();
+        .seconds();
     arguments.add("--to", options->toSeconds, "end this many seconds after the first datagram")
         .form("SECONDS")
-        .notNegative();
+        .seconds();
     return {"report", [options](Console& console) {
                 if (options->fromSeconds && options->toSeconds &&
                     *options->fromSeconds >= *options->toSeconds) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/datagram_pacer.h"
 #include "app/cli/monitor.h"
-#include "core/log/recording.h"
 #include "core/log/recording_file.h"
 
 #include <filesystem>
@@ -31,7 +30,7 @@ public:
         if (m_isDone) {
             return;
         }
-        m_last = std::max(m_last, stamp);
+        m_last = std::max(m_last.value_or(stamp), stamp);
         auto& log = m_run.log();
         const log::SenderId sender =
             log.senders().intern(record.sender.value_or(log::SenderInfo{m_name, log::Transport::File, 0}));
@@ -46,14 +45,16 @@ public:
     void flush() {
         m_waiting = 0;
         m_run.log().writer().publish();
-        m_run.follow(m_last);
+        m_run.follow(m_last.value_or(log::Stamp()));
         if (m_recorder && m_recorded) {
             m_recorded = m_recorder->follow();
         }
         m_run.show(durationS());
     }
 
-    [[nodiscard]] double durationS() const { return log::secondsOf(m_last - m_first.value_or(m_last)); }
+    [[nodiscard]] double durationS() const { return m_last ? log::secondsOf(*m_last - *m_first) : 0.0; }
+    /// Nothing more is looked at.
+    [[nodiscard]] bool isDone() const { return m_isDone; }
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
 
 private:
@@ -64,7 +65,7 @@ private:
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
     std::optional<log::Stamp> m_first;
-    log::Stamp m_last{};
+    std::optional<log::Stamp> m_last; ///< the latest
     bool m_isDone = false;
     log::Recorder::Result m_recorded;
 };
@@ -72,15 +73,20 @@ private:
 } // namespace
 
 ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
-    const auto file = openInput(options.file);
+    MonitorRun run(options, console);
+    const Replay* reading = nullptr; // a file may have no end
+    const auto file =
+        openInput(options.file, [&] { return run.isOver() || (reading != nullptr && reading->isDone()); });
     if (!file) {
         return console.unusable(file.error().text);
     }
-    MonitorRun run(options, console);
+    if (const auto checked = checkOutputs(options); !checked) {
+        return console.unusable(checked.error());
+    }
     std::unique_ptr<log::ByteSink> sink;
     std::optional<log::Recorder> recorder;
     if (!options.record.empty()) {
-        auto created = log::createFile(options.record);
+        auto created = createRecording(options);
         if (!created) {
             return console.unusable(created.error().text);
         }
@@ -91,18 +97,19 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
         }
     }
     Replay replay(options, run, recorder);
+    reading = &replay;
     const auto read = log::readFile(**file, std::ref(replay));
     replay.flush();
     log::Recorder::Result recorded = replay.recorded();
     if (recorder && recorded) {
         recorded = recorder->finish();
     }
-    ExitStatus status = ExitStatus::Fine;
-    for (const auto& result : {read, recorded}) {
-        if (!result) {
-            console.complain(result.error().text);
-            status = ExitStatus::Unusable;
-        }
+    ExitStatus status = readingStatus(read, console);
+    if (!recorded) {
+        status = console.unusable(recorded.error().text);
+    }
+    if (recorder) {
+        run.tellRecorded(recorder->figures(), !recorded);
     }
     exporting::MonitorFacts facts;
     facts.durationS = replay.durationS();

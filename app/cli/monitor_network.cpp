@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/monitor.h"
-#include "core/log/recording.h"
 
 #include <QCoreApplication>
 
@@ -58,24 +57,24 @@ net::NetResult<void> open(net::Receiver& receiver, const Places& places) {
 /// Reports the failure of a recording at once, and only once.
 class RecordingWatch {
 public:
-    RecordingWatch(std::unique_ptr<log::Recording> recording, Console& console)
-        : m_recording(std::move(recording)), m_console(console) {}
+    RecordingWatch(std::unique_ptr<log::Recording> recording, MonitorRun& run, Console& console)
+        : m_recording(std::move(recording)), m_run(run), m_console(console) {}
 
     void look() {
         if (m_recording && m_status == ExitStatus::Fine) {
             note(m_recording->failure());
         }
     }
+    [[nodiscard]] bool hasFailed() const { return m_status != ExitStatus::Fine; }
     ExitStatus stop() {
         if (m_recording && m_status == ExitStatus::Fine) {
             const auto stopped = m_recording->stop();
             note(stopped ? std::nullopt : std::optional(stopped.error()));
-            if (const std::uint64_t missed = m_recording->figures().missed; missed != 0) {
-                m_console.complain(std::to_string(missed) +
-                                   " packets arrived faster than the disk could take them and are not in the "
-                                   "recording; choose a faster disk");
-                m_status = worse(m_status, ExitStatus::Faults);
-            }
+        }
+        if (m_recording) {
+            const log::RecordingFigures recorded = m_recording->figures();
+            m_run.tellRecorded(recorded, m_status != ExitStatus::Fine);
+            m_status = worse(m_status, recorded.missed == 0 ? ExitStatus::Fine : ExitStatus::Faults);
         }
         return m_status;
     }
@@ -89,6 +88,7 @@ private:
     }
 
     std::unique_ptr<log::Recording> m_recording;
+    MonitorRun& m_run;
     Console& m_console;
     ExitStatus m_status = ExitStatus::Fine;
 };
@@ -143,7 +143,8 @@ double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& rec
         run.show(elapsed.count());
         recording.look();
         inputs.look();
-        if (run.isOver() || (hasEnd && left.count() <= 0)) {
+        const bool isInVain = options.record == "-" && recording.hasFailed();
+        if (run.isOver() || isInVain || (hasEnd && left.count() <= 0)) {
             return elapsed.count();
         }
         std::this_thread::sleep_for(hasEnd ? std::min(pause, left) : pause);
@@ -183,6 +184,9 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     if (!places) {
         return console.unusable(places.error());
     }
+    if (const auto checked = checkOutputs(options); !checked) {
+        return console.unusable(checked.error());
+    }
     // Qt's sockets want an application to be there.
     std::string name = "posewire-cli";
     std::array<char*, 2> arguments{name.data(), nullptr};
@@ -195,20 +199,22 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     }
     const log::SystemClock clock;
     MonitorRun run(options, console);
-    std::unique_ptr<log::Recording> recording;
-    if (!options.record.empty()) {
-        auto started = log::Recording::start(run.log(), options.record, recordingInfo());
-        if (!started) {
-            return console.unusable(started.error().text);
-        }
-        recording = std::move(*started);
-    }
     auto receiver = std::make_unique<net::Receiver>(run.log(), clock);
     receiver->listenTo(*allowed); // before the first port is open
     if (const auto opened = open(*receiver, *places); !opened) {
         return console.unusable(opened.error().text);
     }
-    RecordingWatch recordingWatch(std::move(recording), console);
+    std::unique_ptr<log::Recording> recording;
+    if (!options.record.empty()) { // now that there is something to record
+        auto started = createRecording(options).and_then([&](std::unique_ptr<log::ByteSink>&& sink) {
+            return log::Recording::start(run.log(), std::move(sink), recordingInfo());
+        });
+        if (!started) {
+            return console.unusable(started.error().text);
+        }
+        recording = std::move(*started);
+    }
+    RecordingWatch recordingWatch(std::move(recording), run, console);
     exporting::MonitorFacts facts;
     InputWatch inputs(*receiver, console);
     facts.durationS = watch(options, run, recordingWatch, inputs);

@@ -12,8 +12,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <csignal>
+#include <filesystem>
 #include <iterator>
+
+#include <unistd.h>
 
 namespace posewire::cli {
 namespace {
@@ -70,11 +72,18 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
     return lines;
 }
 
-volatile std::sig_atomic_t hasInterruptionCome = 0;
+/// The same file under one name. Links are found out by log::checkOutput().
+bool areSame(const std::string& a, const std::string& b) {
+    return !a.empty() && !b.empty() &&
+           std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
+}
 
-extern "C" void rememberInterruption(int signal) {
-    hasInterruptionCome = 1;
-    std::signal(signal, SIG_DFL);
+log::OutputRules rulesOf(const MonitorOptions& options) {
+    log::OutputRules rules{options.replaces, {}};
+    if (!options.file.empty()) {
+        rules.inUse.push_back(options.file);
+    }
+    return rules;
 }
 
 } // namespace
@@ -85,18 +94,13 @@ std::string unitOf(const Limit& limit) {
 
 MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
     : m_options(options), m_console(console), m_nextShow(std::chrono::steady_clock::now()) {
-    hasInterruptionCome = 0;
-    std::signal(SIGINT, rememberInterruption);
-    std::signal(SIGTERM, rememberInterruption);
-}
-
-MonitorRun::~MonitorRun() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
+    if (!options.asJson && !options.isQuiet) {
+        m_table.emplace(STDOUT_FILENO, m_isTerminal);
+    }
 }
 
 bool MonitorRun::isOver() const {
-    return hasInterruptionCome != 0 || !m_console.out.isWanted();
+    return Interruption::hasCome() || (isReaderGone() && m_options.record.empty());
 }
 
 void MonitorRun::follow(log::Stamp now) {
@@ -107,30 +111,59 @@ void MonitorRun::follow(log::Stamp now) {
 void MonitorRun::show(double elapsedS) {
     const auto now = std::chrono::steady_clock::now();
     const bool isReplayUnseen = !m_options.file.empty() && !m_isTerminal && !m_isConcluding;
-    if (isReplayUnseen || m_options.asJson || m_options.isQuiet || now < m_nextShow) {
+    if (isReaderGone() && !m_isConcluding && !m_isReaderTold && !m_options.record.empty()) {
+        m_isReaderTold = true;
+        m_console.complain("nobody reads the table any more; recording goes on until Ctrl+C or --duration");
+    }
+    if (isReplayUnseen || !m_table || now < m_nextShow) {
         return;
     }
     m_nextShow = now + std::chrono::microseconds(std::llround(m_options.intervalSeconds * 1e6));
-    const LiveDisplay::Size size = LiveDisplay::terminalSize();
-    m_console.out.write(m_display.show(liveTable(m_session, elapsedS), size.rows, size.columns));
-    m_console.out.flush();
+    m_table->show(liveTable(m_session, elapsedS));
+}
+
+ExitStatus MonitorRun::finishTable(double elapsedS) {
+    if (!m_table) {
+        return ExitStatus::Fine;
+    }
+    m_nextShow = {};
+    m_isConcluding = true;
+    show(elapsedS);
+    m_table->finish(Interruption::hasCome);
+    const std::string failure = m_table->failure();
+    return failure.empty() ? ExitStatus::Fine : m_console.unusable(failure);
+}
+
+void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFailed) {
+    const std::string packets =
+        std::to_string(recorded.packets) + (recorded.packets == 1 ? " packet" : " packets");
+    const std::string file = m_options.record == "-" ? "standard output" : m_options.record;
+    if (hasFailed) {
+        m_console.complain("at most " + packets + " of " + std::to_string(log::LogReader(m_log).end()) +
+                           " are in " + file);
+        return;
+    }
+    m_console.complain("recorded " + packets + ", " + std::to_string(recorded.bytes) + " bytes to " + file);
+    if (recorded.missed != 0) {
+        m_console.complain(std::to_string(recorded.missed) +
+                           " packets arrived faster than the disk could take them and are not in the "
+                           "recording; choose a faster disk");
+    }
 }
 
 ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status,
                                 std::optional<log::Stamp> end) {
     std::ranges::copy(exceeded(m_session, m_options.limits, end), std::back_inserter(facts.exceeded));
+    // Nobody may read standard output: all else comes before.
+    const ExitStatus reported = m_options.report.empty() ? ExitStatus::Fine : writeReport(facts);
     if (m_options.asJson) {
         m_console.out.write(exporting::monitorReport(m_session, facts) + '\n');
-    } else {
-        m_nextShow = {};
-        m_isConcluding = true;
-        show(facts.durationS);
     }
+    status = worse(status, worse(reported, finishTable(facts.durationS)));
     for (const std::string& line : facts.exceeded) {
         m_console.complain(line);
     }
-    status = worse(status, facts.exceeded.empty() ? ExitStatus::Fine : ExitStatus::Faults);
-    return m_options.report.empty() ? status : worse(status, writeReport(facts));
+    return worse(status, facts.exceeded.empty() ? ExitStatus::Fine : ExitStatus::Faults);
 }
 
 ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
@@ -155,8 +188,37 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     }
     options.settings.emplace_back(m_options.file.empty() ? "Source" : "File",
                                   m_options.file.empty() ? "network" : m_options.file);
-    const auto written = Output::writeFile(m_options.report, exporting::streamReport(m_session, options));
+    log::OutputRules rules = rulesOf(m_options);
+    if (!m_options.record.empty() && m_options.record != "-") {
+        rules.inUse.push_back(m_options.record);
+    }
+    const auto written =
+        Output::writeFile(m_options.report, rules, exporting::streamReport(m_session, options));
     return written ? ExitStatus::Fine : m_console.unusable(written.error());
+}
+
+tl::expected<void, std::string> checkOutputs(const MonitorOptions& options) {
+    const bool wantsOut = options.asJson || options.report == "-";
+    if (options.record == "-" && wantsOut) {
+        return tl::unexpected(
+            std::string("--record -: something else goes to standard output; name a file for one of them"));
+    }
+    if (areSame(options.record, options.report)) {
+        return tl::unexpected(options.record + ": is both recording and report; name two files");
+    }
+    for (const std::string& path : {options.record, options.report}) {
+        if (path.empty() || path == "-") {
+            continue;
+        }
+        if (const auto checked = log::checkOutput(path, rulesOf(options)); !checked) {
+            return tl::unexpected(checked.error().text);
+        }
+    }
+    return {};
+}
+
+tl::expected<std::unique_ptr<log::ByteSink>, log::FileError> createRecording(const MonitorOptions& options) {
+    return log::createFile(options.record == "-" ? "/dev/stdout" : options.record, rulesOf(options));
 }
 
 log::RecordingInfo recordingInfo() {

@@ -50,10 +50,6 @@ private:
     bool m_keepsTruth;
 };
 
-/// What was really sent, as JSON with the names of the report of `monitor`. Fails with one line for the user.
-tl::expected<void, std::string> writeTruth(const std::string& path, const std::vector<SendLine>& lines,
-                                           double durationSeconds);
-
 /// Sends what the lines have due, on time.
 class SendRound {
 public:
@@ -96,6 +92,7 @@ struct SendOptions {
     std::string pause;          ///< S:S
     std::string reduction;      ///< S:K
     std::string truth;          ///< file to write what was sent to; empty: none
+    bool replaces = false;      ///< that file, where it exists
 
     std::string file; ///< empty: the performer
     double speed = 1.0;
@@ -108,6 +105,9 @@ using Complaint = std::string;
 [[nodiscard]] tl::expected<performer::PerformerSettings, Complaint> performerOf(const SendOptions& options);
 
 [[nodiscard]] tl::expected<performer::FaultSettings, Complaint> faultsOf(const SendOptions& options);
+
+/// What was really sent, as JSON with the names of the report of `monitor`. Fails with one line for the user.
+tl::expected<void, std::string> writeTruth(const SendOptions& options, const std::vector<SendLine>& lines);
 
 /// Sends until the recording is through or `durationSeconds` have passed.
 ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Console& console);

@@ -50,7 +50,7 @@ ExitStatus conclude(const SendOptions& options, std::vector<SendLine>& lines, Co
             " datagrams were refused by the network; check the address and that the receiver is running");
     }
     if (!options.truth.empty()) {
-        if (const auto written = writeTruth(options.truth, lines, options.durationSeconds); !written) {
+        if (const auto written = writeTruth(options, lines); !written) {
             return console.unusable(written.error());
         }
     }
@@ -119,6 +119,11 @@ ExitStatus send(const SendOptions& options, Console& console) {
     if (!settings) {
         return console.unusable(settings.error());
     }
+    if (!options.truth.empty() && options.truth != "-") {
+        if (const auto checked = log::checkOutput(options.truth, {options.replaces}); !checked) {
+            return console.unusable(checked.error().text);
+        }
+    }
     // Qt's sockets need an application object.
     std::string name = "posewire-cli";
     std::array<char*, 2> arguments{name.data(), nullptr};
@@ -150,25 +155,30 @@ void addPlaces(Arguments arguments, SendOptions& options) {
     arguments.flag("--tcp", options.overTcp, "connect, as MVN does, and send datagrams back to back")
         .excludes(udp);
     arguments.add("--duration", options.durationSeconds, "stop after this many seconds; 0: when interrupted")
-        .notNegative()
+        .seconds()
         .showDefault();
 }
 
 void addPerformer(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("The performance");
     performer::PerformerSettings& settings = options.performer;
-    arguments.add("--characters", settings.characters, "number of performers").showDefault();
-    arguments.add("--rate", settings.rateHz, "samples per second").positive().showDefault();
+    arguments.add("--characters", settings.characters, "number of performers")
+        .within(1, performer::kMaxCharacters)
+        .showDefault();
+    arguments.add("--rate", settings.rateHz, "samples per second").within(1.0, 1000.0).showDefault();
     arguments.add("--types", options.types, "message types, such as 02,12,13, or all of the revision")
         .showDefault();
     arguments.add("--revision", options.revision, "of the specification: E, J, K or N").showDefault();
-    arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults").showDefault();
+    arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
+        .wholeUpTo(UINT64_MAX)
+        .showDefault();
     arguments.add("--motion", settings.motion, "one of " + motionList()).showDefault();
-    arguments.add("--props", settings.props, "props of each character, 0 to 4").showDefault();
+    arguments.add("--props", settings.props, "props of each character").wholeUpTo(4).showDefault();
     arguments.flag("--fingers", settings.fingers, "with both hands (revision N)");
     arguments
         .add("--first-sample", settings.firstSample,
              "sample counter to begin with; near 4294967295 it wraps around")
+        .wholeUpTo(UINT32_MAX)
         .showDefault();
     arguments.add("--senders", options.senders, "number of sockets that send characters with the same ids")
         .within(1, 16)
@@ -194,9 +204,11 @@ void addFaults(Arguments arguments, SendOptions& options) {
         .form("p,r[,k,h]");
     addChance(arguments, "--duplicate", faults.duplicate, "send datagrams twice, at once or later");
     addChance(arguments, "--reorder", faults.reorder, "hold datagrams back, some by more than 100 samples");
-    arguments.add("--delay", faults.delayMs, "delay all datagrams by this much").notNegative().form("MS");
+    arguments.add("--delay", faults.delayMs, "delay all datagrams by this much")
+        .within(0.0, 10'000.0)
+        .form("MS");
     arguments.add("--jitter", faults.jitterMs, "delay each datagram by up to this much")
-        .notNegative()
+        .within(0.0, 10'000.0)
         .form("MS");
     addChance(arguments, "--corrupt", faults.corrupt, "flip bits in datagrams");
     addChance(arguments, "--truncate", faults.truncate, "cut datagrams short");
@@ -213,7 +225,7 @@ Option addFile(Arguments arguments, SendOptions& options) {
     const Option file = arguments.add("--file", options.file,
                                       "send this recording instead of a performance; - for standard input");
     arguments.add("--speed", options.speed, "how fast a recording plays")
-        .positive()
+        .within(0.001, 1000.0)
         .needs(file)
         .showDefault();
     arguments.flag("--loop", options.loops, "begin a recording again at its end").needs(file);
@@ -228,6 +240,7 @@ void addTruth(Arguments arguments, SendOptions& options, Option file) {
         .excludes(file)
         .needs(arguments.option("--duration"))
         .form("FILE");
+    arguments.force(options.replaces);
 }
 
 } // namespace

@@ -72,7 +72,7 @@ private:
 };
 
 tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSender& sender) {
-    const auto file = openInput(path);
+    const auto file = openInput(path, [&] { return sender.isDone(); });
     if (!file) {
         return tl::unexpected(file.error());
     }
@@ -99,18 +99,23 @@ ExitStatus conclude(const std::string& path, const RecordSender& sender, Console
 
 ExitStatus sendFile(const SendOptions& options, std::vector<SendLine>& lines, Console& console) {
     RecordSender records(options, lines);
+    ExitStatus reading = ExitStatus::Fine;
     bool isToBegin = true;
     while (isToBegin) {
         const std::uint64_t before = records.datagrams();
-        if (const auto result = sendOnce(options.file, records); !result) {
-            return console.unusable(result.error().text);
+        const auto result = sendOnce(options.file, records);
+        if (reading == ExitStatus::Fine) { // a file that is cut off is told once
+            reading = readingStatus(result, console);
+        }
+        if (reading == ExitStatus::Unusable) {
+            return reading;
         }
         const bool hadSome = records.datagrams() != before;
         isToBegin = options.loops && hadSome && !records.isDone() && options.file != "-";
         records.beginAgain();
     }
     records.finish();
-    return conclude(options.file, records, console);
+    return worse(reading, conclude(options.file, records, console));
 }
 
 } // namespace posewire::cli

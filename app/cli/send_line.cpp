@@ -162,8 +162,7 @@ net::NetResult<void> SendRound::sendRest() {
     return sendCollected();
 }
 
-tl::expected<void, std::string> writeTruth(const std::string& path, const std::vector<SendLine>& lines,
-                                           double durationSeconds) {
+tl::expected<void, std::string> writeTruth(const SendOptions& options, const std::vector<SendLine>& lines) {
     JsonValue::List senders;
     std::uint64_t foreign = 0;
     for (const SendLine& line : lines) {
@@ -172,9 +171,10 @@ tl::expected<void, std::string> writeTruth(const std::string& path, const std::v
             foreign += sender.truth().sender().foreign;
         }
     }
-    const JsonValue report{
-        {"durationS", durationSeconds}, {"foreignDatagrams", foreign}, {"sources", std::move(senders)}};
-    return Output::writeFile(path, report.text(2) + "\n");
+    const JsonValue report{{"durationS", options.durationSeconds},
+                           {"foreignDatagrams", foreign},
+                           {"sources", std::move(senders)}};
+    return Output::writeFile(options.truth, {options.replaces}, report.text(2) + "\n");
 }
 
 } // namespace posewire::cli

@@ -36,7 +36,10 @@ tl::expected<performer::Revision, Complaint> revisionOf(const std::string& name)
     return static_cast<performer::Revision>(place);
 }
 
-/// "1.5:2" with ':' as two numbers.
+/// Above all that is asked for: the highest counter.
+constexpr double kMost = 4294967295.0;
+
+/// "1.5:2" with ':' as two numbers, from 0 to kMost.
 std::optional<std::vector<double>> numbersIn(std::string_view text, char separator) {
     std::vector<double> numbers;
     while (true) {
@@ -44,7 +47,8 @@ std::optional<std::vector<double>> numbersIn(std::string_view text, char separat
         double number = 0.0;
         const char* last = text.data() + end;
         const auto parsed = std::from_chars(text.data(), last, number);
-        if (end == 0 || parsed.ec != std::errc{} || parsed.ptr != last) {
+        const bool isSensible = number >= 0.0 && number <= kMost; // false for what is not a number
+        if (end == 0 || parsed.ec != std::errc{} || parsed.ptr != last || !isSensible) {
             return std::nullopt;
         }
         numbers.push_back(number);
@@ -81,14 +85,13 @@ tl::expected<void, Complaint> readGilbertElliott(const std::string& text, perfor
 }
 
 tl::expected<void, Complaint> readMoments(const SendOptions& options, performer::FaultSettings& faults) {
-    constexpr double highestCounter = 4294967295.0;
     if (!options.restart.empty()) {
         const auto numbers = numbersIn(options.restart, ':');
-        const bool isGood = numbers && numbers->size() <= 2 &&
-                            (numbers->size() == 1 || isWhole(numbers->back(), highestCounter));
+        const bool isGood =
+            numbers && numbers->size() <= 2 && (numbers->size() == 1 || isWhole(numbers->back(), kMost));
         if (!isGood) {
             return misread("--restart-at", options.restart,
-                           "seconds, or SECONDS:SAMPLE, such as 2.5 or 2.5:100");
+                           "SECONDS or SECONDS:SAMPLE, each from 0 to 4294967295, such as 2.5:100");
         }
         const auto sample = numbers->size() == 2 ? static_cast<std::uint32_t>(numbers->back())
                                                  : options.performer.firstSample;
@@ -97,7 +100,7 @@ tl::expected<void, Complaint> readMoments(const SendOptions& options, performer:
     if (!options.pause.empty()) {
         const auto numbers = numbersIn(options.pause, ':');
         if (!numbers || numbers->size() != 2) {
-            return misread("--pause-at", options.pause, "START:LENGTH in seconds, such as 2:0.5");
+            return misread("--pause-at", options.pause, "START:LENGTH in seconds from 0 up, such as 2:0.5");
         }
         faults.pause = performer::FaultSettings::Pause{numbers->front(), numbers->back()};
     }
@@ -105,7 +108,7 @@ tl::expected<void, Complaint> readMoments(const SendOptions& options, performer:
         const auto numbers = numbersIn(options.reduction, ':');
         if (!numbers || numbers->size() != 2 || !isWhole(numbers->back(), 1e9)) {
             return misread("--reduce-at", options.reduction,
-                           "SECONDS:K to send every Kth sample, such as 2:4");
+                           "SECONDS:K to send every Kth sample from then on, K from 1 to 100, such as 2:4");
         }
         faults.reduction = performer::FaultSettings::Reduction{numbers->front(),
                                                                static_cast<std::uint32_t>(numbers->back())};

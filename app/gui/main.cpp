@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/program_health.h"
+#include "app/gui/ending_signals.h"
 #include "app/gui/options.h"
+#include "app/gui/saving.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/window/main_window.h"
@@ -8,6 +10,7 @@
 #include <QApplication>
 #include <QTimer>
 
+#include <csignal>
 #include <cstdio>
 #include <utility>
 
@@ -54,7 +57,8 @@ void openInputs(MainWindow& window, const Options& options) {
     if (!options.file.isEmpty()) {
         if (const QString problem = driver.openFile(options.file); !problem.isEmpty()) {
             window.say(problem);
-        } else if (options.seekSeconds) {
+        }
+        if (options.seekSeconds && !driver.receiving().state().file.isEmpty()) {
             driver.seek(*options.seekSeconds);
         }
     }
@@ -68,11 +72,11 @@ void takeScreenshot(MainWindow& window, const QString& path, int attempts) {
                            [&window, path, attempts] { takeScreenshot(window, path, attempts - 1); });
         return;
     }
-    const bool isSaved = window.grab().save(path);
-    if (!isSaved) {
-        std::fprintf(stderr, "posewire: %s could not be written\n", qUtf8Printable(path));
+    const QString problem = savePicture(window.grab(), path);
+    if (!problem.isEmpty()) {
+        std::fprintf(stderr, "posewire: %s\n", qUtf8Printable(problem));
     }
-    QCoreApplication::exit(isSaved ? 0 : 1);
+    QCoreApplication::exit(problem.isEmpty() ? 0 : 1);
 }
 
 void begin(MainWindow& window, const Options& options) {
@@ -101,6 +105,9 @@ int main(int argc, char** argv) {
         std::fputs(qUtf8Printable(options.error().text), options.error().status == 0 ? stdout : stderr);
         return options.error().status;
     }
+    // Where a file may not grow, or nobody reads a pipe, the failed write says so.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     QApplication application(argc, argv);
     SettingsFile file(options->settingsFile);
     QString problem;
@@ -118,6 +125,11 @@ int main(int argc, char** argv) {
         if (std::exchange(isFirst, false)) {
             QTimer::singleShot(0, &window, [&] { begin(window, *options); });
         }
+    });
+    const EndingSignals ending;
+    QObject::connect(&ending, &EndingSignals::requested, &window, [&window] {
+        window.close(); // settings and layout are saved
+        QCoreApplication::quit();
     });
     window.show();
     if (!problem.isEmpty()) {

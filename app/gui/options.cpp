@@ -2,9 +2,11 @@
 #include "app/gui/options.h"
 
 #include "app/gui/theme/words.h"
+#include "core/log/output_file.h"
 
 #include <QCommandLineParser>
 #include <QCoreApplication>
+#include <QFile>
 
 #include <algorithm>
 #include <array>
@@ -51,6 +53,7 @@ void describe(QCommandLineParser& parser) {
         {"settings", tr("Keep settings in this file."), "FILE"},
         {"theme", tr("Colours: dark, light or system."), "THEME"},
         {"screenshot", tr("Save a picture of the window and end."), "FILE.png"},
+        {"force", tr("Replace the file of --screenshot where it exists.")},
         {"after", tr("Seconds to wait before the screenshot; 3 by default."), "SECONDS"},
         {"size", tr("Size of the window."), "WxH"},
         {"startup-time", tr("Print how long it took until the window was on screen.")},
@@ -121,7 +124,7 @@ struct Reader {
         const QString text = parser.value(option);
         const double seconds = text.toDouble(&isNumber);
         if (!isNumber || !(seconds >= 0 && seconds <= kMostSeconds)) {
-            refuse(tr("--%1: '%2' is not a number of seconds.").arg(option, text));
+            refuse(tr("--%1: '%2' is not a number of seconds from 0 to 86400.").arg(option, text));
         }
         return seconds;
     }
@@ -148,9 +151,25 @@ struct Reader {
             const QStringList sides = text.split(QLatin1Char('x'));
             const QSize size = sides.size() == 2 ? QSize(sides[0].toInt(), sides[1].toInt()) : QSize();
             if (size.width() < 1 || size.height() < 1 || size.width() > 16'384 || size.height() > 16'384) {
-                refuse(tr("--size: '%1' is not a size such as 1600x1000.").arg(text));
+                refuse(tr("--size: '%1' is not a size such as 1600x1000, up to 16384x16384.").arg(text));
             }
             options.size = size;
+        }
+    }
+
+    /// Nothing that is read is written.
+    void checkOutputs() {
+        const auto encoded = [](const QString& path) { return QFile::encodeName(path).toStdString(); };
+        const std::vector<std::string> inUse{encoded(options.file)};
+        const auto check = [&](const QString& path, bool mayReplace) {
+            const auto checked = log::checkOutput(encoded(path), {mayReplace, inUse});
+            if (!path.isEmpty() && !checked) {
+                refuse(QString::fromStdString(checked.error().text));
+            }
+        };
+        check(options.screenshotFile, options.replaces);
+        if (QFile::exists(options.settingsFile)) {
+            check(options.settingsFile, true);
         }
     }
 
@@ -164,6 +183,8 @@ struct Reader {
         options.resetsLayout = parser.isSet(QStringLiteral("reset-layout"));
         options.settingsFile = parser.value(QStringLiteral("settings"));
         options.screenshotFile = parser.value(QStringLiteral("screenshot"));
+        options.replaces = parser.isSet(QStringLiteral("force"));
+        checkOutputs();
         options.printsStartupTime = parser.isSet(QStringLiteral("startup-time"));
     }
 };

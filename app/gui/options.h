@@ -26,6 +26,7 @@ struct Options {
     bool resetsLayout = false;
     QString settingsFile; ///< empty for the user's own
     QString screenshotFile;
+    bool replaces = false; ///< that file, where it exists
     double screenshotAfterSeconds = 3.0;
     std::optional<double> seekSeconds; ///< from the beginning of the file
     QSize size;

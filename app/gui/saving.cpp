@@ -1,17 +1,90 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/saving.h"
 
+#include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
+#include "core/log/output_file.h"
 
-#include <QSaveFile>
+#include <QBuffer>
+#include <QFile>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QPixmap>
+#include <QRegularExpression>
+
+#include <algorithm>
+#include <span>
 
 namespace posewire::gui {
+namespace {
+
+std::vector<std::string>& filesInUse() {
+    static std::vector<std::string> files;
+    return files;
+}
+
+bool wantsToReplace(QWidget* parent, const QString& title, const QString& path) {
+    MessageBox question(title, tr("%1 exists already. Replace it?").arg(QFileInfo(path).fileName()),
+                        QMessageBox::Yes | QMessageBox::No, parent);
+    question.setIcon(QMessageBox::Warning);
+    question.setDefaultButton(QMessageBox::No);
+    return question.exec() == QMessageBox::Yes;
+}
+
+} // namespace
+
+QString withSuffix(const QString& path, const QString& filter) {
+    static const QRegularExpression pattern(QStringLiteral("\\*(\\.\\w+)\\)"));
+    const QString suffix = pattern.match(filter).captured(1);
+    return path.isEmpty() || !QFileInfo(path).suffix().isEmpty() ? path : path + suffix;
+}
+
+QString askWhereToSave(QWidget* parent, const QString& title, const QString& name, const QString& filters) {
+    QString filter;
+    const QString chosen = QFileDialog::getSaveFileName(parent, title, name, filters, &filter);
+    const QString path = withSuffix(chosen, filter.isEmpty() ? filters : filter);
+    const bool isOther = path != chosen && QFileInfo::exists(path); // the dialog has not asked about that
+    return isOther && !wantsToReplace(parent, title, path) ? QString() : path;
+}
 
 QString saveFile(const QString& path, QByteArrayView content) {
-    QSaveFile file(path);
-    const bool isWritten = file.open(QIODevice::WriteOnly) &&
-                           file.write(content.data(), content.size()) == content.size() && file.commit();
-    return isWritten ? QString() : tr("%1 could not be written: %2").arg(path, file.errorString());
+    const auto bytes = std::as_bytes(std::span(content.data(), static_cast<std::size_t>(content.size())));
+    const auto written = log::writeWholeFile(QFile::encodeName(path).toStdString(), bytes,
+                                             {.mayReplace = true, .inUse = filesInUse()});
+    return written ? QString() : tr("Not saved: %1").arg(QString::fromStdString(written.error().text));
+}
+
+QString savePicture(const QPixmap& picture, const QString& path) {
+    QByteArray content;
+    QBuffer buffer(&content);
+    const QByteArray format = QFileInfo(path).suffix().toLatin1();
+    return picture.save(&buffer, format.constData())
+               ? saveFile(path, content)
+               : tr("Not saved: %1 does not end as a picture does; give it .png").arg(path);
+}
+
+void keepFromSaving(const QString& path) {
+    std::string file = QFile::encodeName(QFileInfo(path).absoluteFilePath()).toStdString();
+    if (std::ranges::find(filesInUse(), file) == filesInUse().end()) {
+        filesInUse().push_back(std::move(file));
+    }
+}
+
+tl::expected<QByteArray, QString> readSmallFile(const QString& path) {
+    constexpr qint64 kMost = qint64{4} << 20;
+    QFile file(path);
+    const QFileInfo info(path);
+    if (info.exists() && !info.isFile()) { // opening a pipe may take forever, and a device has no end
+        return tl::unexpected(tr("it is a folder, a pipe or a device, not a file"));
+    }
+    if (!file.open(QIODevice::ReadOnly)) {
+        return tl::unexpected(file.errorString());
+    }
+    const QByteArray content = file.read(kMost + 1);
+    if (content.size() > kMost) {
+        return tl::unexpected(tr("it is larger than 4 MiB, the most that is read"));
+    }
+    return content;
 }
 
 } // namespace posewire::gui

@@ -7,11 +7,37 @@
 #include <QCoreApplication>
 #include <QStringList>
 
+#include <tl/expected.hpp>
+
+class QPixmap;
+class QWidget;
+
+/// All saving of the window. What may be written is decided where it is for the command line: see
+/// core/log/output_file. From the window's thread.
 namespace posewire::gui {
 
-/// Writes a file whole or not at all: what was there stays until all is written. Returns what went wrong as a
-/// sentence for the operator, empty for nothing.
+/// Asks where to save, and before a file is replaced. `name` is proposed, without anything in it that leads
+/// to another folder. A path without a suffix gets that of the chosen filter; where there is such a file that
+/// is asked about too. Empty where it was cancelled.
+[[nodiscard]] QString askWhereToSave(QWidget* parent, const QString& title, const QString& name,
+                                     const QString& filters);
+/// The path with the suffix of a filter such as "JSON (*.json)", where it has none of its own.
+[[nodiscard]] QString withSuffix(const QString& path, const QString& filter);
+
+/// Writes a file whole or not at all: what was there stays until all is written. For a path that the operator
+/// chose in askWhereToSave(), or that is the program's own. Returns what went wrong as a sentence for the
+/// operator, empty for nothing.
 [[nodiscard]] QString saveFile(const QString& path, QByteArrayView content);
+
+/// The same for a picture, in the format that its ending says.
+[[nodiscard]] QString savePicture(const QPixmap& picture, const QString& path);
+
+/// The file is open as an input from now on: saveFile() does not write over it, whatever leads to it.
+void keepFromSaving(const QString& path);
+
+/// A small file of the program's own kind, such as settings or a layout. The error is for the operator: it is
+/// no regular file, is larger than 4 MiB, or cannot be read.
+[[nodiscard]] tl::expected<QByteArray, QString> readSmallFile(const QString& path);
 
 /// A format for QFileDialog: "JSON (*.json)".
 template <class Subject>

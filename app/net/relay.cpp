@@ -291,7 +291,7 @@ void Relay::sendTo(Target& target, const log::Packet& packet) {
     const std::lock_guard lock(m_mutex);
     target.problem = packet.flags.truncated
                          ? "datagrams that were too long to be received whole are not forwarded"
-                         : socket.errorString().toStdString();
+                         : socket.errorString().toStdString() + "; check the address, and the network to it";
 }
 
 } // namespace posewire::net

@@ -4,6 +4,7 @@
 #include "core/export/html.h"
 #include "core/export/session_reading.h"
 #include "core/model/accounting/attribution.h"
+#include "core/model/accounting/count_history.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
@@ -255,7 +256,7 @@ ReportSteps stepsOf(const model::SessionView& session, const std::optional<model
     }
     const log::Duration least = (steps.to - steps.from) / kMostSteps + log::Duration(1);
     steps.width = (least + resolution - log::Duration(1)) / resolution * resolution;
-    steps.first = steps.from - steps.from.time_since_epoch() % steps.width;
+    steps.first = model::roundedDown(steps.from, steps.width);
     steps.count = static_cast<std::size_t>((steps.to - steps.first) / steps.width + 1);
     return steps;
 }

@@ -44,11 +44,15 @@ std::string_view nameOf(model::EventGroup group) {
     return kNames[static_cast<std::size_t>(group)];
 }
 
+/// Seconds since 1970 with nine decimals; "-0.500000000" before that.
 std::string secondsText(log::Stamp stamp) {
-    constexpr std::chrono::seconds kSecond(1);
-    const log::Duration time = stamp.time_since_epoch();
-    const std::string decimals = std::to_string((time % kSecond).count());
-    return std::to_string(time / kSecond) + '.' + std::string(9 - decimals.size(), '0') + decimals;
+    constexpr std::uint64_t kSecond = 1'000'000'000;
+    const std::int64_t time = log::nanosecondsOf(stamp);
+    const auto sizeOfTime =
+        time < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(time) : static_cast<std::uint64_t>(time);
+    const std::string decimals = std::to_string(sizeOfTime % kSecond);
+    return (time < 0 ? "-" : "") + std::to_string(sizeOfTime / kSecond) + '.' +
+           std::string(9 - decimals.size(), '0') + decimals;
 }
 
 JsonValue objectOf(const model::SessionView& session, const Event& event) {

@@ -204,7 +204,7 @@ std::string padded(std::int64_t number, std::size_t width) {
 /// "2026-11-21 16:01:32.123 UTC".
 std::string utcText(log::Stamp stamp) {
     using namespace std::chrono;
-    const auto shown = time_point_cast<milliseconds>(stamp);
+    const auto shown = floor<milliseconds>(stamp); // also before 1970
     const auto day = floor<days>(shown);
     const year_month_day date{day};
     const hh_mm_ss time{shown - day};

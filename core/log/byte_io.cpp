@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/byte_io.h"
 
+#include "core/log/descriptor.h"
+
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <istream>
-#include <system_error>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace posewire::log {
 namespace {
 
+constexpr std::size_t kBuffer = std::size_t{64} << 10;
+
 class StreamSource final : public ByteSource {
 public:
-    /// `owned` may be null: then the stream belongs to somebody else.
-    StreamSource(std::istream& stream, std::string name, std::unique_ptr<std::istream> owned = {})
-        : m_stream(stream), m_name(std::move(name)), m_owned(std::move(owned)) {}
+    StreamSource(std::istream& stream, std::string name) : m_stream(stream), m_name(std::move(name)) {}
 
     tl::expected<std::size_t, FileError> read(std::span<std::byte> into) override {
         m_stream.read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size()));
@@ -30,71 +35,198 @@ public:
 private:
     std::istream& m_stream;
     std::string m_name;
-    std::unique_ptr<std::istream> m_owned;
 };
 
-class FileSink final : public ByteSink {
+class DescriptorSource final : public ByteSource {
 public:
-    FileSink(std::ofstream file, std::string name) : m_file(std::move(file)), m_name(std::move(name)) {}
+    DescriptorSource(Descriptor descriptor, std::string name, IsCancelled isCancelled)
+        : m_descriptor(std::move(descriptor)),
+          m_name(std::move(name)),
+          m_isCancelled(std::move(isCancelled)) {
+        struct stat status {};
+        m_mayBlock = ::fstat(m_descriptor.number(), &status) != 0 || !S_ISREG(status.st_mode);
+    }
 
-    tl::expected<void, FileError> write(std::span<const std::byte> bytes) override {
-        m_file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-        return result();
+    tl::expected<std::size_t, FileError> read(std::span<std::byte> into) override {
+        if (m_rest.empty() && !into.empty()) {
+            if (auto fetched = fetch(); !fetched) {
+                return tl::unexpected(fetched.error());
+            }
+        }
+        const std::size_t count = std::min(into.size(), m_rest.size());
+        std::copy_n(m_rest.begin(), count, into.begin());
+        m_rest = m_rest.subspan(count);
+        return count;
     }
-    tl::expected<void, FileError> flush() override {
-        m_file.flush();
-        return result();
-    }
+    [[nodiscard]] std::string name() const override { return m_name; }
 
 private:
-    [[nodiscard]] tl::expected<void, FileError> result() const {
-        if (m_file.good()) {
-            return {};
+    tl::expected<void, FileError> fetch() {
+        while (true) {
+            if (m_isCancelled && m_isCancelled()) {
+                return tl::unexpected(
+                    FileError{m_name + ": reading was interrupted", FileError::Kind::Cancelled});
+            }
+            if (m_mayBlock && !hasNews()) {
+                continue;
+            }
+            const ssize_t count = ::read(m_descriptor.number(), m_buffer.data(), m_buffer.size());
+            if (count >= 0) {
+                m_rest = std::span(m_buffer).first(static_cast<std::size_t>(count));
+                return {};
+            }
+            if (errno != EINTR && errno != EAGAIN) {
+                return tl::unexpected(FileError{
+                    m_name + ": reading failed; the device or the connection behind it may be gone"});
+            }
         }
-        const std::string why = errno == ENOSPC ? "the disk is full; make room or choose another disk"
-                                                : std::string("writing failed (") + std::strerror(errno) +
-                                                      "); is the disk still there?";
-        return tl::unexpected(FileError{m_name + ": " + why + "; what was written before can be read"});
+    }
+    /// Waits a little for bytes, or the end.
+    [[nodiscard]] bool hasNews() const {
+        constexpr int waitMs = 100;
+        pollfd state{m_descriptor.number(), POLLIN, 0};
+        return ::poll(&state, 1, waitMs) > 0;
     }
 
-    std::ofstream m_file;
+    Descriptor m_descriptor;
     std::string m_name;
+    IsCancelled m_isCancelled;
+    bool m_mayBlock = false;
+    std::vector<std::byte> m_buffer = std::vector<std::byte>(kBuffer);
+    std::span<const std::byte> m_rest;
 };
+
+tl::unexpected<FileError> unreadable(const std::string& path, int error) {
+    switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+        return tl::unexpected(FileError{path + ": no such file; check the name and the folder"});
+    case EISDIR:
+        return tl::unexpected(FileError{path + ": is a folder; name a file in it"});
+    case EACCES:
+        return tl::unexpected(FileError{path + ": no permission to read it; ask its owner"});
+    case ENXIO:
+        return tl::unexpected(FileError{path + ": is a socket or a device that is not there; name a file"});
+    default:
+        return tl::unexpected(FileError{path + ": " + std::strerror(error)});
+    }
+}
 
 } // namespace
 
-tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string& path) {
-    std::error_code ignored;
-    const auto kind = std::filesystem::status(path, ignored).type();
-    if (kind == std::filesystem::file_type::not_found) {
-        return tl::unexpected(FileError{path + ": no such file; check the name and the folder"});
+tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string& path,
+                                                              IsCancelled isCancelled) {
+    // Opening a pipe that nobody writes to must not wait: reading does, and can be cancelled.
+    Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    if (!descriptor.isOpen()) {
+        return unreadable(path, errno);
     }
-    if (kind == std::filesystem::file_type::directory) {
-        return tl::unexpected(FileError{path + ": is a folder; name a file in it"});
+    struct stat status {};
+    if (::fstat(descriptor.number(), &status) == 0 && S_ISDIR(status.st_mode)) {
+        return unreadable(path, EISDIR);
     }
-    errno = 0;
-    auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
-    if (!file->is_open()) {
-        const std::string why =
-            errno == EACCES ? "no permission to read it; ask its owner" : std::strerror(errno);
-        return tl::unexpected(FileError{path + ": " + why});
-    }
-    std::istream& stream = *file;
-    return std::make_unique<StreamSource>(stream, path, std::move(file));
+    return std::make_unique<DescriptorSource>(std::move(descriptor), path, std::move(isCancelled));
+}
+
+std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled) {
+    return std::make_unique<DescriptorSource>(Descriptor(::dup(STDIN_FILENO)), "standard input",
+                                              std::move(isCancelled));
 }
 
 std::unique_ptr<ByteSource> readingFrom(std::istream& stream, std::string name) {
     return std::make_unique<StreamSource>(stream, std::move(name));
 }
 
-tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string& path) {
-    errno = 0;
-    std::ofstream file(path, std::ios::binary | std::ios::trunc);
-    if (!file.is_open()) {
-        return tl::unexpected(FileError{path + ": cannot be written (" + std::strerror(errno) +
-                                        "); choose another file or folder"});
+Descriptor::~Descriptor() {
+    if (isOpen()) {
+        ::close(m_number);
     }
-    return std::make_unique<FileSink>(std::move(file), path);
+}
+
+DescriptorSink::DescriptorSink(Descriptor descriptor, std::string name, std::string consequence)
+    : m_descriptor(std::move(descriptor)), m_name(std::move(name)), m_consequence(std::move(consequence)) {
+    m_waiting.reserve(kBuffer);
+}
+
+DescriptorSink::~DescriptorSink() {
+    static_cast<void>(DescriptorSink::flush());
+}
+
+tl::expected<void, FileError> DescriptorSink::write(std::span<const std::byte> bytes) {
+    if (m_waiting.size() + bytes.size() > kBuffer) {
+        if (auto flushed = flush(); !flushed) {
+            return flushed;
+        }
+    }
+    if (bytes.size() >= kBuffer) {
+        return put(bytes);
+    }
+    m_waiting.insert(m_waiting.end(), bytes.begin(), bytes.end());
+    return {};
+}
+
+tl::expected<void, FileError> DescriptorSink::flush() {
+    auto result = put(m_waiting);
+    m_waiting.clear();
+    return result;
+}
+
+tl::expected<void, FileError> DescriptorSink::sync() {
+    if (auto flushed = flush(); !flushed) {
+        return flushed;
+    }
+#ifdef __linux__
+    const int result = ::fdatasync(m_descriptor.number());
+#else
+    const int result = ::fsync(m_descriptor.number());
+#endif
+    // Pipes, terminals and devices have nothing to be brought to a disk.
+    const bool isNoDisk = result != 0 && (errno == EINVAL || errno == EROFS || errno == ENOTSUP);
+    return result == 0 || isNoDisk ? tl::expected<void, FileError>() : failure();
+}
+
+tl::expected<void, FileError> DescriptorSink::put(std::span<const std::byte> bytes) {
+    while (!bytes.empty() && !m_hasFailed) {
+        const ssize_t count = ::write(m_descriptor.number(), bytes.data(), bytes.size());
+        if (count >= 0) {
+            bytes = bytes.subspan(static_cast<std::size_t>(count));
+        } else if (errno == EAGAIN) {
+            pollfd state{m_descriptor.number(), POLLOUT, 0};
+            ::poll(&state, 1, -1);
+        } else if (errno != EINTR) {
+            return failure();
+        }
+    }
+    return {};
+}
+
+tl::unexpected<FileError> DescriptorSink::failure() {
+    const int error = errno;
+    m_hasFailed = true;
+    std::string why;
+    switch (error) {
+    case ENOSPC:
+    case EDQUOT:
+        why = "the disk is full; make room or choose another disk";
+        break;
+    case EFBIG:
+        why =
+            "writing failed (the file has the largest size that is allowed); raise the limit, see ulimit -f";
+        break;
+    case EPIPE:
+        why = "nobody reads it any more";
+        break;
+    default:
+        why = std::string("writing failed (") + std::strerror(error) + "); is the disk still there?";
+    }
+    const bool isUnread = error == EPIPE;
+    return tl::unexpected(FileError{m_name + ": " + why + "; " + m_consequence,
+                                    isUnread ? FileError::Kind::Unread : FileError::Kind::Failed});
+}
+
+void DescriptorSink::discard() {
+    m_waiting.clear();
+    m_hasFailed = true;
 }
 
 } // namespace posewire::log

@@ -4,6 +4,8 @@
 #include <tl/expected.hpp>
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <span>
@@ -13,7 +15,14 @@ namespace posewire::log {
 
 /// Why a file cannot be read or written: what, where and what to do, in one line for the user.
 struct FileError {
+    enum class Kind : std::uint8_t {
+        Failed,
+        Cut,       ///< a capture ends amidst a packet; all before it was read
+        Cancelled, ///< whoever reads wants no more
+        Unread,    ///< whoever read what was written has gone
+    };
     std::string text;
+    Kind kind = Kind::Failed;
 };
 
 /// Bytes in order, from wherever.
@@ -28,10 +37,19 @@ public:
     [[nodiscard]] virtual std::string name() const = 0;
 };
 
-/// Fails where there is no such file, it is a folder, or may not be read.
-tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string& path);
+/// Whether whoever reads wants no more. Asked before bytes are fetched, and ten times a second where none
+/// come: a file may have no end, or nobody who writes it.
+using IsCancelled = std::function<bool()>;
 
-/// Reads from a stream that belongs to the caller: standard input, a string in a test.
+/// Fails where there is no such file, it is a folder, or may not be read. Reading fails with
+/// FileError::Kind::Cancelled once `isCancelled` says so.
+tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string& path,
+                                                              IsCancelled isCancelled = {});
+
+/// The standard input of this process.
+std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled = {});
+
+/// Reads from a stream that belongs to the caller.
 std::unique_ptr<ByteSource> readingFrom(std::istream& stream, std::string name);
 
 /// Where bytes go in order. After a failure nothing more is to be written.
@@ -43,10 +61,12 @@ public:
 
     /// What was written is in the hands of the system: it survives the end of this process.
     virtual tl::expected<void, FileError> flush() = 0;
-};
 
-/// A file that is written from the start. Fails where it cannot be; later failures, such as a full disk, come
-/// from write() and flush().
-tl::expected<std::unique_ptr<ByteSink>, FileError> createFile(const std::string& path);
+    /// What was written is on the disk: it survives the end of this computer. May take long.
+    virtual tl::expected<void, FileError> sync() { return flush(); }
+
+    /// Last of all: what was written stays, under its name.
+    virtual tl::expected<void, FileError> finish() { return sync(); }
+};
 
 } // namespace posewire::log

@@ -14,6 +14,10 @@ namespace {
 constexpr std::size_t kLongestText = 65'000; ///< the length of an option has 16 bits
 constexpr std::uint16_t kRawIp = 101;        ///< LINKTYPE_RAW
 
+/// Where stamps of the second interface begin, in seconds since 1970: in 1684, before all that readFile()
+/// gives.
+constexpr std::int64_t kEarly = -9'000'000'000;
+
 constexpr std::string_view kSignature = "Posewire: ";
 constexpr std::array<std::string_view, 4> kTransports{"UDP", "TCP", "file", "performer"};
 constexpr std::array<std::pair<bool PacketFlags::*, std::string_view>, 3> kFlags{
@@ -183,6 +187,10 @@ PcapngWriter::Result PcapngWriter::begin(const RecordingInfo& info) {
     if (auto result = write(); !result) {
         return result;
     }
+    return beginInterface(0);
+}
+
+PcapngWriter::Result PcapngWriter::beginInterface(std::int64_t offsetSeconds) {
     constexpr std::array<std::byte, 1> nanoseconds{std::byte{9}};
     PcapngBlock interface(m_block, PcapngBlockType::Interface);
     interface.number(kRawIp, 2);
@@ -192,6 +200,9 @@ PcapngWriter::Result PcapngWriter::begin(const RecordingInfo& info) {
     interface.option(PcapngOption::InterfaceDescription,
                      "MXTP datagrams as received; IP and UDP headers are made up");
     interface.option(PcapngOption::StampResolution, nanoseconds);
+    if (offsetSeconds != 0) {
+        interface.option(PcapngOption::StampOffset, static_cast<std::uint64_t>(offsetSeconds));
+    }
     interface.finish();
     return write();
 }
@@ -201,10 +212,17 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     const Ends ends = endsOf(sender);
     m_frame.clear();
     appendUdpFrame(m_frame, ends.sender, ends.target, packet.bytes);
-    const Stamp stamp = std::max(packet.stamp, Stamp());
+    const bool isEarly = packet.stamp < Stamp();
+    if (isEarly && !std::exchange(m_hasEarlyInterface, true)) {
+        if (auto begun = beginInterface(kEarly); !begun) {
+            return begun;
+        }
+    }
+    const Duration since =
+        isEarly ? packet.stamp - Stamp(std::chrono::seconds(kEarly)) : packet.stamp.time_since_epoch();
     PcapngBlock block(m_block, PcapngBlockType::EnhancedPacket);
-    block.number(0, 4);
-    block.halves(static_cast<std::uint64_t>(nanosecondsOf(stamp)));
+    block.number(isEarly ? 1 : 0, 4);
+    block.halves(static_cast<std::uint64_t>(since.count()));
     block.number(m_frame.size(), 4);
     block.number(m_frame.size(), 4);
     block.padded(m_frame);
@@ -224,14 +242,17 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     block.finish();
     ++m_packets;
     m_kernelDrops += packet.kernelDropsBefore;
-    m_firstStamp = std::min(m_firstStamp, stamp);
-    m_lastStamp = std::max(m_lastStamp, stamp);
+    if (!isEarly) { // the statistics are of the first interface
+        m_firstStamp = std::min(m_firstStamp, packet.stamp);
+        m_lastStamp = std::max(m_lastStamp, packet.stamp);
+    }
     return write();
 }
 
 PcapngWriter::Result PcapngWriter::finish() {
     const auto last = static_cast<std::uint64_t>(nanosecondsOf(m_lastStamp));
-    const auto first = m_packets != 0 ? static_cast<std::uint64_t>(nanosecondsOf(m_firstStamp)) : last;
+    const auto first =
+        m_firstStamp <= m_lastStamp ? static_cast<std::uint64_t>(nanosecondsOf(m_firstStamp)) : last;
     PcapngBlock block(m_block, PcapngBlockType::InterfaceStatistics);
     block.number(0, 4);
     block.halves(last);

@@ -69,8 +69,9 @@ struct RecordingInfo {
 /// Writes packets as pcapng (draft-ietf-opsawg-pcapng): a section header, one interface with nanosecond
 /// stamps, an enhanced packet block for each packet, interface statistics at the end. Each packet gets IP and
 /// UDP headers that are made up from its sender; what they cannot hold (TCP, a file name, flags) is in a
-/// comment, see RecordedOrigin. readFile() gives back the same packets: bytes, stamps from 1970 on, senders,
-/// kernel drops, flags, comments. `sink` must outlive the writer. After a failure nothing more is written.
+/// comment, see RecordedOrigin; packets with stamps before 1970 are of a second interface, whose stamps begin
+/// earlier. readFile() gives back the same packets: bytes, stamps, senders, kernel drops, flags, comments.
+/// `sink` must outlive the writer. After a failure nothing more is written.
 class PcapngWriter {
 public:
     using Result = tl::expected<void, FileError>;
@@ -90,6 +91,7 @@ public:
     [[nodiscard]] std::uint64_t bytes() const { return m_bytes; } ///< of the file so far
 
 private:
+    Result beginInterface(std::int64_t offsetSeconds);
     Result write();
 
     ByteSink& m_sink;
@@ -100,6 +102,7 @@ private:
     std::uint64_t m_kernelDrops = 0;
     Stamp m_firstStamp = Stamp::max();
     Stamp m_lastStamp{};
+    bool m_hasEarlyInterface = false;
 };
 
 } // namespace posewire::log

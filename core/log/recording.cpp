@@ -11,6 +11,7 @@ namespace posewire::log {
 namespace {
 
 constexpr std::chrono::milliseconds kPause{50};
+constexpr std::chrono::seconds kSync{1};
 
 } // namespace
 
@@ -33,7 +34,11 @@ Recorder::Result Recorder::finish() {
         return written;
     }
     const auto ended = m_writer.finish();
-    return ended ? m_sink.flush() : ended;
+    return ended ? m_sink.finish() : ended;
+}
+
+Recorder::Result Recorder::sync() {
+    return std::exchange(m_synced, m_follower.position()) == m_follower.position() ? Result() : m_sink.sync();
 }
 
 Recorder::Result Recorder::writeNew() {
@@ -50,15 +55,21 @@ Recorder::Result Recorder::writeNew() {
     return {};
 }
 
-tl::expected<std::unique_ptr<Recording>, FileError> Recording::start(const PacketLog& log,
-                                                                     const std::string& path,
-                                                                     const RecordingInfo& info,
-                                                                     std::uint64_t from) {
-    auto sink = createFile(path);
+tl::expected<std::unique_ptr<Recording>, FileError>
+Recording::start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
+                 const OutputRules& rules, std::uint64_t from) {
+    auto sink = createFile(path, rules);
     if (!sink) {
         return tl::unexpected(sink.error());
     }
-    std::unique_ptr<Recording> recording(new Recording(log, std::move(*sink), from));
+    return start(log, std::move(*sink), info, from);
+}
+
+tl::expected<std::unique_ptr<Recording>, FileError> Recording::start(const PacketLog& log,
+                                                                     std::unique_ptr<ByteSink> sink,
+                                                                     const RecordingInfo& info,
+                                                                     std::uint64_t from) {
+    std::unique_ptr<Recording> recording(new Recording(log, std::move(sink), from));
     if (const auto begun = recording->m_recorder.begin(info); !begun) {
         return tl::unexpected(begun.error());
     }
@@ -100,6 +111,7 @@ std::optional<FileError> Recording::failure() const {
 
 void Recording::run() {
     bool isStopping = false;
+    auto synced = std::chrono::steady_clock::now();
     while (!isStopping) {
         {
             std::unique_lock lock(m_mutex);
@@ -107,6 +119,13 @@ void Recording::run() {
         }
         if (!note(isStopping ? m_recorder.finish() : m_recorder.follow())) {
             return;
+        }
+        const auto now = std::chrono::steady_clock::now();
+        if (!isStopping && now - synced >= kSync) {
+            synced = now;
+            if (!note(m_recorder.sync())) {
+                return;
+            }
         }
     }
 }

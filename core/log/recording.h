@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/log_follower.h"
+#include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
 
 #include <condition_variable>
@@ -36,7 +37,10 @@ public:
     /// Writes what is new and hands it to the system.
     Result follow();
 
-    /// Writes what is new and the statistics that a recording ends with.
+    /// Brings what was written to the disk, where anything was since the last time. May take long.
+    Result sync();
+
+    /// Writes what is new and the statistics that a recording ends with; all of it is on the disk then.
     Result finish();
 
     [[nodiscard]] RecordingFigures figures() const {
@@ -50,15 +54,23 @@ private:
     LogFollower m_follower;
     SenderFinder m_senders;
     PcapngWriter m_writer;
+    std::uint64_t m_synced = 0; ///< the packet after the last one on the disk
 };
 
 /// A Recorder on a thread of its own: a slow disk delays nobody. What was received is in the file within a
-/// tenth of a second, also where the process is killed.
+/// tenth of a second, also where the process is killed, and on the disk within about a second, also where the
+/// power fails.
 class Recording {
 public:
     /// Records from packet `from` on. Fails where the file cannot be made. `log` must outlive the recording.
     static tl::expected<std::unique_ptr<Recording>, FileError>
-    start(const PacketLog& log, const std::string& path, const RecordingInfo& info, std::uint64_t from = 0);
+    start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
+          const OutputRules& rules = {}, std::uint64_t from = 0);
+    /// The same to a sink that is there already.
+    static tl::expected<std::unique_ptr<Recording>, FileError> start(const PacketLog& log,
+                                                                     std::unique_ptr<ByteSink> sink,
+                                                                     const RecordingInfo& info,
+                                                                     std::uint64_t from = 0);
 
     /// Stops as stop() does.
     ~Recording();

@@ -54,8 +54,19 @@ public:
         const auto filled = readFully(m_source, m_bytes);
         if (!filled) {
             m_result = tl::unexpected(filled.error());
+        } else if (*filled != size) {
+            reportCut(m_offset + *filled);
         }
         return filled == size ? std::optional<Bytes>(m_bytes) : std::nullopt;
+    }
+    /// The same for what a packet or a block begins with: the file may end before it.
+    std::optional<Bytes> takeNext(std::size_t size) {
+        const std::uint64_t begin = m_offset + m_bytes.size();
+        auto taken = take(size);
+        if (!taken && m_end == begin) {
+            m_result = {};
+        }
+        return taken;
     }
     /// In the file, of the first byte of the piece taken last.
     [[nodiscard]] std::uint64_t offset() const { return m_offset; }
@@ -78,9 +89,18 @@ public:
     [[nodiscard]] const tl::expected<void, FileError>& result() const { return m_result; }
 
 private:
+    void reportCut(std::uint64_t end) {
+        m_end = end;
+        m_result = tl::unexpected(FileError{m_source.name() + ": is cut off: it ends at byte " +
+                                                std::to_string(end) +
+                                                ", amidst a packet; what comes before that packet was read",
+                                            FileError::Kind::Cut});
+    }
+
     ByteSource& m_source;
     std::vector<std::byte> m_bytes;
     std::uint64_t m_offset = 4;
+    std::optional<std::uint64_t> m_end; ///< of the file, where it came too early
     tl::expected<void, FileError> m_result;
 };
 
@@ -93,7 +113,7 @@ void readPcap(PieceReader& reader, std::uint32_t magic, Reassembly& reassembly) 
     const bool hasNanoseconds = magic == 0xa1b23c4dU || magic == 0x4d3cb2a1U;
     const std::uint32_t linkType =
         reader.read32(header->data() + 16) & 0x0fffffffU; // the top bits are about checksums
-    while (const auto record = reader.take(16)) {
+    while (const auto record = reader.takeNext(16)) {
         const std::int64_t seconds = reader.read32(record->data());
         const std::int64_t fraction = reader.read32(record->data() + 4);
         const std::uint32_t size = reader.read32(record->data() + 8);
@@ -150,8 +170,12 @@ struct Interface {
     std::int64_t offsetSeconds = 0;
 };
 
-/// Whole nanoseconds, by long division; what no stamp can hold wraps around.
-Stamp stampOf(std::uint64_t stamp, const Interface& interface) {
+/// Within these all may be subtracted from each other, and from now.
+constexpr std::int64_t kFirstSecond = -7'258'118'400; ///< 1740-01-01
+constexpr std::int64_t kLastSecond = 9'151'488'000;   ///< 2260-01-01
+
+/// Whole nanoseconds, by long division; nothing for what no stamp should hold.
+std::optional<Stamp> stampOf(std::uint64_t stamp, const Interface& interface) {
     const bool isBinary = (interface.resolution & 0x80U) != 0;
     const std::uint64_t base = isBinary ? 2 : 10;
     const unsigned finest = isBinary ? 60 : 18; // a digit more and ten seconds of it overflow
@@ -163,7 +187,17 @@ Stamp stampOf(std::uint64_t stamp, const Interface& interface) {
     for (; exponent > 0; --exponent) {
         perSecond *= base;
     }
-    std::uint64_t nanoseconds = stamp / perSecond + static_cast<std::uint64_t>(interface.offsetSeconds);
+    // No sum: of numbers of 64 bits it may not fit.
+    const std::uint64_t whole = stamp / perSecond;
+    const auto seconds =
+        static_cast<std::int64_t>(whole + static_cast<std::uint64_t>(interface.offsetSeconds));
+    const bool isInside = seconds >= kFirstSecond && seconds <= kLastSecond;
+    const bool hasWrapped = interface.offsetSeconds >= 0 ? whole > static_cast<std::uint64_t>(kLastSecond)
+                                                         : whole > std::uint64_t{1} << 63U;
+    if (!isInside || hasWrapped) {
+        return std::nullopt;
+    }
+    auto nanoseconds = static_cast<std::uint64_t>(seconds);
     std::uint64_t rest = stamp % perSecond;
     for (int digit = 0; digit < 9; ++digit) {
         nanoseconds = nanoseconds * 10 + rest * 10 / perSecond;
@@ -189,7 +223,7 @@ private:
     // The functions that read are false where there is nothing more to be read.
 
     bool readBlock() {
-        const auto type = m_reader.take(4);
+        const auto type = m_reader.takeNext(4);
         const std::uint32_t number = type ? m_reader.read32(type->data()) : 0;
         if (number == kSectionHeader) {
             return readSectionHeader();
@@ -303,12 +337,23 @@ private:
             std::min<std::size_t>(m_reader.read32(body.data() + 12), body.size() - fixed);
         readNotes(body.subspan(std::min(body.size(), fixed + (size + 3) / 4 * 4)));
         const CapturedFrame frame{interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
-                                  stampOf(stamp, interface)};
+                                  near(stampOf(stamp, interface))};
         if (m_notes.isOfRecording()) {
             m_reassembly.addRecorded(frame);
         } else {
             m_reassembly.add(frame);
         }
+    }
+
+    /// Nothing for a stamp that is further than half of what a duration holds from the first one.
+    std::optional<Stamp> near(std::optional<Stamp> stamp) {
+        m_firstStamp = m_firstStamp ? m_firstStamp : stamp;
+        if (!stamp) {
+            return std::nullopt;
+        }
+        const auto [least, most] = std::minmax({nanosecondsOf(*stamp), nanosecondsOf(*m_firstStamp)});
+        const std::uint64_t distance = static_cast<std::uint64_t>(most) - static_cast<std::uint64_t>(least);
+        return distance <= std::uint64_t{1} << 62U ? stamp : std::nullopt;
     }
 
     void readNotes(Bytes options) {
@@ -327,6 +372,7 @@ private:
     Reassembly& m_reassembly;
     FrameNotes& m_notes;
     std::vector<Interface> m_interfaces;
+    std::optional<Stamp> m_firstStamp; ///< of the file
 };
 
 tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit) {

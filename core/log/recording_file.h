@@ -34,8 +34,10 @@ using FileVisitor = std::function<void(const FileRecord&)>;
 
 /// Reads a file of any format that is known, found by its content: datagrams back to back, as on TCP; pcap
 /// (microseconds or nanoseconds, either byte order); pcapng. In captures it finds what Reassembly finds. A
-/// capture that is cut off is read up to its last whole packet. What PcapngWriter has written comes back as
-/// it was.
+/// capture that is cut off is read up to its last whole packet, and fails then with FileError::Kind::Cut and
+/// the byte where it ends. What PcapngWriter has written comes back as it was. A stamp before 1740 or after
+/// 2260, or 146 years from the first one of the file, is none: all others can be subtracted from each other
+/// and from now.
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit);
 
 } // namespace posewire::log

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/receiving.h"
 
+#include "app/gui/saving.h"
 #include "core/log/recording_file.h"
 #include "core/wire/header.h"
 
 #include <QCoreApplication>
+#include <QFile>
 #include <QFileInfo>
 
 #include <algorithm>
@@ -95,30 +97,42 @@ private:
     std::optional<std::uint32_t> m_timeCode;
 };
 
-/// Reads a file from its beginning to its end.
-QString visitFile(const QString& path, const log::FileVisitor& visit) {
-    const auto source = log::openFile(path.toStdString());
+/// Reads a file from its beginning to its end, or to where it is cut off: then the answer says so.
+tl::expected<QString, QString> visitFile(const QString& path, const log::FileVisitor& visit) {
+    const auto source = log::openFile(QFile::encodeName(path).toStdString());
     if (!source) {
-        return QString::fromStdString(source.error().text);
+        return tl::unexpected(QString::fromStdString(source.error().text));
     }
     const auto read = log::readFile(**source, visit);
-    return read ? QString() : QString::fromStdString(read.error().text);
+    const QString text = read ? QString() : QString::fromStdString(read.error().text);
+    const bool isRead = read || read.error().kind == log::FileError::Kind::Cut;
+    return isRead ? tl::expected<QString, QString>(text) : tl::unexpected(text);
 }
 
 } // namespace
 
-QString importRawFile(const QString& path, const PacketTaker& take, log::Stamp end) {
+tl::expected<QString, QString> importRawFile(const QString& path, const PacketTaker& take, log::Stamp end) {
+    if (const QFileInfo info(path); info.exists() && !info.isFile() && !info.isDir()) {
+        return tl::unexpected(
+            QCoreApplication::translate(
+                "Receiving", "%1 is a pipe or a device, which may have no end; posewire-cli reads it")
+                .arg(path));
+    }
     // Twice over: how long a raw file lasts is known at its end, and it may be larger than memory.
     TimeCodeStamps measuring;
     log::Duration length{};
     std::uint64_t count = 0;
-    QString problem = visitFile(path, [&](const log::FileRecord& record) {
+    const auto measured = visitFile(path, [&](const log::FileRecord& record) {
         length = measuring.next(record);
         ++count;
     });
-    if (!problem.isEmpty() || count == 0) {
-        return problem.isEmpty() ? QCoreApplication::translate("Receiving", "%1 is empty.").arg(path)
-                                 : problem;
+    if (!measured) {
+        return measured;
+    }
+    if (count == 0) {
+        return tl::unexpected(measured->isEmpty()
+                                  ? QCoreApplication::translate("Receiving", "%1 is empty.").arg(path)
+                                  : *measured);
     }
     const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
     TimeCodeStamps stamps;
@@ -259,18 +273,19 @@ void Receiving::takeAllowed() {
     }
 }
 
-QString Receiving::openFile(const QString& path) {
-    const QString problem = importRawFile(
+tl::expected<QString, QString> Receiving::openFile(const QString& path) {
+    const auto imported = importRawFile(
         path,
         [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival) {
             m_receiver.submit(bytes, sender, arrival);
         },
         m_clock.wall());
     m_receiver.flush();
-    if (problem.isEmpty()) {
+    if (imported) {
+        keepFromSaving(path);
         m_state.file = QFileInfo(path).fileName();
     }
-    return problem;
+    return imported;
 }
 
 void Receiving::measure(log::Stamp now) {

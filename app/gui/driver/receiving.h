@@ -10,6 +10,8 @@
 #include "core/model/session/session_view.h"
 
 #include <deque>
+#include <tl/expected.hpp>
+
 #include <functional>
 #include <future>
 #include <map>
@@ -24,8 +26,10 @@ using PacketTaker = std::function<void(std::span<const std::byte> bytes, const l
 
 /// Reads a file of datagrams. Those of a capture keep their stamps and senders. Those of a raw file are one
 /// sender, spaced by their time codes (by their order where those repeat or go back), the newest at
-/// `end`. The answer is what went wrong, empty for nothing.
-[[nodiscard]] QString importRawFile(const QString& path, const PacketTaker& take, log::Stamp end);
+/// `end`. The answer is what there is to say about a file that was read, such as that it is cut off, empty
+/// for nothing; the error is why it was not read.
+[[nodiscard]] tl::expected<QString, QString> importRawFile(const QString& path, const PacketTaker& take,
+                                                           log::Stamp end);
 
 /// Everything that the window lets into the log: the receiver with its inputs, and files; and why nothing
 /// comes.
@@ -52,9 +56,8 @@ public:
     void retry();
 
     /// Appends a file of datagrams, beside whatever is received meanwhile. Without stamps of their own they
-    /// are spaced by their time codes, the newest being now. The answer is what went wrong, empty for
-    /// nothing.
-    [[nodiscard]] QString openFile(const QString& path);
+    /// are spaced by their time codes, the newest being now. The answer is that of importRawFile().
+    [[nodiscard]] tl::expected<QString, QString> openFile(const QString& path);
 
     /// Hosts and nets to listen to, on all inputs; none: everyone. Names are looked up beside the window, and
     /// until they are known they are not listened to.

@@ -121,13 +121,13 @@ void SessionDriver::measureHealth() {
 }
 
 QString SessionDriver::openFile(const QString& path) {
-    const QString problem = m_receiving.openFile(path);
-    if (problem.isEmpty()) {
+    const auto opened = m_receiving.openFile(path);
+    if (opened) {
         m_session.followFile();
         setPaused(false);
         setPaused(true);
     }
-    return problem;
+    return opened ? *opened : opened.error();
 }
 
 void SessionDriver::seek(double seconds) {

@@ -223,7 +223,7 @@ void InputsPage::layOut() {
     column->addWidget(new Line(this));
     column->addLayout(formRow);
     column->addWidget(new Line(this));
-    auto* allowedLabel = new QLabel(tr("&Listen only to"), this);
+    auto* allowedLabel = plainLabel(tr("&Listen only to"), this);
     allowedLabel->setBuddy(m_allowed);
     m_allowed->setPlaceholderText(tr("everyone"));
     m_allowedNote->setWordWrap(true);

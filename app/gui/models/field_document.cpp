@@ -60,8 +60,7 @@ QString cutText(const FieldDocument& document) {
                           : tr("%1 is announced with %2 bytes, %3 are left")
                                 .arg(where, grouped(error.need), grouped(error.have));
     case wire::ErrorCode::CountTooLarge:
-        return tr("%1 is %2, the rest can hold at most %3")
-            .arg(where, grouped(error.need), grouped(error.have));
+        return tr("%1 is %2, at most %3 can be here").arg(where, grouped(error.need), grouped(error.have));
     case wire::ErrorCode::BadSequence:
         return tr("%1 is not UTF-8").arg(where);
     case wire::ErrorCode::UnterminatedText:

@@ -247,8 +247,9 @@ QString PacketModel::timeText(const PacketFacts& facts) const {
         return fixed(log::secondsOf(facts.stamp - m_view.firstStamp()), kTimeDecimals);
     }
     const log::Duration sinceEpoch = facts.stamp.time_since_epoch();
-    const std::int64_t microseconds = sinceEpoch / 1us % 1000;
-    const QDateTime time = QDateTime::fromMSecsSinceEpoch(sinceEpoch / 1ms);
+    const auto milliseconds = std::chrono::floor<std::chrono::milliseconds>(sinceEpoch); // also before 1970
+    const std::int64_t microseconds = (sinceEpoch - milliseconds) / 1us;
+    const QDateTime time = QDateTime::fromMSecsSinceEpoch(milliseconds.count());
     return time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz")) +
            QStringLiteral("%1").arg(microseconds, 3, 10, QLatin1Char('0'));
 }

@@ -6,7 +6,6 @@
 #include "app/gui/saving.h"
 
 #include <QEvent>
-#include <QFileDialog>
 #include <QHeaderView>
 #include <QJsonArray>
 #include <QKeyEvent>
@@ -203,8 +202,8 @@ void EventsPanel::addActions(QMenu& menu, const QModelIndex& index) {
 }
 
 void EventsPanel::exportFile() {
-    const QString path = QFileDialog::getSaveFileName(this, tr("Export events"), QStringLiteral("events.csv"),
-                                                      fileFilters<exporting::EventSheet>());
+    const QString path = askWhereToSave(this, tr("Export events"), QStringLiteral("events.csv"),
+                                        fileFilters<exporting::EventSheet>());
     if (!path.isEmpty()) {
         const QString problem = save(path);
         m_message->say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);

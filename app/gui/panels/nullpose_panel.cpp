@@ -7,7 +7,6 @@
 #include "app/gui/saving.h"
 #include "app/gui/theme/widgets.h"
 
-#include <QFileDialog>
 #include <QItemSelectionModel>
 #include <QMenu>
 
@@ -345,7 +344,7 @@ QString NullPosePanel::save(const QString& path) const {
 
 void NullPosePanel::chooseFile(const SheetFormat& format) {
     const std::string name = sheet().character.fileName("Character");
-    const QString path = QFileDialog::getSaveFileName(
+    const QString path = askWhereToSave(
         this, tr("Save null pose"),
         QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)),
         fileFilter(format));

@@ -6,6 +6,7 @@
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
+#include "core/model/accounting/count_history.h"
 
 #include <QHelpEvent>
 #include <QKeyEvent>
@@ -134,8 +135,8 @@ void RangeStrip::choose(log::Stamp from, log::Stamp to) {
     range.from = std::clamp(range.from, span.from, span.to);
     range.to = std::clamp(range.to, range.from, span.to);
     // As buckets go: what is shown as chosen is what is counted.
-    range.from -= range.from.time_since_epoch() % resolution;
-    range.to += (resolution - range.to.time_since_epoch() % resolution) % resolution;
+    range.from = model::roundedDown(range.from, resolution);
+    range.to = model::roundedDown(range.to + resolution - log::Duration(1), resolution);
     if (range.to == range.from) {
         range.to += resolution;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/docks.h"
 
+#include "app/gui/saving.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/plain_text.h"
@@ -9,7 +10,6 @@
 #include "app/gui/theme/words.h"
 
 #include <QDockWidget>
-#include <QFile>
 #include <QHBoxLayout>
 #include <QJsonArray>
 #include <QJsonDocument>
@@ -189,15 +189,15 @@ tl::expected<DockLayout, QString> parseLayout(const QByteArray& json) {
 
 tl::expected<DockLayout, QString> findLayout(const QString& nameOrFile) {
     const bool isShipped = layoutNames().contains(nameOrFile, Qt::CaseInsensitive);
-    QFile file(isShipped ? QStringLiteral(":/layouts/%1.json").arg(nameOrFile.toLower()) : nameOrFile);
-    if (!file.open(QIODevice::ReadOnly)) {
+    const auto content =
+        readSmallFile(isShipped ? QStringLiteral(":/layouts/%1.json").arg(nameOrFile.toLower()) : nameOrFile);
+    if (!content) {
         return tl::unexpected(
             tr("Layout '%1' is none of %2, and no file that can be read: %3")
-                .arg(nameOrFile, layoutNames().join(QStringLiteral(", ")), file.errorString()));
+                .arg(nameOrFile, layoutNames().join(QStringLiteral(", ")), content.error()));
     }
-    return parseLayout(file.readAll()).map_error([&](const QString& text) {
-        return nameOrFile + QStringLiteral(": ") + text;
-    });
+    return parseLayout(*content).map_error(
+        [&](const QString& text) { return nameOrFile + QStringLiteral(": ") + text; });
 }
 
 QStringList unknownDocks(const DockLayout& layout, const QStringList& docks) {

@@ -10,10 +10,7 @@
 #include "core/export/protocol_reference.h"
 
 #include <QAction>
-#include <QBuffer>
 #include <QCoreApplication>
-#include <QFileDialog>
-#include <QFileInfo>
 #include <QMenu>
 #include <QMenuBar>
 
@@ -52,17 +49,12 @@ void toggleGhost(Window& window) {
 
 void saveScreenshot(Window& window) {
     const QPixmap picture = window.grab();
-    const QString path = QFileDialog::getSaveFileName(&window, tr("Save screenshot"),
-                                                      QStringLiteral("posewire.png"), tr("Pictures (*.png)"));
+    const QString path = askWhereToSave(&window, tr("Save screenshot"), QStringLiteral("posewire.png"),
+                                        tr("Pictures (*.png)"));
     if (path.isEmpty()) {
         return;
     }
-    QByteArray content;
-    QBuffer buffer(&content);
-    const QByteArray format = QFileInfo(path).suffix().toLatin1();
-    const QString problem = picture.save(&buffer, format.constData())
-                                ? saveFile(path, content)
-                                : tr("%1 could not be written").arg(path);
+    const QString problem = savePicture(picture, path);
     window.say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
 }
 

@@ -10,7 +10,6 @@
 #include <QApplication>
 #include <QDateTime>
 #include <QDesktopServices>
-#include <QFileDialog>
 #include <QPushButton>
 #include <QUrl>
 
@@ -77,9 +76,8 @@ QString saveStreamReport(model::SessionView& session, QWidget* parent) {
     }
     const QString name =
         QDateTime::currentDateTime().toString(QStringLiteral("'stream-report-'yyyyMMdd-HHmm"));
-    const QString path =
-        QFileDialog::getSaveFileName(parent, tr("Save stream report"), name + QStringLiteral(".html"),
-                                     fileFilters<exporting::ReportSheet>());
+    const QString path = askWhereToSave(parent, tr("Save stream report"), name + QStringLiteral(".html"),
+                                        fileFilters<exporting::ReportSheet>());
     if (path.isEmpty()) {
         return {};
     }

@@ -61,17 +61,18 @@ SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
 
 Settings SettingsFile::read(QString* problem) {
     problem->clear();
-    QFile file(m_path);
-    if (!file.exists()) {
+    if (!QFile::exists(m_path)) {
         return {};
     }
-    if (!file.open(QIODevice::ReadOnly)) {
-        *problem = tr("Settings in %1 cannot be read: %2").arg(m_path, file.errorString());
+    const auto content = readSmallFile(m_path);
+    if (!content) {
+        *problem = QFileInfo(m_path).isFile()
+                       ? setAside(content.error())
+                       : tr("Settings in %1 cannot be read: %2").arg(m_path, content.error());
         return {};
     }
     QJsonParseError error;
-    const QJsonDocument document = QJsonDocument::fromJson(file.readAll(), &error);
-    file.close();
+    const QJsonDocument document = QJsonDocument::fromJson(*content, &error);
     if (!document.isObject()) {
         *problem = setAside(error.errorString());
         return {};

@@ -51,7 +51,7 @@ TEST(EncodeCommand, GivesBackTheRecordedDatagramsBitForBit) {
 TEST(EncodeCommand, WritesToAFile) {
     const std::string target = fileWith("before");
     const std::string line = textOfFile(posewire::test::sourcePath("tests/golden/25_time_code_bare.json"));
-    const ProgramRun run = runProgram({"encode", fileWith(line), "-o", target});
+    const ProgramRun run = runProgram({"encode", fileWith(line), "-o", target, "--force"});
     EXPECT_EQ(run.status, 0);
     EXPECT_EQ(run.out, "");
     EXPECT_TRUE(textOfFile(target) == asText(golden("25_time_code_bare").bytes));

@@ -39,11 +39,16 @@ TEST(LineReader, KeepsLinesWholeAcrossReads) {
     EXPECT_EQ(linesOf(text), expected);
 }
 
-TEST(LineReader, CutsALineThatWouldNotEnd) {
-    const std::vector<std::string> lines = linesOf(std::string(LineReader::kLongestLine + 10, 'x'));
-    ASSERT_EQ(lines.size(), 2U);
-    EXPECT_EQ(lines[0].size(), LineReader::kLongestLine);
-    EXPECT_EQ(lines[1].size(), 10U);
+TEST(LineReader, EndsWithAnErrorAtALineThatWouldNotEnd) {
+    EXPECT_EQ(linesOf(std::string(LineReader::kLongestLine, 'x')).size(), 1U);
+    std::istringstream stream("a\n" + std::string(LineReader::kLongestLine + 1, 'x'));
+    const auto source = log::readingFrom(stream, "test");
+    LineReader reader(*source);
+    EXPECT_TRUE(reader.next());
+    const auto line = reader.next();
+    ASSERT_FALSE(line);
+    EXPECT_EQ(line.error().text,
+              "test: line 2 is longer than 4 MiB, the most that is read; is this JSON Lines of decode?");
 }
 
 } // namespace

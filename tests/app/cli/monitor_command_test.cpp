@@ -147,7 +147,7 @@ TEST(MonitorCommand, LetsNoNameControlTheTerminal) {
 
 TEST(MonitorCommand, RecordsAFileThatTellsTheSame) {
     const std::string path = faultyRecording();
-    const std::string copy = fileWith("");
+    const std::string copy = newPath();
     const Json first = reportOf(path, {"--record", copy});
     EXPECT_EQ(reportOf(copy), first);
     EXPECT_EQ(first["sources"][0]["datagrams"], 991);
@@ -191,7 +191,7 @@ TEST(MonitorCommand, EndsWithStatusTwoOnWrongUsage) {
 
 TEST(ReportCommand, WritesHtmlAboutTheRangeThatWasAskedFor) {
     const std::string path = faultyRecording();
-    const std::string whole = fileWith("");
+    const std::string whole = newPath();
     EXPECT_EQ(runProgram({"report", path, "-o", whole}).status, 0);
     EXPECT_THAT(textOfFile(whole), StartsWith("<!DOCTYPE html>"));
     EXPECT_THAT(textOfFile(whole), HasSubstr("10 of 1,000 samples (1.00 %)"));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/log/byte_io.h"
+#include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
 #include "core/log/time.h"
 #include "core/wire/codec.h"
@@ -14,7 +14,10 @@ namespace posewire::cli::test {
 /// Makes a recording packet by packet.
 class RecordingFile {
 public:
-    RecordingFile() : m_path(fileWith("")), m_sink(log::createFile(m_path).value()), m_writer(*m_sink) {
+    RecordingFile()
+        : m_path(fileWith("")),
+          m_sink(log::createFile(m_path, {.mayReplace = true}).value()),
+          m_writer(*m_sink) {
         static_cast<void>(m_writer.begin({}));
     }
 

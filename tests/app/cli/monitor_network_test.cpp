@@ -62,7 +62,7 @@ std::uint64_t sentBy(const ProgramRun& run) {
 }
 
 TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
-    const std::string recording = fileWith("");
+    const std::string recording = newPath();
     Monitor monitor({"--record", QString::fromStdString(recording)});
     const ProgramRun sender =
         runProgram({"send", "--to", monitor.place(), "--characters", "2", "--duration", "0.5"});

@@ -31,10 +31,14 @@ ProgramRun runProgram(const std::vector<std::string>& arguments, const std::stri
             process.readAllStandardError().toStdString()};
 }
 
-std::string fileWith(const std::string& content) {
+std::string newPath() {
     static const QTemporaryDir folder;
     static int number = 0;
-    const std::string path = folder.filePath(QString::number(++number)).toStdString();
+    return folder.filePath(QString::number(++number)).toStdString();
+}
+
+std::string fileWith(const std::string& content) {
+    const std::string path = newPath();
     std::ofstream(path, std::ios::binary) << content;
     return path;
 }

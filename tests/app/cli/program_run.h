@@ -21,6 +21,9 @@ struct ProgramRun {
 /// A file with that content that is gone after the test program; its path.
 [[nodiscard]] std::string fileWith(const std::string& content);
 
+/// A path where no file is yet; in a folder that is gone after the test program.
+[[nodiscard]] std::string newPath();
+
 [[nodiscard]] std::string asText(const std::vector<std::byte>& bytes);
 [[nodiscard]] std::string textOfFile(const std::filesystem::path& path);
 

@@ -85,12 +85,34 @@ TEST(Program, SaysWhichNumbersAnOptionTakes) {
         return runProgram(arguments).err;
     };
     EXPECT_EQ(complaint({"monitor", "--duration", "-3"}),
-              "posewire-cli monitor: --duration: \"-3\" is not a number from 0 up; see posewire-cli monitor "
-              "--help\n");
+              "posewire-cli monitor: --duration: \"-3\" is not a number from 0 to 31536000; see posewire-cli "
+              "monitor --help\n");
     EXPECT_THAT(complaint({"send", "--rate", "x"}),
-                HasSubstr("--rate: \"x\" is not a number greater than 0;"));
+                HasSubstr("--rate: \"x\" is not a number from 1 to 1000;"));
     EXPECT_THAT(complaint({"send", "--drop", "2"}), HasSubstr("--drop: \"2\" is not a number from 0 to 1;"));
     EXPECT_THAT(complaint({"send", "--senders", "99"}), HasSubstr("\"99\" is not a number from 1 to 16;"));
+}
+
+TEST(Program, TakesNoNumberThatMakesNoSense) {
+    const std::vector<std::vector<std::string>> options{
+        {"monitor", "--duration"},   {"monitor", "--interval"}, {"monitor", "--max-loss"},
+        {"monitor", "--max-jitter"}, {"monitor", "--max-gap"},  {"send", "--duration"},
+        {"send", "--rate"},          {"send", "--delay"},       {"send", "--jitter"},
+        {"send", "--drop"},          {"send", "--characters"},  {"send", "--senders"},
+        {"send", "--restart-at"},    {"send", "--pause-at"},    {"send", "--seed"},
+        {"send", "--first-sample"},  {"send", "--props"}};
+    for (std::vector<std::string> arguments : options) {
+        for (const char* number : {"nan", "inf", "-inf", "-1", "1e300", "-1e300"}) {
+            std::vector<std::string> all = arguments;
+            all.insert(all.end(), {std::string(number), "--to", "127.0.0.1:9"});
+            all.resize(arguments[0] == "send" ? all.size() : 3);
+            const ProgramRun run = runProgram(all);
+            EXPECT_EQ(run.status, 2) << testing::PrintToString(all);
+            expectOneClearLine(run);
+        }
+    }
+    EXPECT_THAT(runProgram({"monitor", "--max-loss", "101"}).err,
+                HasSubstr("is not a number from 0 to 100;"));
 }
 
 TEST(Program, PrintsTheProtocolReference) {

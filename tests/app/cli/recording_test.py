@@ -63,8 +63,12 @@ def check_damaged(file: Path, folder: Path, cli: str) -> None:
     cut = folder / "cut.pcapng"
     for size in range(len(whole) - 120, len(whole)):
         cut.write_bytes(whole[:size])
-        report = json.loads(run(cli, "monitor", str(cut), "--json"))
+        monitored = subprocess.run((cli, "monitor", str(cut), "--json"), capture_output=True, text=True)
+        report = json.loads(monitored.stdout)
         assert sum(source["datagrams"] for source in report["sources"]) in (3, 4), size
+        is_told = f"is cut off: it ends at byte {size}," in monitored.stderr
+        assert monitored.returncode == is_told, (size, monitored)
+        assert is_told or size == len(whole) - 88, "but for the whole file without its statistics"
 
 
 def main() -> int:

@@ -131,7 +131,7 @@ TEST(SendCommand, SaysWhatIsWrongWithAFileWithoutDatagrams) {
 
 TEST(SendCommand, WritesTheTruthAboutEveryDatagramThatLeft) {
     Listener listener;
-    const std::string truthFile = fileWith("");
+    const std::string truthFile = newPath();
     const ProgramRun run = runProgram({"send", "--to", listener.place(), "--types", "24", "--characters", "1",
                                        "--rate", "200", "--duration", "0.5", "--drop", "0.2", "--duplicate",
                                        "0.2", "--truncate", "0.1", "--truth", truthFile});
@@ -151,7 +151,7 @@ TEST(SendCommand, WritesTheTruthAboutEveryDatagramThatLeft) {
 
 TEST(SendCommand, SendsFromTwoSocketsWithTheSameCharacters) {
     Listener listener;
-    const std::string truthFile = fileWith("");
+    const std::string truthFile = newPath();
     const ProgramRun run =
         runProgram({"send", "--to", listener.place(), "--types", "02", "--characters", "1", "--rate", "100",
                     "--duration", "0.1", "--senders", "2", "--truth", truthFile});

@@ -73,9 +73,9 @@ TEST(Options, DemoHasTwoCharactersUnlessTold) {
 }
 
 TEST(Options, ReadEverythingElse) {
-    const auto options =
-        parse({"take.bin", "--layout", "check", "--reset-layout", "--settings", "s.json", "--theme", "light",
-               "--screenshot", "p.png", "--after", "1.5", "--size", "1600x1000", "--startup-time"});
+    const auto options = parse({"take.bin", "--layout", "check", "--reset-layout", "--settings", "s.json",
+                                "--theme", "light", "--screenshot", "p.png", "--force", "--after", "1.5",
+                                "--size", "1600x1000", "--startup-time"});
     ASSERT_TRUE(options);
     EXPECT_EQ(options->file, "take.bin");
     EXPECT_EQ(options->layout, "check");
@@ -83,6 +83,7 @@ TEST(Options, ReadEverythingElse) {
     EXPECT_EQ(options->settingsFile, "s.json");
     EXPECT_EQ(options->theme, ThemeChoice::Light);
     EXPECT_EQ(options->screenshotFile, "p.png");
+    EXPECT_TRUE(options->replaces);
     EXPECT_DOUBLE_EQ(options->screenshotAfterSeconds, 1.5);
     EXPECT_EQ(options->size, QSize(1600, 1000));
     EXPECT_TRUE(options->printsStartupTime);

@@ -50,6 +50,17 @@ TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
     EXPECT_THAT(csv, EndsWith("No data for 1 s.\r\n"));
 }
 
+TEST_F(EventSheetTest, WritesStampsOfAnyYear) {
+    gap.firstStamp = log::stampOf(-1'500'000'000);
+    gap.lastStamp = log::stampOf(-1);
+    down.firstStamp = log::Stamp::min();
+    down.lastStamp = log::Stamp::max();
+    const std::vector<const model::Event*> events{&gap, &down};
+    const std::string csv = eventsCsv({session, events});
+    EXPECT_THAT(csv, HasSubstr(",-1.500000000,-0.000000001,"));
+    EXPECT_THAT(csv, HasSubstr(",-9223372036.854775808,9223372036.854775807,"));
+}
+
 TEST_F(EventSheetTest, WritesObjectsThatCanBeRead) {
     const std::vector<const model::Event*> events{&gap, &down};
     const auto json = nlohmann::json::parse(eventsJson({session, events}));

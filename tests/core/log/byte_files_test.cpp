@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/byte_io.h"
+#include "core/log/output_file.h"
 
 #include "tests/core/log/log_fixture.h"
 
@@ -9,6 +10,7 @@
 #include <random>
 #include <sstream>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace posewire::log {
@@ -23,7 +25,7 @@ protected:
     ~ByteFiles() override { std::filesystem::remove_all(m_folder); }
     [[nodiscard]] std::string path(const std::string& name) const { return (m_folder / name).string(); }
     void write(const std::string& name, std::span<const std::byte> bytes) const {
-        auto file = createFile(path(name));
+        auto file = createFile(path(name), {.mayReplace = true});
         ASSERT_TRUE(file) << file.error().text;
         ASSERT_TRUE((*file)->write(bytes));
         ASSERT_TRUE((*file)->flush());
@@ -126,6 +128,41 @@ TEST_F(ByteFiles, SayWhyTheyCannotBeWritten) {
         EXPECT_THAT(file.error().text, StartsWith(path(name) + ": cannot be written ("));
         EXPECT_THAT(file.error().text, HasSubstr("choose another file or folder"));
     }
+}
+
+/// Says no twice, then yes.
+IsCancelled afterSome() {
+    return [asked = 0]() mutable { return ++asked > 2; };
+}
+
+TEST_F(ByteFiles, AreNoLongerReadOnceThatIsCancelled) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    std::vector<std::byte> into(100'000);
+    for (const std::string& name : {path("pipe"), std::string("/dev/zero")}) {
+        auto file = openFile(name, afterSome());
+        ASSERT_TRUE(file) << file.error().text;
+        tl::expected<std::size_t, FileError> count;
+        do {
+            count = (*file)->read(into);
+        } while (count && *count != 0);
+        ASSERT_FALSE(count) << name << ": nobody writes it, or it has no end";
+        EXPECT_EQ(count.error().kind, FileError::Kind::Cancelled);
+    }
+}
+
+TEST_F(ByteFiles, CanBePipesThatAreWrittenLater) {
+    ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+    auto file = openFile(path("pipe"));
+    ASSERT_TRUE(file);
+    std::vector<std::byte> into(100);
+    {
+        auto sink = createFile(path("pipe"));
+        ASSERT_TRUE(sink) << sink.error().text;
+        ASSERT_TRUE((*sink)->write(pattern(10, 1)));
+        ASSERT_TRUE((*sink)->finish()) << "a pipe has no disk to be synchronised with";
+    }
+    EXPECT_EQ(*(*file)->read(into), 10U);
+    EXPECT_EQ(*(*file)->read(into), 0U);
 }
 
 /// A stream whose device goes away amidst.

@@ -98,6 +98,25 @@ TEST_P(PcapngFile, AddsTheOffsetOfTheInterface) {
     }
 }
 
+/// Only those that can be subtracted from each other, and from now.
+TEST_P(PcapngFile, TakesStampsOfCenturiesAndNoneThatNoDurationReaches) {
+    const auto at = [&](std::int64_t seconds) {
+        return stampRead(0, option(kOffset, number(static_cast<std::uint64_t>(seconds), 8)));
+    };
+    for (const std::int64_t seconds : {-7'258'118'400, -2'208'988'800, -1L, 4'294'967'296, 9'151'488'000}) {
+        EXPECT_EQ(at(seconds), Stamp(std::chrono::seconds(seconds))) << seconds;
+    }
+    for (const std::int64_t seconds : {-7'258'118'401, 9'151'488'001, 32'503'680'000}) {
+        EXPECT_EQ(at(seconds), stampOf(-1)) << seconds << ": it has none";
+    }
+    const auto early = option(kOffset, number(static_cast<std::uint64_t>(-5'000'000'000), 8));
+    const auto seen =
+        recordedIn(joined({section(), interface(early), interface(), packet(0, {}, 0), packet(0, {}, 1)}));
+    ASSERT_EQ(seen.size(), 2U);
+    EXPECT_EQ(seen[0].stamp, Stamp(std::chrono::seconds(-5'000'000'000)));
+    EXPECT_EQ(seen[1].stamp, stampOf(-1)) << "158 years later";
+}
+
 /// No stamp and no offset of a damaged file ends the program; the packet is there.
 TEST_P(PcapngFile, SurvivesStampsThatNoClockShows) {
     for (const std::uint64_t offset : {0x7fffffffffffffffU, 0x8000000000000000U, 0xffffffffffffffffU}) {

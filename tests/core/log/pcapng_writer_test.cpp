@@ -116,6 +116,15 @@ TEST(PcapngWriter, GivesBackPacketsOfAnyLength) {
     }
 }
 
+TEST(PcapngWriter, GivesBackStampsBefore1970) {
+    std::vector<Recorded> packets;
+    for (const std::int64_t nanoseconds : {5LL, -1LL, 0LL, -800'000'000LL, -2'000'000'000'000'000'001LL}) {
+        packets.push_back({poseDatagram(7)});
+        packets.back().stamp = stampOf(nanoseconds);
+    }
+    EXPECT_EQ(recordedIn(written(packets)), packets);
+}
+
 TEST(PcapngWriter, WritesTheSameFileFromWhatWasReadBack) {
     const ByteVector first = written(everyKind());
     EXPECT_EQ(written(recordedIn(first)), first);

@@ -44,6 +44,22 @@ TEST_F(RecorderTest, WritesWhatTheLogGetsAndHandsItToTheSystemEachTime) {
     EXPECT_EQ(recorder.figures().missed, 0U);
 }
 
+TEST_F(RecorderTest, BringsToTheDiskWhatIsNew) {
+    Recorder recorder(m_log, m_sink);
+    ASSERT_TRUE(recorder.begin({}));
+    ASSERT_TRUE(recorder.sync());
+    EXPECT_EQ(m_sink.syncs, 0) << "nothing was recorded";
+    append(1);
+    ASSERT_TRUE(recorder.follow());
+    EXPECT_EQ(m_sink.syncs, 0) << "that takes too long for every packet";
+    for (int i = 0; i < 2; ++i) {
+        ASSERT_TRUE(recorder.sync());
+        EXPECT_EQ(m_sink.syncs, 1);
+    }
+    ASSERT_TRUE(recorder.finish());
+    EXPECT_EQ(m_sink.syncs, 2);
+}
+
 TEST_F(RecorderTest, BeginsWithThePacketThatWasAskedFor) {
     for (std::uint32_t sample = 0; sample < 10; ++sample) {
         append(sample);

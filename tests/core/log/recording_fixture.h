@@ -49,8 +49,14 @@ public:
         return {};
     }
 
+    tl::expected<void, FileError> sync() override {
+        ++syncs;
+        return flush();
+    }
+
     ByteVector bytes;
     std::size_t flushed = 0;
+    int syncs = 0;
 
 private:
     std::size_t m_room;
@@ -90,7 +96,8 @@ inline std::vector<Recorded> recordedIn(std::span<const std::byte> file) {
                        arrival.flags,
                        {record.comments.begin(), record.comments.end()}});
     });
-    return result ? all : std::vector<Recorded>{};
+    const bool isCut = !result && result.error().kind == FileError::Kind::Cut;
+    return result || isCut ? all : std::vector<Recorded>{};
 }
 
 } // namespace posewire::log

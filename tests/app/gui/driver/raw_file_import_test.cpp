@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/receiving.h"
 
+#include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -28,7 +29,7 @@ protected:
         }
     }
     QString import(const QString& file) {
-        return importRawFile(
+        const auto imported = importRawFile(
             file,
             [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, log::Arrival arrival) {
                 arrival.sender = log.senders().intern(sender);
@@ -36,6 +37,7 @@ protected:
                 log.writer().publish();
             },
             Stage::kStart);
+        return imported ? *imported : imported.error();
     }
     std::vector<log::Stamp> stamps() {
         std::vector<log::Stamp> result;
@@ -57,6 +59,34 @@ TEST_F(RawFileImport, SpacesDatagramsByTheirTimeCodesWithTheNewestAtTheEnd) {
     ASSERT_EQ(import(path), "");
     EXPECT_EQ(stamps(), (std::vector<log::Stamp>{Stage::kStart - 30ms, Stage::kStart - 30ms,
                                                  Stage::kStart - 20ms, Stage::kStart}));
+}
+
+TEST_F(RawFileImport, ACutCaptureIsReadUpToItsEndWhichIsTold) {
+    {
+        const auto sink = log::createFile(path.toStdString());
+        ASSERT_TRUE(sink);
+        log::PcapngWriter writer(**sink);
+        ASSERT_TRUE(writer.begin({}));
+        const std::vector<std::byte> bytes(40, std::byte{7});
+        for (int i = 0; i < 3; ++i) {
+            log::Packet packet;
+            packet.stamp = Stage::kStart + i * 1ms;
+            packet.bytes = bytes;
+            ASSERT_TRUE(writer.add(packet, {"10.0.0.5:50000", log::Transport::Udp, 9763}));
+        }
+    }
+    const qint64 size = QFile(path).size() - 10;
+    ASSERT_TRUE(QFile::resize(path, size));
+    EXPECT_EQ(import(path),
+              path + QStringLiteral(": is cut off: it ends at byte %1, amidst a packet; what comes "
+                                    "before that packet was read")
+                         .arg(size));
+    EXPECT_EQ(stamps().size(), 2U);
+}
+
+TEST_F(RawFileImport, NothingWithoutAnEndIsRead) {
+    EXPECT_TRUE(import("/dev/zero").contains("a pipe or a device"));
+    EXPECT_TRUE(stamps().empty());
 }
 
 TEST_F(RawFileImport, TimeCodesThatGoBackDoNotMoveTheStampsBack) {

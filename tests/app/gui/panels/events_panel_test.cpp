@@ -133,7 +133,7 @@ TEST_F(EventsPanelTest, SavesByTheEndingAndSaysWhatWentWrong) {
     QFile csv(folder.filePath("events.csv"));
     ASSERT_TRUE(csv.open(QIODevice::ReadOnly));
     EXPECT_TRUE(csv.readAll().startsWith("number,severity"));
-    EXPECT_TRUE(m_panel.save(folder.filePath("none/events.csv")).contains("could not be written"));
+    EXPECT_TRUE(m_panel.save(folder.filePath("none/events.csv")).contains("cannot be written"));
 }
 
 TEST_F(EventsPanelTest, EveryControlIsReachedByTheKeyboardAndNamed) {

@@ -133,7 +133,7 @@ TEST(ReportSavingTest, WritesAPageOrSaysWhyNot) {
     EXPECT_TRUE(text.trimmed().endsWith("</html>"));
     EXPECT_TRUE(writeStreamReport(stage.session, model::TimeRange{Stage::kStart, stage.now},
                                   folder.filePath("none/report.html"))
-                    .contains("could not be written"));
+                    .contains("cannot be written"));
 }
 
 } // namespace

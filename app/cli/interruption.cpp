@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/interruption.h"
+
+#include <array>
+#include <atomic>
+#include <csignal>
+#include <cstdint>
+
+#include <signal.h>
+#include <time.h>
+
+namespace posewire::cli {
+namespace {
+
+constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+
+std::atomic<bool> hasInterruptionCome = false;
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler writes it");
+
+std::atomic<std::int64_t> firstMs = 0; ///< when it came
+
+std::int64_t nowMs() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return std::int64_t{now.tv_sec} * 1000 + now.tv_nsec / 1'000'000;
+}
+
+/// What comes at once is the same again: timeout(1) signals a program and then its group.
+extern "C" void rememberInterruption(int signal) {
+    constexpr std::int64_t same = 500;
+    const std::int64_t now = nowMs();
+    if (!hasInterruptionCome) {
+        firstMs = now;
+        hasInterruptionCome = true;
+    } else if (now - firstMs >= same) {
+        std::signal(signal, SIG_DFL);
+        ::raise(signal);
+    }
+}
+
+/// As it was started: by nohup.
+bool isIgnored(int signal) {
+    struct sigaction action {};
+    return ::sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
+}
+
+void handle(void (*handler)(int)) {
+    for (const int signal : kSignals) {
+        if (signal == SIGHUP && isIgnored(signal)) {
+            continue;
+        }
+        struct sigaction action {};
+        action.sa_handler = handler;
+        ::sigaction(signal, &action, nullptr);
+    }
+}
+
+} // namespace
+
+Interruption::Interruption() {
+    hasInterruptionCome = false;
+    handle(rememberInterruption);
+}
+
+Interruption::~Interruption() {
+    handle(SIG_DFL);
+}
+
+bool Interruption::hasCome() {
+    return hasInterruptionCome;
+}
+
+} // namespace posewire::cli

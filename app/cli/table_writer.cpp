@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/table_writer.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace posewire::cli {
+
+TableWriter::TableWriter(int descriptor, bool isTerminal)
+    : m_descriptor(descriptor),
+      m_isTerminal(isTerminal),
+      m_display(isTerminal),
+      m_thread([this] { run(); }) {}
+
+TableWriter::~TableWriter() {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_isStopping = true;
+    }
+    m_changed.notify_all();
+    m_thread.join();
+}
+
+void TableWriter::show(std::vector<std::string> lines) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_newest = std::move(lines);
+    }
+    m_changed.notify_all();
+}
+
+void TableWriter::finish(bool (*isInterrupted)()) {
+    using namespace std::chrono;
+    constexpr milliseconds step{20};
+    constexpr seconds patience{1};
+    std::optional<steady_clock::time_point> interrupted;
+    std::unique_lock lock(m_mutex);
+    while (m_isWanted && (m_newest || m_isWriting)) {
+        m_changed.wait_for(lock, step);
+        if (isInterrupted() && !interrupted) {
+            interrupted = steady_clock::now();
+        }
+        if (interrupted && steady_clock::now() - *interrupted >= patience) {
+            return;
+        }
+    }
+}
+
+std::string TableWriter::failure() const {
+    const std::lock_guard lock(m_mutex);
+    return m_failure;
+}
+
+void TableWriter::run() {
+    std::unique_lock lock(m_mutex);
+    while (true) {
+        m_changed.wait(lock, [this] { return m_isStopping || m_newest; });
+        if (m_isStopping) {
+            return;
+        }
+        const std::vector<std::string> lines = *std::exchange(m_newest, std::nullopt);
+        m_isWriting = true;
+        lock.unlock();
+        const LiveDisplay::Size size = LiveDisplay::terminalSize();
+        write(m_display.show(lines, size.rows, size.columns));
+        lock.lock();
+        m_isWriting = false;
+        m_changed.notify_all();
+    }
+}
+
+void TableWriter::write(std::string_view text) {
+    constexpr std::size_t piece = 512; // the least that a pipe or a terminal with room takes at once
+    while (!text.empty() && !m_isStopping && m_isWanted) {
+        if (!hasRoom()) {
+            continue;
+        }
+        const ssize_t count = ::write(m_descriptor, text.data(), std::min(piece, text.size()));
+        if (count >= 0) {
+            text.remove_prefix(static_cast<std::size_t>(count));
+        } else if (errno != EINTR && errno != EAGAIN) {
+            noteFailure();
+        }
+    }
+}
+
+/// Waits a little for it. An error counts as room: writing says what it is.
+bool TableWriter::hasRoom() const {
+    constexpr int waitMs = 50;
+    pollfd state{m_descriptor, POLLOUT, 0};
+    return ::poll(&state, 1, waitMs) > 0;
+}
+
+void TableWriter::noteFailure() {
+    const int error = errno;
+    const bool hasReaderGone = error == EPIPE || (error == EIO && m_isTerminal);
+    const std::lock_guard lock(m_mutex);
+    m_isWanted = false;
+    if (!hasReaderGone) {
+        m_failure =
+            std::string("standard output: writing failed (") + std::strerror(error) + "); is the disk full?";
+    }
+}
+
+} // namespace posewire::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/cli/live_table.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace posewire::cli {
+
+/// Writes tables on a thread of its own: who reads slowly or not at all (a pager, a stopped terminal) delays
+/// nobody. It holds the newest table only; one that was not begun in time is replaced by the next.
+class TableWriter {
+public:
+    /// Writes to this descriptor, which stays the caller's; on a terminal one table over the other.
+    TableWriter(int descriptor, bool isTerminal);
+    /// What is not written by now is left out.
+    ~TableWriter();
+    TableWriter(const TableWriter&) = delete;
+    TableWriter& operator=(const TableWriter&) = delete;
+
+    /// Returns at once.
+    void show(std::vector<std::string> lines);
+
+    /// Waits until the newest table is written, or nobody reads; at most a second once `isInterrupted` says
+    /// so.
+    void finish(bool (*isInterrupted)());
+
+    /// False once the reader has gone or writing has failed; failure() is empty for a reader that has gone.
+    [[nodiscard]] bool isWanted() const { return m_isWanted; }
+    [[nodiscard]] std::string failure() const;
+
+private:
+    void run();
+    void write(std::string_view text);
+    [[nodiscard]] bool hasRoom() const;
+    void noteFailure();
+
+    int m_descriptor;
+    bool m_isTerminal;
+    LiveDisplay m_display; ///< the thread's own
+    mutable std::mutex m_mutex;
+    std::condition_variable m_changed;
+    std::optional<std::vector<std::string>> m_newest;
+    std::string m_failure;
+    bool m_isWriting = false;
+    std::atomic<bool> m_isStopping = false;
+    std::atomic<bool> m_isWanted = true;
+    std::thread m_thread;
+};
+
+} // namespace posewire::cli

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/output_file.h"
+
+#include "tests/core/log/log_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include <sys/stat.h>
+
+namespace posewire::log {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// A folder of its own with a file, gone with the test.
+class OutputFile : public testing::Test {
+protected:
+    OutputFile() { std::ofstream(path("old")) << "old"; }
+    ~OutputFile() override { fs::remove_all(m_folder); }
+
+    [[nodiscard]] std::string path(const std::string& name) const { return (m_folder / name).string(); }
+    [[nodiscard]] std::string content(const std::string& name) const {
+        std::ifstream file(path(name), std::ios::binary);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    [[nodiscard]] std::ptrdiff_t filesThere() const {
+        return std::distance(fs::directory_iterator(m_folder), fs::directory_iterator());
+    }
+    [[nodiscard]] static std::span<const std::byte> bytes(std::string_view text) {
+        return std::as_bytes(std::span(text));
+    }
+
+private:
+    static fs::path newFolder() {
+        static std::random_device random; // every test is a process of its own, and they run side by side
+        auto folder = fs::path(testing::TempDir()) / ("output_file_" + std::to_string(random()));
+        fs::create_directories(folder);
+        return folder;
+    }
+    fs::path m_folder = newFolder();
+};
+
+TEST_F(OutputFile, IsNotReplacedWithoutLeave) {
+    for (const auto create : {createFile, createWholeFile}) {
+        const auto refused = create(path("old"), {});
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().text,
+                  path("old") + ": exists already; choose another name, or add --force to replace it");
+    }
+    EXPECT_FALSE(checkOutput(path("old"), {}));
+    EXPECT_EQ(content("old"), "old");
+    EXPECT_TRUE(writeWholeFile(path("old"), bytes("new"), {.mayReplace = true}));
+    EXPECT_EQ(content("old"), "new");
+}
+
+TEST_F(OutputFile, IsNeverOneThatIsInUse) {
+    fs::create_symlink("old", path("link"));
+    fs::create_hard_link(path("old"), path("twin"));
+    for (const char* name : {"old", "link", "twin", "./old"}) {
+        const OutputRules rules{.mayReplace = true, .inUse = {path("old")}};
+        EXPECT_FALSE(checkOutput(path(name), rules)) << name;
+        EXPECT_FALSE(createFile(path(name), rules)) << name;
+        const auto refused = createWholeFile(path(name), rules);
+        ASSERT_FALSE(refused) << name;
+        EXPECT_THAT(refused.error().text, StartsWith(path(name) + ": is "));
+        EXPECT_THAT(refused.error().text, HasSubstr("choose another file"));
+        EXPECT_EQ(content("old"), "old");
+    }
+}
+
+TEST_F(OutputFile, IsThereWholeOrNotAtAll) {
+    for (const char* name : {"old", "new"}) {
+        const auto before = filesThere();
+        {
+            auto sink = createWholeFile(path(name), {.mayReplace = true});
+            ASSERT_TRUE(sink);
+            ASSERT_TRUE((*sink)->write(bytes("half")));
+            ASSERT_TRUE((*sink)->flush());
+            EXPECT_EQ(content(name), name == std::string("old") ? "old" : "");
+        }
+        EXPECT_EQ(filesThere(), before) << "nothing is left of it";
+        EXPECT_EQ(content(name), name == std::string("old") ? "old" : "");
+        ASSERT_TRUE(writeWholeFile(path(name), bytes("whole"), {.mayReplace = true}));
+        EXPECT_EQ(content(name), "whole");
+    }
+    EXPECT_EQ(filesThere(), 2);
+}
+
+TEST_F(OutputFile, IsWrittenBehindALinkAndKeepsItsRights) {
+    fs::create_symlink("old", path("link"));
+    fs::permissions(path("old"), fs::perms::owner_read | fs::perms::owner_write);
+    ASSERT_TRUE(writeWholeFile(path("link"), bytes("new"), {.mayReplace = true}));
+    EXPECT_TRUE(fs::is_symlink(path("link")));
+    EXPECT_EQ(content("old"), "new");
+    EXPECT_EQ(fs::status(path("old")).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+}
+
+TEST_F(OutputFile, DoesNotReplaceOneThatAppearsMeanwhile) {
+    auto sink = createWholeFile(path("new"));
+    ASSERT_TRUE(sink);
+    std::ofstream(path("new")) << "of somebody else";
+    const auto finished = (*sink)->finish();
+    ASSERT_FALSE(finished);
+    EXPECT_THAT(finished.error().text, HasSubstr("exists by now"));
+    EXPECT_EQ(content("new"), "of somebody else");
+}
+
+TEST_F(OutputFile, MayBeADeviceOrAPipeWithoutLeave) {
+    for (const auto create : {createFile, createWholeFile}) {
+        auto sink = create("/dev/null", {});
+        ASSERT_TRUE(sink) << sink.error().text;
+        EXPECT_TRUE((*sink)->write(bytes("x")));
+        EXPECT_TRUE((*sink)->finish());
+    }
+    EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(OutputFile, SaysThatALinkLeadsNowhere) {
+    fs::create_symlink("nowhere", path("link"));
+    EXPECT_THAT(createFile(path("link")).error().text, HasSubstr("a link to a file that does not exist"));
+}
+
+TEST_F(OutputFile, IsRefusedBeforehandWhereItsFolderIsNot) {
+    EXPECT_THAT(checkOutput(path("missing/file"), {}).error().text,
+                HasSubstr("choose another file or folder"));
+    EXPECT_TRUE(checkOutput(path("new"), {}));
+    EXPECT_FALSE(fs::exists(path("new")));
+}
+
+} // namespace
+} // namespace posewire::log
