@@ -16,6 +16,12 @@ namespace posewire::gui {
 
 namespace {
 
+/// An earlier screenshot, most likely: scripts take the same one again and again.
+bool isPicture(const QString& path) {
+    QFile file(path);
+    return file.open(QIODevice::ReadOnly) && file.read(4) == QByteArray("\x89PNG");
+}
+
 constexpr int kMaxDemoCharacters = 20;
 
 constexpr std::array kThemes{std::pair{ThemeChoice::Dark, "dark"}, std::pair{ThemeChoice::Light, "light"},
@@ -53,7 +59,7 @@ void describe(QCommandLineParser& parser) {
         {"settings", tr("Keep settings in this file."), "FILE"},
         {"theme", tr("Colours: dark, light or system."), "THEME"},
         {"screenshot", tr("Save a picture of the window and end."), "FILE.png"},
-        {"force", tr("Replace the file of --screenshot where it exists.")},
+        {"force", tr("Replace the file of --screenshot also where it is no picture.")},
         {"after", tr("Seconds to wait before the screenshot; 3 by default."), "SECONDS"},
         {"size", tr("Size of the window."), "WxH"},
         {"startup-time", tr("Print how long it took until the window was on screen.")},
@@ -167,7 +173,7 @@ struct Reader {
                 refuse(QString::fromStdString(checked.error().text));
             }
         };
-        check(options.screenshotFile, options.replaces);
+        check(options.screenshotFile, options.replaces || isPicture(options.screenshotFile));
         if (QFile::exists(options.settingsFile)) {
             check(options.settingsFile, true);
         }

@@ -223,8 +223,7 @@ bool Relay::isForwarded(const log::Packet& packet) {
     if (isNew) {
         verdict->second = judge(packet.sender);
     }
-    return verdict->second == Verdict::Forward && !packet.flags.skipped &&
-           packet.stamp >= m_caughtUp - kOld;
+    return verdict->second == Verdict::Forward && !packet.flags.skipped && packet.stamp >= m_caughtUp - kOld;
 }
 
 /// Leaves out what this relay itself has sent, should it come back by a path that add() did not see.

@@ -137,9 +137,10 @@ void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
 /// What this computer did not do in time, and what is no longer listed.
 void addSession(std::vector<Finding>& findings, const model::SessionView& session) {
     if (session.overtaken() != 0) {
-        findings.push_back({Severity::Error, "This computer did not look at " +
-                                                 counted(session.overtaken(), "packet", "packets") +
-                                                 " in time: what was lost with them is counted as lost here."});
+        findings.push_back(
+            {Severity::Error, "This computer did not look at " +
+                                  counted(session.overtaken(), "packet", "packets") +
+                                  " in time: what was lost with them is counted as lost here."});
     }
     addCounted(findings, session.unfollowed(), "datagram", "datagrams",
                " of too many streams at once could not be accounted for.");
@@ -147,10 +148,10 @@ void addSession(std::vector<Finding>& findings, const model::SessionView& sessio
     if (retired.senders != 0) {
         findings.push_back({retired.lost == 0 ? Severity::Info : Severity::Warning,
                             counted(retired.senders, "sender", "senders") +
-                                                " fell silent and made room for others; together: " +
-                                                counted(retired.wellFormed(), "datagram", "datagrams") + ", " +
-                                                counted(retired.samples, "sample", "samples") + ", " +
-                                                grouped(retired.lost) + " lost."});
+                                " fell silent and made room for others; together: " +
+                                counted(retired.wellFormed(), "datagram", "datagrams") + ", " +
+                                counted(retired.samples, "sample", "samples") + ", " + grouped(retired.lost) +
+                                " lost."});
     }
 }
 
@@ -274,9 +275,9 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
                 (sender.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(sender.skippedBytes)) : "") +
                 fact("Dropped by this computer", grouped(sender.kernelDrops)) + "</dl>\n";
         for (const model::Character* character : sender.characters) {
-            html += "<h3>" + session.displayName(character->key).html() +
-                    " <span class=\"dim\">character " + std::to_string(character->key.character) +
-                    "</span></h3>\n" + metadataList(session, character->key) +
+            html += "<h3>" + session.displayName(character->key).html() + " <span class=\"dim\">character " +
+                    std::to_string(character->key.character) + "</span></h3>\n" +
+                    metadataList(session, character->key) +
                     streamTable(session, character->key, figures, steps);
         }
     }

@@ -23,7 +23,8 @@ QString transportName(log::Transport transport) {
 /// Shows how fast a character comes: its pose, or else the fastest of its streams.
 const model::Stream* leadingStream(const model::Character& character) {
     for (const std::uint8_t type : std::array<std::uint8_t, 3>{2, 1, 5}) {
-        const auto pose = std::ranges::find(character.streams, type, [](const auto* stream) { return stream->key.type; });
+        const auto pose =
+            std::ranges::find(character.streams, type, [](const auto* stream) { return stream->key.type; });
         if (pose != character.streams.end()) {
             return *pose;
         }
@@ -114,9 +115,9 @@ QString CharacterModel::rateHelp(const StreamRow& row) const {
         return {};
     }
     return nominalHz(streamOf(row)) ? tr("Nominal rate, from the sender's time code and sample "
-                                                       "counter / measured by arrival at this "
-                                                       "computer")
-                                                  : tr("Measured by arrival at this computer");
+                                         "counter / measured by arrival at this "
+                                         "computer")
+                                    : tr("Measured by arrival at this computer");
 }
 
 /// The tooltip says it in full, since a narrow column cuts it; of senders with every contradiction in what

@@ -176,10 +176,11 @@ PropertyValue retired(const Source& from) {
     const QString toolTip =
         tr("Senders that fell silent and made room for others. Their rows are gone; these are their sums, "
            "which all totals include.");
-    return sums.senders == 0 ? PropertyValue{tr("none"), Health::Good, toolTip}
-                        : PropertyValue{tr("%1 · %2 datagrams · %3 lost")
-                                            .arg(grouped(sums.senders), grouped(sums.datagrams), grouped(sums.lost)),
-                                        Health::Unknown, toolTip};
+    return sums.senders == 0
+               ? PropertyValue{tr("none"), Health::Good, toolTip}
+               : PropertyValue{tr("%1 · %2 datagrams · %3 lost")
+                                   .arg(grouped(sums.senders), grouped(sums.datagrams), grouped(sums.lost)),
+                               Health::Unknown, toolTip};
 }
 
 } // namespace

@@ -155,9 +155,8 @@ QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
 }
 
 std::optional<model::CharacterKey> StreamTreeModel::character(const QModelIndex& index) const {
-    return index.isValid() && rowOf(index).kind != Kind::Sender
-               ? std::optional(characterOf(rowOf(index).key))
-               : std::nullopt;
+    return index.isValid() && rowOf(index).kind != Kind::Sender ? std::optional(characterOf(rowOf(index).key))
+                                                                : std::nullopt;
 }
 
 std::optional<log::SenderId> StreamTreeModel::sender(const QModelIndex& index) const {

@@ -45,7 +45,9 @@ protected:
     bool insertNew();
     [[nodiscard]] const StreamRow& rowOf(const QModelIndex& index) const;
     // What a row is of. Cells are asked for only where it is there.
-    [[nodiscard]] const model::Sender& senderOf(const StreamRow& row) const { return *m_view.find(row.key.sender); }
+    [[nodiscard]] const model::Sender& senderOf(const StreamRow& row) const {
+        return *m_view.find(row.key.sender);
+    }
     [[nodiscard]] const model::Character& characterAt(const StreamRow& row) const {
         return *m_view.find(characterOf(row.key));
     }
@@ -73,7 +75,7 @@ private:
     model::SessionView& m_view;
     std::vector<StreamRow> m_rows; ///< by node
     std::array<Nodes, 3> m_nodes;  ///< by kind and key
-    std::uint64_t m_retired = 0;  ///< senders whose rows are gone
+    std::uint64_t m_retired = 0;   ///< senders whose rows are gone
 };
 
 } // namespace posewire::gui

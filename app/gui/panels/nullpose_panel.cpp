@@ -344,10 +344,10 @@ QString NullPosePanel::save(const QString& path) const {
 
 void NullPosePanel::chooseFile(const SheetFormat& format) {
     const std::string name = sheet().character.fileName("Character");
-    const QString path = askWhereToSave(
-        this, tr("Save null pose"),
-        QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)),
-        fileFilter(format));
+    const QString path =
+        askWhereToSave(this, tr("Save null pose"),
+                       QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)),
+                       fileFilter(format));
     const QString problem = path.isEmpty() ? QString() : save(path);
     if (!problem.isEmpty()) {
         MessageBox(tr("Save null pose"), problem, QMessageBox::Ok, this).exec();

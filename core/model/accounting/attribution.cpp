@@ -100,8 +100,8 @@ std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uin
         judge(due, m_judged);
         m_due.pop_front();
     }
-    for (; !m_partials.empty() && (m_partials.front().stream == nullptr ||
-                                   packet.stamp - m_partials.front().stamp >= kPatience);
+    for (; !m_partials.empty() &&
+           (m_partials.front().stream == nullptr || packet.stamp - m_partials.front().stamp >= kPatience);
          m_partials.pop_front(), ++m_firstPartial) {
         judge(m_partials.front(), packet.number);
     }
@@ -192,8 +192,8 @@ void Attribution::judge(Partial& partial, std::uint64_t packet) {
     if (stream == nullptr || !stream->accounting.isIncomplete(partial.sample)) {
         return;
     }
-    partial.cause = causeOfPartial(stream->key, partial.packet,
-                                   partial.nextPacket != 0 ? partial.nextPacket : packet);
+    partial.cause =
+        causeOfPartial(stream->key, partial.packet, partial.nextPacket != 0 ? partial.nextPacket : packet);
     ++stream->attributed[static_cast<std::size_t>(partial.cause)];
     keepNewest(m_judgedPartials, partial, kMostBack);
     m_judgedPartials.back().stream = stream;

@@ -50,10 +50,11 @@ struct Stream {
 
     // What others remember of it.
     std::uint64_t judgeAt = UINT64_MAX; ///< Attribution: this many datagrams; what waits is judged then
-    std::uint32_t judgedStep = 0;  ///< Attribution: the step by which its gaps were counted
-    std::uint64_t openPartial = 0; ///< Attribution: one past the number of the partial that its next sample ends
-    double usualHz = 0;            ///< ThresholdWatch: its rate before the window; 0 before it is known
-    bool isWatched = false;        ///< ThresholdWatch
+    std::uint32_t judgedStep = 0;       ///< Attribution: the step by which its gaps were counted
+    std::uint64_t openPartial =
+        0;                  ///< Attribution: one past the number of the partial that its next sample ends
+    double usualHz = 0;     ///< ThresholdWatch: its rate before the window; 0 before it is known
+    bool isWatched = false; ///< ThresholdWatch
 };
 
 } // namespace posewire::model

@@ -366,8 +366,8 @@ Stream* Ingest::streamOf(const log::StreamKey& key, const Sender& sender) {
     return &added;
 }
 
-/// The one of the same host with the same ID that was heard last, among the newest; from now on the new one is
-/// one of them.
+/// The one of the same host with the same ID that was heard last, among the newest; from now on the new one
+/// is one of them.
 Character* Ingest::predecessorOf(const Character& character) {
     const auto host = hostOf(find(character.key.sender)->info);
     if (!host) {

@@ -72,7 +72,7 @@ struct Character {
 
     CharacterKey key;
     std::vector<const Stream*> streams{}; ///< in order of first appearance
-    std::size_t ordinal = 0; ///< place in the order of first appearance, for default colours
+    std::size_t ordinal = 0;              ///< place in the order of first appearance, for default colours
     Metadata metadata;
     log::Stamp lastStamp{};
     std::uint64_t firstPacket = 0;

@@ -184,8 +184,8 @@ const Character* SessionView::predecessor(const CharacterKey& key) const {
 
 const Character* SessionView::successor(const Character& character) const {
     const Character* next = character.after ? find(*character.after) : nullptr;
-    const bool hasTakenOver = next != nullptr && next->firstPacket < visibleEnd() &&
-                              next->firstPacket > character.lastPacket;
+    const bool hasTakenOver =
+        next != nullptr && next->firstPacket < visibleEnd() && next->firstPacket > character.lastPacket;
     return hasTakenOver ? next : nullptr;
 }
 

@@ -139,7 +139,7 @@ TEST_F(MonitorUdp, AStreamThatLastsToTheEndExceedsNothing) {
 }
 
 TEST_F(MonitorUdp, ListensToThoseThatWereNamedAndCountsOthers) {
-    const std::string recording = fileWith("");
+    const std::string recording = newPath();
     start({"--from", "127.0.0.2", "--from", "10.0.0.0/8", "--record", QString::fromStdString(recording)});
     send(QHostAddress("127.0.0.3"), 0, 20);
     send(QHostAddress("127.0.0.2"), 0, 10);

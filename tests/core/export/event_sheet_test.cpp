@@ -43,10 +43,13 @@ TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
     const std::vector<const model::Event*> events{&gap, &down};
     const std::string csv = eventsCsv({session, events});
     EXPECT_THAT(csv, StartsWith("number,severity,group,event,source,character,type,from,to,"));
-    EXPECT_THAT(csv, HasSubstr("\r\n7,warning,loss,gap,,1,02,1700000000.000000001,1700000003.500000000,10,12,"
-                               "2,3,network,yes,\"3 samples lost in 2 gaps, cause: network. "
-                               "Other streams \"\"brought\"\" it, "));
-    EXPECT_THAT(csv, HasSubstr("\r\n0,error,source,source down,,,,0.000000000,"));
+    EXPECT_THAT(
+        csv,
+        HasSubstr(
+            "\r\n7,warning,loss,gap,a retired sender,1,02,1700000000.000000001,1700000003.500000000,10,12,"
+            "2,3,network,yes,\"3 samples lost in 2 gaps, cause: network. "
+            "Other streams \"\"brought\"\" it, "));
+    EXPECT_THAT(csv, HasSubstr("\r\n0,error,source,source down,a retired sender,,,0.000000000,"));
     EXPECT_THAT(csv, EndsWith("No data for 1 s.\r\n"));
 }
 

@@ -118,7 +118,7 @@ TEST_F(SessionDriverTest, APortThatIsTakenIsToldAndTriedAgain) {
     net::Input taken({}, net::InputKind::Udp, {"127.0.0.1", 0});
     auto holder = net::bindUdp(taken, 1 << 16);
     ASSERT_TRUE(holder);
-    const std::uint16_t port = holder->front()->localPort();
+    const std::uint16_t port = holder->front().socket->localPort();
     driver.receiving().addPort({"127.0.0.1", port});
     ASSERT_EQ(driver.receiving().state().ports.size(), 1U);
     EXPECT_THAT(driver.receiving().state().ports[0].problem.toStdString(),

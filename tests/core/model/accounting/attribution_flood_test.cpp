@@ -12,8 +12,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// One stream at 100,000 samples a second: what it remembers of its samples is gone in 41 ms, long before late
-/// arrivals have had their time.
+/// One stream at 100,000 samples a second: what it remembers of its samples is gone in 41 ms, long before
+/// late arrivals have had their time.
 class FloodTest : public testing::Test {
 protected:
     static constexpr log::Duration kPeriod = 10us;
@@ -22,10 +22,9 @@ protected:
         m_datagram.header.sampleCounter = sample;
         m_datagram.header.datagramCounter = 0x80;
         wire::completeHeader(m_datagram, wire::HeaderEra::Counted);
-        m_log.writer().append(*wire::encode(m_datagram),
-                              {.stamp = log::Stamp(100s) + sample * kPeriod + late,
-                               .sender = m_sender,
-                               .kernelDropsBefore = drops});
+        m_log.writer().append(*wire::encode(m_datagram), {.stamp = log::Stamp(100s) + sample * kPeriod + late,
+                                                          .sender = m_sender,
+                                                          .kernelDropsBefore = drops});
     }
     const Stream& follow() {
         m_log.writer().publish();
@@ -47,7 +46,8 @@ TEST_F(FloodTest, EverySampleThatTheSocketDroppedIsThisComputers) {
     std::uint32_t dropped = 0;
     std::uint32_t sampleAfter = 1;
     for (std::uint32_t sample = 1; sample <= 100'000; sampleAfter = sample) {
-        const auto lost = static_cast<std::uint32_t>(sample > 1 && random() % 50 == 0 ? 1 + random() % 40 : 0);
+        const auto lost =
+            static_cast<std::uint32_t>(sample > 1 && random() % 50 == 0 ? 1 + random() % 40 : 0);
         sample += lost;
         dropped += lost;
         put(sample, lost);

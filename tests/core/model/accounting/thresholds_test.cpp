@@ -41,12 +41,12 @@ protected:
         }
     }
     void check() {
-        m_watch.retire(static_cast<log::SenderId>(1)); // tests take streams away
         for (Stream& stream : m_streams) {
             stream.isWatched = false;
             m_watch.wake(stream);
         }
         m_watch.check(m_stamp, m_events);
+        m_watch.retire(static_cast<log::SenderId>(1)); // tests take streams away
         m_events.advance(m_stamp);
     }
     /// Sends for a while and loses `lost` of every 1,000 samples, evenly.
