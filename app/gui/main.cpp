@@ -55,21 +55,29 @@ void openInputs(MainWindow& window, const Options& options) {
         driver.setDemo(options.demoCharacters);
     }
     if (!options.file.isEmpty()) {
-        if (const QString problem = driver.openFile(options.file); !problem.isEmpty()) {
-            window.say(problem);
-        }
-        if (options.seekSeconds && !driver.receiving().state().file.isEmpty()) {
-            driver.seek(*options.seekSeconds);
+        driver.openFile(options.file);
+        if (options.seekSeconds) {
+            QObject::connect(
+                &driver, &SessionDriver::fileOpened, &window,
+                [&driver, seconds = *options.seekSeconds](bool isRead) {
+                    if (isRead) {
+                        driver.seek(seconds);
+                    }
+                },
+                Qt::SingleShotConnection);
         }
     }
 }
 
-/// Takes the picture once the viewport has one to show; after some seconds without, as it is.
+/// Takes the picture once the file is open and the viewport has one to show; after some seconds without, as
+/// it is.
 void takeScreenshot(MainWindow& window, const QString& path, int attempts) {
     constexpr int kAgainMs = 50;
-    if (attempts > 0 && window.viewport().failure().isEmpty() && !window.viewport().isSettled()) {
-        QTimer::singleShot(kAgainMs, &window,
-                           [&window, path, attempts] { takeScreenshot(window, path, attempts - 1); });
+    const bool isOpening = window.driver().isOpening();
+    const bool isUnsettled = window.viewport().failure().isEmpty() && !window.viewport().isSettled();
+    if (isOpening || (attempts > 0 && isUnsettled)) {
+        const int left = isOpening ? attempts : attempts - 1;
+        QTimer::singleShot(kAgainMs, &window, [&window, path, left] { takeScreenshot(window, path, left); });
         return;
     }
     const QString problem = savePicture(window.grab(), path);

@@ -7,6 +7,7 @@
 #include <QCommandLineParser>
 #include <QCoreApplication>
 #include <QFile>
+#include <QFileInfo>
 
 #include <algorithm>
 #include <array>
@@ -19,7 +20,8 @@ namespace {
 /// An earlier screenshot, most likely: scripts take the same one again and again.
 bool isPicture(const QString& path) {
     QFile file(path);
-    return file.open(QIODevice::ReadOnly) && file.read(4) == QByteArray("\x89PNG");
+    return QFileInfo(path).isFile() && file.open(QIODevice::ReadOnly) &&
+           file.read(4) == QByteArray("\x89PNG");
 }
 
 constexpr int kMaxDemoCharacters = 20;

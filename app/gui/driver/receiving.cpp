@@ -2,7 +2,6 @@
 #include "app/gui/driver/receiving.h"
 
 #include "app/gui/saving.h"
-#include "core/log/recording_file.h"
 #include "core/wire/header.h"
 
 #include <QCoreApplication>
@@ -75,72 +74,7 @@ net::ConnectionFacts connectionFacts(const model::SessionView& session, const Re
     return facts;
 }
 
-/// Longer jumps of the time code are taken for a new beginning.
-constexpr log::Duration kGreatestStep = std::chrono::seconds(10);
-
-/// Time within a raw file by its time codes, from 0.
-class TimeCodeStamps {
-public:
-    log::Duration next(const log::FileRecord& record) {
-        const auto header = wire::decodeHeader(record.bytes);
-        if (!record.flags.skipped && header) {
-            const auto timeCode = static_cast<std::int64_t>(header->timeCode);
-            const log::Duration step = std::chrono::milliseconds(m_timeCode ? timeCode - *m_timeCode : 0);
-            m_time += step > log::Duration::zero() && step <= kGreatestStep ? step : log::Duration::zero();
-            m_timeCode = header->timeCode;
-        }
-        return m_time;
-    }
-
-private:
-    log::Duration m_time{};
-    std::optional<std::uint32_t> m_timeCode;
-};
-
-/// Reads a file from its beginning to its end, or to where it is cut off: then the answer says so.
-tl::expected<QString, QString> visitFile(const QString& path, const log::FileVisitor& visit) {
-    const auto source = log::openFile(QFile::encodeName(path).toStdString());
-    if (!source) {
-        return tl::unexpected(QString::fromStdString(source.error().text));
-    }
-    const auto read = log::readFile(**source, visit);
-    const QString text = read ? QString() : QString::fromStdString(read.error().text);
-    const bool isRead = read || read.error().kind == log::FileError::Kind::Cut;
-    return isRead ? tl::expected<QString, QString>(text) : tl::unexpected(text);
-}
-
 } // namespace
-
-tl::expected<QString, QString> importRawFile(const QString& path, const PacketTaker& take, log::Stamp end) {
-    if (const QFileInfo info(path); info.exists() && !info.isFile() && !info.isDir()) {
-        return tl::unexpected(
-            QCoreApplication::translate(
-                "Receiving", "%1 is a pipe or a device, which may have no end; posewire-cli reads it")
-                .arg(path));
-    }
-    // Twice over: how long a raw file lasts is known at its end, and it may be larger than memory.
-    TimeCodeStamps measuring;
-    log::Duration length{};
-    std::uint64_t count = 0;
-    const auto measured = visitFile(path, [&](const log::FileRecord& record) {
-        length = measuring.next(record);
-        ++count;
-    });
-    if (!measured) {
-        return measured;
-    }
-    if (count == 0) {
-        return tl::unexpected(measured->isEmpty()
-                                  ? QCoreApplication::translate("Receiving", "%1 is empty.").arg(path)
-                                  : *measured);
-    }
-    const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
-    TimeCodeStamps stamps;
-    return visitFile(path, [&](const log::FileRecord& record) {
-        const log::Stamp stamp = end - length + stamps.next(record);
-        take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
-    });
-}
 
 void Receiving::addPort(const InputAddress& port) {
     const auto known = std::ranges::find(m_state.ports, port, &PortState::port);
@@ -273,19 +207,9 @@ void Receiving::takeAllowed() {
     }
 }
 
-tl::expected<QString, QString> Receiving::openFile(const QString& path) {
-    const auto imported = importRawFile(
-        path,
-        [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, const log::Arrival& arrival) {
-            m_receiver.submit(bytes, sender, arrival);
-        },
-        m_clock.wall());
-    m_receiver.flush();
-    if (imported) {
-        keepFromSaving(path);
-        m_state.file = QFileInfo(path).fileName();
-    }
-    return imported;
+void Receiving::noteFile(const QString& path) {
+    keepFromSaving(path);
+    m_state.file = QFileInfo(path).fileName();
 }
 
 void Receiving::measure(log::Stamp now) {

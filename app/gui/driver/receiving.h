@@ -20,17 +20,6 @@
 
 namespace posewire::gui {
 
-/// Takes one packet of a file on its way to the log; it sets `arrival.sender` itself.
-using PacketTaker = std::function<void(std::span<const std::byte> bytes, const log::SenderInfo& sender,
-                                       const log::Arrival& arrival)>;
-
-/// Reads a file of datagrams. Those of a capture keep their stamps and senders. Those of a raw file are one
-/// sender, spaced by their time codes (by their order where those repeat or go back), the newest at
-/// `end`. The answer is what there is to say about a file that was read, such as that it is cut off, empty
-/// for nothing; the error is why it was not read.
-[[nodiscard]] tl::expected<QString, QString> importRawFile(const QString& path, const PacketTaker& take,
-                                                           log::Stamp end);
-
 /// Everything that the window lets into the log: the receiver with its inputs, and files; and why nothing
 /// comes.
 class Receiving {
@@ -55,9 +44,8 @@ public:
     /// then.
     void retry();
 
-    /// Appends a file of datagrams, beside whatever is received meanwhile. Without stamps of their own they
-    /// are spaced by their time codes, the newest being now. The answer is that of importRawFile().
-    [[nodiscard]] tl::expected<QString, QString> openFile(const QString& path);
+    /// The file is an input from now on: it is named as one, and not written over.
+    void noteFile(const QString& path);
 
     /// Hosts and nets to listen to, on all inputs; none: everyone. Names are looked up beside the window, and
     /// until they are known they are not listened to.

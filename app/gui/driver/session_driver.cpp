@@ -6,9 +6,11 @@
 #include "core/wire/codec.h"
 
 #include <QClipboard>
+#include <QFileInfo>
 #include <QGuiApplication>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace posewire::gui {
@@ -80,10 +82,14 @@ void SessionDriver::tick() {
     const std::uint64_t endBefore = m_session.end();
     const log::Moment begin = m_clock.monotonic();
     bool hasNew = false;
-    while (m_session.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
+    const auto follow = isOpening() ? &model::Session::followFile : &model::Session::follow;
+    while ((m_session.*follow)(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
         hasNew = true;
     }
     hasNew = hasNew || m_session.end() != endBefore;
+    if (isOpening()) {
+        finishOpening();
+    }
     m_meter.addFollow(m_clock.monotonic() - begin, m_session.end() - endBefore);
     const bool isTableTick = std::chrono::abs(now - m_tableTick) >= kTableTick;
     if (std::chrono::abs(now - m_retry) >= kRetry) {
@@ -120,14 +126,44 @@ void SessionDriver::measureHealth() {
     }
 }
 
-QString SessionDriver::openFile(const QString& path) {
-    const auto opened = m_receiving.openFile(path);
-    if (opened) {
-        m_session.followFile();
-        setPaused(false);
-        setPaused(true);
+void SessionDriver::openFile(const QString& path) {
+    m_import.reset();
+    m_importBegin = m_session.end();
+    m_import = std::make_unique<FileImport>(m_receiving.receiver(), m_log, path, m_clock.wall());
+}
+
+QString SessionDriver::openingText() const {
+    return m_import == nullptr ? QString()
+                               : tr("Opening %1: %2 %")
+                                     .arg(QFileInfo(m_import->path()).fileName())
+                                     .arg(std::floor(100 * m_import->share()));
+}
+
+void SessionDriver::finishOpening() {
+    m_import->follow(m_session.end());
+    const auto result = m_import->result();
+    if (!result) {
+        return;
     }
-    return opened ? *opened : opened.error();
+    const QString path = m_import->path();
+    m_import.reset();
+    if (!*result) {
+        emit fileOpened(false, result->error());
+        return;
+    }
+    m_receiving.noteFile(path);
+    m_session.endFile();
+    setPaused(false);
+    setPaused(true);
+    QStringList texts{result->value()};
+    if (m_session.begin() > m_importBegin) {
+        texts += tr("The first %1 of %2 packets no longer fit into memory: they are counted, but cannot be "
+                    "looked at.")
+                     .arg(m_session.begin() - m_importBegin)
+                     .arg(m_session.end() - m_importBegin);
+    }
+    texts.removeAll(QString());
+    emit fileOpened(true, texts.join(QLatin1Char(' ')));
 }
 
 void SessionDriver::seek(double seconds) {

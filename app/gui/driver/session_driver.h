@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "app/gui/driver/file_import.h"
 #include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
 #include "app/gui/program_view.h"
@@ -10,6 +11,7 @@
 #include <QObject>
 #include <QTimer>
 
+#include <memory>
 #include <thread>
 
 namespace posewire::gui {
@@ -30,9 +32,12 @@ public:
     /// One display tick: what the timer calls.
     void tick();
 
-    /// Reads a file of datagrams and stops the display at its end. The answer is what went wrong, empty for
-    /// nothing.
-    [[nodiscard]] QString openFile(const QString& path);
+    /// Begins to read a file of datagrams, instead of one that is being read; fileOpened() says how it went.
+    /// The display stops at its end.
+    void openFile(const QString& path);
+    [[nodiscard]] bool isOpening() const { return m_import != nullptr; }
+    /// "Opening take.pcapng: 43 %"; empty where nothing is opened.
+    [[nodiscard]] QString openingText() const;
 
     /// Stops the display this many seconds after the first packet there was.
     void seek(double seconds);
@@ -89,6 +94,8 @@ signals:
     /// Ten times a second, after the session has followed.
     void tableTick();
     void pausedChanged(bool isPaused);
+    /// A file was read, or could not be. `text` is what is to be said about it, empty for nothing.
+    void fileOpened(bool isRead, const QString& text);
     void demoChanged(bool isRunning);
     void frameRequested(const model::CharacterKey& key);
     void ghostChanged(bool isVisible);
@@ -103,11 +110,15 @@ private:
         m_tableTick = {};
     }
     void measureHealth();
+    /// Once the file that is being opened is there, or cannot be.
+    void finishOpening();
 
     const log::Clock& m_clock;
     log::PacketLog m_log;
     model::Session m_session;
     Receiving m_receiving;
+    std::unique_ptr<FileImport> m_import; ///< null where no file is being opened
+    std::uint64_t m_importBegin = 0;      ///< its first packet, or one before
     std::jthread m_demo;
     QTimer m_timer;
     HealthMeter m_meter;

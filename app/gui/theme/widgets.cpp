@@ -153,7 +153,7 @@ PassingMessage::PassingMessage(int milliseconds, QWidget* parent) : QLabel(paren
 void PassingMessage::say(const QString& text) {
     setText(text);
     setToolTip(toolTipText(text));
-    show();
+    setVisible(!text.isEmpty());
     m_timer.start();
 }
 

@@ -96,7 +96,7 @@ class PassingMessage final : public QLabel {
 public:
     PassingMessage(int milliseconds, QWidget* parent);
 
-    /// Shows a text for its time; a narrow label has it as its tooltip as well.
+    /// Shows a text for its time, nothing for an empty one; a narrow label has it as its tooltip as well.
     void say(const QString& text);
     /// What is being said; empty where nothing is.
     [[nodiscard]] QString said() const { return isHidden() ? QString() : text(); }

@@ -119,6 +119,12 @@ void MainWindow::connectDriver() {
     const auto showStates = [this] { m_menus.showStates(); };
     connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);
     connect(&m_driver, &SessionDriver::pausedChanged, this, showStates);
+    connect(&m_driver, &SessionDriver::tableTick, this, [this] {
+        if (const QString text = m_driver.openingText(); !text.isEmpty()) {
+            say(text);
+        }
+    });
+    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool, const QString& text) { say(text); });
     connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
     connect(m_viewport, &ViewportWidget::optionsChanged, this, showStates);
     showReceiving();
@@ -224,9 +230,7 @@ void MainWindow::openFile() {
     if (path.isEmpty()) {
         return;
     }
-    if (const QString problem = m_driver.openFile(path); !problem.isEmpty()) {
-        say(problem);
-    }
+    m_driver.openFile(path);
 }
 
 void MainWindow::openInputs(InputsDialog::Page page) {

@@ -90,11 +90,30 @@ void Ingest::report(const Event& event) {
 }
 
 bool Ingest::follow(log::Stamp now, std::size_t most) {
+    const std::size_t count = takeNew(now, most);
+    if (count > 0) {
+        m_isLive = now - m_observed < kLive && m_observed - now < kLive;
+    }
+    if (m_isLive && m_follower.lag() == 0) {
+        m_events->advance(now);
+    }
+    return count > 0;
+}
+
+bool Ingest::followFile(log::Stamp now, std::size_t most) {
+    return takeNew(now, most) > 0;
+}
+
+void Ingest::endFile() {
+    m_isLive = false;
+    m_events->endFile();
+}
+
+std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     m_now = now;
     m_follower.refresh();
     m_begin = m_follower.reader().begin();
     std::size_t count = 0;
-    log::Stamp newest{};
     while (count < most) {
         const auto packet = m_follower.next();
         if (const std::uint64_t overtaken = m_follower.takeOvertaken()) {
@@ -104,28 +123,11 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
             break;
         }
         take(*packet);
-        newest = packet->stamp;
         ++count;
-    }
-    if (count > 0) {
-        m_isLive = now - newest < kLive && newest - now < kLive;
-    }
-    if (m_isLive && m_follower.lag() == 0) {
-        m_events->advance(now);
     }
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
-    return count > 0;
-}
-
-void Ingest::followFile() {
-    // However new its packets are, they are no reason to take it for live.
-    const log::Stamp now = m_now;
-    while (follow({}, 200'000)) {
-    }
-    m_now = now;
-    m_isLive = false;
-    m_events->endFile();
+    return count;
 }
 
 /// What was lost of the packets that nobody looked at is this computer's loss.

@@ -77,8 +77,10 @@ public:
 
     /// Reads at most `most` new packets; true if there were any.
     bool follow(log::Stamp now, std::size_t most);
-    /// Reads all new packets as those of a file that has ended: nobody in it is expected to send on.
-    void followFile();
+    /// The same while a file is read: however new its packets are, silence after them is no silence.
+    bool followFile(log::Stamp now, std::size_t most);
+    /// All that was read is a file that has ended: nobody in it is expected to send on.
+    void endFile();
 
     void setThresholds(const Thresholds& thresholds);
     /// Something that no packet tells: it happened in this computer.
@@ -137,6 +139,8 @@ private:
         Character* character = nullptr;
     };
 
+    /// How many it took.
+    std::size_t takeNew(log::Stamp now, std::size_t most);
     // The stages, in this order. Those from takeHeader() on are for datagrams that could be decoded.
     void take(const log::Packet& packet);
     void takeOvertaken(std::uint64_t count, const log::Packet* next);

@@ -14,8 +14,10 @@ public:
     /// Reads at most `most` new packets; true if there were any. `now` (wall clock) is what ages are
     /// measured against.
     bool follow(log::Stamp now, std::size_t most = 200'000) { return m_ingest.follow(now, most); }
-    /// Reads all new packets as those of a file that has ended: nobody in it is expected to send on.
-    void followFile() { m_ingest.followFile(); }
+    /// The same while a file is read: however new its packets are, silence after them is no silence.
+    bool followFile(log::Stamp now, std::size_t most = 200'000) { return m_ingest.followFile(now, most); }
+    /// All that was read is a file that has ended: nobody in it is expected to send on.
+    void endFile() { m_ingest.endFile(); }
 
     /// Holds for what comes from now on.
     void setThresholds(const Thresholds& thresholds) { m_ingest.setThresholds(thresholds); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/driver/receiving.h"
+#include "app/gui/driver/file_import.h"
 
 #include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"

@@ -31,6 +31,14 @@ bool tickUntil(SessionDriver& driver, const Condition& condition) {
     return condition();
 }
 
+/// What is said once the file is open.
+QString openFile(SessionDriver& driver, const QString& path) {
+    QSignalSpy opened(&driver, &SessionDriver::fileOpened);
+    driver.openFile(path);
+    EXPECT_TRUE(tickUntil(driver, [&] { return !driver.isOpening(); }));
+    return opened.count() == 1 ? opened[0][1].toString() : QStringLiteral("not opened once");
+}
+
 class SessionDriverTest : public testing::Test {
 protected:
     void listenAndSend(std::uint64_t frames) {
@@ -145,7 +153,7 @@ TEST_F(SessionDriverTest, AFileIsOpenedWhileThePortGoesOnReceiving) {
         }
     }
     listenAndSend(50);
-    ASSERT_EQ(driver.openFile(path), "");
+    ASSERT_EQ(openFile(driver, path), "");
     EXPECT_TRUE(driver.isPaused());
     EXPECT_EQ(driver.receiving().state().file, "take.bin");
     listenAndSend(50);
@@ -174,7 +182,7 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
     }
     log::ManualClock manual(log::Stamp(1'700'000'000s));
     SessionDriver opened{manual};
-    ASSERT_EQ(opened.openFile(path), "");
+    ASSERT_EQ(openFile(opened, path), "");
     ASSERT_EQ(opened.session().characters().size(), 1U);
     manual.advance(5s);
     opened.tick();

@@ -22,7 +22,9 @@ TEST_F(EventsTest, TellThatASenderComesAndGoes) {
 
 TEST_F(EventsTest, SayNothingOfSilenceAfterTheEndOfAFile) {
     poses(1, 100);
-    m_session.followFile();
+    while (m_session.followFile(m_at)) {
+    }
+    m_session.endFile();
     m_session.follow(m_at + 3s);
     EXPECT_TRUE(of(EventKind::SenderDown).empty());
     // Nor where another sender is live.

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/file_import.h"
+
+#include "app/net/receiver.h"
+#include "core/log/packet_log.h"
+#include "core/log/recording_file.h"
+#include "core/wire/header.h"
+
+#include <QCoreApplication>
+#include <QFile>
+#include <QFileInfo>
+
+#include <algorithm>
+
+namespace posewire::gui {
+namespace {
+
+/// Read before all of it must have been looked at: much less than the smallest log holds.
+constexpr std::uint64_t kPacketsAtOnce = 8'192;
+constexpr std::uint64_t kBytesAtOnce = std::uint64_t{4} << 20;
+
+/// Longer jumps of the time code are taken for a new beginning.
+constexpr log::Duration kGreatestStep = std::chrono::seconds(10);
+
+/// Time within a raw file by its time codes, from 0.
+class TimeCodeStamps {
+public:
+    log::Duration next(const log::FileRecord& record) {
+        const auto header = wire::decodeHeader(record.bytes);
+        if (!record.flags.skipped && header) {
+            const auto timeCode = static_cast<std::int64_t>(header->timeCode);
+            const log::Duration step = std::chrono::milliseconds(m_timeCode ? timeCode - *m_timeCode : 0);
+            m_time += step > log::Duration::zero() && step <= kGreatestStep ? step : log::Duration::zero();
+            m_timeCode = header->timeCode;
+        }
+        return m_time;
+    }
+
+private:
+    log::Duration m_time{};
+    std::optional<std::uint32_t> m_timeCode;
+};
+
+/// Reads a file from its beginning to its end, or to where it is cut off: then the answer says so.
+ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
+                       const log::IsCancelled& isCancelled) {
+    const auto source = log::openFile(QFile::encodeName(path).toStdString(), isCancelled);
+    if (!source) {
+        return tl::unexpected(QString::fromStdString(source.error().text));
+    }
+    const auto read = log::readFile(**source, visit);
+    const QString text = read ? QString() : QString::fromStdString(read.error().text);
+    const bool isRead = read || read.error().kind == log::FileError::Kind::Cut;
+    return isRead ? ImportResult(text) : tl::unexpected(text);
+}
+
+} // namespace
+
+ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
+                           const std::function<bool()>& isCancelled) {
+    if (const QFileInfo info(path); info.exists() && !info.isFile() && !info.isDir()) {
+        return tl::unexpected(
+            QCoreApplication::translate(
+                "FileImport", "%1 is a pipe or a device, which may have no end; posewire-cli reads it")
+                .arg(path));
+    }
+    // Twice over: how long a raw file lasts is known at its end, and it may be larger than memory.
+    TimeCodeStamps measuring;
+    log::Duration length{};
+    std::uint64_t count = 0;
+    const auto measured = visitFile(
+        path,
+        [&](const log::FileRecord& record) {
+            length = measuring.next(record);
+            ++count;
+        },
+        isCancelled);
+    if (!measured) {
+        return measured;
+    }
+    if (count == 0) {
+        return tl::unexpected(measured->isEmpty()
+                                  ? QCoreApplication::translate("FileImport", "%1 is empty.").arg(path)
+                                  : *measured);
+    }
+    const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
+    TimeCodeStamps stamps;
+    return visitFile(
+        path,
+        [&](const log::FileRecord& record) {
+            const log::Stamp stamp = end - length + stamps.next(record);
+            take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
+        },
+        isCancelled);
+}
+
+FileImport::FileImport(net::Receiver& receiver, const log::PacketLog& log, QString path, log::Stamp end)
+    : m_receiver(receiver),
+      m_log(log),
+      m_path(std::move(path)),
+      m_thread([this, end](const std::stop_token& stop) { run(stop, end); }) {}
+
+void FileImport::run(const std::stop_token& stop, log::Stamp end) {
+    std::uint64_t packets = 0;
+    std::uint64_t bytesInStep = 0;
+    const PacketTaker take = [&](std::span<const std::byte> bytes, const log::SenderInfo& sender,
+                                 const log::Arrival& arrival) {
+        m_receiver.submit(bytes, sender, arrival);
+        m_bytesRead += bytes.size();
+        if (++packets % kPacketsAtOnce == 0 || m_bytesRead - bytesInStep >= kBytesAtOnce) {
+            bytesInStep = m_bytesRead;
+            keepStep(stop);
+        }
+    };
+    ImportResult result = importRawFile(m_path, take, end, [&stop] { return stop.stop_requested(); });
+    keepStep(stop);
+    const std::lock_guard lock(m_mutex);
+    m_result = std::move(result);
+}
+
+void FileImport::keepStep(const std::stop_token& stop) {
+    if (stop.stop_requested()) {
+        return;
+    }
+    m_receiver.flush();
+    const std::uint64_t written = m_log.history().end();
+    std::unique_lock lock(m_mutex);
+    m_moved.wait(lock, stop, [&] { return m_followed >= written; });
+}
+
+void FileImport::follow(std::uint64_t position) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_followed = position;
+    }
+    m_moved.notify_all();
+}
+
+double FileImport::share() const {
+    const auto size = static_cast<double>(QFileInfo(m_path).size());
+    return size <= 0 ? 1 : std::min(1.0, static_cast<double>(m_bytesRead.load()) / size);
+}
+
+std::optional<ImportResult> FileImport::result() const {
+    const std::lock_guard lock(m_mutex);
+    return m_result;
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/log/time.h"
+
+#include <QString>
+
+#include <tl/expected.hpp>
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <thread>
+
+namespace posewire::net {
+class Receiver;
+} // namespace posewire::net
+
+namespace posewire::log {
+class PacketLog;
+} // namespace posewire::log
+
+namespace posewire::gui {
+
+/// What was read well, but not to the end where it says why; or why nothing could be read. For the operator.
+using ImportResult = tl::expected<QString, QString>;
+using PacketTaker = std::function<void(std::span<const std::byte> bytes, const log::SenderInfo& sender,
+                                       const log::Arrival& arrival)>;
+
+/// Reads a file of datagrams, in the order of the file. Captures keep stamps and senders; a raw file has
+/// none: it is spaced by its time codes so that its newest datagram is at `end`, and is its own sender. Gives
+/// up once `isCancelled` says so.
+[[nodiscard]] ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
+                                         const std::function<bool()>& isCancelled = {});
+
+/// Brings a file into the log on a thread of its own, in step with who follows the log: what was read waits
+/// until all before it was looked at, so that nothing of a file is ever overtaken, however small the log.
+class FileImport {
+public:
+    /// Both outlive this.
+    FileImport(net::Receiver& receiver, const log::PacketLog& log, QString path, log::Stamp end);
+    /// Reads no further.
+    ~FileImport() = default;
+    FileImport(const FileImport&) = delete;
+    FileImport& operator=(const FileImport&) = delete;
+
+    [[nodiscard]] const QString& path() const { return m_path; }
+    /// The follower has looked at all packets below one.
+    void follow(std::uint64_t position);
+    /// How much of it is in the log, from 0 to 1.
+    [[nodiscard]] double share() const;
+    /// Once everything is in the log, or nothing more comes.
+    [[nodiscard]] std::optional<ImportResult> result() const;
+
+private:
+    void run(const std::stop_token& stop, log::Stamp end);
+    /// Waits until all that was read is in the log, and was looked at.
+    void keepStep(const std::stop_token& stop);
+
+    net::Receiver& m_receiver;
+    const log::PacketLog& m_log;
+    const QString m_path;
+    std::atomic<std::uint64_t> m_bytesRead = 0;
+    mutable std::mutex m_mutex; ///< guards the members below
+    std::condition_variable_any m_moved;
+    std::uint64_t m_followed = 0;
+    std::optional<ImportResult> m_result;
+    std::jthread m_thread; ///< last: it uses all of the above
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/file_import.h"
+
+#include "app/net/receiver.h"
+#include "core/model/session/session.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QFile>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+namespace posewire::gui {
+namespace {
+
+/// A file that is several times as large as the log.
+class FileImportTest : public testing::Test {
+protected:
+    static constexpr std::uint32_t kDatagrams = 40'000;
+
+    void SetUp() override {
+        QFile file(m_path);
+        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+        wire::Datagram datagram;
+        datagram.body = smallPose();
+        for (std::uint32_t sample = 1; sample <= kDatagrams; ++sample) {
+            datagram.header.sampleCounter = sample;
+            datagram.header.timeCode = 4 * sample;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            const auto bytes = *wire::encode(datagram);
+            file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
+        }
+    }
+
+    QTemporaryDir m_folder;
+    QString m_path = m_folder.filePath("long.bin");
+    log::SystemClock m_clock;
+    log::PacketLog m_log{{.memoryCap = 1, .chunkSize = std::size_t{1} << 20}};
+    model::Session m_session{m_log};
+    net::Receiver m_receiver{m_log, m_clock};
+};
+
+TEST_F(FileImportTest, WaitsForItsReaderSoThatNothingIsOvertaken) {
+    FileImport import(m_receiver, m_log, m_path, Stage::kStart);
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!import.result() && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2)); // much slower than a disk
+        m_session.followFile(Stage::kStart, 1'000);
+        import.follow(m_session.end());
+    }
+    ASSERT_TRUE(import.result());
+    EXPECT_EQ(import.result()->value(), "");
+    EXPECT_EQ(import.share(), 1);
+    EXPECT_EQ(m_session.overtaken(), 0U);
+    EXPECT_GT(m_session.begin(), 0U) << "the log is smaller than the file";
+    EXPECT_EQ(m_session.senders().front().datagrams, kDatagrams);
+    EXPECT_EQ(m_session.streams().front().accounting.counts().samples, kDatagrams);
+}
+
+TEST_F(FileImportTest, EndsAtOnceWhenNobodyWantsItAnyMore) {
+    const auto begin = std::chrono::steady_clock::now();
+    { const FileImport import(m_receiver, m_log, m_path, Stage::kStart); } // nobody ever follows
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
+}
+
+TEST_F(FileImportTest, SaysWhatItCannotRead) {
+    FileImport import(m_receiver, m_log, m_folder.filePath("missing"), Stage::kStart);
+    while (!import.result()) {
+        std::this_thread::yield();
+    }
+    EXPECT_TRUE(import.result()->error().contains("no such file"));
+}
+
+} // namespace
+} // namespace posewire::gui
