@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <iterator>
 #include <memory>
-#include <ranges>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -65,8 +64,11 @@ public:
     }
 
     /// All of them, to be changed.
-    [[nodiscard]] auto all() {
-        return m_items | std::views::transform([](const std::unique_ptr<Item>& item) { return item.get(); });
+    template <class Change>
+    void forEach(Change change) {
+        for (const std::unique_ptr<Item>& item : m_items) {
+            change(*item);
+        }
     }
 
     /// At the end; there must be none of that key.

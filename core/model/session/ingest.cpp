@@ -135,9 +135,7 @@ void Ingest::takeOvertaken(std::uint64_t count, const log::Packet* next) {
     const std::uint64_t packet = next != nullptr ? next->number : m_follower.position();
     m_attribution->takeOvertaken(packet, count);
     m_events->takeOvertaken(packet, count, next != nullptr ? next->stamp : m_now);
-    for (Stream* stream : m_streams.all()) {
-        stream->accounting.passOver(count);
-    }
+    m_streams.forEach([count](Stream& stream) { stream.accounting.passOver(count); });
 }
 
 void Ingest::take(const log::Packet& packet) {
@@ -286,9 +284,7 @@ void Ingest::takeMetadata(const wire::MetaData& message, const Observation& seen
     }
     if (m_metadataKeeping.grew(before, metadata.memoryBytes())) {
         std::vector<Metadata*> all;
-        for (Character* each : m_characters.all()) {
-            all.push_back(&each->metadata);
-        }
+        m_characters.forEach([&all](Character& each) { all.push_back(&each.metadata); });
         m_metadataKeeping.keepWithin(all);
     }
 }
