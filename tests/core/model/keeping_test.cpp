@@ -155,23 +155,5 @@ TEST(NullPoseMemory, LeavesOutWhatNoBodyHas) {
     EXPECT_LT(history.memoryBytes(), 5 * NullPose::kMostBytes);
 }
 
-/// What a part costs must not grow with the number of those before it.
-TEST(NullPoseMemory, GathersPartsInLinearTime) {
-    const auto secondsFor = [](int parts) {
-        NullPoseHistory history;
-        const auto begin = std::chrono::steady_clock::now();
-        for (int round = 0; round < 20; ++round) {
-            for (int part = 0; part < parts; ++part) {
-                wire::NullPose sent = bodyOf(static_cast<float>(round));
-                const auto counter = static_cast<std::uint8_t>(part | (part + 1 == parts ? 0x80 : 0));
-                history.add(sent, counter, static_cast<std::uint64_t>(part), at(round * 5s + part * 1ms));
-            }
-        }
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    };
-    const double few = secondsFor(16);
-    EXPECT_LT(secondsFor(128), 16 * (few + 0.01)) << "8 times as many parts";
-}
-
 } // namespace
 } // namespace posewire::model
