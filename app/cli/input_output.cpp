@@ -23,13 +23,16 @@ private:
             return {};
         }
         const int error = errno;
-        return tl::unexpected(log::FileError{std::string("standard output: writing failed (") +
-                                                 std::strerror(error) + "); is the disk full?",
-                                             error == EPIPE ? Kind::Unread : Kind::Failed});
+        return tl::unexpected(
+            log::FileError{standardOutputFailure(error), error == EPIPE ? Kind::Unread : Kind::Failed});
     }
 };
 
 } // namespace
+
+std::string standardOutputFailure(int error) {
+    return std::string("standard output: writing failed (") + std::strerror(error) + "); is the disk full?";
+}
 
 tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path,
                                                                          log::IsCancelled isCancelled) {

@@ -17,6 +17,9 @@ namespace posewire::cli {
 tl::expected<std::unique_ptr<log::ByteSource>, log::FileError> openInput(const std::string& path,
                                                                          log::IsCancelled isCancelled = {});
 
+/// Why standard output could not be written, by its errno, as one line for the user.
+[[nodiscard]] std::string standardOutputFailure(int error);
+
 /// Reads a byte source line by line.
 class LineReader {
 public:

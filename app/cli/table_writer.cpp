@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/table_writer.h"
 
+#include "app/cli/input_output.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <utility>
 
 #include <poll.h>
@@ -103,8 +104,7 @@ void TableWriter::noteFailure() {
     const std::lock_guard lock(m_mutex);
     m_isWanted = false;
     if (!hasReaderGone) {
-        m_failure =
-            std::string("standard output: writing failed (") + std::strerror(error) + "); is the disk full?";
+        m_failure = standardOutputFailure(error);
     }
 }
 

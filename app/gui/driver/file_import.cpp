@@ -98,6 +98,7 @@ FileImport::FileImport(net::Receiver& receiver, const log::PacketLog& log, QStri
     : m_receiver(receiver),
       m_log(log),
       m_path(std::move(path)),
+      m_size(QFileInfo(m_path).size()),
       m_thread([this, end](const std::stop_token& stop) { run(stop, end); }) {}
 
 void FileImport::run(const std::stop_token& stop, log::Stamp end) {
@@ -137,7 +138,7 @@ void FileImport::follow(std::uint64_t position) {
 }
 
 double FileImport::share() const {
-    const auto size = static_cast<double>(QFileInfo(m_path).size());
+    const auto size = static_cast<double>(m_size);
     return size <= 0 ? 1 : std::min(1.0, static_cast<double>(m_bytesRead.load()) / size);
 }
 

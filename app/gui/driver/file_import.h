@@ -65,6 +65,7 @@ private:
     net::Receiver& m_receiver;
     const log::PacketLog& m_log;
     const QString m_path;
+    const std::int64_t m_size; ///< bytes
     std::atomic<std::uint64_t> m_bytesRead = 0;
     mutable std::mutex m_mutex; ///< guards the members below
     std::condition_variable_any m_moved;

@@ -387,10 +387,13 @@ Character* Ingest::predecessorOf(const Character& character) {
 /// What it is and how long it has been there decide who makes room for a sender: first those who have been
 /// silent for long, then those who have said little.
 void Ingest::promote(const Sender& sender) {
+    Place& place = m_recencies.at(sender.id);
+    if (place.list == &m_performers) {
+        return;
+    }
     const auto before = m_passersBy.find(sender.id);
     const std::uint64_t heard = sender.datagrams + (before == m_passersBy.end() ? 0 : before->second);
     Recency& list = heard >= kEstablished ? m_performers : m_newcomers;
-    Place& place = m_recencies.at(sender.id);
     if (place.list == &list) {
         return;
     }

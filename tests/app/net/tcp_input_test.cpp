@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/receiver.h"
-#include "core/wire/codec.h"
 #include "tests/app/net/net_fixture.h"
+#include "tests/app/net/tcp_sending.h"
 
 #include <QHostAddress>
 #include <QTcpServer>
@@ -15,17 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::vector<std::byte> datagram(std::uint32_t sample) {
-    wire::Datagram datagram;
-    wire::PoseQuaternion pose;
-    pose.segments.push_back({1, {0, 0, 1}, {1, 0, 0, 0}});
-    datagram.body = pose;
-    datagram.header.sampleCounter = sample;
-    datagram.header.datagramCounter = 0x80;
-    wire::completeHeader(datagram, wire::HeaderEra::Counted);
-    return *wire::encode(datagram);
-}
-
 std::vector<std::byte> datagrams(std::uint32_t count) {
     std::vector<std::byte> bytes;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -37,12 +26,6 @@ std::vector<std::byte> datagrams(std::uint32_t count) {
 
 std::vector<std::byte> garbage(std::size_t size) {
     return std::vector<std::byte>(size, std::byte{0x55});
-}
-
-void send(QTcpSocket& socket, std::span<const std::byte> bytes) {
-    socket.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
-    while (socket.bytesToWrite() > 0 && socket.waitForBytesWritten(5000)) {
-    }
 }
 
 class TcpInputTest : public ::testing::TestWithParam<ReceivePath> {

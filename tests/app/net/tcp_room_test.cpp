@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/receiver.h"
-#include "core/wire/codec.h"
 #include "tests/app/net/net_fixture.h"
+#include "tests/app/net/tcp_sending.h"
 
 #include <QHostAddress>
 #include <QTcpSocket>
@@ -28,23 +28,6 @@ private:
     log::SystemClock m_system;
     std::atomic<log::Duration> m_ahead{};
 };
-
-std::vector<std::byte> datagram(std::uint32_t sample) {
-    wire::Datagram datagram;
-    wire::PoseQuaternion pose;
-    pose.segments.push_back({1, {0, 0, 1}, {1, 0, 0, 0}});
-    datagram.body = pose;
-    datagram.header.sampleCounter = sample;
-    datagram.header.datagramCounter = 0x80;
-    wire::completeHeader(datagram, wire::HeaderEra::Counted);
-    return *wire::encode(datagram);
-}
-
-void send(QTcpSocket& socket, std::span<const std::byte> bytes) {
-    socket.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
-    while (socket.bytesToWrite() > 0 && socket.waitForBytesWritten(5000)) {
-    }
-}
 
 /// A TCP listener with all its places taken, or not.
 class TcpRoomTest : public ::testing::Test {
