@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/log/time.h"
+#include "core/log/recording_file.h"
+#include "core/log/timeline.h"
 #include "core/wire/header.h"
 #include "core/wire/type_table.h"
 
@@ -20,15 +21,16 @@ public:
         : m_period(std::chrono::duration<double>(periodSeconds)), m_speed(speed) {}
 
     /// How long after the start this datagram, the next of the recording, is due.
-    log::Duration due(wire::Bytes datagram, std::optional<log::Stamp> stamp) {
+    log::Duration due(const log::FileRecord& record) {
         constexpr Nanoseconds longest{1e18}; // 31 years: more may not fit into a duration
-        m_now = std::min(m_now + step(datagram, stamp) / m_speed, longest);
+        m_now = std::min(m_now + step(record) / m_speed, longest);
         return std::chrono::duration_cast<log::Duration>(m_now);
     }
 
     /// The recording begins again, one period after its last datagram.
     void beginAgain() {
         m_now += m_period / m_speed;
+        m_clock = log::RecordedClock(m_timeline);
         m_stamp.reset();
         m_previous.reset();
     }
@@ -37,13 +39,14 @@ private:
     /// Fractions count: rounded steps would add up to drift.
     using Nanoseconds = std::chrono::duration<double, std::nano>;
 
-    Nanoseconds step(wire::Bytes datagram, std::optional<log::Stamp> stamp) {
-        if (stamp) {
-            const log::Stamp before = m_stamp.value_or(*stamp);
+    Nanoseconds step(const log::FileRecord& record) {
+        if (record.time) {
+            const log::Stamp stamp = m_clock.stampOf(*record.time, record.setBy);
+            const log::Stamp before = m_stamp.value_or(stamp);
             m_stamp = stamp;
-            return std::max(*stamp - before, log::Duration::zero());
+            return std::max(stamp - before, log::Duration::zero());
         }
-        const auto header = wire::decodeHeader(datagram);
+        const auto header = wire::decodeHeader(record.bytes);
         return header && wire::isSampled(header->type()) ? stepByHeader(*header) : Nanoseconds::zero();
     }
 
@@ -60,6 +63,8 @@ private:
     Nanoseconds m_period;
     double m_speed;
     Nanoseconds m_now{};
+    log::Timeline m_timeline;
+    log::RecordedClock m_clock{m_timeline};
     std::optional<log::Stamp> m_stamp;
     std::optional<wire::Header> m_previous;
 };

@@ -71,7 +71,7 @@ public:
         log::Packet packet;
         packet.number = index;
         packet.bytes = record.bytes;
-        packet.stamp = record.stamp.value_or(log::Stamp());
+        packet.stamp = m_clock.stampOf(record.time.value_or(log::WallTime()), record.setBy);
         packet.flags = record.flags;
         packet.kernelDropsBefore = record.kernelDropsBefore;
         packet.sender = numberOf(record.sender.value_or(log::SenderInfo{"", log::Transport::File, 0}));
@@ -81,7 +81,8 @@ public:
         const wire::Datagram* datagram = decoded ? &m_datagram : nullptr;
         const model::PacketDigest digest = m_digester.add(packet, datagram);
         return m_filter.matches({packet, digest, datagram, record.sender ? &*record.sender : nullptr,
-                                 *m_firstStamp, decoded ? nullptr : &decoded.error()});
+                                 *m_firstStamp, decoded ? nullptr : &decoded.error(),
+                                 m_timeline.wallOf(packet.stamp) - log::asWallTime(packet.stamp)});
     }
 
 private:
@@ -96,6 +97,8 @@ private:
     }
 
     filter::Filter m_filter;
+    log::Timeline m_timeline;
+    log::RecordedClock m_clock{m_timeline};
     model::PacketDigester m_digester;
     log::SenderTable m_senders;
     std::unordered_map<log::SenderId, log::SenderTable::Held> m_held;
@@ -196,7 +199,7 @@ private:
     }
     exporting::DatagramPlace placeOf(const log::FileRecord& record) {
         ++m_datagrams;
-        return {m_index++, record.offset, record.stamp,
+        return {m_index++, record.offset, record.time,
                 record.sender ? std::optional(record.sender->address) : std::nullopt};
     }
     static std::string listed(const exporting::DatagramPlace& place, const log::FileRecord& record) {

@@ -15,6 +15,7 @@ public:
     Replay(const MonitorOptions& options, MonitorRun& run, std::optional<log::Recorder>& recorder)
         : m_run(run),
           m_recorder(recorder),
+          m_clock(run.log().timeline()),
           m_name(std::filesystem::path(options.file).filename().string()),
           m_longest(options.durationSeconds > 0 ? log::durationOf(options.durationSeconds)
                                                 : log::Duration::max()) {}
@@ -24,7 +25,7 @@ public:
             return;
         }
         const log::Stamp stamp =
-            record.stamp ? *record.stamp : log::Stamp(m_pacer.due(record.bytes, std::nullopt));
+            record.time ? m_clock.stampOf(*record.time, record.setBy) : log::Stamp(m_pacer.due(record));
         m_first = m_first.value_or(stamp);
         m_isDone = stamp - *m_first > m_longest || m_run.isOver() || !m_recorded;
         if (m_isDone) {
@@ -60,6 +61,7 @@ public:
 private:
     MonitorRun& m_run;
     std::optional<log::Recorder>& m_recorder;
+    log::RecordedClock m_clock;
     const std::string m_name;
     const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};

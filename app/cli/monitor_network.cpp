@@ -139,7 +139,7 @@ double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& rec
         const duration<double> elapsed = steady_clock::now() - start;
         const duration<double> left{options.durationSeconds - elapsed.count()};
         const bool hasEnd = options.durationSeconds > 0;
-        run.follow(clock.wall());
+        run.follow(run.log().timeline().now(clock));
         run.show(elapsed.count());
         recording.look();
         inputs.look();
@@ -218,12 +218,12 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     exporting::MonitorFacts facts;
     InputWatch inputs(*receiver, console);
     facts.durationS = watch(options, run, recordingWatch, inputs);
-    const log::Stamp end = clock.wall();
+    const log::Stamp end = run.log().timeline().now(clock);
     facts.receiveBufferBytes = receiver->totals().receiveBufferBytes;
     facts.refusedDatagrams = receiver->totals().refusedDatagrams;
     facts.exceeded = inputs.silent();
     receiver.reset(); // what is in the sockets still comes into the log
-    run.follow(clock.wall());
+    run.follow(run.log().timeline().now(clock));
     return run.conclude(facts, recordingWatch.stop(), end);
 }
 

@@ -25,7 +25,7 @@ public:
             m_skipped += record.bytes.size();
             return;
         }
-        const log::Duration due = m_pacer.due(record.bytes, record.stamp);
+        const log::Duration due = m_pacer.due(record);
         m_isDone = due >= m_end;
         if (m_isDone) {
             return;

@@ -137,8 +137,8 @@ Received MessageBatch::received(std::size_t index) const {
         if (control.cmsg_level == SOL_SOCKET && control.cmsg_type == SO_TIMESTAMPNS) {
             timespec stamp{};
             std::memcpy(&stamp, data, sizeof stamp);
-            received.stamp =
-                log::Stamp(std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec));
+            received.time =
+                log::WallTime(std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec));
         } else if (control.cmsg_level == SOL_SOCKET && control.cmsg_type == SO_RXQ_OVFL) {
             std::memcpy(&received.drops, data, sizeof received.drops);
         }

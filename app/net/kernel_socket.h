@@ -59,7 +59,7 @@ struct SocketMemory {
 /// What the kernel reports about one datagram besides its bytes.
 struct Received {
     std::size_t size = 0;
-    log::Stamp stamp{}; ///< the kernel's; log::Stamp() if it gave none
+    log::WallTime time{}; ///< the kernel's; log::WallTime() if it gave none
     /// Datagrams the socket had dropped when this one was queued, modulo 2³²; 0 where none.
     std::uint32_t drops = 0;
     bool isTruncated = false;

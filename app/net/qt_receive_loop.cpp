@@ -14,7 +14,8 @@ namespace {
 
 class QtReceiveLoop final : public ReceiveLoop {
 public:
-    explicit QtReceiveLoop(const ReceiveContext& context) : m_context(context) {}
+    explicit QtReceiveLoop(const ReceiveContext& context)
+        : m_context(context), m_clock(context.log.timeline(), context.clock) {}
 
     NetResult<void> add(const std::shared_ptr<Input>& input) override {
         m_events.begin();
@@ -62,6 +63,8 @@ public:
         m_events.begin();
         while (!isStopping()) {
             m_context.commands.run();
+            m_clock.look();
+            m_clock.settle(); // what comes now gets its stamps here
             for (Socket& socket : m_sockets) {
                 drain(socket);
             }
@@ -146,7 +149,7 @@ private:
             return true;
         }
         log::Arrival arrival;
-        arrival.stamp = m_context.clock.wall();
+        arrival.stamp = m_context.log.timeline().now(m_context.clock);
         arrival.sender = *sender;
         if (isSmall) {
             writer.commit(0, static_cast<std::size_t>(size), arrival);
@@ -170,6 +173,7 @@ private:
     }
 
     ReceiveContext m_context;
+    log::ClockWatch m_clock;
     ThreadEvents m_events;
     AllowList m_allowed;
     std::vector<Socket> m_sockets;

@@ -58,7 +58,7 @@ void Receiver::keep(const std::shared_ptr<Input>& input) {
 TcpThread& Receiver::tcp() {
     const std::lock_guard lock(m_mutex);
     if (!m_tcp) {
-        m_tcp = std::make_unique<TcpThread>(TcpContext{m_clock, m_queue, m_allowed});
+        m_tcp = std::make_unique<TcpThread>(TcpContext{m_clock, m_log.timeline(), m_queue, m_allowed});
     }
     return *m_tcp;
 }

@@ -52,7 +52,10 @@ struct JoinedInput {
 class RecvmmsgLoop final : public ReceiveLoop {
 public:
     explicit RecvmmsgLoop(const ReceiveContext& context)
-        : m_context(context), m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)), m_nap(context.options.nap) {}
+        : m_context(context),
+          m_clock(context.log.timeline(), context.clock),
+          m_wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
+          m_nap(context.options.nap) {}
 
     NetResult<void> add(const std::shared_ptr<Input>& input) override {
         const QEventLoop dispatcher; // Qt's sockets need one in their thread, if only to open
@@ -129,6 +132,8 @@ private:
         for (const auto& socket : m_sockets) {
             count += drain(*socket);
         }
+        m_clock.settle();
+        m_clock.look();
         if (!m_context.queue.isEmpty()) {
             count += m_context.queue.moveTo(m_context.log);
         }
@@ -144,11 +149,12 @@ private:
         for (int turn = 0; turn < kBatchesPerTurn; ++turn) {
             const auto lanes = writer.lanes();
             const std::size_t count = socket.batch.receive(socket.descriptor.get(), lanes);
+            const log::Stamp now = m_clock.look();
             std::size_t bytes = 0;
             std::size_t heard = 0;
             for (std::size_t i = 0; i < count; ++i) {
                 if (const auto sender = socket.senders.idOf(socket.batch.sender(i))) {
-                    bytes += commit(socket, i, *sender);
+                    bytes += commit(socket, i, *sender, now);
                     ++heard;
                 }
             }
@@ -178,15 +184,15 @@ private:
     }
 
     /// Bytes of the datagram.
-    std::size_t commit(Socket& socket, std::size_t index, log::SenderId sender) {
+    std::size_t commit(Socket& socket, std::size_t index, log::SenderId sender, log::Stamp now) {
         const Received received = socket.batch.received(index);
         log::Arrival arrival;
         arrival.sender = sender;
         socket.lastSender = sender;
         socket.hasSender = true;
         arrival.flags.truncated = received.isTruncated;
-        arrival.flags.stampedByKernel = received.stamp != log::Stamp();
-        arrival.stamp = received.stamp != log::Stamp() ? received.stamp : m_context.clock.wall();
+        arrival.flags.stampedByKernel = received.time != log::WallTime();
+        arrival.stamp = arrival.flags.stampedByKernel ? m_clock.stampOf(received.time) : now;
         // 0 is none. A packet under way may carry a smaller count than a record made meanwhile.
         if (received.drops != 0 && static_cast<std::int32_t>(received.drops - socket.dropsInLog) > 0) {
             arrival.kernelDropsBefore = received.drops - socket.dropsInLog;
@@ -214,7 +220,7 @@ private:
             return;
         }
         log::Arrival arrival;
-        arrival.stamp = m_context.clock.wall();
+        arrival.stamp = m_clock.look();
         arrival.sender = socket.lastSender;
         arrival.kernelDropsBefore = static_cast<std::uint32_t>(more);
         arrival.flags.skipped = true;
@@ -328,6 +334,7 @@ private:
     }
 
     ReceiveContext m_context;
+    log::ClockWatch m_clock;
     Descriptor m_wake;
     log::Duration m_nap;
     std::size_t m_smallestBuffer = SIZE_MAX; ///< of the sockets, in bytes

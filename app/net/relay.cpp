@@ -114,7 +114,7 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
         if (m_going.empty()) {
             m_reader.refresh();
             m_next = m_reader.end();
-            m_caughtUp = m_clock.wall();
+            m_caughtUp = m_log.timeline().now(m_clock);
         }
         m_targets.push_back(added);
         m_going.push_back(added);
@@ -196,7 +196,7 @@ bool Relay::forwardSome() {
     m_behind = m_reader.end() - m_next;
     stopLoops();
     if (m_next == m_reader.end()) {
-        m_caughtUp = m_clock.wall();
+        m_caughtUp = m_log.timeline().now(m_clock);
         return false;
     }
     return true;

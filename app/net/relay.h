@@ -95,7 +95,7 @@ private:
     std::atomic<std::uint64_t> m_behind = 0;
     LoopWatch m_loops;
     std::vector<std::shared_ptr<Target>> m_going; ///< targets that are not stopped
-    log::Stamp m_caughtUp{};                      ///< when it last had caught up, wall clock
+    log::Stamp m_caughtUp{};                      ///< when it last had caught up
     std::unordered_map<log::SenderId, Verdict> m_verdicts;
     std::unique_ptr<Sockets> m_sockets;
     std::thread m_thread;

@@ -43,7 +43,7 @@ TcpPeer::TcpPeer(const TcpContext& context, std::shared_ptr<Input> input, std::u
       m_sender{textOf(m_socket->peerAddress(), m_socket->peerPort()), log::Transport::Tcp, localPort},
       m_lastByte(context.clock.monotonic()),
       m_lastDatagram(m_lastByte),
-      m_status{m_sender.address, context.clock.wall()} {
+      m_status{m_sender.address, context.now()} {
     m_socket->setReadBufferSize(kReadBuffer);
     keepAlive(*m_socket);
 }
@@ -55,7 +55,7 @@ bool TcpPeer::read() {
         return false;
     }
     const auto bytes = static_cast<std::uint64_t>(size);
-    m_stamp = m_context.clock.wall();
+    m_stamp = m_context.now();
     m_lastByte = m_context.clock.monotonic();
     m_status.bytes += bytes;
     increase(m_input->counters().bytes, bytes);
@@ -74,7 +74,7 @@ void TcpPeer::drain() {
 }
 
 void TcpPeer::finish() {
-    m_stamp = m_context.clock.wall();
+    m_stamp = m_context.now();
     m_framer.finish([this](const log::TcpFramer::Piece& piece) { take(piece); });
 }
 

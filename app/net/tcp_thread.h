@@ -8,6 +8,7 @@
 #include "app/net/thread_events.h"
 #include "core/log/clock.h"
 #include "core/log/time.h"
+#include "core/log/timeline.h"
 
 #include <atomic>
 #include <memory>
@@ -22,8 +23,12 @@ namespace posewire::net {
 /// What a TCP connection works with; must outlive it.
 struct TcpContext {
     const log::Clock& clock;
+    const log::Timeline& timeline;
     PacketQueue& queue;
     AllowList allowed; ///< changes only between turns
+
+    /// On the time line of the log.
+    [[nodiscard]] log::Stamp now() const { return timeline.now(clock); }
 };
 
 /// An input that receives by TCP. Belongs to one thread, whose event loop runs between turns.

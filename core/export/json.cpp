@@ -157,7 +157,7 @@ bool givesBack(const Json& object, wire::Bytes bytes) {
 
 std::string datagramJson(const DatagramPlace& place, wire::Bytes bytes) {
     Json object = placed(place, bytes.size());
-    object["stampNs"] = place.stamp ? Json(log::nanosecondsOf(*place.stamp)) : Json();
+    object["stampNs"] = place.time ? Json(log::nanosecondsOf(*place.time)) : Json();
     object["source"] = place.sender ? jsonOf(*place.sender) : Json();
     addHeader(object, bytes);
     const auto datagram = wire::decode(bytes);

@@ -20,7 +20,7 @@ namespace posewire::exporting {
 struct DatagramPlace {
     std::uint64_t index = 0;  ///< of the object in the output, from 0
     std::uint64_t offset = 0; ///< of its first byte in the file
-    std::optional<log::Stamp> stamp;
+    std::optional<log::WallTime> time;
     std::optional<std::string> sender;
 };
 

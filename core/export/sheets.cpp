@@ -45,9 +45,9 @@ std::string_view nameOf(model::EventGroup group) {
 }
 
 /// Seconds since 1970 with nine decimals; "-0.500000000" before that.
-std::string secondsText(log::Stamp stamp) {
+std::string secondsText(log::WallTime wall) {
     constexpr std::uint64_t kSecond = 1'000'000'000;
-    const std::int64_t time = log::nanosecondsOf(stamp);
+    const std::int64_t time = log::nanosecondsOf(wall);
     const auto sizeOfTime =
         time < 0 ? std::uint64_t{0} - static_cast<std::uint64_t>(time) : static_cast<std::uint64_t>(time);
     const std::string decimals = std::to_string(sizeOfTime % kSecond);
@@ -67,8 +67,8 @@ JsonValue objectOf(const model::SessionView& session, const Event& event) {
     if (event.type) {
         object["type"] = wire::typeDigits(*event.type);
     }
-    object["fromNs"] = log::nanosecondsOf(event.firstStamp);
-    object["toNs"] = log::nanosecondsOf(event.lastStamp);
+    object["fromNs"] = log::nanosecondsOf(session.wallOf(event.firstStamp));
+    object["toNs"] = log::nanosecondsOf(session.wallOf(event.lastStamp));
     object["firstPacket"] = event.firstPacket;
     object["lastPacket"] = event.lastPacket;
     object["count"] = event.count;
@@ -143,8 +143,8 @@ JsonValue listOf(const std::vector<Item>& items, ToJson toJson) {
     return list;
 }
 
-void addPose(const model::NullPose& pose, JsonValue& object) {
-    object["stampNs"] = log::nanosecondsOf(pose.stamp);
+void addPose(const model::NullPose& pose, log::WallTime time, JsonValue& object) {
+    object["stampNs"] = log::nanosecondsOf(time);
     object["packet"] = pose.packet;
     object["partsReceived"] = pose.partsReceived;
     object["partsExpected"] = pose.partsExpected;
@@ -185,8 +185,8 @@ std::string eventsCsv(const EventSheet& sheet) {
             sheet.session.addressOf(event->sender).csv(),
             event->character ? std::to_string(*event->character) : std::string(),
             event->type ? wire::typeDigits(*event->type) : std::string(),
-            secondsText(event->firstStamp),
-            secondsText(event->lastStamp),
+            secondsText(sheet.session.wallOf(event->firstStamp)),
+            secondsText(sheet.session.wallOf(event->lastStamp)),
             std::to_string(event->firstPacket),
             std::to_string(event->lastPacket),
             std::to_string(event->count),
@@ -230,7 +230,7 @@ std::string nullPoseCsv(const NullPoseSheet& sheet) {
 std::string nullPoseJson(const NullPoseSheet& sheet) {
     JsonValue object{{"character", sheet.character.exact()}};
     if (sheet.pose != nullptr) {
-        addPose(*sheet.pose, object);
+        addPose(*sheet.pose, sheet.time, object);
     }
     if (sheet.scale != nullptr) {
         object["scale"] = listOf(sheet.scale->segments, [](const wire::SegmentScale& segment) {

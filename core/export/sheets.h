@@ -40,6 +40,7 @@ struct NullPoseSheet {
     const model::NullPose* pose = nullptr;
     const wire::ScaleInformation* scale = nullptr; ///< type 10
     const wire::PropInformation* props = nullptr;  ///< type 11
+    log::WallTime time{};                          ///< when the newest part of the pose came
 };
 
 /// One table (RFC 4180, UTF-8, lines end with CR LF) with the columns

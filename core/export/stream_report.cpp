@@ -203,16 +203,16 @@ std::string padded(std::int64_t number, std::size_t width) {
 }
 
 /// "2026-11-21 16:01:32.123 UTC".
-std::string utcText(log::Stamp stamp) {
+std::string utcText(log::WallTime time) {
     using namespace std::chrono;
-    const auto shown = floor<milliseconds>(stamp); // also before 1970
+    const auto shown = floor<milliseconds>(time); // also before 1970
     const auto day = floor<days>(shown);
     const year_month_day date{day};
-    const hh_mm_ss time{shown - day};
+    const hh_mm_ss clock{shown - day};
     return padded(static_cast<int>(date.year()), 4) + '-' + padded(static_cast<unsigned>(date.month()), 2) +
-           '-' + padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(time.hours().count(), 2) + ':' +
-           padded(time.minutes().count(), 2) + ':' + padded(time.seconds().count(), 2) + '.' +
-           padded(time.subseconds().count(), 3) + " UTC";
+           '-' + padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(clock.hours().count(), 2) + ':' +
+           padded(clock.minutes().count(), 2) + ':' + padded(clock.seconds().count(), 2) + '.' +
+           padded(clock.subseconds().count(), 3) + " UTC";
 }
 
 /// A raw file has no stamps: time codes have taken their place.
@@ -247,7 +247,8 @@ std::string timeFacts(const model::SessionView& session, const ReportSteps& step
         return fact("Time", "not known: the file has no stamps; time codes of the sender took their place") +
                duration;
     }
-    return fact("From", utcText(steps.from)) + fact("To", utcText(steps.to)) + duration;
+    return fact("From", utcText(session.wallOf(steps.from))) + fact("To", utcText(session.wallOf(steps.to))) +
+           duration;
 }
 
 std::string verdictList(const std::vector<Finding>& findings) {

@@ -82,10 +82,11 @@ constexpr auto kSize = [](const Candidate& c) { return c.packet.bytes.size(); };
 constexpr auto kNumber = [](const Candidate& c) { return c.packet.number; };
 constexpr auto kDrops = [](const Candidate& c) { return c.packet.kernelDropsBefore; };
 constexpr auto kTime = [](const Candidate& c) { return log::secondsOf(c.packet.stamp - c.firstStamp); };
-/// As near as a double comes to it: a stamp has more digits in nanoseconds than a double.
+/// As near as a double comes to it: a time has more digits in nanoseconds than a double.
 constexpr auto kUtc = [](const Candidate& c) {
-    const auto second = std::chrono::floor<std::chrono::seconds>(c.packet.stamp);
-    return static_cast<double>(second.time_since_epoch().count()) + log::secondsOf(c.packet.stamp - second);
+    const log::WallTime time = log::asWallTime(c.packet.stamp + c.setBy);
+    const auto second = std::chrono::floor<std::chrono::seconds>(time);
+    return static_cast<double>(second.time_since_epoch().count()) + log::secondsOf(time - second);
 };
 constexpr auto kAddress = [](const log::SenderInfo& sender) { return Read({0, sender.address}); };
 constexpr auto kTransport = [](const log::SenderInfo& sender) {

@@ -32,6 +32,7 @@ struct Candidate {
     const log::SenderInfo* sender = nullptr;  ///< null if not known
     log::Stamp firstStamp{};                  ///< of the first packet: where `time` begins
     const wire::WireError* fault = nullptr; ///< why it could not be decoded; null: decoded again to find out
+    log::Duration setBy{}; ///< what the wall clock was ahead of the packet's stamp: for `utc`
 };
 
 struct Program;

@@ -10,20 +10,17 @@ class Clock {
 public:
     virtual ~Clock() = default;
 
-    /// Comparable with kernel receive stamps. May jump when the computer's clock is set.
-    [[nodiscard]] virtual Stamp wall() const = 0;
+    /// Comparable with kernel receive stamps. Jumps when the computer's clock is set.
+    [[nodiscard]] virtual WallTime wall() const = 0;
 
+    /// Never jumps; goes on while the computer sleeps, where the system can tell.
     [[nodiscard]] virtual Moment monotonic() const = 0;
 };
 
 class SystemClock final : public Clock {
 public:
-    [[nodiscard]] Stamp wall() const override {
-        return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
-    }
-    [[nodiscard]] Moment monotonic() const override {
-        return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
-    }
+    [[nodiscard]] WallTime wall() const override;
+    [[nodiscard]] Moment monotonic() const override;
 };
 
 } // namespace posewire::log

@@ -229,7 +229,7 @@ std::optional<IpPacket> ipPacketOf(const CapturedFrame& frame) {
     }
     if (packet) {
         packet->offset += frame.offset;
-        packet->stamp = frame.stamp;
+        packet->time = frame.time;
     }
     return packet;
 }
@@ -262,7 +262,7 @@ std::optional<TcpSegment> tcpSegmentOf(const IpPacket& packet) {
                       wire::load32(packet.bytes.data() + 4) + (begins ? 1U : 0U),
                       packet.bytes.subspan(size),
                       packet.offset + size,
-                      packet.stamp,
+                      packet.time,
                       begins,
                       (flags & 5U) != 0};
 }

@@ -15,7 +15,7 @@ struct CapturedFrame {
     std::uint32_t linkType = 0; ///< a LINKTYPE_ value of the capture formats
     std::span<const std::byte> bytes;
     std::uint64_t offset = 0;
-    std::optional<Stamp> stamp{};
+    std::optional<WallTime> time{};
 };
 
 /// What a captured frame carries over IP, or several frames with the fragments of one packet.
@@ -25,7 +25,7 @@ struct IpPacket {
     std::uint8_t protocol = 0;        ///< kUdp, kTcp or another
     std::uint64_t offset = 0;         ///< of the payload in the file
     std::span<const std::byte> bytes; ///< the payload, as much as was captured
-    std::optional<Stamp> stamp{};     ///< of the frame that completed it
+    std::optional<WallTime> time{};   ///< of the frame that completed it
 
     std::uint32_t identity = 0;       ///< common to the fragments of a packet
     std::uint32_t fragmentOffset = 0; ///< of this payload in the whole packet's, in bytes
@@ -59,7 +59,7 @@ struct TcpSegment {
     std::uint32_t sequence = 0;       ///< of the first byte of `bytes`
     std::span<const std::byte> bytes; ///< as much as was captured
     std::uint64_t offset = 0;         ///< of `bytes` in the file
-    std::optional<Stamp> stamp{};
+    std::optional<WallTime> time{};
     bool begins = false; ///< SYN
     bool ends = false;   ///< FIN or RST
 };

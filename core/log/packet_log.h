@@ -6,6 +6,7 @@
 #include "core/log/log_writer.h"
 #include "core/log/packet.h"
 #include "core/log/sender_table.h"
+#include "core/log/timeline.h"
 
 namespace posewire::log {
 
@@ -31,6 +32,10 @@ public:
     [[nodiscard]] SenderTable& senders() { return m_senders; }
     [[nodiscard]] const SenderTable& senders() const { return m_senders; }
 
+    /// The time that its stamps are of.
+    [[nodiscard]] Timeline& timeline() { return m_timeline; }
+    [[nodiscard]] const Timeline& timeline() const { return m_timeline; }
+
     /// From any thread.
     [[nodiscard]] LogFigures figures() const { return m_history.figures(); }
 
@@ -40,6 +45,7 @@ public:
 private:
     ChunkHistory m_history;
     SenderTable m_senders;
+    Timeline m_timeline;
     LogWriter m_writer;
 };
 

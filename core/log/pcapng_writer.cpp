@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <utility>
 
 namespace posewire::log {
@@ -25,6 +26,7 @@ constexpr std::array<std::pair<bool PacketFlags::*, std::string_view>, 3> kFlags
      {&PacketFlags::skipped, "; between datagrams"},
      {&PacketFlags::isDropRecord, "; news of drops"}}};
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
+constexpr std::string_view kClockSet = "; clock set by ";
 constexpr std::string_view kFrom = "; from ";
 
 bool takes(std::string_view& text, std::string_view prefix) {
@@ -130,11 +132,42 @@ Ends endsOf(const SenderInfo& info) {
     return ends;
 }
 
-RecordedOrigin originOf(const Packet& packet, const SenderInfo& sender, const Ends& ends) {
+/// "-1.500000000 s", and back.
+std::string secondsText(Duration duration) {
+    const bool isNegative = duration < Duration::zero();
+    const auto size = static_cast<std::uint64_t>(duration.count());
+    const std::uint64_t nanoseconds = isNegative ? 0 - size : size;
+    const std::string decimals = std::to_string(nanoseconds % 1'000'000'000);
+    return (isNegative ? "-" : "") + std::to_string(nanoseconds / 1'000'000'000) + '.' +
+           std::string(9 - decimals.size(), '0') + decimals + " s";
+}
+
+std::optional<Duration> takeSeconds(std::string_view& text) {
+    const bool isNegative = takes(text, "-");
+    std::uint64_t whole = 0;
+    const auto seconds = std::from_chars(text.data(), text.data() + text.size(), whole);
+    constexpr std::uint64_t most = 9'000'000'000;
+    const auto used = static_cast<std::size_t>(seconds.ptr - text.data());
+    if (seconds.ec != std::errc() || whole > most || text.size() < used + 12 || text[used] != '.') {
+        return std::nullopt;
+    }
+    std::uint64_t fraction = 0;
+    const char* end = text.data() + used + 10;
+    const auto decimals = std::from_chars(text.data() + used + 1, end, fraction);
+    text.remove_prefix(used + 10);
+    if (decimals.ec != std::errc() || decimals.ptr != end || !takes(text, " s")) {
+        return std::nullopt;
+    }
+    const auto size = static_cast<std::int64_t>(whole * 1'000'000'000 + fraction);
+    return Duration(isNegative ? -size : size);
+}
+
+RecordedOrigin originOf(const Packet& packet, const SenderInfo& sender, const Ends& ends, Duration setBy) {
     constexpr std::size_t ipv4Most = 65'507;
     const bool isMapped = !ends.sender.address.isIpv6 && packet.bytes.size() > ipv4Most;
     const bool isInHeaders = !isMapped && endpointText(ends.sender) == sender.address;
-    return {sender.transport, packet.flags, isInHeaders ? std::nullopt : std::optional(sender.address)};
+    return {sender.transport, packet.flags, isInHeaders ? std::nullopt : std::optional(sender.address),
+            setBy};
 }
 
 } // namespace
@@ -146,6 +179,9 @@ std::string originText(const RecordedOrigin& origin) {
         text += origin.flags.*flag ? words : "";
     }
     text += origin.flags.stampedByKernel ? "" : kStampedOnReading;
+    if (origin.setBy != Duration::zero()) {
+        text.append(kClockSet).append(secondsText(origin.setBy));
+    }
     if (origin.address) {
         text.append(kFrom).append(*origin.address); // last, as it may hold anything
     }
@@ -167,6 +203,13 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
         origin.flags.*flag = takes(comment, words);
     }
     origin.flags.stampedByKernel = !takes(comment, kStampedOnReading);
+    if (takes(comment, kClockSet)) {
+        const auto setBy = takeSeconds(comment);
+        if (!setBy) {
+            return std::nullopt;
+        }
+        origin.setBy = *setBy;
+    }
     if (takes(comment, kFrom)) {
         origin.address = comment;
         comment = {};
@@ -208,25 +251,26 @@ PcapngWriter::Result PcapngWriter::beginInterface(std::int64_t offsetSeconds) {
 }
 
 PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& sender,
-                                       std::span<const std::string> comments) {
+                                       std::span<const std::string> comments, Duration setBy) {
+    m_setBefore = m_setBefore.value_or(setBy);
+    const WallTime time = asWallTime(packet.stamp + setBy);
     const Ends ends = endsOf(sender);
     m_frame.clear();
     appendUdpFrame(m_frame, ends.sender, ends.target, packet.bytes);
-    const bool isEarly = packet.stamp < Stamp();
+    const bool isEarly = time < WallTime();
     if (isEarly && !std::exchange(m_hasEarlyInterface, true)) {
         if (auto begun = beginInterface(kEarly); !begun) {
             return begun;
         }
     }
-    const Duration since =
-        isEarly ? packet.stamp - Stamp(std::chrono::seconds(kEarly)) : packet.stamp.time_since_epoch();
+    const Duration since = isEarly ? time - WallTime(std::chrono::seconds(kEarly)) : time.time_since_epoch();
     PcapngBlock block(m_block, PcapngBlockType::EnhancedPacket);
     block.number(isEarly ? 1 : 0, 4);
     block.halves(static_cast<std::uint64_t>(since.count()));
     block.number(m_frame.size(), 4);
     block.number(m_frame.size(), 4);
     block.padded(m_frame);
-    const RecordedOrigin origin = originOf(packet, sender, ends);
+    const RecordedOrigin origin = originOf(packet, sender, ends, setBy - *m_setBefore);
     const bool isMistakable =
         std::ranges::any_of(comments, [](const std::string& text) { return parseOrigin(text).has_value(); });
     const bool headersAreEnough = origin == RecordedOrigin{} && wire::startsWithMagic(packet.bytes);
@@ -243,16 +287,16 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     ++m_packets;
     m_kernelDrops += packet.kernelDropsBefore;
     if (!isEarly) { // the statistics are of the first interface
-        m_firstStamp = std::min(m_firstStamp, packet.stamp);
-        m_lastStamp = std::max(m_lastStamp, packet.stamp);
+        m_firstTime = std::min(m_firstTime, time);
+        m_lastTime = std::max(m_lastTime, time);
     }
     return write();
 }
 
 PcapngWriter::Result PcapngWriter::finish() {
-    const auto last = static_cast<std::uint64_t>(nanosecondsOf(m_lastStamp));
+    const auto last = static_cast<std::uint64_t>(nanosecondsOf(m_lastTime));
     const auto first =
-        m_firstStamp <= m_lastStamp ? static_cast<std::uint64_t>(nanosecondsOf(m_firstStamp)) : last;
+        m_firstTime <= m_lastTime ? static_cast<std::uint64_t>(nanosecondsOf(m_firstTime)) : last;
     PcapngBlock block(m_block, PcapngBlockType::InterfaceStatistics);
     block.number(0, 4);
     block.halves(last);

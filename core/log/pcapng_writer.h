@@ -45,11 +45,12 @@ enum class PcapngOption : std::uint16_t {
 };
 
 /// What a recording says about a packet besides what its IP and UDP headers can. It is in the first
-/// comment of the packet, in words: "Posewire: TCP; stamped on reading; from [fe80::1%eth0]:40001".
+/// comment of the packet, in words: "Posewire: TCP; clock set by -1.500000000 s; from [fe80::1%eth0]:40001".
 struct RecordedOrigin {
     Transport transport = Transport::Udp;
     PacketFlags flags{.stampedByKernel = true};
     std::optional<std::string> address{}; ///< nothing where the headers have it
+    Duration setBy{};                     ///< what the clock had been set by since the recording began
 
     friend bool operator==(const RecordedOrigin&, const RecordedOrigin&) = default;
 };
@@ -69,7 +70,7 @@ struct RecordingInfo {
 /// Writes packets as pcapng (draft-ietf-opsawg-pcapng): a section header, one interface with nanosecond
 /// stamps, an enhanced packet block for each packet, interface statistics at the end. Each packet gets IP and
 /// UDP headers that are made up from its sender; what they cannot hold (TCP, a file name, flags) is in a
-/// comment, see RecordedOrigin; packets with stamps before 1970 are of a second interface, whose stamps begin
+/// comment, see RecordedOrigin; packets from before 1970 are of a second interface, whose stamps begin
 /// earlier. readFile() gives back the same packets: bytes, stamps, senders, kernel drops, flags, comments.
 /// `sink` must outlive the writer. After a failure nothing more is written.
 class PcapngWriter {
@@ -81,8 +82,10 @@ public:
     /// First of all.
     Result begin(const RecordingInfo& info);
 
-    /// `comments`: UTF-8; what is longer than 65,000 bytes is cut.
-    Result add(const Packet& packet, const SenderInfo& sender, std::span<const std::string> comments = {});
+    /// `setBy`: what the wall clock is ahead of the packet's stamp. `comments`: UTF-8; what is longer than
+    /// 65,000 bytes is cut.
+    Result add(const Packet& packet, const SenderInfo& sender, std::span<const std::string> comments = {},
+               Duration setBy = {});
 
     /// Last of all.
     Result finish();
@@ -100,8 +103,9 @@ private:
     std::uint64_t m_packets = 0;
     std::uint64_t m_bytes = 0;
     std::uint64_t m_kernelDrops = 0;
-    Stamp m_firstStamp = Stamp::max();
-    Stamp m_lastStamp{};
+    std::optional<Duration> m_setBefore; ///< what the clock was set by when the recording began
+    WallTime m_firstTime = WallTime::max();
+    WallTime m_lastTime{};
     bool m_hasEarlyInterface = false;
 };
 

@@ -25,7 +25,7 @@ std::size_t costOf(std::span<const std::byte> bytes) {
 
 FileRecord recordOf(const IpPacket& packet, const UdpPayload& payload) {
     return {
-        payload.offset, payload.bytes, packet.stamp,
+        payload.offset, payload.bytes, packet.time,
         SenderInfo{endpointText({packet.sender, payload.sourcePort}), Transport::Udp, payload.targetPort}};
 }
 
@@ -51,7 +51,7 @@ void IpFragments::add(const IpPacket& fragment) {
             pending.kept += more.size();
         }
     }
-    pending.packet.stamp = fragment.stamp;
+    pending.packet.time = fragment.time;
     if (isWhole(pending)) {
         give(pending);
         std::erase_if(m_pending, [&](const Pending& one) { return &one == &pending; });
@@ -124,8 +124,8 @@ void TcpStream::add(const TcpSegment& segment) {
         }
         return;
     }
-    append(segment.sequence, segment.bytes, segment.offset, segment.stamp);
-    appendWaiting(segment.stamp);
+    append(segment.sequence, segment.bytes, segment.offset, segment.time);
+    appendWaiting(segment.time);
     if (hasWaitedTooLong(segment)) {
         passOver();
     }
@@ -145,7 +145,7 @@ void TcpStream::restart(std::uint32_t firstSequence) {
 
 /// Hands on what is new of a segment that begins at the expected byte or before it.
 void TcpStream::append(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t fileOffset,
-                       std::optional<Stamp> stamp) {
+                       std::optional<WallTime> time) {
     const std::size_t known = m_expected - sequence;
     if (known >= bytes.size()) {
         return;
@@ -155,7 +155,7 @@ void TcpStream::append(std::uint32_t sequence, std::span<const std::byte> bytes,
     m_given += added.size();
     m_expected += static_cast<std::uint32_t>(added.size());
     m_expectedPosition += added.size();
-    m_stamp = stamp;
+    m_time = time;
     m_framer.push(added, [this](const TcpFramer::Piece& piece) { visit(piece); });
     while (m_places.size() > 1 && m_places[1].position <= m_given - m_framer.kept()) {
         m_places.pop_front();
@@ -175,17 +175,17 @@ void TcpStream::keepWaiting(TcpSegment segment, std::uint64_t position) {
     }
     m_waitingSize += costOf(segment.bytes);
     m_waiting.emplace(position,
-                      Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.stamp});
+                      Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.time});
 }
 
-/// Hands on what has waited for the bytes before it. Without a stamp each keeps its own.
-void TcpStream::appendWaiting(std::optional<Stamp> stamp) {
+/// Hands on what has waited for the bytes before it. Without a time each keeps its own.
+void TcpStream::appendWaiting(std::optional<WallTime> time) {
     while (!m_waiting.empty() && m_waiting.begin()->first <= m_expectedPosition) {
         const auto node = m_waiting.extract(m_waiting.begin());
         const Waiting& waiting = node.mapped();
         m_waitingSize -= costOf(waiting.bytes);
         const auto behind = static_cast<std::uint32_t>(m_expectedPosition - node.key());
-        append(m_expected - behind, waiting.bytes, waiting.fileOffset, stamp ? stamp : waiting.stamp);
+        append(m_expected - behind, waiting.bytes, waiting.fileOffset, time ? time : waiting.time);
     }
 }
 
@@ -209,8 +209,8 @@ bool TcpStream::hasWaitedTooLong(const TcpSegment& segment) const {
     if (m_waiting.empty()) {
         return false;
     }
-    const auto since = m_waiting.begin()->second.stamp;
-    return since && segment.stamp && *segment.stamp - *since > kLongestWait;
+    const auto since = m_waiting.begin()->second.time;
+    return since && segment.time && *segment.time - *since > kLongestWait;
 }
 
 void TcpStream::visit(const TcpFramer::Piece& piece) {
@@ -220,7 +220,7 @@ void TcpStream::visit(const TcpFramer::Piece& piece) {
     const Place& place = m_places.front();
     m_visit({place.fileOffset + (piece.offset - place.position),
              piece.bytes,
-             m_stamp,
+             m_time,
              m_sender,
              {.skipped = piece.kind == TcpFramer::Kind::Skipped}});
 }

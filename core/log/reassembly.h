@@ -54,7 +54,7 @@ public:
     static constexpr std::size_t kMostWaiting = std::size_t{256} << 10;
     static constexpr Duration kLongestWait = std::chrono::seconds(1);
 
-    /// Records carry the offset in the file of their first byte and the stamp of the frame that completed
+    /// Records carry the offset in the file of their first byte and the time of the frame that completed
     /// them. `visit` must outlive the stream.
     TcpStream(SenderInfo sender, std::uint32_t firstSequence, const FileVisitor& visit)
         : m_visit(visit), m_sender(std::move(sender)), m_expected(firstSequence) {}
@@ -72,7 +72,7 @@ private:
     struct Waiting {
         std::vector<std::byte> bytes;
         std::uint64_t fileOffset = 0;
-        std::optional<Stamp> stamp;
+        std::optional<WallTime> time;
     };
     struct Place {
         std::uint64_t position = 0; ///< in what the framer has been given
@@ -80,9 +80,9 @@ private:
     };
 
     void append(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t fileOffset,
-                std::optional<Stamp> stamp);
+                std::optional<WallTime> time);
     void keepWaiting(TcpSegment segment, std::uint64_t position);
-    void appendWaiting(std::optional<Stamp> stamp);
+    void appendWaiting(std::optional<WallTime> time);
     void passOver();
     void endPart();
     [[nodiscard]] bool hasWaitedTooLong(const TcpSegment& segment) const;
@@ -97,7 +97,7 @@ private:
     std::size_t m_waitingSize = 0;
     std::deque<Place> m_places; ///< where in the file the bytes are that the framer may still give out
     std::uint64_t m_given = 0;
-    std::optional<Stamp> m_stamp; ///< of the bytes given last
+    std::optional<WallTime> m_time; ///< of the bytes given last
 };
 
 /// Finds what a listener for MXTP would have received in captured frames: one datagram to a UDP packet, which

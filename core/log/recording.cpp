@@ -16,7 +16,11 @@ constexpr std::chrono::seconds kSync{1};
 } // namespace
 
 Recorder::Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from)
-    : m_sink(sink), m_follower(log, from), m_senders(log.senders()), m_writer(sink) {}
+    : m_sink(sink),
+      m_timeline(log.timeline()),
+      m_follower(log, from),
+      m_senders(log.senders()),
+      m_writer(sink) {}
 
 Recorder::Result Recorder::begin(const RecordingInfo& info) {
     const auto begun = m_writer.begin(info);
@@ -48,7 +52,8 @@ Recorder::Result Recorder::writeNew() {
         packet->kernelDropsBefore =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(drops, std::uint64_t{UINT32_MAX}));
         const SenderInfo* sender = m_senders.find(packet->sender);
-        if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}); !added) {
+        const Duration setBy = m_timeline.wallOf(packet->stamp) - asWallTime(packet->stamp);
+        if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy); !added) {
             return added;
         }
     }

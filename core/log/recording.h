@@ -14,6 +14,7 @@
 namespace posewire::log {
 
 class PacketLog;
+class Timeline;
 
 struct RecordingFigures {
     std::uint64_t packets = 0;
@@ -51,6 +52,7 @@ private:
     Result writeNew();
 
     ByteSink& m_sink;
+    const Timeline& m_timeline;
     LogFollower m_follower;
     SenderFinder m_senders;
     PcapngWriter m_writer;

@@ -121,12 +121,12 @@ void readPcap(PieceReader& reader, std::uint32_t magic, Reassembly& reassembly) 
             reader.reportDamage("a packet of impossible length");
             return;
         }
-        const Stamp stamp(std::chrono::seconds(seconds) + Duration(fraction * (hasNanoseconds ? 1 : 1000)));
+        const WallTime time(std::chrono::seconds(seconds) + Duration(fraction * (hasNanoseconds ? 1 : 1000)));
         const auto bytes = reader.take(size);
         if (!bytes) {
             return;
         }
-        reassembly.add({linkType, *bytes, reader.offset(), stamp});
+        reassembly.add({linkType, *bytes, reader.offset(), time});
     }
 }
 
@@ -149,9 +149,10 @@ public:
         constexpr std::uint64_t most = UINT32_MAX;
         record.kernelDropsBefore = static_cast<std::uint32_t>(std::min(std::exchange(m_drops, 0), most));
         record.comments = m_comments;
-        record.flags.stampedByKernel = record.stamp.has_value();
+        record.flags.stampedByKernel = record.time.has_value();
         if (m_origin) {
             record.flags = m_origin->flags;
+            record.setBy = m_origin->setBy;
             record.sender->transport = m_origin->transport;
             record.sender->address = m_origin->address.value_or(record.sender->address);
         }
@@ -175,7 +176,7 @@ constexpr std::int64_t kFirstSecond = -7'258'118'400; ///< 1740-01-01
 constexpr std::int64_t kLastSecond = 9'151'488'000;   ///< 2260-01-01
 
 /// Whole nanoseconds, by long division; nothing for what no stamp should hold.
-std::optional<Stamp> stampOf(std::uint64_t stamp, const Interface& interface) {
+std::optional<WallTime> timeOf(std::uint64_t stamp, const Interface& interface) {
     const bool isBinary = (interface.resolution & 0x80U) != 0;
     const std::uint64_t base = isBinary ? 2 : 10;
     const unsigned finest = isBinary ? 60 : 18; // a digit more and ten seconds of it overflow
@@ -203,7 +204,7 @@ std::optional<Stamp> stampOf(std::uint64_t stamp, const Interface& interface) {
         nanoseconds = nanoseconds * 10 + rest * 10 / perSecond;
         rest = rest * 10 % perSecond;
     }
-    return Stamp(Duration(static_cast<std::int64_t>(nanoseconds)));
+    return WallTime(Duration(static_cast<std::int64_t>(nanoseconds)));
 }
 
 class PcapngReader {
@@ -337,7 +338,7 @@ private:
             std::min<std::size_t>(m_reader.read32(body.data() + 12), body.size() - fixed);
         readNotes(body.subspan(std::min(body.size(), fixed + (size + 3) / 4 * 4)));
         const CapturedFrame frame{interface.linkType, body.subspan(fixed, size), m_reader.offset() + fixed,
-                                  near(stampOf(stamp, interface))};
+                                  near(timeOf(stamp, interface))};
         if (m_notes.isOfRecording()) {
             m_reassembly.addRecorded(frame);
         } else {
@@ -345,15 +346,15 @@ private:
         }
     }
 
-    /// Nothing for a stamp that is further than half of what a duration holds from the first one.
-    std::optional<Stamp> near(std::optional<Stamp> stamp) {
-        m_firstStamp = m_firstStamp ? m_firstStamp : stamp;
-        if (!stamp) {
+    /// Nothing for a time that is further than half of what a duration holds from the first one.
+    std::optional<WallTime> near(std::optional<WallTime> time) {
+        m_first = m_first ? m_first : time;
+        if (!time) {
             return std::nullopt;
         }
-        const auto [least, most] = std::minmax({nanosecondsOf(*stamp), nanosecondsOf(*m_firstStamp)});
+        const auto [least, most] = std::minmax({nanosecondsOf(*time), nanosecondsOf(*m_first)});
         const std::uint64_t distance = static_cast<std::uint64_t>(most) - static_cast<std::uint64_t>(least);
-        return distance <= std::uint64_t{1} << 62U ? stamp : std::nullopt;
+        return distance <= std::uint64_t{1} << 62U ? time : std::nullopt;
     }
 
     void readNotes(Bytes options) {
@@ -372,7 +373,7 @@ private:
     Reassembly& m_reassembly;
     FrameNotes& m_notes;
     std::vector<Interface> m_interfaces;
-    std::optional<Stamp> m_firstStamp; ///< of the file
+    std::optional<WallTime> m_first; ///< of the file
 };
 
 tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit) {

@@ -18,16 +18,17 @@ namespace posewire::log {
 struct FileRecord {
     std::uint64_t offset = 0;           ///< of the first byte in the file
     std::span<const std::byte> bytes;   ///< valid during the call
-    std::optional<Stamp> stamp{};       ///< since 1970-01-01 UTC; raw files have none
+    std::optional<WallTime> time{};     ///< raw files have none
     std::optional<SenderInfo> sender{}; ///< raw files know none
     PacketFlags flags{};
+    Duration setBy{};                        ///< what its clock had been set by, known to recordings
     std::uint32_t kernelDropsBefore = 0;     ///< as in Arrival; known to recordings, see PcapngWriter
     std::span<const std::string> comments{}; ///< UTF-8, valid during the call; of recordings
 };
 
-/// What the log keeps of a record of `sender`. `stamp` is for records without a stamp.
+/// What the log keeps of a record of `sender`.
 [[nodiscard]] inline Arrival arrivalOf(const FileRecord& record, SenderId sender, Stamp stamp) {
-    return {record.stamp.value_or(stamp), sender, record.kernelDropsBefore, record.flags};
+    return {stamp, sender, record.kernelDropsBefore, record.flags};
 }
 
 using FileVisitor = std::function<void(const FileRecord&)>;
@@ -35,7 +36,7 @@ using FileVisitor = std::function<void(const FileRecord&)>;
 /// Reads a file of any format that is known, found by its content: datagrams back to back, as on TCP; pcap
 /// (microseconds or nanoseconds, either byte order); pcapng. In captures it finds what Reassembly finds. A
 /// capture that is cut off is read up to its last whole packet, and fails then with FileError::Kind::Cut and
-/// the byte where it ends. What PcapngWriter has written comes back as it was. A stamp before 1740 or after
+/// the byte where it ends. What PcapngWriter has written comes back as it was. A time before 1740 or after
 /// 2260, or 146 years from the first one of the file, is none: all others can be subtracted from each other
 /// and from now.
 tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit);

@@ -9,8 +9,14 @@ namespace posewire::log {
 /// How long.
 using Duration = std::chrono::nanoseconds;
 
-/// A moment of the wall clock, since 1970-01-01 UTC, as in recordings and kernel stamps.
-using Stamp = std::chrono::sys_time<Duration>;
+/// A moment of the wall clock, since 1970-01-01 UTC, as in recordings and kernel stamps. It jumps where
+/// somebody sets that clock.
+using WallTime = std::chrono::sys_time<Duration>;
+
+/// A moment of a log: begins as the wall clock and runs steadily from there, whatever that clock is set to.
+/// For rates, gaps, jitter and ages; Timeline knows the wall time of each.
+struct LogTime {};
+using Stamp = std::chrono::time_point<LogTime, Duration>;
 
 /// A moment of a clock that never goes back. For intervals and schedules.
 using Moment = std::chrono::time_point<std::chrono::steady_clock, Duration>;
@@ -27,12 +33,21 @@ using Moment = std::chrono::time_point<std::chrono::steady_clock, Duration>;
     return Duration(static_cast<std::int64_t>(seconds * 1e9));
 }
 
-/// Nanoseconds since 1970-01-01 UTC: how files and JSON write a stamp.
-[[nodiscard]] constexpr std::int64_t nanosecondsOf(Stamp stamp) {
-    return stamp.time_since_epoch().count();
+/// Nanoseconds since 1970-01-01 UTC: how files and JSON write a time.
+[[nodiscard]] constexpr std::int64_t nanosecondsOf(WallTime time) {
+    return time.time_since_epoch().count();
 }
+
 [[nodiscard]] constexpr Stamp stampOf(std::int64_t nanoseconds) {
     return Stamp(Duration(nanoseconds));
+}
+
+/// The two are the same where the clock was never set.
+[[nodiscard]] constexpr Stamp asStamp(WallTime time) {
+    return Stamp(time.time_since_epoch());
+}
+[[nodiscard]] constexpr WallTime asWallTime(Stamp stamp) {
+    return WallTime(stamp.time_since_epoch());
 }
 
 } // namespace posewire::log

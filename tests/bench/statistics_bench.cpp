@@ -100,10 +100,10 @@ Cost ours(double duration) {
         stayOn(true);
         const double begin = threadCpuSeconds();
         while (!isStopping) {
-            session.follow(clock.wall());
+            session.follow(log.timeline().now(clock));
             std::this_thread::sleep_for(kFollow);
         }
-        session.follow(clock.wall());
+        session.follow(log.timeline().now(clock));
         following = threadCpuSeconds() - begin;
     });
     LoopbackSender sender(receiver.inputs().front().endpoint.port, poseBytes(), numberPose);

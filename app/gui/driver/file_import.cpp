@@ -57,7 +57,7 @@ ImportResult visitFile(const QString& path, const log::FileVisitor& visit,
 } // namespace
 
 ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
-                           const std::function<bool()>& isCancelled) {
+                           log::Timeline& timeline, const std::function<bool()>& isCancelled) {
     if (const QFileInfo info(path); info.exists() && !info.isFile() && !info.isDir()) {
         return tl::unexpected(
             QCoreApplication::translate(
@@ -85,16 +85,21 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
     }
     const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
     TimeCodeStamps stamps;
-    return visitFile(
+    log::RecordedClock clock(timeline);
+    ImportResult result = visitFile(
         path,
         [&](const log::FileRecord& record) {
-            const log::Stamp stamp = end - length + stamps.next(record);
+            const log::Duration place = stamps.next(record);
+            const log::Stamp stamp =
+                record.time ? clock.stampOf(*record.time, record.setBy) : end - length + place;
             take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
         },
         isCancelled);
+    clock.end();
+    return result;
 }
 
-FileImport::FileImport(net::Receiver& receiver, const log::PacketLog& log, QString path, log::Stamp end)
+FileImport::FileImport(net::Receiver& receiver, log::PacketLog& log, QString path, log::Stamp end)
     : m_receiver(receiver),
       m_log(log),
       m_path(std::move(path)),
@@ -113,7 +118,8 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
             keepStep(stop);
         }
     };
-    ImportResult result = importRawFile(m_path, take, end, [&stop] { return stop.stop_requested(); });
+    ImportResult result =
+        importRawFile(m_path, take, end, m_log.timeline(), [&stop] { return stop.stop_requested(); });
     keepStep(stop);
     const std::lock_guard lock(m_mutex);
     m_result = std::move(result);

@@ -23,6 +23,7 @@ class Receiver;
 
 namespace posewire::log {
 class PacketLog;
+class Timeline;
 } // namespace posewire::log
 
 namespace posewire::gui {
@@ -33,9 +34,10 @@ using PacketTaker = std::function<void(std::span<const std::byte> bytes, const l
                                        const log::Arrival& arrival)>;
 
 /// Reads a file of datagrams, in the order of the file. Captures keep stamps and senders; a raw file has
-/// none: it is spaced by its time codes so that its newest datagram is at `end`, and is its own sender. Gives
-/// up once `isCancelled` says so.
+/// none: it is spaced by its time codes so that its newest datagram is at `end`, and is its own sender. What
+/// the file says of its clock goes to `timeline`. Gives up once `isCancelled` says so.
 [[nodiscard]] ImportResult importRawFile(const QString& path, const PacketTaker& take, log::Stamp end,
+                                         log::Timeline& timeline,
                                          const std::function<bool()>& isCancelled = {});
 
 /// Brings a file into the log on a thread of its own, in step with who follows the log: what was read waits
@@ -43,7 +45,7 @@ using PacketTaker = std::function<void(std::span<const std::byte> bytes, const l
 class FileImport {
 public:
     /// Both outlive this.
-    FileImport(net::Receiver& receiver, const log::PacketLog& log, QString path, log::Stamp end);
+    FileImport(net::Receiver& receiver, log::PacketLog& log, QString path, log::Stamp end);
     /// Reads no further.
     ~FileImport() = default;
     FileImport(const FileImport&) = delete;
@@ -63,7 +65,7 @@ private:
     void keepStep(const std::stop_token& stop);
 
     net::Receiver& m_receiver;
-    const log::PacketLog& m_log;
+    log::PacketLog& m_log;
     const QString m_path;
     const std::int64_t m_size; ///< bytes
     std::atomic<std::uint64_t> m_bytesRead = 0;

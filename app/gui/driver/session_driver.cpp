@@ -78,7 +78,7 @@ SessionDriver::SessionDriver(const log::Clock& clock, QObject* parent)
 }
 
 void SessionDriver::tick() {
-    const log::Stamp now = m_clock.wall();
+    const log::Stamp now = m_log.timeline().now(m_clock);
     const std::uint64_t endBefore = m_session.end();
     const log::Moment begin = m_clock.monotonic();
     bool hasNew = false;
@@ -91,8 +91,8 @@ void SessionDriver::tick() {
         finishOpening();
     }
     m_meter.addFollow(m_clock.monotonic() - begin, m_session.end() - endBefore);
-    const bool isTableTick = std::chrono::abs(now - m_tableTick) >= kTableTick;
-    if (std::chrono::abs(now - m_retry) >= kRetry) {
+    const bool isTableTick = now - m_tableTick >= kTableTick;
+    if (now - m_retry >= kRetry) {
         m_retry = now;
         m_receiving.retry();
     }
@@ -129,7 +129,8 @@ void SessionDriver::measureHealth() {
 void SessionDriver::openFile(const QString& path) {
     m_import.reset();
     m_importBegin = m_session.end();
-    m_import = std::make_unique<FileImport>(m_receiving.receiver(), m_log, path, m_clock.wall());
+    m_import =
+        std::make_unique<FileImport>(m_receiving.receiver(), m_log, path, m_log.timeline().now(m_clock));
 }
 
 QString SessionDriver::openingText() const {

@@ -110,6 +110,9 @@ void ClockHistory::follow(model::SessionView& view, const std::optional<model::C
     if (added != 0) {
         m_drift = fitDrift();
     }
+    if (m_jump) {
+        m_jump->time = view.wallOf(m_jump->stamp);
+    }
     readType25(view.message(*key, wire::TimeCode::kType));
 }
 
@@ -228,7 +231,7 @@ PropertyValue frameRate(const ClockHistory& clock) {
 PropertyValue lastJump(const ClockHistory& clock) {
     const auto& jump = clock.lastJump();
     const QString none = clock.headerMs() ? tr("none") : dash();
-    return {jump ? tr("%1 at %2").arg(clockDifference(jump->milliseconds), timeOfDay(jump->stamp).chopped(4))
+    return {jump ? tr("%1 at %2").arg(clockDifference(jump->milliseconds), timeOfDay(jump->time).chopped(4))
                  : none,
             jump ? Health::Warning : Health::Unknown,
             tr("The newest place where the time code did not advance with its samples, and when it "

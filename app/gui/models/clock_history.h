@@ -69,6 +69,7 @@ public:
     struct Jump {
         double milliseconds = 0; ///< how far off
         log::Stamp stamp{};
+        log::WallTime time{}; ///< of the stamp
     };
     [[nodiscard]] const std::optional<Jump>& lastJump() const { return m_jump; }
 

@@ -111,10 +111,10 @@ QString lasted(const model::Event& event) {
     return event.isCurrent ? tr("lasts") : duration(log::secondsOf(event.lastStamp - event.firstStamp));
 }
 
-QString fromTo(const model::Event& event) {
+QString fromTo(const model::SessionView& view, const model::Event& event) {
     return tr("From %1 to %2")
-        .arg(timeOfDay(event.firstStamp),
-             event.isCurrent ? tr("now: it lasts, or may last") : timeOfDay(event.lastStamp));
+        .arg(timeOfDay(view.wallOf(event.firstStamp)),
+             event.isCurrent ? tr("now: it lasts, or may last") : timeOfDay(view.wallOf(event.lastStamp)));
 }
 
 EventColumn severityColumn() {
@@ -136,8 +136,8 @@ std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel
     std::vector<EventColumn> columns{
         severityColumn(),
         EventColumn::numbers(tr("Time"), tr("When it began"),
-                             [](const auto& event) { return timeOfDay(event.firstStamp); })
-            .withToolTip(fromTo),
+                             [&view](const auto& event) { return timeOfDay(view.wallOf(event.firstStamp)); })
+            .withToolTip([&view](const auto& event) { return fromTo(view, event); }),
         EventColumn::words(tr("Whose"), tr("Character and type, or the sender"), whose).withToolTip(whose),
         EventColumn::words(tr("Text"), {}, words).withToolTip(words),
         EventColumn::numbers(tr("Count"), tr("How often it happened in this episode"),

@@ -55,7 +55,7 @@ MetadataColumn nameColumn() {
     return MetadataColumn::words(tr("Tag"), {}, labelOf).dimmed().withToolTip(toolTip).withMore(suffix);
 }
 
-PropertyValue shownValue(const MetadataRow& row) {
+PropertyValue shownValue(const model::SessionView& view, const MetadataRow& row) {
     if (row.fact != nullptr) {
         PropertyValue value = row.fact->read();
         value.toolTip = value.toolTip.isEmpty() ? value.text : value.toolTip;
@@ -65,7 +65,7 @@ PropertyValue shownValue(const MetadataRow& row) {
         return {tr("not sent yet")};
     }
     return {shown(row.value->text), Health::Unknown,
-            row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(row.value->stamp))};
+            row.isEarlier ? QString() : tr("First sent at %1").arg(timeOfDay(view.wallOf(row.value->stamp)))};
 }
 
 MetadataColumn sentColumn(model::SessionView& view) {
@@ -74,13 +74,13 @@ MetadataColumn sentColumn(model::SessionView& view) {
             return QString();
         }
         const double age = log::secondsOf(view.cursorStamp() - row.tag->lastSeen);
-        return row.isEarlier ? timeOfDay(row.value->stamp) : duration(std::max(0.0, age));
+        return row.isEarlier ? timeOfDay(view.wallOf(row.value->stamp)) : duration(std::max(0.0, age));
     };
-    const auto toolTip = [](const MetadataRow& row) {
+    const auto toolTip = [&view](const MetadataRow& row) {
         return row.tag == nullptr || row.isEarlier
                    ? QString()
                    : tr("Last sent at %1, changed or not. Earlier values are below the tag.")
-                         .arg(timeOfDay(row.tag->lastSeen));
+                         .arg(timeOfDay(view.wallOf(row.tag->lastSeen)));
     };
     const auto span = [](const MetadataRow& row, int role) {
         return role == kSpanRole && row.fact != nullptr ? QVariant(true) : QVariant();
@@ -89,9 +89,10 @@ MetadataColumn sentColumn(model::SessionView& view) {
 }
 
 std::vector<MetadataColumn> metadataColumns(model::SessionView& view) {
-    MetadataColumn value = valueColumn(MetadataColumn{.title = tr("Value"), .isNumber = true}, shownValue);
-    value.colour = [](const MetadataRow& row) {
-        return row.isEarlier ? QVariant(theme().dim) : shownValue(row).colour();
+    const auto read = [&view](const MetadataRow& row) { return shownValue(view, row); };
+    MetadataColumn value = valueColumn(MetadataColumn{.title = tr("Value"), .isNumber = true}, read);
+    value.colour = [read](const MetadataRow& row) {
+        return row.isEarlier ? QVariant(theme().dim) : read(row).colour();
     };
     value.more = [](const MetadataRow& row, int role) {
         return role == kSwatchRole && row.value != nullptr
@@ -168,7 +169,7 @@ PropertyValue nullPose(model::SessionView& view, const Key& key) {
         text, pose->isComplete() ? Health::Good : Health::Warning,
         tr("Datagrams of the scale message (type 13) received of those sent, with %1 segments; last at %2")
             .arg(pose->segments.size())
-            .arg(timeOfDay(pose->stamp))};
+            .arg(timeOfDay(view.wallOf(pose->stamp)))};
 }
 
 /// What was concluded about a character besides its tags. `key` is read whenever a value is.

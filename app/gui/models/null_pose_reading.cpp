@@ -98,7 +98,8 @@ QString age(const NullPoseReading& reading, log::Stamp stamp) {
 
 /// "10:42:17 · 3.2 s": scale messages come seconds apart.
 QString whenAndAge(const NullPoseReading& reading, log::Stamp stamp) {
-    return timeOfDay(stamp).section(QLatin1Char('.'), 0, 0) + QStringLiteral(" · ") + age(reading, stamp);
+    return timeOfDay(reading.view().wallOf(stamp)).section(QLatin1Char('.'), 0, 0) + QStringLiteral(" · ") +
+           age(reading, stamp);
 }
 
 PropertyValue parts(const NullPoseReading& reading) {

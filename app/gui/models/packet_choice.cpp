@@ -60,9 +60,9 @@ Target atTimeOfDay(model::SessionView& view, const QString& text) {
         if (time.isValid()) {
             const auto newest = view.packet(view.end() - 1);
             const log::Stamp stamp = newest ? newest->stamp : view.now();
-            const QDate day =
-                QDateTime::fromMSecsSinceEpoch(stamp.time_since_epoch() / milliseconds(1)).date();
-            return atStamp(view, log::Stamp(milliseconds(QDateTime(day, time).toMSecsSinceEpoch())), text);
+            const QDate day = dateTimeOf(view.wallOf(stamp)).date();
+            const log::WallTime wanted(milliseconds(QDateTime(day, time).toMSecsSinceEpoch()));
+            return atStamp(view, view.log().timeline().stampOf(wanted), text);
         }
     }
     return tl::unexpected(tr("%1 is not a time of day such as 10:42:17.508.").arg(text));

@@ -246,11 +246,9 @@ QString PacketModel::timeText(const PacketFacts& facts) const {
     if (m_timeMode == TimeMode::SinceFirst) {
         return fixed(log::secondsOf(facts.stamp - m_view.firstStamp()), kTimeDecimals);
     }
-    const log::Duration sinceEpoch = facts.stamp.time_since_epoch();
-    const auto milliseconds = std::chrono::floor<std::chrono::milliseconds>(sinceEpoch); // also before 1970
-    const std::int64_t microseconds = (sinceEpoch - milliseconds) / 1us;
-    const QDateTime time = QDateTime::fromMSecsSinceEpoch(milliseconds.count());
-    return time.toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz")) +
+    const log::WallTime time = m_view.wallOf(facts.stamp);
+    const std::int64_t microseconds = (time - std::chrono::floor<std::chrono::milliseconds>(time)) / 1us;
+    return dateTimeOf(time).toString(QStringLiteral("yyyy-MM-dd HH:mm:ss.zzz")) +
            QStringLiteral("%1").arg(microseconds, 3, 10, QLatin1Char('0'));
 }
 

@@ -162,7 +162,9 @@ void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::
         const model::PacketDigest& digest = excerpt.at(number);
         const bool isRead = !packet->flags.skipped && wire::decodeInto(packet->bytes, m_datagram).has_value();
         const log::SenderInfo* sender = senders.find(packet->sender);
-        if (m_filter.matches({*packet, digest, isRead ? &m_datagram : nullptr, sender, m_firstStamp})) {
+        const log::Duration setBy = m_log.timeline().wallOf(packet->stamp) - log::asWallTime(packet->stamp);
+        const wire::Datagram* datagram = isRead ? &m_datagram : nullptr;
+        if (m_filter.matches({*packet, digest, datagram, sender, m_firstStamp, nullptr, setBy})) {
             found.packets.push_back(number);
             if (digest.isProblem()) {
                 found.problems.push_back(number);

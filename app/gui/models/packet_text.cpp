@@ -43,7 +43,7 @@ QString cArray(wire::Bytes bytes, std::uint64_t number) {
 
 QString json(model::SessionView& view, const log::Packet& packet) {
     const auto sender = view.log().senders().find(packet.sender);
-    const exporting::DatagramPlace place{packet.number, 0, packet.stamp,
+    const exporting::DatagramPlace place{packet.number, 0, view.wallOf(packet.stamp),
                                          sender == nullptr ? std::nullopt : std::optional(sender->address)};
     const std::string object = packet.flags.skipped ? exporting::skippedJson(place, packet.bytes.size())
                                                     : exporting::datagramJson(place, packet.bytes);

@@ -76,7 +76,7 @@ private:
 
     std::optional<model::TimeRange> m_range;
     model::RangeChoice m_choice;
-    std::chrono::sys_seconds m_curveSecond{};
+    std::chrono::time_point<log::LogTime, std::chrono::seconds> m_curveSecond{};
     mutable std::deque<Cached> m_cache; ///< by the node of the row; what is in it stays where it is
 };
 

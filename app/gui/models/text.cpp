@@ -80,9 +80,13 @@ QString clockDifference(double milliseconds) {
     return milliseconds > 0 ? QLatin1Char('+') + text : text;
 }
 
-QString timeOfDay(log::Stamp stamp) {
-    return QDateTime::fromMSecsSinceEpoch(stamp.time_since_epoch() / std::chrono::milliseconds(1))
-        .toString(QStringLiteral("HH:mm:ss.zzz"));
+QDateTime dateTimeOf(log::WallTime time) {
+    return QDateTime::fromMSecsSinceEpoch(
+        std::chrono::floor<std::chrono::milliseconds>(time).time_since_epoch().count()); // also before 1970
+}
+
+QString timeOfDay(log::WallTime time) {
+    return dateTimeOf(time).toString(QStringLiteral("HH:mm:ss.zzz"));
 }
 
 QString duration(double seconds) {

@@ -4,6 +4,7 @@
 #include "core/log/time.h"
 #include "core/model/foreign_text.h"
 
+#include <QDateTime>
 #include <QString>
 #include <QStringList>
 
@@ -49,8 +50,10 @@ namespace posewire::gui {
 /// A difference of clocks: "+3.1 ms" below a second, else "−00:00:01.508".
 [[nodiscard]] QString clockDifference(double milliseconds);
 
-/// Time of day of a stamp in the computer's own zone, "10:42:17.508".
-[[nodiscard]] QString timeOfDay(log::Stamp stamp);
+/// In the computer's own zone.
+[[nodiscard]] QDateTime dateTimeOf(log::WallTime time);
+/// The same without the date: "10:42:17.508".
+[[nodiscard]] QString timeOfDay(log::WallTime time);
 
 /// "0.4 s", "3.2 s", "12 min", "3 h": as long as a duration is interesting to the digit.
 [[nodiscard]] QString duration(double seconds);

@@ -199,8 +199,8 @@ void InspectorPanel::inspect(const log::Packet& packet) {
         owner = QStringLiteral(" · ") + characterName(m_view, key);
     }
     m_title->setText(documentTitle(*m_document), owner);
-    m_title->setToolTip(
-        toolTipText(tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(packet.stamp))));
+    m_title->setToolTip(toolTipText(
+        tr("Packet %1, received at %2").arg(grouped(packet.number), timeOfDay(m_view.wallOf(packet.stamp)))));
     describeProblems();
     describeCurrent();
 }

@@ -335,7 +335,8 @@ QString NullPosePanel::summary() const {
 
 exporting::NullPoseSheet NullPosePanel::sheet() const {
     return {m_reading.character() ? m_view.displayName(*m_reading.character()) : model::ForeignText(),
-            m_reading.pose(), m_reading.scale(), m_reading.props()};
+            m_reading.pose(), m_reading.scale(), m_reading.props(),
+            m_reading.pose() != nullptr ? m_view.wallOf(m_reading.pose()->stamp) : log::WallTime()};
 }
 
 QString NullPosePanel::save(const QString& path) const {

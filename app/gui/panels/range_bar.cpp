@@ -228,8 +228,8 @@ QString RangeStrip::partText(double place) const {
     const model::RangePart& counted = m_overview.counted()[part];
     const double seconds = log::secondsOf(parts.width);
     return tr("%1: %2 datagrams/s, %3 samples lost\nDrag to choose a range.")
-        .arg(timeOfDay(parts.beginOf(part)).chopped(4), fixed(counted.datagrams / seconds, 0),
-             grouped(counted.lost));
+        .arg(timeOfDay(m_view.wallOf(parts.beginOf(part))).chopped(4),
+             fixed(counted.datagrams / seconds, 0), grouped(counted.lost));
 }
 
 bool RangeStrip::event(QEvent* event) {
@@ -278,7 +278,7 @@ QString RangeBar::rangeText() const {
     if (!m_view.rangeChoice().fixed) {
         return tr("last %1").arg(length);
     }
-    return tr("%1 + %2").arg(timeOfDay(range->from).chopped(2), length);
+    return tr("%1 + %2").arg(timeOfDay(m_view.wallOf(range->from)).chopped(2), length);
 }
 
 } // namespace posewire::gui

@@ -187,8 +187,9 @@ private:
             if (event.type) {
                 text.prepend(tr("Type %1: ").arg(event.type.value(), 2, 10, QLatin1Char('0')));
             }
-            auto* line = new TroubleLine(healthOf(event.severity()), text,
-                                         tr("since %1").arg(timeOfDay(event.firstStamp)), this);
+            auto* line =
+                new TroubleLine(healthOf(event.severity()), text,
+                                tr("since %1").arg(timeOfDay(m_session.wallOf(event.firstStamp))), this);
             line->setToolTip(tr("Show the packets"));
             connect(line, &QAbstractButton::clicked, this,
                     [this, number = event.number] { showPackets(number); });

@@ -39,7 +39,8 @@ std::optional<std::optional<model::TimeRange>> askForRange(model::SessionView& s
     }
     MessageBox question(
         tr("Save stream report"),
-        tr("A range of time is selected: from %1 to %2.").arg(timeOfDay(range->from), timeOfDay(range->to)),
+        tr("A range of time is selected: from %1 to %2.")
+            .arg(timeOfDay(session.wallOf(range->from)), timeOfDay(session.wallOf(range->to))),
         QMessageBox::Cancel, parent);
     const auto* selected = question.addButton(tr("&Selected range"), QMessageBox::AcceptRole);
     const auto* all = question.addButton(tr("&All of it"), QMessageBox::AcceptRole);

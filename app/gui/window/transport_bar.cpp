@@ -121,12 +121,13 @@ void TransportBar::refresh() {
     const auto key = shownCharacter(m_session);
     const model::CharacterPose* pose = key ? m_session.pose(*key) : nullptr;
     if (pose == nullptr) {
-        m_time->setText(m_session.now() == log::Stamp() ? QStringLiteral("--:--:--.---")
-                                                        : timeOfDay(m_session.cursorStamp()));
+        m_time->setText(m_session.now() == log::Stamp()
+                            ? QStringLiteral("--:--:--.---")
+                            : timeOfDay(m_session.wallOf(m_session.cursorStamp())));
         m_detail->setText(m_session.end() == 0 ? tr("nothing received yet") : tr("no pose"));
         return;
     }
-    m_time->setText(timeOfDay(pose->stamp));
+    m_time->setText(timeOfDay(m_session.wallOf(pose->stamp)));
     m_detail->setText(tr("received · sample %1").arg(grouped(pose->sample)));
 }
 

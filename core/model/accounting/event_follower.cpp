@@ -28,7 +28,31 @@ Event eventOf(EventKind kind, const log::StreamKey& stream, const Verdict& verdi
 
 } // namespace
 
+void EventFollower::followClock(const log::Timeline& timeline) {
+    for (const std::size_t count = timeline.stepCount(); m_clockSteps < count; ++m_clockSteps) {
+        const log::ClockStep step = timeline.step(m_clockSteps);
+        if (step.change != log::Duration::zero()) {
+            m_untoldSteps.push_back(step);
+        }
+    }
+}
+
+void EventFollower::tellClockSets(log::Stamp until) {
+    std::erase_if(m_untoldSteps, [&](const log::ClockStep& step) {
+        if (step.from > until) {
+            return false;
+        }
+        Event event = Event::of(EventKind::ClockSet, log::kNoSender, step.from, m_lastPacket);
+        event.value = log::secondsOf(step.change);
+        m_events.report(event);
+        m_events.end(event, step.from); // two are two, however soon
+        return true;
+    });
+}
+
 void EventFollower::takePacket(const log::Packet& packet, const PacketDigest& digest) {
+    m_lastPacket = packet.number;
+    tellClockSets(packet.stamp);
     if (packet.stamp >= m_nextCheck) {
         check(packet.stamp);
         m_nextCheck = packet.stamp + kCheck;
@@ -173,6 +197,7 @@ void EventFollower::takeChange(EventKind kind, const CharacterKey& key, const lo
 }
 
 void EventFollower::advance(log::Stamp stamp) {
+    tellClockSets(stamp - kSilent);
     if (stamp >= m_nextCheck) {
         check(stamp);
     }

@@ -3,6 +3,7 @@
 
 #include "core/log/packet.h"
 #include "core/log/time.h"
+#include "core/log/timeline.h"
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/events.h"
 #include "core/model/accounting/packet_digest.h"
@@ -25,6 +26,8 @@ public:
     void setThresholds(const Thresholds& thresholds) { m_watch.set(thresholds); }
     [[nodiscard]] const Thresholds& thresholds() const { return m_watch.thresholds(); }
 
+    /// Looks whether the wall clock was set; takePacket() then tells it in its place among the packets.
+    void followClock(const log::Timeline& timeline);
     /// Each packet before its content: moves the time of the log, and notes what is no datagram.
     void takePacket(const log::Packet& packet, const PacketDigest& digest);
     /// Packets just below one were passed over.
@@ -75,6 +78,7 @@ private:
         Claim newest;
         Claim before;
     };
+    void tellClockSets(log::Stamp until);
     void check(log::Stamp stamp);
     void noteSampled(const log::Packet& packet, const wire::Header& header);
     void noteTimeCode(const log::StreamKey& stream, const Verdict& verdict);
@@ -85,6 +89,9 @@ private:
     std::map<log::SenderId, Sender> m_senders;
     std::map<CharacterKey, Character> m_characters;
     std::map<std::pair<std::uint8_t, std::uint8_t>, Claims> m_claims;
+    std::size_t m_clockSteps = 0;              ///< of the time line that were seen
+    std::vector<log::ClockStep> m_untoldSteps; ///< no packet has come since
+    std::uint64_t m_lastPacket = 0;
     log::Stamp m_nextCheck{};
     log::Stamp m_nextWatch{};
 };

@@ -35,6 +35,7 @@ constexpr std::array<KindFacts, kEventKinds> kKinds{{
     {EventKind::Stale, "stale", EventSeverity::Warning, EventGroup::Sender, true},
     {EventKind::Overtaken, "overtaken", EventSeverity::Error, EventGroup::Loss, false},
     {EventKind::RelayLoop, "relay loop", EventSeverity::Error, EventGroup::Sender, false},
+    {EventKind::ClockSet, "clock set", EventSeverity::Warning, EventGroup::Sender, false},
     {EventKind::LossLimit, "loss limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::JitterLimit, "jitter limit", EventSeverity::Warning, EventGroup::Limit, true},
     {EventKind::GapLimit, "gap limit", EventSeverity::Warning, EventGroup::Limit, true},
@@ -122,6 +123,9 @@ std::string Event::text() const {
         return "Two sources send character " + std::to_string(character.value_or(0)) + " at the same time.";
     case EventKind::Stale:
         return "No pose for 1 s, though the source sends.";
+    case EventKind::ClockSet:
+        return std::string("The receiving computer's clock was set ") + (value < 0 ? "back" : "forward") +
+               " by " + fixed(std::abs(value), 3) + " s. Rates, gaps and jitter do not depend on it.";
     case EventKind::LossLimit:
         return limitText(*this, "Loss", "%", 2);
     case EventKind::JitterLimit:

@@ -33,13 +33,14 @@ enum class EventKind : std::uint8_t {
     Stale,
     Overtaken,
     RelayLoop,
+    ClockSet,
     LossLimit,
     JitterLimit,
     GapLimit,
     AgeLimit,
     RateLimit,
 };
-inline constexpr std::size_t kEventKinds = 20;
+inline constexpr std::size_t kEventKinds = 21;
 
 enum class EventSeverity : std::uint8_t { Info, Warning, Error };
 
@@ -61,7 +62,7 @@ struct Event {
     std::uint64_t lastPacket = 0;
     std::uint64_t count = 1;   ///< how often it happened
     std::uint64_t samples = 0; ///< Gap, Burst: lost; Dropped, Overtaken: datagrams
-    double value = 0;          ///< limits: the worst; TimeCodeJump: ms
+    double value = 0;          ///< limits: the worst; TimeCodeJump: ms; ClockSet: s
     double limit = 0;          ///< limits: what must not be exceeded
     std::optional<LossCause> cause{};
     std::string

@@ -113,6 +113,7 @@ std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     m_now = now;
     m_follower.refresh();
     m_begin = m_follower.reader().begin();
+    m_events->followClock(m_log.timeline());
     std::size_t count = 0;
     while (count < most) {
         const auto packet = m_follower.next();

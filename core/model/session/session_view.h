@@ -71,6 +71,8 @@ public:
     [[nodiscard]] log::Stamp now() const { return m_ingest.now(); }
     /// Of the first packet that was followed, also where the log has dropped it; 0 before there is one.
     [[nodiscard]] log::Stamp firstStamp() const { return m_ingest.firstStamp(); }
+    /// What the receiving computer's clock showed: for times of day. All else is by stamps.
+    [[nodiscard]] log::WallTime wallOf(log::Stamp stamp) const { return log().timeline().wallOf(stamp); }
     [[nodiscard]] log::LogFigures figures() const { return log().figures(); }
     /// For readers on other threads.
     [[nodiscard]] const log::PacketLog& log() const { return m_ingest.log(); }

@@ -18,35 +18,51 @@ std::vector<std::byte> datagram(std::uint8_t type, std::uint32_t sample, std::ui
     return *wire::encode(datagram);
 }
 
+log::Duration due(DatagramPacer& pacer, const std::vector<std::byte>& bytes,
+                  std::optional<log::WallTime> time = {}, log::Duration setBy = {}) {
+    log::FileRecord record;
+    record.bytes = bytes;
+    record.time = time;
+    record.setBy = setBy;
+    return pacer.due(record);
+}
+
 TEST(DatagramPacer, FollowsTheTimeCodesOfTheSender) {
     DatagramPacer pacer(0.1, 1.0);
-    EXPECT_EQ(pacer.due(datagram(2, 100, 5000), {}), 0ms);
-    EXPECT_EQ(pacer.due(datagram(21, 100, 5000), {}), 0ms);
-    EXPECT_EQ(pacer.due(datagram(12, 0, 0), {}), 0ms);
-    EXPECT_EQ(pacer.due(datagram(2, 104, 5017), {}), 17ms);
+    EXPECT_EQ(due(pacer, datagram(2, 100, 5000)), 0ms);
+    EXPECT_EQ(due(pacer, datagram(21, 100, 5000)), 0ms);
+    EXPECT_EQ(due(pacer, datagram(12, 0, 0)), 0ms);
+    EXPECT_EQ(due(pacer, datagram(2, 104, 5017)), 17ms);
 }
 
 TEST(DatagramPacer, TakesAPeriodWhereTimeCodesStandStillOrJump) {
     DatagramPacer pacer(0.1, 1.0);
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 0ms);
-    EXPECT_EQ(pacer.due(datagram(2, 2, 5000), {}), 100ms);
-    EXPECT_EQ(pacer.due(datagram(2, 3, 0), {}), 200ms);
-    EXPECT_EQ(pacer.due(datagram(2, 4, 900000), {}), 300ms);
+    EXPECT_EQ(due(pacer, datagram(2, 1, 5000)), 0ms);
+    EXPECT_EQ(due(pacer, datagram(2, 2, 5000)), 100ms);
+    EXPECT_EQ(due(pacer, datagram(2, 3, 0)), 200ms);
+    EXPECT_EQ(due(pacer, datagram(2, 4, 900000)), 300ms);
 }
 
 TEST(DatagramPacer, FollowsStampsWhereThereAreAny) {
     DatagramPacer pacer(0.1, 1.0);
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), log::Stamp(1000ms)), 0ms);
-    EXPECT_EQ(pacer.due(datagram(12, 0, 0), log::Stamp(1003ms)), 3ms);
-    EXPECT_EQ(pacer.due(datagram(2, 2, 5000), log::Stamp(1002ms)), 3ms);
+    EXPECT_EQ(due(pacer, datagram(2, 1, 5000), log::WallTime(1000ms)), 0ms);
+    EXPECT_EQ(due(pacer, datagram(12, 0, 0), log::WallTime(1003ms)), 3ms);
+    EXPECT_EQ(due(pacer, datagram(2, 2, 5000), log::WallTime(1002ms)), 3ms);
+}
+
+TEST(DatagramPacer, DoesNotWaitWhereTheClockWasSet) {
+    DatagramPacer pacer(0.1, 1.0);
+    EXPECT_EQ(due(pacer, datagram(2, 1, 5000), log::WallTime(1000ms)), 0ms);
+    EXPECT_EQ(due(pacer, datagram(2, 2, 5004), log::WallTime(1004ms + 1h), 1h), 4ms);
+    EXPECT_EQ(due(pacer, datagram(2, 3, 5008), log::WallTime(1008ms), 0ms), 8ms);
 }
 
 TEST(DatagramPacer, PlaysFasterAndAgain) {
     DatagramPacer pacer(0.1, 2.0);
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 0ms);
-    EXPECT_EQ(pacer.due(datagram(2, 2, 5010), {}), 5ms);
+    EXPECT_EQ(due(pacer, datagram(2, 1, 5000)), 0ms);
+    EXPECT_EQ(due(pacer, datagram(2, 2, 5010)), 5ms);
     pacer.beginAgain();
-    EXPECT_EQ(pacer.due(datagram(2, 1, 5000), {}), 55ms);
+    EXPECT_EQ(due(pacer, datagram(2, 1, 5000)), 55ms);
 }
 
 } // namespace

@@ -49,6 +49,19 @@ inline std::string pathName(const ::testing::TestParamInfo<ReceivePath>& path) {
 }
 
 /// A log with a receiver that listens on loopback, on UDP ports that the system chooses.
+/// The system's clock, which a test can set back: as the kernel's stamps are the real ones, the other clock
+/// goes forward instead.
+class SettableClock final : public log::Clock {
+public:
+    [[nodiscard]] log::WallTime wall() const override { return m_system.wall(); }
+    [[nodiscard]] log::Moment monotonic() const override { return m_system.monotonic() + m_setBack.load(); }
+    void setBack(log::Duration by) { m_setBack = m_setBack.load() + by; }
+
+private:
+    log::SystemClock m_system;
+    std::atomic<log::Duration> m_setBack{};
+};
+
 struct Receiving {
     explicit Receiving(const ReceiverOptions& options = {}, std::size_t ports = 1)
         : receiver(std::make_unique<Receiver>(log, clock, options)) {
@@ -83,7 +96,7 @@ struct Receiving {
     }
 
     log::PacketLog log;
-    log::SystemClock clock;
+    SettableClock clock;
     std::unique_ptr<Receiver> receiver;
 };
 

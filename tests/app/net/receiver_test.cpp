@@ -61,15 +61,37 @@ TEST_P(ReceiverTest, OversizedDatagramsArriveWhole) {
     }
 }
 
+TEST_P(ReceiverTest, StampsRunOnWhereTheClockIsSetBack) {
+    Receiving receiving(options());
+    auto sender = DatagramSender::connect(receiving.target());
+    const auto& timeline = receiving.log.timeline();
+    const log::Duration near = std::chrono::milliseconds(5); // the clocks are read one after the other
+    log::LogReader reader(receiving.log);
+    for (std::size_t i = 0; i < 4; ++i) {
+        const log::Stamp begin = timeline.now(receiving.clock) - near;
+        const log::WallTime wallBegin = receiving.clock.wall() - near;
+        ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
+        ASSERT_TRUE(eventually([&] { return receiving.packets() == i + 1; }));
+        ASSERT_TRUE(reader.refresh());
+        const log::Stamp stamp = reader.packet(i)->stamp;
+        EXPECT_GE(stamp, begin);
+        EXPECT_LE(stamp, timeline.now(receiving.clock) + near);
+        EXPECT_GE(timeline.wallOf(stamp), wallBegin);
+        EXPECT_LE(timeline.wallOf(stamp), receiving.clock.wall() + near);
+        EXPECT_EQ(timeline.stepCount(), i);
+        receiving.clock.setBack(std::chrono::hours(i + 1));
+    }
+}
+
 TEST_P(ReceiverTest, StampsAreOfNowAndDoNotGoBack) {
     Receiving receiving(options());
     auto sender = DatagramSender::connect(receiving.target());
-    const log::Stamp before = receiving.clock.wall();
+    const log::Stamp before = receiving.log.timeline().now(receiving.clock);
     for (std::size_t i = 0; i < 50; ++i) {
         ASSERT_TRUE(sender->send(numbered(760, i)).has_value());
     }
     ASSERT_TRUE(eventually([&] { return receiving.packets() == 50; }));
-    const log::Stamp after = receiving.clock.wall();
+    const log::Stamp after = receiving.log.timeline().now(receiving.clock);
     log::LogReader reader(receiving.log);
     log::Stamp last = before - std::chrono::milliseconds(1); // the kernel's clock and ours are read apart
     for (std::size_t i = 0; i < 50; ++i) {

@@ -17,7 +17,7 @@ class RelayTest : public ::testing::Test {
 protected:
     void append(std::size_t size, std::size_t number, const log::SenderInfo& sender, log::Duration age = {}) {
         log::Arrival arrival;
-        arrival.stamp = clock.wall() - age;
+        arrival.stamp = log.timeline().now(clock) - age;
         arrival.sender = log.senders().intern(sender);
         log.writer().append(numbered(size, number), arrival);
         log.writer().publish();
@@ -72,7 +72,7 @@ TEST_F(RelayTest, WhatIsNoLiveDatagramStaysHere) {
     append(100, 1, {"take.bin", log::Transport::File, 0});
     append(100, 2, {"10.0.0.5:50000", log::Transport::Udp, 1}, std::chrono::hours(1)); // from a capture
     log::Arrival record;
-    record.stamp = clock.wall();
+    record.stamp = log.timeline().now(clock);
     record.sender = log.senders().intern(performer);
     record.kernelDropsBefore = 3;
     record.flags.skipped = true;
@@ -143,7 +143,7 @@ TEST_F(RelayTest, FallenBehindItLeavesOutAndCounts) {
     constexpr std::uint64_t kCount = 3 * Relay::kMostBehind;
     const auto bytes = numbered(24, 1);
     for (std::uint64_t i = 0; i < kCount; ++i) {
-        arrival.stamp = clock.wall();
+        arrival.stamp = log.timeline().now(clock);
         log.writer().append(bytes, arrival);
     }
     log.writer().publish(); // all at once

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 constexpr log::Duration kFrame = log::Duration(1s) / 240;
 
 TEST(SendSchedule, LateSleepsDoNotAddUp) {
-    log::ManualClock clock(log::Stamp(), log::Moment(5us));
+    log::ManualClock clock(log::WallTime(), log::Moment(5us));
     SendSchedule schedule(clock, [&](log::Duration duration) { clock.advance(duration + 60us); });
     for (std::int64_t frame = 0; frame < 240'000; ++frame) {
         const log::Duration late = schedule.waitUntil(frame * kFrame);

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 /// The system's clock, which a test can set forward.
 class ForwardClock final : public log::Clock {
 public:
-    [[nodiscard]] log::Stamp wall() const override { return m_system.wall() + m_ahead.load(); }
+    [[nodiscard]] log::WallTime wall() const override { return m_system.wall() + m_ahead.load(); }
     [[nodiscard]] log::Moment monotonic() const override { return m_system.monotonic() + m_ahead.load(); }
     void forward(log::Duration by) { m_ahead = m_ahead.load() + by; }
 

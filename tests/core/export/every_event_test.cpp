@@ -113,9 +113,9 @@ TEST_F(EveryEvent, KeepsItsStampsToTheNanosecond) {
         const std::size_t point = from.find('.');
         ASSERT_EQ(from.size() - point, 10U) << from;
         EXPECT_EQ(std::stoll(from.substr(0, point) + from.substr(point + 1)),
-                  log::nanosecondsOf(m_events[i].firstStamp));
-        EXPECT_EQ(objects[i]["fromNs"], log::nanosecondsOf(m_events[i].firstStamp));
-        EXPECT_EQ(objects[i]["toNs"], log::nanosecondsOf(m_events[i].lastStamp));
+                  m_events[i].firstStamp.time_since_epoch().count());
+        EXPECT_EQ(objects[i]["fromNs"], m_events[i].firstStamp.time_since_epoch().count());
+        EXPECT_EQ(objects[i]["toNs"], m_events[i].lastStamp.time_since_epoch().count());
     }
 }
 

@@ -36,7 +36,7 @@ TEST(DatagramJson, IsWordForWordWhatTheGoldensExpect) {
 }
 
 TEST(DatagramJson, SaysWhereTheDatagramWasFound) {
-    const DatagramPlace place{7, 4096, log::stampOf(1700000000123456789), "10.0.0.2:40001"};
+    const DatagramPlace place{7, 4096, log::WallTime(log::Duration(1700000000123456789)), "10.0.0.2:40001"};
     EXPECT_THAT(datagramJson(place, posewire::test::golden("24_centre_12_counted").bytes),
                 StartsWith(R"({"index":7,"offset":4096,"size":36,"stampNs":1700000000123456789,)"
                            R"("source":"10.0.0.2:40001","type":"24",)"));

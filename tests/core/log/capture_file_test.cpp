@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 struct Seen {
     std::uint64_t offset;
     ByteVector bytes;
-    std::optional<Stamp> stamp;
+    std::optional<WallTime> stamp;
     std::string address;
 };
 
@@ -46,7 +46,7 @@ std::vector<Seen> seenIn(std::span<const std::byte> file, bool isSound = true) {
         EXPECT_FALSE(record.flags.skipped);
         all.push_back({record.offset,
                        {record.bytes.begin(), record.bytes.end()},
-                       record.stamp,
+                       record.time,
                        record.sender ? record.sender->address : ""});
     });
     EXPECT_EQ(result.has_value() || result.error().kind == FileError::Kind::Cut, isSound);
@@ -66,8 +66,8 @@ TEST(CaptureFile, ReadsPcapInBothByteOrdersAndResolutions) {
             const auto seen = seenIn(file);
             ASSERT_EQ(seen.size(), 2U);
             const Duration unit = magic == kMicroseconds ? 1us : 1ns;
-            EXPECT_EQ(seen[0].stamp, Stamp(1'700'000'000s + 123'456 * unit));
-            EXPECT_EQ(seen[1].stamp, Stamp(1'700'000'001s + 5 * unit));
+            EXPECT_EQ(seen[0].stamp, WallTime(1'700'000'000s + 123'456 * unit));
+            EXPECT_EQ(seen[1].stamp, WallTime(1'700'000'001s + 5 * unit));
             EXPECT_EQ(seen[0].offset, 24U + 16 + 14 + 20 + 8);
             EXPECT_EQ(seen[1].offset, 24U + 16 + frame.size() + 16 + 14 + 20 + 8);
             EXPECT_EQ(seen[0].bytes, pose);
@@ -90,9 +90,9 @@ TEST(CaptureFile, ReadsPcapngInBothByteOrdersWithItsInterfaces) {
                     enhancedPacket(0, 1700000000'123, ipv4(udp(pose)), !bigEndian)});
         const auto seen = seenIn(file);
         ASSERT_EQ(seen.size(), 3U);
-        EXPECT_EQ(seen[0].stamp, Stamp(1'700'000'000s + 123'456'789ns));
-        EXPECT_EQ(seen[1].stamp, Stamp(1'700'000'000s + 123'456us));
-        EXPECT_EQ(seen[2].stamp, Stamp(1'700'000'000s + 123ms));
+        EXPECT_EQ(seen[0].stamp, WallTime(1'700'000'000s + 123'456'789ns));
+        EXPECT_EQ(seen[1].stamp, WallTime(1'700'000'000s + 123'456us));
+        EXPECT_EQ(seen[2].stamp, WallTime(1'700'000'000s + 123ms));
         for (const Seen& one : seen) {
             EXPECT_EQ(one.bytes, pose);
             EXPECT_TRUE(

@@ -17,7 +17,7 @@ struct Whole {
     ByteVector bytes;
     std::uint32_t identity;
     std::uint64_t fileOffset;
-    std::optional<Stamp> stamp;
+    std::optional<WallTime> stamp;
 };
 
 class IpFragmentsTest : public testing::Test {
@@ -32,7 +32,7 @@ protected:
     }
     void add(IpPacket packet) {
         packet.offset = m_fileOffset;
-        packet.stamp = m_stamp;
+        packet.time = m_stamp;
         m_fragments.add(packet);
         m_fileOffset += 10'000;
         m_stamp += 1ms;
@@ -49,10 +49,10 @@ protected:
 private:
     IpFragments m_fragments{[this](const IpPacket& whole) {
         m_seen.push_back(
-            {{whole.bytes.begin(), whole.bytes.end()}, whole.identity, whole.offset, whole.stamp});
+            {{whole.bytes.begin(), whole.bytes.end()}, whole.identity, whole.offset, whole.time});
     }};
     std::uint64_t m_fileOffset = 0;
-    Stamp m_stamp{};
+    WallTime m_stamp{};
 };
 
 ByteVector beginningOf(const ByteVector& content, std::size_t size) {
@@ -118,7 +118,7 @@ TEST_F(IpFragmentsTest, ReportWhereTheBeginningIsAndWhenTheLastCame) {
     add(content, 800, 1600);
     ASSERT_EQ(m_seen.size(), 1U);
     EXPECT_EQ(m_seen[0].fileOffset, 10'000U);
-    EXPECT_EQ(m_seen[0].stamp, Stamp(2ms));
+    EXPECT_EQ(m_seen[0].stamp, WallTime(2ms));
 }
 
 /// RFC 791: packets are told apart by identification, protocol, source and destination.

@@ -27,7 +27,7 @@ Reading readingOf(std::span<const std::byte> file, bool fails = false) {
     reading.result = readFile(source, [&](const FileRecord& record) {
         reading.packets.push_back({{record.bytes.begin(), record.bytes.end()},
                                    record.sender.value_or(SenderInfo{}),
-                                   record.stamp.value_or(Stamp::min())});
+                                   record.time ? asStamp(*record.time) : Stamp::min()});
     });
     return reading;
 }

@@ -214,8 +214,13 @@ TEST(UdpFrame, NeverHasTheChecksumThatMeansNone) {
 TEST(RecordedOrigin, ReadsOnlyItsOwnWords) {
     EXPECT_EQ(originText({Transport::Tcp, {.stampedByKernel = false}, "[fe80::1%eth0]:40001"}),
               "Posewire: TCP; stamped on reading; from [fe80::1%eth0]:40001");
-    for (const char* text : {"", "Posewire", "Posewire: ", "Posewire: SCTP", "Posewire: TCP!",
-                             "Posewire: TCP; stamped on reading; truncated", "posewire: TCP"}) {
+    for (const char* text :
+         {"", "Posewire", "Posewire: ", "Posewire: SCTP", "Posewire: TCP!",
+          "Posewire: TCP; stamped on reading; truncated", "posewire: TCP", "Posewire: TCP; clock set by ",
+          "Posewire: TCP; clock set by 1 s", "Posewire: TCP; clock set by 1.5 s",
+          "Posewire: TCP; clock set by --1.500000000 s",
+          "Posewire: TCP; clock set by 99999999999.000000000 s",
+          "Posewire: TCP; clock set by 1.50000000x s"}) {
         EXPECT_EQ(parseOrigin(text), std::nullopt) << text;
     }
 }

@@ -39,7 +39,7 @@ private:
         }
     };
     Reassembly m_reassembly{m_visit};
-    Stamp m_stamp{};
+    WallTime m_stamp{};
 };
 
 using Datagrams = std::vector<ByteVector>;

@@ -16,7 +16,7 @@ struct Seen {
     std::uint64_t offset;
     ByteVector bytes;
     bool isSkipped;
-    std::optional<Stamp> stamp;
+    std::optional<WallTime> stamp;
     std::string address;
     Transport transport;
 };
@@ -59,13 +59,13 @@ private:
         m_seen.push_back({record.offset,
                           {record.bytes.begin(), record.bytes.end()},
                           record.flags.skipped,
-                          record.stamp,
+                          record.time,
                           record.sender->address,
                           record.sender->transport});
     };
     Reassembly m_reassembly{m_visit};
     std::uint64_t m_offset = 0;
-    Stamp m_stamp{};
+    WallTime m_stamp{};
 };
 
 /// As IPv4 with the identity 1, or `identity`.
@@ -110,7 +110,7 @@ TEST(Reassembly, PutsFragmentsTogetherInAnyOrder) {
         }
         ASSERT_EQ(capture.seen().size(), 1U);
         EXPECT_EQ(capture.seen()[0].bytes, pose);
-        EXPECT_EQ(capture.seen()[0].stamp, Stamp(3ms));
+        EXPECT_EQ(capture.seen()[0].stamp, WallTime(3ms));
         EXPECT_EQ(capture.seen()[0].address, "10.0.0.2:40001");
     } while (std::ranges::next_permutation(order).found);
 }
@@ -221,9 +221,9 @@ TEST(Reassembly, TellsWhereAndWhenADatagramOfAStreamWasCaptured) {
     capture.add(tcp(100 + static_cast<std::uint32_t>(size) + 30, slice(bytes, size + 30, size)));
     ASSERT_EQ(capture.seen().size(), 2U);
     EXPECT_EQ(capture.seen()[0].offset, 40U);
-    EXPECT_EQ(capture.seen()[0].stamp, Stamp());
+    EXPECT_EQ(capture.seen()[0].stamp, WallTime());
     EXPECT_EQ(capture.seen()[1].offset, 40U + size);
-    EXPECT_EQ(capture.seen()[1].stamp, Stamp(1ms));
+    EXPECT_EQ(capture.seen()[1].stamp, WallTime(1ms));
     EXPECT_EQ(capture.seen()[1].address, "10.0.0.2:40001");
     EXPECT_EQ(capture.seen()[1].transport, Transport::Tcp);
 }

@@ -171,9 +171,11 @@ TEST(RecordingTexts, SayEveryOriginAndAreUnderstoodAgain) {
             const PacketFlags flags{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0};
             for (const std::optional<std::string>& address :
                  {std::optional<std::string>{}, {""}, {"a; truncated"}, {"x; from y"}, {"\u00e9\n"}}) {
-                const RecordedOrigin origin{transport, flags, address};
-                EXPECT_EQ(parseOrigin(originText(origin)), origin) << originText(origin);
-                EXPECT_EQ(parseOrigin(originText(origin) + "!").has_value(), address.has_value());
+                for (const std::int64_t setBy : {0L, 1L, -1L, 1'500'000'000L, -3'600'000'000'001L}) {
+                    const RecordedOrigin origin{transport, flags, address, Duration(setBy)};
+                    EXPECT_EQ(parseOrigin(originText(origin)), origin) << originText(origin);
+                    EXPECT_EQ(parseOrigin(originText(origin) + "!").has_value(), address.has_value());
+                }
             }
         }
     }

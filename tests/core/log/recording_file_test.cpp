@@ -51,7 +51,7 @@ std::vector<Seen> records(ByteSource& source, tl::expected<void, FileError>& res
     std::vector<Seen> seen;
     result = readFile(source, [&](const FileRecord& record) {
         seen.push_back({record.offset, record.bytes.size(), record.flags.skipped});
-        EXPECT_FALSE(record.stamp.has_value());
+        EXPECT_FALSE(record.time.has_value());
         EXPECT_FALSE(record.sender.has_value());
     });
     return seen;

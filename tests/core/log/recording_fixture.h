@@ -27,7 +27,7 @@ struct Recorded {
 inline void PrintTo(const Recorded& one, std::ostream* out) {
     *out << one.bytes.size() << " bytes from " << one.sender.address << " ("
          << static_cast<int>(one.sender.transport) << ") to " << one.sender.localPort << " at "
-         << nanosecondsOf(one.stamp) << " after " << one.kernelDropsBefore << " drops, flags "
+         << nanosecondsOf(asWallTime(one.stamp)) << " after " << one.kernelDropsBefore << " drops, flags "
          << one.flags.truncated << one.flags.stampedByKernel << one.flags.skipped << one.flags.isDropRecord
          << ", " << one.comments.size() << " comments";
 }
@@ -88,7 +88,7 @@ inline std::vector<Recorded> recordedIn(std::span<const std::byte> file) {
     std::vector<Recorded> all;
     BytesSource source(file);
     const auto result = readFile(source, [&](const FileRecord& record) {
-        const Arrival arrival = arrivalOf(record, {}, stampOf(-1));
+        const Arrival arrival = arrivalOf(record, {}, record.time ? asStamp(*record.time) : stampOf(-1));
         all.push_back({{record.bytes.begin(), record.bytes.end()},
                        record.sender.value_or(SenderInfo{"unknown", Transport::File, 0}),
                        arrival.stamp,

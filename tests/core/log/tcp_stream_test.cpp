@@ -17,7 +17,7 @@ struct Seen {
     std::uint64_t offset;
     ByteVector bytes;
     bool isSkipped;
-    std::optional<Stamp> stamp;
+    std::optional<WallTime> stamp;
 };
 
 /// Poses with the samples 1 … count, 88 bytes each.
@@ -39,9 +39,9 @@ protected:
                  1'000'000 + from);
     }
     void addBytes(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t offset = 0) {
-        m_stream.add({.sequence = sequence, .bytes = bytes, .offset = offset, .stamp = m_stamp});
-        if (m_stamp) {
-            *m_stamp += 1ms;
+        m_stream.add({.sequence = sequence, .bytes = bytes, .offset = offset, .time = m_time});
+        if (m_time) {
+            *m_time += 1ms;
         }
     }
     void finish() { m_stream.finish(); }
@@ -64,12 +64,12 @@ protected:
 
     ByteVector m_sent = posesUpTo(20);
     std::uint32_t m_first = GetParam();
-    std::optional<Stamp> m_stamp{Stamp()};
+    std::optional<WallTime> m_time{WallTime()};
     std::vector<Seen> m_seen;
     FileVisitor m_visit = [this](const FileRecord& record) {
         EXPECT_EQ(record.sender, (SenderInfo{"10.0.0.2:40001", Transport::Tcp, 9763}));
         m_seen.push_back(
-            {record.offset, {record.bytes.begin(), record.bytes.end()}, record.flags.skipped, record.stamp});
+            {record.offset, {record.bytes.begin(), record.bytes.end()}, record.flags.skipped, record.time});
     };
     TcpStream m_stream{{"10.0.0.2:40001", Transport::Tcp, 9763}, m_first, m_visit};
 };
@@ -161,10 +161,10 @@ TEST_P(TcpStreamTest, WaitsASecondForWhatIsMissingAndThenGoesOn) {
     add(0, kPose);
     add(3 * kPose, kPose); // two are missing
     EXPECT_EQ(m_seen.size(), 1U);
-    *m_stamp = Stamp(1ms) + TcpStream::kLongestWait;
+    *m_time = WallTime(1ms) + TcpStream::kLongestWait;
     add(4 * kPose, kPose);
     EXPECT_EQ(m_seen.size(), 1U) << "the second is not over";
-    *m_stamp = Stamp(2ms) + TcpStream::kLongestWait;
+    *m_time = WallTime(2ms) + TcpStream::kLongestWait;
     add(5 * kPose, kPose);
     EXPECT_EQ(datagrams(),
               (std::vector{poseDatagram(1, 2), poseDatagram(4, 2), poseDatagram(5, 2), poseDatagram(6, 2)}));
@@ -175,7 +175,7 @@ TEST_P(TcpStreamTest, WaitsASecondForWhatIsMissingAndThenGoesOn) {
 }
 
 TEST_P(TcpStreamTest, WaitsWithoutEndWhereFramesHaveNoStamp) {
-    m_stamp.reset();
+    m_time.reset();
     add(kPose, 18 * kPose);
     EXPECT_TRUE(m_seen.empty());
     add(0, kPose);
@@ -213,9 +213,9 @@ TEST_P(TcpStreamTest, ReportsTheStampOfTheFrameThatCompletedADatagram) {
     add(50, 50);        // 2 ms: completes the first, and the second that waited
     add(2 * kPose, 88); // 3 ms
     ASSERT_EQ(m_seen.size(), 3U);
-    EXPECT_EQ(m_seen[0].stamp, Stamp(2ms));
-    EXPECT_EQ(m_seen[1].stamp, Stamp(2ms));
-    EXPECT_EQ(m_seen[2].stamp, Stamp(3ms));
+    EXPECT_EQ(m_seen[0].stamp, WallTime(2ms));
+    EXPECT_EQ(m_seen[1].stamp, WallTime(2ms));
+    EXPECT_EQ(m_seen[2].stamp, WallTime(3ms));
 }
 
 TEST_P(TcpStreamTest, ReportsWhereInTheFileADatagramBegins) {
@@ -264,7 +264,7 @@ TEST_P(TcpStreamTest, BoundsWhatWaitsInSmallSegments) {
     const ByteVector bytes(1, std::byte{1});
     std::size_t count = 0;
     while (m_seen.empty() && count < 100'000) {
-        m_stamp = Stamp();
+        m_time = WallTime();
         addBytes(m_first + 10 + 2 * static_cast<std::uint32_t>(count++), bytes);
     }
     EXPECT_LE(count, TcpStream::kMostWaiting / 100);

@@ -36,7 +36,7 @@ protected:
                 log.writer().append(bytes, arrival);
                 log.writer().publish();
             },
-            Stage::kStart);
+            Stage::kStart, log.timeline());
         return imported ? *imported : imported.error();
     }
     std::vector<log::Stamp> stamps() {

@@ -180,7 +180,7 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
             file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
         }
     }
-    log::ManualClock manual(log::Stamp(1'700'000'000s));
+    log::ManualClock manual(log::WallTime(1'700'000'000s));
     SessionDriver opened{manual};
     ASSERT_EQ(openFile(opened, path), "");
     ASSERT_EQ(opened.session().characters().size(), 1U);

@@ -268,7 +268,7 @@ TEST_F(InputsDialogTest, RelaysToTargetsAndRefusesThoseThatWouldComeBack) {
     const InputAddress input{"127.0.0.1", freePort()};
     const InputAddress away{"127.0.0.1", freePort()};
     type(input);
-    driver.receiving().measure(clock.wall());
+    driver.receiving().measure(driver.session().log().timeline().now(clock));
     dialog.open(InputsDialog::Page::Relay);
     dialog.relay().targetEdit().setText(QStringLiteral("127.0.0.1:%1").arg(away.port));
     dialog.relay().submit();
