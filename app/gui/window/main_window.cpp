@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/main_window.h"
 
+#include "app/gui/dock_layout.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
@@ -141,7 +142,7 @@ void MainWindow::restore() {
     if (m_settings.isMaximized) {
         setWindowState(windowState() | Qt::WindowMaximized);
     }
-    m_layoutButton->setText(tr("Layout: %1 ▾").arg(m_settings.layout));
+    showLayoutName(m_settings.layout);
 }
 
 /// Sizes of docks only hold once the window has its own.
@@ -274,8 +275,15 @@ void MainWindow::useLayout(const QString& nameOrFile) {
         say(tr("Layout %1: there is no dock named %2").arg(layout->name, unknown.join(tr(" or "))));
     }
     m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
-    m_layoutButton->setText(tr("Layout: %1 ▾").arg(layout->name));
+    showLayoutName(layout->name);
     refreshPanels();
+}
+
+/// It may be the path of a file, and the button must not make the window wide.
+void MainWindow::showLayoutName(const QString& name) {
+    const QFontMetrics metrics = m_layoutButton->fontMetrics();
+    const int most = metrics.averageCharWidth() * 30;
+    m_layoutButton->setText(tr("Layout: %1 ▾").arg(metrics.elidedText(name, Qt::ElideMiddle, most)));
 }
 
 void MainWindow::dockAll() {

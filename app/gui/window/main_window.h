@@ -4,9 +4,10 @@
 #include "app/gui/driver/session_driver.h"
 #include "app/gui/inputs/inputs_dialog.h"
 #include "app/gui/panel.h"
+#include "app/gui/settings.h"
 #include "app/gui/viewport/viewport_widget.h"
+#include "app/gui/window/alerts.h"
 #include "app/gui/window/menus.h"
-#include "app/gui/window/settings.h"
 
 #include <QMainWindow>
 
@@ -78,6 +79,7 @@ private:
     void makeBars();
     void connectDriver();
     void restore();
+    void showLayoutName(const QString& name);
     void refreshPanels();
     void showReceiving();
     void alert();

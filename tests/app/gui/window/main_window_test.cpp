@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/main_window.h"
 
+#include "app/gui/dock_layout.h"
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/docks.h"
