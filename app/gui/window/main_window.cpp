@@ -83,6 +83,12 @@ void MainWindow::makeBars() {
     m_health = new HealthBar(m_driver.session(), m_driver, this);
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_health, 1);
+    m_stopOpening =
+        framedButton(tr("Stop"), tr("Stop opening the file (Esc); what was read of it stays"), this);
+    m_stopOpening->setObjectName(QStringLiteral("stopOpeningButton"));
+    connect(m_stopOpening, &QToolButton::clicked, m_menus.action("stopOpening"), &QAction::trigger);
+    statusBar()->addPermanentWidget(m_stopOpening);
+    showOpening();
 }
 
 void MainWindow::makeDocks() {
@@ -120,12 +126,12 @@ void MainWindow::connectDriver() {
     const auto showStates = [this] { m_menus.showStates(); };
     connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);
     connect(&m_driver, &SessionDriver::pausedChanged, this, showStates);
-    connect(&m_driver, &SessionDriver::tableTick, this, [this] {
-        if (const QString text = m_driver.openingText(); !text.isEmpty()) {
-            say(text);
-        }
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showOpening);
+    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool, const QString& text) {
+        showOpening();
+        say(text);
     });
-    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool, const QString& text) { say(text); });
+    connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
     connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
     connect(m_viewport, &ViewportWidget::optionsChanged, this, showStates);
     showReceiving();
@@ -224,6 +230,23 @@ void MainWindow::showReceiving() {
         m_inputs->refresh();
     }
     m_driver.setPicturesShown(m_viewport->picturesShown());
+}
+
+void MainWindow::showOpening() {
+    const bool isOpening = m_driver.isOpening();
+    if (isOpening) {
+        say(m_driver.openingText());
+    }
+    m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others
+    m_stopOpening->setVisible(isOpening);
+}
+
+/// At once: whatever ends this program, the next run must not begin with a loop.
+void MainWindow::keepRelays() {
+    m_settings.inputs.relays = m_driver.receiving().choices().relays;
+    if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
+        say(problem);
+    }
 }
 
 void MainWindow::openFile() {

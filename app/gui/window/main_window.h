@@ -82,6 +82,8 @@ private:
     void showLayoutName(const QString& name);
     void refreshPanels();
     void showReceiving();
+    void showOpening();
+    void keepRelays();
     void alert();
 
     SessionDriver& m_driver;
@@ -92,6 +94,7 @@ private:
     HealthBar* m_health = nullptr;
     InputsDialog* m_inputs = nullptr; ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
+    QToolButton* m_stopOpening = nullptr; ///< shown while a file is being opened
     Menus m_menus;
     AlertSounds m_sounds;
     std::vector<Dock> m_docks;

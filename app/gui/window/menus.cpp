@@ -111,6 +111,8 @@ constexpr ActionInfo panelsIn(const char* menu) {
 const ActionInfo kActions[] = {
     {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
      Do::call<&Window::openFile>},
+    {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
+     Do::callIn<&Window::driver, &SessionDriver::cancelOpening>},
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
      Do::call<saveScreenshot>},
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", Do::call<saveReport>},
