@@ -82,13 +82,16 @@ std::string streamLine(const model::SessionView& session, const model::Stream& s
     });
 }
 
-std::string summaryLine(const model::SessionView& session, double elapsedS) {
+std::string summaryLine(const model::SessionView& session, const exporting::MonitorFacts& facts) {
     const model::SenderTotals all = session.allSenders();
-    std::string line = fixed(elapsedS, 1) + " s   " + grouped(all.datagrams) + " datagrams   malformed " +
-                       grouped(all.malformed) + "   not MXTP " + grouped(all.foreign) +
-                       "   dropped by this computer " + grouped(all.kernelDrops);
+    std::string line = fixed(facts.durationS, 1) + " s   " + grouped(all.datagrams) +
+                       " datagrams   malformed " + grouped(all.malformed) + "   not MXTP " +
+                       grouped(all.foreign) + "   dropped by this computer " + grouped(all.kernelDrops);
     if (session.overtaken() != 0) {
         line += "   not looked at in time " + grouped(session.overtaken());
+    }
+    if (facts.refusedDatagrams != 0) {
+        line += "   refused by --from " + grouped(facts.refusedDatagrams);
     }
     return line;
 }
@@ -99,8 +102,8 @@ std::size_t widthOf(std::string_view text) {
     return text.size() - static_cast<std::size_t>(std::ranges::count_if(text, isContinuation));
 }
 
-std::vector<std::string> liveTable(const model::SessionView& session, double elapsedS) {
-    std::vector<std::string> lines{summaryLine(session, elapsedS)};
+std::vector<std::string> liveTable(const model::SessionView& session, const exporting::MonitorFacts& facts) {
+    std::vector<std::string> lines{summaryLine(session, facts)};
     if (session.streams().empty()) {
         lines.emplace_back("No MXTP datagram so far.");
         return lines;

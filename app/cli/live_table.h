@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/session/session_view.h"
+#include "core/export/reports.h"
 
 #include <string>
 #include <vector>
@@ -10,7 +10,8 @@ namespace posewire::cli {
 
 /// What `monitor` shows while it runs: a line for the whole, then each sender with its characters and a line
 /// for each of their streams. Texts from the wire are made harmless for a terminal.
-[[nodiscard]] std::vector<std::string> liveTable(const model::SessionView& session, double elapsedS);
+[[nodiscard]] std::vector<std::string> liveTable(const model::SessionView& session,
+                                                 const exporting::MonitorFacts& facts);
 
 /// How many characters of UTF-8 a text has.
 [[nodiscard]] std::size_t widthOf(std::string_view text);

@@ -91,7 +91,7 @@ public:
     void follow(log::Stamp now);
 
     /// Shows the table if it is time to.
-    void show(double elapsedS);
+    void show(const exporting::MonitorFacts& facts);
 
     /// Nobody wants more: Ctrl+C, or the reader of the table has gone and nothing is recorded.
     [[nodiscard]] bool isOver() const;
@@ -108,7 +108,7 @@ public:
 private:
     ExitStatus writeReport(const exporting::MonitorFacts& facts);
     [[nodiscard]] bool isReaderGone() const { return m_table && !m_table->isWanted(); }
-    ExitStatus finishTable(double elapsedS);
+    ExitStatus finishTable(const exporting::MonitorFacts& facts);
 
     const MonitorOptions& m_options;
     Console& m_console;

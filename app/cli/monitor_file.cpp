@@ -50,7 +50,7 @@ public:
         if (m_recorder && m_recorded) {
             m_recorded = m_recorder->follow();
         }
-        m_run.show(durationS());
+        m_run.show({.durationS = durationS()});
     }
 
     [[nodiscard]] double durationS() const { return m_last ? log::secondsOf(*m_last - *m_first) : 0.0; }

@@ -129,8 +129,18 @@ private:
     std::map<net::InputId, std::string> m_problems;
 };
 
+exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) {
+    const net::ReceiveTotals totals = receiver.totals();
+    exporting::MonitorFacts facts;
+    facts.durationS = elapsedS;
+    facts.receiveBufferBytes = totals.receiveBufferBytes;
+    facts.refusedDatagrams = totals.refusedDatagrams;
+    return facts;
+}
+
 /// Until the time is over or nobody wants more. Returns how long it was.
-double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& recording, InputWatch& inputs) {
+double watch(const MonitorOptions& options, const net::Receiver& receiver, MonitorRun& run,
+             RecordingWatch& recording, InputWatch& inputs) {
     using namespace std::chrono;
     constexpr duration<double> pause{0.05};
     const log::SystemClock clock;
@@ -140,7 +150,7 @@ double watch(const MonitorOptions& options, MonitorRun& run, RecordingWatch& rec
         const duration<double> left{options.durationSeconds - elapsed.count()};
         const bool hasEnd = options.durationSeconds > 0;
         run.follow(run.log().timeline().now(clock));
-        run.show(elapsed.count());
+        run.show(factsOf(receiver, elapsed.count()));
         recording.look();
         inputs.look();
         const bool isInVain = options.record == "-" && recording.hasFailed();
@@ -215,12 +225,10 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
         recording = std::move(*started);
     }
     RecordingWatch recordingWatch(std::move(recording), run, console);
-    exporting::MonitorFacts facts;
     InputWatch inputs(*receiver, console);
-    facts.durationS = watch(options, run, recordingWatch, inputs);
+    const double elapsedS = watch(options, *receiver, run, recordingWatch, inputs);
     const log::Stamp end = run.log().timeline().now(clock);
-    facts.receiveBufferBytes = receiver->totals().receiveBufferBytes;
-    facts.refusedDatagrams = receiver->totals().refusedDatagrams;
+    exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
     facts.exceeded = inputs.silent();
     receiver.reset(); // what is in the sockets still comes into the log
     run.follow(run.log().timeline().now(clock));

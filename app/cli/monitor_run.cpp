@@ -108,7 +108,7 @@ void MonitorRun::follow(log::Stamp now) {
     }
 }
 
-void MonitorRun::show(double elapsedS) {
+void MonitorRun::show(const exporting::MonitorFacts& facts) {
     const auto now = std::chrono::steady_clock::now();
     const bool isReplayUnseen = !m_options.file.empty() && !m_isTerminal && !m_isConcluding;
     if (isReaderGone() && !m_isConcluding && !m_isReaderTold && !m_options.record.empty()) {
@@ -119,16 +119,16 @@ void MonitorRun::show(double elapsedS) {
         return;
     }
     m_nextShow = now + std::chrono::microseconds(std::llround(m_options.intervalSeconds * 1e6));
-    m_table->show(liveTable(m_session, elapsedS));
+    m_table->show(liveTable(m_session, facts));
 }
 
-ExitStatus MonitorRun::finishTable(double elapsedS) {
+ExitStatus MonitorRun::finishTable(const exporting::MonitorFacts& facts) {
     if (!m_table) {
         return ExitStatus::Fine;
     }
     m_nextShow = {};
     m_isConcluding = true;
-    show(elapsedS);
+    show(facts);
     m_table->finish(Interruption::hasCome);
     const std::string failure = m_table->failure();
     return failure.empty() ? ExitStatus::Fine : m_console.unusable(failure);
@@ -159,7 +159,7 @@ ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status
     if (m_options.asJson) {
         m_console.out.write(exporting::monitorReport(m_session, facts) + '\n');
     }
-    status = worse(status, worse(reported, finishTable(facts.durationS)));
+    status = worse(status, worse(reported, finishTable(facts)));
     for (const std::string& line : facts.exceeded) {
         m_console.complain(line);
     }

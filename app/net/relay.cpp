@@ -89,7 +89,7 @@ struct Relay::Sockets {
 };
 
 Relay::Relay(const log::PacketLog& log, const log::Clock& clock)
-    : m_log(log), m_clock(clock), m_reader(log), m_thread([this] { run(); }) {}
+    : m_log(log), m_clock(clock), m_follower(log), m_thread([this] { run(); }) {}
 
 Relay::~Relay() {
     // As a command: a thread that saw a flag earlier would end before a queued command and never answer it.
@@ -112,8 +112,7 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
         const std::lock_guard lock(m_mutex);
         added->id = RelayId{m_nextId++};
         if (m_going.empty()) {
-            m_reader.refresh();
-            m_next = m_reader.end();
+            m_follower = log::LogFollower::fromNow(m_log);
             m_caughtUp = m_log.timeline().now(m_clock);
         }
         m_targets.push_back(added);
@@ -185,33 +184,44 @@ void Relay::run() {
 
 /// True if there is more.
 bool Relay::forwardSome() {
-    m_reader.refresh();
+    m_follower.refresh();
     skipWhatIsOld();
-    const std::uint64_t end = std::min(m_reader.end(), m_next + kAtOnce);
-    for (; m_next < end; ++m_next) {
-        if (const auto packet = m_reader.packet(m_next); packet && isForwarded(*packet)) {
+    const std::uint64_t end = m_follower.position() + kAtOnce;
+    while (const auto packet = m_follower.next(end)) {
+        if (isForwarded(*packet)) {
             forward(*packet);
         }
     }
-    m_behind = m_reader.end() - m_next;
+    countOvertaken();
+    m_behind = m_follower.lag();
     stopLoops();
-    if (m_next == m_reader.end()) {
+    if (m_follower.lag() == 0) {
         m_caughtUp = m_log.timeline().now(m_clock);
         return false;
     }
     return true;
 }
 
+/// Only what would have been forwarded is counted, one by one: other senders are nobody's loss.
 void Relay::skipWhatIsOld() {
-    const std::uint64_t end = m_reader.end();
-    const std::uint64_t first = end - m_next > kMostBehind ? end - kMostBehind / 2 : m_reader.begin();
+    if (m_follower.lag() <= kMostBehind) {
+        return;
+    }
+    const std::uint64_t first = m_follower.position() + m_follower.lag() - kMostBehind / 2;
     std::uint64_t skipped = 0;
-    for (; m_next < first; ++m_next) {
-        const auto packet = m_reader.packet(m_next);
-        skipped += !packet || isForwarded(*packet) ? 1 : 0;
+    while (const auto packet = m_follower.next(first)) {
+        skipped += isForwarded(*packet) ? 1 : 0;
     }
     for (const auto& target : m_going) {
         increase(target->skipped, skipped);
+    }
+}
+
+/// What the log dropped before it could be looked at: nobody knows any more whether it was to be forwarded.
+void Relay::countOvertaken() {
+    const std::uint64_t overtaken = m_follower.takeOvertaken();
+    for (const auto& target : m_going) {
+        increase(target->skipped, overtaken);
     }
 }
 

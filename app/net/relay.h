@@ -6,6 +6,7 @@
 #include "app/net/input.h"
 #include "app/net/loop_watch.h"
 #include "core/log/clock.h"
+#include "core/log/log_follower.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 
@@ -71,6 +72,7 @@ private:
     void wake();
     bool forwardSome();
     void skipWhatIsOld();
+    void countOvertaken();
     void forward(const log::Packet& packet);
     void sendTo(Target& target, const log::Packet& packet);
     void stopLoops();
@@ -90,8 +92,7 @@ private:
     std::uint32_t m_nextId = 0;
 
     // Of the thread alone.
-    log::LogReader m_reader;
-    std::uint64_t m_next = 0; ///< the packet to forward
+    log::LogFollower m_follower;
     std::atomic<std::uint64_t> m_behind = 0;
     LoopWatch m_loops;
     std::vector<std::shared_ptr<Target>> m_going; ///< targets that are not stopped

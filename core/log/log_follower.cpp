@@ -5,16 +5,25 @@
 
 namespace posewire::log {
 
-LogFollower::LogFollower(const PacketLog& log, std::uint64_t from)
-    : m_reader(log), m_next(std::max(from, m_reader.begin())) {}
+LogFollower::LogFollower(const PacketLog& log) : m_reader(log), m_next(m_reader.begin()) {}
+
+LogFollower::LogFollower(const PacketLog& log, std::uint64_t from) : m_reader(log), m_next(from) {
+    skipTo(m_reader.begin());
+}
+
+LogFollower LogFollower::fromNow(const PacketLog& log) {
+    LogFollower follower(log);
+    follower.m_next = follower.m_reader.end();
+    return follower;
+}
 
 void LogFollower::refresh() {
     m_reader.refresh();
     skipTo(m_reader.begin());
 }
 
-std::optional<Packet> LogFollower::next() {
-    while (m_next < m_reader.end()) {
+std::optional<Packet> LogFollower::next(std::uint64_t end) {
+    while (m_next < std::min(end, m_reader.end())) {
         if (auto packet = m_reader.packet(m_next)) {
             ++m_next;
             return packet;

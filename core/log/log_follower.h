@@ -13,15 +13,19 @@ namespace posewire::log {
 /// one that it was too late for. One thread.
 class LogFollower {
 public:
-    /// Begins with packet `from`, or the oldest one that the log still has.
-    explicit LogFollower(const PacketLog& log, std::uint64_t from = 0);
+    /// Begins with the oldest packet that the log still has.
+    explicit LogFollower(const PacketLog& log);
+    /// Begins with packet `from`: what the log has dropped from there on is passed over.
+    LogFollower(const PacketLog& log, std::uint64_t from);
+    /// Begins with what comes from now on.
+    [[nodiscard]] static LogFollower fromNow(const PacketLog& log);
 
     /// Looks at what the log holds now. Packets that it has dropped meanwhile are passed over.
     void refresh();
 
-    /// The next packet there was at the last refresh(), valid until the next one; nothing where all were
-    /// taken.
-    std::optional<Packet> next();
+    /// The next packet below `end` that there was at the last refresh(), valid until the next one; nothing
+    /// where all were taken.
+    std::optional<Packet> next(std::uint64_t end = UINT64_MAX);
 
     /// Passes over the packets below one.
     void skipTo(std::uint64_t number);

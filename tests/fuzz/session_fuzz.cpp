@@ -30,11 +30,14 @@ std::uint64_t readInto(log::PacketLog& log, const std::uint8_t* data, std::size_
     std::istringstream bytes(std::string(reinterpret_cast<const char*>(data), size));
     const auto source = log::readingFrom(bytes, "input");
     std::uint64_t records = 0;
+    log::RecordedClock clock(log.timeline());
     // What cannot be read further is an error that says so: what came before counts.
     static_cast<void>(log::readFile(*source, [&](const log::FileRecord& record) {
         const log::SenderId sender =
             log.senders().intern(record.sender.value_or(log::SenderInfo{"input", log::Transport::File, 0}));
-        const auto stamp = log::Stamp(std::chrono::milliseconds(++records));
+        ++records;
+        const log::Stamp stamp = record.time ? clock.stampOf(*record.time, record.setBy)
+                                             : log::Stamp(std::chrono::milliseconds(records));
         log.writer().append(record.bytes, log::arrivalOf(record, sender, stamp));
     }));
     log.writer().publish();

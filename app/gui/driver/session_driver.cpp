@@ -110,6 +110,7 @@ void SessionDriver::tick() {
                                                   m_session.end() == 0 ? 0 : m_session.end() - 1);
             event.detail = loop.text.toStdString();
             m_session.report(event);
+            emit relayStopped();
         }
         m_receiving.examine(m_session, now);
         measureHealth();
@@ -146,25 +147,50 @@ void SessionDriver::finishOpening() {
     if (!result) {
         return;
     }
-    const QString path = m_import->path();
-    m_import.reset();
     if (!*result) {
+        m_import.reset();
         emit fileOpened(false, result->error());
         return;
     }
+    QStringList texts{result->value(), showFile(endReading())};
+    texts.removeAll(QString());
+    emit fileOpened(true, texts.join(QLatin1Char(' ')));
+}
+
+void SessionDriver::cancelOpening() {
+    if (!isOpening()) {
+        return;
+    }
+    const QString path = endReading();
+    const std::uint64_t packets = m_session.end() - m_importBegin;
+    const QString text = packets == 0 ? QString() : showFile(path);
+    emit fileOpened(false, tr("Opening %1 was stopped; %2 packets of it were read. %3")
+                               .arg(QFileInfo(path).fileName())
+                               .arg(packets)
+                               .arg(text)
+                               .trimmed());
+}
+
+QString SessionDriver::endReading() {
+    const QString path = m_import->path();
+    m_import.reset();
+    m_receiving.receiver().flush();
+    while (m_session.followFile(m_log.timeline().now(m_clock))) { // where it was stopped: at most what is read at once
+    }
+    return path;
+}
+
+QString SessionDriver::showFile(const QString& path) {
     m_receiving.noteFile(path);
     m_session.endFile();
     setPaused(false);
     setPaused(true);
-    QStringList texts{result->value()};
-    if (m_session.begin() > m_importBegin) {
-        texts += tr("The first %1 of %2 packets no longer fit into memory: they are counted, but cannot be "
+    return m_session.begin() <= m_importBegin
+               ? QString()
+               : tr("The first %1 of %2 packets no longer fit into memory: they are counted, but cannot be "
                     "looked at.")
                      .arg(m_session.begin() - m_importBegin)
                      .arg(m_session.end() - m_importBegin);
-    }
-    texts.removeAll(QString());
-    emit fileOpened(true, texts.join(QLatin1Char(' ')));
 }
 
 void SessionDriver::seek(double seconds) {

@@ -36,6 +36,8 @@ public:
     /// The display stops at its end.
     void openFile(const QString& path);
     [[nodiscard]] bool isOpening() const { return m_import != nullptr; }
+    /// Reads no further: what was read of the file is there, and fileOpened() says so.
+    void cancelOpening();
     /// "Opening take.pcapng: 43 %"; empty where nothing is opened.
     [[nodiscard]] QString openingText() const;
 
@@ -94,6 +96,8 @@ signals:
     /// Ten times a second, after the session has followed.
     void tableTick();
     void pausedChanged(bool isPaused);
+    /// A relay was switched off because its datagrams came back.
+    void relayStopped();
     /// A file was read, or could not be. `text` is what is to be said about it, empty for nothing.
     void fileOpened(bool isRead, const QString& text);
     void demoChanged(bool isRunning);
@@ -112,6 +116,10 @@ private:
     void measureHealth();
     /// Once the file that is being opened is there, or cannot be.
     void finishOpening();
+    /// Nothing more is read: all that was is in the session. Returns the path.
+    QString endReading();
+    /// What the session has of the file is all there is. Returns what is to be said about that.
+    QString showFile(const QString& path);
 
     const log::Clock& m_clock;
     log::PacketLog m_log;

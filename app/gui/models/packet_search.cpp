@@ -84,9 +84,12 @@ void PacketSearch::run(const std::stop_token& stop) {
             reader.refresh();
         }
         const auto packet = reader.packet(numberAt(place));
+        m_result.gone += packet ? 0 : 1;
         const auto offset = packet ? findPattern(m_request.pattern, packet->bytes) : std::nullopt;
         if (offset) {
-            m_result = {packet->number, *offset, m_request.isForward ? place < start : place >= start};
+            m_result.packet = packet->number;
+            m_result.offset = *offset;
+            m_result.isWrapped = m_request.isForward ? place < start : place >= start;
             break;
         }
     }
@@ -116,7 +119,7 @@ PacketFilterRun::Found PacketFilterRun::take(const model::PacketDigests& digests
 
 PacketFilterRun::Progress PacketFilterRun::progress() const {
     const std::lock_guard lock(m_mutex);
-    return {m_next - m_begin, m_end - m_begin};
+    return {m_next - m_begin, m_end - m_begin, m_gone - m_ahead};
 }
 
 void PacketFilterRun::wait() {
@@ -136,48 +139,56 @@ std::optional<model::PacketDigests::Excerpt> PacketFilterRun::nextExcerpt(const 
     return excerpt;
 }
 
-void PacketFilterRun::hand(Found& found, std::uint64_t next) {
+void PacketFilterRun::hand(Found& found, const log::LogFollower& follower) {
     const std::lock_guard lock(m_mutex);
     m_found.packets.insert(m_found.packets.end(), found.packets.begin(), found.packets.end());
     m_found.problems.insert(m_found.problems.end(), found.problems.begin(), found.problems.end());
     found.packets.clear();
     found.problems.clear();
-    m_next = next;
+    m_next = std::min(follower.position(), m_end);
+    m_ahead = follower.position() - m_next;
+    m_gone = follower.overtaken();
     m_changed.notify_all();
 }
 
-void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader,
+bool PacketFilterRun::isMatch(const log::Packet& packet, const model::PacketDigest& digest,
+                              log::SenderFinder& senders) {
+    const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_datagram).has_value();
+    const log::Duration setBy = m_log.timeline().wallOf(packet.stamp) - log::asWallTime(packet.stamp);
+    return m_filter.matches({packet, digest, isRead ? &m_datagram : nullptr, senders.find(packet.sender),
+                             m_firstStamp, nullptr, setBy});
+}
+
+void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogFollower& follower,
                              const std::stop_token& stop) {
     Found found;
     log::SenderFinder senders(m_log.senders());
-    for (std::uint64_t number = excerpt.begin(); number < excerpt.end() && !stop.stop_requested(); ++number) {
-        if ((number - excerpt.begin()) % kPacketsAtATime == 0) {
-            hand(found, number);
-            reader.refresh();
-        }
-        const auto packet = reader.packet(number);
+    follower.refresh();
+    follower.skipTo(excerpt.begin());
+    for (std::uint64_t count = 1; !stop.stop_requested(); ++count) {
+        const auto packet = follower.next(excerpt.end());
         if (!packet) {
-            continue;
+            break;
         }
-        const model::PacketDigest& digest = excerpt.at(number);
-        const bool isRead = !packet->flags.skipped && wire::decodeInto(packet->bytes, m_datagram).has_value();
-        const log::SenderInfo* sender = senders.find(packet->sender);
-        const log::Duration setBy = m_log.timeline().wallOf(packet->stamp) - log::asWallTime(packet->stamp);
-        const wire::Datagram* datagram = isRead ? &m_datagram : nullptr;
-        if (m_filter.matches({*packet, digest, datagram, sender, m_firstStamp, nullptr, setBy})) {
-            found.packets.push_back(number);
+        const model::PacketDigest& digest = excerpt.at(packet->number);
+        if (isMatch(*packet, digest, senders)) {
+            found.packets.push_back(packet->number);
             if (digest.isProblem()) {
-                found.problems.push_back(number);
+                found.problems.push_back(packet->number);
             }
         }
+        if (count % kPacketsAtATime == 0) {
+            hand(found, follower);
+            follower.refresh();
+        }
     }
-    hand(found, excerpt.end());
+    hand(found, follower);
 }
 
 void PacketFilterRun::run(const std::stop_token& stop) {
-    log::LogReader reader(m_log);
+    log::LogFollower follower(m_log, m_begin);
     while (const auto excerpt = nextExcerpt(stop)) {
-        lookAt(*excerpt, reader, stop);
+        lookAt(*excerpt, follower, stop);
     }
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/filter/filter.h"
-#include "core/log/log_reader.h"
+#include "core/log/log_follower.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
@@ -51,6 +51,7 @@ public:
         std::optional<std::uint64_t> packet; ///< nothing: nowhere
         std::size_t offset = 0;              ///< of the first byte in the packet
         bool isWrapped = false;              ///< it was found beyond the end (or the beginning)
+        std::uint64_t gone = 0;              ///< packets gone from the log before they were looked at
     };
 
     /// The log must outlive the search.
@@ -93,8 +94,9 @@ public:
 
     /// How far it is. Up to date where `done` has come to `total`.
     struct Progress {
-        std::uint64_t done = 0;  ///< packets looked at
+        std::uint64_t done = 0;  ///< packets that it is through with
         std::uint64_t total = 0; ///< packets handed to it
+        std::uint64_t gone = 0;  ///< of those that are done: gone from the log before they were looked at
     };
     [[nodiscard]] Progress progress() const;
 
@@ -104,9 +106,11 @@ public:
 private:
     void run(const std::stop_token& stop);
     [[nodiscard]] std::optional<model::PacketDigests::Excerpt> nextExcerpt(const std::stop_token& stop);
-    void lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogReader& reader,
+    void lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogFollower& follower,
                 const std::stop_token& stop);
-    void hand(Found& found, std::uint64_t next);
+    [[nodiscard]] bool isMatch(const log::Packet& packet, const model::PacketDigest& digest,
+                               log::SenderFinder& senders);
+    void hand(Found& found, const log::LogFollower& follower);
 
     const log::PacketLog& m_log;
     const filter::Filter m_filter;
@@ -115,8 +119,10 @@ private:
     wire::Datagram m_datagram;   // the thread's
     mutable std::mutex m_mutex;  ///< guards all that follows but the thread
     std::condition_variable_any m_changed;
-    std::uint64_t m_next; ///< the packet to be looked at next
-    std::uint64_t m_end;  ///< of those handed to it
+    std::uint64_t m_next;      ///< the packet to be looked at next
+    std::uint64_t m_end;       ///< of those handed to it
+    std::uint64_t m_ahead = 0; ///< packets from m_end on that are gone: the session was too late for them too
+    std::uint64_t m_gone = 0;  ///< with those
     Found m_found;
     std::deque<model::PacketDigests::Excerpt> m_excerpts; ///< yet to be looked at
     std::jthread m_thread;                                // last: it uses the others, and is stopped first

@@ -21,6 +21,7 @@ namespace {
 
 constexpr qsizetype kHistory = 30;
 constexpr qsizetype kSavedFilters = 40;
+constexpr qsizetype kLongestName = 60;
 constexpr int kProgressSteps = 1000;
 
 /// Place in a text of a place in its UTF-8.
@@ -311,7 +312,7 @@ void FilterBar::restoreState(const QJsonObject& state) {
     for (const auto& value : values) {
         const QJsonObject filter = value.toObject();
         if (!filter["name"].toString().isEmpty() && saved.size() < static_cast<std::size_t>(kSavedFilters)) {
-            saved.push_back({filter["name"].toString(), filter["filter"].toString()});
+            saved.push_back({filter["name"].toString().left(kLongestName), filter["filter"].toString()});
         }
     }
     setSaved(std::move(saved));

@@ -289,7 +289,10 @@ void PacketsPanel::takeFound() {
     m_poll.stop();
     m_search.reset();
     if (!result->packet) {
-        m_find->say(tr("Not found"), true);
+        m_find->say(result->gone == 0 ? tr("Not found")
+                                      : tr("Not found; %1 packets left memory before they were looked at")
+                                            .arg(grouped(result->gone)),
+                    true);
         return;
     }
     showPacket(*result->packet);

@@ -80,13 +80,7 @@ void PacketsPanel::refresh() {
     followFilter();
     m_list->setCatchingUp(m_run && m_filteredTo < m_filterFrom);
     if (m_run) {
-        const PacketFilterRun::Found found = m_run->take(m_view.digests());
-        m_packets.addMatches(found.packets, found.problems);
-        const auto [done, total] = m_run->progress();
-        m_filteredTo = done;
-        const bool isBusy = !m_run->isCancelled() && done < total;
-        m_filter->setProgress(isBusy ? std::optional(static_cast<double>(done) / static_cast<double>(total))
-                                     : std::nullopt);
+        takeMatches();
     }
     m_packets.refresh();
     // Where everything comes from one sender its address says nothing, and the note has the room.
@@ -94,6 +88,20 @@ void PacketsPanel::refresh() {
     followSelection();
     followCursor();
     showEmptyState();
+}
+
+void PacketsPanel::takeMatches() {
+    const PacketFilterRun::Found found = m_run->take(m_view.digests());
+    m_packets.addMatches(found.packets, found.problems);
+    const auto [done, total, gone] = m_run->progress();
+    m_filteredTo = done;
+    const bool isBusy = !m_run->isCancelled() && done < total;
+    m_filter->setProgress(isBusy ? std::optional(static_cast<double>(done) / static_cast<double>(total))
+                                 : std::nullopt);
+    if (m_unfiltered == 0 && gone != 0) {
+        say(tr("Packets left memory before the filter looked at them; the title says how many."));
+    }
+    m_unfiltered = gone;
 }
 
 /// Where the operator stops in the past, the list shows what was received by then.
@@ -132,6 +140,7 @@ void PacketsPanel::followFilter() {
     } else {
         m_packets.beginMatches();
         m_filteredTo = 0;
+        m_unfiltered = 0;
         m_filterFrom = m_view.end();
         m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled),
                                                   m_view.firstStamp());
@@ -197,8 +206,11 @@ QString PacketsPanel::summary() const {
         return {};
     }
     const auto rows = static_cast<std::uint64_t>(m_packets.rowCount());
-    const QString count =
+    QString count =
         m_packets.isFiltered() ? tr("%1 of %2 shown").arg(grouped(rows), grouped(all)) : grouped(rows);
+    if (m_packets.isFiltered() && m_unfiltered != 0) {
+        count += tr(" · %1 not looked at in time").arg(grouped(m_unfiltered));
+    }
     return m_list->isFollowing() ? tr("following · %1").arg(count) : count;
 }
 

@@ -52,6 +52,7 @@ private:
     void connectParts();
     void fitColumns();
     void followFilter();
+    void takeMatches();
     void followCursor();
     void followSelection();
     void showEmptyState();
@@ -93,6 +94,7 @@ private:
     std::optional<std::uint64_t> m_stoppedAt; ///< the packet at which the cursor is paused
     std::uint64_t m_filteredTo = 0;           ///< by the run, when it was last asked
     std::uint64_t m_filterFrom = 0;           ///< packets from here on arrived after the filter was set
+    std::uint64_t m_unfiltered = 0;           ///< packets that the filter was too late for
     QString m_filterText;                     ///< as it was last taken from the session
     FilterBar* m_filter;
     FindBar* m_find;

@@ -18,39 +18,12 @@ namespace posewire::gui {
 
 namespace {
 
-QLatin1String keyOf(const model::ThresholdRow& row) {
-    return {row.key.data(), static_cast<qsizetype>(row.key.size())};
-}
-
 bool isWanted(const model::Event& event, const AlertChoices& choices) {
     return (choices.hasErrorSound && event.severity() == model::EventSeverity::Error) ||
            (choices.hasWarningSound && event.severity() == model::EventSeverity::Warning);
 }
 
 } // namespace
-
-QJsonObject jsonOf(const AlertChoices& choices) {
-    QJsonObject object;
-    for (const model::ThresholdRow& row : model::thresholdTable()) {
-        object[keyOf(row)] = choices.thresholds.*row.limit;
-    }
-    object["warningSound"] = choices.hasWarningSound;
-    object["errorSound"] = choices.hasErrorSound;
-    return object;
-}
-
-AlertChoices alertChoicesOf(const QJsonObject& object) {
-    AlertChoices choices;
-    for (const model::ThresholdRow& row : model::thresholdTable()) {
-        const double value = object[keyOf(row)].toDouble(-1);
-        if (value >= row.least && value <= row.most) {
-            choices.thresholds.*row.limit = value;
-        }
-    }
-    choices.hasWarningSound = object["warningSound"].toBool();
-    choices.hasErrorSound = object["errorSound"].toBool();
-    return choices;
-}
 
 bool AlertSounds::isDue(const model::Events& events, const AlertChoices& choices) {
     bool isDue = false;

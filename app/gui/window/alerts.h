@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/accounting/thresholds.h"
+#include "app/gui/alert_choices.h"
 #include "core/model/session/session_view.h"
 
 #include <QDialog>
-#include <QJsonObject>
 
 #include <vector>
 
@@ -15,18 +14,6 @@ class QFormLayout;
 class QLabel;
 
 namespace posewire::gui {
-
-/// When the operator wants to be alerted, and how: kept from one run to the next.
-struct AlertChoices {
-    model::Thresholds thresholds;
-    bool hasWarningSound = false;
-    bool hasErrorSound = false;
-    friend bool operator==(const AlertChoices&, const AlertChoices&) = default;
-};
-
-[[nodiscard]] QJsonObject jsonOf(const AlertChoices& choices);
-/// What is missing or makes no sense is as shipped.
-[[nodiscard]] AlertChoices alertChoicesOf(const QJsonObject& object);
 
 /// Decides which sounds are due: one for an episode, and none for what happened before.
 class AlertSounds {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/main_window.h"
 
+#include "app/gui/dock_layout.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
@@ -82,6 +83,12 @@ void MainWindow::makeBars() {
     m_health = new HealthBar(m_driver.session(), m_driver, this);
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_health, 1);
+    m_stopOpening =
+        framedButton(tr("Stop"), tr("Stop opening the file (Esc); what was read of it stays"), this);
+    m_stopOpening->setObjectName(QStringLiteral("stopOpeningButton"));
+    connect(m_stopOpening, &QToolButton::clicked, m_menus.action("stopOpening"), &QAction::trigger);
+    statusBar()->addPermanentWidget(m_stopOpening);
+    showOpening();
 }
 
 void MainWindow::makeDocks() {
@@ -119,12 +126,12 @@ void MainWindow::connectDriver() {
     const auto showStates = [this] { m_menus.showStates(); };
     connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);
     connect(&m_driver, &SessionDriver::pausedChanged, this, showStates);
-    connect(&m_driver, &SessionDriver::tableTick, this, [this] {
-        if (const QString text = m_driver.openingText(); !text.isEmpty()) {
-            say(text);
-        }
+    connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showOpening);
+    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool, const QString& text) {
+        showOpening();
+        say(text);
     });
-    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool, const QString& text) { say(text); });
+    connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
     connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
     connect(m_viewport, &ViewportWidget::optionsChanged, this, showStates);
     showReceiving();
@@ -141,7 +148,7 @@ void MainWindow::restore() {
     if (m_settings.isMaximized) {
         setWindowState(windowState() | Qt::WindowMaximized);
     }
-    m_layoutButton->setText(tr("Layout: %1 ▾").arg(m_settings.layout));
+    showLayoutName(m_settings.layout);
 }
 
 /// Sizes of docks only hold once the window has its own.
@@ -225,6 +232,23 @@ void MainWindow::showReceiving() {
     m_driver.setPicturesShown(m_viewport->picturesShown());
 }
 
+void MainWindow::showOpening() {
+    const bool isOpening = m_driver.isOpening();
+    if (isOpening) {
+        say(m_driver.openingText());
+    }
+    m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others
+    m_stopOpening->setVisible(isOpening);
+}
+
+/// At once: whatever ends this program, the next run must not begin with a loop.
+void MainWindow::keepRelays() {
+    m_settings.inputs.relays = m_driver.receiving().choices().relays;
+    if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
+        say(problem);
+    }
+}
+
 void MainWindow::openFile() {
     const QString path = QFileDialog::getOpenFileName(this, tr("Open a file of MXTP datagrams"));
     if (path.isEmpty()) {
@@ -274,8 +298,15 @@ void MainWindow::useLayout(const QString& nameOrFile) {
         say(tr("Layout %1: there is no dock named %2").arg(layout->name, unknown.join(tr(" or "))));
     }
     m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
-    m_layoutButton->setText(tr("Layout: %1 ▾").arg(layout->name));
+    showLayoutName(layout->name);
     refreshPanels();
+}
+
+/// It may be the path of a file, and the button must not make the window wide.
+void MainWindow::showLayoutName(const QString& name) {
+    const QFontMetrics metrics = m_layoutButton->fontMetrics();
+    const int most = metrics.averageCharWidth() * 30;
+    m_layoutButton->setText(tr("Layout: %1 ▾").arg(metrics.elidedText(name, Qt::ElideMiddle, most)));
 }
 
 void MainWindow::dockAll() {

@@ -4,9 +4,10 @@
 #include "app/gui/driver/session_driver.h"
 #include "app/gui/inputs/inputs_dialog.h"
 #include "app/gui/panel.h"
+#include "app/gui/settings.h"
 #include "app/gui/viewport/viewport_widget.h"
+#include "app/gui/window/alerts.h"
 #include "app/gui/window/menus.h"
-#include "app/gui/window/settings.h"
 
 #include <QMainWindow>
 
@@ -78,8 +79,11 @@ private:
     void makeBars();
     void connectDriver();
     void restore();
+    void showLayoutName(const QString& name);
     void refreshPanels();
     void showReceiving();
+    void showOpening();
+    void keepRelays();
     void alert();
 
     SessionDriver& m_driver;
@@ -90,6 +94,7 @@ private:
     HealthBar* m_health = nullptr;
     InputsDialog* m_inputs = nullptr; ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
+    QToolButton* m_stopOpening = nullptr; ///< shown while a file is being opened
     Menus m_menus;
     AlertSounds m_sounds;
     std::vector<Dock> m_docks;

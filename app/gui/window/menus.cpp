@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/menus.h"
 
+#include "app/gui/dock_layout.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/words.h"
-#include "app/gui/window/docks.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/texts.h"
@@ -111,6 +111,8 @@ constexpr ActionInfo panelsIn(const char* menu) {
 const ActionInfo kActions[] = {
     {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
      Do::call<&Window::openFile>},
+    {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
+     Do::callIn<&Window::driver, &SessionDriver::cancelOpening>},
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
      Do::call<saveScreenshot>},
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", Do::call<saveReport>},

@@ -46,7 +46,7 @@ TEST(LiveTable, ShowsNamesAsTextOfALine) {
         log.writer().append(*wire::encode(datagram), arrival);
         log.writer().publish();
         session.follow(arrival.stamp);
-        const std::vector<std::string> lines = liveTable(session, 1);
+        const std::vector<std::string> lines = liveTable(session, {.durationS = 1});
         const bool isText = wire::firstInvalidUtf8(name) == name.size(); // else it is malformed
         EXPECT_EQ(lines.size(), isText ? 5U : 2U) << name.substr(0, 80);
         for (const std::string& line : lines) {
@@ -54,6 +54,15 @@ TEST(LiveTable, ShowsNamesAsTextOfALine) {
             EXPECT_EQ(line.find('\n'), std::string::npos);
         }
     }
+}
+
+TEST(LiveTable, SaysHowManyDatagramsOfOthersWereRefused) {
+    const log::PacketLog log{{.memoryCap = std::size_t{1} << 22, .chunkSize = std::size_t{1} << 20}};
+    const model::Session session{log};
+    exporting::MonitorFacts facts;
+    EXPECT_THAT(liveTable(session, facts)[0], testing::Not(testing::HasSubstr("refused")));
+    facts.refusedDatagrams = 1'234;
+    EXPECT_THAT(liveTable(session, facts)[0], testing::EndsWith("   refused by --from 1,234"));
 }
 
 TEST(MonitorPlaces, AreTheUsualPortWhereNothingIsNamed) {

@@ -153,5 +153,26 @@ TEST_F(RelayTest, FallenBehindItLeavesOutAndCounts) {
     EXPECT_GE(target().skipped, kCount - Relay::kMostBehind);
 }
 
+TEST(RelayOfASmallLog, CountsWhatTheLogDroppedBeforeItCame) {
+    constexpr std::uint64_t kCount = 10'000;
+    log::PacketLog log({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
+    const log::SystemClock clock;
+    const Receiving consumer;
+    Relay relay(log, clock);
+    ASSERT_TRUE(relay.add(consumer.endpoint(), {}));
+    log::Arrival arrival;
+    arrival.sender = log.senders().intern({"10.0.0.5:50000", log::Transport::Udp, 9763});
+    const auto bytes = numbered(1'000, 1);
+    for (std::uint64_t i = 0; i < kCount; ++i) {
+        arrival.stamp = log.timeline().now(clock);
+        log.writer().append(bytes, arrival);
+    }
+    log.writer().publish();
+    const auto target = [&] { return relay.targets()[0]; };
+    ASSERT_TRUE(eventually([&] { return target().sent + target().skipped + target().refused == kCount; }))
+        << target().sent << " " << target().skipped;
+    EXPECT_GT(target().skipped, kCount / 2);
+}
+
 } // namespace
 } // namespace posewire::net

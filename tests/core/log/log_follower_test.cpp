@@ -94,5 +94,32 @@ TEST_F(LogFollowerTest, BeginsWhereItIsToldToWithoutCountingWhatWasBefore) {
     EXPECT_EQ(follower.overtaken(), 0U);
 }
 
+TEST_F(LogFollowerTest, FromAPacketOnItCountsWhatIsGoneOfThat) {
+    append(10'000);
+    const LogReader reader(m_log);
+    LogFollower follower(m_log, 10);
+    EXPECT_EQ(follower.position(), reader.begin());
+    EXPECT_EQ(follower.overtaken(), reader.begin() - 10);
+}
+
+TEST_F(LogFollowerTest, FromNowOnItTakesNothingThatWasThere) {
+    append(100);
+    LogFollower follower = LogFollower::fromNow(m_log);
+    append(5);
+    follower.refresh();
+    EXPECT_EQ(follower.next()->number, 100U);
+    EXPECT_EQ(follower.lag(), 4U);
+    EXPECT_EQ(follower.overtaken(), 0U);
+}
+
+TEST_F(LogFollowerTest, TakesNoneBeyondTheEndThatIsAskedFor) {
+    LogFollower follower(m_log);
+    append(10);
+    follower.refresh();
+    while (follower.next(3)) {
+    }
+    EXPECT_EQ(follower.position(), 3U);
+}
+
 } // namespace
 } // namespace posewire::log

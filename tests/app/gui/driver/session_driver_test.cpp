@@ -220,5 +220,35 @@ TEST_F(SessionDriverTest, TheDemoGoesThroughARealSocket) {
     EXPECT_FALSE(driver.isDemoRunning());
 }
 
+TEST_F(SessionDriverTest, OpeningAFileCanBeStoppedAndWhatWasReadStays) {
+    const QTemporaryDir folder;
+    QFile file(folder.filePath("long.bin"));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    for (std::uint64_t frame = 0; frame < 20'000; ++frame) { // more than is read before it was looked at
+        for (const wire::Datagram& datagram : performer.frame(frame)) {
+            const auto bytes = *wire::encode(datagram);
+            file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
+        }
+    }
+    file.close();
+    const QSignalSpy opened(&driver, &SessionDriver::fileOpened);
+    driver.openFile(file.fileName());
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.session().end() > 0; }));
+    ASSERT_TRUE(driver.isOpening());
+    driver.cancelOpening();
+    EXPECT_FALSE(driver.isOpening());
+    EXPECT_TRUE(driver.isPaused());
+    ASSERT_EQ(opened.count(), 1);
+    EXPECT_FALSE(opened[0][0].toBool());
+    const std::uint64_t read = driver.session().end();
+    EXPECT_LT(read, 20'000U);
+    EXPECT_EQ(opened[0][1].toString(),
+              QStringLiteral("Opening long.bin was stopped; %1 packets of it were read.").arg(read));
+    driver.tick();
+    EXPECT_EQ(driver.session().end(), read);
+    driver.cancelOpening();
+    EXPECT_EQ(opened.count(), 1) << "there is nothing to stop any more";
+}
+
 } // namespace
 } // namespace posewire::gui

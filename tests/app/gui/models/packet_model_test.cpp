@@ -229,6 +229,33 @@ TEST(PacketModel, FilterAndListAgreeOnPacketsWhosePredecessorsWereDropped) {
     EXPECT_EQ(found.problems, gaps);
 }
 
+TEST(PacketModel, FilterCountsWhatLeftTheLogBeforeItLookedAtIt) {
+    log::PacketLog log({.memoryCap = 1, .chunkSize = 1 << 18});
+    model::Session session(log);
+    const std::vector<std::byte> bytes = test::golden("02_quaternion_counted").bytes;
+    const auto sender = log.senders().intern({"sender", log::Transport::Udp, 9763});
+    const auto append = [&](int count) {
+        for (int i = 0; i < count; ++i) {
+            log.writer().append(bytes, {.stamp = Stage::kStart, .sender = sender});
+        }
+        log.writer().publish();
+    };
+    append(100);
+    session.follow(Stage::kStart);
+    append(10'000); // the log drops all that the session knows
+    PacketFilterRun run(log, session.digests(), *filter::Filter::compile("type == 02"), {});
+    run.wait();
+    EXPECT_EQ(run.progress().gone, 100U);
+    EXPECT_EQ(run.progress().done, 100U);
+    EXPECT_TRUE(run.take(session.digests()).packets.empty());
+    session.follow(Stage::kStart);
+    static_cast<void>(run.take(session.digests()));
+    run.wait();
+    const auto progress = run.progress();
+    EXPECT_EQ(progress.done, progress.total);
+    EXPECT_EQ(run.take(session.digests()).packets.size() + progress.gone, 10'100U);
+}
+
 TEST_F(PacketModelTest, PaintsEveryCellOfDamagedDatagrams) {
     std::mt19937 random(7);
     for (int i = 0; i < 4'000; ++i) {

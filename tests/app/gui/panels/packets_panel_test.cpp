@@ -119,6 +119,32 @@ TEST_F(PacketsPanelTest, CallsNewOnlyWhatCameAfterTheFilter) {
     EXPECT_EQ(newest->text(), QStringLiteral("↓ 10 new"));
 }
 
+TEST(PacketsPanelOfASmallLog, SaysWhatTheFilterWasTooLateFor) {
+    log::PacketLog log({.memoryCap = 1, .chunkSize = std::size_t{256} << 10});
+    model::Session session(log);
+    ImmediateCommands commands{session};
+    const auto sender = log.senders().intern({"10.0.0.2:40001", log::Transport::Udp, 9763});
+    const auto append = [&](int count) {
+        const std::vector<std::byte> bytes(700);
+        for (int i = 0; i < count; ++i) {
+            log.writer().append(bytes, {.stamp = Stage::kStart, .sender = sender});
+        }
+        log.writer().publish();
+    };
+    append(100);
+    session.follow(Stage::kStart);
+    append(10'000); // the log drops all that the session knows
+    PacketsPanel panel(session, commands, nullptr);
+    panel.show();
+    commands.setDisplayFilter("foreign");
+    panel.refresh();
+    const_cast<PacketFilterRun*>(panel.filterRun())->wait();
+    panel.refresh();
+    EXPECT_TRUE(panel.summary().endsWith("0 of 100 shown · 100 not looked at in time"))
+        << panel.summary().toStdString();
+    EXPECT_TRUE(panel.message().startsWith("Packets left memory"));
+}
+
 TEST_F(PacketsPanelTest, ShowsWhereTheDisplayWasStoppedInThePast) {
     poses(0, 500);
     m_stage.session.setCursor({model::Cursor::Mode::Paused, 499});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/docks.h"
+#include "app/gui/dock_layout.h"
 
 #include "app/gui/panel.h"
 
@@ -62,6 +62,17 @@ TEST(DockLayout, ReadsPlacesTabsSharesAndExtents) {
     EXPECT_EQ(right.places[0].share, 4);
     EXPECT_EQ(right.places[1].share, 1);
     EXPECT_DOUBLE_EQ(right.extent, 0.3);
+}
+
+TEST(DockLayout, ClipsSharesSoThatTheirSumCanBeCalculated) {
+    const auto layout = parseLayout(R"({"areas": {"left": {"extent": 1e308, "places": [
+        {"docks": ["a"], "share": 2147483647}, {"docks": ["b"], "share": -5}, "c"]}}})");
+    ASSERT_TRUE(layout);
+    const DockLayout::Area& left = layout->areas.at(Qt::LeftDockWidgetArea);
+    EXPECT_EQ(left.places[0].share, 100);
+    EXPECT_EQ(left.places[1].share, 1);
+    EXPECT_TRUE(left.places[2].docks.isEmpty());
+    EXPECT_DOUBLE_EQ(left.extent, 0.8);
 }
 
 } // namespace

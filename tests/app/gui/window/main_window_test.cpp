@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/main_window.h"
 
+#include "app/gui/dock_layout.h"
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/docks.h"
@@ -85,6 +86,40 @@ TEST_F(MainWindowTest, WritesItsSettingsWhenItCloses) {
     QString problem;
     EXPECT_FALSE(file.read(&problem).docks.isEmpty());
     EXPECT_TRUE(problem.isEmpty());
+}
+
+TEST_F(MainWindowTest, KeepsAtOnceThatARelayWasStopped) {
+    const auto window = makeWindow();
+    Relaying& relaying = driver.receiving().relaying();
+    relaying.add({"192.0.2.7", 9763, true});
+    relaying.setOn(0, false);
+    emit driver.relayStopped();
+    QString problem;
+    const Settings kept = file.read(&problem);
+    ASSERT_EQ(kept.inputs.relays.size(), 1U) << problem.toStdString();
+    EXPECT_FALSE(kept.inputs.relays[0].isOn);
+    EXPECT_FALSE(kept.inputs.inputs.has_value()) << "nobody has chosen any";
+}
+
+TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
+    const auto window = makeWindow();
+    auto* stop = window->findChild<QToolButton*>("stopOpeningButton");
+    EXPECT_TRUE(stop->isHidden());
+    EXPECT_FALSE(action(*window, "stopOpening")->isEnabled());
+    QFile file(folder.filePath("long.bin"));
+    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(QByteArray(64 << 20, 'x'));
+    file.close();
+    driver.openFile(file.fileName());
+    emit driver.tableTick();
+    EXPECT_FALSE(stop->isHidden());
+    QTest::keyClick(window.get(), Qt::Key_Escape);
+    EXPECT_FALSE(driver.isOpening());
+    EXPECT_TRUE(stop->isHidden());
+    EXPECT_TRUE(window->findChild<HealthBar*>("healthBar")
+                    ->findChild<QLabel*>("message")
+                    ->text()
+                    .startsWith("Opening long.bin was stopped"));
 }
 
 TEST_F(MainWindowTest, ShowsInTheSizeThatItWasGiven) {

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/settings.h"
+#include "app/gui/settings.h"
 
 #include "app/gui/options.h"
 #include "app/gui/saving.h"
+#include "app/gui/small_json.h"
 #include "app/gui/theme/words.h"
 
+#include <QCryptographicHash>
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QStandardPaths>
+
+#include <algorithm>
 
 namespace posewire::gui {
 
@@ -19,38 +23,69 @@ namespace {
 /// Raised when the meaning of something in the file changes.
 constexpr int kSchema = 1;
 
+/// Of a window, in logical pixels: a rectangle of these has edges that can be calculated with.
+constexpr int kFarthest = 100'000;
+
+int pixels(const QJsonValue& value, int least) {
+    return std::clamp(value.toInt(), least, kFarthest);
+}
+
+/// Qt trusts the places of docks that it reads: where they are damaged, it may crash.
+QString sumOf(const QByteArray& docks) {
+    return QString::fromLatin1(QCryptographicHash::hash(docks, QCryptographicHash::Sha256).toHex());
+}
+
+QByteArray docksOf(const QJsonObject& object) {
+    const QByteArray docks = QByteArray::fromBase64(object["docks"].toString().toLatin1());
+    return object["docksSum"].toString() == sumOf(docks) ? docks : QByteArray();
+}
+
 Settings settingsOf(const QJsonObject& object) {
     Settings settings;
     settings.theme = themeNamed(object["theme"].toString()).value_or(settings.theme);
     settings.layout = object["layout"].toString(settings.layout);
     const QJsonObject window = object["window"].toObject();
-    settings.window = {window["x"].toInt(), window["y"].toInt(), window["width"].toInt(),
-                       window["height"].toInt()};
+    settings.window = {pixels(window["x"], -kFarthest), pixels(window["y"], -kFarthest),
+                       pixels(window["width"], 0), pixels(window["height"], 0)};
     settings.isMaximized = window["maximized"].toBool();
-    settings.docks = QByteArray::fromBase64(object["docks"].toString().toLatin1());
+    settings.docks = docksOf(object);
     settings.panels = object["panels"].toObject();
     settings.alerts = alertChoicesOf(object["alerts"].toObject());
     settings.inputs = inputChoicesOf(object["sources"].toObject());
     return settings;
 }
 
-QJsonObject objectOf(const Settings& settings) {
+} // namespace
+
+tl::expected<Settings, QString> parseSettings(const QByteArray& json) {
+    const auto object = parseSmallObject(json);
+    if (!object) {
+        return tl::unexpected(object.error());
+    }
+    if (const int schema = (*object)["schema"].toInt(); schema != kSchema) {
+        return tl::unexpected(
+            tr("their version is %1, this program reads version %2").arg(schema).arg(kSchema));
+    }
+    return settingsOf(*object);
+}
+
+QByteArray jsonOf(const Settings& settings) {
     const QJsonObject window{{"x", settings.window.x()},
                              {"y", settings.window.y()},
                              {"width", settings.window.width()},
                              {"height", settings.window.height()},
                              {"maximized", settings.isMaximized}};
-    return {{"schema", kSchema},
-            {"theme", themeName(settings.theme)},
-            {"layout", settings.layout},
-            {"window", window},
-            {"docks", QString::fromLatin1(settings.docks.toBase64())},
-            {"alerts", jsonOf(settings.alerts)},
-            {"panels", settings.panels},
-            {"sources", jsonOf(settings.inputs)}};
+    const QJsonObject object{{"schema", kSchema},
+                             {"theme", themeName(settings.theme)},
+                             {"layout", settings.layout},
+                             {"window", window},
+                             {"docks", QString::fromLatin1(settings.docks.toBase64())},
+                             {"docksSum", sumOf(settings.docks)},
+                             {"alerts", jsonOf(settings.alerts)},
+                             {"panels", settings.panels},
+                             {"sources", jsonOf(settings.inputs)}};
+    return QJsonDocument(object).toJson();
 }
-
-} // namespace
 
 SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
     if (m_path.isEmpty()) {
@@ -71,19 +106,12 @@ Settings SettingsFile::read(QString* problem) {
                        : tr("Settings in %1 cannot be read: %2").arg(m_path, content.error());
         return {};
     }
-    QJsonParseError error;
-    const QJsonDocument document = QJsonDocument::fromJson(*content, &error);
-    if (!document.isObject()) {
-        *problem = setAside(error.errorString());
+    auto settings = parseSettings(*content);
+    if (!settings) {
+        *problem = setAside(settings.error());
         return {};
     }
-    const int schema = document.object()["schema"].toInt();
-    if (schema != kSchema) {
-        *problem =
-            setAside(tr("their version is %1, this program reads version %2").arg(schema).arg(kSchema));
-        return {};
-    }
-    return settingsOf(document.object());
+    return *std::move(settings);
 }
 
 QString SettingsFile::setAside(const QString& reason) const {
@@ -101,7 +129,7 @@ QString SettingsFile::write(const Settings& settings) const {
     if (!QDir().mkpath(QFileInfo(m_path).absolutePath())) {
         return tr("The folder of %1 cannot be created.").arg(m_path);
     }
-    return saveFile(m_path, QJsonDocument(objectOf(settings)).toJson());
+    return saveFile(m_path, jsonOf(settings));
 }
 
 } // namespace posewire::gui

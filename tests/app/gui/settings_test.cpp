@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/window/settings.h"
+#include "app/gui/settings.h"
 
 #include <QDir>
 #include <QFile>
 #include <QJsonArray>
+#include <QJsonDocument>
 #include <QJsonObject>
 #include <QTemporaryDir>
 
@@ -73,6 +74,47 @@ TEST_F(SettingsFileTest, SetsSettingsOfANewerProgramAside) {
     static_cast<void>(file.read(&problem));
     EXPECT_TRUE(problem.contains("99"));
     EXPECT_TRUE(QFile::exists(path + ".aside-1"));
+}
+
+TEST(Settings, KeepTheWindowWhereItsEdgesCanBeCalculated) {
+    const auto settings = parseSettings(R"({"schema": 1, "window":
+        {"x": 2147483647, "y": -2147483648, "width": 2147483647, "height": -1}})");
+    ASSERT_TRUE(settings);
+    EXPECT_EQ(settings->window, QRect(100'000, -100'000, 100'000, 0));
+}
+
+TEST(Settings, TakePlacesOfDocksOnlyAsTheyWereWritten) {
+    Settings written;
+    written.docks = "places of docks";
+    const QByteArray json = jsonOf(written);
+    EXPECT_EQ(parseSettings(json)->docks, written.docks);
+    QByteArray damaged = json;
+    damaged.replace(written.docks.toBase64(), QByteArray("another place").toBase64());
+    ASSERT_NE(damaged, json);
+    EXPECT_EQ(parseSettings(damaged)->docks, QByteArray()) << "Qt would crash on some";
+}
+
+TEST(Settings, TakeNoMoreInputsAndRelaysThanAnyoneChooses) {
+    QJsonArray inputs;
+    QJsonArray relays;
+    for (int port = 1; port <= 1'000; ++port) {
+        inputs.append(QJsonObject{{"protocol", "udp"}, {"host", ""}, {"port", port}});
+        relays.append(QJsonObject{{"host", "10.0.0.9"}, {"port", port}, {"on", true}});
+    }
+    const QJsonObject sources{{"inputs", inputs}, {"relays", relays}};
+    const auto settings =
+        parseSettings(QJsonDocument(QJsonObject{{"schema", 1}, {"sources", sources}}).toJson());
+    ASSERT_TRUE(settings);
+    EXPECT_EQ(settings->inputs.inputs->size(), 256U);
+    EXPECT_EQ(settings->inputs.relays.size(), 256U);
+}
+
+TEST(Settings, AreAsShippedWhereTheyAreOfTheWrongKind) {
+    const auto settings =
+        parseSettings(R"({"schema": 1, "theme": 7, "layout": [], "window": "wide", "docks": {},
+        "panels": 3, "alerts": true, "sources": {"inputs": 5, "relays": "all", "from": {}}})");
+    ASSERT_TRUE(settings);
+    EXPECT_EQ(*settings, Settings());
 }
 
 TEST_F(SettingsFileTest, SaysWhyItCannotWrite) {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/alert_choices.h"
 #include "app/gui/input_choices.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/window/alerts.h"
 
 #include <QByteArray>
 #include <QJsonObject>
 #include <QRect>
 #include <QString>
+
+#include <tl/expected.hpp>
 
 namespace posewire::gui {
 
@@ -18,11 +20,17 @@ struct Settings {
     QString layout = QStringLiteral("Debug"); ///< the layout last chosen; docks may have been moved since
     QRect window;                             ///< logical pixels; empty for the default
     bool isMaximized = false;
-    QByteArray docks;   ///< QMainWindow::saveState; empty for the layout as shipped
+    QByteArray docks;   ///< QMainWindow::saveState, as it was written; empty for the layout as shipped
     QJsonObject panels; ///< Panel::state() by the name of the dock
     AlertChoices alerts;
     InputChoices inputs;
+    friend bool operator==(const Settings&, const Settings&) = default;
 };
+
+/// What is missing, larger than it can be or of the wrong kind is as shipped. The error says why nothing
+/// could be read.
+[[nodiscard]] tl::expected<Settings, QString> parseSettings(const QByteArray& json);
+[[nodiscard]] QByteArray jsonOf(const Settings& settings);
 
 /// Reads and writes settings as JSON with the number of their schema.
 class SettingsFile {
