@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/chunk_history.h"
 #include "core/log/packet.h"
 #include "core/log/stream_index.h"
 #include "core/model/accounting/stream_accounting.h"
@@ -46,6 +47,9 @@ struct PacketDigest {
     }
 };
 static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the log");
+static_assert(sizeof(log::StreamEntry) + sizeof(PacketDigest) + 2 * sizeof(std::uint64_t) <=
+                  log::kBesidePacket,
+              "the cap of the log is for what is kept of its packets");
 
 /// What a packet shows by itself. `datagram` is what it was decoded to, null where that failed.
 [[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
