@@ -64,14 +64,15 @@ std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Head
                                      StreamAccounting& accounting, PacketDigest& digest);
 
 /// Makes digests of packets in the order of the log, without a session. Deterministic: whoever walks over the
-/// same packets from the same beginning gets the same digests. Memory is bounded: of streams beyond
-/// StreamIndex::kStreamLimit nothing is compared.
+/// same packets from the same beginning gets the same digests. Memory is bounded as that of a session: of
+/// streams beyond StreamIndex::kStreamLimit nothing is compared.
 class PacketDigester {
 public:
     PacketDigest add(const log::Packet& packet, const wire::Datagram* datagram);
 
 private:
     std::unordered_map<log::StreamKey, StreamAccounting> m_streams;
+    AccountingDepth m_depth;
 };
 
 /// The digests of the packets that a log holds. Belongs to one thread.
@@ -88,6 +89,8 @@ public:
 
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_end; }
+
+    [[nodiscard]] std::size_t memoryBytes() const { return m_blocks.size() * sizeof(Block); }
 
     /// The number must lie within.
     [[nodiscard]] const PacketDigest& at(std::uint64_t number) const {
