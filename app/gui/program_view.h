@@ -9,6 +9,7 @@
 
 #include <QString>
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -59,9 +60,11 @@ struct MonitorHealth {
     std::optional<double> receiverShare{}; ///< of a core, by the receiving thread
     std::optional<double> processShare{};  ///< of a core, by all threads
     std::optional<std::uint64_t> memoryBytes{}; ///< of this process, in main memory
-    double followUsPerPacket = 0; ///< to read, count and explain a packet; 0 before there was one
-    double followShare = 0;       ///< of the window's thread, spent on that
-    double framesPerSecond = 0;   ///< pictures of the viewport
+    double followUsPerPacket = 0;  ///< to read, count and explain a packet; 0 before there was one
+    double followShare = 0;        ///< of the window's thread, spent on that
+    double framesPerSecond = 0;    ///< pictures of the viewport
+    std::size_t meshBytes = 0;     ///< of the bodies in the viewport
+    std::size_t mostMeshBytes = 0; ///< what that can become
 };
 
 /// What panels read that is not of the session.

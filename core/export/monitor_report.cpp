@@ -80,6 +80,14 @@ JsonValue senderJson(const model::SessionView& session, const model::Sender& sen
             {"kernelDropped", sender.kernelDrops}};
 }
 
+JsonValue memoryJson(const model::MemoryFigures& memory) {
+    JsonValue json{{"sum", memory.sum()}, {"budget", memory.budget()}};
+    for (const model::MemoryFigures::Part& part : memory.parts) {
+        json[part.key] = part.bytes;
+    }
+    return json;
+}
+
 } // namespace
 
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
@@ -110,6 +118,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                                  {"datagrams", retired.wellFormed()},
                                                  {"samples", retired.samples},
                                                  {"lost", retired.lost}}},
+                           {"memory", memoryJson(session.memory())},
                            {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())}};
     return report.text();
 }

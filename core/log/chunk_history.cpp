@@ -18,7 +18,7 @@ constexpr std::size_t kSenderCost = 256;
 
 LogLimits sensible(LogLimits limits) {
     limits.chunkSize = std::clamp(limits.chunkSize, kSmallestChunk, kLargestChunk) & ~std::size_t{4095};
-    limits.memoryCap = std::max(limits.memoryCap, 2 * limits.chunkSize);
+    limits.memoryCap = std::max(limits.memoryCap, 3 * limits.chunkSize);
     return limits;
 }
 
@@ -54,11 +54,22 @@ void Chunk::touch() {
     }
 }
 
+void ChunkPool::setRoom(std::size_t chunks) {
+    std::vector<std::unique_ptr<Chunk>> freed; // outside the lock
+    const std::lock_guard lock(m_mutex);
+    m_room = chunks;
+    for (; m_spare.size() > m_room; --m_existing) {
+        freed.push_back(std::move(m_spare.back()));
+        m_spare.pop_back();
+    }
+}
+
 std::shared_ptr<Chunk> ChunkPool::take() {
     std::unique_ptr<Chunk> chunk;
     {
         std::unique_lock lock(m_mutex);
-        m_changed.wait(lock, [this] { return !m_spare.empty() || !m_isMakingSpare || m_existing < m_limit; });
+        m_changed.wait(lock, [this] { return !m_spare.empty() || !m_isMakingSpare || m_room > 1; });
+        m_room -= std::min<std::size_t>(m_room, 1);
         if (m_spare.empty()) {
             ++m_existing;
         } else {
@@ -77,7 +88,7 @@ std::shared_ptr<Chunk> ChunkPool::take() {
 void ChunkPool::keepReady() {
     std::unique_lock lock(m_mutex);
     while (true) {
-        m_changed.wait(lock, [this] { return m_isClosed || (m_spare.empty() && m_existing + 1 < m_limit); });
+        m_changed.wait(lock, [this] { return m_isClosed || (m_spare.empty() && m_room > 0); });
         if (m_isClosed) {
             return;
         }
@@ -87,7 +98,11 @@ void ChunkPool::keepReady() {
         auto chunk = std::make_unique<Chunk>(m_chunkSize);
         chunk->touch();
         lock.lock();
-        m_spare.push_back(std::move(chunk));
+        if (m_spare.size() < m_room) {
+            m_spare.push_back(std::move(chunk));
+        } else {
+            --m_existing;
+        }
         m_isMakingSpare = false;
         m_changed.notify_all();
     }
@@ -109,7 +124,7 @@ std::size_t ChunkPool::existing() const {
 void ChunkPool::give(std::unique_ptr<Chunk> chunk) {
     chunk->clear(); // here, so that the receiving thread need not let go of the senders
     const std::lock_guard lock(m_mutex);
-    if (m_spare.size() < m_limit) {
+    if (m_spare.size() < m_room) {
         m_spare.push_back(std::move(chunk));
     } else {
         --m_existing;
@@ -117,9 +132,7 @@ void ChunkPool::give(std::unique_ptr<Chunk> chunk) {
 }
 
 ChunkHistory::ChunkHistory(LogLimits limits)
-    : m_limits(sensible(limits)),
-      m_chunkLimit(m_limits.memoryCap / m_limits.chunkSize),
-      m_pool(std::make_shared<ChunkPool>(m_limits.chunkSize, m_chunkLimit)) {}
+    : m_limits(sensible(limits)), m_pool(std::make_shared<ChunkPool>(m_limits.chunkSize)) {}
 
 ChunkHistory::~ChunkHistory() {
     m_pool->close();
@@ -128,15 +141,33 @@ ChunkHistory::~ChunkHistory() {
     }
 }
 
-std::shared_ptr<Chunk> ChunkHistory::beginChunk(std::uint64_t first) {
+std::size_t ChunkHistory::left(std::size_t chunks, std::uint64_t packets) const {
+    const std::size_t used = chunks * m_limits.chunkSize + packets * kBesidePacket;
+    return m_limits.memoryCap - std::min(m_limits.memoryCap, used);
+}
+
+/// How many packets the chunk will take is not known: so much is left for them that it seldom ends early, and
+/// it ends where the cap would be passed.
+ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first) {
+    const std::size_t mostBeside = left(2, 0) / 2;
     std::vector<Held> dropped; // given back outside the lock
+    std::size_t chunks = 0;
+    std::uint64_t packets = 0;
+    std::size_t beside = 0;
     {
         const std::lock_guard lock(m_mutex);
-        while (m_chunks.size() >= m_chunkLimit) {
+        const auto kept = [&] { return m_chunks.empty() ? 0 : first - m_chunks.front().first; };
+        const std::uint64_t newest = m_chunks.empty() ? 0 : first - m_chunks.back().first;
+        beside = std::clamp((newest + newest / 4) * kBesidePacket, mostBeside / 64, mostBeside);
+        while (!m_chunks.empty() && left(m_chunks.size() + 1, kept()) < beside) {
             dropped.push_back(std::move(m_chunks.front()));
             m_chunks.pop_front();
         }
+        chunks = m_chunks.size() + 1;
+        packets = kept();
     }
+    const std::size_t rest = left(chunks, packets);
+    m_pool->setRoom(1 + (rest - std::min(rest, beside)) / m_limits.chunkSize);
     dropped.clear();
     std::shared_ptr<Chunk> chunk = m_pool->take();
     if (!m_preparer.joinable()) {
@@ -145,7 +176,7 @@ std::shared_ptr<Chunk> ChunkHistory::beginChunk(std::uint64_t first) {
     const std::lock_guard lock(m_mutex);
     m_chunks.push_back({first, chunk});
     m_version.fetch_add(1, std::memory_order_release);
-    return chunk;
+    return {std::move(chunk), first + std::min(rest, mostBeside) / kBesidePacket};
 }
 
 std::vector<ChunkHistory::Entry> ChunkHistory::entries() const {
@@ -160,12 +191,15 @@ std::vector<ChunkHistory::Entry> ChunkHistory::entries() const {
 
 LogFigures ChunkHistory::figures() const {
     LogFigures figures;
-    figures.memoryAllocated = m_pool->existing() * m_limits.chunkSize;
+    const std::size_t allocated = m_pool->existing() * m_limits.chunkSize;
     figures.memoryCap = m_limits.memoryCap;
     const std::lock_guard lock(m_mutex);
     figures.end = end();
     figures.begin = m_chunks.empty() ? 0 : std::min(m_chunks.front().first, figures.end);
-    figures.memoryInUse = m_chunks.size() * m_limits.chunkSize;
+    const std::size_t beside = (figures.end - figures.begin) * kBesidePacket;
+    figures.chunkBytes = m_chunks.size() * m_limits.chunkSize;
+    figures.memoryInUse = figures.chunkBytes + beside;
+    figures.memoryAllocated = allocated + beside;
     return figures;
 }
 

@@ -80,14 +80,17 @@ private:
 /// a reader's.
 class ChunkPool : public std::enable_shared_from_this<ChunkPool> {
 public:
-    /// Makes no more than `limit` chunks, as long as readers do not hold on to old ones.
-    ChunkPool(std::size_t chunkSize, std::size_t limit) : m_chunkSize(chunkSize), m_limit(limit) {}
+    explicit ChunkPool(std::size_t chunkSize) : m_chunkSize(chunkSize) {}
+
+    /// How many may be taken before others must come back: more are neither made ready nor kept.
+    void setRoom(std::size_t chunks);
 
     /// An empty chunk, used or made ready before where there is one; comes back by itself with its last
     /// owner.
     [[nodiscard]] std::shared_ptr<Chunk> take();
 
-    /// What the thread does: has a spare chunk ready whenever the last one was taken. Returns after close().
+    /// What the thread does: has a spare chunk ready whenever the last one was taken, as long as there is
+    /// room. Returns after close().
     void keepReady();
     void close();
 
@@ -98,25 +101,33 @@ private:
     void give(std::unique_ptr<Chunk> chunk);
 
     const std::size_t m_chunkSize;
-    const std::size_t m_limit;
     mutable std::mutex m_mutex; ///< guards all that follows
     std::condition_variable m_changed;
     std::vector<std::unique_ptr<Chunk>> m_spare;
+    std::size_t m_room = 0;
     std::size_t m_existing = 0;
     bool m_isMakingSpare = false;
     bool m_isClosed = false;
 };
 
+/// What is kept of each packet beside its chunk as long as the log has it, at most: its place in the
+/// StreamIndex, its model::PacketDigest, and its number twice where a display filter finds it. The cap of the
+/// log is for these too.
+inline constexpr std::size_t kBesidePacket = 56;
+
 struct LogLimits {
-    std::size_t memoryCap = std::size_t{512} << 20; ///< bytes; at least two chunks are kept whatever it says
-    std::size_t chunkSize = std::size_t{8} << 20;   ///< bytes; at least 256 KiB
+    /// Bytes of chunks and of what is kept beside them. Two chunks are kept whatever it says, with half a
+    /// chunk beside each.
+    std::size_t memoryCap = std::size_t{512} << 20;
+    std::size_t chunkSize = std::size_t{8} << 20; ///< bytes; at least 256 KiB
 };
 
 /// What the log holds, in figures for display.
 struct LogFigures {
     std::uint64_t begin = 0;     ///< number of the oldest packet kept: as many have been dropped from history
     std::uint64_t end = 0;       ///< one past the newest packet
-    std::size_t memoryInUse = 0; ///< bytes of the chunks in the log
+    std::size_t chunkBytes = 0;  ///< of the chunks in the log
+    std::size_t memoryInUse = 0; ///< the same and kBesidePacket for each packet
     std::size_t memoryAllocated = 0; ///< the same and what readers still hold and what is spare
     std::size_t memoryCap = 0;
 };
@@ -133,8 +144,12 @@ public:
     explicit ChunkHistory(LogLimits limits);
     ~ChunkHistory();
 
+    struct Begun {
+        std::shared_ptr<Chunk> chunk;
+        std::uint64_t end; ///< it may take the packets below this number
+    };
     /// Writer: the next chunk, which begins at packet `first`; the oldest ones go where the cap demands it.
-    std::shared_ptr<Chunk> beginChunk(std::uint64_t first);
+    Begun beginChunk(std::uint64_t first);
 
     /// Writer: readers now see all packets below `end`.
     void publish(std::uint64_t end) { m_end.store(end, std::memory_order_release); }
@@ -155,8 +170,10 @@ private:
         std::shared_ptr<Chunk> chunk;
     };
 
+    /// What the cap leaves beside so many chunks and what is kept beside so many packets.
+    [[nodiscard]] std::size_t left(std::size_t chunks, std::uint64_t packets) const;
+
     const LogLimits m_limits;
-    const std::size_t m_chunkLimit;
     const std::shared_ptr<ChunkPool> m_pool;
     mutable std::mutex m_mutex;
     std::deque<Held> m_chunks;

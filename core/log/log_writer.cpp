@@ -49,7 +49,7 @@ std::span<const LogWriter::Lane> LogWriter::lanes() {
         // The chunk has no block left: this lane takes over what the last one has.
         m_lanes[i].bytes = m_lanes[--m_laneCount].bytes;
     }
-    if (m_laneCount < kFewestLanes || m_chunk->room() < m_laneCount * sizeof(Record)) {
+    if (m_laneCount < kFewestLanes || !hasPlaceFor(m_laneCount)) {
         beginChunk();
         openLanes();
     }
@@ -58,7 +58,7 @@ std::span<const LogWriter::Lane> LogWriter::lanes() {
 
 void LogWriter::commit(std::size_t lane, std::size_t size, const Arrival& arrival) {
     const std::span<std::byte> bytes = m_lanes[lane].bytes;
-    if (size <= bytes.size() && m_chunk == m_laneChunk && m_chunk->room() >= sizeof(Record)) {
+    if (size <= bytes.size() && m_chunk == m_laneChunk && hasPlaceFor(1)) {
         addRecord(bytes.data(), size, arrival);
         m_lanes[lane].bytes = bytes.subspan(std::min(aligned(size), bytes.size()));
         prefetchForWriting(m_lanes[lane].bytes.data(),
@@ -108,7 +108,7 @@ bool LogWriter::refill(std::size_t lane) {
 }
 
 std::byte* LogWriter::place(std::size_t size) {
-    if (!m_chunk || m_chunk->room() < aligned(size) + sizeof(Record)) {
+    if (!m_chunk || m_chunk->room() < aligned(size) + sizeof(Record) || m_next == m_chunkEnd) {
         beginChunk();
     }
     return m_chunk->take(aligned(size));
@@ -126,7 +126,9 @@ void LogWriter::addRecord(const std::byte* data, std::size_t size, const Arrival
 }
 
 void LogWriter::beginChunk() {
-    m_chunk = m_history.beginChunk(m_next);
+    ChunkHistory::Begun begun = m_history.beginChunk(m_next);
+    m_chunk = std::move(begun.chunk);
+    m_chunkEnd = begun.end;
     ++m_chunkCount;
     m_heldSenders.clear();
 }

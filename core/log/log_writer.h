@@ -57,6 +57,10 @@ public:
 private:
     void openLanes();
     bool refill(std::size_t lane);
+    /// Whether so many more records have their place in the chunk.
+    [[nodiscard]] bool hasPlaceFor(std::size_t records) const {
+        return m_chunk->room() >= records * sizeof(Record) && m_next + records <= m_chunkEnd;
+    }
     std::byte* place(std::size_t size);
     void addRecord(const std::byte* data, std::size_t size, const Arrival& arrival);
     void beginChunk();
@@ -67,6 +71,7 @@ private:
     const SenderTable& m_senders;
     const std::size_t m_blockSize;
     std::shared_ptr<Chunk> m_chunk;
+    std::uint64_t m_chunkEnd = 0; ///< it takes the packets below this number
     std::shared_ptr<Chunk>
         m_laneChunk; ///< where the lanes lie: differs from m_chunk only while a batch is cut in two
     std::uint64_t m_next = 0;

@@ -63,6 +63,15 @@ void StreamIndex::dropBefore(std::uint64_t begin) {
     }
 }
 
+std::size_t StreamIndex::memoryBytes() const {
+    constexpr std::size_t kOfStream = 640; // with the first block of its entries
+    std::size_t entries = 0;
+    for (const auto& [key, stream] : m_streams) {
+        entries += stream.size();
+    }
+    return m_streams.size() * kOfStream + entries * sizeof(StreamEntry);
+}
+
 const StreamEntries* StreamIndex::find(const StreamKey& key) const {
     const auto found = m_streams.find(key);
     return found == m_streams.end() ? nullptr : &found->second;

@@ -81,6 +81,8 @@ public:
     /// Forgets entries of packets below `begin`, and streams of which nothing is left.
     void dropBefore(std::uint64_t begin);
 
+    [[nodiscard]] std::size_t memoryBytes() const;
+
     /// Null where there is no such stream. Valid until the next add() or dropBefore().
     [[nodiscard]] const StreamEntries* find(const StreamKey& key) const;
 

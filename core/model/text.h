@@ -28,6 +28,21 @@ inline std::string quoted(std::string_view name) {
     return "\"" + std::string(name) + "\"";
 }
 
+/// At most so many bytes of a text, with "…" where something is cut off. No character is cut in two.
+inline std::string clippedText(std::string text, std::size_t most) {
+    constexpr std::string_view kEllipsis = "…";
+    if (text.size() > most) {
+        std::size_t end = most - kEllipsis.size();
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0U) == 0x80U) {
+            --end;
+        }
+        text.resize(end);
+        text += kEllipsis;
+        text.shrink_to_fit();
+    }
+    return text;
+}
+
 /// "1 sample was", "3 samples were".
 inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
     return std::to_string(count) + ' ' + std::string(count == 1 ? one : many);

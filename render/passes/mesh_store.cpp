@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "render/passes/mesh_store.h"
 
+#include <algorithm>
 #include <cstddef>
 
 #include <epoxy/gl.h>
@@ -84,8 +85,10 @@ MeshId MeshStore::add(const SkinnedMesh& mesh, std::span<const glm::vec3> templa
     if (!gpu) {
         return MeshId::None;
     }
-    m_meshes.push_back(std::move(gpu));
-    return static_cast<MeshId>(m_meshes.size());
+    auto place = std::ranges::find_if(m_meshes, [](const auto& free) { return !free; });
+    place = place == m_meshes.end() ? m_meshes.emplace(place) : place;
+    *place = std::move(gpu);
+    return static_cast<MeshId>(place - m_meshes.begin() + 1);
 }
 
 void MeshStore::remove(MeshId id) {

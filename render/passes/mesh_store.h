@@ -34,7 +34,7 @@ public:
     const GpuMesh* find(MeshId id) const;
 
 private:
-    /// MeshId n is at n − 1.
+    /// MeshId n is at n − 1; a place that is free is used again.
     std::vector<std::optional<GpuMesh>> m_meshes;
 };
 

@@ -50,6 +50,11 @@ public:
 
     /// Pictures shown since the start.
     void setPicturesShown(std::uint64_t pictures) { m_pictures = pictures; }
+    /// What the bodies in the viewport take, and can become.
+    void setMeshMemory(std::size_t bytes, std::size_t most) {
+        m_meshBytes = bytes;
+        m_mostMeshBytes = most;
+    }
 
     /// Stops the display at the newest packet, or follows the stream again. Receiving is not touched.
     void setPaused(bool isPaused);
@@ -87,7 +92,12 @@ public:
     void showDock(const QString& dock) override { emit dockRequested(dock); }
 
     // ProgramView
-    [[nodiscard]] MonitorHealth monitorHealth() const override { return m_meter.health(); }
+    [[nodiscard]] MonitorHealth monitorHealth() const override {
+        MonitorHealth health = m_meter.health();
+        health.meshBytes = m_meshBytes;
+        health.mostMeshBytes = m_mostMeshBytes;
+        return health;
+    }
     [[nodiscard]] ReceivingState receivingState() const override { return m_receiving.state(); }
 
 signals:
@@ -131,6 +141,8 @@ private:
     QTimer m_timer;
     HealthMeter m_meter;
     std::uint64_t m_pictures = 0;
+    std::size_t m_meshBytes = 0;
+    std::size_t m_mostMeshBytes = 0;
     log::Stamp m_tableTick{};
     log::Stamp m_retry{};
     bool m_isChanged = true;

@@ -114,15 +114,37 @@ PropertyValue accounting(const Source& from) {
                "receiving does not wait for it")};
 }
 
+/// What the session keeps, and the viewport.
+model::MemoryFigures memoryFigures(const Source& from) {
+    model::MemoryFigures figures = from.view.memory();
+    const MonitorHealth health = from.program.monitorHealth();
+    figures.parts.push_back({"meshes", "bodies drawn", health.meshBytes, health.mostMeshBytes});
+    return figures;
+}
+
 PropertyValue memory(const Source& from) {
     const MonitorHealth health = from.program.monitorHealth();
-    const log::LogFigures figures = from.view.figures();
+    const model::MemoryFigures figures = memoryFigures(from);
     const QString own = health.memoryBytes ? megabytes(*health.memoryBytes) : dash();
-    return {tr("%1 · history %2 of %3")
-                .arg(own, grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)),
-            Health::Unknown,
-            tr("Memory of this program, and of it that of the packets kept with its limit; at the limit the "
-               "oldest go")};
+    return {tr("%1 · kept %2 of %3").arg(own, grouped(figures.sum() >> 20), megabytes(figures.budget())),
+            figures.sum() <= figures.budget() ? Health::Unknown : Health::Warning,
+            tr("Memory of this program, and of it what is kept of what came with the limit of that, whatever "
+               "comes; at the limit the oldest go")};
+}
+
+PropertyValue memoryParts(const Source& from) {
+    QStringList parts; // those that are little only take room
+    QStringList all;
+    for (const model::MemoryFigures::Part& part : memoryFigures(from).parts) {
+        const QString text = tr(part.name) + QLatin1Char(' ') + megabytes(part.bytes);
+        all += part.most == 0 ? text : tr("%1 of %2").arg(text, megabytes(part.most));
+        if (part.bytes >> 20 != 0) {
+            parts += tr(part.name) + QLatin1Char(' ') + grouped(part.bytes >> 20);
+        }
+    }
+    return {parts.isEmpty() ? tr("below 1 MB") : parts.join(QStringLiteral(" · ")), Health::Unknown,
+            tr("What is kept, by its parts, in MB. Packets and their index share one limit.\n%1")
+                .arg(all.join(QLatin1Char('\n')))};
 }
 
 PropertyValue buffer(const Source& from) {
@@ -151,7 +173,8 @@ PropertyValue delay(const Source& from) {
 PropertyValue history(const Source& from) {
     const log::LogFigures figures = from.view.figures();
     return {tr("%1 of %2").arg(grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)),
-            Health::Unknown, tr("Memory of the packets kept, and its limit; at the limit the oldest go")};
+            Health::Unknown,
+            tr("Memory of the packets kept and of their index, and its limit; at the limit the oldest go")};
 }
 
 PropertyValue packets(const Source& from) {
@@ -204,6 +227,7 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
             row(tr("Processor"), processor),
             row(tr("Accounting"), accounting),
             row(tr("Memory"), memory),
+            row(tr("Memory by part"), memoryParts),
             row(tr("Receive buffer"), buffer),
             row(tr("Longest delay"), delay),
             row(tr("History"), history),

@@ -7,7 +7,6 @@
 #include "app/gui/viewport/captions.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
-#include "render/mesh/null_pose_fit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -119,32 +118,18 @@ float dimFor(double ageSeconds) {
     return share < 0 ? 0.0F : kGreatestDim * static_cast<float>(0.4 + 0.6 * std::min(share, 1.0));
 }
 
-std::shared_ptr<const FigureMesh> SceneBuilder::fitted(const render::NullPose& performer) {
-    if (m_mannequin == nullptr) {
-        m_mannequin = std::make_unique<const render::SkinnedMesh>(render::loadMannequin(m_detail));
-    }
-    auto figure = std::make_shared<FigureMesh>();
-    figure->mesh = render::fitToNullPose(*m_mannequin, performer, figure->origins);
-    figure->templatePositions = m_mannequin->positions;
-    figure->capsules = render::segmentCapsules(figure->mesh);
-    return figure;
-}
-
 std::shared_ptr<const FigureMesh> SceneBuilder::meshOf(const model::CharacterKey& key) {
     render::NullPose performer{};
     const model::BodyOrigins& origins = m_session.bodyOrigins(key);
     static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
     std::ranges::transform(origins.places, performer.begin(),
                            [](const Eigen::Vector3d& origin) { return vectorOf(origin); });
-    Fitted& entry = m_meshes[key];
-    if (entry.mesh == nullptr || entry.performer != performer) {
-        entry = {performer, fitted(performer)};
-    }
-    return entry.mesh;
+    return m_meshes.of(performer);
 }
 
 void SceneBuilder::build(AxesMode axes, SceneFrame& frame) {
     frame.colours = themedSceneColours();
+    m_meshes.beginPicture();
     const model::Selection& selection = m_session.selection();
     for (const model::Character* shown : m_session.currentCharacters()) {
         const model::Character& character = *shown;

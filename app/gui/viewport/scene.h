@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/viewport/body_meshes.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/keys.h"
 #include "core/model/session/session_view.h"
-#include "render/mesh/mannequin.h"
-#include "render/picking.h"
 #include "render/renderer.h"
 
 #include <array>
@@ -16,14 +15,6 @@
 #include <vector>
 
 namespace posewire::gui {
-
-/// The mannequin fitted to one performer; never changed once made, so that threads may share it.
-struct FigureMesh {
-    render::SkinnedMesh mesh;
-    std::vector<glm::vec3> templatePositions; ///< of each vertex on the mannequin before the fit
-    render::NullPose origins{};               ///< what palettes of this mesh are made with
-    render::SegmentCapsules capsules{};
-};
 
 /// One character in a picture.
 struct Figure {
@@ -73,21 +64,16 @@ enum class AxesMode : std::uint8_t { All, Selected, None };
 /// Session to picture: the newest pose of each character at the cursor.
 class SceneBuilder {
 public:
-    SceneBuilder(model::SessionView& session, render::Detail detail) : m_session(session), m_detail(detail) {}
+    SceneBuilder(model::SessionView& session, render::Detail detail) : m_session(session), m_meshes(detail) {}
 
     /// Fills figures, axes, lines and colours; camera and size are the caller's. Hidden characters
     /// are left out.
     void build(AxesMode axes, SceneFrame& frame);
+    /// Of the bodies in the scenes.
+    [[nodiscard]] const BodyMeshes& meshes() const { return m_meshes; }
 
 private:
-    struct Fitted {
-        render::NullPose performer{};
-        std::shared_ptr<const FigureMesh> mesh;
-    };
-
-    /// The fitted mesh of a character, made once for each null pose it sends.
     [[nodiscard]] std::shared_ptr<const FigureMesh> meshOf(const model::CharacterKey& key);
-    [[nodiscard]] std::shared_ptr<const FigureMesh> fitted(const render::NullPose& performer);
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.
     void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const;
@@ -97,9 +83,7 @@ private:
     void addFingers(const model::CharacterPose& pose, const glm::vec3& colour, SceneFrame& frame) const;
 
     model::SessionView& m_session;
-    render::Detail m_detail;
-    std::unique_ptr<const render::SkinnedMesh> m_mannequin; ///< loaded for the first figure
-    std::map<model::CharacterKey, Fitted> m_meshes;
+    BodyMeshes m_meshes;
 };
 
 } // namespace posewire::gui

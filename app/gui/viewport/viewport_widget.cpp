@@ -92,7 +92,7 @@ void ViewportWidget::drawNext() {
     m_followed = m_session.now();
     frame->camera = m_motion.camera();
     frame->built = m_session.now();
-    m_isOutdated = false;
+    m_isOutdated = m_builder->meshes().isBehind();
     m_drawing = frame;
     m_presenter->present(std::move(frame));
 }

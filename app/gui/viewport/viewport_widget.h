@@ -48,6 +48,10 @@ public:
     }
     /// Since the start.
     [[nodiscard]] std::uint64_t picturesShown() const { return m_picturesShown; }
+    /// Null before start().
+    [[nodiscard]] const BodyMeshes* meshes() const {
+        return m_builder == nullptr ? nullptr : &m_builder->meshes();
+    }
     /// Why there is no picture; empty where there is one.
     [[nodiscard]] QString failure() const {
         return m_presenter == nullptr ? QString() : m_presenter->failure();

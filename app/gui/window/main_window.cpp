@@ -230,6 +230,9 @@ void MainWindow::showReceiving() {
         m_inputs->refresh();
     }
     m_driver.setPicturesShown(m_viewport->picturesShown());
+    if (const BodyMeshes* meshes = m_viewport->meshes()) {
+        m_driver.setMeshMemory(meshes->memoryBytes(), meshes->mostBytes());
+    }
 }
 
 void MainWindow::showOpening() {

@@ -13,13 +13,18 @@ namespace {
 
 constexpr std::size_t kMostDrops = 4'096;
 constexpr std::size_t kMostDamages = 1'024;
-// Datagrams of a stream after which nothing of it waits to be judged any longer.
-constexpr std::uint64_t kMostWaiting = SampleWindow::kKept / 4;
+// Where stamps stand still nothing becomes due.
+constexpr std::size_t kMostPartials = 65'536;
 constexpr std::size_t kMostSilences = 64;
 // A sender with more streams than these is no performance.
 constexpr std::size_t kMostStreams = 64;
 // Late arrivals are looked for among this many gaps, or incomplete samples.
 constexpr std::size_t kMostBack = 1'024;
+
+// Datagrams of a stream after which nothing of it waits to be judged any longer.
+std::uint64_t mostWaiting(const Stream& stream) {
+    return stream.accounting.depth().samples / 4;
+}
 
 bool isBetween(std::uint32_t sample, const Gap& gap) {
     return distance(sample, gap.fromSample) > 0 && distance(gap.toSample, sample) > 0;
@@ -101,7 +106,8 @@ std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uin
         m_due.pop_front();
     }
     for (; !m_partials.empty() &&
-           (m_partials.front().stream == nullptr || packet.stamp - m_partials.front().stamp >= kPatience);
+           (m_partials.front().stream == nullptr || packet.stamp - m_partials.front().stamp >= kPatience ||
+            m_partials.size() > kMostPartials);
          m_partials.pop_front(), ++m_firstPartial) {
         judge(m_partials.front(), packet.number);
     }
@@ -201,7 +207,7 @@ void Attribution::judge(Partial& partial, std::uint64_t packet) {
 
 /// A stream remembers only its newest samples: by then at the latest.
 void Attribution::expectJudgement(Stream& stream) {
-    stream.judgeAt = std::min(stream.judgeAt, stream.accounting.datagrams() + kMostWaiting);
+    stream.judgeAt = std::min(stream.judgeAt, stream.accounting.datagrams() + mostWaiting(stream));
 }
 
 /// In a flood the samples around a gap are forgotten before late arrivals have had their time.
@@ -209,8 +215,9 @@ void Attribution::judgeEarly(Stream& stream, std::uint64_t packet) {
     const std::uint64_t datagrams = stream.accounting.datagrams();
     stream.judgeAt = UINT64_MAX;
     const auto isWaiting = [&](std::uint64_t since) {
-        const bool isYoung = datagrams - since < kMostWaiting / 2;
-        stream.judgeAt = std::min(stream.judgeAt, isYoung ? since + kMostWaiting : UINT64_MAX);
+        const std::uint64_t most = mostWaiting(stream);
+        const bool isYoung = datagrams - since < most / 2;
+        stream.judgeAt = std::min(stream.judgeAt, isYoung ? since + most : UINT64_MAX);
         return isYoung;
     };
     for (Due& due : m_due) {
@@ -250,6 +257,18 @@ LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_
         return LossCause::ThisComputer;
     }
     return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
+}
+
+std::size_t Attribution::memoryBytes() const {
+    std::size_t bytes = m_gaps.size() * sizeof(Gap) + m_due.size() * sizeof(Due) +
+                        (m_partials.size() + m_judgedPartials.size()) * sizeof(Partial) +
+                        m_drops.size() * sizeof(Drop) + m_damages.size() * sizeof(Damage) +
+                        (m_judged.capacity() + m_judgedEarly.capacity()) * sizeof(Gap);
+    for (const auto& [id, sender] : m_senders) {
+        bytes += sizeof(Sender) + sender.silences.size() * sizeof(TimeRange) +
+                 sender.streams.capacity() * sizeof(const Stream*);
+    }
+    return bytes;
 }
 
 const Gap* Attribution::endedBy(std::uint64_t packet) const {

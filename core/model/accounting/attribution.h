@@ -56,6 +56,8 @@ class Attribution {
 public:
     static constexpr log::Duration kPatience = std::chrono::milliseconds(150);
     static constexpr std::size_t kMostGaps = 65'536;
+    /// What memoryBytes() can become, about.
+    static constexpr std::size_t kMostBytes = std::size_t{32} << 20;
     /// A shorter silence of a sender is no pause.
     static constexpr log::Duration kPause = std::chrono::milliseconds(250);
 
@@ -73,11 +75,14 @@ public:
     void takeSampled(log::SenderId sender, log::Stamp stamp);
     /// One that has a header and cannot be decoded.
     void takeMalformed(const log::Packet& packet, const wire::Header& header);
+    /// What waits of the stream is judged before its accounting forgets it.
+    static void expectJudgement(Stream& stream);
     /// A verdict of the stream's accounting.
     void takeVerdict(Stream& stream, const Verdict& verdict);
 
     /// The newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
+    [[nodiscard]] std::size_t memoryBytes() const;
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
     [[nodiscard]] const Gap* endedBy(std::uint64_t packet) const;
 
@@ -121,7 +126,6 @@ private:
         std::uint64_t datagrams = 0; ///< of the stream until then
     };
 
-    static void expectJudgement(Stream& stream);
     void judgeEarly(Stream& stream, std::uint64_t packet);
     void judge(Due& due, std::vector<Gap>& judged);
     void judge(Partial& partial, std::uint64_t packet);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -35,7 +36,7 @@ CountHistory::Bucket& CountHistory::bucketAt(log::Stamp stamp) {
         Bucket& first = m_buckets.emplace_back();
         first.start = roundedDown(stamp, m_width);
     } else if (stamp >= m_buckets.back().start + m_width) {
-        if (m_buckets.size() == kMostBuckets) {
+        if (m_buckets.size() >= m_most) {
             halve();
         }
         if (stamp >= m_buckets.back().start + m_width) {
@@ -67,7 +68,7 @@ void CountHistory::merge(Bucket& bucket, const Bucket& before) {
 }
 
 void CountHistory::halve() {
-    while (m_buckets.size() > kMostBuckets / 2) {
+    while (m_buckets.size() > m_most / 2) {
         m_width *= 2;
         std::size_t kept = 0;
         for (std::size_t i = 0; i < m_buckets.size(); ++i) {
@@ -80,6 +81,19 @@ void CountHistory::halve() {
             m_buckets[kept++] = bucket;
         }
         m_buckets.resize(kept);
+    }
+}
+
+void CountHistory::setMost(std::size_t buckets) {
+    m_most = buckets;
+    if (m_buckets.size() > m_most) {
+        halve();
+    }
+    if (m_buckets.capacity() > m_most) {
+        std::vector<Bucket> kept;
+        kept.reserve(m_most);
+        kept.assign(m_buckets.begin(), m_buckets.end());
+        m_buckets = std::move(kept);
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/accounting/depth.h"
 #include "core/model/accounting/sender_clock.h"
 #include "core/model/accounting/stream_counts.h"
 
@@ -16,10 +17,9 @@ namespace posewire::model {
 [[nodiscard]] log::Stamp roundedDown(log::Stamp stamp, log::Duration width);
 
 /// Counts of a stream so far at the ends of buckets of time, so that those of any range are the difference of
-/// two. Bounded: buckets begin with 0.1 s and double their width whenever there are too many.
+/// two. Bounded: buckets begin with 0.1 s and double their width whenever there are more than there may be.
 class CountHistory {
 public:
-    static constexpr std::size_t kMostBuckets = 2048;
     static constexpr log::Duration kFirstWidth = std::chrono::milliseconds(100);
 
     /// What changes at one moment, or has come so far. Modulo 2^32, so that differences are right; one that
@@ -60,6 +60,14 @@ public:
     [[nodiscard]] double jitterMsAt(log::Stamp to) const;
     [[nodiscard]] log::Duration width() const { return m_width; }
 
+    /// How many buckets there may be; at least two.
+    void setMost(std::size_t buckets);
+    [[nodiscard]] std::size_t memoryBytes() const { return m_buckets.capacity() * sizeof(Bucket); }
+    /// What memoryBytes() can become.
+    [[nodiscard]] static constexpr std::size_t mostBytes(std::size_t buckets) {
+        return buckets * sizeof(Bucket);
+    }
+
 private:
     struct Bucket {
         log::Stamp start{};
@@ -88,6 +96,7 @@ private:
     [[nodiscard]] std::size_t firstFrom(log::Stamp stamp) const;
 
     std::vector<Bucket> m_buckets;
+    std::size_t m_most = AccountingDepth().buckets;
     log::Duration m_width = kFirstWidth;
 };
 

@@ -175,6 +175,16 @@ std::vector<const Event*> Events::currentAt(log::Stamp stamp) const {
     return events;
 }
 
+std::size_t Events::memoryBytes() const {
+    constexpr std::size_t kNode = 4 * sizeof(void*);
+    std::size_t bytes =
+        m_events.size() * sizeof(Event) + m_current.size() * (sizeof(*m_current.begin()) + kNode);
+    for (const Event& event : m_events) {
+        bytes += event.detail.capacity();
+    }
+    return bytes;
+}
+
 const Event* Events::find(std::uint64_t number) const {
     const std::size_t index = indexOf(number);
     return index < m_events.size() && m_events[index].number == number ? &m_events[index] : nullptr;
@@ -190,8 +200,9 @@ std::optional<std::size_t> Events::findCurrent(const Event& like) const {
     return found == m_current.end() ? std::nullopt : std::optional(indexOf(found->second));
 }
 
-void Events::report(const Event& event) {
+void Events::report(Event event) {
     ++m_version;
+    event.detail = clippedText(std::move(event.detail), kMostDetailBytes);
     if (const auto index = findCurrent(event)) {
         Event& known = m_events[*index];
         known.lastStamp = std::max(known.lastStamp, event.lastStamp);
@@ -199,12 +210,12 @@ void Events::report(const Event& event) {
         known.count += event.count;
         known.samples += event.samples;
         known.value = std::max(known.value, event.value);
-        known.detail = event.detail;
+        known.detail = std::move(event.detail);
         return;
     }
-    m_events.push_back(event);
-    m_events.back().number = m_next;
     m_current.emplace(episodeOf(event), m_next);
+    m_events.push_back(std::move(event));
+    m_events.back().number = m_next;
     ++m_next;
     forget();
 }

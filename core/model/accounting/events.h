@@ -91,10 +91,11 @@ struct Condition {
     std::optional<std::uint64_t> event{};
 };
 
-/// The events of a session. Bounded: the oldest that have ended go first.
+/// The events of a session. Bounded: the oldest that have ended go first, and details are clipped.
 class Events {
 public:
     static constexpr std::size_t kMost = 10'000;
+    static constexpr std::size_t kMostDetailBytes = 1'024;
     /// What happens again within this time is of the same episode.
     static constexpr log::Duration kQuiet = std::chrono::seconds(5);
 
@@ -109,12 +110,13 @@ public:
     [[nodiscard]] std::vector<const Event*> currentOf(log::SenderId sender) const;
     /// Those that lasted at a time in the past, in the same order, with all that is known of them now.
     [[nodiscard]] std::vector<const Event*> currentAt(log::Stamp stamp) const;
+    [[nodiscard]] std::size_t memoryBytes() const;
     /// Null where there is none of that number, or none any more.
     [[nodiscard]] const Event* find(std::uint64_t number) const;
 
     /// Something happened: a new event, or once more in an episode that lasts (same kind, sender, character,
     /// type and cause).
-    void report(const Event& event);
+    void report(Event event);
     /// An episode is over.
     void end(const Event& like, log::Stamp stamp);
     [[nodiscard]] bool isCurrent(const Event& like) const { return findCurrent(like).has_value(); }

@@ -62,6 +62,13 @@ PacketDigest PacketDigester::add(const log::Packet& packet, const wire::Datagram
             return digest;
         }
         stream = m_streams.try_emplace(key, key.type).first;
+        stream->second.setDepth(m_depth);
+        if (const auto depth = AccountingDepth::of(m_streams.size()); depth != m_depth) {
+            m_depth = depth;
+            for (auto& [each, accounting] : m_streams) {
+                accounting.setDepth(depth);
+            }
+        }
     }
     addToStream(packet, header, stream->second, digest);
     return digest;

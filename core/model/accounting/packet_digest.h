@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/chunk_history.h"
 #include "core/log/packet.h"
 #include "core/log/stream_index.h"
 #include "core/model/accounting/stream_accounting.h"
@@ -46,6 +47,9 @@ struct PacketDigest {
     }
 };
 static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the log");
+static_assert(sizeof(log::StreamEntry) + sizeof(PacketDigest) + 2 * sizeof(std::uint64_t) <=
+                  log::kBesidePacket,
+              "the cap of the log is for what is kept of its packets");
 
 /// What a packet shows by itself. `datagram` is what it was decoded to, null where that failed.
 [[nodiscard]] PacketDigest digestOf(const log::Packet& packet, const wire::Datagram* datagram);
@@ -60,14 +64,15 @@ std::span<const Verdict> addToStream(const log::Packet& packet, const wire::Head
                                      StreamAccounting& accounting, PacketDigest& digest);
 
 /// Makes digests of packets in the order of the log, without a session. Deterministic: whoever walks over the
-/// same packets from the same beginning gets the same digests. Memory is bounded: of streams beyond
-/// StreamIndex::kStreamLimit nothing is compared.
+/// same packets from the same beginning gets the same digests. Memory is bounded as that of a session: of
+/// streams beyond StreamIndex::kStreamLimit nothing is compared.
 class PacketDigester {
 public:
     PacketDigest add(const log::Packet& packet, const wire::Datagram* datagram);
 
 private:
     std::unordered_map<log::StreamKey, StreamAccounting> m_streams;
+    AccountingDepth m_depth;
 };
 
 /// The digests of the packets that a log holds. Belongs to one thread.
@@ -84,6 +89,8 @@ public:
 
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_end; }
+
+    [[nodiscard]] std::size_t memoryBytes() const { return m_blocks.size() * sizeof(Block); }
 
     /// The number must lie within.
     [[nodiscard]] const PacketDigest& at(std::uint64_t number) const {

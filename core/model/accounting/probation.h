@@ -41,6 +41,7 @@ public:
     [[nodiscard]] const std::vector<Waiting>& waiting() const { return m_waiting; }
     void add(const Waiting& waiting);
     void drop(std::size_t decided);
+    [[nodiscard]] std::size_t memoryBytes() const { return m_waiting.capacity() * sizeof(Waiting); }
 
     /// `isEnd`: nothing follows, so what is most likely is decided.
     void decide(const SampleLedger& ledger, bool isEnd, Decision& decision) const;

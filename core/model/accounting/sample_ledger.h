@@ -35,6 +35,13 @@ public:
         return !m_before.empty() && stamp - m_restart < kStraggling;
     }
 
+    /// See SampleSequence.
+    void setMost(std::size_t samples, CountHistory* history) {
+        m_present.setMost(samples, history);
+        m_before.setMost(samples, history);
+    }
+    [[nodiscard]] std::size_t memoryBytes() const { return m_present.memoryBytes() + m_before.memoryBytes(); }
+
     /// All but datagrams and bytes.
     [[nodiscard]] StreamCounts counts() const;
     /// Adds the bursts that the history does not know yet, those that ended in a range of time.

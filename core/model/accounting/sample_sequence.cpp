@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/sample_sequence.h"
 
-#include "core/model/accounting/step_finder.h"
-
 #include <algorithm>
 
 namespace posewire::model {
@@ -114,7 +112,7 @@ Placement SampleSequence::place(const Datagram& datagram, CountHistory* history)
     if (place.index == m_window.size()) {
         return advance(datagram, history);
     }
-    if (place.index == 0 && (m_window.hasForgotten() || m_window.size() == SampleWindow::kKept)) {
+    if (place.index == 0 && (m_window.hasForgotten() || m_window.size() == m_window.most())) {
         return {};
     }
     return fill(datagram, place.index, history);
@@ -175,7 +173,7 @@ Placement SampleSequence::mark(const Datagram& datagram, std::size_t index, Coun
 Placement SampleSequence::advance(const Datagram& datagram, CountHistory* history) {
     const std::uint32_t before = m_window.back().sample;
     const std::uint32_t difference = datagram.sample - before;
-    const bool wasFull = m_window.size() == SampleWindow::kKept;
+    const bool wasFull = m_window.size() == m_window.most();
     m_window.insert(m_window.size(), datagram.sample, datagram.stamp);
     m_settled -= wasFull && m_settled > 0 ? 1 : 0;
     m_highest += difference;
@@ -191,12 +189,12 @@ Placement SampleSequence::advance(const Datagram& datagram, CountHistory* histor
     if (difference != step) {
         reconsiderStep(history);
     }
-    settle(kSettling, history);
+    settle(settling(), history);
     return placement;
 }
 
 Placement SampleSequence::fill(const Datagram& datagram, std::size_t index, CountHistory* history) {
-    const bool wasFull = m_window.size() == SampleWindow::kKept;
+    const bool wasFull = m_window.size() == m_window.most();
     index = m_window.insert(index, datagram.sample, datagram.stamp);
     m_settled -= wasFull && m_settled > 0 ? 1 : 0;
     m_settled += index < m_settled ? 1 : 0;
@@ -405,6 +403,13 @@ std::uint32_t SampleSequence::missingBetween(std::uint32_t from, std::uint32_t t
         missing += static_cast<std::uint32_t>(lostBefore(i, run));
     }
     return missing;
+}
+
+void SampleSequence::setMost(std::size_t samples, CountHistory* history) {
+    if (samples < m_window.size()) {
+        settle(samples / 2, history);
+    }
+    m_settled -= std::min(m_settled, m_window.setMost(samples));
 }
 
 void SampleSequence::clear(CountHistory* history) {

@@ -4,8 +4,10 @@
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/sample_window.h"
+#include "core/model/accounting/step_finder.h"
 #include "core/model/accounting/stream_counts.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -64,6 +66,10 @@ public:
     /// Adds the bursts that the history does not know yet, those that ended in a range of time.
     void addNewestBursts(const TimeRange& range, BurstCounts& into) const;
 
+    /// How many of the newest samples are remembered. Bursts that this forgets are added to the history.
+    void setMost(std::size_t samples, CountHistory* history);
+    [[nodiscard]] std::size_t memoryBytes() const { return m_window.memoryBytes(); }
+
     /// Nothing of it will come any more: adds the newest bursts to the history and forgets everything.
     void clear(CountHistory* history);
 
@@ -78,7 +84,9 @@ private:
     };
     static constexpr std::size_t kRuns = 8;
     /// This many entries behind the highest, losses are taken for settled.
-    static constexpr std::size_t kSettling = 512;
+    [[nodiscard]] std::size_t settling() const {
+        return std::max<std::size_t>(m_window.most() / 8, kStepHistory);
+    }
 
     [[nodiscard]] Run& newestRun() { return m_runs[m_runCount - 1]; }
     [[nodiscard]] const Run& newestRun() const { return m_runs[m_runCount - 1]; }

@@ -2,6 +2,9 @@
 #include "core/model/accounting/sample_window.h"
 
 #include <algorithm>
+#include <bit>
+#include <span>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -33,11 +36,11 @@ SampleWindow::Slot SampleWindow::find(std::uint32_t sample) const {
 }
 
 std::size_t SampleWindow::insert(std::size_t index, std::uint32_t sample, log::Stamp stamp) {
-    if (m_size == kKept) {
+    if (m_size == m_most) {
         forgetFront();
         index = index == 0 ? 0 : index - 1;
     } else if (m_size == m_entries.size()) {
-        // Nothing has been forgotten yet: the ring begins at the front.
+        unwind();
         m_entries.resize(std::max(kFirstCapacity, m_entries.size() * 2));
     }
     ++m_size;
@@ -107,6 +110,46 @@ void SampleWindow::forgetFront() {
     ++m_front;
     --m_size;
     m_hasForgotten = true;
+}
+
+/// Makes the ring begin at the front.
+void SampleWindow::unwind() {
+    const std::size_t front = m_entries.empty() ? 0 : m_front & (m_entries.size() - 1);
+    std::rotate(m_entries.begin(), m_entries.begin() + static_cast<std::ptrdiff_t>(front), m_entries.end());
+    m_front = 0;
+}
+
+std::size_t SampleWindow::setMost(std::size_t most) {
+    m_most = most;
+    const std::size_t forgotten = m_size - std::min(m_size, most);
+    for (std::size_t i = 0; i < forgotten; ++i) {
+        forgetFront();
+    }
+    if (m_entries.size() > most) {
+        compact();
+    }
+    return forgotten;
+}
+
+/// Gives back the memory of what is not in use.
+void SampleWindow::compact() {
+    unwind();
+    m_entries.resize(std::bit_ceil(std::max(kFirstCapacity, m_size)));
+    m_entries.shrink_to_fit();
+    std::vector<Mask> masks;
+    for (Entry& entry : std::span(m_entries).first(m_size)) {
+        if (entry.parts < kUnmarked) {
+            masks.push_back(m_masks[entry.parts]);
+            entry.parts = static_cast<std::uint16_t>(masks.size() - 1);
+        }
+    }
+    m_masks = std::move(masks);
+    m_spareMasks = std::vector<std::uint16_t>(); // not {}: that keeps the memory
+}
+
+std::size_t SampleWindow::memoryBytes() const {
+    return m_entries.capacity() * sizeof(Entry) + m_masks.capacity() * sizeof(Mask) +
+           m_spareMasks.capacity() * sizeof(std::uint16_t);
 }
 
 void SampleWindow::clear() {

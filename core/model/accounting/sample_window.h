@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/accounting/depth.h"
 
 #include <bitset>
 #include <cstddef>
@@ -16,10 +17,9 @@ namespace posewire::model {
 }
 
 /// The newest samples of a stream that arrived, in the order of their counters, with what arrived of each.
-/// Counters are compared modulo 2^32. Memory grows with the samples up to kKept of them.
+/// Counters are compared modulo 2^32. Memory grows with the samples up to most() of them.
 class SampleWindow {
 public:
-    static constexpr std::size_t kKept = 4096;
     static constexpr std::uint16_t kWhole = 0xffff;    ///< parts: one datagram, which has come
     static constexpr std::uint16_t kUnmarked = 0xfffe; ///< parts: nothing has come yet
 
@@ -60,6 +60,16 @@ public:
 
     void clear();
 
+    /// How many samples are kept, a power of two.
+    [[nodiscard]] std::size_t most() const { return m_most; }
+    /// Forgets the lowest ones where there are more; returns how many.
+    std::size_t setMost(std::size_t most);
+    [[nodiscard]] std::size_t memoryBytes() const;
+    /// What memoryBytes() can become.
+    [[nodiscard]] static constexpr std::size_t mostBytes(std::size_t most) {
+        return most * (sizeof(Entry) + sizeof(Mask) + sizeof(std::uint16_t));
+    }
+
 private:
     using Mask = std::bitset<128>; ///< by datagram index
 
@@ -68,8 +78,11 @@ private:
     }
     std::uint16_t takeMask();
     void forgetFront();
+    void unwind();
+    void compact();
 
     std::vector<Entry> m_entries; ///< a ring; its size is a power of two
+    std::size_t m_most = AccountingDepth().samples;
     std::size_t m_front = 0;
     std::size_t m_size = 0;
     bool m_hasForgotten = false;

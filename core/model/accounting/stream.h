@@ -46,7 +46,8 @@ struct Stream {
     /// All samples lost and incomplete by LossCause.
     [[nodiscard]] std::array<std::uint64_t, kLossCauses> lostByCause() const;
 
-    Message newest; ///< its newest datagram as it was decoded; see Ingest::newest
+    Message newest;              ///< its newest datagram as it was decoded; see Ingest::newest
+    std::size_t newestBytes = 0; ///< of the largest that was in there, as it was sent
 
     // What others remember of it.
     std::uint64_t judgeAt = UINT64_MAX; ///< Attribution: this many datagrams; what waits is judged then

@@ -56,6 +56,17 @@ std::span<const Verdict> StreamAccounting::add(const log::Packet& packet, const 
     return m_verdicts;
 }
 
+void StreamAccounting::setDepth(const AccountingDepth& depth) {
+    m_depth = depth;
+    m_ledger.setMost(depth.samples, &m_history);
+    m_history.setMost(depth.buckets);
+}
+
+std::size_t StreamAccounting::memoryBytes() const {
+    return m_ledger.memoryBytes() + m_history.memoryBytes() + m_probation.memoryBytes() +
+           m_verdicts.capacity() * sizeof(Verdict);
+}
+
 bool StreamAccounting::isAfterPassedOver(const SampleLedger::Datagram& datagram) const {
     if (m_passedOver == 0 || m_ledger.present().empty()) {
         return false;

@@ -4,6 +4,7 @@
 #include "core/log/packet.h"
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
+#include "core/model/accounting/depth.h"
 #include "core/model/accounting/probation.h"
 #include "core/model/accounting/sample_ledger.h"
 #include "core/model/accounting/sender_clock.h"
@@ -66,8 +67,8 @@ private:
 };
 
 /// Counts exactly what came and what did not come of one stream. Follows the log: figures are of what was
-/// added, never of a clock. O(1) for each datagram, no allocation once its bounded memory (at most about 0.5
-/// MB) has grown to what the stream needs.
+/// added, never of a clock. O(1) for each datagram, no allocation once its memory, which is bounded by its
+/// depth (mostBytes), has grown to what the stream needs.
 ///
 /// Whether a step changed, the counter restarted or a datagram was only late is known only after the fact:
 /// figures always reflect what is known at the time, and are right in hindsight.
@@ -83,6 +84,18 @@ public:
     /// Packets were passed over, some of this stream perhaps: a counter that is as far ahead has lost those,
     /// and did not restart.
     void passOver(std::uint64_t packets) { m_passedOver += packets; }
+
+    /// How much is remembered. What has been counted stays counted.
+    void setDepth(const AccountingDepth& depth);
+    [[nodiscard]] const AccountingDepth& depth() const { return m_depth; }
+    /// Beside itself.
+    [[nodiscard]] std::size_t memoryBytes() const;
+    /// What memoryBytes() can become: two windows of samples, a history, and what waits or was decided in
+    /// doubt. In full 0.54 MB, for 4,096 streams 84 KB each.
+    [[nodiscard]] static constexpr std::size_t mostBytes(const AccountingDepth& depth) {
+        return 2 * SampleWindow::mostBytes(depth.samples) + CountHistory::mostBytes(depth.buckets) +
+               Probation::kMost * (sizeof(Probation::Waiting) + sizeof(Verdict));
+    }
 
     /// A datagram of the stream that could not be decoded.
     void addMalformed(log::Stamp stamp);
@@ -127,6 +140,7 @@ private:
     [[nodiscard]] SampleLedger ledgerInHindsight() const;
 
     bool m_countsSamples;
+    AccountingDepth m_depth;
     std::uint64_t m_datagrams = 0;
     std::uint64_t m_bytes = 0;
     std::uint64_t m_malformed = 0;

@@ -8,8 +8,6 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <functional>
-#include <numeric>
 #include <unordered_set>
 #include <utility>
 
@@ -36,6 +34,12 @@ std::optional<std::string> hostOf(const log::SenderInfo& info) {
         return std::nullopt;
     }
     return std::string(log::nameOf(info.transport)) + ' ' + info.address.substr(0, info.address.rfind(':'));
+}
+
+/// What is large is rare, or strange: whoever looks at it decodes it again.
+bool keepsNewest(const log::Packet& packet, const wire::Header& header) {
+    return countsSamples(header.type()) && packet.bytes.size() <= Ingest::kMostNewestBytes &&
+           wire::findType(header.type()) != nullptr;
 }
 
 /// What a packet changed, tag by tag; empty where it brought nothing new.
@@ -168,9 +172,11 @@ void Ingest::observe(Observation& seen) {
     if (const auto header = wire::decodeHeader(packet.bytes); header && !packet.flags.skipped) {
         seen.header = *header;
         seen.stream = m_streams.find({packet.sender, header->character, header->type()});
-        const bool isKept = seen.stream != nullptr && wire::findType(header->type()) != nullptr;
+        if (seen.stream != nullptr) {
+            seen.stream->newest.packet = UINT64_MAX;
+        }
+        const bool isKept = seen.stream != nullptr && keepsNewest(packet, *header);
         Message& into = isKept ? seen.stream->newest : m_unplaced;
-        into.packet = UINT64_MAX;
         if (wire::decodeInto(packet.bytes, into.datagram)) {
             into.packet = packet.number;
             into.stamp = packet.stamp;
@@ -237,12 +243,14 @@ bool Ingest::takeHeader(Observation& seen) {
             return false;
         }
         seen.character->streams.push_back(seen.stream);
-        if (wire::findType(header.type()) != nullptr) {
-            std::swap(seen.stream->newest, m_unplaced);
-            seen.datagram = &seen.stream->newest.datagram;
+        if (keepsNewest(packet, header)) {
+            seen.stream->newest = m_unplaced; // no more of its memory than this one needs
         }
     }
     m_index.add(packet, header);
+    if (keepsNewest(packet, header)) {
+        seen.stream->newestBytes = std::max(seen.stream->newestBytes, packet.bytes.size());
+    }
     seen.stream->statistics.add(packet.stamp, header.datagramIndex() == 0);
     m_events->takeDatagram(packet, header, *seen.stream);
     seen.character->lastStamp = packet.stamp;
@@ -321,6 +329,7 @@ Sender* Ingest::senderOf(const log::Packet& packet) {
     }
     Sender& sender = m_senders.add(packet.sender);
     sender.info = *held;
+    sender.history.setMost(kBucketsOfSender);
     sender.held = std::move(held);
     if (const auto host = hostOf(sender.info)) {
         const auto [newest, isNew] = m_newestOfHost.try_emplace(*host, sender.id);
@@ -361,6 +370,8 @@ Stream* Ingest::streamOf(const log::StreamKey& key, const Sender& sender) {
         return nullptr;
     }
     Stream& added = m_streams.add(key);
+    added.accounting.setDepth(m_depth);
+    fitDepth();
     m_attribution->addStream(added, sender.info);
     return &added;
 }
@@ -447,6 +458,7 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
     m_streams.eraseIf([&](const Stream& stream) { return going.contains(stream.key.sender); });
     m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
     m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
+    fitDepth();
 }
 
 void Ingest::forgetHostOf(const Sender& sender) {
@@ -478,16 +490,6 @@ void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) 
 const NullPoseHistory* Ingest::nullPoses(const CharacterKey& key) const {
     const auto found = m_nullPoses.find(key);
     return found == m_nullPoses.end() ? nullptr : found->second.get();
-}
-
-std::size_t Ingest::metadataBytes() const {
-    return std::transform_reduce(m_characters.begin(), m_characters.end(), std::size_t{0}, std::plus(),
-                                 [](const Character& each) { return each.metadata.memoryBytes(); });
-}
-
-std::size_t Ingest::nullPoseBytes() const {
-    return std::transform_reduce(m_nullPoses.begin(), m_nullPoses.end(), std::size_t{0}, std::plus(),
-                                 [](const auto& each) { return each.second->memoryBytes(); });
 }
 
 const Message* Ingest::newest(const log::StreamKey& key) const {

@@ -10,6 +10,7 @@
 #include "core/model/keeping.h"
 #include "core/model/message.h"
 #include "core/model/roster.h"
+#include "core/model/session/memory_figures.h"
 #include "core/model/session/sender.h"
 
 #include <deque>
@@ -68,6 +69,11 @@ public:
     static constexpr std::size_t kMostStreams = log::StreamIndex::kStreamLimit;
     /// A sender with more streams than these is no performance.
     static constexpr std::size_t kMostStreamsOfSender = 1024;
+    /// A stream's newest datagram is kept as it was decoded where it is not larger: the largest legal one has
+    /// less than 3,000 bytes.
+    static constexpr std::size_t kMostNewestBytes = 4096;
+    /// Of the history of a sender's malformed datagrams.
+    static constexpr std::size_t kBucketsOfSender = 256;
     /// Of all characters together: what they hold goes, oldest first, where it would be more.
     static constexpr std::size_t kMetadataBudget = std::size_t{8} << 20;
     static constexpr std::size_t kNullPoseBudget = std::size_t{16} << 20;
@@ -98,7 +104,10 @@ public:
     /// What metadata and null poses of all characters take, about.
     [[nodiscard]] std::size_t metadataBytes() const;
     [[nodiscard]] std::size_t nullPoseBytes() const;
-    /// The newest datagram of a stream as it was decoded; null where it was malformed or is of no known type.
+    /// What is kept of all that came, and its limits.
+    [[nodiscard]] MemoryFigures memory() const;
+    /// The newest datagram of a stream as it was decoded; null where it was malformed, is of a type that does
+    /// not count samples, or is larger than kMostNewestBytes.
     [[nodiscard]] const Message* newest(const log::StreamKey& key) const;
 
     /// Those that made room; grows whenever rows go.
@@ -162,6 +171,8 @@ private:
     void forgetHostOf(const Sender& sender);
 
     // Making room.
+    [[nodiscard]] AccountingDepth depthNow() const;
+    void fitDepth();
     void promote(const Sender& sender);
     bool retireSilent();
     void retireOldest(const Recency& recency, std::size_t count);
@@ -185,6 +196,7 @@ private:
     std::unordered_map<std::string, log::SenderId> m_newestOfHost;
     std::map<std::pair<std::string, std::uint8_t>, std::deque<CharacterKey>> m_namesakes; ///< by host and ID
     std::size_t m_characterCount = 0; ///< that there ever were
+    AccountingDepth m_depth;
     RetiredTotals m_retired;
     std::uint64_t m_unfollowed = 0;
     Message m_unplaced; ///< what a datagram is decoded into whose stream is not known yet

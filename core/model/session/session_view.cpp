@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace posewire::model {
 namespace {
@@ -24,6 +25,13 @@ constexpr std::size_t kPartSearch = 256;
 /// What a message has in parts beyond these bytes is left out: no sender of ours needs a tenth of them, and
 /// gathering is done anew for each that asks.
 constexpr std::size_t kMostPartBytes = 256 * 1024;
+/// Decoded values, and the poses made of them, are about so much larger than what was sent.
+constexpr std::size_t kPerSentByte = 4;
+
+bool isTooLarge(const log::Packet& packet) {
+    const auto header = wire::decodeHeader(packet.bytes);
+    return header && countsSamples(header->type()) && packet.bytes.size() > SessionView::kMostMessageBytes;
+}
 
 } // namespace
 
@@ -46,6 +54,8 @@ struct SessionView::Decoded {
     std::unordered_map<log::StreamKey, OfStream> messages;
     std::map<CharacterKey, OfCharacter> characters;
     std::uint64_t retired = 0; ///< senders; where there are more, what is theirs goes
+    std::uint64_t end = 0;     ///< of the session when it was looked at whether there is too much
+    std::size_t bytes = 0;     ///< that were read since nothing was left
     Message part;
     Message visited;
 };
@@ -97,11 +107,21 @@ StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& ran
     return sum;
 }
 
+MemoryFigures SessionView::memory() const {
+    MemoryFigures figures = m_ingest.memory();
+    const auto messages = std::ranges::find(figures.parts, "messages", &MemoryFigures::Part::key);
+    messages->bytes += kPerSentByte * m_decoded->bytes;
+    return figures;
+}
+
 SessionView::Decoded& SessionView::decoded() const {
-    if (m_decoded->retired != retired().senders) {
-        m_decoded->retired = retired().senders;
+    const bool hasFollowed = std::exchange(m_decoded->end, end()) != end();
+    const bool hasRetired = std::exchange(m_decoded->retired, retired().senders) != retired().senders;
+    const bool isMuch = hasFollowed && kPerSentByte * m_decoded->bytes > kMostDecodedBytes / 4;
+    if (hasRetired || isMuch) {
         m_decoded->messages.clear();
         m_decoded->characters.clear();
+        m_decoded->bytes = 0;
     }
     return *m_decoded;
 }
@@ -272,12 +292,13 @@ std::size_t SessionView::visibleCount(const log::StreamEntries& entries) const {
 
 bool SessionView::readWhole(const log::StreamEntry& entry, Message& message) const {
     const auto packet = this->packet(entry.packet);
-    if (!packet || !wire::decodeInto(packet->bytes, message.datagram)) {
+    if (!packet || isTooLarge(*packet) || !wire::decodeInto(packet->bytes, message.datagram)) {
         return false;
     }
     message.stamp = packet->stamp;
     message.packet = entry.packet;
     message.sender = packet->sender;
+    m_decoded->bytes += &message == &m_decoded->visited ? 0 : packet->bytes.size();
     return true;
 }
 
@@ -305,8 +326,10 @@ bool SessionView::readMessage(const log::StreamEntries& entries, std::size_t cou
         if (present != last.datagram + std::size_t{1} || !readWhole(entries[places[0] - 1], message)) {
             continue;
         }
+        const bool isSampled = countsSamples(message.datagram.header.type());
+        const std::size_t most = isSampled ? kMostMessageBytes : kMostPartBytes;
         std::size_t bytes = 0;
-        for (std::size_t part = 1; part <= last.datagram && bytes <= kMostPartBytes; ++part) {
+        for (std::size_t part = 1; part <= last.datagram && bytes <= most; ++part) {
             const auto packet = this->packet(entries[places[part] - 1].packet);
             bytes += packet ? packet->bytes.size() : 0;
             if (readWhole(entries[places[part] - 1], m_decoded->part)) {

@@ -28,6 +28,13 @@ struct Thresholds;
 /// include who look into them.
 class SessionView {
 public:
+    /// Messages of types that count samples which are larger, all parts together, are not read: those of MVN
+    /// have less than 3,000 bytes.
+    static constexpr std::size_t kMostMessageBytes = 8192;
+    /// What was decoded for those who asked, at most, about: where it is more than a quarter of it, it goes
+    /// once the session has followed the log.
+    static constexpr std::size_t kMostDecodedBytes = std::size_t{64} << 20;
+
     SessionView(const SessionView&) = delete;
     SessionView& operator=(const SessionView&) = delete;
 
@@ -61,6 +68,8 @@ public:
     /// One for every packet from begin() to end().
     [[nodiscard]] const PacketDigests& digests() const { return m_ingest.digests(); }
 
+    /// What is kept of all that came, decoded messages included, and its limits: one place decides.
+    [[nodiscard]] MemoryFigures memory() const;
     /// What metadata and null poses of all characters take, about.
     [[nodiscard]] std::size_t metadataBytes() const { return m_ingest.metadataBytes(); }
     [[nodiscard]] std::size_t nullPoseBytes() const { return m_ingest.nullPoseBytes(); }
@@ -125,7 +134,8 @@ public:
     [[nodiscard]] const Metadata& metadata(const CharacterKey& key) const;
 
     // Messages and poses at the cursor.
-    /// The newest complete message of a stream; null where there is none or it cannot be decoded. Valid until
+    /// The newest complete message of a stream; null where there is none, it cannot be decoded or is too
+    /// large (kMostMessageBytes). Valid until
     /// the session follows the log again, or message() of the same stream.
     [[nodiscard]] const Message* message(const CharacterKey& key, std::uint8_t type) const;
     /// Reads the messages of a stream from a stamp up to the cursor, oldest first, at most the newest `most`

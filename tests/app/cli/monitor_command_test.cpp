@@ -49,6 +49,19 @@ TEST(MonitorCommand, ReportsWithTheKeysOfTheInterfaceInItsOrder) {
                             "firstSample", "lastSample"));
 }
 
+TEST(MonitorCommand, SaysWhatIsKeptByItsPartsAndTheBudget) {
+    const Json memory = reportOf(faultyRecording())["memory"];
+    EXPECT_THAT(keysOf(memory), ElementsAre("sum", "budget", "log", "index", "accounting", "messages",
+                                            "metadata", "nullPoses", "events"));
+    std::uint64_t sum = 0;
+    for (const auto& [key, bytes] : memory.items()) {
+        sum += key == "sum" || key == "budget" ? 0 : bytes.get<std::uint64_t>();
+    }
+    EXPECT_EQ(memory["sum"], sum);
+    EXPECT_LE(sum, memory["budget"].get<std::uint64_t>());
+    EXPECT_GT(memory["index"], 0);
+}
+
 TEST(MonitorCommand, CountsWhatAFileLacks) {
     const Json report = reportOf(faultyRecording());
     EXPECT_NEAR(report["durationS"], 999.0 / 240, 0.001);

@@ -12,7 +12,9 @@
 
 namespace posewire::log {
 
-inline constexpr LogLimits kSmallLog{.memoryCap = std::size_t{1} << 20, .chunkSize = std::size_t{256} << 10};
+/// Four chunks, with room for what is kept beside their packets.
+inline constexpr LogLimits kSmallLog{.memoryCap = std::size_t{1280} << 10,
+                                     .chunkSize = std::size_t{256} << 10};
 
 /// Bytes that depend on the seed in every place.
 inline std::vector<std::byte> pattern(std::size_t size, std::uint64_t seed) {

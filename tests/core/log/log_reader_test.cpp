@@ -161,7 +161,8 @@ TEST_F(LogReaderTest, GivesMemoryBackWithTheLastReader) {
     }
     append(kMoreThanFits);
     const LogFigures figures = m_log.figures();
-    EXPECT_EQ(figures.memoryInUse, kSmallLog.memoryCap);
+    EXPECT_LE(figures.memoryInUse, kSmallLog.memoryCap);
+    EXPECT_GT(figures.memoryInUse, kSmallLog.memoryCap - kSmallLog.chunkSize);
     EXPECT_LE(figures.memoryAllocated, 2 * kSmallLog.memoryCap) << "spare chunks are bounded by the cap";
 }
 
@@ -182,8 +183,8 @@ TEST(LogLimits, AreBroughtWithinReason) {
     constexpr std::size_t kib = 1024;
     constexpr std::size_t mib = 1024 * kib;
     for (const auto& [asked, kept] :
-         {Limits{{0, 0}, {512 * kib, 256 * kib}}, Limits{{mib, mib}, {2 * mib, mib}},
-          Limits{{4 * mib, mib + 5}, {4 * mib, mib}}, Limits{{3 * mib, 2 * mib}, {4 * mib, 2 * mib}},
+         {Limits{{0, 0}, {768 * kib, 256 * kib}}, Limits{{mib, mib}, {3 * mib, mib}},
+          Limits{{4 * mib, mib + 5}, {4 * mib, mib}}, Limits{{3 * mib, 2 * mib}, {6 * mib, 2 * mib}},
           Limits{{mib + 1, 256 * kib}, {mib + 1, 256 * kib}}}) {
         const ChunkHistory history(asked);
         EXPECT_EQ(history.limits().chunkSize, kept.chunkSize);

@@ -100,6 +100,23 @@ TEST_F(ComputerFactsTest, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
     EXPECT_TRUE(text("Memory").startsWith("412 MB"));
 }
 
+TEST_F(ComputerFactsTest, TellTheMemoryByItsPartsAndItsBudget) {
+    m_program.health.meshBytes = std::size_t{37} << 20;
+    m_program.health.mostMeshBytes = std::size_t{64} << 20;
+    performer::Performer performer(sending(1, {2}, 100.0));
+    m_stage.perform(performer, 0, 1000);
+    m_stage.follow();
+    const model::MemoryFigures kept = m_stage.session.memory();
+    const std::size_t budget = (kept.budget() + m_program.health.mostMeshBytes + (1U << 19)) >> 20;
+    EXPECT_TRUE(text("Memory").endsWith(QString("of %1 MB").arg(budget))) << text("Memory").toStdString();
+    EXPECT_TRUE(text("Memory by part").contains("bodies drawn 37")) << text("Memory by part").toStdString();
+    EXPECT_TRUE(text("Memory by part").startsWith("packets "));
+    EXPECT_TRUE(fact("Memory by part").toolTip.contains("bodies drawn 37 MB of 64 MB"));
+    for (const model::MemoryFigures::Part& part : kept.parts) {
+        EXPECT_TRUE(fact("Memory by part").toolTip.contains(part.name)) << part.name;
+    }
+}
+
 TEST_F(ComputerFactsTest, FollowTheStateOfReceivingAndWarnOfASmallBuffer) {
     EXPECT_EQ(text("Receive buffer"), "no UDP port");
     m_program.receiving.receiveBufferBytes = std::int64_t{4} << 20;

@@ -124,7 +124,7 @@ TEST_P(Hours, AreKeptInBucketsOfTwiceTheWidthAgainAndAgain) {
     const double doublings =
         std::log2(log::secondsOf(m_history.width()) / log::secondsOf(CountHistory::kFirstWidth));
     EXPECT_EQ(doublings, std::round(doublings));
-    EXPECT_GE(m_history.width() * static_cast<std::int64_t>(CountHistory::kMostBuckets), m_end - m_begin);
+    EXPECT_GE(m_history.width() * static_cast<std::int64_t>(AccountingDepth().buckets), m_end - m_begin);
 }
 
 INSTANTIATE_TEST_SUITE_P(SecondsApart, Hours, testing::Values(1, 4, 12));

@@ -35,7 +35,7 @@ public:
         if (!place.isThere) {
             place.index = m_window.insert(place.index, sample, log::Stamp(log::Duration(position)));
             m_samples[position];
-            if (m_samples.size() > SampleWindow::kKept) {
+            if (m_samples.size() > AccountingDepth().samples) {
                 m_samples.erase(m_samples.begin());
             }
         }
@@ -100,7 +100,7 @@ TEST_P(RandomWindows, ForgetTheLowestOnesOnceTheyAreFull) {
         model.add(position, 0, true);
         // Some of those before come late, in any order, but none that would be below the lowest.
         const std::int64_t late = position - static_cast<std::int64_t>(random() % 50);
-        const bool isFull = model.window().size() == SampleWindow::kKept;
+        const bool isFull = model.window().size() == AccountingDepth().samples;
         if (late >= 0 && (!isFull || late > model.lowest())) {
             model.add(late, 0, true);
         }
@@ -108,7 +108,7 @@ TEST_P(RandomWindows, ForgetTheLowestOnesOnceTheyAreFull) {
             return;
         }
     }
-    EXPECT_EQ(model.window().size(), SampleWindow::kKept);
+    EXPECT_EQ(model.window().size(), AccountingDepth().samples);
     EXPECT_TRUE(model.window().hasForgotten());
     model.compareAll();
 }

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/memory_figures.h"
+
+#include "core/model/accounting/attribution.h"
+#include "core/model/accounting/event_follower.h"
+#include "core/model/body/null_pose.h"
+#include "core/model/session/session_view.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numeric>
+
+namespace posewire::model {
+namespace {
+
+/// Of all streams, as many as there may be at the depth that they have then.
+constexpr std::size_t mostStreamBytes() {
+    std::size_t most = 0;
+    for (std::size_t streams = AccountingDepth::kFullStreams; streams <= Ingest::kMostStreams; streams *= 2) {
+        const std::size_t each = sizeof(Stream) + StreamAccounting::mostBytes(AccountingDepth::of(streams));
+        most = std::max(most, streams * each);
+    }
+    return most;
+}
+
+constexpr std::size_t kMostSenders = Ingest::kMostSenders + Ingest::kMostStrangers;
+constexpr std::size_t kMostAccounting =
+    mostStreamBytes() + kMostSenders * (sizeof(Sender) + CountHistory::mostBytes(Ingest::kBucketsOfSender)) +
+    Attribution::kMostBytes;
+static_assert(kMostAccounting <= std::size_t{416} << 20);
+
+/// Decoded values are not larger than twice what was sent, as long as they are items of fixed size.
+constexpr std::size_t kPerSentByte = 2;
+constexpr std::size_t kMostMessages =
+    Ingest::kMostStreams * kPerSentByte * Ingest::kMostNewestBytes + SessionView::kMostDecodedBytes;
+
+constexpr std::size_t kMostEvents = Events::kMost * (sizeof(Event) + Events::kMostDetailBytes + 128);
+
+} // namespace
+
+std::size_t MemoryFigures::sum() const {
+    return std::transform_reduce(parts.begin(), parts.end(), std::size_t{0}, std::plus(),
+                                 [](const Part& part) { return part.bytes; });
+}
+
+std::size_t MemoryFigures::budget() const {
+    return std::transform_reduce(parts.begin(), parts.end(), std::size_t{0}, std::plus(),
+                                 [](const Part& part) { return part.most; });
+}
+
+AccountingDepth Ingest::depthNow() const {
+    const AccountingDepth now = AccountingDepth::of(m_streams.size());
+    // Deeper again only where it will last.
+    const bool isDeeper = now.samples > m_depth.samples;
+    const AccountingDepth soon = AccountingDepth::of(m_streams.size() + m_streams.size() / 3);
+    return isDeeper && soon.samples <= m_depth.samples ? m_depth : now;
+}
+
+void Ingest::fitDepth() {
+    const AccountingDepth depth = depthNow();
+    if (depth == m_depth) {
+        return;
+    }
+    m_depth = depth;
+    m_streams.forEach([this](Stream& stream) {
+        stream.accounting.setDepth(m_depth);
+        Attribution::expectJudgement(stream);
+    });
+}
+
+std::size_t Ingest::metadataBytes() const {
+    return std::transform_reduce(m_characters.begin(), m_characters.end(), std::size_t{0}, std::plus(),
+                                 [](const Character& each) { return each.metadata.memoryBytes(); });
+}
+
+std::size_t Ingest::nullPoseBytes() const {
+    return std::transform_reduce(m_nullPoses.begin(), m_nullPoses.end(), std::size_t{0}, std::plus(),
+                                 [](const auto& each) { return each.second->memoryBytes(); });
+}
+
+MemoryFigures Ingest::memory() const {
+    std::size_t accounting = m_attribution->memoryBytes();
+    std::size_t messages = 0;
+    for (const Stream& stream : m_streams) {
+        accounting += sizeof(Stream) + stream.accounting.memoryBytes();
+        messages += kPerSentByte * stream.newestBytes;
+    }
+    for (const Sender& sender : m_senders) {
+        accounting += sizeof(Sender) + sender.history.memoryBytes();
+    }
+    const log::LogFigures log = m_log.figures();
+    return {{{"log", "packets", log.chunkBytes, log.memoryCap},
+             {"index", "index", m_index.memoryBytes() + m_digests.memoryBytes(), 0},
+             {"accounting", "accounting", accounting, kMostAccounting},
+             {"messages", "messages", messages, kMostMessages},
+             {"metadata", "metadata", metadataBytes(), kMetadataBudget},
+             {"nullPoses", "null poses", nullPoseBytes(), kNullPoseBudget},
+             {"events", "events", m_events->events().memoryBytes(), kMostEvents}}};
+}
+
+} // namespace posewire::model
