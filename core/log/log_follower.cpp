@@ -11,6 +11,12 @@ LogFollower::LogFollower(const PacketLog& log, std::uint64_t from) : m_reader(lo
     skipTo(m_reader.begin());
 }
 
+LogFollower LogFollower::fromOldest(const PacketLog& log, std::uint64_t from) {
+    LogFollower follower(log);
+    follower.m_next = std::max(from, follower.m_next);
+    return follower;
+}
+
 LogFollower LogFollower::fromNow(const PacketLog& log) {
     LogFollower follower(log);
     follower.m_next = follower.m_reader.end();

@@ -17,6 +17,8 @@ public:
     explicit LogFollower(const PacketLog& log);
     /// Begins with packet `from`: what the log has dropped from there on is passed over.
     LogFollower(const PacketLog& log, std::uint64_t from);
+    /// Begins with packet `from`, or the oldest one that the log still has: nothing is passed over yet.
+    [[nodiscard]] static LogFollower fromOldest(const PacketLog& log, std::uint64_t from);
     /// Begins with what comes from now on.
     [[nodiscard]] static LogFollower fromNow(const PacketLog& log);
 

@@ -18,7 +18,7 @@ constexpr std::chrono::seconds kSync{1};
 Recorder::Recorder(const PacketLog& log, ByteSink& sink, std::uint64_t from)
     : m_sink(sink),
       m_timeline(log.timeline()),
-      m_follower(log, from),
+      m_follower(LogFollower::fromOldest(log, from)),
       m_senders(log.senders()),
       m_writer(sink) {}
 
@@ -53,7 +53,8 @@ Recorder::Result Recorder::writeNew() {
             static_cast<std::uint32_t>(std::min<std::uint64_t>(drops, std::uint64_t{UINT32_MAX}));
         const SenderInfo* sender = m_senders.find(packet->sender);
         const Duration setBy = m_timeline.wallOf(packet->stamp) - asWallTime(packet->stamp);
-        if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy); !added) {
+        if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
+            !added) {
             return added;
         }
     }

@@ -206,10 +206,10 @@ private:
         }
     }
 
-    log::ManualClock m_clock{log::Stamp(std::chrono::hours(1)), log::Moment(std::chrono::hours(1))};
+    log::ManualClock m_clock{log::WallTime(std::chrono::hours(1)), log::Moment(std::chrono::hours(1))};
     log::PacketLog m_log{{.memoryCap = std::size_t{32} << 20, .chunkSize = std::size_t{1} << 20}};
     net::PacketQueue m_queue{[this] { m_queue.moveTo(m_log); }};
-    net::TcpContext m_context{m_clock, m_queue, {}};
+    net::TcpContext m_context{m_clock, m_log.timeline(), m_queue, {}};
     std::shared_ptr<net::Input> m_input = std::make_shared<net::Input>(
         net::InputId{1}, net::InputKind::TcpListener, net::Endpoint{"127.0.0.1", 9763});
     std::vector<std::unique_ptr<Line>> m_lines; ///< as the next two, in the order of connecting

@@ -175,7 +175,8 @@ QString SessionDriver::endReading() {
     const QString path = m_import->path();
     m_import.reset();
     m_receiving.receiver().flush();
-    while (m_session.followFile(m_log.timeline().now(m_clock))) { // where it was stopped: at most what is read at once
+    while (m_session.followFile(
+        m_log.timeline().now(m_clock))) { // where it was stopped: at most what is read at once
     }
     return path;
 }

@@ -228,8 +228,8 @@ QString RangeStrip::partText(double place) const {
     const model::RangePart& counted = m_overview.counted()[part];
     const double seconds = log::secondsOf(parts.width);
     return tr("%1: %2 datagrams/s, %3 samples lost\nDrag to choose a range.")
-        .arg(timeOfDay(m_view.wallOf(parts.beginOf(part))).chopped(4),
-             fixed(counted.datagrams / seconds, 0), grouped(counted.lost));
+        .arg(timeOfDay(m_view.wallOf(parts.beginOf(part))).chopped(4), fixed(counted.datagrams / seconds, 0),
+             grouped(counted.lost));
 }
 
 bool RangeStrip::event(QEvent* event) {

@@ -73,7 +73,8 @@ TEST(NullPoseSheet, CsvReadsBackToTheSameFloats) {
 
 TEST(NullPoseSheet, JsonReadsBackToTheSameFloats) {
     const model::NullPose pose = oddPose();
-    const auto object = nlohmann::json::parse(nullPoseJson({"Mira", &pose, nullptr, nullptr, log::WallTime(log::Duration(5))}));
+    const auto object = nlohmann::json::parse(
+        nullPoseJson({"Mira", &pose, nullptr, nullptr, log::WallTime(log::Duration(5))}));
     EXPECT_EQ(object["character"], "Mira");
     EXPECT_EQ(object["stampNs"], 5);
     EXPECT_EQ(object["partsExpected"], 3);

@@ -106,11 +106,11 @@ TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
     auto* stop = window->findChild<QToolButton*>("stopOpeningButton");
     EXPECT_TRUE(stop->isHidden());
     EXPECT_FALSE(action(*window, "stopOpening")->isEnabled());
-    QFile file(folder.filePath("long.bin"));
-    ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-    file.write(QByteArray(64 << 20, 'x'));
-    file.close();
-    driver.openFile(file.fileName());
+    QFile recording(folder.filePath("long.bin"));
+    ASSERT_TRUE(recording.open(QIODevice::WriteOnly));
+    recording.write(QByteArray(64 << 20, 'x'));
+    recording.close();
+    driver.openFile(recording.fileName());
     emit driver.tableTick();
     EXPECT_FALSE(stop->isHidden());
     QTest::keyClick(window.get(), Qt::Key_Escape);
