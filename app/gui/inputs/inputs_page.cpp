@@ -267,8 +267,8 @@ void InputsPage::showAllowedNote() {
                                 ? QString()
                                 : tr(" %1 datagrams of others so far.").arg(grouped(state.refusedDatagrams));
     m_allowedNote->setText(problem.isEmpty()
-                               ? tr("Hosts or nets, such as 192.168.1.0/24, for all inputs. Others are not "
-                                    "recorded, only counted. Empty for everyone.") +
+                               ? tr("Hosts or nets, such as 192.168.1.0/24, for all inputs; others are only "
+                                    "counted. Empty for everyone.") +
                                      refused
                                : healthText(Health::Error, problem));
     setTextColour(*m_allowedNote, problem.isEmpty() ? theme().dim : theme().error);

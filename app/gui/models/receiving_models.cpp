@@ -5,6 +5,7 @@
 #include "app/gui/theme/words.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace posewire::gui {
 
@@ -125,7 +126,9 @@ std::vector<InputColumn> inputColumns() {
                         return row.file.isEmpty() ? inputState(row.input) : PropertyValue{tr("opened")};
                     }),
         figureColumn(tr("Datagrams/s"), tr("Over the last second, foreign ones included"),
-                     [](const PortState& input) { return fixed(input.datagramsPerSecond, 0); }),
+                     [](const PortState& input) {
+                         return grouped(static_cast<std::uint64_t>(std::lround(input.datagramsPerSecond)));
+                     }),
         figureColumn(tr("Datagrams"), tr("Since it was opened, foreign ones included"),
                      [](const PortState& input) { return grouped(input.status.datagrams); }),
         figureColumn(tr("Dropped here"),

@@ -125,7 +125,7 @@ std::string Event::text() const {
         return "No pose for 1 s, though the source sends.";
     case EventKind::ClockSet:
         return std::string("The receiving computer's clock was set ") + (value < 0 ? "back" : "forward") +
-               " by " + fixed(std::abs(value), 3) + " s. Rates, gaps and jitter do not depend on it.";
+               " by " + fixed(std::abs(value), 3) + " s.";
     case EventKind::LossLimit:
         return limitText(*this, "Loss", "%", 2);
     case EventKind::JitterLimit:
