@@ -3,6 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/model/accounting/probation.h"
 #include "core/model/session/ingest.h"
 
 #include <algorithm>
@@ -94,19 +95,20 @@ std::optional<double> NominalRate::frameHz() const {
 
 void ClockHistory::follow(model::SessionView& view, const std::optional<model::CharacterKey>& key) {
     const auto stream = key ? clockStream(view, *key) : std::nullopt;
-    const auto* newest = stream ? view.message(*key, stream->type) : nullptr;
-    const bool wentBack = newest != nullptr && newest->stamp < lastStamp();
-    if (stream != m_stream || wentBack) {
+    const log::Stamp newest = stream ? view.newestStamp(*stream) : log::Stamp();
+    if (stream != m_stream || newest < m_lastStamp) {
         *this = {};
         m_stream = stream;
     }
-    if (newest == nullptr) {
+    if (newest == log::Stamp()) {
         return;
     }
-    const log::Stamp from = std::max(newest->stamp - kWindow, lastStamp() + log::Duration(1));
-    const std::size_t added = view.visit(*stream, from, kMostReadings, [this](const auto& message) {
-        add({message.stamp, message.datagram.header.sampleCounter, message.datagram.header.timeCode});
-    });
+    const log::Stamp from = std::max(newest - kWindow, m_lastStamp + log::Duration(1));
+    m_lastStamp = newest;
+    const std::size_t added =
+        view.visitHeaders(*stream, from, kMostReadings, [this](log::Stamp stamp, const wire::Header& header) {
+            add({stamp, header.sampleCounter, header.timeCode});
+        });
     if (added != 0) {
         m_drift = fitDrift();
     }
@@ -118,6 +120,10 @@ void ClockHistory::follow(model::SessionView& view, const std::optional<model::C
 
 void ClockHistory::add(const Reading& reading) {
     if (!m_readings.empty()) {
+        const auto ahead = static_cast<std::int32_t>(reading.sample - m_readings.back().sample);
+        if (ahead <= 0 && ahead >= -model::Probation::kMostBack) {
+            return; // out of order, or again: no evidence of the clock
+        }
         findJump(reading);
     }
     m_rate.add(reading.sample, reading.timeCode);

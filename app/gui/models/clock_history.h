@@ -73,10 +73,8 @@ public:
     };
     [[nodiscard]] const std::optional<Jump>& lastJump() const { return m_jump; }
 
-    /// Stamp of the newest sample; 0 before the first.
-    [[nodiscard]] log::Stamp lastStamp() const {
-        return m_readings.empty() ? log::Stamp() : m_readings.back().stamp;
-    }
+    /// Of the newest datagram; 0 before there is one.
+    [[nodiscard]] log::Stamp lastStamp() const { return m_lastStamp; }
 
 private:
     struct Reading {
@@ -90,6 +88,7 @@ private:
     [[nodiscard]] std::optional<Drift> fitDrift() const;
 
     std::optional<log::StreamKey> m_stream;
+    log::Stamp m_lastStamp{};
     std::deque<Reading> m_readings;
     NominalRate m_rate;
     std::optional<Jump> m_jump;

@@ -366,24 +366,54 @@ const Message* SessionView::message(const CharacterKey& key, std::uint8_t type) 
     return read.isValid ? &read.message : nullptr;
 }
 
-std::size_t SessionView::visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
-                               const std::function<void(const Message&)>& visitor) const {
+/// Hands out the first datagram of each sample; counts those of which the visitor says that they were read.
+template <class Visitor>
+std::size_t SessionView::visitFirsts(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
+                                     Visitor&& visitor) const {
     const log::StreamEntries* stream = m_ingest.index().find(key);
     const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
     if (count == 0) {
         return 0;
     }
     const auto before = stream->atOrBeforeStamp(fromStamp - log::Duration(1));
-    const std::size_t first = std::max(before ? *before + 1 : 0, count > most ? count - most : 0);
     std::size_t visited = 0;
-    for (std::size_t i = first; i < count; ++i) {
+    for (std::size_t i = std::max(before ? *before + 1 : 0, count > most ? count - most : 0); i < count;
+         ++i) {
         const log::StreamEntry& entry = (*stream)[i];
-        if (entry.isLast && entry.datagram == 0 && readWhole(entry, m_decoded->visited)) {
-            visitor(m_decoded->visited);
-            ++visited;
-        }
+        visited += entry.datagram == 0 && visitor(entry) ? 1 : 0;
     }
     return visited;
+}
+
+std::size_t SessionView::visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
+                               const std::function<void(const Message&)>& visitor) const {
+    return visitFirsts(key, fromStamp, most, [&](const log::StreamEntry& entry) {
+        const bool isRead = entry.isLast && readWhole(entry, m_decoded->visited);
+        if (isRead) {
+            visitor(m_decoded->visited);
+        }
+        return isRead;
+    });
+}
+
+std::size_t
+SessionView::visitHeaders(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
+                          const std::function<void(log::Stamp, const wire::Header&)>& visitor) const {
+    return visitFirsts(key, fromStamp, most, [&](const log::StreamEntry& entry) {
+        const auto packet = this->packet(entry.packet);
+        const auto header = packet ? wire::decodeHeader(packet->bytes) : tl::unexpected(wire::WireError{});
+        if (header) {
+            visitor(packet->stamp, *header);
+        }
+        return header.has_value();
+    });
+}
+
+log::Stamp SessionView::newestStamp(const log::StreamKey& key) const {
+    const log::StreamEntries* stream = m_ingest.index().find(key);
+    const std::size_t count = stream != nullptr ? visibleCount(*stream) : 0;
+    const auto newest = count != 0 ? packet((*stream)[count - 1].packet) : std::nullopt;
+    return newest ? newest->stamp : log::Stamp();
 }
 
 const CharacterPose* SessionView::pose(const CharacterKey& key) const {

@@ -143,6 +143,12 @@ public:
     /// many were visited.
     std::size_t visit(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
                       const std::function<void(const Message&)>& visitor) const;
+    /// The same with the headers alone, one of each sample, also of those that were sent in several
+    /// datagrams.
+    std::size_t visitHeaders(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
+                             const std::function<void(log::Stamp, const wire::Header&)>& visitor) const;
+    /// Of the newest datagram of a stream; 0 where there is none.
+    [[nodiscard]] log::Stamp newestStamp(const log::StreamKey& key) const;
     /// The newest pose, of type 02, 01 or 05: the first of these that is not more than 0.25 s older than the
     /// newest of them, so that a figure does not jump between types that are sent together.
     [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
@@ -180,6 +186,9 @@ private:
     [[nodiscard]] std::optional<log::Stamp> pausedStamp() const;
     [[nodiscard]] const ForeignText& metadataValue(const CharacterKey& key, std::string_view tag) const;
     [[nodiscard]] std::size_t visibleCount(const log::StreamEntries& entries) const;
+    template <class Visitor>
+    std::size_t visitFirsts(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
+                            Visitor&& visitor) const;
     bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
     bool readWhole(const log::StreamEntry& entry, Message& message) const;
 

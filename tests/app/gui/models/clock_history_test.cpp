@@ -72,6 +72,37 @@ TEST_F(ClockHistoryTest, TakesMissingSamplesForNoJump) {
     EXPECT_FALSE(m_clock.lastJump().has_value());
 }
 
+TEST_F(ClockHistoryTest, TakesReorderingForNoJump) {
+    const auto sendOne = [this](std::uint32_t sample, std::uint32_t place) {
+        m_stage.send(smallPose(), sample, m_firstMs + 10 * sample, Stage::kStart + place * 10ms);
+    };
+    for (std::uint32_t place = 0; place < 1200; ++place) {
+        const bool isHeldBack = place % 50 == 20;
+        const bool isLate = place % 50 == 45; // 250 ms after its turn
+        sendOne(isHeldBack ? place + 1 : place, place);
+        if (isLate) {
+            sendOne(place - 25, place);
+        }
+    }
+    follow();
+    EXPECT_FALSE(m_clock.lastJump().has_value());
+    EXPECT_EQ(m_clock.frameHz(), 100.0);
+    EXPECT_TRUE(m_clock.drift().has_value());
+}
+
+TEST_F(ClockHistoryTest, ReadsSamplesThatComeInParts) {
+    for (std::uint32_t sample = 0; sample < 201; ++sample) {
+        for (const std::uint8_t part : std::initializer_list<std::uint8_t>{0x00, 0x01, 0x82}) {
+            m_stage.send(smallPose(), sample, m_firstMs + 10 * sample,
+                         Stage::kStart + sample * 10ms + part % 0x80 * 1us, part);
+        }
+    }
+    follow();
+    EXPECT_EQ(clockText(m_clock, ClockChoice::Header), "10:00:02.000");
+    EXPECT_EQ(m_clock.frameHz(), 100.0);
+    EXPECT_FALSE(m_clock.lastJump().has_value());
+}
+
 TEST_F(ClockHistoryTest, ComparesType25WithItsOwnHeader) {
     sendPoses(0, 10);
     wire::TimeCode code;

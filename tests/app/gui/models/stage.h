@@ -92,11 +92,13 @@ struct Stage {
     }
 
     /// One message of its own; `timeCode` in ms.
-    void send(wire::Body body, std::uint32_t sample, std::uint32_t timeCode, log::Stamp stamp) {
+    void send(wire::Body body, std::uint32_t sample, std::uint32_t timeCode, log::Stamp stamp,
+              std::uint8_t datagramCounter = 0x80) {
         wire::Datagram datagram;
         datagram.body = std::move(body);
         datagram.header.sampleCounter = sample;
         datagram.header.timeCode = timeCode;
+        datagram.header.datagramCounter = datagramCounter;
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         send(datagram, stamp);
     }
