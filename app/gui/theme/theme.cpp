@@ -95,7 +95,7 @@ QMenuBar { background: @window; border: none; border-bottom: 1px solid @line; pa
 QToolBar { background: @window; border: none; padding: 0; margin: 0; spacing: 6px; }
 QStatusBar { background: @window; border-top: 1px solid @line; }
 QStatusBar::item { border: none; }
-QDockWidget { border: none; }
+QDockWidget { border: 1px solid @dim; }
 QMenuBar::item { background: transparent; padding: @menuv 9px; border-radius: 4px; }
 QMenuBar::item:selected { background: @raised; }
 QMenu { background: @raised; border: 1px solid @line; padding: 5px 0; }

@@ -19,6 +19,7 @@ public:
 
     /// Unknown is dim text without a symbol.
     void setContent(Health level, const QString& text);
+    [[nodiscard]] Health level() const { return m_level; }
     void setClickable(bool isClickable);
 
     [[nodiscard]] QSize sizeHint() const override;

@@ -101,6 +101,12 @@ DockTitle::DockTitle(QDockWidget* dock)
     connect(m_float, &QToolButton::clicked, dock, [dock] { dock->setFloating(!dock->isFloating()); });
     connect(m_close, &QToolButton::clicked, dock, &QDockWidget::close);
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
+    new EventWatch(dock, QEvent::Paint,
+                   [dock] { // afloat it has no other edge, and lies on what looks the same
+                       if (dock->isFloating()) {
+                           QPainter(dock).fillRect(dock->rect(), theme().dim);
+                       }
+                   });
     new EventWatch(this, QEvent::Enter, [this] { showButtons(true); });
     new EventWatch(this, QEvent::Leave, [this] { showButtons(false); });
     restyle();

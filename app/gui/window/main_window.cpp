@@ -69,7 +69,8 @@ void MainWindow::makeBars() {
 
     m_transport = new TransportBar(
         m_driver.session(),
-        {m_menus.action("pause"), m_menus.action("live"), m_menus.action("inputs"), m_menus.action("relay")},
+        TransportBar::Actions{m_menus.action("pause"), m_menus.action("live"), m_menus.action("inputs"),
+                              m_menus.action("connectionHelp"), m_menus.action("relay")},
         this);
     auto* bar = new QToolBar(tr("Transport"), this);
     bar->setObjectName(QStringLiteral("transportBar"));

@@ -42,6 +42,7 @@ QToolButton* framedButton(QAction* action, QWidget* parent) {
 TransportBar::TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent)
     : QWidget(parent),
       m_session(session),
+      m_actions(actions),
       m_pause(framedButton(actions.pause, this)),
       m_live(framedButton(actions.live, this)),
       m_add(framedButton(actions.inputs, this)),
@@ -131,12 +132,23 @@ void TransportBar::refresh() {
     m_detail->setText(tr("received · sample %1").arg(grouped(pose->sample)));
 }
 
+void TransportBar::addPill() {
+    auto* pill = new ColourText(ColourText::Look::Pill, this);
+    pill->setObjectName(QStringLiteral("inputPill%1").arg(m_pills.size()));
+    pill->setClickable(true);
+    connect(pill, &QAbstractButton::clicked, this, [this, pill] {
+        const bool isTrouble = pill->level() == Health::Warning || pill->level() == Health::Error;
+        (isTrouble ? m_actions.help : m_actions.inputs)->trigger();
+    });
+    m_pillLayout->addWidget(pill);
+    m_pills.push_back(pill);
+}
+
 void TransportBar::setReceiving(const ReceivingState& receiving) {
     std::size_t shown = 0;
     const auto show = [&](Health level, const QString& text, const QString& toolTip) {
         if (shown == m_pills.size()) {
-            m_pills.push_back(new ColourText(ColourText::Look::Pill, this));
-            m_pillLayout->addWidget(m_pills.back());
+            addPill();
         }
         ColourText* pill = m_pills[shown++];
         pill->setVisible(true);

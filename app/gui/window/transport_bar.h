@@ -23,12 +23,13 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `pause` stops and continues, `live` goes to the end, `inputs` is for one more input, `relay` is
-    /// for forwarding.
+    /// `pause` stops and continues, `live` goes to the end, `inputs` is for the list of inputs, `help` says
+    /// why nothing comes, `relay` is for forwarding.
     struct Actions {
         QAction* pause;
         QAction* live;
         QAction* inputs;
+        QAction* help;
         QAction* relay;
     };
     TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);
@@ -48,7 +49,10 @@ private:
     void showMode(Mode mode);
     void showRelays(const std::vector<RelayState>& relays);
 
+    void addPill();
+
     model::SessionView& m_session;
+    const Actions m_actions;
     QToolButton* m_pause;
     QToolButton* m_live;
     QToolButton* m_add;
@@ -56,7 +60,7 @@ private:
     QLabel* m_time;
     QLabel* m_detail;
     QHBoxLayout* m_pillLayout;
-    std::vector<ColourText*> m_pills;
+    std::vector<ColourText*> m_pills; ///< of the inputs; a click tells more
     Mode m_mode = Mode::Waiting;
 };
 

@@ -3,7 +3,9 @@
 
 #include "app/gui/dock_layout.h"
 #include "app/gui/panels/find_bar.h"
+#include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
+#include "app/gui/window/colour_text.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/menus.h"
@@ -16,8 +18,10 @@
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QSignalSpy>
 #include <QTemporaryDir>
 #include <QTest>
+#include <QUdpSocket>
 
 #include <gtest/gtest.h>
 
@@ -270,6 +274,39 @@ TEST_F(MainWindowTest, EntriesShowWhatElsewhereSwitchedOn) {
     EXPECT_TRUE(action(*window, "ghost")->isChecked());
     window->viewport().toggleProjection();
     EXPECT_TRUE(action(*window, "orthographic")->isChecked());
+}
+
+TEST_F(MainWindowTest, APillOfAnInputTellsMoreAboutIt) {
+    const auto window = makeWindow();
+    QUdpSocket taken;
+    ASSERT_TRUE(taken.bind(QHostAddress::LocalHost, 0, QAbstractSocket::DontShareAddress));
+    driver.receiving().addPort({"127.0.0.1", 0});
+    driver.receiving().addPort({"127.0.0.1", taken.localPort()});
+    ASSERT_TRUE(QTest::qWaitFor([&] {
+        driver.tick();
+        const auto* pill = window->findChild<ColourText*>("inputPill1");
+        return pill != nullptr && pill->level() == Health::Error;
+    }));
+    const QSignalSpy help(action(*window, "connectionHelp"), &QAction::triggered);
+    const QSignalSpy inputs(action(*window, "inputs"), &QAction::triggered);
+    window->findChild<ColourText*>("inputPill1")->click();
+    EXPECT_EQ(help.count(), 1);
+    window->findChild<ColourText*>("inputPill0")->click();
+    EXPECT_EQ(inputs.count(), 1);
+}
+
+TEST_F(MainWindowTest, AFloatingDockHasAnEdge) {
+    const auto window = makeWindow();
+    QDockWidget* floating = dock(*window, "timecode");
+    floating->show();
+    floating->setFloating(true);
+    QTest::qWait(1);
+    const QImage picture = floating->grab().toImage();
+    for (const QPoint& edge :
+         {QPoint(0, picture.height() / 2), QPoint(picture.width() - 1, picture.height() / 2),
+          QPoint(picture.width() / 2, picture.height() - 1)}) {
+        EXPECT_EQ(picture.pixelColor(edge), theme().dim) << edge.x() << ", " << edge.y();
+    }
 }
 
 TEST_F(MainWindowTest, NamesTheDocksOfALayoutThatDoNotExist) {
