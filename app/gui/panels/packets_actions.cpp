@@ -35,7 +35,7 @@ struct PacketsPanel::Actions {
 
     static constexpr ActionInfo kTable[] = {
         {"mark", kEdit, QT_TRANSLATE_NOOP("Action", "&Mark packet"), "Ctrl+M",
-         Do::call<&PacketsPanel::toggleMark>},
+         Do::call<&PacketsPanel::toggleMark>, Do::is<&PacketsPanel::areMarked>},
         {"comment", kEdit, QT_TRANSLATE_NOOP("Action", "&Comment on packet…"), "Ctrl+Alt+C",
          Do::call<&PacketsPanel::editComment>},
         lineIn(kEdit),
@@ -139,7 +139,7 @@ void PacketsPanel::showMenu(const QPoint& globalPlace) {
         menu.addAction(text, this, carryOut)->setEnabled(hasPacket);
     };
     copy->setEnabled(hasPacket);
-    add(tr("&Mark"), &PacketsPanel::toggleMark);
+    add(areMarked() ? tr("Un&mark") : tr("&Mark"), &PacketsPanel::toggleMark);
     add(tr("C&omment…"), &PacketsPanel::editComment);
     menu.addSeparator();
     add(tr("&Next of this stream"), [this] { goToSameStream(Direction::Forward); });
@@ -341,17 +341,22 @@ void PacketsPanel::copyBytes(ByteFormat format) {
                         : tr("Packets copied: %1").arg(grouped(packets.size())));
 }
 
+bool PacketsPanel::areMarked() const {
+    const auto packets = selectedPackets();
+    const auto& marks = m_view.annotations().marks;
+    return !packets.empty() &&
+           std::ranges::all_of(packets, [&](std::uint64_t number) { return marks.contains(number); });
+}
+
 void PacketsPanel::toggleMark() {
     const auto packets = selectedPackets();
     if (packets.empty()) {
         say(tr("No packet is selected."));
         return;
     }
-    const auto& marks = m_view.annotations().marks;
-    const bool areMarked =
-        std::ranges::all_of(packets, [&](std::uint64_t number) { return marks.contains(number); });
+    const bool isMarked = !areMarked();
     for (const std::uint64_t number : packets) {
-        m_commands.setMarked(number, !areMarked);
+        m_commands.setMarked(number, isMarked);
     }
     refresh();
 }

@@ -82,6 +82,8 @@ private:
     void copyRows(RowFormat format);
     void copyCell();
     void copyBytes(ByteFormat format);
+    /// Whether there are any, and all of them are marked.
+    [[nodiscard]] bool areMarked() const;
     /// Marks all of them, or none where all are marked.
     void toggleMark();
     void editComment();

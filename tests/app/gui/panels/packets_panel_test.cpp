@@ -234,8 +234,10 @@ TEST_F(PacketsPanelTest, GoesToProblemsMarksAndTheStreamsOtherPackets) {
     EXPECT_EQ(m_panel.goTo("195"), "");
     trigger("nextOfStream");
     EXPECT_EQ(selected(), 197U); // 196 is the metadata
+    EXPECT_FALSE(isOn(m_panel, "mark"));
     trigger("mark");
     EXPECT_TRUE(m_stage.session.annotations().marks.contains(197));
+    EXPECT_TRUE(isOn(m_panel, "mark"));
     trigger("previousProblem");
     EXPECT_EQ(selected(), 100U);
     trigger("nextMark");

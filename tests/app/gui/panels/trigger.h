@@ -19,4 +19,12 @@ void trigger(P& panel, std::string_view id) {
     found->run(panel);
 }
 
+/// Whether the entry of a panel is checked.
+template <class P>
+bool isOn(const P& panel, std::string_view id) {
+    const auto actions = P::actionTable();
+    const auto found = std::ranges::find(actions, id, &ActionInfo::id);
+    return found != actions.end() && found->isOn != nullptr && found->isOn(panel);
+}
+
 } // namespace posewire::gui
