@@ -89,6 +89,7 @@ void PacketSearch::run(const std::stop_token& stop) {
         if (offset) {
             m_result.packet = packet->number;
             m_result.offset = *offset;
+            m_result.size = m_request.pattern.bytes.size();
             m_result.isWrapped = m_request.isForward ? place < start : place >= start;
             break;
         }

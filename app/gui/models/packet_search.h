@@ -50,6 +50,7 @@ public:
     struct Result {
         std::optional<std::uint64_t> packet; ///< nothing: nowhere
         std::size_t offset = 0;              ///< of the first byte in the packet
+        std::size_t size = 0;                ///< how many bytes were looked for
         bool isWrapped = false;              ///< it was found beyond the end (or the beginning)
         std::uint64_t gone = 0;              ///< packets gone from the log before they were looked at
     };

@@ -335,7 +335,13 @@ void InspectorPanel::followSelection(bool isNewPacket) {
     const model::Selection& selection = m_view.selection();
     const bool isOtherSegment = selection.segment != m_followed.segment;
     const bool isOtherPacket = selection.packet != m_followed.packet && selection.packet;
+    const bool isFound = selection.found && selection.packet == selection.found->packet &&
+                         (isNewPacket || selection.found != m_followed.found);
     m_followed = selection;
+    if (isFound) {
+        showFound(*selection.found);
+        return;
+    }
     if (isOtherPacket && isNewPacket) {
         const auto& problems = m_document->problems();
         const auto first = std::ranges::find_if(problems, [](const FieldProblem& problem) {
@@ -350,6 +356,13 @@ void InspectorPanel::followSelection(bool isNewPacket) {
         m_document->segmentOf(m_fields->currentNode()) != selection.segment) {
         goTo(m_document->nodeOfSegment(selection.segment));
     }
+}
+
+/// The field that the found bytes begin in, and all of them.
+void InspectorPanel::showFound(const model::FoundBytes& found) {
+    goTo(m_document->nodeAt(found.begin));
+    m_bytes->setSelected({found.begin, found.end});
+    m_bytes->scrollTo(found.begin);
 }
 
 void InspectorPanel::hover(std::int32_t node) {

@@ -49,6 +49,7 @@ private:
     void describe(std::int32_t node);
     void describePacket();
     void describeCurrent();
+    void showFound(const model::FoundBytes& found);
     void followSelection(bool isNewPacket);
 
     void hover(std::int32_t node);

@@ -296,6 +296,10 @@ void PacketsPanel::takeFound() {
         return;
     }
     showPacket(*result->packet);
+    model::Selection selection = m_view.selection();
+    selection.found = {*result->packet, static_cast<std::uint32_t>(result->offset),
+                       static_cast<std::uint32_t>(result->offset + result->size)};
+    m_commands.select(selection);
     const QString place = tr("in packet %1, byte %2").arg(grouped(*result->packet)).arg(result->offset);
     m_find->say(result->isWrapped ? tr("%1 (wrapped around)").arg(place) : place, false);
 }

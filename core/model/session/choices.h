@@ -28,12 +28,21 @@ struct Cursor {
     std::uint64_t packet = 0; ///< paused: the newest packet that counts
 };
 
+/// Bytes of a packet that were looked for, from `begin` to before `end`.
+struct FoundBytes {
+    std::uint64_t packet = 0;
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+    friend bool operator==(const FoundBytes&, const FoundBytes&) = default;
+};
+
 /// What is selected.
 struct Selection {
     std::optional<log::SenderId> sender{};
     std::optional<CharacterKey> character{};
     int segment = -1;                      ///< position in the pose datagram, -1 for none
     std::optional<std::uint64_t> packet{}; ///< its number in the log; nothing: the newest one
+    std::optional<FoundBytes> found{};     ///< by the newest search
     friend bool operator==(const Selection&, const Selection&) = default;
 };
 

@@ -50,6 +50,28 @@ TEST_F(InspectorPanelTest, MarksTheBytesOfASegmentThatWasPickedElsewhere) {
     EXPECT_EQ(bytes().selected(), bytesOf(14));
 }
 
+TEST_F(InspectorPanelTest, ShowsTheBytesThatWereLookedFor) {
+    const auto find = [&](const model::FoundBytes& found) {
+        m_stage.commands.selectPacket(found.packet);
+        model::Selection selection = m_stage.session.selection();
+        selection.found = found;
+        m_stage.commands.select(selection);
+        refresh();
+    };
+    const std::uint32_t begin = bytesOf(4).begin + 6; // from one field into the next
+    find({0, begin, begin + 7});
+    EXPECT_EQ(bytes().selected(), (ByteRange{begin, begin + 7}));
+    refresh();
+    EXPECT_EQ(bytes().selected(), (ByteRange{begin, begin + 7}));
+    selectSegment(14);
+    EXPECT_EQ(bytes().selected(), bytesOf(14)) << "something else is of interest now";
+    find({0, 2, 4});
+    EXPECT_EQ(bytes().selected(), (ByteRange{2, 4})) << "further on in the same packet";
+    m_stage.commands.selectPacket(1);
+    refresh();
+    EXPECT_NE(bytes().selected(), (ByteRange{2, 4})) << "of another packet";
+}
+
 TEST_F(InspectorPanelTest, PickingAByteSelectsItsFieldAndSegment) {
     const std::uint32_t offset = bytesOf(4).begin + 9; // the second coordinate of the position
     bytes().scrollTo(offset);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/packets_panel.h"
 
+#include "app/gui/models/text.h"
 #include "app/gui/panels/filter_bar.h"
 #include "app/gui/panels/find_bar.h"
 #include "app/gui/panels/fitting_header.h"
@@ -327,6 +328,10 @@ TEST_F(PacketsPanelTest, FindsTextInThePackets) {
     find->setText("lindqvist");
     trigger("findNext");
     EXPECT_TRUE(QTest::qWaitFor([&] { return selected() == 100U; }));
+    const auto found = m_stage.session.selection().found;
+    ASSERT_TRUE(found.has_value());
+    const auto bytes = m_stage.session.packet(100)->bytes.subspan(found->begin, found->end - found->begin);
+    EXPECT_EQ(readable(bytes), "Lindqvist");
     find->setText("nobody");
     trigger("findNext");
     EXPECT_TRUE(QTest::qWaitFor([&] { return find->said().contains("Not found"); }));
