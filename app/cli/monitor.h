@@ -100,10 +100,9 @@ public:
     void tellRecorded(const log::RecordingFigures& recorded, bool hasFailed);
 
     /// Writes what was asked for at the end, standard output last. `status` is what else went wrong; `facts`
-    /// may name what was exceeded already. `end` of a live stream: what has been missing until then is a gap
-    /// too.
+    /// may name what was exceeded already. What has been missing until `end` is a gap too.
     [[nodiscard]] ExitStatus conclude(exporting::MonitorFacts facts, ExitStatus status,
-                                      std::optional<log::Stamp> end = std::nullopt);
+                                      std::optional<log::Stamp> end);
 
 private:
     ExitStatus writeReport(const exporting::MonitorFacts& facts);

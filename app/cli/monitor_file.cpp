@@ -53,6 +53,8 @@ public:
         m_run.show({.durationS = durationS()});
     }
 
+    /// The latest stamp.
+    [[nodiscard]] std::optional<log::Stamp> last() const { return m_last; }
     [[nodiscard]] double durationS() const { return m_last ? log::secondsOf(*m_last - *m_first) : 0.0; }
     /// Nothing more is looked at.
     [[nodiscard]] bool isDone() const { return m_isDone; }
@@ -67,7 +69,7 @@ private:
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
     std::optional<log::Stamp> m_first;
-    std::optional<log::Stamp> m_last; ///< the latest
+    std::optional<log::Stamp> m_last;
     bool m_isDone = false;
     log::Recorder::Result m_recorded;
 };
@@ -115,7 +117,7 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     }
     exporting::MonitorFacts facts;
     facts.durationS = replay.durationS();
-    return run.conclude(facts, status);
+    return run.conclude(facts, status, replay.last());
 }
 
 } // namespace posewire::cli

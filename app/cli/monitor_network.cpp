@@ -93,22 +93,28 @@ private:
     ExitStatus m_status = ExitStatus::Fine;
 };
 
-/// Says what is wrong with an input, once, and when it is well again.
+/// Says what is wrong with an input, once, and when it is well again; and which connections were turned away,
+/// when that begins and at the end.
 class InputWatch {
 public:
     InputWatch(const net::Receiver& receiver, Console& console) : m_receiver(receiver), m_console(console) {}
 
     void look() {
         for (const net::InputStatus& input : m_receiver.inputs()) {
-            std::string& known = m_problems[input.id];
-            if (known == input.problem) {
-                continue;
+            Told& told = m_told[input.id];
+            if (told.note.empty()) {
+                tellNote(input, told);
             }
-            known = input.problem;
-            const std::string place = input.endpoint.host.empty()
-                                          ? "port " + std::to_string(input.endpoint.port)
-                                          : net::textOf(input.endpoint);
-            m_console.complain(known.empty() ? place + ": all is well now" : known);
+            if (told.problem != input.problem) {
+                told.problem = input.problem;
+                m_console.complain(told.problem.empty() ? placeOf(input) + ": all is well now"
+                                                        : told.problem);
+            }
+        }
+    }
+    void end() {
+        for (const net::InputStatus& input : m_receiver.inputs()) {
+            tellNote(input, m_told[input.id]);
         }
     }
 
@@ -124,9 +130,25 @@ public:
     }
 
 private:
+    struct Told {
+        std::string problem;
+        std::string note;
+    };
+
+    static std::string placeOf(const net::InputStatus& input) {
+        return input.endpoint.host.empty() ? "port " + std::to_string(input.endpoint.port)
+                                           : net::textOf(input.endpoint);
+    }
+    void tellNote(const net::InputStatus& input, Told& told) {
+        if (told.note != input.note) {
+            told.note = input.note;
+            m_console.complain(placeOf(input) + ": " + told.note);
+        }
+    }
+
     const net::Receiver& m_receiver;
     Console& m_console;
-    std::map<net::InputId, std::string> m_problems;
+    std::map<net::InputId, Told> m_told;
 };
 
 exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) {
@@ -230,6 +252,7 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     const log::Stamp end = run.log().timeline().now(clock);
     exporting::MonitorFacts facts = factsOf(*receiver, elapsedS);
     facts.exceeded = inputs.silent();
+    inputs.end();
     receiver.reset(); // what is in the sockets still comes into the log
     run.follow(run.log().timeline().now(clock));
     return run.conclude(facts, recordingWatch.stop(), end);

@@ -134,6 +134,23 @@ TEST(MonitorCommand, SaysWhichLimitIsExceeded) {
     EXPECT_EQ(Json::parse(run.out)["exceeded"].size(), 2U);
 }
 
+TEST(MonitorCommand, AStreamThatEndsBeforeItsFileExceedsTheGap) {
+    RecordingFile file;
+    for (std::uint32_t sample = 0; sample < 480; ++sample) {
+        file.addPose(sample);
+        if (sample < 240) {
+            file.addPose(sample, 1);
+        }
+    }
+    const ProgramRun run = runProgram({"monitor", file.finish(), "--json", "--max-gap", "500"});
+    EXPECT_EQ(run.status, 1);
+    const Json exceeded = Json::parse(run.out)["exceeded"];
+    ASSERT_EQ(exceeded.size(), 1U) << run.out;
+    EXPECT_THAT(
+        exceeded[0].get<std::string>(),
+        HasSubstr("Character 1, type 02 Pose, quaternion: gap 1000.000 ms, which lasted to the end,"));
+}
+
 TEST(MonitorCommand, KeepsNoLimitWhereNothingWasReceived) {
     const ProgramRun run = runProgram({"monitor", fileWith(""), "--json", "--max-loss", "1"});
     EXPECT_EQ(run.status, 1);

@@ -70,6 +70,29 @@ TEST(MonitorTcp, SaysThatASenderIsSilentAndWhenItIsNotAnyMore) {
     EXPECT_EQ(monitor.exitCode(), 0);
 }
 
+TEST(MonitorTcp, SaysThatSilentConnectionsGaveWay) {
+    const quint16 port = freePort();
+    QProcess monitor;
+    monitor.start(POSEWIRE_CLI, {"monitor", "--json", "--tcp-listen", QString("127.0.0.1:%1").arg(port)});
+    std::vector<std::unique_ptr<QTcpSocket>> peers;
+    for (int tries = 0; peers.size() < 70 && tries < 500; ++tries) {
+        auto peer = std::make_unique<QTcpSocket>();
+        peer->connectToHost(QHostAddress::LocalHost, port);
+        if (peer->waitForConnected(1000)) {
+            peers.push_back(std::move(peer));
+        } else {
+            QThread::msleep(20);
+        }
+    }
+    ASSERT_TRUE(peers[0]->waitForDisconnected(5000));
+    QThread::msleep(500);
+    monitor.terminate(); // as Ctrl+C
+    ASSERT_TRUE(monitor.waitForFinished(10000));
+    const std::string err = monitor.readAllStandardError().toStdString();
+    EXPECT_THAT(err, HasSubstr(place(port) + ": 6 idle connections were closed to make room\n"));
+    EXPECT_LE(linesIn(err), 2U) << "when it begins and at the end";
+}
+
 /// `posewire-cli monitor` beside a sender that it can name.
 class MonitorUdp : public testing::Test {
 protected:
