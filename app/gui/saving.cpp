@@ -23,6 +23,13 @@ std::vector<std::string>& filesInUse() {
     return files;
 }
 
+/// Why a path is no place for a file; empty where it is one. Opening a pipe may take forever, and a device
+/// has no end.
+QString noFile(const QString& path) {
+    const QFileInfo info(path);
+    return info.exists() && !info.isFile() ? tr("it is a folder, a pipe or a device, not a file") : QString();
+}
+
 bool wantsToReplace(QWidget* parent, const QString& title, const QString& path) {
     MessageBox question(title, tr("%1 exists already. Replace it?").arg(QFileInfo(path).fileName()),
                         QMessageBox::Yes | QMessageBox::No, parent);
@@ -48,6 +55,9 @@ QString askWhereToSave(QWidget* parent, const QString& title, const QString& nam
 }
 
 QString saveFile(const QString& path, QByteArrayView content) {
+    if (const QString problem = noFile(path); !problem.isEmpty()) {
+        return tr("Not saved: %1: %2").arg(path, problem);
+    }
     const auto bytes = std::as_bytes(std::span(content.data(), static_cast<std::size_t>(content.size())));
     const auto written = log::writeWholeFile(QFile::encodeName(path).toStdString(), bytes,
                                              {.mayReplace = true, .inUse = filesInUse()});
@@ -73,9 +83,8 @@ void keepFromSaving(const QString& path) {
 tl::expected<QByteArray, QString> readSmallFile(const QString& path) {
     constexpr qint64 kMost = qint64{4} << 20;
     QFile file(path);
-    const QFileInfo info(path);
-    if (info.exists() && !info.isFile()) { // opening a pipe may take forever, and a device has no end
-        return tl::unexpected(tr("it is a folder, a pipe or a device, not a file"));
+    if (const QString problem = noFile(path); !problem.isEmpty()) {
+        return tl::unexpected(problem);
     }
     if (!file.open(QIODevice::ReadOnly)) {
         return tl::unexpected(file.errorString());

@@ -34,6 +34,16 @@ Reading read(const Clock& clock) {
     return best;
 }
 
+/// Nothing where it does not fit.
+std::optional<Duration> difference(Duration a, Duration b) {
+    const bool isTooMuch = b < Duration::zero() ? a > Duration::max() + b : a < Duration::min() + b;
+    return isTooMuch ? std::nullopt : std::optional(a - b);
+}
+std::optional<Duration> sum(Duration a, Duration b) {
+    const bool isTooMuch = b < Duration::zero() ? a < Duration::min() - b : a > Duration::max() - b;
+    return isTooMuch ? std::nullopt : std::optional(a + b);
+}
+
 } // namespace
 
 Duration Timeline::origin(const Clock& clock) const {
@@ -60,7 +70,8 @@ WallTime Timeline::wallOf(Stamp stamp) const {
     }
     const std::lock_guard lock(m_mutex);
     const auto next = std::ranges::upper_bound(m_byTime, stamp, {}, &ClockStep::from);
-    return asWallTime(next == m_byTime.begin() ? stamp : stamp + std::prev(next)->setBy);
+    const Duration setBy = next == m_byTime.begin() ? Duration::zero() : std::prev(next)->setBy;
+    return WallTime(sum(stamp.time_since_epoch(), setBy).value_or(stamp.time_since_epoch()));
 }
 
 Stamp Timeline::stampOf(WallTime time) const {
@@ -124,22 +135,42 @@ void ClockWatch::tell(Stamp from) {
     m_timeline.add({from, m_setBy, m_setBy - m_before});
 }
 
+/// Where the wall clock was set by `by`; nothing where that is no time near the file's first.
+std::optional<Stamp> RecordedClock::at(WallTime time, Duration by) const {
+    const auto stamp = difference(time.time_since_epoch(), by);
+    const auto since = stamp && m_first ? difference(*stamp, m_first->time_since_epoch()) : stamp;
+    const bool isNear = since && (!m_first || (*since <= kMostFromFirst && *since >= -kMostFromFirst));
+    return isNear ? std::optional(Stamp(*stamp)) : std::nullopt;
+}
+
 Stamp RecordedClock::stampOf(WallTime time, Duration setBy) {
-    const auto at = [time](Duration by) { return asStamp(time) - by; };
-    if (const Duration change = setBy - std::exchange(m_declared, setBy); change != Duration::zero()) {
-        set(at(m_setBy + change), m_setBy + change);
+    const auto change = difference(setBy, std::exchange(m_declared, setBy));
+    const auto declared = change ? sum(m_setBy, *change) : std::nullopt;
+    auto stamp = at(time, m_setBy);
+    if (change != Duration::zero()) {
+        if (const auto meant = declared ? at(time, *declared) : std::nullopt) {
+            stamp = meant;
+            set(*stamp, *declared);
+        }
         m_before.reset();
-    } else if (m_last && m_before && at(m_setBy) - *m_last > kDisorder &&
-               std::chrono::abs(at(*m_before) - *m_last) <= kDisorder) {
-        set(at(*m_before), *m_before); // and forth again
+    } else if (const auto back = m_last && m_before ? at(time, *m_before) : std::nullopt;
+               back && std::chrono::abs(*back - *m_last) <= kDisorder &&
+               (!stamp || *stamp - *m_last > kDisorder)) {
+        stamp = back; // and forth again
+        set(*stamp, *m_before);
         m_before.reset();
-    } else if (m_last && *m_last - at(m_setBy) > kDisorder) {
-        m_before = m_setBy;
-        set(*m_last, m_setBy - (*m_last - at(m_setBy)));
     }
-    const Stamp stamp = at(m_setBy);
-    m_last = std::max(m_last.value_or(stamp), stamp);
-    return stamp;
+    if (m_last && (!stamp || *m_last - *stamp > kDisorder || *stamp - *m_last > kLongestPause)) {
+        stamp = m_last;
+        if (const auto by = difference(time.time_since_epoch(), m_last->time_since_epoch())) {
+            m_before = m_setBy;
+            set(*stamp, *by);
+        }
+    }
+    const Stamp result = stamp.value_or(asStamp(time));
+    m_first = m_first.value_or(result);
+    m_last = std::max(m_last.value_or(result), result);
+    return result;
 }
 
 void RecordedClock::end() {
@@ -149,7 +180,7 @@ void RecordedClock::end() {
 }
 
 void RecordedClock::set(Stamp from, Duration setBy) {
-    m_timeline->add({from, setBy, setBy - m_setBy});
+    m_timeline->add({from, setBy, difference(setBy, m_setBy).value_or(Duration::max())});
     m_setBy = setBy;
 }
 

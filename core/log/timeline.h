@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -85,11 +86,14 @@ private:
 };
 
 /// Puts the packets of one file on the time line: by what a recording says of its clock, else by what can be
-/// seen: a clock does not go back by itself.
+/// seen: a clock does not go back by itself. Whatever a file says, the stamps that it gives can be subtracted
+/// from each other.
 class RecordedClock {
 public:
     /// Packets of several interfaces may be out of order by this.
     static constexpr Duration kDisorder = std::chrono::seconds(1);
+    /// Nobody waits longer for the next packet: somebody set the clock forward.
+    static constexpr Duration kLongestPause = std::chrono::hours(24 * 30);
 
     explicit RecordedClock(Timeline& timeline) : m_timeline(&timeline) {}
 
@@ -100,10 +104,14 @@ public:
     void end();
 
 private:
+    static constexpr Duration kMostFromFirst{std::int64_t{1} << 61};
+
+    [[nodiscard]] std::optional<Stamp> at(WallTime time, Duration by) const;
     void set(Stamp from, Duration setBy);
 
     Timeline* m_timeline;
-    std::optional<Stamp> m_last;
+    std::optional<Stamp> m_first;
+    std::optional<Stamp> m_last; ///< the latest
     Duration m_setBy{};
     Duration m_declared{};
     std::optional<Duration> m_before; ///< before it was seen to go back

@@ -28,13 +28,12 @@ constexpr int kMessageMs = 12'000;
 
 /// From the first packet to the newest.
 double historySeconds(model::SessionView& session) {
-    log::Stamp first = log::Stamp::max();
-    log::Stamp last{};
+    const log::Stamp first = session.firstStamp(); // its stream may be gone
+    log::Stamp last = first;
     for (const model::Stream& stream : session.streams()) {
-        first = std::min(first, stream.accounting.firstStamp());
         last = std::max(last, stream.accounting.lastStamp());
     }
-    return last <= first ? 0.0 : log::secondsOf(last - first);
+    return log::secondsOf(last - first);
 }
 
 QString historyText(model::SessionView& session) {

@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
+
 namespace posewire::gui {
 namespace {
 
@@ -54,6 +56,14 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.docks, written.docks);
     EXPECT_EQ(read.panels, written.panels);
     EXPECT_EQ(read.inputs, written.inputs);
+}
+
+TEST_F(SettingsFileTest, DoesNotWaitForAPipe) {
+    const QString pipe = folder.filePath("pipe");
+    ASSERT_EQ(::mkfifo(pipe.toLocal8Bit().constData(), 0600), 0);
+    EXPECT_TRUE(SettingsFile(pipe).write({}).contains("a pipe"));
+    static_cast<void>(SettingsFile(pipe).read(&problem));
+    EXPECT_TRUE(problem.contains("a pipe")) << problem.toStdString();
 }
 
 TEST_F(SettingsFileTest, SetsABrokenFileAsideEachTimeUnderANewName) {

@@ -173,6 +173,35 @@ TEST_F(RecordedClockTest, LeavesAloneWhatIsOnlyOutOfOrder) {
     EXPECT_TRUE(changes().empty());
 }
 
+TEST_F(RecordedClockTest, TakesMonthsForAClockThatWasSetForward) {
+    EXPECT_EQ(recorded.stampOf(kBegin, {}), asStamp(kBegin));
+    EXPECT_EQ(recorded.stampOf(kBegin + 100h, {}), asStamp(kBegin + 100h)) << "somebody left it running";
+    EXPECT_EQ(recorded.stampOf(kBegin + 10'000h, {}), asStamp(kBegin + 100h));
+    EXPECT_EQ(recorded.stampOf(kBegin + 10'000h + 4ms, {}), asStamp(kBegin + 100h + 4ms));
+    EXPECT_EQ(changes(), std::vector<Duration>{9'900h});
+}
+
+TEST_F(RecordedClockTest, GivesStampsThatCanBeSubtractedWhateverAFileSays) {
+    const std::int64_t most = INT64_MAX;
+    const std::vector<Duration> sets{Duration(0),        Duration(most),           Duration(-most),
+                                     Duration(most / 2), Duration(9'000'000'000s), Duration(-9'000'000'000s)};
+    const std::vector<WallTime> times{kBegin, kBegin - 4'000'000'000s, kBegin + 4'000'000'000s,
+                                      WallTime(9'151'487'999s), WallTime(-7'258'118'400s)};
+    std::optional<Stamp> first;
+    for (int round = 0; round < 4; ++round) {
+        for (const Duration set : sets) {
+            for (const WallTime time : times) {
+                const Stamp stamp = recorded.stampOf(time, set);
+                first = first.value_or(stamp);
+                const double apart = static_cast<double>(stamp.time_since_epoch().count()) -
+                                     static_cast<double>(first->time_since_epoch().count());
+                EXPECT_LT(std::abs(apart), 3e18);
+                static_cast<void>(timeline.wallOf(stamp));
+            }
+        }
+    }
+}
+
 TEST_F(RecordedClockTest, ChangesNothingForWhatComesAfterTheFile) {
     EXPECT_EQ(recorded.stampOf(kBegin, {}), asStamp(kBegin));
     EXPECT_EQ(recorded.stampOf(kBegin - 1h, {}), asStamp(kBegin));
