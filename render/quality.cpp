@@ -20,6 +20,7 @@ RenderQuality interactiveQuality(std::string_view rendererName) {
         quality.edgeSmoothing = true;
         quality.shadowMapSize = 1024;
         quality.floorShadowSize = 512;
+        quality.charactersAtOnce = 16;
     }
     return quality;
 }

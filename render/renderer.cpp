@@ -115,7 +115,7 @@ tl::expected<Renderer, std::string> Renderer::create(std::optional<RenderQuality
     impl->palettes = Palettes::create();
     std::string error;
     const bool isComplete = take(ShadowPass::create(impl->quality), impl->shadow, error) &&
-                            take(SkinnedPass::create(), impl->skinned, error) &&
+                            take(SkinnedPass::create(impl->quality), impl->skinned, error) &&
                             take(SurroundingsPass::create(), impl->surroundings, error) &&
                             take(EdgePass::create(), impl->edges, error) &&
                             take(MarksPass::create(), impl->marks, error);

@@ -84,11 +84,11 @@ float zeroIfFinite(float value) {
 }
 template <std::size_t N>
 float zeroIfFinite(const std::array<float, N>& values) {
-    float sum = 0.0F;
+    float product = 0.0F;
     for (const float value : values) {
-        sum += zeroIfFinite(value);
+        product *= value; // NaN from the first value on that is not finite
     }
-    return sum;
+    return product;
 }
 
 /// Finds out as cheaply as possible that nothing in an item is odd; NaN fails every comparison.

@@ -11,7 +11,7 @@
 
 namespace posewire::render {
 
-tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
+tl::expected<SkinnedPass, std::string> SkinnedPass::create(const RenderQuality& quality) {
     static constexpr std::array<const char*, 1> kRecorded{"recordedPosition"};
     auto program = createProgram({"skinned", shaders::skinnedVert(), shaders::skinnedFrag(), true, true});
     auto record = createProgram({"record", shaders::recordVert(), {}, true, false, kRecorded});
@@ -21,6 +21,7 @@ tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
     SkinnedPass pass;
     pass.m_program = std::move(*program);
     pass.m_recordProgram = std::move(*record);
+    pass.m_charactersAtOnce = quality.charactersAtOnce;
     return pass;
 }
 
@@ -43,9 +44,14 @@ void SkinnedPass::drawSolid(const Frame& frame) {
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
+    int drawn = 0;
     for (const DrawnCharacter& character : frame.characters) {
-        if (!character.isGhost() && !character.onScreen.isEmpty()) {
-            drawCharacter(character);
+        if (character.isGhost() || character.onScreen.isEmpty()) {
+            continue;
+        }
+        drawCharacter(character);
+        if (m_charactersAtOnce > 0 && ++drawn % m_charactersAtOnce == 0) {
+            glFinish();
         }
     }
 }

@@ -13,7 +13,7 @@ namespace posewire::render {
 /// The characters: skinned, lit, in their suits.
 class SkinnedPass {
 public:
-    static tl::expected<SkinnedPass, std::string> create();
+    static tl::expected<SkinnedPass, std::string> create(const RenderQuality& quality);
 
     void drawSolid(const Frame& frame);
     /// After the floor, since they let it through.
@@ -26,6 +26,7 @@ private:
 
     gl::Program m_program;
     gl::Program m_recordProgram;
+    int m_charactersAtOnce = 0;
 };
 
 } // namespace posewire::render

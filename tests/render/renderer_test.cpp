@@ -295,6 +295,8 @@ TEST(RenderQualityTest, SparesSoftwareRenderersAndUsesGraphicsProcessors) {
     EXPECT_TRUE(isSoftwareRenderer("softpipe"));
     EXPECT_FALSE(isSoftwareRenderer("Mesa Intel(R) UHD Graphics 620 (KBL GT2)"));
     EXPECT_EQ(interactiveQuality("NVIDIA GeForce RTX 3060/PCIe/SSE2"), RenderQuality{});
+    EXPECT_GT(interactiveQuality("llvmpipe (LLVM 15.0.6, 256 bits)").charactersAtOnce, 0)
+        << "256 characters took 600 MB of triangles";
 }
 
 } // namespace
