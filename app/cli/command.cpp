@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <optional>
 #include <sstream>
+#include <type_traits>
 #include <vector>
 
 namespace posewire::cli {
@@ -61,6 +62,12 @@ CLI::Validator between(double least, double most) {
         range);
 }
 
+/// An empty text is a variable of a script that was never set.
+CLI::Validator notEmpty() {
+    return CLI::Validator(
+        [](const std::string& text) { return text.empty() ? std::string("needs a value") : std::string(); }, "");
+}
+
 } // namespace
 
 Option Option::form(const std::string& name) {
@@ -110,7 +117,8 @@ Option Option::excludes(Option other) {
 
 template <class T>
 Option Arguments::add(const std::string& name, T& value, const std::string& text) {
-    return Option(*m_parser->add_option(name, value, text));
+    CLI::Option* option = m_parser->add_option(name, value, text);
+    return Option(std::is_arithmetic_v<T> ? *option : *option->check(notEmpty()));
 }
 template Option Arguments::add(const std::string&, std::string&, const std::string&);
 template Option Arguments::add(const std::string&, std::vector<std::string>&, const std::string&);

@@ -82,7 +82,7 @@ public:
         const model::PacketDigest digest = m_digester.add(packet, datagram);
         return m_filter.matches({packet, digest, datagram, record.sender ? &*record.sender : nullptr,
                                  *m_firstStamp, decoded ? nullptr : &decoded.error(),
-                                 m_timeline.wallOf(packet.stamp) - log::asWallTime(packet.stamp)});
+                                 m_timeline.setByAt(packet.stamp)});
     }
 
 private:

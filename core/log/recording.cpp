@@ -52,7 +52,7 @@ Recorder::Result Recorder::writeNew() {
         packet->kernelDropsBefore =
             static_cast<std::uint32_t>(std::min<std::uint64_t>(drops, std::uint64_t{UINT32_MAX}));
         const SenderInfo* sender = m_senders.find(packet->sender);
-        const Duration setBy = m_timeline.wallOf(packet->stamp) - asWallTime(packet->stamp);
+        const Duration setBy = m_timeline.setByAt(packet->stamp);
         if (auto added = m_writer.add(*packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
             !added) {
             return added;

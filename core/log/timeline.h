@@ -34,6 +34,8 @@ public:
 
     /// What the wall clock showed.
     [[nodiscard]] WallTime wallOf(Stamp stamp) const;
+    /// What it was ahead of that stamp.
+    [[nodiscard]] Duration setByAt(Stamp stamp) const { return wallOf(stamp) - asWallTime(stamp); }
     /// When it last showed that; where it never did, when it was set across it.
     [[nodiscard]] Stamp stampOf(WallTime time) const;
 

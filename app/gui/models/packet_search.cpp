@@ -155,9 +155,8 @@ void PacketFilterRun::hand(Found& found, const log::LogFollower& follower) {
 bool PacketFilterRun::isMatch(const log::Packet& packet, const model::PacketDigest& digest,
                               log::SenderFinder& senders) {
     const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_datagram).has_value();
-    const log::Duration setBy = m_log.timeline().wallOf(packet.stamp) - log::asWallTime(packet.stamp);
     return m_filter.matches({packet, digest, isRead ? &m_datagram : nullptr, senders.find(packet.sender),
-                             m_firstStamp, nullptr, setBy});
+                             m_firstStamp, nullptr, m_log.timeline().setByAt(packet.stamp)});
 }
 
 void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogFollower& follower,

@@ -89,6 +89,7 @@ TEST(Program, SaysWhichNumbersAnOptionTakes) {
               "monitor --help\n");
     EXPECT_THAT(complaint({"send", "--rate", "x"}),
                 HasSubstr("--rate: \"x\" is not a number from 1 to 1000;"));
+    EXPECT_THAT(complaint({"send", "--restart-at", ""}), HasSubstr("--restart-at: needs a value;"));
     EXPECT_THAT(complaint({"send", "--drop", "2"}), HasSubstr("--drop: \"2\" is not a number from 0 to 1;"));
     EXPECT_THAT(complaint({"send", "--senders", "99"}), HasSubstr("\"99\" is not a number from 1 to 16;"));
 }
