@@ -79,6 +79,9 @@ struct ItemChecks {
 };
 
 /// Zero for finite numbers, NaN where there is anything else.
+[[maybe_unused]] float zeroIfFinite(float value) {
+    return value * 0.0F;
+}
 template <std::size_t N>
 float zeroIfFinite(const std::array<float, N>& values) {
     float product = 0.0F;
