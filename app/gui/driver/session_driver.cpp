@@ -88,6 +88,7 @@ void SessionDriver::tick() {
     }
     hasNew = hasNew || m_session.end() != endBefore;
     if (isOpening()) {
+        showReading(hasNew);
         finishOpening();
     }
     m_meter.addFollow(m_clock.monotonic() - begin, m_session.end() - endBefore);
@@ -132,6 +133,18 @@ void SessionDriver::openFile(const QString& path) {
     m_importBegin = m_session.end();
     m_import =
         std::make_unique<FileImport>(m_receiving.receiver(), m_log, path, m_log.timeline().now(m_clock));
+}
+
+/// What is read of a file is shown as it was then: by today's clock all of it would be old.
+void SessionDriver::showReading(bool hasNew) {
+    if (!hasNew || m_session.end() == m_importBegin) {
+        return;
+    }
+    const bool wasPaused = isPaused();
+    change(&model::Session::setCursor, model::Cursor{model::Cursor::Mode::Paused, m_session.end() - 1});
+    if (!wasPaused) {
+        emit pausedChanged(true);
+    }
 }
 
 QString SessionDriver::openingText() const {

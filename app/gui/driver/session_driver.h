@@ -125,6 +125,7 @@ private:
     }
     void measureHealth();
     /// Once the file that is being opened is there, or cannot be.
+    void showReading(bool hasNew);
     void finishOpening();
     /// Nothing more is read: all that was is in the session. Returns the path.
     QString endReading();

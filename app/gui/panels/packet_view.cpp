@@ -106,6 +106,16 @@ void PacketView::fitScrollBars() {
     }
 }
 
+/// Rows that nobody sees are not looked at: there may be millions.
+void PacketView::dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
+                             const QList<int>& roles) {
+    const int first = std::max(topLeft.row(), topRow());
+    const int last = std::min(bottomRight.row(), topRow() + wholeRows());
+    if (topLeft.isValid() && bottomRight.isValid() && first <= last) {
+        QAbstractItemView::dataChanged(topLeft.siblingAtRow(first), bottomRight.siblingAtRow(last), roles);
+    }
+}
+
 void PacketView::onRowsInserted(int count) {
     m_missed += m_isFollowing || m_isCatchingUp ? 0 : static_cast<std::uint64_t>(count);
     fitScrollBars();

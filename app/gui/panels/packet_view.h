@@ -67,6 +67,8 @@ protected:
     [[nodiscard]] int verticalOffset() const override { return 0; }
     [[nodiscard]] bool isIndexHidden(const QModelIndex& /*index*/) const override { return false; }
     void setSelection(const QRect& rect, QItemSelectionModel::SelectionFlags flags) override;
+    void dataChanged(const QModelIndex& topLeft, const QModelIndex& bottomRight,
+                     const QList<int>& roles = {}) override;
     [[nodiscard]] QRegion visualRegionForSelection(const QItemSelection& selection) const override;
 
 private:

@@ -81,8 +81,8 @@ public:
     /// next call.
     std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
 
-    /// Packets were passed over, some of this stream perhaps: a counter that is as far ahead has lost those,
-    /// and did not restart.
+    /// Packets were passed over or dropped here, some of this stream perhaps: a counter that is as far ahead
+    /// has lost those, and did not restart.
     void passOver(std::uint64_t packets) { m_passedOver += packets; }
 
     /// How much is remembered. What has been counted stays counted.

@@ -8,33 +8,17 @@
 #include "core/wire/type_table.h"
 
 #include <algorithm>
-#include <unordered_set>
 #include <utility>
 
 namespace posewire::model {
 namespace {
 
-/// Room is made for several at once, so that a flood of senders costs little for each.
-constexpr std::size_t kAtOnce = 64;
+/// Strangers are retired so many at once.
 constexpr std::size_t kStrangersAtOnce = 16;
-/// Who has been silent for this long makes room for others.
-constexpr log::Duration kSilent = std::chrono::seconds(10);
-/// Who has sent this many datagrams is no passer-by.
-constexpr std::uint64_t kEstablished = 8;
-/// Retired senders of which it is remembered how much they have sent.
-constexpr std::size_t kMostPassersBy = 65'536;
 /// Characters of one host and one ID among which a predecessor is looked for.
 constexpr std::size_t kMostNamesakes = 16;
 /// Packets that are not older than this when they are followed are live: silence after them is silence.
 constexpr log::Duration kLive = std::chrono::seconds(10);
-
-/// The host that a sender is on, with the transport; nothing for what is no host.
-std::optional<std::string> hostOf(const log::SenderInfo& info) {
-    if (info.transport == log::Transport::File) {
-        return std::nullopt;
-    }
-    return std::string(log::nameOf(info.transport)) + ' ' + info.address.substr(0, info.address.rfind(':'));
-}
 
 /// What is large is rare, or strange: whoever looks at it decodes it again.
 bool keepsNewest(const log::Packet& packet, const wire::Header& header) {
@@ -55,27 +39,6 @@ std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
 }
 
 } // namespace
-
-void SenderTotals::add(const Sender& sender) {
-    ++senders;
-    datagrams += sender.datagrams;
-    bytes += sender.bytes;
-    malformed += sender.malformed;
-    foreign += sender.foreign;
-    kernelDrops += sender.kernelDrops;
-}
-
-void RetiredTotals::retire(const Sender& sender) {
-    add(sender);
-    for (const Character* character : sender.characters) {
-        for (const Stream* stream : character->streams) {
-            const StreamCounts counts = stream->accounting.counts();
-            ++streams;
-            samples += counts.samples;
-            lost += counts.lost;
-        }
-    }
-}
 
 Ingest::Ingest(const log::PacketLog& log)
     : m_log(log),
@@ -196,6 +159,21 @@ void Ingest::countPacket(const Observation& seen) {
     const Place& place = m_recencies.at(sender.id);
     place.list->splice(place.list->end(), *place.list, place.at);
     m_events->takePacket(seen.packet, seen.digest);
+    passOverDropped(seen);
+}
+
+/// What the socket dropped may have been of any stream that it hears: a counter that is as far ahead did not
+/// restart.
+void Ingest::passOverDropped(const Observation& seen) {
+    if (seen.packet.kernelDropsBefore == 0) {
+        return;
+    }
+    m_streams.forEach([&](Stream& stream) {
+        const Sender* sender = find(stream.key.sender);
+        if (sender != nullptr && sender->info.localPort == seen.sender->info.localPort) {
+            stream.accounting.passOver(seen.packet.kernelDropsBefore);
+        }
+    });
 }
 
 void Ingest::judgeGaps(const Observation& seen) {
@@ -331,7 +309,7 @@ Sender* Ingest::senderOf(const log::Packet& packet) {
     sender.info = *held;
     sender.history.setMost(kBucketsOfSender);
     sender.held = std::move(held);
-    if (const auto host = hostOf(sender.info)) {
+    if (const auto host = sender.host()) {
         const auto [newest, isNew] = m_newestOfHost.try_emplace(*host, sender.id);
         const Sender* before = isNew ? nullptr : find(std::exchange(newest->second, sender.id));
         sender.overrides = before != nullptr ? before->overrides : SenderOverride{};
@@ -379,7 +357,7 @@ Stream* Ingest::streamOf(const log::StreamKey& key, const Sender& sender) {
 /// The one of the same host with the same ID that was heard last, among the newest; from now on the new one
 /// is one of them.
 Character* Ingest::predecessorOf(const Character& character) {
-    const auto host = hostOf(find(character.key.sender)->info);
+    const auto host = find(character.key.sender)->host();
     if (!host) {
         return nullptr;
     }
@@ -394,91 +372,6 @@ Character* Ingest::predecessorOf(const Character& character) {
         namesakes.pop_front();
     }
     return newest;
-}
-
-/// What it is and how long it has been there decide who makes room for a sender: first those who have been
-/// silent for long, then those who have said little.
-void Ingest::promote(const Sender& sender) {
-    Place& place = m_recencies.at(sender.id);
-    if (place.list == &m_performers) {
-        return;
-    }
-    const auto before = m_passersBy.find(sender.id);
-    const std::uint64_t heard = sender.datagrams + (before == m_passersBy.end() ? 0 : before->second);
-    Recency& list = heard >= kEstablished ? m_performers : m_newcomers;
-    if (place.list == &list) {
-        return;
-    }
-    const bool isNew = place.list == &m_strangers;
-    if (isNew && m_newcomers.size() + m_performers.size() >= kMostSenders && !retireSilent()) {
-        retireOldest(m_newcomers.empty() ? m_performers : m_newcomers, m_newcomers.empty() ? 1 : kAtOnce);
-    }
-    list.splice(list.end(), *place.list, place.at);
-    place.list = &list;
-}
-
-/// False where nobody has been silent for long.
-bool Ingest::retireSilent() {
-    for (const Recency* list : {&m_performers, &m_newcomers}) {
-        const auto silent = std::ranges::find_if(
-            *list, [this](log::SenderId id) { return m_observed - find(id)->lastStamp < kSilent; });
-        if (const auto count = static_cast<std::size_t>(std::distance(list->begin(), silent)); count != 0) {
-            retireOldest(*list, std::min(count, kAtOnce));
-            return true;
-        }
-    }
-    return false;
-}
-
-void Ingest::retireOldest(const Recency& recency, std::size_t count) {
-    std::unordered_set<log::SenderId> going;
-    for (auto id = recency.begin(); id != recency.end() && going.size() < count; ++id) {
-        going.insert(*id);
-    }
-    for (const log::SenderId id : going) {
-        const Sender& sender = *find(id);
-        m_retired.retire(sender);
-        forgetHostOf(sender);
-        if (m_passersBy.size() >= kMostPassersBy) {
-            m_passersBy.clear();
-        }
-        m_passersBy[id] += sender.datagrams;
-        m_attribution->retire(id);
-        m_events->retire(id);
-        const Place place = m_recencies.at(id);
-        place.list->erase(place.at);
-        m_recencies.erase(id);
-    }
-    std::erase_if(m_nullPoses, [&](const auto& entry) { return going.contains(entry.first.sender); });
-    for (const Stream& stream : m_streams) {
-        if (going.contains(stream.key.sender)) {
-            m_index.forget(stream.key);
-        }
-    }
-    m_streams.eraseIf([&](const Stream& stream) { return going.contains(stream.key.sender); });
-    m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
-    m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
-    fitDepth();
-}
-
-void Ingest::forgetHostOf(const Sender& sender) {
-    const auto host = hostOf(sender.info);
-    if (!host) {
-        return;
-    }
-    if (const auto newest = m_newestOfHost.find(*host);
-        newest != m_newestOfHost.end() && newest->second == sender.id) {
-        m_newestOfHost.erase(newest);
-    }
-    for (const Character* character : sender.characters) {
-        const auto namesakes = m_namesakes.find({*host, character->key.character});
-        if (namesakes != m_namesakes.end()) {
-            std::erase(namesakes->second, character->key);
-            if (namesakes->second.empty()) {
-                m_namesakes.erase(namesakes);
-            }
-        }
-    }
 }
 
 void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) {

@@ -155,6 +155,7 @@ private:
     void takeOvertaken(std::uint64_t count, const log::Packet* next);
     void observe(Observation& seen);
     void countPacket(const Observation& seen);
+    void passOverDropped(const Observation& seen);
     void judgeGaps(const Observation& seen);
     void countFaulty(const Observation& seen);
     [[nodiscard]] bool takeHeader(Observation& seen);

@@ -21,6 +21,13 @@ void Sender::takeForeign(wire::Bytes datagram) {
     foreignHead.assign(head.begin(), head.end());
 }
 
+std::optional<std::string> Sender::host() const {
+    if (info.transport == log::Transport::File) {
+        return std::nullopt;
+    }
+    return std::string(log::nameOf(info.transport)) + ' ' + info.address.substr(0, info.address.rfind(':'));
+}
+
 std::string Sender::foreignText() const {
     std::string text;
     for (const std::byte& byte : foreignHead) {

@@ -45,6 +45,8 @@ struct Sender {
     void takeForeign(wire::Bytes datagram);
     /// Of a file: its name.
     [[nodiscard]] ForeignText address() const { return info.address; }
+    /// The host with the transport; nothing for a file.
+    [[nodiscard]] std::optional<std::string> host() const;
     /// "7b 22 61": foreignHead in hexadecimal.
     [[nodiscard]] std::string foreignText() const;
 

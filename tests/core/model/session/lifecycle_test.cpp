@@ -179,5 +179,33 @@ TEST(Overtaken, PacketsAreThisComputersLossToTheSample) {
     EXPECT_EQ(session.addressOf(told->sender), "this computer");
 }
 
+TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
+    log::PacketLog log;
+    Session session(log);
+    const auto sender = log.senders().intern({"a:1", log::Transport::Udp, 9763});
+    wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
+    log::Stamp stamp{100s};
+    const auto send = [&](std::uint32_t sample, std::uint32_t dropsBefore) {
+        datagram.header.sampleCounter = sample;
+        datagram.header.datagramCounter = 0x80;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        log.writer().append(*wire::encode(datagram), {stamp, sender, dropsBefore});
+        stamp += 10us;
+    };
+    for (std::uint32_t sample = 1; sample <= 500; ++sample) {
+        send(sample, 0);
+    }
+    for (std::uint32_t sample = 11'061; sample <= 11'561; ++sample) {
+        send(sample, sample == 11'061 ? 10'560 : 0);
+    }
+    log.writer().publish();
+    session.follow(stamp + 1s);
+    const Stream& stream = session.streams().front();
+    const StreamCounts counts = stream.accounting.counts();
+    EXPECT_EQ(counts.lost, 10'560U);
+    EXPECT_EQ(counts.restarts, 0U);
+    EXPECT_EQ(session.gaps().size(), 1U);
+}
+
 } // namespace
 } // namespace posewire::model

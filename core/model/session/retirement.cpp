@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/attribution.h"
+#include "core/model/accounting/event_follower.h"
+#include "core/model/session/ingest.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+/// How an ingest makes room for new senders.
+namespace posewire::model {
+namespace {
+
+/// Room is made for several at once, so that a flood of senders costs little for each.
+constexpr std::size_t kAtOnce = 64;
+/// Who has been silent for this long makes room for others.
+constexpr log::Duration kSilent = std::chrono::seconds(10);
+/// Who has sent this many datagrams is no passer-by.
+constexpr std::uint64_t kEstablished = 8;
+/// Retired senders of which it is remembered how much they have sent.
+constexpr std::size_t kMostPassersBy = 65'536;
+
+} // namespace
+
+void SenderTotals::add(const Sender& sender) {
+    ++senders;
+    datagrams += sender.datagrams;
+    bytes += sender.bytes;
+    malformed += sender.malformed;
+    foreign += sender.foreign;
+    kernelDrops += sender.kernelDrops;
+}
+
+void RetiredTotals::retire(const Sender& sender) {
+    add(sender);
+    for (const Character* character : sender.characters) {
+        for (const Stream* stream : character->streams) {
+            const StreamCounts counts = stream->accounting.counts();
+            ++streams;
+            samples += counts.samples;
+            lost += counts.lost;
+        }
+    }
+}
+
+/// What it is and how long it has been there decide who makes room for a sender: first those who have been
+/// silent for long, then those who have said little.
+void Ingest::promote(const Sender& sender) {
+    Place& place = m_recencies.at(sender.id);
+    if (place.list == &m_performers) {
+        return;
+    }
+    const auto before = m_passersBy.find(sender.id);
+    const std::uint64_t heard = sender.datagrams + (before == m_passersBy.end() ? 0 : before->second);
+    Recency& list = heard >= kEstablished ? m_performers : m_newcomers;
+    if (place.list == &list) {
+        return;
+    }
+    const bool isNew = place.list == &m_strangers;
+    if (isNew && m_newcomers.size() + m_performers.size() >= kMostSenders && !retireSilent()) {
+        retireOldest(m_newcomers.empty() ? m_performers : m_newcomers, m_newcomers.empty() ? 1 : kAtOnce);
+    }
+    list.splice(list.end(), *place.list, place.at);
+    place.list = &list;
+}
+
+/// False where nobody has been silent for long.
+bool Ingest::retireSilent() {
+    for (const Recency* list : {&m_performers, &m_newcomers}) {
+        const auto silent = std::ranges::find_if(
+            *list, [this](log::SenderId id) { return m_observed - find(id)->lastStamp < kSilent; });
+        if (const auto count = static_cast<std::size_t>(std::distance(list->begin(), silent)); count != 0) {
+            retireOldest(*list, std::min(count, kAtOnce));
+            return true;
+        }
+    }
+    return false;
+}
+
+void Ingest::retireOldest(const Recency& recency, std::size_t count) {
+    std::unordered_set<log::SenderId> going;
+    for (auto id = recency.begin(); id != recency.end() && going.size() < count; ++id) {
+        going.insert(*id);
+    }
+    for (const log::SenderId id : going) {
+        const Sender& sender = *find(id);
+        m_retired.retire(sender);
+        forgetHostOf(sender);
+        if (m_passersBy.size() >= kMostPassersBy) {
+            m_passersBy.clear();
+        }
+        m_passersBy[id] += sender.datagrams;
+        m_attribution->retire(id);
+        m_events->retire(id);
+        const Place place = m_recencies.at(id);
+        place.list->erase(place.at);
+        m_recencies.erase(id);
+    }
+    std::erase_if(m_nullPoses, [&](const auto& entry) { return going.contains(entry.first.sender); });
+    for (const Stream& stream : m_streams) {
+        if (going.contains(stream.key.sender)) {
+            m_index.forget(stream.key);
+        }
+    }
+    m_streams.eraseIf([&](const Stream& stream) { return going.contains(stream.key.sender); });
+    m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
+    m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
+    fitDepth();
+}
+
+void Ingest::forgetHostOf(const Sender& sender) {
+    const auto host = sender.host();
+    if (!host) {
+        return;
+    }
+    if (const auto newest = m_newestOfHost.find(*host);
+        newest != m_newestOfHost.end() && newest->second == sender.id) {
+        m_newestOfHost.erase(newest);
+    }
+    for (const Character* character : sender.characters) {
+        const auto namesakes = m_namesakes.find({*host, character->key.character});
+        if (namesakes != m_namesakes.end()) {
+            std::erase(namesakes->second, character->key);
+            if (namesakes->second.empty()) {
+                m_namesakes.erase(namesakes);
+            }
+        }
+    }
+}
+
+} // namespace posewire::model
