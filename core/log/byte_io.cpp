@@ -146,6 +146,8 @@ Descriptor::~Descriptor() {
 DescriptorSink::DescriptorSink(Descriptor descriptor, std::string name, std::string consequence)
     : m_descriptor(std::move(descriptor)), m_name(std::move(name)), m_consequence(std::move(consequence)) {
     m_waiting.reserve(kBuffer);
+    struct stat status {};
+    m_isFile = ::fstat(m_descriptor.number(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
 DescriptorSink::~DescriptorSink() {
@@ -186,18 +188,36 @@ tl::expected<void, FileError> DescriptorSink::sync() {
 }
 
 tl::expected<void, FileError> DescriptorSink::put(std::span<const std::byte> bytes) {
+    constexpr std::size_t piece = 4096; // a pipe that has room takes as much at once
     while (!bytes.empty() && !m_hasFailed) {
-        const ssize_t count = ::write(m_descriptor.number(), bytes.data(), bytes.size());
+        if (!m_isFile && !waitForRoom()) {
+            errno = ETIME;
+            return failure();
+        }
+        const std::size_t most = m_isFile ? bytes.size() : std::min(bytes.size(), piece);
+        const ssize_t count = ::write(m_descriptor.number(), bytes.data(), most);
         if (count >= 0) {
             bytes = bytes.subspan(static_cast<std::size_t>(count));
-        } else if (errno == EAGAIN) {
-            pollfd state{m_descriptor.number(), POLLOUT, 0};
-            ::poll(&state, 1, -1);
-        } else if (errno != EINTR) {
+        } else if (errno != EINTR && errno != EAGAIN) {
             return failure();
         }
     }
     return {};
+}
+
+/// False where there is none for a second although somebody waits for the end.
+bool DescriptorSink::waitForRoom() const {
+    constexpr int stepMs = 50;
+    constexpr int patienceMs = 1000;
+    int waitedMs = 0;
+    pollfd state{m_descriptor.number(), POLLOUT, 0};
+    while (::poll(&state, 1, stepMs) == 0) { // an error counts as room: writing says what it is
+        waitedMs = m_isHurried ? waitedMs + stepMs : 0;
+        if (waitedMs >= patienceMs) {
+            return false;
+        }
+    }
+    return true;
 }
 
 tl::unexpected<FileError> DescriptorSink::failure() {
@@ -212,6 +232,9 @@ tl::unexpected<FileError> DescriptorSink::failure() {
     case EFBIG:
         why =
             "writing failed (the file has the largest size that is allowed); raise the limit, see ulimit -f";
+        break;
+    case ETIME:
+        why = "nobody reads it";
         break;
     case EPIPE:
         why = "nobody reads it any more";

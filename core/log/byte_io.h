@@ -65,6 +65,10 @@ public:
     /// What was written is on the disk: it survives the end of this computer. May take long.
     virtual tl::expected<void, FileError> sync() { return flush(); }
 
+    /// From any thread: somebody waits for the end. Where nobody reads what is written, a write fails after a
+    /// second instead of waiting for a reader.
+    virtual void hurry() {}
+
     /// Last of all: what was written stays, under its name.
     virtual tl::expected<void, FileError> finish() { return sync(); }
 };

@@ -3,6 +3,7 @@
 
 #include "core/log/byte_io.h"
 
+#include <atomic>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,7 @@ public:
     tl::expected<void, FileError> write(std::span<const std::byte> bytes) override;
     tl::expected<void, FileError> flush() override;
     tl::expected<void, FileError> sync() override;
+    void hurry() override { m_isHurried = true; }
 
 protected:
     [[nodiscard]] const Descriptor& descriptor() const { return m_descriptor; }
@@ -50,12 +52,15 @@ protected:
 
 private:
     tl::expected<void, FileError> put(std::span<const std::byte> bytes);
+    [[nodiscard]] bool waitForRoom() const;
 
     Descriptor m_descriptor;
     std::string m_name;
     std::string m_consequence;
     std::vector<std::byte> m_waiting;
     bool m_hasFailed = false;
+    bool m_isFile = false; ///< else writing may wait for a reader
+    std::atomic<bool> m_isHurried = false;
 };
 
 } // namespace posewire::log

@@ -96,6 +96,7 @@ tl::expected<void, FileError> Recording::stop() {
         m_isStopping = true;
     }
     m_changed.notify_all();
+    m_sink->hurry();
     if (m_thread.joinable()) {
         m_thread.join();
     }

@@ -5,12 +5,14 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
 
 #include <sys/stat.h>
+#include <unistd.h>
 
 namespace posewire::log {
 namespace {
@@ -120,6 +122,21 @@ TEST_F(OutputFile, MayBeADeviceOrAPipeWithoutLeave) {
         EXPECT_TRUE((*sink)->finish());
     }
     EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST_F(OutputFile, DoesNotWaitForAReaderThatDoesNotReadOnceSomebodyWaitsForTheEnd) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(::pipe(ends.data()), 0);
+    auto sink = createFile("/dev/fd/" + std::to_string(ends[1]), {});
+    ASSERT_TRUE(sink) << sink.error().text;
+    (*sink)->hurry();
+    const std::vector<std::byte> much(std::size_t{1} << 20);
+    const auto written = (*sink)->write(much);
+    ASSERT_FALSE(written);
+    EXPECT_THAT(written.error().text, HasSubstr("nobody reads it"));
+    EXPECT_EQ(written.error().kind, FileError::Kind::Failed);
+    ::close(ends[0]);
+    ::close(ends[1]);
 }
 
 TEST_F(OutputFile, SaysThatALinkLeadsNowhere) {
