@@ -24,8 +24,8 @@ struct RenderQuality {
     /// Texels a side of the light's depth picture, and of the softened shadow on the floor.
     int shadowMapSize = 2048;
     int floorShadowSize = 1024;
-    /// Characters drawn before waiting for the driver, 0 to never wait. One that draws with the processor keeps
-    /// about 2 MB of triangles for each character it was given and has not drawn.
+    /// Characters drawn before waiting for the driver, 0 to never wait. One that draws with the processor
+    /// keeps about 2 MB of triangles for each character it was given and has not drawn.
     int charactersAtOnce = 0;
 
     bool operator==(const RenderQuality&) const = default;

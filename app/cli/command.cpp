@@ -65,7 +65,8 @@ CLI::Validator between(double least, double most) {
 /// An empty text is a variable of a script that was never set.
 CLI::Validator notEmpty() {
     return CLI::Validator(
-        [](const std::string& text) { return text.empty() ? std::string("needs a value") : std::string(); }, "");
+        [](const std::string& text) { return text.empty() ? std::string("needs a value") : std::string(); },
+        "");
 }
 
 } // namespace

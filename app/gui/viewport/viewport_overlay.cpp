@@ -151,8 +151,11 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     const qreal unit = metrics.height();
     const qreal dot = 0.6 * unit;
     const QString status = healthText(label.state.health, label.state.text);
-    const qreal width =
-        2.4 * unit + dot + metrics.horizontalAdvance(label.name) + metrics.horizontalAdvance(status);
+    // However long a name is, how its character does is in sight.
+    const qreal rest = 2.4 * unit + dot + metrics.horizontalAdvance(status);
+    const qreal room = std::clamp(this->width() - rest, 3 * unit, 16 * unit);
+    const QString name = metrics.elidedText(label.name, Qt::ElideRight, room);
+    const qreal width = rest + metrics.horizontalAdvance(name);
     const qreal height = unit + 8;
     QRectF plate(std::round(label.anchor.x() - width / 2), std::round(label.anchor.y() - height),
                  std::ceil(width), height);
@@ -170,7 +173,7 @@ void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
     painter.setBrush(label.colour);
     painter.drawEllipse(QRectF(plate.left() + 0.6 * unit, plate.center().y() - dot / 2, dot, dot));
     qreal x = plate.left() + 0.6 * unit + dot + 0.4 * unit;
-    x = paintText(painter, x, plate, label.name, theme().text) + 0.6 * unit;
+    x = paintText(painter, x, plate, name, theme().text) + 0.6 * unit;
     paintText(painter, x, plate, status, healthColour(label.state.health));
 }
 

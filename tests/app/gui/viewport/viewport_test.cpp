@@ -105,5 +105,31 @@ TEST_F(Viewport, ADragTurnsTheCameraAndSelectsNothing) {
     EXPECT_TRUE(QTest::qWaitFor([&] { return viewport.grab().toImage() != before; }));
 }
 
+TEST(ViewportLabels, ShowHowACharacterDoesHoweverLongItsName) {
+    QWidget window;
+    window.resize(480, 360);
+    ViewportOverlay overlay(&window);
+    overlay.resize(window.size());
+    ViewportLabel label;
+    label.anchor = QPointF(240, 180);
+    label.name = QString(60'000, QLatin1Char('W'));
+    label.state = {QStringLiteral("stale"), Health::Error};
+    overlay.setLabels({label});
+    const QImage image = overlay.grab().toImage();
+    const QColor wanted = healthColour(Health::Error);
+    int found = 0;
+    for (int y = 0; y < image.height(); ++y) {
+        for (int x = 0; x < image.width(); ++x) {
+            const QColor pixel = image.pixelColor(x, y);
+            found += std::abs(pixel.red() - wanted.red()) < 40 &&
+                             std::abs(pixel.green() - wanted.green()) < 40 &&
+                             std::abs(pixel.blue() - wanted.blue()) < 40
+                         ? 1
+                         : 0;
+        }
+    }
+    EXPECT_GT(found, 10);
+}
+
 } // namespace
 } // namespace posewire::gui
