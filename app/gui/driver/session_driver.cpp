@@ -137,13 +137,9 @@ void SessionDriver::openFile(const QString& path) {
 
 /// What is read of a file is shown as it was then: by today's clock all of it would be old.
 void SessionDriver::showReading(bool hasNew) {
-    if (!hasNew || m_session.end() == m_importBegin) {
-        return;
-    }
-    const bool wasPaused = isPaused();
-    change(&model::Session::setCursor, model::Cursor{model::Cursor::Mode::Paused, m_session.end() - 1});
-    if (!wasPaused) {
-        emit pausedChanged(true);
+    if (hasNew && m_session.end() != m_importBegin) {
+        setPaused(true);
+        change(&model::Session::setCursor, model::Cursor{model::Cursor::Mode::Paused, m_session.end() - 1});
     }
 }
 

@@ -124,8 +124,8 @@ private:
         m_tableTick = {};
     }
     void measureHealth();
-    /// Once the file that is being opened is there, or cannot be.
     void showReading(bool hasNew);
+    /// Once the file that is being opened is there, or cannot be.
     void finishOpening();
     /// Nothing more is read: all that was is in the session. Returns the path.
     QString endReading();

@@ -198,12 +198,15 @@ TEST(Dropped, PacketsAreThisComputersLossToTheSampleHoweverMany) {
     for (std::uint32_t sample = 11'061; sample <= 11'561; ++sample) {
         send(sample, sample == 11'061 ? 10'560 : 0);
     }
+    stamp += 200ms; // late arrivals have had their time
+    send(11'562, 0);
     log.writer().publish();
     session.follow(stamp + 1s);
     const Stream& stream = session.streams().front();
     const StreamCounts counts = stream.accounting.counts();
     EXPECT_EQ(counts.lost, 10'560U);
     EXPECT_EQ(counts.restarts, 0U);
+    EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
     EXPECT_EQ(session.gaps().size(), 1U);
 }
 
