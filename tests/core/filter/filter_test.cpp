@@ -64,7 +64,7 @@ TEST(Filter, ReadsTheFieldsOfTheHeader) {
     EXPECT_TRUE(matches(packet, "character == " + std::to_string(header.character)));
     EXPECT_TRUE(matches(packet, "id == \"MXTP02\""));
     EXPECT_TRUE(matches(packet, "items >= 1 && datagram == 0 && last"));
-    EXPECT_TRUE(matches(packet, "timeCode == " + std::to_string(header.timeCode)));
+    EXPECT_TRUE(matches(packet, "wire.timeCode == " + std::to_string(header.timeCode)));
 }
 
 TEST(Filter, ReadsTheHeaderOfAPacketThatCannotBeDecoded) {
@@ -135,6 +135,19 @@ TEST(Filter, NamesSegmentsInAnyCase) {
     EXPECT_TRUE(matches(packet, "segment in {LeftHand, RightHand}"));
     EXPECT_TRUE(matches(packet, "segment == 15"));
     EXPECT_FALSE(matches(packet, "segment == LeftFirstPP"));
+}
+
+TEST(Filter, NamesFingersOfAPartOfASampleByTheirPlaceInTheWhole) {
+    wire::Datagram datagram = golden("02_quaternion_gloves").datagram;
+    auto& segments = std::get<wire::PoseQuaternion>(datagram.body).segments;
+    segments.erase(segments.begin(), segments.begin() + 20);
+    datagram.header.items = static_cast<std::uint8_t>(segments.size());
+    datagram.header.datagramCounter = 0x81;
+    datagram.header.payloadSize = static_cast<std::uint16_t>(32 * segments.size());
+    const Case packet(datagram);
+    ASSERT_FALSE(packet.fault);
+    EXPECT_TRUE(matches(packet, "segment == LeftFirstPP && segment == RightFifthDP && segment == LeftToe"));
+    EXPECT_FALSE(matches(packet, "segment == Pelvis || segment == Prop1"));
 }
 
 TEST(Filter, NamesFingersByTheirPlace) {
@@ -269,7 +282,7 @@ TEST(Filter, TellsFieldsOfOneNameApartByTheirConstant) {
     const Case packet = golden("25_time_code_counted");
     const auto& text = std::get<wire::TimeCode>(packet.datagram.body);
     EXPECT_TRUE(matches(packet, "timeCode == \"" + std::string(text.view()) + "\""));
-    EXPECT_TRUE(matches(packet, "timeCode == " + std::to_string(packet.datagram.header.timeCode)));
+    EXPECT_TRUE(matches(packet, "wire.timeCode == " + std::to_string(packet.datagram.header.timeCode)));
 }
 
 TEST(Filter, BindsAndTighterThanOr) {
