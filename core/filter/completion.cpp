@@ -3,6 +3,7 @@
 
 #include "core/filter/field.h"
 #include "core/filter/lexer.h"
+#include "core/model/body/segments.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
@@ -192,7 +193,7 @@ void offerValues(std::string_view asked, Collector& into) {
     }
     if (field.kind == Kind::Segment) {
         for (const std::string_view name : segmentNames()) {
-            into.offer(name, "segment");
+            into.offer(name, std::string(model::segmentTitle(name)));
         }
     }
     if (field.kind == Kind::Vector && !match.hasComponent) {

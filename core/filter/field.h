@@ -101,7 +101,7 @@ inline constexpr std::string_view kAsSent = "wire.";
 [[nodiscard]] std::vector<FieldInfo> wireFields();
 
 /// The number that a segment's name means: its body id, from 1, or the number of a prop or finger;
-/// empty if it is not a name. Ignores case.
+/// empty if it is not a name. Ignores case and spaces.
 [[nodiscard]] std::optional<double> segmentNumber(std::string_view name);
 /// All names, in the order of their numbers, from 1.
 [[nodiscard]] std::span<const std::string_view> segmentNames();

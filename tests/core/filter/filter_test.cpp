@@ -132,6 +132,8 @@ TEST(Filter, NamesSegmentsInAnyCase) {
     const Case packet = pose(std::vector<wire::Vec3>(23));
     EXPECT_TRUE(matches(packet, "segment == LeftHand"));
     EXPECT_TRUE(matches(packet, "segment == lefthand && id == 15"));
+    EXPECT_TRUE(matches(packet, "segment == \"Left Hand\" && id == 15"));
+    EXPECT_TRUE(matches(packet, "segment == \"Right Forearm\" && id == 10"));
     EXPECT_TRUE(matches(packet, "segment in {LeftHand, RightHand}"));
     EXPECT_TRUE(matches(packet, "segment == 15"));
     EXPECT_FALSE(matches(packet, "segment == LeftFirstPP"));
@@ -146,8 +148,11 @@ TEST(Filter, NamesFingersOfAPartOfASampleByTheirPlaceInTheWhole) {
     datagram.header.payloadSize = static_cast<std::uint16_t>(32 * segments.size());
     const Case packet(datagram);
     ASSERT_FALSE(packet.fault);
-    EXPECT_TRUE(matches(packet, "segment == LeftFirstPP && segment == RightFifthDP && segment == LeftToe"));
-    EXPECT_FALSE(matches(packet, "segment == Pelvis || segment == Prop1"));
+    for (const char* name : {"LeftToe", "LeftCarpus", "LeftFirstPP", "RightFifthDP"}) {
+        EXPECT_TRUE(matches(packet, std::string("segment == ") + name)) << name;
+    }
+    EXPECT_FALSE(matches(packet, "segment == Pelvis"));
+    EXPECT_TRUE(matches(packet, "segment == LeftToe && id == 23"));
 }
 
 TEST(Filter, NamesFingersByTheirPlace) {
