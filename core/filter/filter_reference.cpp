@@ -87,7 +87,7 @@ void writeRow(std::string& out, const FieldInfo& field, bool isOfPayload) {
 
 /// A dimension's units on one line.
 void writeUnits(std::string& out) {
-    out += "\n| measures | units |\n|---|---|\n";
+    out += "| measures | units |\n|---|---|\n";
     for (const UnitInfo& unit : unitTable()) {
         if (&unit == &unitsOf(unit.dimension).front()) {
             out.append("| ").append(dimensionName(unit.dimension)).append(" | ");
