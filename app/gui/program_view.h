@@ -30,9 +30,9 @@ struct RelayState {
     enum class Stage : std::uint8_t { Off, LookingUp, Forwarding, Refused };
     RelayChoice target;
     Stage stage = Stage::Off;
-    QString problem{}; ///< why it was refused, or why the newest datagrams were
+    QString problem{}; ///< why it was refused, or the newest datagrams were; that nobody listens there
     std::uint64_t sent = 0;
-    std::uint64_t refused = 0; ///< datagrams that this system did not take
+    std::uint64_t refused = 0; ///< datagrams that this system did not take, or nobody there
     std::uint64_t skipped = 0; ///< datagrams left out: fallen too far behind, or for fear of a loop
     std::uint64_t behind = 0;  ///< packets that wait to be forwarded
 };

@@ -71,20 +71,49 @@ struct Relay::Target {
     std::string problem{};  ///< guarded by m_mutex, as the next two
     bool isStopped = false; ///< its datagrams came back
     log::SenderId returner{};
-};
 
-/// Created and used in the relay's thread. Bound, so that its port identifies what comes back from it.
-struct Relay::Sockets {
-    QEventLoop dispatcher; // first: sockets need one in their thread
-    QUdpSocket ipv4;
-    QUdpSocket ipv6;
+    // Created and used in the relay's thread. Bound, so that its port identifies what comes back from it;
+    // connected where it can be, since the system reports refusals to connected sockets alone.
+    std::unique_ptr<QUdpSocket> socket{};
+    std::optional<log::Moment> opened{};       ///< anew
+    std::optional<log::Moment> firstRefusal{}; ///< by the other side, of those that went on
+    log::Moment newestRefusal{};
+    std::uint64_t sentAtRefusal = 0; ///< by then
+    bool isUnheard = false;          ///< and `problem` says so
 
-    Sockets() {
-        ipv4.bind(QHostAddress::AnyIPv4, 0, QUdpSocket::DontShareAddress);
-        ipv6.bind(QHostAddress::AnyIPv6, 0, QUdpSocket::DontShareAddress);
+    /// Groups and broadcasts have nobody who would refuse, and their way is chosen for each datagram.
+    void open(std::uint16_t ownPort = 0) {
+        const bool isIpv4 = address.protocol() == QAbstractSocket::IPv4Protocol;
+        socket = std::make_unique<QUdpSocket>();
+        socket->bind(isIpv4 ? QHostAddress::AnyIPv4 : QHostAddress::AnyIPv6, ownPort,
+                     QUdpSocket::DontShareAddress);
+        if (!address.isMulticast() && !address.isBroadcast()) {
+            socket->connectToHost(address, endpoint.port);
+        }
     }
-    QUdpSocket& of(const QHostAddress& address) {
-        return address.protocol() == QAbstractSocket::IPv4Protocol ? ipv4 : ipv6;
+    /// Where nothing can be sent: a connected socket keeps to an address that this computer may have lost.
+    void reopen(log::Moment now) {
+        constexpr log::Duration kPause = std::chrono::seconds(1);
+        if (!opened || now - *opened > kPause) {
+            opened = now;
+            const std::uint16_t ownPort = socket->localPort();
+            socket.reset(); // first: its port is wanted again
+            open(ownPort);
+        }
+    }
+    [[nodiscard]] bool isConnected() const { return socket->state() == QAbstractSocket::ConnectedState; }
+
+    bool write(const log::Packet& packet) {
+        const auto size = static_cast<qint64>(packet.bytes.size());
+        const char* bytes = reinterpret_cast<const char*>(packet.bytes.data());
+        return (isConnected() ? socket->writeDatagram(bytes, size, QHostAddress(), 0)
+                              : socket->writeDatagram(bytes, size, address, endpoint.port)) == size;
+    }
+    /// Whether a datagram was refused since the last call: one report at a time is kept.
+    [[nodiscard]] bool takeRefusal() {
+        char unused = 0;
+        return isConnected() && socket->readDatagram(&unused, 1) < 0 &&
+               socket->error() == QAbstractSocket::ConnectionRefusedError;
     }
 };
 
@@ -111,6 +140,8 @@ NetResult<RelayId> Relay::add(const Endpoint& target, const std::vector<InputSta
     m_commands.call([&] {
         const std::lock_guard lock(m_mutex);
         added->id = RelayId{m_nextId++};
+        added->open();
+        m_verdicts.clear(); // somebody may have had its port before
         if (m_going.empty()) {
             m_follower = log::LogFollower::fromNow(m_log);
             m_caughtUp = m_log.timeline().now(m_clock);
@@ -161,7 +192,7 @@ void Relay::wake() {
 }
 
 void Relay::run() {
-    m_sockets = std::make_unique<Sockets>();
+    const QEventLoop dispatcher; // sockets need one in their thread
     while (true) {
         m_commands.run();
         if (m_isStopping) {
@@ -179,7 +210,9 @@ void Relay::run() {
         }
         m_isWoken = false;
     }
-    m_sockets.reset();
+    for (const auto& target : m_targets) {
+        target->socket.reset();
+    }
 }
 
 /// True if there is more.
@@ -194,6 +227,9 @@ bool Relay::forwardSome() {
     }
     countOvertaken();
     m_behind = m_follower.lag();
+    for (const auto& target : m_going) {
+        heedRefusals(*target);
+    }
     stopLoops();
     if (m_follower.lag() == 0) {
         m_caughtUp = m_log.timeline().now(m_clock);
@@ -244,8 +280,9 @@ Relay::Verdict Relay::judge(log::SenderId sender) const {
         return Verdict::Ignore;
     }
     const auto endpoint = parseEndpoint(info->address);
-    const bool hasOurPort = endpoint && (endpoint->port == m_sockets->ipv4.localPort() ||
-                                         endpoint->port == m_sockets->ipv6.localPort());
+    const bool hasOurPort = endpoint && std::ranges::any_of(m_targets, [&](const auto& target) {
+                                return target->socket->localPort() == endpoint->port;
+                            });
     return hasOurPort && isOfThisComputer(QHostAddress(QString::fromStdString(endpoint->host)))
                ? Verdict::Ignore
                : Verdict::Forward;
@@ -283,24 +320,66 @@ void Relay::stopLoops() {
 }
 
 void Relay::sendTo(Target& target, const log::Packet& packet) {
-    QUdpSocket& socket = m_sockets->of(target.address);
-    const auto size = static_cast<qint64>(packet.bytes.size());
+    std::string problem = "datagrams that were too long to be received whole are not forwarded";
+    bool isAfterRefusal = false;
     for (int attempt = 0; attempt < kAttempts && !packet.flags.truncated; ++attempt) {
-        if (socket.writeDatagram(reinterpret_cast<const char*>(packet.bytes.data()), size, target.address,
-                                 target.endpoint.port) == size) {
+        if (target.write(packet)) {
             increase(target.sent, 1);
+            if (target.takeRefusal() || isAfterRefusal) {
+                addRefusal(target);
+            }
             return;
         }
-        if (socket.error() != QAbstractSocket::TemporaryError) {
+        const auto error = target.socket->error();
+        problem = target.socket->errorString().toStdString() + "; check the address, and the network to it";
+        if (error == QAbstractSocket::TemporaryError) {
+            std::this_thread::sleep_for(kAttemptPause);
+        } else if (error != QAbstractSocket::NetworkError) {
+            break;
+        } else if (target.isConnected() && !isAfterRefusal) {
+            isAfterRefusal = true; // reported just now, of an earlier one: this one has yet to go
+        } else {
+            target.reopen(m_clock.monotonic());
             break;
         }
-        std::this_thread::sleep_for(kAttemptPause);
     }
     increase(target.refused, 1);
     const std::lock_guard lock(m_mutex);
-    target.problem = packet.flags.truncated
-                         ? "datagrams that were too long to be received whole are not forwarded"
-                         : socket.errorString().toStdString() + "; check the address, and the network to it";
+    target.problem = std::move(problem);
+}
+
+/// Counts a datagram that was sent, and that the other computer has sent back as undeliverable.
+void Relay::addRefusal(Target& target) {
+    const log::Moment now = m_clock.monotonic();
+    if (!target.firstRefusal || now - target.newestRefusal > kHeardAfter) {
+        target.firstRefusal = now;
+    }
+    target.newestRefusal = now;
+    if (target.sent > 0) {
+        target.sent.fetch_sub(1, std::memory_order_relaxed);
+    }
+    target.sentAtRefusal = target.sent;
+    increase(target.refused, 1);
+    if (!target.isUnheard && now - *target.firstRefusal >= kUnheardAfter) {
+        target.isUnheard = true;
+        const std::lock_guard lock(m_mutex);
+        target.problem =
+            "nobody listens at " + textOf(target.endpoint) + "; start the receiver there, or check the port";
+    }
+}
+
+/// Those that were reported since the last datagram was sent, and whether they have ended.
+void Relay::heedRefusals(Target& target) {
+    if (target.takeRefusal()) {
+        addRefusal(target);
+    }
+    if (target.isUnheard && target.sent > target.sentAtRefusal &&
+        m_clock.monotonic() - target.newestRefusal > kHeardAfter) {
+        target.isUnheard = false;
+        target.firstRefusal.reset();
+        const std::lock_guard lock(m_mutex);
+        target.problem.clear();
+    }
 }
 
 } // namespace posewire::net

@@ -31,10 +31,13 @@ struct RelayTarget {
     RelayId id{};
     Endpoint endpoint;
     std::uint64_t sent = 0;
-    std::uint64_t refused = 0; ///< refused by this system: no route, or too long for UDP
+    /// By this system: no route, or too long for UDP. By the other: nobody listens there, as far as it says
+    /// so (ICMP; some say it of each datagram, some at most once a second, some never).
+    std::uint64_t refused = 0;
     std::uint64_t skipped = 0; ///< left out: fallen too far behind, or for fear of a loop
     std::uint64_t behind = 0;  ///< packets of the log that wait to be looked at
-    std::string problem;       ///< why the newest was refused, or why nothing is sent; empty if all is well
+    std::string problem;       ///< why the newest was refused, why nothing is sent, or that nobody has
+                               ///< listened there for a second; empty if all is well
     bool isStopped = false;    ///< its datagrams came back: nothing is sent or counted any more
     log::SenderId returner{};  ///< who sent them back, where it is stopped
 };
@@ -47,6 +50,11 @@ class Relay {
 public:
     /// Further behind than this many packets it skips some: old data is useless to someone who wants it live.
     static constexpr std::uint64_t kMostBehind = 20'000;
+
+    /// Somebody who is restarted is back by then.
+    static constexpr log::Duration kUnheardAfter = std::chrono::seconds(1);
+    /// Nothing refused for so long, while something was sent: somebody listens.
+    static constexpr log::Duration kHeardAfter = std::chrono::seconds(3);
 
     /// Both must outlive it.
     Relay(const log::PacketLog& log, const log::Clock& clock);
@@ -65,7 +73,6 @@ public:
 
 private:
     struct Target;
-    struct Sockets;
     enum class Verdict : std::uint8_t { Forward, Ignore };
 
     void run();
@@ -75,6 +82,8 @@ private:
     void countOvertaken();
     void forward(const log::Packet& packet);
     void sendTo(Target& target, const log::Packet& packet);
+    void heedRefusals(Target& target);
+    void addRefusal(Target& target);
     void stopLoops();
     [[nodiscard]] bool isForwarded(const log::Packet& packet);
     [[nodiscard]] Verdict judge(log::SenderId sender) const;
@@ -98,7 +107,6 @@ private:
     std::vector<std::shared_ptr<Target>> m_going; ///< targets that are not stopped
     log::Stamp m_caughtUp{};                      ///< when it last had caught up
     std::unordered_map<log::SenderId, Verdict> m_verdicts;
-    std::unique_ptr<Sockets> m_sockets;
     std::thread m_thread;
 };
 

@@ -194,12 +194,13 @@ void writeSegments(std::string& out) {
            "of its own (§2.5.5). Revision E prints 23 and 24 for the left foot and toe. Props follow the "
            "body, then the fingers of the left hand, then those of the right; what is not sent is skipped, "
            "and the IDs of fingers shift by the number of props: a prop or finger is known by its place.\n\n"
-           "| ID | segment | parent | ID in type 05 |\n|--:|---|---|--:|\n";
+           "| ID | segment | sent as | parent | ID in type 05 |\n|--:|---|---|---|--:|\n";
     for (const model::Segment& segment : model::bodySegments()) {
         const auto index = static_cast<std::size_t>(segment.id - 1);
         const std::string_view parent =
-            segment.parent < 0 ? "–" : model::bodySegments()[static_cast<std::size_t>(segment.parent)].name;
-        out += row({std::to_string(segment.id), segment.name, parent,
+            segment.parent < 0 ? "–"
+                               : model::bodySegments()[static_cast<std::size_t>(segment.parent)].displayName;
+        out += row({std::to_string(segment.id), segment.displayName, segment.name, parent,
                     std::to_string(model::unityPlaces()[index] + 1)});
     }
 }
@@ -230,7 +231,7 @@ void writePoints(std::string& out) {
     const auto markers = model::markerPoints();
     for (std::size_t i = 0; i < all.size(); ++i) {
         const bool isMarker = std::find(markers.begin(), markers.end(), static_cast<int>(i)) != markers.end();
-        out += row({model::bodySegments()[static_cast<std::size_t>(all[i].segment)].name,
+        out += row({model::bodySegments()[static_cast<std::size_t>(all[i].segment)].displayName,
                     std::to_string(all[i].localId), all[i].name, isMarker ? "yes" : ""});
     }
 }

@@ -3,6 +3,7 @@
 
 #include "core/filter/field.h"
 #include "core/filter/lexer.h"
+#include "core/model/body/segments.h"
 #include "core/wire/text.h"
 #include "core/wire/type_table.h"
 
@@ -18,10 +19,12 @@ struct Context {
     Next next = Next::Field;
     std::string_view field; ///< the newest
     bool isSet = false;     ///< after `in`
+    bool isNumber = false;  ///< the newest value, and no unit came after it
 };
 
 void advance(Context& context, const Token& token, std::string_view text) {
     const bool isValue = token.kind == TokenKind::Word || token.kind == TokenKind::Quoted;
+    context.isNumber = token.kind == TokenKind::Word && numberOf(token.in(text)).has_value();
     if (token.kind == TokenKind::And || token.kind == TokenKind::Or) {
         context.next = Next::Field;
     } else if (context.next == Next::Field && token.kind == TokenKind::Word) {
@@ -36,7 +39,8 @@ void advance(Context& context, const Token& token, std::string_view text) {
         context.next = context.next == Next::AfterMember ? Next::SetMember : Next::Value;
         context.isSet = false;
     } else if (isValue) {
-        context.next = context.next == Next::SetMember ? Next::AfterMember : Next::Join;
+        const bool isMember = context.next == Next::SetMember || context.next == Next::AfterMember;
+        context.next = isMember ? Next::AfterMember : Next::Join;
     } else if (token.kind == TokenKind::CloseSet || token.kind == TokenKind::Close) {
         context.next = Next::Join;
     }
@@ -92,25 +96,39 @@ std::string aboutField(const FieldInfo& field) {
     return field.types.empty() ? about : about + " (" + typesText(field) + ')';
 }
 
+/// The same as it was sent.
+std::string aboutSent(const FieldInfo& field) {
+    const std::string unit = field.unitSent.empty() ? field.unit : field.unitSent;
+    return "as sent, " + unit + ": " + field.text;
+}
+
+void offerField(const std::string& name, const FieldInfo& field, const std::string& about, Collector& into) {
+    into.offer(name, about);
+    const std::string base = wire::lowered(name);
+    if (field.kind == Kind::Vector && (into.written() == base || into.written().starts_with(base + '.'))) {
+        for (const std::string_view component : componentNames(field.components)) {
+            into.offer(name + '.' + std::string(component), about);
+        }
+    }
+}
+
 void offerFields(Collector& into) {
-    const bool isQualified = into.written().find('.') != std::string::npos;
+    const std::string_view asked = into.written();
+    const bool asksSent = asked.starts_with(kAsSent);
+    const std::string_view unprefixed = asked.substr(asksSent ? kAsSent.size() : 0);
+    const bool isQualified = unprefixed.find('.') != std::string_view::npos;
     std::vector<std::string> seen;
     for (const FieldInfo& field : fieldTable()) {
-        const std::string name =
-            isQualified && into.written().starts_with(wire::lowered(field.qualifier) + '.')
-                ? field.qualifier + '.' + field.name
-                : askedName(field);
+        const std::string name = isQualified && unprefixed.starts_with(wire::lowered(field.qualifier) + '.')
+                                     ? field.qualifier + '.' + field.name
+                                     : askedName(field);
         if (std::ranges::find(seen, name) != seen.end()) {
             continue;
         }
         seen.push_back(name);
-        into.offer(name, aboutField(field));
-        const std::string base = wire::lowered(name);
-        if (field.kind == Kind::Vector &&
-            (into.written() == base || into.written().starts_with(base + '.'))) {
-            for (const std::string_view component : componentNames(field.components)) {
-                into.offer(name + '.' + std::string(component), aboutField(field));
-            }
+        offerField(name, field, aboutField(field), into);
+        if (field.isConverted() && !asked.empty()) {
+            offerField(std::string(kAsSent) + name, field, aboutSent(field), into);
         }
     }
     into.offer("tag", "text: names of the metadata tags (12)");
@@ -145,6 +163,18 @@ void offerOperators(std::string_view name, Collector& into) {
     into.offer("||", "or");
 }
 
+/// After a number.
+void offerUnits(std::string_view asked, Collector& into) {
+    const FieldMatch match = findFields(asked);
+    const auto measured = std::ranges::find_if(
+        match.fields, [](const FieldInfo* field) { return field->dimension != Dimension::None; });
+    if (measured != match.fields.end() && !match.isAsSent) {
+        for (const UnitInfo& unit : unitsOf((*measured)->dimension)) {
+            into.offer(unit.symbol, std::string(unit.text));
+        }
+    }
+}
+
 void offerValues(std::string_view asked, Collector& into) {
     const FieldMatch match = findFields(asked);
     if (match.isTag && match.tag.empty()) {
@@ -163,7 +193,7 @@ void offerValues(std::string_view asked, Collector& into) {
     }
     if (field.kind == Kind::Segment) {
         for (const std::string_view name : segmentNames()) {
-            into.offer(name, "segment");
+            into.offer(name, std::string(model::segmentTitle(name)));
         }
     }
     if (field.kind == Kind::Vector && !match.hasComponent) {
@@ -284,10 +314,16 @@ std::vector<Completion> completions(std::string_view text, std::size_t cursor) {
         offerValues(context.field, into);
         break;
     case Next::AfterMember:
+        if (context.isNumber) {
+            offerUnits(context.field, into);
+        }
         into.offer(",", "another one");
         into.offer("}", "ends the set");
         break;
     case Next::Join:
+        if (context.isNumber) {
+            offerUnits(context.field, into);
+        }
         into.offer("&&", "and");
         into.offer("||", "or");
         break;
@@ -340,12 +376,14 @@ std::string expressionFor(const wire::FieldTree& tree, std::int32_t index) {
     if (field == nullptr) {
         return {};
     }
+    const std::string name =
+        (field->isConverted() ? std::string(kAsSent) : std::string()) + askedName(*field);
     const bool isList = field->isOfItems() && node.value.empty() && field->kind == Kind::Number;
     const FieldInfo* segment = isInItem && node.name == "id" ? findField(qualifier, "segment") : nullptr;
     if (segment != nullptr && qualifier != "points" && !isUnityOrdered(tree)) {
         return expressionOf(*segment, false, askedName(*segment), node.value);
     }
-    return isList ? field->name : expressionOf(*field, false, askedName(*field), node.value);
+    return isList ? field->name : expressionOf(*field, false, name, node.value);
 }
 
 } // namespace posewire::filter

@@ -170,6 +170,8 @@ std::vector<FieldInfo> computedFields() {
         info.name = row.name;
         info.kind = row.kind;
         info.unit = row.unit;
+        info.read = row.kind == Kind::Number ? findUnit(row.unit) : nullptr;
+        info.dimension = info.read != nullptr ? info.read->dimension : Dimension::None;
         info.text = row.text;
         info.readPacket = row.read;
         info.words = wordsOf(row);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/filter/filter.h"
+#include "core/filter/units.h"
 
 #include <array>
 #include <optional>
@@ -56,8 +57,13 @@ using ReadItem = Value (*)(const wire::Datagram& datagram, std::size_t item, std
 /// Reads the value at `index` of a packet's field, where there is one. Most have one value at most.
 using ReadPacket = std::optional<Value> (*)(Subject& subject, std::size_t index);
 
-/// Where a field of the payload is read: null where there is none.
-using Places = std::array<std::array<ReadItem, kLists>, kShapes>;
+/// Where a field of the payload is read: nowhere where `read` is null.
+struct Place {
+    ReadItem read = nullptr;
+    /// Of a length: what the layout declares, unless something else is known about the sender.
+    std::optional<model::LengthUnit> length{};
+};
+using Places = std::array<std::array<Place, kLists>, kShapes>;
 
 /// A field by its name. Several layouts may have one of the same name and kind; the name means all of them.
 struct FieldInfo {
@@ -67,8 +73,11 @@ struct FieldInfo {
     std::size_t components = 1;
     bool isFloat = false;                  ///< constants are rounded to 32 bits to compare with it
     bool isTrueByValue = false;            ///< alone it means "not zero" rather than "present"
-    std::string unit{};                    ///< where types differ: "cm (01), m (02)"
-    std::string text{};                    ///< the same
+    std::string unit{};                    ///< that it is compared in
+    std::string unitSent{};                ///< where it is sent in another one: "cm (01), m (02)"
+    Dimension dimension = Dimension::None; ///< of numbers that a unit may be written with
+    const UnitInfo* read = nullptr; ///< the unit of what `readPacket` or `places` give; of lengths see Place
+    std::string text{};             ///< where types differ, each with its types
     std::vector<std::string_view> words{}; ///< its possible values, if they are words
     std::vector<std::uint8_t> types{};     ///< message types that have it, in order; empty for packet fields
     ReadPacket readPacket = nullptr;       ///< of a packet field
@@ -76,7 +85,12 @@ struct FieldInfo {
     std::optional<Places> named{};         ///< for segments: reads the number that a name means
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr; }
+    /// What is compared may be another number than what was sent.
+    [[nodiscard]] bool isConverted() const;
 };
+
+/// Before a name: the number as it was sent, in the sender's unit.
+inline constexpr std::string_view kAsSent = "wire.";
 
 /// All fields: the computed ones, those of the header, those of the messages.
 [[nodiscard]] const std::vector<FieldInfo>& fieldTable();
@@ -87,7 +101,7 @@ struct FieldInfo {
 [[nodiscard]] std::vector<FieldInfo> wireFields();
 
 /// The number that a segment's name means: its body id, from 1, or the number of a prop or finger;
-/// empty if it is not a name. Ignores case.
+/// empty if it is not a name. Ignores case and spaces.
 [[nodiscard]] std::optional<double> segmentNumber(std::string_view name);
 /// All names, in the order of their numbers, from 1.
 [[nodiscard]] std::span<const std::string_view> segmentNames();
@@ -98,11 +112,12 @@ struct FieldMatch {
     bool hasComponent = false;
     std::size_t component = 0;
     bool isTag = false;
-    std::string_view tag; ///< of "tag.name": "name"
+    std::string_view tag;  ///< of "tag.name": "name"
+    bool isAsSent = false; ///< of "wire.position.z"
 };
 
-/// Understands "sample", "position.z", "segments.position.z", "header.sample", "tag", "tag.name". No fields
-/// (and no tag) if nothing has that name.
+/// Understands "sample", "position.z", "segments.position.z", "header.sample", "wire.position.z", "tag",
+/// "tag.name". No fields (and no tag) if nothing has that name.
 [[nodiscard]] FieldMatch findFields(std::string_view name);
 
 /// The names of a vector's components, as the tables of core/wire have them: "x", "y" …; those of a matrix,

@@ -31,9 +31,14 @@ bool isNamed(const FieldInfo& field, std::string_view name) {
             name.starts_with(field.qualifier) && name[qualifier] == '.' && name.ends_with(field.name));
 }
 
+/// Computed fields were never sent.
+bool isOfWire(const FieldInfo& field) {
+    return field.isOfItems() || !field.qualifier.empty();
+}
+
 void collect(std::string_view name, std::optional<std::string_view> component, FieldMatch& match) {
     for (const FieldInfo& field : fieldTable()) {
-        if (!isNamed(field, name)) {
+        if (!isNamed(field, name) || (match.isAsSent && !isOfWire(field))) {
             continue;
         }
         if (!component) {
@@ -68,9 +73,18 @@ constexpr std::size_t kLongestName = 64;
 
 } // namespace
 
+bool FieldInfo::isConverted() const {
+    return dimension == Dimension::Length ||
+           (dimension != Dimension::None && read != &unitsOf(dimension).front());
+}
+
 FieldMatch findFields(std::string_view name) {
     FieldMatch match;
-    if (name == "tag" || (name.starts_with("tag.") && name.size() > 4)) {
+    if (name.starts_with(kAsSent)) {
+        name.remove_prefix(kAsSent.size());
+        match.isAsSent = true;
+    }
+    if (!match.isAsSent && (name == "tag" || (name.starts_with("tag.") && name.size() > 4))) {
         match.isTag = true;
         match.tag = name.substr(std::min<std::size_t>(name.size(), 4));
         return match;
@@ -112,6 +126,11 @@ std::string nearestOf(std::string_view word, std::span<const std::string_view> w
 }
 
 std::string nearestField(std::string_view name) {
+    if (name.starts_with(kAsSent)) {
+        const std::string found = nearestField(name.substr(kAsSent.size()));
+        const std::string asSent = std::string(kAsSent) + found;
+        return findFields(asSent).fields.empty() ? found : asSent;
+    }
     const std::string_view last = name.substr(name.rfind('.') + 1);
     const bool hasComponent = name.size() > last.size() && (last.size() == 1 || componentAt(4, last));
     const std::string_view base = hasComponent ? name.substr(0, name.size() - last.size() - 1) : name;

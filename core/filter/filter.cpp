@@ -82,14 +82,16 @@ bool Condition::holds(Subject& subject) const {
     return false;
 }
 
-bool Condition::holdsFor(const wire::Datagram& datagram, std::size_t shape, std::size_t list,
-                         std::size_t item) const {
-    const ReadItem read = places[shape][list];
-    if (read == nullptr) {
+bool Condition::holdsFor(const ItemAt& at) const {
+    const Place& place = places[at.shape][at.list];
+    if (place.read == nullptr) {
         return false;
     }
+    const bool isInCentimetres =
+        place.length && at.positionUnit.value_or(*place.length) == model::LengthUnit::Centimetre;
+    const Test& suited = isInCentimetres ? testInCentimetres : test;
     for (std::size_t i = firstComponent; i < firstComponent + components; ++i) {
-        if (test.holds(read(datagram, item, i))) {
+        if (suited.holds(place.read(at.datagram, at.item, i))) {
             return true;
         }
     }
@@ -138,6 +140,10 @@ bool Filter::matches(const Candidate& candidate) const {
     return m_program->holds(subject, m_program->root);
 }
 
+bool Filter::comparesLengths() const {
+    return m_program != nullptr && std::ranges::any_of(m_program->conditions, &Condition::comparesLengths);
+}
+
 bool Program::holds(Subject& subject, std::uint32_t index) const {
     const Node& node = nodes[index];
     const auto isTrue = [&](std::uint32_t child) { return holds(subject, child); };
@@ -168,7 +174,7 @@ bool Program::holdsForAnyItem(Subject& subject, std::uint32_t node) const {
     for (std::size_t list = 0; list < kLists; ++list) {
         const std::size_t count = itemCount(*datagram, shape, list);
         for (std::size_t item = 0; item < count; ++item) {
-            const ItemAt at{*datagram, shape, list, item};
+            const ItemAt at{*datagram, shape, list, item, subject.candidate.positionUnit};
             if (holdsForItem(subject, &at, node)) {
                 return true;
             }
@@ -186,7 +192,7 @@ bool Program::holdsForItem(Subject& subject, const ItemAt* at, std::uint32_t ind
         if (!condition.isOfItems()) {
             return condition.holds(subject);
         }
-        return at != nullptr && condition.holdsFor(at->datagram, at->shape, at->list, at->item);
+        return at != nullptr && condition.holdsFor(*at);
     }
     case Join::And:
         return std::ranges::all_of(node.children, isTrue);

@@ -4,10 +4,12 @@
 #include "core/log/packet.h"
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
+#include "core/model/body/units.h"
 #include "core/wire/codec.h"
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -33,6 +35,8 @@ struct Candidate {
     log::Stamp firstStamp{};                  ///< of the first packet: where `time` begins
     const wire::WireError* fault = nullptr; ///< why it could not be decoded; null: decoded again to find out
     log::Duration setBy{}; ///< what the wall clock was ahead of the packet's stamp: for `utc`
+    /// What positions of this type from this sender come in, where that is known; else what the layout says.
+    std::optional<model::LengthUnit> positionUnit{};
 };
 
 struct Program;
@@ -54,6 +58,8 @@ public:
     [[nodiscard]] bool matches(const Candidate& candidate) const;
 
     [[nodiscard]] bool matchesEverything() const { return m_program == nullptr; }
+    /// Whether it matters to it what a candidate's positions come in.
+    [[nodiscard]] bool comparesLengths() const;
 
 private:
     std::shared_ptr<const Program> m_program;

@@ -15,7 +15,8 @@ A filter is a condition that a packet meets or does not meet: a field, an operat
 | `sample in 100..200` | samples 100 to 200, both included |
 | `type in {02, 12, 20..25}` | any of these types |
 | `gap > 0 \|\| duplicate` | packets after a loss, and those that came twice |
-| `segment == LeftHand && position.z > 2` | poses whose left hand is above 2 |
+| `segment == LeftHand && position.z > 2` | poses whose left hand is above 2 m |
+| `delta > 20 ms` | packets more than 20 ms after the one before them |
 | `source contains "192.168"` | packets from these addresses |
 | `tag.name matches "^Ann"` | metadata of characters whose name begins with Ann |
 | `error` | whatever cannot be read |
@@ -35,8 +36,19 @@ A filter is a condition that a packet meets or does not meet: a field, an operat
 | `!`, `not` | not the condition, or the parentheses, after it |
 
 Numbers may be decimal (`02` is 2) or hexadecimal (`0x1f`). Text is written in quotes, with `\"` and `\\` for these
-characters; a single word needs none. Constants are compared with the values on the wire, in the wire's units.
+characters; a single word needs none.
 
+## Units
+
+Lengths are compared in metres, times in seconds, angles in degrees, whatever a message sends them in: `position.z > 1`
+is a metre in types 01 and 02 alike, also where a sender gives its metres as centimetres, if that is known of it. The
+axes stay those of the message. A number may be written with another unit, after a space or not: `position.z > 100 cm`,
+`in 1..20 ms`. `wire.` before a field of a message or the header is the number as it was sent, without a unit:
+`wire.position.z > 100`, `wire.timeCode == 27837`.
+
+)";
+
+constexpr std::string_view kRules = R"(
 ## Rules
 
 * A field alone means that the packet has it: `position`, `error`, `tag.name`. `gap` and `drops` alone mean more
@@ -53,7 +65,8 @@ characters; a single word needs none. Constants are compared with the values on 
 * Comparisons with a value that is not a number are false. `position == NaN` finds such values.
 * A name that several messages have means each of them; `points.position.x` and `header.sample` say which.
   Where the header has a field of the same name, the constant decides by its kind.
-* Segments are named in any case (`LeftHand`, `Prop1`, `LeftFirstPP`) or numbered as on the wire.
+* Segments are named in any case, in one word or in quotes (`LeftHand`, `"Left Hand"`, `Prop1`, `LeftFirstPP`), or
+  numbered as on the wire.
 * `tag` means the names of the metadata tags, `tag.color` for the value of the tag `color`.
 )";
 
@@ -68,29 +81,43 @@ void writeRow(std::string& out, const FieldInfo& field, bool isOfPayload) {
     const std::string name =
         isOfPayload && !field.qualifier.empty() ? field.qualifier + '.' + field.name : field.name;
     out.append("| `").append(name).append("` | ").append(kindOf(field)).append(" | ");
-    out.append(field.unit).append(" | ").append(field.text);
+    out.append(field.unit).append(" | ").append(field.unitSent).append(" | ").append(field.text);
     out.append(isOfPayload ? " | " + typesText(field) : "").append(" |\n");
+}
+
+/// A dimension's units on one line.
+void writeUnits(std::string& out) {
+    out += "| measures | units |\n|---|---|\n";
+    for (const UnitInfo& unit : unitTable()) {
+        if (&unit == &unitsOf(unit.dimension).front()) {
+            out.append("| ").append(dimensionName(unit.dimension)).append(" | ");
+            out.append(unitsText(unit.dimension)).append(" |\n");
+        }
+    }
 }
 
 } // namespace
 
 std::string filterReference() {
     std::string out(kLanguage);
-    out += "\n## Fields of every packet\n\n| field | kind | unit | meaning |\n|---|---|---|---|\n";
+    writeUnits(out);
+    out += kRules;
+    out += "\n## Fields of every packet\n\n| field | kind | unit | on the wire | meaning "
+           "|\n|---|---|---|---|---|\n";
     for (const FieldInfo& field : fieldTable()) {
         if (!field.isOfItems()) {
             writeRow(out, field, false);
         }
     }
     out += "\n## Fields of the messages\n\nThe name before the dot may be left out.\n\n"
-           "| field | kind | unit | meaning | types |\n|---|---|---|---|---|\n";
+           "| field | kind | unit | on the wire | meaning | types |\n|---|---|---|---|---|---|\n";
     for (const FieldInfo& field : fieldTable()) {
         if (field.isOfItems()) {
             writeRow(out, field, true);
         }
     }
-    out += "| `tag` | text |  | names of the metadata tags | 12 |\n"
-           "| `tag.…` | text |  | value of the tag of that name | 12 |\n";
+    out += "| `tag` | text |  |  | names of the metadata tags | 12 |\n"
+           "| `tag.…` | text |  |  | value of the tag of that name | 12 |\n";
     return out;
 }
 

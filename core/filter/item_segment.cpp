@@ -28,6 +28,20 @@ std::optional<model::PointReference> pointBy(model::PointIdCoding coding, std::u
     return isOne ? point : std::nullopt;
 }
 
+/// In any case, and with spaces or without.
+bool isSpelled(std::string_view known, std::string_view name) {
+    for (const char letter : name) {
+        if (letter == ' ') {
+            continue;
+        }
+        if (known.empty() || wire::lower(known.front()) != wire::lower(letter)) {
+            return false;
+        }
+        known.remove_prefix(1);
+    }
+    return known.empty();
+}
+
 } // namespace
 
 double pointSegment(std::uint32_t id, std::uint32_t firstId) {
@@ -51,16 +65,13 @@ std::span<const std::string_view> segmentNames() {
 
 std::optional<double> segmentNumber(std::string_view name) {
     const auto names = segmentNames();
-    const auto found = std::ranges::find_if(names, [&](std::string_view known) {
-        return std::equal(known.begin(), known.end(), name.begin(), name.end(),
-                          [](char a, char b) { return wire::lower(a) == wire::lower(b); });
-    });
+    const auto found =
+        std::ranges::find_if(names, [&](std::string_view known) { return isSpelled(known, name); });
     return found == names.end() ? std::nullopt
                                 : std::optional(static_cast<double>(found - names.begin() + 1));
 }
 
-double namedSegment(const ItemIds& ids, const wire::Header& header, std::size_t place, std::size_t items,
-                    bool hasFootOfE) {
+double namedSegment(const ItemIds& ids, const model::ItemPlaces& places, std::size_t item) {
     if (!ids.segment) {
         return ids.name ? segmentNumber(*ids.name).value_or(0) : 0;
     }
@@ -69,16 +80,12 @@ double namedSegment(const ItemIds& ids, const wire::Header& header, std::size_t 
     if (ids.isUnityOrder) {
         return isOfBody ? model::unityOrder()[id - 1] + 1 : 0;
     }
-    const bool isAfterFoot = place >= kLeftFootPlace && place < model::kBodySegmentCount;
-    if (hasFootOfE && isAfterFoot && id == place + 2) {
-        return static_cast<double>(place + 1);
+    if (ids.isJoint) {
+        return isOfBody ? id : 0;
     }
-    if (isOfBody) {
-        return id;
-    }
-    const auto layout = model::segmentLayout(header, items);
-    const auto at = model::placeOf(layout, static_cast<int>(place));
-    return at && at->kind != model::SegmentKind::Body ? numberAt(*at) : 0;
+    const int position = places.positionOf(item, id);
+    const auto at = model::placeOf(isOfBody ? model::SegmentLayout() : places.layout, position);
+    return at ? numberAt(*at) : 0;
 }
 
 } // namespace posewire::filter

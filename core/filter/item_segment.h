@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/filter/field.h"
+#include "core/model/body/character_pose.h"
 #include "core/model/body/segments.h"
 #include "core/wire/layouts.h"
 
@@ -14,6 +15,7 @@ struct ItemIds {
     std::optional<std::uint32_t> point{};
     std::optional<std::string_view> name{}; ///< of an item without a number
     bool isUnityOrder = false;
+    bool isJoint = false;
 };
 
 template <wire::Form F, class Item>
@@ -35,6 +37,7 @@ ItemIds idsOf(const Item& item) {
                 break;
             case JointEnd:
                 ids.segment = id >> 8;
+                ids.isJoint = true;
                 break;
             case Point:
                 ids.point = id;
@@ -49,18 +52,13 @@ ItemIds idsOf(const Item& item) {
     return ids;
 }
 
-/// The numbers of the left foot and toe are 23 and 24 in revision E, one more than their places.
-inline constexpr std::size_t kLeftFootPlace = model::segment::kLeftFoot;
-
 /// Points are numbered 256 × segment + point, in revision E 100 × segment + point. The few ids that could be
 /// either are taken as the first point of the datagram is.
 [[nodiscard]] double pointSegment(std::uint32_t id, std::uint32_t firstId);
 
 /// The number that a name means (see segmentNumber), since the ids of props and fingers differ between
-/// revisions; 0 where the item has no name. `place`: of the item in its list of `items`; `hasFootOfE`: the
-/// item at the place of the left foot has revision E's number of it.
-[[nodiscard]] double namedSegment(const ItemIds& ids, const wire::Header& header, std::size_t place,
-                                  std::size_t items, bool hasFootOfE);
+/// revisions; 0 where the item has no name. `item`: its place in the datagram.
+[[nodiscard]] double namedSegment(const ItemIds& ids, const model::ItemPlaces& places, std::size_t item);
 
 /// The wire's own number; items without one count from 1.
 template <wire::Form F, class Item>
@@ -78,9 +76,8 @@ double namedSegment(const wire::Header& header, const std::vector<Item>& items, 
     if (ids.point) {
         return segmentNumberOf<F>(items, item);
     }
-    const bool hasFootOfE = items.size() > kLeftFootPlace && header.countedSegments() == 0 &&
-                            idsOf<F>(items[kLeftFootPlace]).segment == kLeftFootPlace + 2;
-    return namedSegment(ids, header, item, items.size(), hasFootOfE);
+    const auto places = model::itemPlaces(header, items.size(), idsOf<F>(items.front()).segment);
+    return namedSegment(ids, places, item);
 }
 
 } // namespace posewire::filter

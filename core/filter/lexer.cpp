@@ -55,7 +55,8 @@ std::size_t wordLength(std::string_view text) {
         const char character = text[at];
         const char next = at + 1 < text.size() ? text[at + 1] : ' ';
         // A word may end with a dot while it is being typed; two dots are a range.
-        const bool isJoint = (isPlain(next) && (character == '.' || (character == ':' && at != start))) ||
+        const bool isJoint = (isPlain(next) && (character == '.' ||
+                                                ((character == ':' || character == '/') && at != start))) ||
                              (character == '.' && next != '.' && at != start && text[at - 1] != '.');
         const bool isExponent = (character == '-' || character == '+') && at > start && isDigit(next) &&
                                 (text[at - 1] == 'e' || text[at - 1] == 'E') &&

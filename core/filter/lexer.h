@@ -24,7 +24,7 @@ enum class Operator : std::uint8_t {
 
 enum class TokenKind : std::uint8_t {
     End,
-    Word,   ///< a name, a number, or any other word: 0x1f, LeftHand, 192.168.1.20:4001
+    Word,   ///< a name, a number, a unit, or any other word: 0x1f, m/s, 192.168.1.20:4001
     Quoted, ///< text in double quotes
     Open,
     Close,

@@ -123,8 +123,22 @@ private:
         }
         ++m_at;
         const bool isQuoted = token.kind == TokenKind::Quoted;
-        return Constant{token, isQuoted ? unquoted(token.in(m_text)) : std::string(token.in(m_text)),
-                        isQuoted};
+        Constant constant{token, isQuoted ? unquoted(token.in(m_text)) : std::string(token.in(m_text)),
+                          isQuoted};
+        if (!isQuoted && numberOf(constant.text) && isUnit()) {
+            constant.unit = here();
+            constant.unitText = here().in(m_text);
+            ++m_at;
+        }
+        return constant;
+    }
+
+    /// After a number: a word that is neither the next field nor compared with something.
+    [[nodiscard]] bool isUnit() const {
+        const std::string_view word = here().in(m_text);
+        return here().kind == TokenKind::Word &&
+               (findUnit(word) != nullptr ||
+                (m_tokens[m_at + 1].kind != TokenKind::Operator && findFields(word).fields.empty()));
     }
 
     /// One value, or a range.

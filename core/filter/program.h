@@ -33,6 +33,15 @@ private:
     [[nodiscard]] bool holdsText(std::string_view text) const;
 };
 
+/// An item of a list of a datagram, or the message itself.
+struct ItemAt {
+    const wire::Datagram& datagram;
+    std::size_t shape;
+    std::size_t list;
+    std::size_t item;
+    std::optional<model::LengthUnit> positionUnit; ///< what is known about the sender
+};
+
 /// A test of one field: of the packet, of the items of the payload, or of a metadata tag.
 struct Condition {
     ReadPacket readPacket = nullptr;
@@ -42,11 +51,12 @@ struct Condition {
     bool isTag = false;
     std::string tag; ///< its value is tested; the names of all tags where empty
     Test test;
+    bool comparesLengths = false;
+    Test testInCentimetres; ///< the same where a length comes in centimetres
 
     [[nodiscard]] bool isOfItems() const { return readPacket == nullptr && !isTag; }
     [[nodiscard]] bool holds(Subject& subject) const;
-    [[nodiscard]] bool holdsFor(const wire::Datagram& datagram, std::size_t shape, std::size_t list,
-                                std::size_t item) const;
+    [[nodiscard]] bool holdsFor(const ItemAt& at) const;
 
 private:
     [[nodiscard]] bool holdsForTags(const wire::Datagram* datagram) const;
@@ -57,6 +67,8 @@ struct Constant {
     Token token;
     std::string text;
     bool isQuoted = false;
+    std::optional<Token> unit{}; ///< the word after a number
+    std::string unitText{};
 };
 
 /// A condition as written.
@@ -101,12 +113,6 @@ struct Program {
 
 private:
     [[nodiscard]] bool holdsForAnyItem(Subject& subject, std::uint32_t node) const;
-    struct ItemAt {
-        const wire::Datagram& datagram;
-        std::size_t shape;
-        std::size_t list;
-        std::size_t item;
-    };
     /// Without an item no condition on items holds.
     [[nodiscard]] bool holdsForItem(Subject& subject, const ItemAt* at, std::uint32_t node) const;
 };

@@ -95,12 +95,56 @@ std::optional<double> utcSeconds(std::string_view text) {
     return seconds ? std::optional(midnight + *seconds) : std::nullopt;
 }
 
-/// The number that a constant means for a field; empty if it does not fit.
-std::optional<double> numberFor(const FieldInfo& field, const Constant& constant) {
+/// A number and the unit that is written with it, perhaps in one word: "100 cm", "100cm".
+struct Amount {
+    double number = 0;
+    std::string_view unit;
+    Token place; ///< of the unit
+};
+
+std::optional<Amount> amountOf(const Constant& constant) {
+    const std::string_view text = constant.text;
+    if (const auto number = constant.isQuoted ? std::nullopt : numberOf(text)) {
+        return Amount{*number, constant.unitText, constant.unit.value_or(constant.token)};
+    }
+    const std::size_t begin = text.find_first_not_of("+-");
+    const std::size_t end = text.find_first_not_of("+-.0123456789");
+    if (constant.isQuoted || begin == std::string_view::npos || end == std::string_view::npos ||
+        end == begin) {
+        return std::nullopt;
+    }
+    const auto number = numberOf(text.substr(0, end));
+    const Token place{TokenKind::Word, constant.token.offset + end, text.size() - end};
+    return number ? std::optional(Amount{*number, text.substr(end), place}) : std::nullopt;
+}
+
+/// What a field is compared with, of the fields of a name.
+struct Asked {
+    const FieldInfo& field;
+    bool hasComponent = false;
+    bool isAsSent = false;
+
+    /// A number may be written with a unit of it.
+    [[nodiscard]] Dimension dimension() const { return isAsSent ? Dimension::None : field.dimension; }
+};
+
+bool fits(const Asked& asked, const Amount& amount) {
+    const UnitInfo* unit = findUnit(amount.unit);
+    return amount.unit.empty() ||
+           (unit != nullptr && asked.dimension() != Dimension::None && unit->dimension == asked.dimension());
+}
+
+/// The number that a constant means for a field, in the unit that is written; empty if it does not fit.
+std::optional<double> numberFor(const Asked& asked, const Constant& constant) {
+    const FieldInfo& field = asked.field;
+    if (field.kind == Kind::Number || field.kind == Kind::Vector) {
+        const auto amount = amountOf(constant);
+        return amount && fits(asked, *amount) ? std::optional(amount->number) : std::nullopt;
+    }
+    if (constant.unit) {
+        return std::nullopt;
+    }
     switch (field.kind) {
-    case Kind::Number:
-    case Kind::Vector:
-        return constant.isQuoted ? std::nullopt : numberOf(constant.text);
     case Kind::Flag:
         return constant.text == "true"    ? std::optional(1.0)
                : constant.text == "false" ? std::optional(0.0)
@@ -115,11 +159,9 @@ std::optional<double> numberFor(const FieldInfo& field, const Constant& constant
         const auto seconds = numberOf(constant.text);
         return seconds ? seconds : utcSeconds(constant.text);
     }
-    case Kind::Text:
-    case Kind::Transport:
-        break;
+    default:
+        return std::nullopt;
     }
-    return std::nullopt;
 }
 
 bool isTextKind(Kind kind) {
@@ -135,13 +177,14 @@ bool ordersOnly(Operator op) {
 }
 
 /// Whether the operator suits the field.
-bool suits(const FieldInfo& field, bool hasComponent, const WrittenCondition& written) {
+bool suits(const Asked& asked, const WrittenCondition& written) {
+    const FieldInfo& field = asked.field;
     if (written.op == Operator::IsThere) {
         return true;
     }
     if (isTextKind(field.kind)) {
         const bool hasRange = std::ranges::any_of(written.constants, [](auto& pair) {
-            return pair.first.token.offset != pair.second.token.offset;
+            return pair.first.token.offset != pair.second.token.offset || pair.first.unit;
         });
         const bool isKnown =
             field.kind == Kind::Text || needsText(written.op) ||
@@ -156,9 +199,36 @@ bool suits(const FieldInfo& field, bool hasComponent, const WrittenCondition& wr
         return field.kind == Kind::Number || field.kind == Kind::Vector;
     }
     const bool fit = std::ranges::all_of(written.constants, [&](const auto& pair) {
-        return numberFor(field, pair.first) && numberFor(field, pair.second);
+        return numberFor(asked, pair.first) && numberFor(asked, pair.second);
     });
-    return !needsText(written.op) && (field.kind != Kind::Vector || hasComponent) && fit;
+    return !needsText(written.op) && (field.kind != Kind::Vector || asked.hasComponent) && fit;
+}
+
+/// What is wrong with the unit of a constant, if something is.
+std::optional<FilterError> unitComplaint(const Asked& asked, const std::string& name,
+                                         const Constant& constant) {
+    const auto amount = amountOf(constant);
+    const bool isNumber = asked.field.kind == Kind::Number || asked.field.kind == Kind::Vector;
+    if (!amount || amount->unit.empty() || (isNumber && fits(asked, *amount))) {
+        return std::nullopt;
+    }
+    if (asked.dimension() != Dimension::None) {
+        const std::string is = "` is " + std::string(dimensionName(asked.dimension())) + ": write ";
+        return errorAt(amount->place, "`" + name + is + unitsText(asked.dimension()) + ".");
+    }
+    return errorAt(amount->place, asked.isAsSent ? "`" + name + "` is the number as sent: write no unit."
+                                                 : "`" + name + "` has no unit.");
+}
+
+/// What is wrong with a constant.
+FilterError constantComplaint(const Asked& asked, const std::string& name, const Constant& constant) {
+    if (auto complaint = unitComplaint(asked, name, constant)) {
+        return *std::move(complaint);
+    }
+    const Kind kind = asked.field.kind;
+    const std::string near = kind == Kind::Segment ? nearestOf(constant.text, segmentNames()) : std::string();
+    return errorAt(constant.token, "`" + name + "` is compared with " + std::string(kindWords(kind).value) +
+                                       (near.empty() ? "." : "; did you mean `" + near + "`?"));
 }
 
 /// Why none of the fields suits, judged by the first.
@@ -178,14 +248,11 @@ FilterError complaint(const FieldMatch& match, const WrittenCondition& written) 
     if (isTextKind(field.kind) && ordersOnly(written.op)) {
         return errorAt(op, "`" + name + "` is text: compare it with ==, !=, `in`, `contains` or `matches`.");
     }
+    const Asked asked{field, match.hasComponent, match.isAsSent};
     for (const auto& pair : written.constants) {
         for (const Constant* constant : {&pair.first, &pair.second}) {
-            if (isTextKind(field.kind) || !numberFor(field, *constant)) {
-                const std::string near =
-                    field.kind == Kind::Segment ? nearestOf(constant->text, segmentNames()) : std::string();
-                return errorAt(constant->token, "`" + name + "` is compared with " +
-                                                    std::string(kindWords(field.kind).value) +
-                                                    (near.empty() ? "." : "; did you mean `" + near + "`?"));
+            if (isTextKind(field.kind) || !numberFor(asked, *constant)) {
+                return constantComplaint(asked, name, *constant);
             }
         }
     }
@@ -216,13 +283,29 @@ double rounded(const FieldInfo& field, double number) {
     return static_cast<double>(static_cast<float>(number));
 }
 
-tl::expected<void, FilterError> setNumbers(const FieldInfo& field, const WrittenCondition& written,
-                                           Test& test) {
+/// As the values of the field are read: `read` is their unit, null for none.
+double asRead(const Asked& asked, const UnitInfo* read, const Constant& constant, const Constant& rangeEnd) {
+    const double number = *numberFor(asked, constant);
+    if (asked.dimension() == Dimension::None || read == nullptr) {
+        return rounded(asked.field, number);
+    }
+    // In "1..2 cm" both are centimetres.
+    const std::string_view own = amountOf(constant)->unit;
+    const UnitInfo* unit = findUnit(own.empty() ? amountOf(rangeEnd)->unit : own);
+    unit = unit != nullptr ? unit : &unitsOf(asked.dimension()).front();
+    const double inIt = converted(number, *unit, *read);
+    // 27.837 s are 27,837 ms, whatever their binary fractions come to.
+    constexpr double kRounding = 1e-12;
+    const bool isWhole = unit != read && std::abs(inIt - std::round(inIt)) <= std::abs(inIt) * kRounding;
+    return rounded(asked.field, isWhole ? std::round(inIt) : inIt);
+}
+
+tl::expected<void, FilterError> setNumbers(const Asked& asked, const UnitInfo* read,
+                                           const WrittenCondition& written, Test& test) {
     test.comparesNan = written.op != Operator::In && isNan(written.constants.front().first);
     for (const auto& [from, to] : written.constants) {
         if (!test.comparesNan) {
-            const Test::Range range{rounded(field, *numberFor(field, from)),
-                                    rounded(field, *numberFor(field, to))};
+            const Test::Range range{asRead(asked, read, from, to), asRead(asked, read, to, to)};
             if (range.first > range.second) {
                 return failure({TokenKind::Word, from.token.offset, to.token.end() - from.token.offset},
                                "This range ends before it begins: write the smaller value first.");
@@ -235,8 +318,7 @@ tl::expected<void, FilterError> setNumbers(const FieldInfo& field, const Written
 
 /// A bare number, which is rarely meant as text.
 bool isNumber(const WrittenCondition& written) {
-    return !written.constants.empty() && !written.constants.front().first.isQuoted &&
-           numberOf(written.constants.front().first.text).has_value();
+    return !written.constants.empty() && amountOf(written.constants.front().first).has_value();
 }
 
 bool isName(const FieldInfo& field, const WrittenCondition& written) {
@@ -247,14 +329,16 @@ bool isName(const FieldInfo& field, const WrittenCondition& written) {
 void setPlaces(const FieldMatch& match, const WrittenCondition& written, const FieldInfo& first,
                Condition& condition) {
     for (const FieldInfo* field : match.fields) {
-        if (!field->isOfItems() || field->kind != first.kind || field->components != first.components) {
+        if (!field->isOfItems() || field->kind != first.kind || field->components != first.components ||
+            (field->dimension != first.dimension && !match.isAsSent)) {
             continue;
         }
         const Places& places = isName(*field, written) && field->named ? *field->named : field->places;
         for (std::size_t shape = 0; shape < kShapes; ++shape) {
             for (std::size_t list = 0; list < kLists; ++list) {
-                if (places[shape][list] != nullptr) {
-                    condition.places[shape][list] = places[shape][list];
+                if (const Place& place = places[shape][list]; place.read != nullptr) {
+                    condition.places[shape][list] = {place.read,
+                                                     match.isAsSent ? std::nullopt : place.length};
                 }
             }
         }
@@ -268,6 +352,11 @@ tl::expected<Condition, FilterError> tagCondition(const FieldMatch& match, const
     condition.test.op = written.op;
     if (ordersOnly(written.op)) {
         return failure(written.operatorToken, "Tags are text: use ==, !=, `in`, `contains` or `matches`.");
+    }
+    for (const auto& [from, to] : written.constants) {
+        if (from.unit || to.unit) {
+            return failure(from.unit ? *from.unit : *to.unit, "Tags are text and have no unit.");
+        }
     }
     if (written.op != Operator::IsThere) {
         if (auto set = setTexts(written, condition.test); !set) {
@@ -285,6 +374,26 @@ void setTruth(const FieldInfo& field, Condition& condition) {
     }
 }
 
+/// The constants as the values that the condition reads are.
+tl::expected<void, FilterError> setTests(const Asked& asked, const WrittenCondition& written,
+                                         Condition& condition) {
+    if (written.op == Operator::IsThere) {
+        return {};
+    }
+    if (isTextKind(asked.field.kind)) {
+        return setTexts(written, condition.test);
+    }
+    const bool isLength = asked.dimension() == Dimension::Length;
+    const UnitInfo* read = isLength ? &unitsOf(Dimension::Length).front() : asked.field.read;
+    auto set = setNumbers(asked, read, written, condition.test);
+    if (set && isLength) {
+        condition.comparesLengths = true;
+        condition.testInCentimetres.op = written.op;
+        return setNumbers(asked, findUnit("cm"), written, condition.testInCentimetres);
+    }
+    return set;
+}
+
 } // namespace
 
 tl::expected<Condition, FilterError> understood(const WrittenCondition& written) {
@@ -300,7 +409,8 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
     const auto suiting = [&](bool mayReadNumberAsText) {
         return std::ranges::find_if(match.fields, [&](const FieldInfo* field) {
             const bool isFirstChoice = !isTextKind(field->kind) || !isNumber(written);
-            return (isFirstChoice || mayReadNumberAsText) && suits(*field, match.hasComponent, written);
+            return (isFirstChoice || mayReadNumberAsText) &&
+                   suits({*field, match.hasComponent, match.isAsSent}, written);
         });
     };
     auto found = suiting(false);
@@ -317,12 +427,8 @@ tl::expected<Condition, FilterError> understood(const WrittenCondition& written)
         condition.firstComponent = match.hasComponent ? match.component : 0;
         condition.components = match.hasComponent ? 1 : field.components;
     }
-    if (written.op != Operator::IsThere) {
-        auto set = isTextKind(field.kind) ? setTexts(written, condition.test)
-                                          : setNumbers(field, written, condition.test);
-        if (!set) {
-            return Failure(set.error());
-        }
+    if (auto set = setTests({field, match.hasComponent, match.isAsSent}, written, condition); !set) {
+        return Failure(set.error());
     }
     setTruth(field, condition);
     return condition;

@@ -110,15 +110,33 @@ struct Reading {
     bool isFloat = false;
 };
 
+const UnitInfo* unitOf(const wire::About& about) {
+    return findUnit(wire::unitSymbol(about.unit));
+}
+
+Dimension dimensionOf(const wire::About& about) {
+    const UnitInfo* unit = unitOf(about);
+    return unit != nullptr ? unit->dimension : Dimension::None;
+}
+
+/// What a layout says of a length.
+std::optional<model::LengthUnit> lengthOf(const wire::About& about) {
+    return dimensionOf(about) != Dimension::Length ? std::nullopt
+           : about.unit == wire::Unit::Centimetres ? std::optional(model::LengthUnit::Centimetre)
+                                                   : std::optional(model::LengthUnit::Metre);
+}
+
 void add(Found& found, const Spot& spot, const wire::About& about, const Reading& reading) {
     const auto isSame = [&](const FieldInfo& field) {
         return field.name == about.name && field.qualifier == spot.qualifier && field.kind == reading.kind &&
-               field.components == reading.components;
+               field.components == reading.components && field.dimension == dimensionOf(about);
     };
     auto draft = std::ranges::find_if(found.drafts, isSame, &Draft::field);
     if (draft == found.drafts.end()) {
         FieldInfo field{std::string(about.name), std::string(spot.qualifier), reading.kind,
                         reading.components, reading.isFloat};
+        field.dimension = dimensionOf(about);
+        field.read = unitOf(about);
         draft = found.drafts.insert(draft, Draft{std::move(field)});
     }
     FieldInfo& field = draft->field;
@@ -126,10 +144,10 @@ void add(Found& found, const Spot& spot, const wire::About& about, const Reading
         field.types.push_back(spot.type);
         draft->said.push_back(about);
     }
-    field.places[spot.shape][spot.list] = reading.read;
+    field.places[spot.shape][spot.list] = {reading.read, lengthOf(about)};
     if (reading.readNamed != nullptr) {
         field.named = field.named.value_or(Places{});
-        (*field.named)[spot.shape][spot.list] = reading.readNamed;
+        (*field.named)[spot.shape][spot.list] = {reading.readNamed};
     }
 }
 
@@ -199,6 +217,13 @@ void walkMessage(Found& found) {
     }
 }
 
+/// `sent`: the units on the wire, in words.
+void setUnits(FieldInfo& field, std::string sent) {
+    const bool isMeasured = field.dimension != Dimension::None;
+    field.unit = isMeasured ? std::string(unitsOf(field.dimension).front().symbol) : sent;
+    field.unitSent = field.unit == sent ? std::string() : std::move(sent);
+}
+
 std::vector<FieldInfo> headerFields() {
     std::vector<FieldInfo> fields;
     wire::forEachField<wire::Header, Form::Standard>([&]<auto Member>(const wire::Field<Member>& field) {
@@ -206,7 +231,9 @@ std::vector<FieldInfo> headerFields() {
         info.name = field.about.name;
         info.qualifier = "header";
         info.kind = kKindOf<wire::MemberValue<Member>>;
-        info.unit = wire::unitSymbol(field.about.unit);
+        info.read = unitOf(field.about);
+        info.dimension = dimensionOf(field.about);
+        setUnits(info, std::string(wire::unitSymbol(field.about.unit)));
         info.text = field.about.text;
         info.readPacket = &readHeader<Member>;
         fields.push_back(std::move(info));
@@ -262,7 +289,8 @@ std::vector<FieldInfo> wireFields() {
     std::vector<FieldInfo> fields = headerFields();
     for (const Draft& draft : walked().drafts) {
         FieldInfo& field = fields.emplace_back(draft.field);
-        field.unit = together(draft, [](const wire::About& about) { return wire::unitSymbol(about.unit); });
+        setUnits(field,
+                 together(draft, [](const wire::About& about) { return wire::unitSymbol(about.unit); }));
         field.text = together(draft, [](const wire::About& about) { return about.text; });
     }
     return fields;

@@ -15,7 +15,7 @@ TEST(FurtherMessage, IsInspected) {
     EXPECT_TRUE(document.problems().empty());
     const std::int32_t item = document.find("readings[1]");
     ASSERT_GE(item, 0);
-    EXPECT_EQ(fieldTitle(document, item), QStringLiteral("Segment 22 · L5"));
+    EXPECT_EQ(fieldTitle(document, item), QStringLiteral("Segment 22 · Left Foot"));
     const std::int32_t level = document.find("readings[0].level");
     EXPECT_EQ(wireValue(document, level), "-2");
     EXPECT_EQ(fieldPlace(document, level), QStringLiteral("int32 at bytes 46–49"));

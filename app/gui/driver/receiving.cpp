@@ -88,6 +88,15 @@ void Receiving::addPort(const InputAddress& port) {
     open(m_state.ports.back());
 }
 
+void Receiving::addPort(const InputAddress& port, std::size_t row) {
+    const std::size_t before = m_state.ports.size();
+    addPort(port);
+    if (m_state.ports.size() > before && row < before) {
+        std::rotate(m_state.ports.begin() + static_cast<std::ptrdiff_t>(row), m_state.ports.end() - 1,
+                    m_state.ports.end());
+    }
+}
+
 bool Receiving::removePort(const InputAddress& port) {
     const auto known = std::ranges::find(m_state.ports, port, &PortState::port);
     if (known == m_state.ports.end()) {

@@ -30,6 +30,8 @@ public:
     /// Listens or connects to one more; what is wrong with it is in state(), and it is tried again by
     /// retry().
     void addPort(const InputAddress& port);
+    /// In that row, where it was before.
+    void addPort(const InputAddress& port, std::size_t row);
 
     /// The same for what an operator enters: kept only where it can be opened. The answer is what went wrong,
     /// empty for nothing.

@@ -14,17 +14,18 @@ bool isReady(const std::future<net::NetResult<net::RelayId>>& answer) {
 
 } // namespace
 
-bool Relaying::add(const RelayChoice& choice) {
+bool Relaying::add(const RelayChoice& choice, std::size_t row) {
     const auto isSame = [&](const RelayState& state) {
         return state.target.host == choice.host && state.target.port == choice.port;
     };
     if (std::ranges::any_of(m_states, isSame)) {
         return false;
     }
-    m_states.push_back({choice});
-    m_work.emplace_back();
+    row = std::min(row, m_states.size());
+    m_states.insert(m_states.begin() + static_cast<std::ptrdiff_t>(row), RelayState{choice});
+    m_work.insert(m_work.begin() + static_cast<std::ptrdiff_t>(row), Work{});
     if (choice.isOn) {
-        begin(m_states.size() - 1);
+        begin(row);
     }
     return true;
 }

@@ -20,7 +20,9 @@ public:
     Relaying(const log::PacketLog& log, const log::Clock& clock) : m_log(log), m_clock(clock) {}
 
     /// False where that host and port are there already.
-    bool add(const RelayChoice& choice);
+    bool add(const RelayChoice& choice) { return add(choice, m_states.size()); }
+    /// In that row, where it was before.
+    bool add(const RelayChoice& choice, std::size_t row);
     void remove(std::size_t row);
     void setOn(std::size_t row, bool isOn);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_page.h"
 
+#include "app/gui/inputs/undo_removal.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/event_watch.h"
@@ -163,6 +164,7 @@ InputsPage::InputsPage(Receiving& receiving, QWidget* parent)
       m_state(plainLabel(this)),
       m_edit(new QPushButton(tr("&Edit"), this)),
       m_remove(new QPushButton(tr("&Remove"), this)),
+      m_undo(new UndoRemoval(this)),
       m_openFile(new QPushButton(tr("&Open file…"), this)),
       m_submit(new QPushButton(this)),
       m_cancel(new QPushButton(tr("Cancel"), this)) {
@@ -205,6 +207,7 @@ void InputsPage::layOut() {
     auto* buttons = new QHBoxLayout;
     buttons->addWidget(m_edit);
     buttons->addWidget(m_remove);
+    buttons->addWidget(m_undo);
     buttons->addSpacing(fontMetrics().height());
     buttons->addWidget(m_state, 1);
     buttons->addWidget(m_openFile);
@@ -342,11 +345,25 @@ void InputsPage::removeSelected() {
     if (!input) {
         return;
     }
+    const int row = m_model->rowOf(*input);
+    m_undo->carryOut(
+        displayText(*input), [this, input = *input] { remove(input); },
+        [this, input = *input, row] { putBack(input, row); });
+}
+
+void InputsPage::remove(const InputAddress& input) {
     if (m_edited == input) {
         endEditing();
     }
-    m_receiving.removePort(*input);
+    m_receiving.removePort(input);
     refresh();
+    emit choicesChanged();
+}
+
+void InputsPage::putBack(const InputAddress& input, int row) {
+    m_receiving.addPort(input, static_cast<std::size_t>(row));
+    refresh();
+    select(input);
     emit choicesChanged();
 }
 

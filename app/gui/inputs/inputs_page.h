@@ -21,6 +21,7 @@ namespace posewire::gui {
 class ComboBox;
 class SenderSettings;
 class TableView;
+class UndoRemoval;
 
 /// What the operator typed, made an address; the error says what is wrong with it, in a sentence. Groups may
 /// be separated by commas, semicolons or blanks. Nothing is opened or looked up.
@@ -80,7 +81,7 @@ public:
     // What the buttons do.
     void submit(); ///< adds what is typed, or changes the input that is being edited into it
     void editSelected();
-    void removeSelected();
+    void removeSelected(); ///< until it is undone
     void endEditing();
     void applyAllowed(); ///< listens to those who are typed, where that makes sense
 
@@ -99,6 +100,8 @@ protected:
 
 private:
     void layOut();
+    void remove(const InputAddress& input);
+    void putBack(const InputAddress& input, int row);
     void select(const InputAddress& input);
     void showChoice();
     void showAllowedNote();
@@ -115,6 +118,7 @@ private:
     QLabel* m_state;          ///< of the selected one, in full
     QPushButton* m_edit;
     QPushButton* m_remove;
+    UndoRemoval* m_undo;
     QPushButton* m_openFile;
     QPushButton* m_submit;
     QPushButton* m_cancel;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/relay_page.h"
 
+#include "app/gui/inputs/undo_removal.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/widgets.h"
@@ -16,6 +17,8 @@
 #include <QPushButton>
 #include <QShortcut>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace posewire::gui {
 
@@ -57,7 +60,8 @@ RelayPage::RelayPage(Relaying& relaying, QWidget* parent)
       m_target(new QLineEdit(this)),
       m_note(plainLabel(this)),
       m_add(new QPushButton(tr("&Add target"), this)),
-      m_remove(new QPushButton(tr("&Remove"), this)) {
+      m_remove(new QPushButton(tr("&Remove"), this)),
+      m_undo(new UndoRemoval(this)) {
     m_table->setModel(m_model);
     m_table->setEmptyText(tr("Nothing is forwarded. Add the host of another program that needs the stream."));
     m_table->setColumnSamples({QStringLiteral("☑ motion-capture.studio"), QStringLiteral("65535"), QString(),
@@ -101,6 +105,7 @@ void RelayPage::layOut() {
     row->addWidget(m_add);
     row->addSpacing(fontMetrics().height());
     row->addWidget(m_remove);
+    row->addWidget(m_undo);
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height() * 2 / 3);
     column->addWidget(about);
@@ -133,9 +138,32 @@ void RelayPage::submit() {
 
 void RelayPage::removeSelected() {
     const QModelIndex current = m_table->currentIndex();
-    if (current.isValid()) {
-        m_relaying.remove(static_cast<std::size_t>(current.row()));
+    if (!current.isValid()) {
+        return;
+    }
+    const auto row = static_cast<std::size_t>(current.row());
+    const RelayChoice choice = m_relaying.states()[row].target;
+    m_undo->carryOut(
+        displayText(choice), [this, choice] { remove(choice); },
+        [this, choice, row] { putBack(choice, row); });
+}
+
+void RelayPage::remove(const RelayChoice& choice) {
+    const auto& states = m_relaying.states();
+    const auto found = std::ranges::find_if(states, [&](const RelayState& state) {
+        return state.target.host == choice.host && state.target.port == choice.port;
+    });
+    if (found != states.end()) {
+        m_relaying.remove(static_cast<std::size_t>(found - states.begin()));
         refresh();
+        emit choicesChanged();
+    }
+}
+
+void RelayPage::putBack(const RelayChoice& choice, std::size_t row) {
+    if (m_relaying.add(choice, row)) {
+        refresh();
+        m_table->setCurrentIndex(m_model->index(static_cast<int>(row), 0));
         emit choicesChanged();
     }
 }

@@ -13,6 +13,7 @@ class QPushButton;
 namespace posewire::gui {
 
 class TableView;
+class UndoRemoval;
 
 /// The hosts that every datagram is forwarded to, with what they got; adds, switches and removes them.
 class RelayPage final : public QWidget {
@@ -25,7 +26,7 @@ public:
 
     // What the buttons do.
     void submit();
-    void removeSelected();
+    void removeSelected(); ///< until it is undone
 
     [[nodiscard]] QLineEdit& targetEdit() const { return *m_target; }
     [[nodiscard]] const QString& problem() const { return m_problem; }
@@ -39,6 +40,8 @@ protected:
 
 private:
     void layOut();
+    void remove(const RelayChoice& choice);
+    void putBack(const RelayChoice& choice, std::size_t row);
     void switchTarget(int row, bool isOn);
     void setProblem(const QString& problem);
     void showNote();
@@ -50,6 +53,7 @@ private:
     QLabel* m_note;
     QPushButton* m_add;
     QPushButton* m_remove;
+    UndoRemoval* m_undo;
     QString m_problem;
 };
 

@@ -147,21 +147,66 @@ FieldDocument::FieldDocument(const log::Packet& packet, model::LengthUnit unit)
 void FieldDocument::readContext() {
     std::vector<std::uint32_t> ids;
     std::size_t items = 0;
+    std::int32_t first = kNone;
     for (const std::int32_t top : children(kNone)) {
         if (node(top).kind != NodeKind::Group || isInHeader(top)) {
             continue;
         }
         items = std::max<std::size_t>(items, node(top).index);
+        first = first < 0 && !children(top).empty() ? children(top).front() : first;
         for (const std::int32_t item : children(top)) {
             if (const auto id = numberOf(item, RefersTo::Point)) {
                 ids.push_back(*id);
             }
         }
     }
-    m_layout = model::segmentLayout(m_header, std::min<std::size_t>(items, wire::kMaxItems));
+    const RefersTo about = first >= 0 ? node(first).refersTo : RefersTo::Nothing;
+    m_places = model::itemPlaces(m_header, std::min<std::size_t>(items, wire::kMaxItems),
+                                 first >= 0 ? numberOf(first, about) : std::nullopt);
+    if (about == RefersTo::Joint && m_header.datagramIndex() != 0) {
+        m_places.first = firstJoint(first);
+    }
     if (!ids.empty()) {
         m_coding = model::detectPointIdCoding(ids);
     }
+}
+
+/// By its two ends. The last rows, of which two have the same, are told apart by their places alone.
+std::optional<int> FieldDocument::firstJoint(std::int32_t item) const {
+    std::vector<std::uint32_t> ends;
+    for (const std::int32_t child : children(item)) {
+        if (node(child).refersTo == RefersTo::JointEnd && std::isfinite(node(child).number)) {
+            ends.push_back(static_cast<std::uint32_t>(node(child).number));
+        }
+    }
+    const auto& joints = model::jointDefinitions();
+    const auto found = std::ranges::find_if(joints, [&](const model::JointDefinition& joint) {
+        constexpr auto kCoding = model::PointIdCoding::By256;
+        return ends == std::vector{model::encodePointId(kCoding, joint.parent),
+                                   model::encodePointId(kCoding, joint.child)};
+    });
+    return found != joints.end() ? std::optional(static_cast<int>(found - joints.begin())) : std::nullopt;
+}
+
+int FieldDocument::placeOf(std::int32_t item) const {
+    return m_places.first ? *m_places.first + static_cast<int>(node(item).index) : -1;
+}
+
+std::string FieldDocument::lastingPath(std::int32_t node) const {
+    const std::int32_t item = itemOf(node);
+    const std::string path = m_tree.path(node);
+    if (item < 0) {
+        return path;
+    }
+    const RefersTo about = this->node(item).refersTo;
+    const bool hasPlace =
+        about == RefersTo::Segment || about == RefersTo::UnitySegment || about == RefersTo::Joint;
+    const auto id = hasPlace ? std::nullopt : numberOf(item, about);
+    if (!id && placeOf(item) < 0) {
+        return path;
+    }
+    const std::string own = id ? '#' + std::to_string(*id) : std::to_string(placeOf(item));
+    return m_tree.path(this->node(item).parent) + '[' + own + ']' + path.substr(m_tree.path(item).size());
 }
 
 bool FieldDocument::isInHeader(std::int32_t node) const {
@@ -225,17 +270,18 @@ int FieldDocument::segmentOf(std::int32_t node) const {
     if (item < 0) {
         return -1;
     }
-    const auto index = static_cast<int>(this->node(item).index);
+    const int index = placeOf(item);
+    const bool isOfBody = index >= 0 && index < model::kBodySegmentCount;
     const auto carrier = [&](RefersTo what) {
         return static_cast<int>(std::min(numberOf(item, what).value_or(0), 1'000'000U)) - 1;
     };
     switch (this->node(item).refersTo) {
     case RefersTo::Segment:
-        return index;
+        return m_places.positionOf(this->node(item).index, numberOf(item, RefersTo::Segment));
     case RefersTo::UnitySegment:
-        return index < model::kBodySegmentCount ? model::unityOrder()[static_cast<std::size_t>(index)] : -1;
+        return isOfBody ? model::unityOrder()[static_cast<std::size_t>(index)] : -1;
     case RefersTo::Joint:
-        return index < model::kJointCount
+        return index >= 0 && index < model::kJointCount
                    ? model::jointDefinitions()[static_cast<std::size_t>(index)].childSegment()
                    : -1;
     case RefersTo::Point: {
@@ -249,6 +295,13 @@ int FieldDocument::segmentOf(std::int32_t node) const {
     default:
         return -1;
     }
+}
+
+std::string_view FieldDocument::segmentTitle(std::int32_t item) const {
+    const RefersTo about = node(item).refersTo;
+    const std::uint32_t id = numberOf(item, about).value_or(0);
+    const bool isOfBody = id >= 1 && id <= static_cast<std::uint32_t>(model::kBodySegmentCount);
+    return model::segmentTitle(isOfBody ? model::SegmentLayout() : m_places.layout, segmentOf(item));
 }
 
 std::int32_t FieldDocument::nodeOfSegment(int segment) const {

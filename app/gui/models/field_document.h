@@ -5,6 +5,7 @@
 #include "core/log/packet.h"
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
+#include "core/model/body/character_pose.h"
 #include "core/model/body/points.h"
 #include "core/model/body/segments.h"
 #include "core/model/body/units.h"
@@ -70,12 +71,18 @@ public:
         return model::knownPoint(m_coding, id);
     }
 
+    /// Where an item stands in its message, from 0: a sample may come in several datagrams. -1 where that is
+    /// not known.
+    [[nodiscard]] int placeOf(std::int32_t item) const;
+    /// What a node is called in every datagram that has it, whatever part of the sample that is.
+    [[nodiscard]] std::string lastingPath(std::int32_t node) const;
+
     /// Position in a pose datagram of the segment that a node is about, -1 where it is about none.
     [[nodiscard]] int segmentOf(std::int32_t node) const;
     /// The item about a segment; -1 where there is none.
     [[nodiscard]] std::int32_t nodeOfSegment(int segment) const;
-    /// Items of its segment list, for names by position.
-    [[nodiscard]] const model::SegmentLayout& layout() const { return m_layout; }
+    /// "Right Upper Arm": what the segment of an item is called; empty where it has no name.
+    [[nodiscard]] std::string_view segmentTitle(std::int32_t item) const;
 
     /// The worst that is wrong with the node itself, and with what is below it.
     [[nodiscard]] Health health(std::int32_t node) const { return m_own[static_cast<std::size_t>(node)]; }
@@ -88,6 +95,7 @@ public:
 
 private:
     void readContext();
+    [[nodiscard]] std::optional<int> firstJoint(std::int32_t item) const;
     void findProblems(const log::Packet& packet);
     void addFault();
     void addNotice(const wire::Notice& notice);
@@ -105,7 +113,7 @@ private:
     wire::Header m_header;
     model::LengthUnit m_unit = model::LengthUnit::Metre;
     model::PointIdCoding m_coding = model::PointIdCoding::By256;
-    model::SegmentLayout m_layout;
+    model::ItemPlaces m_places; ///< of the items of its first list
     wire::FieldTree m_tree;
     std::vector<std::vector<std::int32_t>> m_children; ///< in wire order; the first element is of the top
     std::vector<FieldProblem> m_problems;

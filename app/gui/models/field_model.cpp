@@ -95,10 +95,10 @@ void FieldModel::match() {
     }
     std::unordered_map<std::string, std::int32_t> places;
     for (std::int32_t i = 0; i < m_other->count(); ++i) {
-        places.emplace(m_other->tree().path(i), i);
+        places.emplace(m_other->lastingPath(i), i);
     }
     for (std::int32_t i = 0; i < count; ++i) {
-        const auto found = places.find(m_document->tree().path(i));
+        const auto found = places.find(m_document->lastingPath(i));
         m_counterparts[at(i)] = found == places.end() ? -1 : found->second;
         if (!isStructure(m_document->node(i).kind) && !differenceText(i).isEmpty()) {
             m_differences += m_document->node(i).kind == NodeKind::Part ? 0 : 1;

@@ -43,15 +43,15 @@ QString pointText(const model::PointReference& point) {
     const QString id = QStringLiteral("%1.%2").arg(point.segmentId).arg(point.localId);
     const model::AnatomicalPoint* known = model::findPoint(point.segmentId - 1, point.localId);
     return known != nullptr     ? withName(id, known->name)
-           : point.localId == 0 ? withName(id, model::segmentName({}, point.segmentId - 1))
+           : point.localId == 0 ? withName(id, model::segmentTitle({}, point.segmentId - 1))
                                 : id;
 }
 
-QString jointTitle(std::uint32_t index) {
-    const bool isKnown = index < static_cast<std::uint32_t>(model::kJointCount);
-    return tr("Joint %1")
-        .arg(withName(QString::number(index + 1),
-                      isKnown ? model::jointDefinitions()[index].name : std::string_view()));
+QString jointTitle(int place) {
+    const bool isKnown = place >= 0 && place < model::kJointCount;
+    const auto name =
+        isKnown ? model::jointDefinitions()[static_cast<std::size_t>(place)].name : std::string_view();
+    return tr("Joint %1").arg(place < 0 ? tr("(unknown)") : withName(QString::number(place + 1), name));
 }
 
 QString pointTitle(const FieldDocument& document, std::int32_t item) {
@@ -74,7 +74,7 @@ QString itemTitle(const FieldDocument& document, std::int32_t item) {
     const QString id = QString::number(idOf(document, item));
     switch (node.refersTo) {
     case RefersTo::Joint:
-        return jointTitle(node.index);
+        return jointTitle(document.placeOf(item));
     case RefersTo::Point:
         return tr("Point %1").arg(pointTitle(document, item));
     case RefersTo::Tag:
@@ -82,12 +82,12 @@ QString itemTitle(const FieldDocument& document, std::int32_t item) {
     case RefersTo::Prop:
         return tr("Prop %1").arg(withName(id, textField(document, item)));
     case RefersTo::Tracker:
-        return tr("Tracker %1").arg(withName(id, model::segmentName({}, segment)));
+        return tr("Tracker %1").arg(withName(id, model::segmentTitle({}, segment)));
     case RefersTo::Segment:
     case RefersTo::UnitySegment: {
         const std::string_view sent = textField(document, item);
-        const auto& layout = document.layout();
-        return tr("Segment %1").arg(withName(id, sent.empty() ? model::segmentName(layout, segment) : sent));
+        const auto known = sent.empty() ? document.segmentTitle(item) : model::segmentTitle(sent);
+        return tr("Segment %1").arg(withName(id, known.empty() ? sent : known));
     }
     default:
         return tr("No. %1").arg(id);
@@ -110,12 +110,12 @@ QString identifierText(const FieldDocument& document, std::int32_t index) {
         return point && document.node(item).refersTo != RefersTo::Tag ? pointText(*point) : plain;
     }
     case RefersTo::Carrier:
-        return withName(plain, model::segmentName({}, static_cast<int>(id) - 1));
+        return withName(plain, model::segmentTitle({}, static_cast<int>(id) - 1));
     case RefersTo::Segment:
     case RefersTo::UnitySegment:
     case RefersTo::Tracker:
     case RefersTo::Prop:
-        return withName(plain, model::segmentName(document.layout(), document.segmentOf(item)));
+        return withName(plain, document.segmentTitle(item));
     default:
         return plain;
     }

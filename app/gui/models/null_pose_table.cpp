@@ -117,8 +117,8 @@ std::vector<TableColumn<SegmentRow>> segmentColumns() {
         Column::numbers(tr("ID"), tr("Place in the message, from 1: type 13 sends no IDs"),
                         [](const auto& row) { return QString::number(row.place + 1); })
             .dimmed(),
-        Column::words(tr("Segment"), tr("Name as sent"),
-                      [](const auto& row) { return shown(row.segment.name); }),
+        Column::words(tr("Segment"), tr("Name in the specification; as sent where it has none such"),
+                      [](const auto& row) { return fromUtf8(row.segment.title()); }),
         positionColumn(tr("x m"), tr("Origin of the segment: x forward, Z-up"), 0),
         positionColumn(tr("y m"), tr("Origin of the segment: y to the left, Z-up"), 1),
         positionColumn(tr("z m"), tr("Origin of the segment: height over the balls of the feet"), 2),

@@ -123,6 +123,24 @@ std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::ui
     return std::nullopt;
 }
 
+std::optional<std::uint64_t> comparableBefore(model::SessionView& view, std::uint64_t packet) {
+    constexpr int kFarthest = 128; // as many parts as a sample can have
+    const auto partOf = [&view](std::uint64_t number) {
+        const auto found = view.packet(number);
+        const auto header = found ? wire::decodeHeader(found->bytes) : tl::unexpected(wire::WireError{});
+        return header ? std::optional(header->datagramIndex()) : std::nullopt;
+    };
+    const auto part = partOf(packet);
+    std::optional<std::uint64_t> before = packet;
+    for (int i = 0; i < kFarthest && before; ++i) {
+        before = neighbourInStream(view, *before, -1);
+        if (before && partOf(*before) == part) {
+            return before;
+        }
+    }
+    return std::nullopt;
+}
+
 tl::expected<std::uint64_t, QString> packetTarget(model::SessionView& view, const QString& text) {
     static const QRegularExpression spaces(QStringLiteral("\\s"));
     const QString trimmed = text.trimmed();

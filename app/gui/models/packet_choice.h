@@ -23,6 +23,11 @@ namespace posewire::gui {
 [[nodiscard]] std::optional<std::uint64_t> neighbourInStream(model::SessionView& view, std::uint64_t packet,
                                                              int direction);
 
+/// The packet that one is compared with: the nearest before it of its stream that is the same part of its
+/// sample, where parts of samples come. Nothing where there is none among as many
+/// packets as a sample can have.
+[[nodiscard]] std::optional<std::uint64_t> comparableBefore(model::SessionView& view, std::uint64_t packet);
+
 /// The packet that an operator means: "1204112" or "1 204 112" is a number, "+100" and "-100" count from the
 /// selected packet (none: the newest one), "12.5 s" is the first packet from so long after the first one on,
 /// "10:42:17.508" the first from that time of day on, on the day of the newest packet. The error says what

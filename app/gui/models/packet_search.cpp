@@ -98,10 +98,11 @@ void PacketSearch::run(const std::stop_token& stop) {
 }
 
 PacketFilterRun::PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests,
-                                 filter::Filter filter, log::Stamp firstStamp)
+                                 filter::Filter filter, log::Stamp firstStamp, PositionUnits units)
     : m_log(log),
       m_filter(std::move(filter)),
       m_firstStamp(firstStamp),
+      m_units(std::move(units)),
       m_begin(digests.begin()),
       m_next(digests.begin()),
       m_end(digests.end()),
@@ -156,7 +157,8 @@ bool PacketFilterRun::isMatch(const log::Packet& packet, const model::PacketDige
                               log::SenderFinder& senders) {
     const bool isRead = !packet.flags.skipped && wire::decodeInto(packet.bytes, m_datagram).has_value();
     return m_filter.matches({packet, digest, isRead ? &m_datagram : nullptr, senders.find(packet.sender),
-                             m_firstStamp, nullptr, m_log.timeline().setByAt(packet.stamp)});
+                             m_firstStamp, nullptr, m_log.timeline().setByAt(packet.stamp),
+                             unitIn(m_units, packet.sender, digest.type)});
 }
 
 void PacketFilterRun::lookAt(const model::PacketDigests::Excerpt& excerpt, log::LogFollower& follower,

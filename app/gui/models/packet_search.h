@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/position_units.h"
 #include "core/filter/filter.h"
 #include "core/log/log_follower.h"
 #include "core/log/packet_log.h"
@@ -80,7 +81,7 @@ class PacketFilterRun {
 public:
     /// The log must outlive the run. `firstStamp` is where the filter's `time` begins.
     PacketFilterRun(const log::PacketLog& log, const model::PacketDigests& digests, filter::Filter filter,
-                    log::Stamp firstStamp);
+                    log::Stamp firstStamp, PositionUnits units = {});
 
     struct Found {
         std::vector<std::uint64_t> packets;  ///< in growing order
@@ -116,6 +117,7 @@ private:
     const log::PacketLog& m_log;
     const filter::Filter m_filter;
     const log::Stamp m_firstStamp;
+    const PositionUnits m_units;
     const std::uint64_t m_begin; ///< the first packet there was
     wire::Datagram m_datagram;   // the thread's
     mutable std::mutex m_mutex;  ///< guards all that follows but the thread

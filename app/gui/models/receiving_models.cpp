@@ -172,9 +172,11 @@ std::vector<RelayColumn> relayColumns() {
                              [](const auto& relay) { return QString::number(relay.target.port); }),
         valueColumn(RelayColumn{.title = tr("State")}, relayStage),
         countColumn(tr("Sent"), tr("Datagrams forwarded"), &RelayState::sent),
-        troubleColumn(tr("Refused"),
-                      tr("Datagrams that this system did not take: no way there, or too long for UDP"),
-                      &RelayState::refused),
+        troubleColumn(
+            tr("Refused"),
+            tr("Datagrams that this system did not take (no way there, or too long for UDP), or that "
+               "the other computer sent back because nobody listens there"),
+            &RelayState::refused),
         troubleColumn(tr("Skipped"),
                       tr("Datagrams left out because forwarding had fallen too far behind, or while it was "
                          "found out whether they come back"),

@@ -183,7 +183,7 @@ void FieldView::fitToWidth() {
     const QString vector =
         isNarrow ? QStringLiteral("23 × 736 bytes") : QStringLiteral("−0.000  −0.000  −0.000 m");
     std::vector<QString> samples(FieldModel::kColumnCount);
-    const QString field = QStringLiteral("Segment 10 · RightUpperArmxx");
+    const QString field = QStringLiteral("Segment 10 · Right Upper Armxx");
     samples[FieldModel::kField] = hasMeaning ? field : QString();
     samples[FieldModel::kValue] = isComparing ? QStringLiteral("−0.00  −0.00 m") : vector;
     samples[FieldModel::kWire] = width >= 120 ? QStringLiteral("-0.00000001  -0.00000001  -0.00000001 m")

@@ -209,7 +209,7 @@ void InspectorPanel::showComparison() {
     std::shared_ptr<const FieldDocument> other;
     std::optional<std::uint64_t> number;
     if (m_comparison == Comparison::Previous) {
-        number = neighbourInStream(m_view, m_document->number(), -1);
+        number = comparableBefore(m_view, m_document->number());
     } else if (m_comparison == Comparison::Reference) {
         number = m_reference;
     }

@@ -367,9 +367,8 @@ QString NullPoseFigure::nameOf(const Hit& hit) const {
         return QStringLiteral("%1.%2 %3").arg(point.segment).arg(point.id).arg(shown(point.name));
     }
     if (hit.segment >= 0 && hit.segment < static_cast<int>(m_segments.size())) {
-        const model::ForeignText& name =
-            m_reading.pose()->segments[static_cast<std::size_t>(hit.segment)].name;
-        return QStringLiteral("%1 %2").arg(QString::number(hit.segment + 1), shown(name));
+        const auto& segment = m_reading.pose()->segments[static_cast<std::size_t>(hit.segment)];
+        return QStringLiteral("%1 %2").arg(QString::number(hit.segment + 1), fromUtf8(segment.title()));
     }
     return {};
 }

@@ -114,7 +114,7 @@ void NullPosePanel::makeTables() {
     m_segmentTable->setModel(&m_segments);
     m_segmentTable->setColumnSamples(
         {QStringLiteral("99"), QString(), number, number, number, distance, distance},
-        QStringLiteral("RightUpperArm"));
+        QStringLiteral("Right Upper Arm"));
     m_segmentTable->setOptionalColumns(NullPoseSegmentModel::kFromBefore);
     m_pointTable->setModel(&m_points);
     m_pointTable->setColumnSamples({QStringLiteral("99.99"), QString(), number, number, number,

@@ -124,7 +124,9 @@ void PacketsPanel::followCursor() {
 /// The session's filter may have been set by another dock.
 void PacketsPanel::followFilter() {
     const QString text = QString::fromStdString(m_view.displayFilter());
-    if (text == m_filterText) {
+    // What a sender's positions come in turns out, or is declared, while it sends.
+    const auto units = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
+    if (text == m_filterText && units == m_filterUnits) {
         return;
     }
     m_filterText = text;
@@ -135,6 +137,8 @@ void PacketsPanel::followFilter() {
     }
     m_run.reset();
     m_filter->setProgress(std::nullopt);
+    m_comparesLengths = compiled->comparesLengths();
+    m_filterUnits = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
     if (compiled->matchesEverything()) {
         m_packets.endMatches();
     } else {
@@ -143,7 +147,7 @@ void PacketsPanel::followFilter() {
         m_unfiltered = 0;
         m_filterFrom = m_view.end();
         m_run = std::make_unique<PacketFilterRun>(m_view.log(), m_view.digests(), *std::move(compiled),
-                                                  m_view.firstStamp());
+                                                  m_view.firstStamp(), m_filterUnits);
     }
 }
 

@@ -71,6 +71,29 @@ SegmentLayout segmentLayout(const wire::Header& header, std::size_t items) {
     return {body, rest - fingers, fingers};
 }
 
+int ItemPlaces::positionOf(std::size_t item, std::optional<std::uint32_t> id) const {
+    constexpr std::uint32_t kFootOfE = segment::kLeftFoot + 2;
+    const int place = first ? *first + static_cast<int>(item) : -1;
+    const bool isFootOfE = !isCounted && place == segment::kLeftFoot && id == kFootOfE;
+    const bool isOfBody = id && *id >= 1 && *id <= static_cast<std::uint32_t>(kBodySegmentCount);
+    return isOfBody && !isFootOfE ? static_cast<int>(*id) - 1 : place;
+}
+
+ItemPlaces itemPlaces(const wire::Header& header, std::size_t items, std::optional<std::uint32_t> firstId) {
+    if (header.datagramIndex() == 0 && header.isLast()) {
+        return {segmentLayout(header, items), 0, header.countedSegments() != 0};
+    }
+    std::optional<int> first;
+    if (header.datagramIndex() == 0) {
+        first = 0;
+    } else if (firstId && *firstId >= 1 && *firstId <= static_cast<std::uint32_t>(kMaxSegmentCount)) {
+        first = static_cast<int>(*firstId) - 1;
+    }
+    const std::size_t seen = static_cast<std::size_t>(first.value_or(0)) + items;
+    return {segmentLayout(header, std::max<std::size_t>(seen, header.countedSegments())), first,
+            header.countedSegments() != 0};
+}
+
 bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
                      LengthUnit unit, CharacterPose& pose) {
     if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {

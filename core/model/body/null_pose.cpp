@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/null_pose.h"
 
+#include "core/model/body/segments.h"
 #include "core/model/body/spaces.h"
 
 #include <algorithm>
@@ -110,6 +111,11 @@ std::size_t insert(std::vector<Item> items, std::size_t place, std::size_t& byte
 }
 
 } // namespace
+
+std::string NullPose::Segment::title() const {
+    const std::string_view known = segmentTitle(name.exact());
+    return known.empty() ? name.shown() : std::string(known);
+}
 
 void NullPoseAssembler::begin(std::uint64_t packet, log::Stamp stamp) {
     const std::uint64_t message = m_arriving.message + 1;

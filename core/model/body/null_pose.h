@@ -38,7 +38,9 @@ struct NullPose : NullPoseMessage {
     static constexpr std::size_t kMostNameBytes = 1024;
 
     struct Segment {
-        ForeignText name;
+        ForeignText name; ///< as sent
+        /// What people read: see segmentTitle; the name where the specification has no such segment.
+        [[nodiscard]] std::string title() const;
         Eigen::Vector3d position; ///< metres, Z-up, world
         friend bool operator==(const Segment&, const Segment&) = default;
     };

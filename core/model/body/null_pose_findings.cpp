@@ -210,7 +210,7 @@ void findAboutNames(const NullPoseEvidence& evidence, Findings& findings) {
         const auto index = findBodySegment(pose.segments[place].name.exact());
         if (index && *index != static_cast<int>(place)) {
             first = moved.empty() ? *index : first;
-            moved.push_back(pose.segments[place].name.shown() + " at " + std::to_string(place + 1) +
+            moved.push_back(pose.segments[place].title() + " at " + std::to_string(place + 1) +
                             " (should be " + std::to_string(*index + 1) + ")");
         }
     }

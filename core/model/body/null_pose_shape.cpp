@@ -271,7 +271,7 @@ void findAboutShape(const NullPose& pose, Findings& findings) {
     std::vector<std::string> unusable;
     for (std::size_t place = 0; place < pose.segments.size(); ++place) {
         if (!pose.segments[place].position.allFinite()) {
-            unusable.push_back(std::to_string(place + 1) + " " + pose.segments[place].name.shown());
+            unusable.push_back(std::to_string(place + 1) + " " + pose.segments[place].title());
         }
     }
     if (!unusable.empty()) {

@@ -46,14 +46,47 @@ constexpr std::array<HandSegment, kHandSegmentCount> kHand{{
 
 constexpr std::array<std::string_view, kMaxPropCount> kPropNames{"Prop1", "Prop2", "Prop3", "Prop4"};
 
-/// "LeftCarpus" and so on.
-std::array<std::string, kHandSegmentCount> handNames(std::string_view side) {
-    std::array<std::string, kHandSegmentCount> names;
+using HandNames = std::array<std::string, kHandSegmentCount>;
+
+/// "LeftCarpus" and so on; in titles a space is before each word: "Left First MC".
+HandNames handNames(std::string_view side, bool isTitle) {
+    HandNames names;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        names[i] = std::string(side) + std::string(kHand[i].name);
+        const std::string_view finger = kHand[i].name;
+        const std::size_t bone = i == 0 || !isTitle ? finger.size() : finger.size() - 2;
+        names[i].append(side).append(isTitle ? " " : "").append(finger.substr(0, bone));
+        names[i].append(bone < finger.size() ? " " : "").append(finger.substr(bone));
     }
     return names;
 }
+
+/// The name or the title of each segment.
+struct Naming {
+    std::string_view Segment::*body;
+    HandNames left;
+    HandNames right;
+};
+
+std::string_view named(const Naming& naming, const SegmentLayout& layout, int position) {
+    const auto place = placeOf(layout, position);
+    const auto index = static_cast<std::size_t>(place ? place->index : 0);
+    if (!place) {
+        return {};
+    }
+    switch (place->kind) {
+    case SegmentKind::Body:
+        return kBody[index].*naming.body;
+    case SegmentKind::Prop:
+        return kPropNames[index];
+    case SegmentKind::LeftFinger:
+        return naming.left[index];
+    case SegmentKind::RightFinger:
+        return naming.right[index];
+    }
+    return {};
+}
+
+constexpr SegmentLayout kAll{kBodySegmentCount, kMaxPropCount, kFingerSegmentCount};
 
 // Table "Unity3D" of the specification: legs, spine, left arm, right arm, head.
 constexpr std::array<int, kBodySegmentCount> kUnityOrder{{
@@ -131,22 +164,20 @@ std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position) {
 }
 
 std::string_view segmentName(const SegmentLayout& layout, int position) {
-    const auto place = placeOf(layout, position);
-    if (!place) {
-        return {};
-    }
-    static const auto leftNames = handNames("Left");
-    static const auto rightNames = handNames("Right");
-    const auto index = static_cast<std::size_t>(place->index);
-    switch (place->kind) {
-    case SegmentKind::Body:
-        return kBody[index].name;
-    case SegmentKind::Prop:
-        return kPropNames[index];
-    case SegmentKind::LeftFinger:
-        return leftNames[index];
-    case SegmentKind::RightFinger:
-        return rightNames[index];
+    static const Naming names{&Segment::name, handNames("Left", false), handNames("Right", false)};
+    return named(names, layout, position);
+}
+
+std::string_view segmentTitle(const SegmentLayout& layout, int position) {
+    static const Naming titles{&Segment::displayName, handNames("Left", true), handNames("Right", true)};
+    return named(titles, layout, position);
+}
+
+std::string_view segmentTitle(std::string_view sentName) {
+    for (int position = 0; position < kAll.count(); ++position) {
+        if (segmentName(kAll, position) == sentName) {
+            return segmentTitle(kAll, position);
+        }
     }
     return {};
 }

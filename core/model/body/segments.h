@@ -50,7 +50,7 @@ enum class Side : std::uint8_t { Centre, Right, Left };
 struct Segment {
     int id = 0;                   ///< on the wire, 1-based
     std::string_view name;        ///< as sent in type 13: "RightUpperArm"
-    std::string_view displayName; ///< "Right Upper Arm"
+    std::string_view displayName; ///< in the specification's tables: "Right Upper Arm"
     int parent = -1;              ///< 0-based position of the parent, -1 for the pelvis
     Side side = Side::Centre;
 };
@@ -91,8 +91,15 @@ struct SegmentPlace {
 /// Judged by position, since the numbering of props differs between revisions. Empty outside the layout.
 std::optional<SegmentPlace> placeOf(const SegmentLayout& layout, int position);
 
-/// "RightUpperArm", "Prop1", "LeftFirstPP"; empty outside the layout.
+/// As sent in type 13, and as a word of filters: "RightUpperArm", "Prop1", "LeftFirstPP"; empty outside the
+/// layout.
 std::string_view segmentName(const SegmentLayout& layout, int position);
+
+/// What people read: the specification's "Right Upper Arm", "Prop1", "Left First PP"; empty outside the
+/// layout.
+std::string_view segmentTitle(const SegmentLayout& layout, int position);
+/// The same by the name that was sent; empty where that is none of these.
+std::string_view segmentTitle(std::string_view sentName);
 
 /// Position of the parent item; -1 for the pelvis, for props (they are free in space) and outside the layout.
 int segmentParent(const SegmentLayout& layout, int position);

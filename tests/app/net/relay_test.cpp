@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/relay.h"
 #include "tests/app/net/net_fixture.h"
+#include "tests/support/manual_clock.h"
 
 #include <QHostAddress>
 #include <QUdpSocket>
@@ -133,6 +134,45 @@ TEST_F(RelayTest, TooLongForUdpIsRefusedAndToldSo) {
     append(100'000, 1, {"10.0.0.5:50000", log::Transport::Tcp, 9763});
     ASSERT_TRUE(eventually([&] { return relay.targets()[0].refused == 1; }));
     EXPECT_FALSE(relay.targets()[0].problem.empty());
+}
+
+TEST_F(RelayTest, SaysWhereNobodyListens) {
+    log::ManualClock time{clock.wall(), clock.monotonic()};
+    Relay relay(log, time);
+    QUdpSocket listener;
+    ASSERT_TRUE(listener.bind(QHostAddress::LocalHost, 0));
+    const std::uint16_t port = listener.localPort();
+    listener.close();
+    ASSERT_TRUE(relay.add({"127.0.0.1", port}, {}));
+    std::size_t number = 0;
+    const auto relayOne = [&] {
+        log::Arrival arrival;
+        arrival.stamp = log.timeline().now(time);
+        arrival.sender = log.senders().intern(performer);
+        log.writer().append(numbered(100, ++number), arrival);
+        log.writer().publish();
+        return eventually([&] {
+            const RelayTarget target = relay.targets()[0];
+            return target.sent + target.refused + target.skipped == number;
+        });
+    };
+    ASSERT_TRUE(relayOne());
+    ASSERT_TRUE(eventually([&] { return relay.targets()[0].refused == 1; }));
+    EXPECT_EQ(relay.targets()[0].sent, 0U);
+    EXPECT_EQ(relay.targets()[0].problem, "") << "it may just be restarted";
+    time.advance(Relay::kUnheardAfter);
+    ASSERT_TRUE(relayOne());
+    ASSERT_TRUE(eventually([&] { return relay.targets()[0].refused == 2; }));
+    EXPECT_THAT(relay.targets()[0].problem,
+                testing::StartsWith("nobody listens at 127.0.0.1:" + std::to_string(port)));
+
+    ASSERT_TRUE(listener.bind(QHostAddress::LocalHost, port));
+    ASSERT_TRUE(relayOne());
+    time.advance(2 * Relay::kHeardAfter);
+    ASSERT_TRUE(eventually([&] { return relay.targets()[0].problem.empty(); }));
+    EXPECT_EQ(relay.targets()[0].sent, 1U);
+    EXPECT_EQ(relay.targets()[0].refused, 2U);
+    EXPECT_TRUE(listener.hasPendingDatagrams());
 }
 
 TEST_F(RelayTest, FallenBehindItLeavesOutAndCounts) {

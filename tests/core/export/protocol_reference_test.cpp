@@ -88,7 +88,7 @@ TEST(ProtocolReference, ExplainsTransportCountersAndTags) {
 }
 
 TEST(ProtocolReference, ListsWhatTheIdentifiersStandFor) {
-    EXPECT_THAT(part("Segments"), HasSubstr("| 22 | LeftFoot | LeftLowerLeg | 8 |"));
+    EXPECT_THAT(part("Segments"), HasSubstr("| 22 | Left Foot | LeftFoot | Left Lower Leg | 8 |"));
     EXPECT_THAT(part("Fingers"), HasSubstr("| 24 | 44 | Carpus | hand |"));
     EXPECT_THAT(part("Points"), HasSubstr("| Pelvis | 13 | pSacrum | yes |"));
     EXPECT_THAT(part("Joints"), HasSubstr("| 1 | jL5S1 | 1.2 (258) | 2.1 (513) |"));

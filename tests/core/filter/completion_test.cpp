@@ -116,7 +116,8 @@ TEST(FilterReference, NamesEveryFieldOfTheTables) {
 }
 
 TEST(FilterReference, SaysWhichTypesHaveWhichUnit) {
-    EXPECT_THAT(filterReference(), HasSubstr("| `segments.position` | x, y, z | cm (01), m (02 05 13 21) |"));
+    EXPECT_THAT(filterReference(),
+                HasSubstr("| `segments.position` | x, y, z | m | cm (01), m (02 05 13 21) |"));
     EXPECT_THAT(filterReference(), HasSubstr("| `segments.orientation` | re, i, j, k |"));
     EXPECT_THAT(filterReference(), HasSubstr("| `segments.matrix` | 1 … 9 |"));
 }

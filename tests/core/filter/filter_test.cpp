@@ -64,7 +64,7 @@ TEST(Filter, ReadsTheFieldsOfTheHeader) {
     EXPECT_TRUE(matches(packet, "character == " + std::to_string(header.character)));
     EXPECT_TRUE(matches(packet, "id == \"MXTP02\""));
     EXPECT_TRUE(matches(packet, "items >= 1 && datagram == 0 && last"));
-    EXPECT_TRUE(matches(packet, "timeCode == " + std::to_string(header.timeCode)));
+    EXPECT_TRUE(matches(packet, "wire.timeCode == " + std::to_string(header.timeCode)));
 }
 
 TEST(Filter, ReadsTheHeaderOfAPacketThatCannotBeDecoded) {
@@ -132,9 +132,27 @@ TEST(Filter, NamesSegmentsInAnyCase) {
     const Case packet = pose(std::vector<wire::Vec3>(23));
     EXPECT_TRUE(matches(packet, "segment == LeftHand"));
     EXPECT_TRUE(matches(packet, "segment == lefthand && id == 15"));
+    EXPECT_TRUE(matches(packet, "segment == \"Left Hand\" && id == 15"));
+    EXPECT_TRUE(matches(packet, "segment == \"Right Forearm\" && id == 10"));
     EXPECT_TRUE(matches(packet, "segment in {LeftHand, RightHand}"));
     EXPECT_TRUE(matches(packet, "segment == 15"));
     EXPECT_FALSE(matches(packet, "segment == LeftFirstPP"));
+}
+
+TEST(Filter, NamesFingersOfAPartOfASampleByTheirPlaceInTheWhole) {
+    wire::Datagram datagram = golden("02_quaternion_gloves").datagram;
+    auto& segments = std::get<wire::PoseQuaternion>(datagram.body).segments;
+    segments.erase(segments.begin(), segments.begin() + 20);
+    datagram.header.items = static_cast<std::uint8_t>(segments.size());
+    datagram.header.datagramCounter = 0x81;
+    datagram.header.payloadSize = static_cast<std::uint16_t>(32 * segments.size());
+    const Case packet(datagram);
+    ASSERT_FALSE(packet.fault);
+    for (const char* name : {"LeftToe", "LeftCarpus", "LeftFirstPP", "RightFifthDP"}) {
+        EXPECT_TRUE(matches(packet, std::string("segment == ") + name)) << name;
+    }
+    EXPECT_FALSE(matches(packet, "segment == Pelvis"));
+    EXPECT_TRUE(matches(packet, "segment == LeftToe && id == 23"));
 }
 
 TEST(Filter, NamesFingersByTheirPlace) {
@@ -269,7 +287,7 @@ TEST(Filter, TellsFieldsOfOneNameApartByTheirConstant) {
     const Case packet = golden("25_time_code_counted");
     const auto& text = std::get<wire::TimeCode>(packet.datagram.body);
     EXPECT_TRUE(matches(packet, "timeCode == \"" + std::string(text.view()) + "\""));
-    EXPECT_TRUE(matches(packet, "timeCode == " + std::to_string(packet.datagram.header.timeCode)));
+    EXPECT_TRUE(matches(packet, "wire.timeCode == " + std::to_string(packet.datagram.header.timeCode)));
 }
 
 TEST(Filter, BindsAndTighterThanOr) {

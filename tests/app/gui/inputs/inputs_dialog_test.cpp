@@ -9,6 +9,7 @@
 
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -119,6 +120,51 @@ TEST_F(InputsDialogTest, AddsChangesAndRemovesInputsWhileTheyRun) {
     dialog.inputs().removeSelected();
     EXPECT_TRUE(ports().empty());
     EXPECT_EQ(changed.size(), 3);
+}
+
+TEST_F(InputsDialogTest, PutsBackWhatWasRemovedWhereItWas) {
+    const InputAddress first{"127.0.0.1", freePort()};
+    type(first);
+    const InputAddress second{"127.0.0.1", freePort(), Kind::TcpListener};
+    type(second);
+    auto* undo = dialog.inputs().findChild<QPushButton*>("undoRemoval");
+    ASSERT_NE(undo, nullptr);
+    EXPECT_FALSE(undo->isEnabled());
+    TableView& table = dialog.inputs().table();
+    table.setCurrentIndex(dialog.inputs().model().index(0, 0));
+    dialog.inputs().removeSelected();
+    dialog.inputs().removeSelected();
+    EXPECT_TRUE(ports().empty());
+    EXPECT_THAT(undo->accessibleName().toStdString(), HasSubstr(std::to_string(second.port)));
+
+    undo->click();
+    ASSERT_TRUE(QTest::qWaitForWindowActive(&dialog));
+    table.setFocus();
+    QTest::keyClick(&table, Qt::Key_Z, Qt::ControlModifier);
+    ASSERT_EQ(ports().size(), 2U);
+    EXPECT_EQ(ports()[0].port, first);
+    EXPECT_EQ(ports()[1].port, second);
+    EXPECT_TRUE(ports()[0].id) << "and it listens again";
+    EXPECT_EQ(dialog.inputs().model().rowOf(first), table.currentIndex().row());
+    EXPECT_FALSE(undo->isEnabled());
+    EXPECT_EQ(changed.size(), 6) << "what is kept follows";
+}
+
+TEST_F(InputsDialogTest, PutsBackARelayTargetWhereItWas) {
+    dialog.open(InputsDialog::Page::Relay);
+    for (const char* target : {"192.0.2.1:9000", "192.0.2.2:9000"}) {
+        dialog.relay().targetEdit().setText(target);
+        dialog.relay().submit();
+    }
+    dialog.relay().model().setData(dialog.relay().model().index(0, 0), Qt::Unchecked, Qt::CheckStateRole);
+    const auto& states = driver.receiving().relaying().states();
+    ASSERT_TRUE(tickUntil([&] { return !states[0].target.isOn; }));
+    dialog.relay().findChild<TableView*>()->setCurrentIndex(dialog.relay().model().index(0, 0));
+    dialog.relay().removeSelected();
+    ASSERT_EQ(states.size(), 1U);
+    dialog.relay().findChild<QPushButton*>("undoRemoval")->click();
+    ASSERT_EQ(states.size(), 2U);
+    EXPECT_EQ(states[0].target, (RelayChoice{"192.0.2.1", 9000, false}));
 }
 
 TEST_F(InputsDialogTest, SaysBesideTheFieldsWhatCannotBeOpenedAndKeepsNothingOfIt) {

@@ -2,7 +2,10 @@
 #include "app/gui/models/field_model.h"
 #include "app/gui/models/field_text.h"
 #include "app/gui/models/packet_choice.h"
+#include "core/model/body/joint_angles.h"
+#include "core/performer/datagram_damage.h"
 #include "tests/app/gui/models/stage.h"
+#include "tests/support/golden.h"
 
 #include <QAbstractItemModelTester>
 #include <QSignalSpy>
@@ -70,7 +73,7 @@ std::string title(const FieldDocument& document, const std::string& path) {
 
 TEST(FieldText, NamesSegmentsPointsAndJoints) {
     const auto pose = documentOf(poseBytes());
-    EXPECT_EQ(title(*pose, "segments[7]"), "Segment 8 · RightShoulder");
+    EXPECT_EQ(title(*pose, "segments[7]"), "Segment 8 · Right Shoulder");
     EXPECT_EQ(value(*pose, "segments[6].id"), "7 · Head");
     EXPECT_EQ(title(*pose, "header.timeCode"), "Time code");
     EXPECT_EQ(value(*pose, "header.timeCode"), "10:20:30.250");
@@ -196,6 +199,81 @@ TEST(FieldModel, ComparesFieldByField) {
     EXPECT_FALSE(model.indexOf(document.find("segments[0].orientation")).isValid());
     EXPECT_TRUE(model.indexOf(document.find("segments[0].position.z")).isValid());
     EXPECT_FALSE(model.indexOf(document.find("header")).isValid());
+}
+
+std::string titleOfLast(const Bytes& part, const std::string& list) {
+    const auto document = documentOf(part);
+    std::string path;
+    for (int i = 0; document->find(list + '[' + std::to_string(i) + ']') >= 0; ++i) {
+        path = list + '[' + std::to_string(i) + ']';
+    }
+    return title(*document, path);
+}
+
+TEST(FieldModel, NamesTheSegmentsOfAPartOfASampleByTheirIds) {
+    const auto parts = performer::splitSample(poseBytes(), 3);
+    ASSERT_EQ(parts.size(), 3U);
+    const auto second = documentOf(parts[1]);
+    const std::int32_t item = nodeOf(*second, "segments[0]");
+    const auto id = static_cast<int>(*second->numberOf(item, wire::RefersTo::Segment));
+    ASSERT_GT(id, 1);
+    const std::string name(model::segmentTitle({}, id - 1));
+    EXPECT_EQ(title(*second, "segments[0]"), "Segment " + std::to_string(id) + " · " + name);
+    EXPECT_EQ(value(*second, "segments[0].id"), std::to_string(id) + " · " + name);
+    EXPECT_EQ(second->segmentOf(item), id - 1);
+    EXPECT_EQ(second->nodeOfSegment(id - 1), item);
+    EXPECT_EQ(second->nodeOfSegment(0), -1);
+    EXPECT_EQ(titleOfLast(parts[2], "segments"), "Segment 23 · Left Toe");
+}
+
+TEST(FieldModel, NamesJointsAndFingersOfAPartOfASample) {
+    wire::JointAngles joints;
+    for (const model::JointDefinition& joint : model::jointDefinitions()) {
+        constexpr auto kCoding = model::PointIdCoding::By256;
+        joints.joints.push_back(
+            {model::encodePointId(kCoding, joint.parent), model::encodePointId(kCoding, joint.child), {}});
+    }
+    const auto ofJoints = performer::splitSample(encoded(joints), 3);
+    const std::string last = titleOfLast(ofJoints[2], "joints");
+    EXPECT_TRUE(last.starts_with("Joint 28 · ")) << last;
+    wire::Datagram gloves = *wire::decode(test::golden("02_quaternion_gloves").bytes);
+    const auto parts = performer::splitSample(*wire::encode(gloves), 4);
+    const std::string finger = titleOfLast(parts[3], "segments");
+    EXPECT_TRUE(finger.ends_with(" · Right Fifth DP")) << finger;
+}
+
+TEST(FieldModel, ComparesThePartsOfSamplesBySegment) {
+    const auto now = performer::splitSample(poseBytes(0.25F), 2);
+    const auto before = performer::splitSample(poseBytes(), 3);
+    FieldModel model;
+    model.setDocument(documentOf(now[1]));
+    const auto other = [&](std::size_t part) {
+        model.setOther(documentOf(before[part], 8));
+        return model.indexOf(nodeOf(model.document(), "segments[0].position.z"), FieldModel::kDifference)
+            .data()
+            .toString()
+            .toStdString();
+    };
+    EXPECT_EQ(other(1), "+0.2500 m") << "the same segment at another place";
+    EXPECT_EQ(other(0), "only here") << "another segment at the same place";
+}
+
+TEST(ComparableBefore, IsTheSamePartOfAnEarlierSample) {
+    Stage stage;
+    for (std::uint32_t sample = 1; sample <= 3; ++sample) {
+        wire::PoseQuaternion pose;
+        for (std::uint32_t id = 1; id <= 8; ++id) {
+            pose.segments.push_back({id, {}, {1, 0, 0, 0}});
+        }
+        for (const Bytes& part : performer::splitSample(encoded(pose, sample), 2)) {
+            stage.sendBytes(part, Stage::kStart + sample * 10ms);
+        }
+    }
+    stage.follow();
+    EXPECT_EQ(comparableBefore(stage.session, 5), 3U);
+    EXPECT_EQ(comparableBefore(stage.session, 4), 2U);
+    EXPECT_EQ(comparableBefore(stage.session, 1), std::nullopt);
+    EXPECT_EQ(neighbourInStream(stage.session, 5, -1), 4U);
 }
 
 TEST(InspectedPacket, IsTheSelectedOrTheNewestOfTheShownCharacter) {

@@ -78,7 +78,7 @@ TEST_F(NullPoseModelTest, ShowsSegmentsPointsAndSizeAsSent) {
     EXPECT_FALSE(refresh());
     ASSERT_EQ(segments.rowCount(), 23);
     EXPECT_EQ(points.rowCount(), 127);
-    EXPECT_EQ(text(segments, 8, NullPoseSegmentModel::kName), "RightUpperArm");
+    EXPECT_EQ(text(segments, 8, NullPoseSegmentModel::kName), "Right Upper Arm");
     const double height = reading.pose()->segments[6].position.z();
     EXPECT_EQ(text(segments, 6, NullPoseSegmentModel::kZ), QString::number(height, 'f', 4));
     EXPECT_EQ(text(segments, 6, NullPoseSegmentModel::kFromBefore), QStringLiteral("–"));

@@ -71,7 +71,7 @@ TEST_F(NullPosePanelTest, ARowSelectsItsSegmentEverywhereAndBack) {
     TableView* view = table("Segments");
     view->setCurrentIndex(view->model()->index(9, 0));
     EXPECT_EQ(selectedSegment(), 9);
-    EXPECT_EQ(figure()->accessibleDescription(), "10 RightForeArm");
+    EXPECT_EQ(figure()->accessibleDescription(), "10 Right Forearm");
     m_stage.session.setSelection({m_stage.sender(), m_stage.key(), 3, {}});
     const int asked = m_stage.commands.selections;
     refresh();

@@ -107,6 +107,18 @@ TEST_F(PacketsPanelTest, ListsWhatTheDisplayFilterOfTheSessionLetsThrough) {
     EXPECT_EQ(m_panel.packets().rowCount(), 201);
 }
 
+TEST_F(PacketsPanelTest, FiltersAgainWhereASendersPositionsTurnOutToBeCentimetres) {
+    poses(0, 1);
+    filterBy("position.z > 90 cm");
+    EXPECT_EQ(m_panel.packets().rowCount(), 1);
+    const auto sender = m_stage.session.senders().begin()->id;
+    m_stage.session.setOverride(sender, {.positionUnit = model::LengthUnit::Centimetre});
+    filterBy("position.z > 90 cm");
+    EXPECT_EQ(m_panel.packets().rowCount(), 0);
+    filterBy("position.z == 1 cm");
+    EXPECT_EQ(m_panel.packets().rowCount(), 1);
+}
+
 TEST_F(PacketsPanelTest, CallsNewOnlyWhatCameAfterTheFilter) {
     poses(0, 200);
     list().setFollowing(false);

@@ -71,6 +71,47 @@ TEST(LayoutOfPose, CountsAllItemsOfAnyLegalDatagramOnce) {
     }
 }
 
+TEST(ItemPlaces, BeginWithTheFirstIdInALaterPartOfASample) {
+    wire::Header header;
+    header.datagramCounter = 0x80;
+    EXPECT_EQ(itemPlaces(header, 23, 5U).first, 0) << "a whole sample goes by place";
+    header.datagramCounter = 0x00;
+    EXPECT_EQ(itemPlaces(header, 9, 1U).first, 0);
+    header.datagramCounter = 0x81;
+    const ItemPlaces later = itemPlaces(header, 14, 10U);
+    EXPECT_EQ(later.first, 9);
+    EXPECT_EQ(later.layout, (SegmentLayout{23, 0, 0}));
+    EXPECT_EQ(itemPlaces(header, 14, std::nullopt).first, std::nullopt);
+    EXPECT_EQ(itemPlaces(header, 14, 0U).first, std::nullopt);
+    EXPECT_EQ(itemPlaces(header, 14, 4'000'000'000U).first, std::nullopt);
+}
+
+TEST(ItemPlaces, NameTheBodyByIdAndTheRestByPlace) {
+    wire::Header header;
+    header.datagramCounter = 0x80;
+    const ItemPlaces older = itemPlaces(header, 24, 1U);
+    EXPECT_EQ(older.positionOf(4, 5U), 4);
+    EXPECT_EQ(older.positionOf(4, 11U), 10) << "an id of the body is the segment";
+    EXPECT_EQ(older.positionOf(21, 23U), segment::kLeftFoot) << "revision E";
+    EXPECT_EQ(older.positionOf(22, 24U), segment::kLeftToe) << "revision E";
+    EXPECT_EQ(older.positionOf(22, 23U), segment::kLeftToe);
+    EXPECT_EQ(older.positionOf(23, 25U), 23) << "a prop";
+    EXPECT_EQ(older.positionOf(3, std::nullopt), 3);
+    header.datagramCounter = 0x81;
+    EXPECT_EQ(itemPlaces(header, 4, std::nullopt).positionOf(0, std::nullopt), -1);
+}
+
+TEST(ItemPlaces, KnowThePropsAndFingersOfTheWholeSampleInEachPart) {
+    wire::Header header;
+    header.bodySegments = 23;
+    header.props = 1;
+    header.fingerSegments = 40;
+    for (const std::uint8_t counter : std::initializer_list<std::uint8_t>{0x00, 0x01, 0x82}) {
+        header.datagramCounter = counter;
+        EXPECT_EQ(itemPlaces(header, 16, 25U).layout, (SegmentLayout{23, 1, 40}));
+    }
+}
+
 TEST(LayoutOfPose, HangsHandsOnNothingWhereTheBodyHasNone) {
     const SegmentLayout hands{1, 0, 40};
     EXPECT_EQ(segmentName(hands, 1), "LeftCarpus");

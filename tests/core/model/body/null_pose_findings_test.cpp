@@ -65,7 +65,7 @@ TEST_F(NullPoseFindings, NamesInAnotherOrder) {
     std::swap(pose.segments[9], pose.segments[10]);
     const auto* finding = only(NullPoseFault::NameOrder);
     ASSERT_NE(finding, nullptr);
-    EXPECT_NE(finding->what.find("RightHand at 10 (should be 11)"), std::string::npos) << finding->what;
+    EXPECT_NE(finding->what.find("Right Hand at 10 (should be 11)"), std::string::npos) << finding->what;
     EXPECT_EQ(findingsSummary(findings), "1 warning");
 }
 
@@ -207,7 +207,7 @@ TEST_F(NullPoseFindings, PositionsThatAreNoNumbers) {
     pose.segments[22].position.x() = std::numeric_limits<double>::quiet_NaN();
     const auto* finding = among(NullPoseFault::NotFinite);
     ASSERT_NE(finding, nullptr);
-    EXPECT_NE(finding->what.find("23 LeftToe"), std::string::npos);
+    EXPECT_NE(finding->what.find("23 Left Toe"), std::string::npos);
 }
 
 TEST_F(NullPoseFindings, AnotherNumberOfSegmentsThanInThePoses) {

@@ -31,6 +31,19 @@ TEST(Segments, NamesBodySegmentsAsType13Does) {
     EXPECT_EQ(findBodySegment("Sword"), std::nullopt);
 }
 
+TEST(Segments, AreCalledAsTheSpecificationPrintsThem) {
+    constexpr SegmentLayout kGloves{23, 1, 40};
+    EXPECT_EQ(segmentTitle(kGloves, kLeftForeArm), "Left Forearm");
+    EXPECT_EQ(segmentTitle(kGloves, 23), "Prop1");
+    EXPECT_EQ(segmentTitle(kGloves, 24), "Left Carpus");
+    EXPECT_EQ(segmentTitle(kGloves, 25), "Left First MC");
+    EXPECT_EQ(segmentTitle(kGloves, 63), "Right Fifth DP");
+    EXPECT_EQ(segmentTitle(kGloves, 64), "");
+    EXPECT_EQ(segmentTitle("RightUpperArm"), "Right Upper Arm");
+    EXPECT_EQ(segmentTitle("RightFifthDP"), "Right Fifth DP");
+    EXPECT_EQ(segmentTitle("Sword"), "");
+}
+
 TEST(Segments, HangsLimbsOnTheTrunkAsTheSpecificationDoes) {
     EXPECT_EQ(bodySegments()[kRightShoulder].parent, kT8);
     EXPECT_EQ(bodySegments()[kLeftShoulder].parent, kT8);
