@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/model/accounting/thresholds.h"
+#include "core/model/incidents/thresholds.h"
 
 #include <QJsonObject>
 

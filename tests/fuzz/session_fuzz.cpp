@@ -4,8 +4,8 @@
 #include "core/log/packet_log.h"
 #include "core/log/recording_file.h"
 #include "core/model/accounting/attribution.h"
-#include "core/model/accounting/event_follower.h"
 #include "core/model/body/null_pose_findings.h"
+#include "core/model/incidents/incident_follower.h"
 #include "core/model/session/session.h"
 
 #include <cstdint>
@@ -89,8 +89,8 @@ void write(const model::Session& session) {
     for (const auto& format : exporting::formats<exporting::ReportSheet>()) {
         require(!format.write({session, {}}).empty());
     }
-    std::vector<const model::Event*> events;
-    for (const model::Event& event : session.events().all()) {
+    std::vector<const model::Incident*> events;
+    for (const model::Incident& event : session.incidents().all()) {
         events.push_back(&event);
     }
     for (const auto& format : exporting::formats<exporting::EventSheet>()) {

@@ -107,10 +107,10 @@ void SessionDriver::tick() {
         m_tableTick = now;
         m_receiving.measure(now);
         for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
-            model::Event event = model::Event::of(model::EventKind::RelayLoop, loop.returner, now,
-                                                  m_session.end() == 0 ? 0 : m_session.end() - 1);
-            event.detail = loop.text.toStdString();
-            m_session.report(event);
+            model::Occurrence one = model::Occurrence::at(model::IncidentKind::RelayLoop, loop.returner, now,
+                                                          m_session.end() == 0 ? 0 : m_session.end() - 1);
+            one.detail = loop.text.toStdString();
+            m_session.report(one);
             emit relayStopped();
         }
         m_receiving.examine(m_session, now);

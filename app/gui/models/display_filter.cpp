@@ -4,7 +4,7 @@
 #include "app/gui/models/packet_model.h"
 #include "app/gui/theme/words.h"
 #include "core/filter/completion.h"
-#include "core/model/accounting/thresholds.h"
+#include "core/model/incidents/thresholds.h"
 #include "core/wire/type_table.h"
 
 #include <QStringList>
@@ -36,18 +36,19 @@ QStringList conditionsOf(std::optional<std::uint8_t> type, std::optional<std::ui
 }
 
 /// What packets have at which such a thing happened; null where no packet shows it.
-const char* conditionOf(model::EventKind kind) {
-    using enum model::EventKind;
-    constexpr std::pair<model::EventKind, const char*> kConditions[] = {
-        {Gap, "gap > 0"},         {Burst, "gap > 0"},   {LossLimit, "gap > 0"}, {Restart, "restart"},
-        {Malformed, "malformed"}, {Foreign, "foreign"}, {Dropped, "drops > 0"}};
+const char* conditionOf(model::IncidentKind kind) {
+    using enum model::IncidentKind;
+    constexpr std::pair<model::IncidentKind, const char*> kConditions[] = {
+        {Loss, "gap > 0"},      {Local, "drops > 0 || gap > 0"}, {Outage, "gap > 0"},
+        {LossLimit, "gap > 0"}, {Reordered, "reordered"},        {Duplicates, "duplicate"},
+        {Restart, "restart"},   {Malformed, "malformed"},        {Foreign, "foreign"}};
     const auto* found =
-        std::ranges::find(kConditions, kind, &std::pair<model::EventKind, const char*>::first);
+        std::ranges::find(kConditions, kind, &std::pair<model::IncidentKind, const char*>::first);
     return found == std::end(kConditions) ? nullptr : found->second;
 }
 
 /// A limit was exceeded in the window before; what is silent has no packets.
-model::TimeRange rangeOf(model::SessionView& view, const model::Event& event) {
+model::TimeRange rangeOf(model::SessionView& view, const model::Incident& event) {
     const auto window = log::durationOf(view.thresholds().windowS);
     return {event.firstStamp - window,
             std::max(event.lastStamp, event.firstStamp + std::chrono::milliseconds(1))};
@@ -106,16 +107,18 @@ QString statisticsFilterTitle(int column) {
     return title == nullptr ? QString() : tr(title);
 }
 
-QString packetFilterOf(model::SessionView& view, const model::Event& event) {
+QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
     const char* condition = conditionOf(event.kind);
-    const bool isLimit = event.group() == model::EventGroup::Limit;
+    const bool isLimit = event.group() == model::IncidentGroup::Limit;
     if (condition == nullptr && !isLimit) {
         return {};
     }
-    QStringList conditions = conditionsOf(event.type, event.character,
+    QStringList conditions = conditionsOf(event.type(), event.character(),
                                           view.senders().size() > 1 ? view.find(event.sender) : nullptr);
     if (condition != nullptr) {
-        conditions.prepend(QLatin1String(condition));
+        const QString text = QLatin1String(condition);
+        conditions.prepend(text.contains(QLatin1String("||")) ? QLatin1Char('(') + text + QLatin1Char(')')
+                                                              : text);
     }
     conditions +=
         isLimit ? rangeFilter(view, rangeOf(view, event))

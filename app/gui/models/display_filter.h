@@ -18,7 +18,7 @@ namespace posewire::gui {
 [[nodiscard]] QString statisticsFilterTitle(int column);
 
 /// For the packets at which an event happened; empty for what no packet shows.
-[[nodiscard]] QString packetFilterOf(model::SessionView& view, const model::Event& event);
+[[nodiscard]] QString packetFilterOf(model::SessionView& view, const model::Incident& event);
 
 /// For packets that have in common what a cell of the packet list says; empty where nothing could say it.
 [[nodiscard]] QString packetCellFilter(model::SessionView& view, std::uint64_t number, int column);

@@ -15,9 +15,12 @@ namespace posewire::gui {
 
 namespace {
 
-using model::EventKind;
+using model::IncidentKind;
 
-QString lossWords(const model::Event& event) {
+QString lossWords(const model::Incident& event) {
+    if (event.samples == 0) {
+        return tr("%1 dropped here").arg(grouped(static_cast<std::uint64_t>(event.value)));
+    }
     const QString lost = tr("%1 lost").arg(grouped(event.samples));
     return event.cause && *event.cause != model::LossCause::Unknown
                ? lost + QStringLiteral(" · ") + fromUtf8(model::nameOf(*event.cause))
@@ -26,73 +29,76 @@ QString lossWords(const model::Event& event) {
 
 } // namespace
 
-Health healthOf(model::EventSeverity severity) {
-    constexpr std::array kHealths{Health::Good, Health::Warning, Health::Error}; // by EventSeverity
+Health healthOf(model::IncidentSeverity severity) {
+    constexpr std::array kHealths{Health::Good, Health::Warning, Health::Error}; // by IncidentSeverity
     return kHealths[static_cast<std::size_t>(severity)];
 }
 
-QString severityWord(model::EventSeverity severity) {
-    const std::array words{tr("note"), tr("warning"), tr("error")}; // by EventSeverity
+QString severityWord(model::IncidentSeverity severity) {
+    const std::array words{tr("note"), tr("warning"), tr("error")}; // by IncidentSeverity
     return words[static_cast<std::size_t>(severity)];
 }
 
-QString groupWord(model::EventGroup group) {
-    const std::array words{tr("Sender"), tr("Loss"), tr("Content"), tr("Limit")}; // by EventGroup
+QString groupWord(model::IncidentGroup group) {
+    const std::array words{tr("Sender"), tr("Loss"), tr("Content"), tr("Limit")}; // by IncidentGroup
     return words[static_cast<std::size_t>(group)];
 }
 
-QString whoseWords(model::SessionView& view, const model::Event& event) {
-    if (!event.character) {
+QString whoseWords(model::SessionView& view, const model::Incident& event) {
+    const std::vector<std::uint8_t> characters = event.characters();
+    if (characters.empty()) {
         return shown(view.addressOf(event.sender));
     }
-    const QString name = characterName(view, {event.sender, *event.character});
-    return event.type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*event.type))
-                      : name;
+    const QString name = characters.size() == 1 ? characterName(view, {event.sender, characters.front()})
+                                                : tr("%1 characters").arg(grouped(characters.size()));
+    const auto type = event.type();
+    return type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*type)) : name;
 }
 
-QString briefWords(const model::Event& event) {
+QString briefWords(const model::Incident& event) {
     switch (event.kind) {
-    case EventKind::Gap:
-    case EventKind::Burst:
+    case IncidentKind::Loss:
+    case IncidentKind::Local:
         return lossWords(event);
-    case EventKind::Malformed:
+    case IncidentKind::Outage:
+        return tr("no data");
+    case IncidentKind::Reordered:
+        return tr("%1 reordered").arg(grouped(event.count));
+    case IncidentKind::Duplicates:
+        return tr("%1 doubled").arg(grouped(event.count));
+    case IncidentKind::Malformed:
         return tr("%1 malformed").arg(grouped(event.count));
-    case EventKind::Foreign:
+    case IncidentKind::Foreign:
         return tr("%1 foreign").arg(grouped(event.count));
-    case EventKind::Dropped:
-        return tr("%1 dropped here").arg(grouped(event.samples));
-    case EventKind::TimeCodeJump:
-        return tr("time code %1 ms").arg(signedFixed(event.value, 0));
-    case EventKind::CharacterConflict:
-        return tr("two senders");
-    case EventKind::SenderDown:
-    case EventKind::Stale:
-    case EventKind::AgeLimit:
+    case IncidentKind::TimeCode:
+        return event.value == 0 ? tr("time code stands still")
+                                : tr("time code %1 ms").arg(signedFixed(event.value, 0));
+    case IncidentKind::AgeLimit:
         return tr("stale");
-    case EventKind::LossLimit:
+    case IncidentKind::LossLimit:
         return tr("loss %1 %").arg(fixed(event.value, 1));
-    case EventKind::JitterLimit:
+    case IncidentKind::JitterLimit:
         return tr("jitter %1 ms").arg(fixed(event.value, 1));
-    case EventKind::GapLimit:
+    case IncidentKind::GapLimit:
         return tr("gap %1 ms").arg(fixed(event.value, 0));
-    case EventKind::RateLimit:
+    case IncidentKind::RateLimit:
         return tr("rate off %1 %").arg(fixed(event.value, 0));
     default:
         return fromUtf8(model::nameOf(event.kind));
     }
 }
 
-std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Event& event) {
+std::optional<std::uint64_t> eventPacket(model::SessionView& view, const model::Incident& event) {
     // Conditions that last are found by the clock: no packet is theirs.
-    if (event.kind == EventKind::SenderDown || event.kind >= EventKind::LossLimit) {
-        const std::uint64_t first = view.packetFrom(event.firstStamp);
-        return first == view.begin() ? std::nullopt : std::optional(first - 1);
+    if (event.kind == IncidentKind::Outage || event.kind >= IncidentKind::LossLimit) {
+        const std::uint64_t after = view.packetFrom(event.firstStamp + log::Duration(1));
+        return after == view.begin() ? std::nullopt : std::optional(after - 1);
     }
     return event.lastPacket >= view.begin() && event.lastPacket < view.end() ? std::optional(event.lastPacket)
                                                                              : std::nullopt;
 }
 
-bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Event& event) {
+bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Incident& event) {
     const auto packet = eventPacket(view, event);
     if (!packet) {
         return false;
@@ -105,33 +111,33 @@ bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Ev
 
 namespace {
 
-using EventColumn = TableColumn<model::Event>;
+using EventColumn = TableColumn<model::Incident>;
 
-QString lasted(const model::Event& event) {
+QString lasted(const model::Incident& event) {
     return event.isCurrent ? tr("lasts") : duration(log::secondsOf(event.lastStamp - event.firstStamp));
 }
 
-QString fromTo(const model::SessionView& view, const model::Event& event) {
+QString fromTo(const model::SessionView& view, const model::Incident& event) {
     return tr("From %1 to %2")
         .arg(timeOfDay(view.wallOf(event.firstStamp)),
              event.isCurrent ? tr("now: it lasts, or may last") : timeOfDay(view.wallOf(event.lastStamp)));
 }
 
 EventColumn severityColumn() {
-    EventColumn column = EventColumn::words(tr("Severity"), {}, [](const model::Event& event) {
+    EventColumn column = EventColumn::words(tr("Severity"), {}, [](const model::Incident& event) {
         return PropertyValue{severityWord(event.severity()), healthOf(event.severity())}.display();
     });
-    column.colour = [](const model::Event& event) {
-        const bool isNote = event.severity() == model::EventSeverity::Info;
+    column.colour = [](const model::Incident& event) {
+        const bool isNote = event.severity() == model::IncidentSeverity::Info;
         return QVariant(isNote ? theme().dim : healthColour(healthOf(event.severity())));
     };
-    column.spoken = [](const model::Event& event) { return severityWord(event.severity()); };
+    column.spoken = [](const model::Incident& event) { return severityWord(event.severity()); };
     return column;
 }
 
 /// Reads the model only where a cell is asked for.
 std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel& events) {
-    const auto whose = [&view](const model::Event& event) { return whoseWords(view, event); };
+    const auto whose = [&view](const model::Incident& event) { return whoseWords(view, event); };
     const auto words = [](const auto& event) { return QString::fromStdString(event.text()); };
     std::vector<EventColumn> columns{
         severityColumn(),
@@ -148,7 +154,7 @@ std::vector<EventColumn> eventColumns(model::SessionView& view, const EventModel
     };
     for (EventColumn& column : columns) {
         if (!column.colour) {
-            column.colour = [&events](const model::Event& event) {
+            column.colour = [&events](const model::Incident& event) {
                 return events.isSeen(event) ? QVariant(theme().dim) : QVariant();
             };
         }
@@ -172,7 +178,7 @@ std::optional<std::span<const std::uint64_t>> missing(const Numbers& from, const
 EventModel::EventModel(model::SessionView& view, QObject* parent)
     : ColumnModel(eventColumns(view, *this), parent), m_view(view) {}
 
-bool EventModel::matches(const model::Event& event) const {
+bool EventModel::matches(const model::Incident& event) const {
     if ((m_filter.onlyCurrent && !event.isCurrent) ||
         !m_filter.severities[static_cast<std::size_t>(event.severity())] ||
         !m_filter.groups[static_cast<std::size_t>(event.group())]) {
@@ -187,13 +193,13 @@ bool EventModel::matches(const model::Event& event) const {
 }
 
 void EventModel::refresh() {
-    const model::Events& events = m_view.events();
+    const model::Incidents& events = m_view.incidents();
     if (events.version() == m_version) {
         return;
     }
     m_version = events.version();
     Numbers numbers;
-    for (const model::Event& event : events.all()) {
+    for (const model::Incident& event : events.all()) {
         if (matches(event)) {
             numbers.push_back(event.number);
         }
@@ -236,14 +242,14 @@ void EventModel::setFilter(const Filter& filter) {
 }
 
 void EventModel::markSeen() {
-    const auto& all = m_view.events().all();
+    const auto& all = m_view.incidents().all();
     m_seenEnd = all.empty() ? 0 : all.back().number + 1;
     announceChange();
 }
 
 EventModel::Counts EventModel::counts() const {
     Counts counts;
-    for (const model::Event& event : m_view.events().all()) {
+    for (const model::Incident& event : m_view.incidents().all()) {
         ++counts.all;
         counts.current += event.isCurrent ? 1 : 0;
         counts.unseen += isSeen(event) ? 0 : 1;
@@ -252,9 +258,9 @@ EventModel::Counts EventModel::counts() const {
     return counts;
 }
 
-const model::Event* EventModel::event(const QModelIndex& index) const {
+const model::Incident* EventModel::event(const QModelIndex& index) const {
     return index.isValid() && index.row() < rowCount()
-               ? m_view.events().find(m_numbers[static_cast<std::size_t>(index.row())])
+               ? m_view.incidents().find(m_numbers[static_cast<std::size_t>(index.row())])
                : nullptr;
 }
 
@@ -263,10 +269,10 @@ int EventModel::rowOf(std::uint64_t number) const {
     return found != m_numbers.end() && *found == number ? static_cast<int>(found - m_numbers.begin()) : -1;
 }
 
-std::vector<const model::Event*> EventModel::listed() const {
-    std::vector<const model::Event*> events;
+std::vector<const model::Incident*> EventModel::listed() const {
+    std::vector<const model::Incident*> events;
     for (const std::uint64_t number : m_numbers) {
-        if (const model::Event* event = m_view.events().find(number)) {
+        if (const model::Incident* event = m_view.incidents().find(number)) {
             events.push_back(event);
         }
     }
@@ -278,7 +284,7 @@ int EventModel::rowCount(const QModelIndex& parent) const {
 }
 
 QVariant EventModel::data(const QModelIndex& index, int role) const {
-    const model::Event* shown = checkIndex(index, CheckIndexOption::IndexIsValid) ? event(index) : nullptr;
+    const model::Incident* shown = checkIndex(index, CheckIndexOption::IndexIsValid) ? event(index) : nullptr;
     return shown == nullptr ? QVariant() : cell(*shown, index.column(), role);
 }
 

@@ -93,8 +93,9 @@ PropertyValue characterState(model::SessionView& view, const model::Character& c
     if (age >= kSilentAge) {
         return {(age >= kStaleAge ? tr("stale %1") : tr("silent %1")).arg(duration(age)), health};
     }
-    if (const model::Event* event = condition.event ? view.events().find(*condition.event) : nullptr) {
-        return {briefWords(*event), health};
+    if (const model::Incident* event =
+            condition.incident ? view.incidents().find(*condition.incident) : nullptr) {
+        return {briefWords(event->of(character.key.character)), health};
     }
     return {contradictionOf(view.find(character.key.sender)), health};
 }

@@ -17,10 +17,10 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::array kSeverities{model::EventSeverity::Error, model::EventSeverity::Warning,
-                                 model::EventSeverity::Info};
+constexpr std::array kSeverities{model::IncidentSeverity::Error, model::IncidentSeverity::Warning,
+                                 model::IncidentSeverity::Info};
 
-std::size_t placeOf(model::EventSeverity severity) {
+std::size_t placeOf(model::IncidentSeverity severity) {
     return static_cast<std::size_t>(severity);
 }
 
@@ -80,7 +80,7 @@ QToolButton* EventBar::addButton(const QString& name, const QString& text, const
 void EventBar::addSeverities() {
     const std::array<std::pair<const char*, QString>, 3> texts{
         {{"notes", tr("Show notes")}, {"warnings", tr("Show warnings")}, {"errors", tr("Show errors")}}};
-    for (const model::EventSeverity severity : kSeverities) {
+    for (const model::IncidentSeverity severity : kSeverities) {
         const auto& [name, toolTip] = texts[placeOf(severity)];
         QToolButton* button = addButton(QLatin1String(name), {}, toolTip);
         button->setAccessibleName(toolTip);
@@ -97,7 +97,7 @@ void EventBar::addGroups(CommandBar& commands) {
         commands.addCommand(QStringLiteral("eventGroups"), {}, tr("Which groups of events are listed"));
     m_groups = new QMenu(this);
     for (std::size_t i = 0; i < EventModel::Filter().groups.size(); ++i) {
-        QAction* action = m_groups->addAction(groupWord(static_cast<model::EventGroup>(i)));
+        QAction* action = m_groups->addAction(groupWord(static_cast<model::IncidentGroup>(i)));
         action->setCheckable(true);
         connect(action, &QAction::toggled, this, &EventBar::change);
     }
@@ -142,16 +142,16 @@ void EventBar::change() {
 }
 
 void EventBar::showCounts(const EventModel::Counts& counts) {
-    for (const model::EventSeverity severity : kSeverities) {
+    for (const model::IncidentSeverity severity : kSeverities) {
         QToolButton* button = m_severities[placeOf(severity)];
         button->setText(healthText(healthOf(severity), grouped(counts.severities[placeOf(severity)])));
     }
 }
 
 void EventBar::paintSeverities() {
-    for (const model::EventSeverity severity : kSeverities) {
+    for (const model::IncidentSeverity severity : kSeverities) {
         const QColor colour =
-            severity == model::EventSeverity::Info ? theme().dim : healthColour(healthOf(severity));
+            severity == model::IncidentSeverity::Info ? theme().dim : healthColour(healthOf(severity));
         const QString sheet =
             QStringLiteral("QToolButton:checked { color: %1; } QToolButton:!checked { color: %2; }")
                 .arg(colour.name(), theme().dim.name());

@@ -90,7 +90,7 @@ void EventsPanel::connectParts() {
     connect(m_table, &TableView::menuRequested, this, &EventsPanel::addActions);
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& index) {
-                const model::Event* event = m_isRefreshing ? nullptr : m_events.event(index);
+                const model::Incident* event = m_isRefreshing ? nullptr : m_events.event(index);
                 if (event != nullptr) {
                     m_currentEvent = event->number;
                     setFollowing(false);
@@ -168,7 +168,7 @@ void EventsPanel::placeChip() {
 }
 
 void EventsPanel::showEmptyState() {
-    const bool isAll = m_view.events().all().empty();
+    const bool isAll = m_view.incidents().all().empty();
     const EventModel::Filter& filter = m_events.filter();
     m_table->setEmptyText(isAll ? tr("Nothing has happened yet.\nGaps and their causes, restarts, malformed "
                                      "data, changes and exceeded limits are listed here.")
@@ -178,7 +178,7 @@ void EventsPanel::showEmptyState() {
 }
 
 void EventsPanel::jump(const QModelIndex& index) {
-    const model::Event* event = m_events.event(index);
+    const model::Incident* event = m_events.event(index);
     if (event != nullptr && !showPacketsOf(m_view, m_commands, *event)) {
         m_message->say(tr("The packets of this event are no longer in memory."));
     }

@@ -47,7 +47,7 @@ private:
 
     QToolButton* m_current = nullptr;
     QToolButton* m_history = nullptr;
-    std::array<QToolButton*, 3> m_severities{}; ///< by EventSeverity
+    std::array<QToolButton*, 3> m_severities{}; ///< by IncidentSeverity
     QLineEdit* m_text = nullptr;
     QAction* m_groupCommand = nullptr;
     QMenu* m_groups = nullptr;

@@ -12,26 +12,36 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <algorithm>
 #include <utility>
 
 namespace posewire::gui {
 
 namespace {
 
-bool isWanted(const model::Event& event, const AlertChoices& choices) {
-    return (choices.hasErrorSound && event.severity() == model::EventSeverity::Error) ||
-           (choices.hasWarningSound && event.severity() == model::EventSeverity::Warning);
+bool isWanted(const model::Incident& event, const AlertChoices& choices) {
+    return (choices.hasErrorSound && event.severity() == model::IncidentSeverity::Error) ||
+           (choices.hasWarningSound && event.severity() == model::IncidentSeverity::Warning);
 }
 
 } // namespace
 
-bool AlertSounds::isDue(const model::Events& events, const AlertChoices& choices) {
-    bool isDue = false;
-    for (auto event = events.all().rbegin(); event != events.all().rend() && event->number >= m_end;
-         ++event) {
-        isDue = isDue || isWanted(*event, choices);
+bool AlertSounds::isDue(const model::Incidents& incidents, const AlertChoices& choices) {
+    if (!m_isFirst && m_version == incidents.version()) {
+        return false;
     }
-    m_end = events.all().empty() ? m_end : events.all().back().number + 1;
+    std::map<std::uint64_t, model::IncidentSeverity> seen;
+    bool isDue = false;
+    for (const model::Incident& incident : incidents.all()) {
+        const model::IncidentSeverity severity = incident.severity();
+        const auto before = m_seen.find(incident.number);
+        const bool isWorse = before == m_seen.end() || severity > before->second;
+        isDue = isDue || (isWorse && isWanted(incident, choices));
+        seen.emplace_hint(seen.end(), incident.number,
+                          before == m_seen.end() ? severity : std::max(severity, before->second));
+    }
+    m_seen = std::move(seen);
+    m_version = incidents.version();
     return !std::exchange(m_isFirst, false) && isDue;
 }
 

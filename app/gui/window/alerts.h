@@ -6,6 +6,7 @@
 
 #include <QDialog>
 
+#include <map>
 #include <vector>
 
 class QCheckBox;
@@ -18,11 +19,12 @@ namespace posewire::gui {
 /// Decides which sounds are due: one for an episode, and none for what happened before.
 class AlertSounds {
 public:
-    /// True where an event began since the last call that the operator wants to hear.
-    [[nodiscard]] bool isDue(const model::Events& events, const AlertChoices& choices);
+    /// True where an incident began, or became worse, since the last call that the operator wants to hear.
+    [[nodiscard]] bool isDue(const model::Incidents& incidents, const AlertChoices& choices);
 
 private:
-    std::uint64_t m_end = 0; ///< events before this number were looked at
+    std::map<std::uint64_t, model::IncidentSeverity> m_seen; ///< how bad each was at worst
+    std::uint64_t m_version = 0;
     bool m_isFirst = true;
 };
 

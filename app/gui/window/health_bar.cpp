@@ -181,10 +181,10 @@ private:
     void addTroubles(QVBoxLayout& column) {
         const auto troubles = m_session.troublesOf(m_key);
         for (std::size_t i = 0; i < std::min(kMostLines, troubles.size()); ++i) {
-            const model::Event& event = *troubles[i];
-            QString text = QString::fromStdString(event.text());
-            if (event.type) {
-                text.prepend(tr("Type %1: ").arg(event.type.value(), 2, 10, QLatin1Char('0')));
+            const model::Incident& event = *troubles[i];
+            QString text = QString::fromStdString(event.of(m_key.character).text());
+            if (const auto type = event.type()) {
+                text.prepend(tr("Type %1: ").arg(*type, 2, 10, QLatin1Char('0')));
             }
             auto* line =
                 new TroubleLine(healthOf(event.severity()), text,
@@ -228,7 +228,7 @@ private:
     }
 
     void showPackets(std::uint64_t number) {
-        const model::Event* event = m_session.events().find(number);
+        const model::Incident* event = m_session.incidents().find(number);
         if (event == nullptr || !showPacketsOf(m_session, m_commands, *event)) {
             m_commands.showDock(QStringLiteral("events"));
         }

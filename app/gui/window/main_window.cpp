@@ -282,7 +282,7 @@ void MainWindow::editThresholds() {
 }
 
 void MainWindow::alert() {
-    if (m_sounds.isDue(m_driver.session().events(), m_settings.alerts)) {
+    if (m_sounds.isDue(m_driver.session().incidents(), m_settings.alerts)) {
         QApplication::beep();
     }
 }

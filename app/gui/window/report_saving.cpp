@@ -22,9 +22,9 @@ exporting::StreamReportOptions optionsFor(model::SessionView& session,
     exporting::StreamReportOptions options;
     options.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
     options.range = range;
-    for (const model::Event& event : session.events().all()) {
+    for (const model::Incident& event : session.incidents().all()) {
         const bool isInside = !range || (event.firstStamp < range->to && event.lastStamp >= range->from);
-        if (isInside && event.group() == model::EventGroup::Limit) {
+        if (isInside && event.group() == model::IncidentGroup::Limit) {
             options.exceeded.push_back(whoseWords(session, event).toStdString() + ": " + event.text());
         }
     }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/attribution.h"
 
-#include "core/model/text.h"
-#include "core/wire/type_table.h"
-
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
@@ -13,13 +10,20 @@ namespace {
 
 constexpr std::size_t kMostDrops = 4'096;
 constexpr std::size_t kMostDamages = 1'024;
+// Other streams brought what is missing about when it should have come.
+constexpr log::Duration kNear = std::chrono::milliseconds(150);
+// After samples that came later than that, more is waited for; for as long.
+constexpr log::Duration kMostPatience = std::chrono::seconds(2);
+constexpr log::Duration kForgetLate = std::chrono::seconds(30);
 // Where stamps stand still nothing becomes due.
 constexpr std::size_t kMostPartials = 65'536;
 constexpr std::size_t kMostSilences = 64;
 // A sender with more streams than these is no performance.
 constexpr std::size_t kMostStreams = 64;
-// Late arrivals are looked for among this many gaps, or incomplete samples.
+// Late arrivals are looked for among this many gaps of a stream, or incomplete samples, and not farther back
+// than so many gaps of all.
 constexpr std::size_t kMostBack = 1'024;
+constexpr std::size_t kMostLooked = 8'192;
 
 // Datagrams of a stream after which nothing of it waits to be judged any longer.
 std::uint64_t mostWaiting(const Stream& stream) {
@@ -41,36 +45,6 @@ void keepNewest(std::deque<Value>& values, const Value& value, std::size_t most)
 
 } // namespace
 
-std::string Gap::evidenceText() const {
-    const std::int64_t lastedMs = (toStamp - fromStamp) / std::chrono::milliseconds(1);
-    switch (evidence) {
-    case Evidence::Dropped:
-        return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
-               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + ".";
-    case Evidence::Overtaken:
-        return "This computer did not look at " + counted(figure, "packet") + " between packets " +
-               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + " in time.";
-    case Evidence::Damaged:
-        return "Sample " + std::to_string(figure) + " arrived truncated or damaged.";
-    case Evidence::Partial:
-        return "Of sample " + std::to_string(figure) + ", next to the gap, only a part arrived.";
-    case Evidence::OtherStream:
-        return "Type " + wire::typeDigits(otherType) + " of the same source brought sample " +
-               std::to_string(figure) + ", which is missing here.";
-    case Evidence::Reliable:
-        return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
-    case Evidence::Paused:
-        return "All " + counted(figure, "stream") + " of the source paused together for " +
-               std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
-               " ms.";
-    case Evidence::None:
-        break;
-    }
-    return isJudged ? "Nothing was dropped here, and nothing else of the source shows where " +
-                          counted(lost, "sample") + " went in " + std::to_string(lastedMs) + " ms."
-                    : "Late arrivals are still waited for.";
-}
-
 void Attribution::addStream(Stream& stream, const log::SenderInfo& info) {
     Sender& sender = m_senders[stream.key.sender];
     sender.transport = info.transport;
@@ -85,6 +59,9 @@ void Attribution::retire(log::SenderId sender) {
     for (Due& due : m_due) {
         due.stream = due.stream != nullptr && due.stream->key.sender == sender ? nullptr : due.stream;
     }
+    for (Rest& rest : m_rests) {
+        rest.stream = rest.stream != nullptr && rest.stream->key.sender == sender ? nullptr : rest.stream;
+    }
     const auto isOf = [sender](const Partial& partial) { return partial.stream->key.sender == sender; };
     std::erase_if(m_judgedPartials, isOf);
     // Others know these by their place.
@@ -93,28 +70,44 @@ void Attribution::retire(log::SenderId sender) {
     }
 }
 
-std::span<const Gap> Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
-    m_judged.clear();
-    m_judged.swap(m_judgedEarly);
-    while (!m_due.empty()) {
-        Due& due = m_due.front();
-        const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
-        if (gap != nullptr && packet.stamp - gap->toStamp < kPatience) {
-            break;
-        }
-        judge(due, m_judged);
-        m_due.pop_front();
-    }
-    for (; !m_partials.empty() &&
-           (m_partials.front().stream == nullptr || packet.stamp - m_partials.front().stamp >= kPatience ||
-            m_partials.size() > kMostPartials);
-         m_partials.pop_front(), ++m_firstPartial) {
-        judge(m_partials.front(), packet.number);
-    }
+void Attribution::takePacket(const log::Packet& packet, std::uint16_t localPort) {
+    judgeDue(packet.stamp, packet.number);
     if (packet.kernelDropsBefore != 0) {
         keepNewest(m_drops, {packet.number, std::uint64_t{packet.kernelDropsBefore}, localPort}, kMostDrops);
     }
-    return m_judged;
+    m_lastPacket = packet.number;
+}
+
+void Attribution::advance(log::Stamp stamp) {
+    judgeDue(stamp, m_lastPacket + 1);
+}
+
+/// By the packets up to one.
+void Attribution::judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll) {
+    if (m_lateSeen && stamp - *m_lateSeen > kForgetLate) {
+        m_patience = kPatience;
+        m_lateSeen.reset();
+    }
+    for (; !m_due.empty(); m_due.pop_front()) {
+        Due& due = m_due.front();
+        const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
+        if (!isAll && gap != nullptr && stamp - gap->toStamp < m_patience) {
+            break;
+        }
+        judge(due);
+    }
+    for (; !m_partials.empty() &&
+           (isAll || m_partials.front().stream == nullptr || stamp - m_partials.front().stamp >= kPatience ||
+            m_partials.size() > kMostPartials);
+         m_partials.pop_front(), ++m_firstPartial) {
+        judge(m_partials.front(), packet);
+    }
+    for (; !m_rests.empty() && (isAll || stamp - m_rests.front().stamp >= m_patience); m_rests.pop_front()) {
+        if (Stream* const stream = m_rests.front().stream) {
+            stream->awaitsRest = false;
+            attributeRest(*stream);
+        }
+    }
 }
 
 void Attribution::takeOvertaken(std::uint64_t packet, std::uint64_t count) {
@@ -145,7 +138,7 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
         judgeEarly(stream, verdict.packet);
     }
     takePartial(stream, verdict);
-    if (verdict.gap != 0) {
+    if (verdict.gap != 0 || verdict.mayBeGap) {
         m_gaps.push_back({.stream = stream.key,
                           .fromSample = verdict.sampleBefore,
                           .toSample = verdict.sample,
@@ -158,24 +151,48 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
         m_due.push_back({m_firstGap + m_gaps.size() - 1, &stream, stream.accounting.datagrams()});
         expectJudgement(stream);
         if (m_gaps.size() > kMostGaps) {
+            if (!m_due.empty() && m_due.front().gap == m_firstGap) {
+                judge(m_due.front());
+                m_due.pop_front();
+            }
             m_gaps.pop_front();
             ++m_firstGap;
         }
     } else if (verdict.isReordered && verdict.isFirstOfSample) {
-        recount(stream, verdict.sample); // it came after all
+        if (const Gap* gap = recount(stream, verdict.sample)) { // it came after all
+            learnPatience(*gap, verdict.stamp);
+        }
     }
     if (step != stream.judgedStep) {
         // Known in hindsight: what seemed lost may not be.
         stream.judgedStep = step;
         recount(stream, {});
+        if (!std::exchange(stream.awaitsRest, true)) {
+            m_rests.push_back({&stream, verdict.stamp});
+        }
+    }
+}
+
+/// Where samples come later than they were waited for, the next ones are waited for longer.
+void Attribution::learnPatience(const Gap& gap, log::Stamp stamp) {
+    if (gap.isJudged) {
+        const log::Duration late = stamp - gap.toStamp;
+        m_patience = std::clamp(late + late / 2, m_patience, kMostPatience);
+        m_lateSeen = stamp;
     }
 }
 
 /// Notes what lacks a part, and what does not any more.
 void Attribution::takePartial(Stream& stream, const Verdict& verdict) {
     if (verdict.isAfterPartial) {
-        const LossCause cause = causeOfPartial(stream.key, verdict.packetBefore, verdict.packet);
-        ++stream.attributed[static_cast<std::size_t>(cause)];
+        attribute(stream, {.stream = stream.key,
+                           .cause = causeOfPartial(stream.key, verdict.packetBefore, verdict.packet),
+                           .samples = 1,
+                           .from = verdict.stamp,
+                           .to = verdict.stamp,
+                           .fromPacket = verdict.packetBefore,
+                           .toPacket = verdict.packet,
+                           .evidence = "Of a message only a part arrived."});
     }
     std::uint64_t& open = stream.openPartial;
     if (verdict.isFirstOfSample && !verdict.isReordered && open > m_firstPartial) {
@@ -200,7 +217,15 @@ void Attribution::judge(Partial& partial, std::uint64_t packet) {
     }
     partial.cause =
         causeOfPartial(stream->key, partial.packet, partial.nextPacket != 0 ? partial.nextPacket : packet);
-    ++stream->attributed[static_cast<std::size_t>(partial.cause)];
+    partial.incident = attribute(
+        *stream, {.stream = stream->key,
+                  .cause = partial.cause,
+                  .samples = 1,
+                  .from = partial.stamp,
+                  .to = partial.stamp,
+                  .fromPacket = partial.packet,
+                  .toPacket = partial.packet,
+                  .evidence = "Of sample " + std::to_string(partial.sample) + " only a part arrived."});
     keepNewest(m_judgedPartials, partial, kMostBack);
     m_judgedPartials.back().stream = stream;
 }
@@ -222,7 +247,7 @@ void Attribution::judgeEarly(Stream& stream, std::uint64_t packet) {
     };
     for (Due& due : m_due) {
         if (due.stream == &stream && !isWaiting(due.datagrams)) {
-            judge(due, m_judgedEarly);
+            judge(due);
         }
     }
     for (Partial& partial : m_partials) {
@@ -239,6 +264,7 @@ void Attribution::complete(Stream& stream, std::uint32_t sample) {
     });
     if (found != m_judgedPartials.end()) {
         --stream.attributed[static_cast<std::size_t>(found->cause)];
+        m_sink->takeBack(found->incident, stream.key, 1, true);
         m_judgedPartials.erase(found);
     }
 }
@@ -262,8 +288,7 @@ LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_
 std::size_t Attribution::memoryBytes() const {
     std::size_t bytes = m_gaps.size() * sizeof(Gap) + m_due.size() * sizeof(Due) +
                         (m_partials.size() + m_judgedPartials.size()) * sizeof(Partial) +
-                        m_drops.size() * sizeof(Drop) + m_damages.size() * sizeof(Damage) +
-                        (m_judged.capacity() + m_judgedEarly.capacity()) * sizeof(Gap);
+                        m_drops.size() * sizeof(Drop) + m_damages.size() * sizeof(Damage);
     for (const auto& [id, sender] : m_senders) {
         bytes += sizeof(Sender) + sender.silences.size() * sizeof(TimeRange) +
                  sender.streams.capacity() * sizeof(const Stream*);
@@ -276,23 +301,79 @@ const Gap* Attribution::endedBy(std::uint64_t packet) const {
     return found != m_gaps.end() && found->toPacket == packet ? &*found : nullptr;
 }
 
+std::uint64_t Attribution::attribute(Stream& stream, Loss loss) {
+    stream.attributed[static_cast<std::size_t>(loss.cause)] += loss.samples;
+    return m_sink->takeLoss(std::move(loss));
+}
+
+/// Samples from before the step was known: in hindsight they are lost, or are not, and no gap was seen.
+void Attribution::attributeRest(Stream& stream) {
+    const StreamCounts counts = stream.accounting.counts();
+    std::uint64_t told = 0;
+    for (const std::uint64_t samples : stream.attributed) {
+        told += samples;
+    }
+    for (const Due& due : m_due) {
+        const Gap* gap = due.stream == &stream ? find(due.gap) : nullptr;
+        told += gap != nullptr ? gap->lost : 0;
+    }
+    for (const Partial& partial : m_partials) {
+        told += partial.stream == &stream && stream.accounting.isIncomplete(partial.sample) ? 1 : 0;
+    }
+    const std::uint64_t missing = counts.lost + counts.incomplete;
+    if (missing > told) {
+        stream.restIncident =
+            attribute(stream, {.stream = stream.key,
+                               .samples = missing - told,
+                               .from = stream.accounting.firstStamp(),
+                               .to = stream.accounting.lastStamp(),
+                               .fromPacket = m_lastPacket,
+                               .toPacket = m_lastPacket,
+                               .incident = stream.restIncident,
+                               .evidence = "Lost before the step of the sample counter was known."});
+        stream.restSamples += missing - told;
+    } else if (const std::uint64_t less = std::min(told - missing, stream.restSamples); less != 0) {
+        stream.restSamples -= less;
+        stream.attributed[static_cast<std::size_t>(LossCause::Unknown)] -= less;
+        m_sink->takeBack(stream.restIncident, stream.key, less, stream.restSamples == 0);
+    }
+}
+
+Loss Attribution::lossOf(const Gap& gap, std::uint64_t samples) {
+    return {.stream = gap.stream,
+            .cause = gap.cause,
+            .samples = samples,
+            .from = gap.fromStamp,
+            .to = gap.toStamp,
+            .fromPacket = gap.fromPacket,
+            .toPacket = gap.toPacket,
+            .incident = gap.incident,
+            .evidence = gap.evidenceText()};
+}
+
 /// Counts again what a gap still lacks, in it and in the sums of its stream.
 void Attribution::recount(Gap& gap, Stream& stream) {
     const std::uint32_t lost =
         stream.accounting.missingBetween(gap.fromSample, gap.toSample).value_or(gap.lost);
-    if (lost == gap.lost) {
+    const std::uint32_t before = std::exchange(gap.lost, lost);
+    if (!gap.isJudged || lost == before) {
         return;
     }
-    if (gap.isJudged) {
-        std::uint64_t& sum = stream.attributed[static_cast<std::size_t>(gap.cause)];
-        sum += lost;
-        sum -= std::min<std::uint64_t>(sum, gap.lost);
+    if (before == 0 && gap.evidence == Gap::Evidence::None) {
+        findCause(gap, stream);
     }
-    gap.lost = lost;
+    if (lost > before) {
+        gap.incident = attribute(stream, lossOf(gap, lost - before));
+        return;
+    }
+    std::uint64_t& sum = stream.attributed[static_cast<std::size_t>(gap.cause)];
+    const std::uint64_t less = std::min<std::uint64_t>(sum, before - lost);
+    sum -= less;
+    m_sink->takeBack(gap.incident, gap.stream, less, lost == 0);
 }
 
-/// Once; what it was is among `judged` then.
-void Attribution::judge(Due& due, std::vector<Gap>& judged) {
+/// Once.
+void Attribution::judge(Due& due) {
     Stream* const stream = std::exchange(due.stream, nullptr);
     Gap* const gap = find(due.gap);
     if (stream == nullptr || gap == nullptr) {
@@ -301,21 +382,26 @@ void Attribution::judge(Due& due, std::vector<Gap>& judged) {
     recount(*gap, *stream);
     findCause(*gap, *stream);
     gap->isJudged = true;
-    stream->attributed[static_cast<std::size_t>(gap->cause)] += gap->lost;
-    judged.push_back(*gap);
+    if (gap->lost != 0) {
+        gap->incident = attribute(*stream, lossOf(*gap, gap->lost));
+    }
 }
 
-/// Counts again the newest gaps of a stream, or only the one around a sample.
-void Attribution::recount(Stream& stream, std::optional<std::uint32_t> around) {
+/// Counts again the newest gaps of a stream, or only the one around a sample, which it returns.
+const Gap* Attribution::recount(Stream& stream, std::optional<std::uint32_t> around) {
     std::size_t looked = 0;
-    for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && looked < kMostBack; ++gap, ++looked) {
+    std::size_t own = 0;
+    for (auto gap = m_gaps.rbegin(); gap != m_gaps.rend() && own < kMostBack && looked < kMostLooked;
+         ++gap, ++looked) {
+        own += gap->stream == stream.key ? 1 : 0;
         if (gap->stream == stream.key && (!around || isBetween(*around, *gap))) {
             recount(*gap, stream);
             if (around) {
-                return;
+                return &*gap;
             }
         }
     }
+    return nullptr;
 }
 
 void Attribution::findCause(Gap& gap, const Stream& stream) const {
@@ -347,7 +433,7 @@ void Attribution::findCause(Gap& gap, const Stream& stream) const {
             return decide(LossCause::Network, Gap::Evidence::Partial, neighbour);
         }
     }
-    const TimeRange when{gap.fromStamp - kPatience, gap.toStamp + kPatience};
+    const TimeRange when{gap.fromStamp - kNear, gap.toStamp + kNear};
     for (const Stream* other : sender.streams) {
         if (other->key == gap.stream) {
             continue;

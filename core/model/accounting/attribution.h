@@ -3,50 +3,44 @@
 
 #include "core/log/packet.h"
 #include "core/log/time.h"
+#include "core/model/accounting/gap.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/accounting/stream_counts.h"
 
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
 namespace posewire::model {
 
-/// Samples of a stream that did not come between two that did, and whose loss that was.
-struct Gap {
-    /// What the cause rests on.
-    enum class Evidence : std::uint8_t {
-        None,        ///< nothing speaks for anybody
-        Dropped,     ///< this computer dropped datagrams of the socket meanwhile
-        Overtaken,   ///< this computer did not look at packets of the log in time
-        Damaged,     ///< one of the samples came truncated
-        Partial,     ///< of a sample next to it only a part came
-        OtherStream, ///< other streams of the sender brought one of the samples
-        Reliable,    ///< TCP loses nothing
-        Paused,      ///< all streams of the sender paused together, and the time code moved with the pause
-    };
-
+/// Samples of a stream that are lost for good, as far as is known, or of which only a part came.
+struct Loss {
     log::StreamKey stream;
-    std::uint32_t fromSample = 0; ///< the samples around it, which came
-    std::uint32_t toSample = 0;
-    log::Stamp fromStamp{};
-    log::Stamp toStamp{};
+    LossCause cause = LossCause::Unknown;
+    std::uint64_t samples = 0;
+    log::Stamp from{};
+    log::Stamp to{};
     std::uint64_t fromPacket = 0;
     std::uint64_t toPacket = 0;
-    std::uint32_t lost = 0; ///< what still is; 0 where all came late or nothing was expected
-    LossCause cause = LossCause::Unknown;
-    Evidence evidence = Evidence::None;
-    bool isJudged = false;           ///< else late arrivals are still waited for
-    std::uint32_t timeCodeMoved = 0; ///< ms
-    std::uint64_t figure = 0;        ///< of the evidence: datagrams, a sample, ms
-    std::uint8_t otherType = 0;      ///< of the evidence OtherStream
+    std::uint64_t incident = 0; ///< that some of it was told in; 0 for none
+    std::string evidence;       ///< one sentence
+};
 
-    /// One sentence with figures.
-    [[nodiscard]] std::string evidenceText() const;
+/// Told of every loss, and of what was not lost after all: the sums of what it is told are
+/// Stream::attributed.
+class LossSink {
+public:
+    /// Returns the number of the incident that it belongs to.
+    virtual std::uint64_t takeLoss(const Loss& loss) = 0;
+    /// Samples of that incident came after all; `isAll`: the whole gap is filled.
+    virtual void takeBack(std::uint64_t incident, const log::StreamKey& stream, std::uint64_t samples,
+                          bool isAll) = 0;
+
+protected:
+    ~LossSink() = default;
 };
 
 /// Finds whose loss each gap and each incomplete sample was, from the log alone: the answer is the same in
@@ -54,6 +48,7 @@ struct Gap {
 /// and corrected where they come even later.
 class Attribution {
 public:
+    /// At least; longer after samples that came later.
     static constexpr log::Duration kPatience = std::chrono::milliseconds(150);
     static constexpr std::size_t kMostGaps = 65'536;
     /// What memoryBytes() can become, about.
@@ -61,14 +56,20 @@ public:
     /// A shorter silence of a sender is no pause.
     static constexpr log::Duration kPause = std::chrono::milliseconds(250);
 
+    /// The sink outlives this.
+    explicit Attribution(LossSink& sink) : m_sink(&sink) {}
+
     /// The stream outlives this, or is retired with its sender before it goes.
     void addStream(Stream& stream, const log::SenderInfo& info);
     /// What is yet to be judged of the sender's streams stays as it is.
     void retire(log::SenderId sender);
 
-    /// Each packet, before its content: notes drops and judges what is due. Returns the gaps that were
-    /// judged, valid until the next call.
-    std::span<const Gap> takePacket(const log::Packet& packet, std::uint16_t localPort);
+    /// Each packet, before its content: notes drops and judges what is due.
+    void takePacket(const log::Packet& packet, std::uint16_t localPort);
+    /// Nothing more comes: judges all.
+    void settle() { judgeDue({}, m_lastPacket + 1, true); }
+    /// Time passes without packets: judges what is due.
+    void advance(log::Stamp stamp);
     /// Packets just below one were passed over: whatever they were of is missing for that.
     void takeOvertaken(std::uint64_t packet, std::uint64_t count);
     /// Each datagram of a type that counts samples.
@@ -80,6 +81,24 @@ public:
     /// A verdict of the stream's accounting.
     void takeVerdict(Stream& stream, const Verdict& verdict);
 
+    /// Calls f(stream, samples, from, to) for what is not there yet and not yet lost: gaps, and samples of
+    /// which a part is missing though the next one has come.
+    template <class Function>
+    void forEachPending(Function&& f) const {
+        for (const Due& due : m_due) {
+            const Gap* gap =
+                due.stream != nullptr && due.gap >= m_firstGap ? &m_gaps[due.gap - m_firstGap] : nullptr;
+            if (gap != nullptr && gap->lost != 0) {
+                f(gap->stream, std::uint64_t{gap->lost}, gap->fromStamp, gap->toStamp);
+            }
+        }
+        for (const Partial& partial : m_partials) {
+            if (partial.stream != nullptr && partial.nextPacket != 0 &&
+                partial.stream->accounting.isIncomplete(partial.sample)) {
+                f(partial.stream->key, std::uint64_t{1}, partial.stamp, partial.stamp);
+            }
+        }
+    }
     /// The newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
     [[nodiscard]] std::size_t memoryBytes() const;
@@ -103,6 +122,7 @@ private:
         std::uint64_t datagrams = 0;  ///< of the stream until then
         std::uint64_t nextPacket = 0; ///< the first of the next sample of the stream; 0 until that comes
         LossCause cause = LossCause::Unknown;
+        std::uint64_t incident = 0;
     };
     struct Drop {
         std::uint64_t packet = 0; ///< the first after them
@@ -126,15 +146,27 @@ private:
         std::uint64_t datagrams = 0; ///< of the stream until then
     };
 
+    /// A stream whose step has changed.
+    struct Rest {
+        Stream* stream = nullptr; ///< null where it was retired
+        log::Stamp stamp{};
+    };
+
     void judgeEarly(Stream& stream, std::uint64_t packet);
-    void judge(Due& due, std::vector<Gap>& judged);
+    void judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll = false);
+    void judge(Due& due);
     void judge(Partial& partial, std::uint64_t packet);
+    /// Counts it, and tells it. Returns its incident.
+    std::uint64_t attribute(Stream& stream, Loss loss);
+    void attributeRest(Stream& stream);
+    [[nodiscard]] static Loss lossOf(const Gap& gap, std::uint64_t samples);
+    void learnPatience(const Gap& gap, log::Stamp stamp);
     void takePartial(Stream& stream, const Verdict& verdict);
     void complete(Stream& stream, std::uint32_t sample);
     [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
                                            std::uint64_t toPacket) const;
     void recount(Gap& gap, Stream& stream);
-    void recount(Stream& stream, std::optional<std::uint32_t> around);
+    const Gap* recount(Stream& stream, std::optional<std::uint32_t> around);
     void findCause(Gap& gap, const Stream& stream) const;
     /// Datagrams of a port behind one packet, up to another.
     [[nodiscard]] LostHere lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
@@ -145,12 +177,15 @@ private:
         return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
     }
 
+    LossSink* m_sink;
+    log::Duration m_patience = kPatience;
+    std::optional<log::Stamp> m_lateSeen; ///< the last sample that came later than it was waited for
+    std::uint64_t m_lastPacket = 0;
     std::unordered_map<log::SenderId, Sender> m_senders;
     std::deque<Gap> m_gaps;
     std::uint64_t m_firstGap = 0;
-    std::deque<Due> m_due; ///< yet to be judged, oldest first
-    std::vector<Gap> m_judged;
-    std::vector<Gap> m_judgedEarly; ///< since the last packet
+    std::deque<Due> m_due;          ///< yet to be judged, oldest first
+    std::deque<Rest> m_rests;       ///< yet to be looked at, oldest first
     std::deque<Partial> m_partials; ///< yet to be judged, oldest first
     std::uint64_t m_firstPartial = 0;
     std::deque<Partial> m_judgedPartials; ///< the newest ones

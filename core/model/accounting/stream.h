@@ -53,9 +53,17 @@ struct Stream {
     std::uint64_t judgeAt = UINT64_MAX; ///< Attribution: this many datagrams; what waits is judged then
     std::uint32_t judgedStep = 0;       ///< Attribution: the step by which its gaps were counted
     std::uint64_t openPartial =
-        0;                  ///< Attribution: one past the number of the partial that its next sample ends
-    double usualHz = 0;     ///< ThresholdWatch: its rate before the window; 0 before it is known
-    bool isWatched = false; ///< ThresholdWatch
+        0; ///< Attribution: one past the number of the partial that its next sample ends
+    std::uint64_t restSamples = 0;   ///< Attribution: lost in hindsight, without a gap
+    std::uint64_t restIncident = 0;  ///< Attribution: that these are told in
+    bool awaitsRest = false;         ///< Attribution
+    double usualHz = 0;              ///< ThresholdWatch: its rate before the window; 0 before it is known
+    bool isWatched = false;          ///< ThresholdWatch
+    log::Stamp excusedUntil{};       ///< ThresholdWatch: an incident says why it is not as it should be
+    std::uint32_t toldStep = 0;      ///< IncidentFollower
+    std::uint64_t toldStepSince = 0; ///< IncidentFollower: so many datagrams when it was first so
+    bool isFollowed = false;         ///< IncidentFollower
+    bool hasEnded = false;           ///< IncidentFollower: others of its character go on
 };
 
 } // namespace posewire::model

@@ -7,6 +7,8 @@
 namespace posewire::model {
 namespace {
 
+/// A stream has its step by then.
+constexpr std::uint64_t kUncertain = 128;
 constexpr TimeRange kEver{log::Stamp::min(), log::Stamp::max()};
 
 } // namespace
@@ -120,7 +122,11 @@ void StreamAccounting::settle(const Probation::Waiting& datagram, Probation::Out
     verdict.sample = datagram.datagram.sample;
     verdict.gap = placement.gap;
     verdict.timeCode = datagram.timeCode;
-    if (placement.gap != 0) {
+    // Before the step is certain, whether samples are missing is known later.
+    verdict.mayBeGap = placement.kind == Placement::Kind::Advance && placement.gap == 0 &&
+                       m_datagrams < kUncertain && outcome != Probation::Outcome::Restarted &&
+                       m_lastSample.has_value() && distance(verdict.sample, placement.sampleBefore) > 1;
+    if (placement.gap != 0 || verdict.mayBeGap) {
         verdict.sampleBefore = placement.sampleBefore;
         verdict.timeCodeBefore = m_highest.timeCode;
         verdict.packetBefore = m_highest.packet;

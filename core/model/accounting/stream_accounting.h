@@ -27,7 +27,9 @@ struct Verdict {
     std::uint32_t sample = 0;
     std::uint32_t timeCode = 0; ///< ms
     std::uint32_t gap = 0;      ///< samples missing just before it
-    // Of the highest sample before it, where there is a gap; the packet also of a message left incomplete:
+    bool mayBeGap = false;      ///< the step is not certain yet; there may be some
+    // Of the highest sample before it, where there is or may be a gap; the packet also of a message left
+    // incomplete:
     std::uint32_t sampleBefore = 0;
     std::uint32_t timeCodeBefore = 0;
     std::uint64_t packetBefore = 0;

@@ -2,8 +2,8 @@
 #include "core/model/session/ingest.h"
 
 #include "core/model/accounting/attribution.h"
-#include "core/model/accounting/event_follower.h"
 #include "core/model/body/null_pose.h"
+#include "core/model/incidents/incident_follower.h"
 #include "core/model/text.h"
 #include "core/wire/type_table.h"
 
@@ -19,6 +19,12 @@ constexpr std::size_t kStrangersAtOnce = 16;
 constexpr std::size_t kMostNamesakes = 16;
 /// Packets that are not older than this when they are followed are live: silence after them is silence.
 constexpr log::Duration kLive = std::chrono::seconds(10);
+/// What was received this long ago is in the log.
+constexpr log::Duration kUnderWay = std::chrono::milliseconds(50);
+/// So many datagrams of each character of a sender make it unlikely that another one appears.
+constexpr std::size_t kEstablishedEach = 32;
+/// Whether senders contradict themselves is looked at this often.
+constexpr log::Duration kContradictions = std::chrono::milliseconds(500);
 
 /// What is large is rare, or strange: whoever looks at it decodes it again.
 bool keepsNewest(const log::Packet& packet, const wire::Header& header) {
@@ -43,17 +49,21 @@ std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
 Ingest::Ingest(const log::PacketLog& log)
     : m_log(log),
       m_follower(log),
-      m_attribution(std::make_unique<Attribution>()),
-      m_events(std::make_unique<EventFollower>()) {}
+      m_incidents(std::make_unique<IncidentFollower>()),
+      m_attribution(std::make_unique<Attribution>(*m_incidents)) {}
 
 Ingest::~Ingest() = default;
 
 void Ingest::setThresholds(const Thresholds& thresholds) {
-    m_events->setThresholds(thresholds);
+    m_incidents->setThresholds(thresholds);
 }
 
-void Ingest::report(const Event& event) {
-    m_events->report(event);
+void Ingest::report(const Occurrence& one) {
+    m_incidents->report(one);
+}
+
+std::uint64_t Ingest::provisionalNumber(log::SenderId sender) {
+    return m_incidents->reserve(sender);
 }
 
 bool Ingest::follow(log::Stamp now, std::size_t most) {
@@ -62,7 +72,8 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
         m_isLive = now - m_observed < kLive && m_observed - now < kLive;
     }
     if (m_isLive && m_follower.lag() == 0) {
-        m_events->advance(now);
+        m_attribution->advance(now - kUnderWay);
+        m_incidents->advance(now);
     }
     return count > 0;
 }
@@ -71,16 +82,21 @@ bool Ingest::followFile(log::Stamp now, std::size_t most) {
     return takeNew(now, most) > 0;
 }
 
+void Ingest::settle() {
+    m_attribution->settle();
+}
+
 void Ingest::endFile() {
     m_isLive = false;
-    m_events->endFile();
+    settle();
+    m_incidents->endFile();
 }
 
 std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     m_now = now;
     m_follower.refresh();
     m_begin = m_follower.reader().begin();
-    m_events->followClock(m_log.timeline());
+    m_incidents->followClock(m_log.timeline());
     std::size_t count = 0;
     while (count < most) {
         const auto packet = m_follower.next();
@@ -95,14 +111,28 @@ std::size_t Ingest::takeNew(log::Stamp now, std::size_t most) {
     }
     m_index.dropBefore(m_begin);
     m_digests.dropBefore(m_begin);
+    lookForContradictions();
     return count;
+}
+
+void Ingest::lookForContradictions() {
+    if (m_observed < m_nextContradictions) {
+        return;
+    }
+    m_nextContradictions = m_observed + kContradictions;
+    for (const Sender& sender : m_senders) {
+        if (sender.isPerforming()) {
+            const auto found = sender.contradictions();
+            m_incidents->takeContradiction(sender.id, m_observed, found.empty() ? "" : found.front().text);
+        }
+    }
 }
 
 /// What was lost of the packets that nobody looked at is this computer's loss.
 void Ingest::takeOvertaken(std::uint64_t count, const log::Packet* next) {
     const std::uint64_t packet = next != nullptr ? next->number : m_follower.position();
     m_attribution->takeOvertaken(packet, count);
-    m_events->takeOvertaken(packet, count, next != nullptr ? next->stamp : m_now);
+    m_incidents->takeOvertaken(packet, count, next != nullptr ? next->stamp : m_now);
     m_streams.forEach([count](Stream& stream) { stream.accounting.passOver(count); });
 }
 
@@ -158,7 +188,7 @@ void Ingest::countPacket(const Observation& seen) {
     sender.datagrams += seen.digest.kind == PacketKind::Skipped ? 0 : 1;
     const Place& place = m_recencies.at(sender.id);
     place.list->splice(place.list->end(), *place.list, place.at);
-    m_events->takePacket(seen.packet, seen.digest);
+    m_incidents->takePacket(seen.packet, seen.digest, seen.header);
     passOverDropped(seen);
 }
 
@@ -177,9 +207,7 @@ void Ingest::passOverDropped(const Observation& seen) {
 }
 
 void Ingest::judgeGaps(const Observation& seen) {
-    for (const Gap& gap : m_attribution->takePacket(seen.packet, seen.sender->info.localPort)) {
-        m_events->takeGap(gap);
-    }
+    m_attribution->takePacket(seen.packet, seen.sender->info.localPort);
 }
 
 void Ingest::countFaulty(const Observation& seen) {
@@ -230,7 +258,10 @@ bool Ingest::takeHeader(Observation& seen) {
         seen.stream->newestBytes = std::max(seen.stream->newestBytes, packet.bytes.size());
     }
     seen.stream->statistics.add(packet.stamp, header.datagramIndex() == 0);
-    m_events->takeDatagram(packet, header, *seen.stream);
+    if (seen.character->isConfirmed ||
+        (seen.character->isConfirmed = m_unconfirmed.take(seen.character->key, packet, header))) {
+        m_incidents->takeDatagram(packet, header, *seen.stream, seen.sender->info.address);
+    }
     seen.character->lastStamp = packet.stamp;
     seen.character->lastPacket = packet.number;
     return true;
@@ -247,7 +278,9 @@ void Ingest::account(Observation& seen) {
             m_digests.amend(verdict);
         }
         m_attribution->takeVerdict(stream, verdict);
-        m_events->takeVerdict(stream.key, verdict);
+        if (seen.character->isConfirmed) {
+            m_incidents->takeVerdict(stream, verdict);
+        }
     }
 }
 
@@ -267,7 +300,7 @@ void Ingest::takeMetadata(const wire::MetaData& message, const Observation& seen
     const std::size_t before = metadata.memoryBytes();
     metadata.add(message, packet.number, packet.stamp);
     if (std::string change = changeBy(metadata, packet.number); !change.empty()) {
-        m_events->takeChange(EventKind::MetadataChange, seen.character->key, packet, std::move(change));
+        m_incidents->takeChange(IncidentKind::MetadataChange, seen.character->key, packet, std::move(change));
     }
     if (m_metadataKeeping.grew(before, metadata.memoryBytes())) {
         std::vector<Metadata*> all;
@@ -283,7 +316,7 @@ void Ingest::takeNullPose(const wire::NullPose& part, const Observation& seen) {
     NullPoseHistory& history = *kept;
     const std::size_t before = history.memoryBytes();
     if (history.add(part, seen.header->datagramCounter, packet.number, packet.stamp)) {
-        m_events->takeChange(EventKind::ScaleChange, seen.character->key, packet, {});
+        m_incidents->takeChange(IncidentKind::ScaleChange, seen.character->key, packet, {});
     }
     if (m_nullPoseKeeping.grew(before, history.memoryBytes())) {
         std::vector<NullPoseHistory*> all;
@@ -326,13 +359,17 @@ Character* Ingest::characterOf(Sender& sender, std::uint8_t character, std::uint
     if (m_characters.size() >= kMostCharacters && !retireSilent()) {
         return nullptr;
     }
+    // A corrupt header may have invented it where others have long been there.
+    const std::size_t others = sender.characters.size();
     Character& added = m_characters.add(key);
+    added.isConfirmed = others == 0 || sender.datagrams <= kEstablishedEach * others;
     Character* const before = predecessorOf(added);
     added.firstPacket = packetNumber;
     added.ordinal = m_characterCount++;
     if (before != nullptr) {
         before->after = key;
         added.before = before->key;
+        m_incidents->supersede(before->key, m_observed);
         added.ordinal = before->ordinal;
     }
     sender.characters.push_back(&added);
@@ -377,6 +414,8 @@ Character* Ingest::predecessorOf(const Character& character) {
 void Ingest::setOverride(log::SenderId sender, const SenderOverride& overrides) {
     if (Sender* known = m_senders.find(sender)) {
         known->overrides = overrides;
+        m_nextContradictions = {};
+        lookForContradictions();
     }
 }
 

@@ -12,6 +12,7 @@
 #include "core/model/roster.h"
 #include "core/model/session/memory_figures.h"
 #include "core/model/session/sender.h"
+#include "core/model/session/unconfirmed.h"
 
 #include <deque>
 #include <list>
@@ -25,8 +26,8 @@
 namespace posewire::model {
 
 class Attribution;
-struct Event;
-class EventFollower;
+struct Occurrence;
+class IncidentFollower;
 class NullPoseHistory;
 struct Thresholds;
 
@@ -85,12 +86,14 @@ public:
     bool follow(log::Stamp now, std::size_t most);
     /// The same while a file is read: however new its packets are, silence after them is no silence.
     bool followFile(log::Stamp now, std::size_t most);
+    /// Nothing more is read: what is not there by now is lost.
+    void settle();
     /// All that was read is a file that has ended: nobody in it is expected to send on.
     void endFile();
 
     void setThresholds(const Thresholds& thresholds);
     /// Something that no packet tells: it happened in this computer.
-    void report(const Event& event);
+    void report(const Occurrence& one);
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
 
     [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_senders; }
@@ -117,7 +120,9 @@ public:
     /// Packets that the log had dropped before they were looked at.
     [[nodiscard]] std::uint64_t overtaken() const { return m_follower.overtaken(); }
 
-    [[nodiscard]] const EventFollower& events() const { return *m_events; }
+    [[nodiscard]] const IncidentFollower& incidents() const { return *m_incidents; }
+    /// The number of the incident that the pending gaps of a sender may become.
+    [[nodiscard]] std::uint64_t provisionalNumber(log::SenderId sender);
     [[nodiscard]] const Attribution& attribution() const { return *m_attribution; }
     [[nodiscard]] const PacketDigests& digests() const { return m_digests; }
     [[nodiscard]] const log::StreamIndex& index() const { return m_index; }
@@ -162,6 +167,7 @@ private:
     void account(Observation& seen);
     void takeContent(const Observation& seen);
 
+    void lookForContradictions();
     void takeMetadata(const wire::MetaData& message, const Observation& seen);
     void takeNullPose(const wire::NullPose& part, const Observation& seen);
     // Null where there are too many already.
@@ -200,12 +206,14 @@ private:
     AccountingDepth m_depth;
     RetiredTotals m_retired;
     std::uint64_t m_unfollowed = 0;
+    Unconfirmed m_unconfirmed;
     Message m_unplaced; ///< what a datagram is decoded into whose stream is not known yet
     std::map<CharacterKey, std::shared_ptr<NullPoseHistory>> m_nullPoses;
     Keeping m_metadataKeeping{kMetadataBudget};
     Keeping m_nullPoseKeeping{kNullPoseBudget};
-    std::unique_ptr<Attribution> m_attribution;
-    std::unique_ptr<EventFollower> m_events;
+    std::unique_ptr<IncidentFollower> m_incidents;
+    std::unique_ptr<Attribution> m_attribution; ///< tells them of losses
+    log::Stamp m_nextContradictions{};
     bool m_isLive = false; ///< packets have come as they were stamped
 };
 

@@ -2,8 +2,8 @@
 #include "core/model/session/memory_figures.h"
 
 #include "core/model/accounting/attribution.h"
-#include "core/model/accounting/event_follower.h"
 #include "core/model/body/null_pose.h"
+#include "core/model/incidents/incident_follower.h"
 #include "core/model/session/session_view.h"
 
 #include <algorithm>
@@ -35,7 +35,9 @@ constexpr std::size_t kPerSentByte = 2;
 constexpr std::size_t kMostMessages =
     Ingest::kMostStreams * kPerSentByte * Ingest::kMostNewestBytes + SessionView::kMostDecodedBytes;
 
-constexpr std::size_t kMostEvents = Events::kMost * (sizeof(Event) + Events::kMostDetailBytes + 128);
+constexpr std::size_t kMostIncidents =
+    Incidents::kMost * (sizeof(Incident) + Incidents::kMostDetailBytes + 128) +
+    2 * Incidents::kMostParts * sizeof(Incident::Part);
 
 } // namespace
 
@@ -96,7 +98,7 @@ MemoryFigures Ingest::memory() const {
              {"messages", "messages", messages, kMostMessages},
              {"metadata", "metadata", metadataBytes(), kMetadataBudget},
              {"nullPoses", "null poses", nullPoseBytes(), kNullPoseBudget},
-             {"events", "events", m_events->events().memoryBytes(), kMostEvents}}};
+             {"events", "incidents", m_incidents->incidents().memoryBytes(), kMostIncidents}}};
 }
 
 } // namespace posewire::model

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/accounting/attribution.h"
-#include "core/model/accounting/event_follower.h"
+#include "core/model/incidents/incident_follower.h"
 #include "core/model/session/ingest.h"
 
 #include <algorithm>
@@ -90,7 +90,8 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
         }
         m_passersBy[id] += sender.datagrams;
         m_attribution->retire(id);
-        m_events->retire(id);
+        m_incidents->retire(id);
+        m_unconfirmed.retire(id);
         const Place place = m_recencies.at(id);
         place.list->erase(place.at);
         m_recencies.erase(id);

@@ -77,6 +77,7 @@ struct Character {
     std::size_t ordinal = 0;              ///< place in the order of first appearance, for default colours
     Metadata metadata;
     log::Stamp lastStamp{};
+    bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers
     std::uint64_t firstPacket = 0;
     std::uint64_t lastPacket = 0;
     std::optional<CharacterKey> before; ///< see SessionView::predecessor

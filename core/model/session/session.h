@@ -16,13 +16,15 @@ public:
     bool follow(log::Stamp now, std::size_t most = 200'000) { return m_ingest.follow(now, most); }
     /// The same while a file is read: however new its packets are, silence after them is no silence.
     bool followFile(log::Stamp now, std::size_t most = 200'000) { return m_ingest.followFile(now, most); }
+    /// Nothing more is read: what is not there by now is lost.
+    void settle() { m_ingest.settle(); }
     /// All that was read is a file that has ended: nobody in it is expected to send on.
     void endFile() { m_ingest.endFile(); }
 
     /// Holds for what comes from now on.
     void setThresholds(const Thresholds& thresholds) { m_ingest.setThresholds(thresholds); }
     /// Something that no packet tells: it happened in this computer.
-    void report(const Event& event) { m_ingest.report(event); }
+    void report(const Occurrence& one) { m_ingest.report(one); }
     /// What the operator declares about a sender counts instead of what was detected, also for the senders
     /// that follow it on the same host. Nothing happens where there is no such sender.
     void setOverride(log::SenderId sender, const SenderOverride& overrides) {

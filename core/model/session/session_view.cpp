@@ -2,11 +2,11 @@
 #include "core/model/session/session_view.h"
 
 #include "core/model/accounting/attribution.h"
-#include "core/model/accounting/event_follower.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
+#include "core/model/incidents/incident_follower.h"
 #include "core/wire/codec.h"
 
 #include <algorithm>
@@ -65,16 +65,25 @@ SessionView::SessionView(Ingest& ingest, const Choices& choices)
 
 SessionView::~SessionView() = default;
 
-const Events& SessionView::events() const {
-    return m_ingest.events().events();
+const Incidents& SessionView::incidents() const {
+    return m_ingest.incidents().incidents();
 }
 
 const Thresholds& SessionView::thresholds() const {
-    return m_ingest.events().thresholds();
+    return m_ingest.incidents().thresholds();
 }
 
 const std::deque<Gap>& SessionView::gaps() const {
     return m_ingest.attribution().gaps();
+}
+
+void SessionView::forEachPending(
+    const std::function<void(const log::StreamKey&, std::uint64_t, log::Stamp, log::Stamp)>& f) const {
+    m_ingest.attribution().forEachPending(f);
+}
+
+std::uint64_t SessionView::provisionalNumber(log::SenderId sender) const {
+    return m_ingest.provisionalNumber(sender);
 }
 
 const Gap* SessionView::gapEndedBy(std::uint64_t packet) const {
@@ -171,15 +180,15 @@ std::optional<log::Stamp> SessionView::pausedStamp() const {
     return isPaused() ? std::optional(cursorStamp()) : std::nullopt;
 }
 
-std::vector<const Event*> SessionView::troublesOf(const CharacterKey& key) const {
-    return m_ingest.events().troublesOf(key, pausedStamp());
+std::vector<const Incident*> SessionView::troublesOf(const CharacterKey& key) const {
+    return m_ingest.incidents().troublesOf(key, pausedStamp());
 }
 
 Condition SessionView::conditionOf(const CharacterKey& key) const {
     if (isSuperseded(key)) {
         return {};
     }
-    const Condition condition = m_ingest.events().conditionOf(key, pausedStamp());
+    const Condition condition = m_ingest.incidents().conditionOf(key, pausedStamp());
     if (condition.level != Condition::Level::Good) {
         return condition;
     }
@@ -190,10 +199,7 @@ Condition SessionView::conditionOf(const CharacterKey& key) const {
     if (age >= Condition::kSilentS) {
         return {Condition::Level::Warning, "No data for 0.25 s.", {}};
     }
-    const Sender* sender = find(key.sender);
-    const auto contradictions = sender != nullptr ? sender->contradictions() : std::vector<Contradiction>();
-    return contradictions.empty() ? condition
-                                  : Condition{Condition::Level::Warning, contradictions.front().text, {}};
+    return condition;
 }
 
 const Character* SessionView::predecessor(const CharacterKey& key) const {
@@ -225,7 +231,7 @@ CharacterKey SessionView::current(const CharacterKey& key) const {
 std::vector<const Character*> SessionView::currentCharacters() const {
     std::vector<const Character*> shown;
     for (const Character& character : characters()) {
-        if (!isSuperseded(character.key)) {
+        if (character.isConfirmed && !isSuperseded(character.key)) {
             shown.push_back(&character);
         }
     }

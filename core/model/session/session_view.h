@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/accounting/events.h"
+#include "core/model/incidents/incidents.h"
 #include "core/model/session/choices.h"
 #include "core/model/session/ingest.h"
 
@@ -59,10 +59,15 @@ public:
     [[nodiscard]] StreamCounts countsOf(const CharacterKey& key, const TimeRange& range) const;
 
     /// What happened, in the time of the log; with conditions that last.
-    [[nodiscard]] const Events& events() const;
+    [[nodiscard]] const Incidents& incidents() const;
     [[nodiscard]] const Thresholds& thresholds() const;
     /// Every gap in a stream with whose loss it was; the newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const;
+    /// Those that are yet to be judged: what is not there yet, and not yet lost.
+    void forEachPending(
+        const std::function<void(const log::StreamKey&, std::uint64_t, log::Stamp, log::Stamp)>& f) const;
+    /// What the incident will be called that a sender's pending gaps may become.
+    [[nodiscard]] std::uint64_t provisionalNumber(log::SenderId sender) const;
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
     [[nodiscard]] const Gap* gapEndedBy(std::uint64_t packet) const;
     /// One for every packet from begin() to end().
@@ -107,9 +112,9 @@ public:
 
     // Characters at the cursor.
     /// What is wrong with a character or its sender at the cursor, worst first.
-    [[nodiscard]] std::vector<const Event*> troublesOf(const CharacterKey& key) const;
+    [[nodiscard]] std::vector<const Incident*> troublesOf(const CharacterKey& key) const;
     /// How a character does at the cursor: the one rule for all who show it. By the worst of its troubles;
-    /// else by its silence, or a warning where its sender contradicts itself.
+    /// else by its silence.
     [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
 
     /// A sender that is restarted has another port, and some senders use a port for each kind of message. So

@@ -186,8 +186,8 @@ TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
     ASSERT_EQ(opened.session().characters().size(), 1U);
     manual.advance(5s);
     opened.tick();
-    for (const model::Event& event : opened.session().events().all()) {
-        EXPECT_NE(event.severity(), model::EventSeverity::Error) << event.text();
+    for (const model::Incident& event : opened.session().incidents().all()) {
+        EXPECT_NE(event.severity(), model::IncidentSeverity::Error) << event.text();
     }
 }
 

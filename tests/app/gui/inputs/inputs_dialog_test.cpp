@@ -296,8 +296,8 @@ TEST_F(InputsDialogTest, ALoopSwitchesItsTargetOffAndIsAnEvent) {
     EXPECT_THAT(relay.problem.toStdString(), HasSubstr("sent back what was relayed there"));
     EXPECT_FALSE(driver.receiving().choices().relays[0].isOn);
     driver.tick();
-    const auto& events = driver.session().events().all();
-    const auto loop = std::ranges::find(events, model::EventKind::RelayLoop, &model::Event::kind);
+    const auto& events = driver.session().incidents().all();
+    const auto loop = std::ranges::find(events, model::IncidentKind::RelayLoop, &model::Incident::kind);
     ASSERT_NE(loop, events.end());
     EXPECT_EQ(loop->text(), relay.problem.toStdString());
     driver.receiving().relaying().setOn(0, true);

@@ -2,7 +2,7 @@
 #include "app/gui/models/event_model.h"
 
 #include "app/gui/models/display_filter.h"
-#include "core/model/accounting/thresholds.h"
+#include "core/model/incidents/thresholds.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractItemModelTester>
@@ -27,7 +27,7 @@ protected:
     [[nodiscard]] QString text(int row, int column) const {
         return m_model.index(row, column).data().toString();
     }
-    [[nodiscard]] int rowOfKind(model::EventKind kind) const {
+    [[nodiscard]] int rowOfKind(model::IncidentKind kind) const {
         for (int row = 0; row < m_model.rowCount(); ++row) {
             if (m_model.event(m_model.index(row, 0))->kind == kind) {
                 return row;
@@ -44,7 +44,7 @@ protected:
 
 TEST_F(EventModelTest, SaysWhatHappenedWhoseItWasAndHowOften) {
     perform(0, 240, 60, 63);
-    const int row = rowOfKind(model::EventKind::Gap);
+    const int row = rowOfKind(model::IncidentKind::Loss);
     ASSERT_GE(row, 0);
     EXPECT_EQ(text(row, EventModel::kSeverity), QStringLiteral("▲ warning"));
     EXPECT_TRUE(text(row, EventModel::kText).startsWith(QStringLiteral("3 samples lost in 1 gap, cause: ")))
@@ -52,7 +52,7 @@ TEST_F(EventModelTest, SaysWhatHappenedWhoseItWasAndHowOften) {
     EXPECT_TRUE(text(row, EventModel::kWho).endsWith(QStringLiteral(" · 02")));
     EXPECT_EQ(text(row, EventModel::kCount), "1");
     EXPECT_EQ(text(row, EventModel::kGroup), "Loss");
-    EXPECT_GE(rowOfKind(model::EventKind::SenderUp), 0);
+    EXPECT_GE(rowOfKind(model::IncidentKind::SourceUp), 0);
 }
 
 TEST_F(EventModelTest, AnEpisodeIsOneRowThatChanges) {
@@ -64,7 +64,7 @@ TEST_F(EventModelTest, AnEpisodeIsOneRowThatChanges) {
     EXPECT_EQ(m_model.rowCount(), rows);
     EXPECT_EQ(inserted.count(), 0);
     EXPECT_EQ(changed.count(), 1);
-    EXPECT_EQ(text(rowOfKind(model::EventKind::Gap), EventModel::kCount), "2");
+    EXPECT_EQ(text(rowOfKind(model::IncidentKind::Loss), EventModel::kCount), "2");
 }
 
 TEST_F(EventModelTest, NothingChangesWithoutNews) {
@@ -79,12 +79,12 @@ TEST_F(EventModelTest, ListsOnlyWhatGoesOnIfAskedTo) {
     EventModel::Filter current;
     current.onlyCurrent = true;
     m_model.setFilter(current);
-    EXPECT_GE(rowOfKind(model::EventKind::Gap), 0);
+    EXPECT_GE(rowOfKind(model::IncidentKind::Loss), 0);
     perform(120, 900);
-    EXPECT_EQ(rowOfKind(model::EventKind::Gap), -1);
+    EXPECT_EQ(rowOfKind(model::IncidentKind::Loss), -1);
     m_model.setFilter({});
-    EXPECT_GE(rowOfKind(model::EventKind::Gap), 0);
-    EXPECT_NE(text(rowOfKind(model::EventKind::Gap), EventModel::kLasted), "lasts");
+    EXPECT_GE(rowOfKind(model::IncidentKind::Loss), 0);
+    EXPECT_NE(text(rowOfKind(model::IncidentKind::Loss), EventModel::kLasted), "lasts");
 }
 
 TEST_F(EventModelTest, FiltersBySeverityGroupAndText) {
@@ -92,13 +92,13 @@ TEST_F(EventModelTest, FiltersBySeverityGroupAndText) {
     EventModel::Filter filter;
     filter.severities = {false, true, true};
     m_model.setFilter(filter);
-    EXPECT_EQ(rowOfKind(model::EventKind::SenderUp), -1);
-    EXPECT_GE(rowOfKind(model::EventKind::Gap), 0);
+    EXPECT_EQ(rowOfKind(model::IncidentKind::SourceUp), -1);
+    EXPECT_GE(rowOfKind(model::IncidentKind::Loss), 0);
     filter = {};
     filter.groups = {true, false, true, true};
     m_model.setFilter(filter);
-    EXPECT_EQ(rowOfKind(model::EventKind::Gap), -1);
-    EXPECT_GE(rowOfKind(model::EventKind::SenderUp), 0);
+    EXPECT_EQ(rowOfKind(model::IncidentKind::Loss), -1);
+    EXPECT_GE(rowOfKind(model::IncidentKind::SourceUp), 0);
     filter = {};
     filter.text = QStringLiteral("SAMPLES LOST");
     m_model.setFilter(filter);
@@ -121,7 +121,7 @@ TEST_F(EventModelTest, WhatWasSeenIsDimAndNoLongerNew) {
 
 TEST_F(EventModelTest, AGapLeadsToItsPackets) {
     perform(0, 240, 60, 63);
-    const model::Event* gap = m_model.event(m_model.index(rowOfKind(model::EventKind::Gap), 0));
+    const model::Incident* gap = m_model.event(m_model.index(rowOfKind(model::IncidentKind::Loss), 0));
     const QString filter = packetFilterOf(m_stage.session, *gap);
     EXPECT_TRUE(filter.startsWith(QStringLiteral("gap > 0 && type == 02 && character == 0")))
         << filter.toStdString();
@@ -132,12 +132,14 @@ TEST_F(EventModelTest, AGapLeadsToItsPackets) {
 }
 
 TEST_F(EventModelTest, NamesACharacterThatTheSessionDoesNotKnowByItsId) {
-    model::Event event;
+    model::Incident event;
     event.sender = log::SenderId{77};
-    event.character = 3;
+    event.parts.push_back({3, {}});
     EXPECT_EQ(whoseWords(m_stage.session, event), "Character 3");
-    event.type = 2;
+    event.parts.front().type = 2;
     EXPECT_EQ(whoseWords(m_stage.session, event), "Character 3 · 02");
+    event.parts.push_back({4, 2});
+    EXPECT_EQ(whoseWords(m_stage.session, event), "2 characters · 02");
 }
 
 TEST_F(EventModelTest, WhatHasNoPacketLeadsToTheOneBefore) {
@@ -145,11 +147,11 @@ TEST_F(EventModelTest, WhatHasNoPacketLeadsToTheOneBefore) {
     m_stage.now += 3s;
     m_stage.follow();
     m_model.refresh();
-    const int row = rowOfKind(model::EventKind::SenderDown);
+    const int row = rowOfKind(model::IncidentKind::Outage);
     ASSERT_GE(row, 0);
-    const model::Event& event = *m_model.event(m_model.index(row, 0));
+    const model::Incident& event = *m_model.event(m_model.index(row, 0));
     EXPECT_EQ(eventPacket(m_stage.session, event), m_stage.session.end() - 1);
-    EXPECT_TRUE(m_model.index(row, EventModel::kText).data().toString().startsWith("No data for 1 s"));
+    EXPECT_TRUE(m_model.index(row, EventModel::kText).data().toString().startsWith("No data."));
 }
 
 } // namespace

@@ -30,29 +30,49 @@ TEST(AlertChoicesTest, WhatMakesNoSenseIsAsShipped) {
     EXPECT_EQ(alertChoicesOf(object), AlertChoices());
 }
 
-TEST(AlertSoundsTest, SoundOnceForAnEpisodeAndNeverForThePast) {
-    model::Events events;
+TEST(AlertSoundsTest, SoundOnceForAnIncidentAndNeverForThePast) {
+    model::Incidents incidents;
     AlertChoices choices;
     choices.hasErrorSound = true;
-    model::Event event;
-    event.kind = model::EventKind::Malformed;
-    events.report(event);
+    model::Occurrence one;
+    one.kind = model::IncidentKind::Local;
+    incidents.report(one);
     AlertSounds sounds;
-    EXPECT_FALSE(sounds.isDue(events, choices));
-    events.report(event); // the same episode
-    EXPECT_FALSE(sounds.isDue(events, choices));
-    event.character = 1;
-    events.report(event);
-    EXPECT_TRUE(sounds.isDue(events, choices));
-    EXPECT_FALSE(sounds.isDue(events, choices));
-    event.kind = model::EventKind::Gap; // a warning, which is silent
-    events.report(event);
-    EXPECT_FALSE(sounds.isDue(events, choices));
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
+    incidents.report(one); // the same incident
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
+    one.sender = log::SenderId{1};
+    incidents.report(one);
+    EXPECT_TRUE(sounds.isDue(incidents, choices));
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
+    one.kind = model::IncidentKind::Reordered; // a warning, which is silent
+    incidents.report(one);
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
     choices = {};
-    event.kind = model::EventKind::Malformed;
-    event.character = 2;
-    events.report(event);
-    EXPECT_FALSE(sounds.isDue(events, choices));
+    one.kind = model::IncidentKind::Local;
+    one.sender = log::SenderId{2};
+    incidents.report(one);
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
+}
+
+TEST(AlertSoundsTest, SoundWhereAWarningBecomesAnErrorAndForWhatIsSettledLate) {
+    model::Incidents incidents;
+    AlertChoices choices;
+    choices.hasErrorSound = true;
+    AlertSounds sounds;
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
+    const std::uint64_t reserved = incidents.reserve(log::SenderId{1});
+    incidents.report(model::Occurrence::at(model::IncidentKind::Restart, log::SenderId{1}, {}));
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
+    model::Occurrence loss = model::Occurrence::at(model::IncidentKind::Loss, log::SenderId{1}, {});
+    loss.samples = 1;
+    EXPECT_EQ(incidents.report(loss), reserved);
+    EXPECT_FALSE(sounds.isDue(incidents, choices)) << "a warning";
+    loss.samples = 20;
+    incidents.report(loss);
+    EXPECT_TRUE(sounds.isDue(incidents, choices));
+    incidents.report(loss);
+    EXPECT_FALSE(sounds.isDue(incidents, choices));
 }
 
 TEST(ThresholdsDialogTest, GivesBackWhatItShowsAndTheDefaults) {

@@ -3,7 +3,7 @@
 
 #include "tests/core/model/accounting/arrivals.h"
 
-#include "core/model/accounting/thresholds.h"
+#include "core/model/incidents/thresholds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/model/session/session_fixture.h"
 
-#include "core/model/accounting/event_follower.h"
+#include "core/model/incidents/incident_follower.h"
 #include "core/wire/types.h"
 
 #include <algorithm>
@@ -26,10 +26,10 @@ protected:
         m_setBy += change;
         m_log.timeline().add({at(kBegin + m_sample * kPeriod - 1ms), m_setBy, change});
     }
-    [[nodiscard]] std::vector<Event> sets() const {
-        std::vector<Event> found;
-        std::ranges::copy_if(m_session.events().all(), std::back_inserter(found),
-                             [](const Event& event) { return event.kind == EventKind::ClockSet; });
+    [[nodiscard]] std::vector<Incident> sets() const {
+        std::vector<Incident> found;
+        std::ranges::copy_if(m_session.incidents().all(), std::back_inserter(found),
+                             [](const Incident& event) { return event.kind == IncidentKind::ClockSet; });
         return found;
     }
 
@@ -59,8 +59,9 @@ TEST_F(ClockSetTest, IsNobodysLossRestartOrJitter) {
     sendUntil(1000);
     set(10h);
     sendUntil(1500);
-    for (const Event& event : m_session.events().all()) {
-        EXPECT_TRUE(event.kind == EventKind::ClockSet || event.kind == EventKind::SenderUp) << event.text();
+    for (const Incident& event : m_session.incidents().all()) {
+        EXPECT_TRUE(event.kind == IncidentKind::ClockSet || event.kind == IncidentKind::SourceUp)
+            << event.text();
     }
     const Stream* stream = m_session.find(log::StreamKey{sender(), 0, 2});
     ASSERT_NE(stream, nullptr);

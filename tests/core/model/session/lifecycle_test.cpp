@@ -91,11 +91,11 @@ TEST_F(LifecycleTest, WhatARetiredSenderHadLastsNoLonger) {
     }
     follow();
     ASSERT_EQ(find("old:1"), nullptr);
-    for (const Event* event : m_session.events().current()) {
+    for (const Incident* event : m_session.incidents().current()) {
         EXPECT_NE(m_session.find(event->sender), nullptr) << event->text();
     }
-    const Event& first = m_session.events().all().front();
-    EXPECT_EQ(first.kind, EventKind::SenderUp);
+    const Incident& first = m_session.incidents().all().front();
+    EXPECT_EQ(first.kind, IncidentKind::SourceUp);
     EXPECT_EQ(m_session.addressOf(first.sender), "a retired sender");
 }
 
@@ -173,9 +173,9 @@ TEST(Overtaken, PacketsAreThisComputersLossToTheSample) {
     EXPECT_EQ(stream.lostByCause()[static_cast<std::size_t>(LossCause::ThisComputer)], counts.lost);
     ASSERT_EQ(session.gaps().size(), 1U);
     EXPECT_EQ(session.gaps().front().evidence, Gap::Evidence::Overtaken);
-    const auto told = std::ranges::find(session.events().all(), EventKind::Overtaken, &Event::kind);
-    ASSERT_NE(told, session.events().all().end());
-    EXPECT_EQ(told->samples, session.overtaken());
+    const auto told = std::ranges::find(session.incidents().all(), IncidentKind::Overtaken, &Incident::kind);
+    ASSERT_NE(told, session.incidents().all().end());
+    EXPECT_EQ(static_cast<std::uint64_t>(told->value), session.overtaken());
     EXPECT_EQ(session.addressOf(told->sender), "this computer");
 }
 

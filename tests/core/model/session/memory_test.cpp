@@ -86,8 +86,8 @@ TEST_F(MemoryTest, OfMetadataThatAlwaysChangesIsBounded) {
     }
     follow();
     EXPECT_GT(bytesOf("metadata"), 0U);
-    for (const Event& event : m_session.events().all()) {
-        EXPECT_LE(event.detail.size(), Events::kMostDetailBytes);
+    for (const Incident& event : m_session.incidents().all()) {
+        EXPECT_LE(event.detail.size(), Incidents::kMostDetailBytes);
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/stream_figures.h"
-#include "core/model/accounting/thresholds.h"
+#include "core/model/incidents/thresholds.h"
 
 #include <algorithm>
 #include <random>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/thresholds.h"
+#include "core/model/incidents/thresholds.h"
 
 #include "tests/core/model/accounting/arrivals.h"
 
@@ -57,20 +57,20 @@ protected:
             }
         }
     }
-    [[nodiscard]] std::vector<Event> of(EventKind kind) const {
-        std::vector<Event> found;
+    [[nodiscard]] std::vector<Incident> of(IncidentKind kind) const {
+        std::vector<Incident> found;
         std::ranges::copy_if(m_events.all(), std::back_inserter(found),
-                             [kind](const Event& event) { return event.kind == kind; });
+                             [kind](const Incident& event) { return event.kind == kind; });
         return found;
     }
-    [[nodiscard]] bool isAlert(EventKind kind) const {
-        return std::ranges::any_of(m_events.current(), [kind](const Event* e) { return e->kind == kind; });
+    [[nodiscard]] bool isAlert(IncidentKind kind) const {
+        return std::ranges::any_of(m_events.current(), [kind](const Incident* e) { return e->kind == kind; });
     }
     void hold(Thresholds limits) { m_watch.set(limits); }
 
     std::deque<Stream> m_streams;
     ThresholdWatch m_watch;
-    Events m_events;
+    Incidents m_events;
     std::uint32_t m_sample = 1'000;
     log::Stamp m_stamp = at(100s);
     log::Stamp m_nextCheck{};
@@ -83,14 +83,14 @@ TEST_F(Limits, AreSilentForASteadyStream) {
 
 TEST_F(Limits, OfLossAreOfWhatWasExpectedInTheWindow) {
     sendFor(30s, 5); // half of the limit of 1 %
-    EXPECT_FALSE(isAlert(EventKind::LossLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::LossLimit));
     sendFor(30s, 30);
-    EXPECT_TRUE(isAlert(EventKind::LossLimit));
-    ASSERT_EQ(of(EventKind::LossLimit).size(), 1U);
-    EXPECT_NEAR(of(EventKind::LossLimit).back().value, 3, 0.5);
-    EXPECT_EQ(of(EventKind::LossLimit).back().limit, 1);
+    EXPECT_TRUE(isAlert(IncidentKind::LossLimit));
+    ASSERT_EQ(of(IncidentKind::LossLimit).size(), 1U);
+    EXPECT_NEAR(of(IncidentKind::LossLimit).back().value, 3, 0.5);
+    EXPECT_EQ(of(IncidentKind::LossLimit).back().limit, 1);
     sendFor(10s);
-    EXPECT_FALSE(isAlert(EventKind::LossLimit)) << "the window has passed it";
+    EXPECT_FALSE(isAlert(IncidentKind::LossLimit)) << "the window has passed it";
 }
 
 TEST_F(Limits, EndOnlyBelowTheirHysteresis) {
@@ -100,16 +100,16 @@ TEST_F(Limits, EndOnlyBelowTheirHysteresis) {
     limits.gapMs = limits.jitterMs = limits.ratePercent = 0;
     hold(limits);
     sendFor(20s, 200);
-    EXPECT_TRUE(isAlert(EventKind::LossLimit));
+    EXPECT_TRUE(isAlert(IncidentKind::LossLimit));
     sendFor(20s, 70); // below the limit, above half of it
-    EXPECT_TRUE(isAlert(EventKind::LossLimit));
+    EXPECT_TRUE(isAlert(IncidentKind::LossLimit));
     sendFor(20s, 200);
-    EXPECT_EQ(of(EventKind::LossLimit).size(), 1U) << "a figure that hovers alerts once";
+    EXPECT_EQ(of(IncidentKind::LossLimit).size(), 1U) << "a figure that hovers alerts once";
     sendFor(20s, 30);
-    EXPECT_FALSE(isAlert(EventKind::LossLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::LossLimit));
     sendFor(20s, 200);
-    EXPECT_EQ(of(EventKind::LossLimit).size(), 2U);
-    EXPECT_EQ(of(EventKind::LossLimit)[0].count, 1U);
+    EXPECT_EQ(of(IncidentKind::LossLimit).size(), 2U);
+    EXPECT_EQ(of(IncidentKind::LossLimit)[0].count, 1U);
 }
 
 TEST_F(Limits, OfZeroAreNone) {
@@ -125,27 +125,27 @@ TEST_F(Limits, OfZeroAreNone) {
 
 TEST_F(Limits, ThatAreSwitchedOffEndTheirAlerts) {
     sendFor(20s, 200);
-    EXPECT_TRUE(isAlert(EventKind::LossLimit));
+    EXPECT_TRUE(isAlert(IncidentKind::LossLimit));
     Thresholds limits;
     limits.lossPercent = 0;
     hold(limits);
     sendFor(1s, 200);
-    EXPECT_FALSE(isAlert(EventKind::LossLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::LossLimit));
 }
 
 TEST_F(Limits, OfAGapAreOfTimeBetweenSamples) {
     for (const log::Duration apart : {250ms, 251ms}) {
         SetUp();
         m_streams.pop_front();
-        m_events = Events();
+        m_events = Incidents();
         sendFor(10s);
         m_sample -= 1; // no sample is lost meanwhile
         step(apart - 10ms);
         sendFor(2s);
-        EXPECT_EQ(isAlert(EventKind::GapLimit), apart > 250ms) << apart.count();
-        EXPECT_FALSE(isAlert(EventKind::LossLimit));
+        EXPECT_EQ(isAlert(IncidentKind::GapLimit), apart > 250ms) << apart.count();
+        EXPECT_FALSE(isAlert(IncidentKind::LossLimit));
         sendFor(6s);
-        EXPECT_FALSE(isAlert(EventKind::GapLimit)) << "the window has passed it";
+        EXPECT_FALSE(isAlert(IncidentKind::GapLimit)) << "the window has passed it";
     }
 }
 
@@ -153,18 +153,18 @@ TEST_F(Limits, OfAgeAreOfSilenceAndNeedNoSamples) {
     sendFor(10s);
     m_stamp = m_streams.front().accounting.lastStamp() + 1s;
     check();
-    EXPECT_FALSE(isAlert(EventKind::AgeLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::AgeLimit));
     m_stamp += 1ms;
     check();
-    EXPECT_TRUE(isAlert(EventKind::AgeLimit));
+    EXPECT_TRUE(isAlert(IncidentKind::AgeLimit));
     m_stamp += 1h;
     check();
-    ASSERT_EQ(of(EventKind::AgeLimit).size(), 1U);
-    EXPECT_NEAR(of(EventKind::AgeLimit)[0].value, 3'601, 0.1);
-    EXPECT_EQ(of(EventKind::AgeLimit)[0].severity(), EventSeverity::Error);
+    ASSERT_EQ(of(IncidentKind::AgeLimit).size(), 1U);
+    EXPECT_NEAR(of(IncidentKind::AgeLimit)[0].value, 3'601, 0.1);
+    EXPECT_EQ(of(IncidentKind::AgeLimit)[0].severity(), IncidentSeverity::Error);
     m_nextCheck = {};
     sendFor(2s);
-    EXPECT_FALSE(isAlert(EventKind::AgeLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::AgeLimit));
 }
 
 TEST_F(Limits, OfJitterAreOfRfc3550) {
@@ -176,10 +176,10 @@ TEST_F(Limits, OfJitterAreOfRfc3550) {
         addTo(m_streams.front().accounting, m_stamp + (i % 2 == 0 ? 0ms : 30ms), 100, header);
         step(40ms);
     }
-    EXPECT_TRUE(isAlert(EventKind::JitterLimit));
-    EXPECT_NEAR(of(EventKind::JitterLimit).front().value, 30, 3);
+    EXPECT_TRUE(isAlert(IncidentKind::JitterLimit));
+    EXPECT_NEAR(of(IncidentKind::JitterLimit).front().value, 30, 3);
     sendFor(10s);
-    EXPECT_FALSE(isAlert(EventKind::JitterLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::JitterLimit));
 }
 
 TEST_F(Limits, OfTheRateKnowWhatWasUsual) {
@@ -187,16 +187,16 @@ TEST_F(Limits, OfTheRateKnowWhatWasUsual) {
     for (const log::Stamp end = m_stamp + 6s; m_stamp < end; step(12ms)) { // 83 Hz: 17 % less
         sendOne();
     }
-    EXPECT_FALSE(isAlert(EventKind::RateLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::RateLimit));
     for (const log::Stamp end = m_stamp + 6s; m_stamp < end; step(20ms)) {
         sendOne();
     }
-    EXPECT_TRUE(isAlert(EventKind::RateLimit));
+    EXPECT_TRUE(isAlert(IncidentKind::RateLimit));
     for (const log::Stamp end = m_stamp + 300s; m_stamp < end; step(20ms)) {
         sendOne();
     }
-    EXPECT_FALSE(isAlert(EventKind::RateLimit)) << "what lasts becomes usual";
-    EXPECT_EQ(of(EventKind::RateLimit).size(), 1U);
+    EXPECT_FALSE(isAlert(IncidentKind::RateLimit)) << "what lasts becomes usual";
+    EXPECT_EQ(of(IncidentKind::RateLimit).size(), 1U);
 }
 
 TEST_F(Limits, OfTheRateSayNothingBeforeAWholeWindow) {
@@ -204,7 +204,7 @@ TEST_F(Limits, OfTheRateSayNothingBeforeAWholeWindow) {
         sendOne();
     }
     sendFor(2s);
-    EXPECT_FALSE(isAlert(EventKind::RateLimit));
+    EXPECT_FALSE(isAlert(IncidentKind::RateLimit));
 }
 
 TEST_F(Limits, HoldEveryStreamOnItsOwn) {
@@ -212,9 +212,24 @@ TEST_F(Limits, HoldEveryStreamOnItsOwn) {
     addTo(m_streams.back().accounting, m_stamp, 100, wire::Header());
     sendFor(5s); // of the first stream alone
     ASSERT_EQ(m_events.all().size(), 1U);
-    EXPECT_EQ(m_events.all().front().kind, EventKind::AgeLimit);
-    EXPECT_EQ(m_events.all().front().type, 21);
-    EXPECT_EQ(m_events.all().front().character, 0);
+    EXPECT_EQ(m_events.all().front().kind, IncidentKind::AgeLimit);
+    EXPECT_EQ(m_events.all().front().type(), 21);
+    EXPECT_EQ(m_events.all().front().character(), 0);
+}
+
+TEST_F(Limits, SayNothingWhereAnIncidentSaysWhy) {
+    sendFor(10s);
+    m_streams.front().excusedUntil = m_stamp + 30s;
+    Occurrence loss = Occurrence::at(IncidentKind::Loss, static_cast<log::SenderId>(1), m_stamp);
+    loss.character = 0;
+    loss.type = 2;
+    loss.samples = 60;
+    m_events.report(loss);
+    sendFor(2s, 50);
+    EXPECT_FALSE(isAlert(IncidentKind::LossLimit));
+    ASSERT_TRUE(isAlert(IncidentKind::Loss));
+    EXPECT_GT(of(IncidentKind::Loss)[0].value, 1) << "the loss is that much above the limit";
+    EXPECT_EQ(of(IncidentKind::Loss)[0].severity(), IncidentSeverity::Error);
 }
 
 TEST_F(Limits, LeaveMessagesThatAreRepeatedAlone) {

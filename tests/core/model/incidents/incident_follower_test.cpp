@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "tests/core/model/accounting/events_fixture.h"
+#include "tests/core/model/incidents/incidents_fixture.h"
 
 /// At which bounds what comes, and what does not, becomes an event.
 namespace posewire::model {
 namespace {
 
-class EventBounds : public EventsTest {
+class IncidentBounds : public IncidentsTest {
 protected:
     /// Nothing more comes: time passes by this much after the newest packet.
     void waitFor(log::Duration time) {
@@ -23,77 +23,91 @@ protected:
     }
 };
 
-TEST_F(EventBounds, ASenderIsDownAfterMoreThanASecond) {
+TEST_F(IncidentBounds, ASenderIsSilentAfterAFifthOfASecond) {
     poses(1, 100);
-    waitFor(1s);
-    EXPECT_TRUE(of(EventKind::SenderDown).empty());
-    waitFor(1s + 100ms);
-    const auto down = of(EventKind::SenderDown);
-    ASSERT_EQ(down.size(), 1U);
-    EXPECT_EQ(down[0].firstStamp, m_now + 1s) << "not when it was found out";
+    const log::Stamp last = m_at - 10ms;
+    waitFor(200ms);
+    EXPECT_TRUE(of(IncidentKind::Outage).empty());
+    waitFor(225ms);
+    auto outages = of(IncidentKind::Outage);
+    ASSERT_EQ(outages.size(), 1U);
+    EXPECT_EQ(outages[0].firstStamp, last) << "not when it was found out";
+    EXPECT_EQ(outages[0].severity(), IncidentSeverity::Warning);
+    waitFor(1s + 25ms);
+    outages = of(IncidentKind::Outage);
+    ASSERT_EQ(outages.size(), 1U);
+    EXPECT_EQ(outages[0].severity(), IncidentSeverity::Error);
 }
 
-TEST_F(EventBounds, ASenderThatOnlyRepeatsItsNamesIsDown) {
+TEST_F(IncidentBounds, ASlowSenderHasThreeOfItsSamples) {
+    for (std::uint32_t sample = 1; sample <= 20; ++sample, m_at += 500ms) {
+        pose(sample);
+    }
+    m_at -= 500ms;
+    waitFor(1'500ms);
+    EXPECT_TRUE(of(IncidentKind::Outage).empty());
+    waitFor(1'525ms);
+    EXPECT_EQ(of(IncidentKind::Outage).size(), 1U);
+}
+
+TEST_F(IncidentBounds, ASenderThatOnlyRepeatsItsNamesIsSilent) {
     poses(1, 100);
     for (int i = 0; i < 30; ++i, m_at += 100ms) {
         send(wire::MetaData{true, "name:Ana\n"}, 0, m_at);
     }
-    EXPECT_EQ(of(EventKind::SenderDown).size(), 1U);
-    EXPECT_TRUE(of(EventKind::Stale).empty());
+    EXPECT_EQ(of(IncidentKind::Outage).size(), 1U);
 }
 
-TEST_F(EventBounds, ACharacterIsStaleWhileItsSenderSendsAnother) {
+TEST_F(IncidentBounds, ACharacterIsSilentWhileItsSenderSendsAnother) {
     for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
         pose(sample);
         poseOfOther(sample);
     }
     const log::Stamp last = m_at - 10ms;
     poses(101, 400);
-    auto stale = of(EventKind::Stale);
-    ASSERT_EQ(stale.size(), 1U);
-    EXPECT_EQ(stale[0].character, 1);
-    EXPECT_EQ(stale[0].firstStamp, last + 1s);
-    EXPECT_TRUE(stale[0].isCurrent);
-    EXPECT_EQ(stale[0].text(), "No pose for 1 s, though the source sends.");
-    EXPECT_TRUE(of(EventKind::SenderDown).empty());
-    EXPECT_EQ(m_session.conditionOf({sender(), 1}).level, Condition::Level::Error) << "by its age";
+    auto outages = of(IncidentKind::Outage);
+    ASSERT_EQ(outages.size(), 1U);
+    EXPECT_EQ(outages[0].characters(), (std::vector<std::uint8_t>{1}));
+    EXPECT_EQ(outages[0].firstStamp, last);
+    EXPECT_TRUE(outages[0].isCurrent);
+    EXPECT_EQ(m_session.conditionOf({sender(), 1}).level, Condition::Level::Error);
     EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
     for (std::uint32_t sample = 401; sample <= 500; ++sample, m_at += 10ms) {
         pose(sample);
         poseOfOther(sample);
     }
-    stale = of(EventKind::Stale);
-    ASSERT_EQ(stale.size(), 1U);
-    EXPECT_FALSE(stale[0].isCurrent);
+    outages = of(IncidentKind::Outage);
+    ASSERT_EQ(outages.size(), 1U);
+    EXPECT_FALSE(outages[0].isCurrent);
 }
 
-TEST_F(EventBounds, TenSamplesLostInARowAreABurst) {
-    poses(1, 100);
+TEST_F(IncidentBounds, TenSamplesOfAStreamAreGrave) {
+    poses(1, 2'000);
     m_at += 90ms;
-    poses(110, 200); // nine
+    poses(2'010, 2'200); // nine
+    auto losses = of(IncidentKind::Loss);
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_EQ(losses[0].parts.front().samples, 9U);
+    poses(2'201, 2'900);
     m_at += 100ms;
-    poses(211, 300); // ten
-    const auto gaps = of(EventKind::Gap);
-    const auto bursts = of(EventKind::Burst);
-    ASSERT_EQ(gaps.size(), 1U);
-    ASSERT_EQ(bursts.size(), 1U);
-    EXPECT_EQ(gaps[0].samples, 9U);
-    EXPECT_EQ(bursts[0].samples, 10U);
-    EXPECT_EQ(gaps[0].severity(), EventSeverity::Warning);
-    EXPECT_EQ(bursts[0].severity(), EventSeverity::Error);
+    poses(2'911, 3'000); // ten
+    losses = of(IncidentKind::Loss);
+    ASSERT_EQ(losses.size(), 2U);
+    EXPECT_EQ(losses[1].samples, 10U);
+    EXPECT_EQ(losses[1].severity(), IncidentSeverity::Error);
 }
 
-TEST_F(EventBounds, AGapThatIsFilledInTimeIsNone) {
+TEST_F(IncidentBounds, AGapThatIsFilledInTimeIsNone) {
     poses(1, 100);
     m_at += 10ms;
     pose(102);
     pose(101);
     m_at += 10ms;
     poses(103, 300);
-    EXPECT_TRUE(of(EventKind::Gap).empty());
+    EXPECT_TRUE(of(IncidentKind::Loss).empty());
 }
 
-TEST_F(EventBounds, ATimeCodeJumpsByMoreThanHalfASecond) {
+TEST_F(IncidentBounds, ATimeCodeJumpsByMoreThanHalfASecond) {
     for (const auto& [off, jumps] :
          {std::pair<log::Duration, bool>{500ms, false}, {501ms, true}, {-500ms, false}, {-501ms, true}}) {
         SCOPED_TRACE(off.count());
@@ -111,29 +125,30 @@ TEST_F(EventBounds, ATimeCodeJumpsByMoreThanHalfASecond) {
         }
         log.writer().publish();
         session.follow(at(102s));
-        const auto count = std::ranges::count(session.events().all(), EventKind::TimeCodeJump, &Event::kind);
+        const auto count =
+            std::ranges::count(session.incidents().all(), IncidentKind::TimeCode, &Incident::kind);
         EXPECT_EQ(count, jumps ? 1 : 0);
     }
 }
 
-TEST_F(EventBounds, AFrozenTimeCodeIsNoJump) {
+TEST_F(IncidentBounds, AFrozenTimeCodeIsNoJump) {
     for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 10ms) {
         m_timeCodeOff = 100s - m_at.time_since_epoch(); // always the same
         pose(sample);
     }
-    EXPECT_TRUE(of(EventKind::TimeCodeJump).empty());
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
 }
 
-TEST_F(EventBounds, ATimeCodeMayJumpWhereTheCounterRestarts) {
+TEST_F(IncidentBounds, ATimeCodeMayJumpWhereTheCounterRestarts) {
     poses(50'000, 50'100);
     m_timeCodeOff = -3'600s;
     m_at += 3'600s;
     poses(1, 200);
-    EXPECT_TRUE(of(EventKind::TimeCodeJump).empty());
-    EXPECT_EQ(of(EventKind::Restart).size(), 1U);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+    EXPECT_EQ(of(IncidentKind::Restart).size(), 1U);
 }
 
-TEST_F(EventBounds, TwoSendersConflictWhereOneComesBackWithinASecond) {
+TEST_F(IncidentBounds, TwoSendersConflictWhereOneComesBackWithinASecond) {
     for (const bool isWithin : {false, true}) {
         SCOPED_TRACE(isWithin);
         poses(1, 1);
@@ -141,16 +156,17 @@ TEST_F(EventBounds, TwoSendersConflictWhereOneComesBackWithinASecond) {
         pose(1, "127.0.0.1:40002");
         m_at += isWithin ? 400ms : 520ms;
         pose(2);
-        EXPECT_EQ(of(EventKind::CharacterConflict).size(), isWithin ? 1U : 0U);
+        EXPECT_EQ(of(IncidentKind::Conflict).size(), isWithin ? 2U : 0U);
         m_at += 10s;
     }
-    const Event conflict = of(EventKind::CharacterConflict).front();
-    EXPECT_EQ(conflict.character, 0);
-    EXPECT_EQ(conflict.sender, std::min(sender(), sender("127.0.0.1:40002")));
-    EXPECT_EQ(conflict.text(), "Two sources send character 0 at the same time.");
+    const Incident conflict = of(IncidentKind::Conflict).front();
+    EXPECT_EQ(conflict.character(), 0);
+    EXPECT_EQ(conflict.sender, sender());
+    EXPECT_EQ(conflict.text(),
+              "Two sources send character 0 at the same time; the other is 127.0.0.1:40002.");
 }
 
-TEST_F(EventBounds, TwoSendersMaySendDifferentCharactersOrTypes) {
+TEST_F(IncidentBounds, TwoSendersMaySendDifferentCharactersOrTypes) {
     for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
         pose(sample);
         wire::Datagram datagram{{}, wire::CentreOfMass{}, {}};
@@ -163,10 +179,10 @@ TEST_F(EventBounds, TwoSendersMaySendDifferentCharactersOrTypes) {
         wire::completeHeader(datagram, wire::HeaderEra::Counted);
         sendBytes(*wire::encode(datagram), m_at, "127.0.0.1:40003");
     }
-    EXPECT_TRUE(of(EventKind::CharacterConflict).empty());
+    EXPECT_TRUE(of(IncidentKind::Conflict).empty());
 }
 
-TEST_F(EventBounds, DropsAreAddedUpInTheirEpisode) {
+TEST_F(IncidentBounds, DropsAreAddedUpInOneIncident) {
     wire::Datagram datagram{{}, standingAt(0), {}};
     wire::completeHeader(datagram, wire::HeaderEra::Counted);
     for (const std::uint32_t drops : {0U, 3U, 0U, 4U}) {
@@ -178,14 +194,13 @@ TEST_F(EventBounds, DropsAreAddedUpInTheirEpisode) {
         m_log.writer().append(*wire::encode(datagram), arrival);
         m_log.writer().publish();
     }
-    const auto dropped = of(EventKind::Dropped);
+    const auto dropped = of(IncidentKind::Local);
     ASSERT_EQ(dropped.size(), 1U);
-    EXPECT_EQ(dropped[0].count, 2U);
-    EXPECT_EQ(dropped[0].samples, 7U);
+    EXPECT_EQ(dropped[0].value, 7);
     EXPECT_EQ(m_session.find(sender())->kernelDrops, 7U);
 }
 
-TEST_F(EventBounds, AnotherBodyIsAScaleChangeAndTheSameOneIsNot) {
+TEST_F(IncidentBounds, AnotherBodyIsAScaleChangeAndTheSameOneIsNot) {
     const auto nullPoseOf = [](double scale) {
         wire::NullPose body;
         for (const Eigen::Vector3d& origin : referenceOrigins()) {
@@ -196,38 +211,40 @@ TEST_F(EventBounds, AnotherBodyIsAScaleChangeAndTheSameOneIsNot) {
     };
     send(nullPoseOf(1), 0, m_at);
     send(nullPoseOf(1), 0, m_at + 5s);
-    EXPECT_TRUE(of(EventKind::ScaleChange).empty());
+    EXPECT_TRUE(of(IncidentKind::ScaleChange).empty());
     send(nullPoseOf(1.1), 0, m_at + 10s);
-    const auto changes = of(EventKind::ScaleChange);
+    const auto changes = of(IncidentKind::ScaleChange);
     ASSERT_EQ(changes.size(), 1U);
-    EXPECT_EQ(changes[0].character, 0);
+    EXPECT_EQ(changes[0].character(), 0);
     EXPECT_EQ(changes[0].text(), "The null pose changed.");
-    EXPECT_EQ(changes[0].severity(), EventSeverity::Info);
+    EXPECT_EQ(changes[0].severity(), IncidentSeverity::Info);
 }
 
-TEST_F(EventBounds, TroublesAreSortedWorstFirstAndLimitsLastOfTheirLike) {
+TEST_F(IncidentBounds, TroublesAreSortedWorstFirstAndLimitsLastOfTheirLike) {
     poses(1, 1'000);
-    m_at += 400ms;
-    poses(1'041, 1'100); // a burst, and beyond the limits of gap and loss
+    m_at += 100ms;
+    poses(1'011, 1'100); // ten samples lost
     sendBytes(std::as_bytes(std::span("{\"a\":1}")), m_at);
     m_at += 10ms;
     poses(1'101, 1'150);
     follow();
     const auto troubles = m_session.troublesOf(key());
-    ASSERT_GE(troubles.size(), 3U);
-    EXPECT_EQ(troubles.front()->kind, EventKind::Burst);
-    EXPECT_EQ(m_session.conditionOf(key()).event, troubles.front()->number);
+    ASSERT_GE(troubles.size(), 2U);
+    EXPECT_TRUE(troubles.front()->kind == IncidentKind::Foreign ||
+                troubles.front()->kind == IncidentKind::Loss)
+        << nameOf(troubles.front()->kind);
+    EXPECT_EQ(m_session.conditionOf(key()).incident, troubles.front()->number);
     EXPECT_EQ(m_session.conditionOf(key()).reason, troubles.front()->text());
     for (std::size_t i = 1; i < troubles.size(); ++i) {
         EXPECT_GE(troubles[i - 1]->severity(), troubles[i]->severity());
         if (troubles[i - 1]->severity() == troubles[i]->severity()) {
-            EXPECT_LE(troubles[i - 1]->group() == EventGroup::Limit,
-                      troubles[i]->group() == EventGroup::Limit);
+            EXPECT_LE(troubles[i - 1]->group() == IncidentGroup::Limit,
+                      troubles[i]->group() == IncidentGroup::Limit);
         }
-        EXPECT_NE(troubles[i]->severity(), EventSeverity::Info);
+        EXPECT_NE(troubles[i]->severity(), IncidentSeverity::Info);
     }
-    EXPECT_TRUE(std::ranges::any_of(troubles, [](const Event* event) {
-        return event->kind == EventKind::Foreign;
+    EXPECT_TRUE(std::ranges::any_of(troubles, [](const Incident* event) {
+        return event->kind == IncidentKind::Foreign;
     })) << "what is of the sender concerns its characters";
     EXPECT_TRUE(m_session.troublesOf({sender("10.0.0.9:1"), 0}).empty());
 }

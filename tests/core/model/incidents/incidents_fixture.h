@@ -10,7 +10,7 @@
 namespace posewire::model {
 
 /// A session that is sent poses 10 ms apart, and its events.
-class EventsTest : public SessionTest {
+class IncidentsTest : public SessionTest {
 protected:
     void pose(std::uint32_t sample, const std::string& address = "127.0.0.1:40001") {
         wire::Datagram datagram;
@@ -26,11 +26,11 @@ protected:
             pose(sample);
         }
     }
-    std::vector<Event> of(EventKind kind) {
+    std::vector<Incident> of(IncidentKind kind) {
         follow();
-        std::vector<Event> found;
-        std::ranges::copy_if(m_session.events().all(), std::back_inserter(found),
-                             [&](const Event& event) { return event.kind == kind; });
+        std::vector<Incident> found;
+        std::ranges::copy_if(m_session.incidents().all(), std::back_inserter(found),
+                             [&](const Incident& event) { return event.kind == kind; });
         return found;
     }
     log::Stamp m_at{100s};

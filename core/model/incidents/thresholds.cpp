@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "core/model/accounting/thresholds.h"
+#include "core/model/incidents/thresholds.h"
+
+#include "core/model/accounting/attribution.h"
 
 #include <algorithm>
 #include <array>
@@ -12,17 +14,19 @@ constexpr double kMost = 100'000;
 constexpr double kPercent = 100;
 /// What has been silent for longer is looked at again when something comes.
 constexpr double kAsleepS = 10;
+/// What is missing may still come until then, and whose loss it was is known.
+constexpr log::Duration kSettling = Attribution::kPatience + std::chrono::milliseconds(50);
 
 using T = Thresholds;
 
 constexpr std::array kRows{
     ThresholdRow{&T::lossPercent, "lossPercent", "&Loss above", " %",
                  "Of the samples that should have come; incomplete ones included", 0, kMost, 1,
-                 Figure::LossShare, EventKind::LossLimit},
+                 Figure::LossShare, IncidentKind::LossLimit},
     ThresholdRow{&T::jitterMs, "jitterMs", "&Jitter above", " ms", "As RFC 3550 computes it", 0, kMost, 1,
-                 Figure::Jitter, EventKind::JitterLimit},
+                 Figure::Jitter, IncidentKind::JitterLimit},
     ThresholdRow{&T::gapMs, "gapMs", "&Gap above", " ms", "Longest time between two samples", 0, kMost, 1,
-                 Figure::SpacingMost, EventKind::GapLimit},
+                 Figure::SpacingMost, IncidentKind::GapLimit},
     ThresholdRow{&T::ageS, "ageS", "&Age above", " s", "Since the newest sample", 0, kMost},
     ThresholdRow{&T::ratePercent, "ratePercent", "&Rate off by more than", " %",
                  "How far the rate is from what was usual", 0, kMost},
@@ -49,58 +53,67 @@ void ThresholdWatch::retire(log::SenderId sender) {
     std::erase_if(m_awake, [sender](const Stream* stream) { return stream->key.sender == sender; });
 }
 
-void ThresholdWatch::check(log::Stamp stamp, Events& events) {
+void ThresholdWatch::check(log::Stamp stamp, Incidents& incidents) {
     std::erase_if(m_awake, [&](Stream* stream) {
-        check(*stream, stamp, events);
+        check(*stream, stamp, incidents);
         const double ageS = log::secondsOf(stamp - stream->accounting.lastStamp());
         stream->isWatched = ageS <= std::max({kAsleepS, m_thresholds.windowS, m_thresholds.ageS});
         return !stream->isWatched;
     });
 }
 
-void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Events& events) const {
+void ThresholdWatch::check(Stream& stream, log::Stamp stamp, Incidents& incidents) const {
     const StreamAccounting& accounting = stream.accounting;
-    const log::Stamp from = stamp - log::durationOf(m_thresholds.windowS);
+    const log::Stamp to = stamp - kSettling;
+    const log::Stamp from = to - log::durationOf(m_thresholds.windowS);
     const double ageS = log::secondsOf(stamp - accounting.lastStamp());
-    hold(stream, {EventKind::AgeLimit, ageS, m_thresholds.ageS}, stamp, events);
-    const RangeFigures read = countedFigures(accounting, TimeRange{from, stamp});
+    hold(stream, {IncidentKind::AgeLimit, ageS, m_thresholds.ageS}, stamp, incidents);
+    const RangeFigures read = countedFigures(accounting, TimeRange{from, to});
     if (read.counts.samples == 0) {
         return;
     }
     for (const ThresholdRow& row : kRows) {
         if (row.figure) {
             const double value = std::fmax(0, rowOf(*row.figure).read(read)); // 0 where it is not known
-            hold(stream, {row.alert, value, m_thresholds.*row.limit}, stamp, events);
+            hold(stream, {row.alert, value, m_thresholds.*row.limit}, stamp, incidents);
         }
     }
     const bool isWholeWindow = accounting.firstStamp() <= from && ageS < m_thresholds.windowS / 2;
-    if (!isWholeWindow || m_thresholds.windowS <= 0) {
+    // While an incident explains it, it says nothing of what is usual.
+    if (!isWholeWindow || stamp <= stream.excusedUntil || m_thresholds.windowS <= 0) {
         return;
     }
     const double rateHz = static_cast<double>(read.counts.samples) / m_thresholds.windowS;
     double& usualHz = stream.usualHz;
     if (usualHz > 0) {
         const double offPercent = 100 * std::abs(rateHz - usualHz) / usualHz;
-        hold(stream, {EventKind::RateLimit, offPercent, m_thresholds.ratePercent}, stamp, events);
+        hold(stream, {IncidentKind::RateLimit, offPercent, m_thresholds.ratePercent}, stamp, incidents);
     }
     // What lasts becomes usual: half of the way in about a minute of two checks a second.
     constexpr double kShare = 1.0 / 180;
     usualHz += usualHz > 0 ? (rateHz - usualHz) * kShare : rateHz;
 }
 
+/// What an incident explains already is no incident of its own: only how bad it is.
 void ThresholdWatch::hold(const Stream& stream, const Measure& measure, log::Stamp stamp,
-                          Events& events) const {
-    Event event = Event::of(measure.kind, stream.key.sender, stamp);
-    event.character = stream.key.character;
-    event.type = stream.key.type;
-    event.value = measure.value;
-    event.limit = measure.limit;
-    const bool isKnown = events.isCurrent(event);
-    if (measure.limit > 0 && measure.value > measure.limit) {
-        event.count = isKnown ? 0 : 1;
-        events.report(event);
-    } else if (isKnown && (measure.limit <= 0 || measure.value <= measure.limit * m_thresholds.hysteresis)) {
-        events.end(event, stamp);
+                          Incidents& incidents) const {
+    Occurrence one = Occurrence::at(measure.kind, stream.key.sender, stamp);
+    one.character = stream.key.character;
+    one.type = stream.key.type;
+    one.value = measure.value;
+    one.limit = measure.limit;
+    const Incident* known = incidents.currentLike(one);
+    const bool isIn = known != nullptr && known->concerns(stream.key.character, stream.key.type);
+    const bool isAbove = measure.limit > 0 && measure.value > measure.limit;
+    if (isAbove && !isIn && stamp <= stream.excusedUntil) {
+        if (measure.kind == IncidentKind::LossLimit) {
+            incidents.noteLimit(one);
+        }
+    } else if (isAbove) {
+        one.count = isIn ? 0 : 1;
+        incidents.report(one);
+    } else if (isIn && (measure.limit <= 0 || measure.value <= measure.limit * m_thresholds.hysteresis)) {
+        incidents.endPart(known->number, *one.character, *one.type, stamp);
     }
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/log/time.h"
-#include "core/model/accounting/events.h"
 #include "core/model/accounting/stream.h"
 #include "core/model/accounting/stream_figures.h"
+#include "core/model/incidents/incidents.h"
 
 #include <deque>
 #include <optional>
@@ -37,7 +37,7 @@ struct ThresholdRow {
     double most;
     double shownPerUnit = 1;        ///< people see this many times the value
     std::optional<Figure> figure{}; ///< whose limit it is, in the window
-    EventKind alert{};              ///< where it is exceeded, of a figure
+    IncidentKind alert{};           ///< where it is exceeded, of a figure
 };
 
 /// All thresholds, in the order of forms.
@@ -54,16 +54,16 @@ public:
     /// Forgets the streams of a sender, before they go.
     void retire(log::SenderId sender);
     /// Looks at the streams that are awake as they were just before a moment.
-    void check(log::Stamp stamp, Events& events);
+    void check(log::Stamp stamp, Incidents& incidents);
 
 private:
     struct Measure {
-        EventKind kind;
+        IncidentKind kind;
         double value;
         double limit;
     };
-    void check(Stream& stream, log::Stamp stamp, Events& events) const;
-    void hold(const Stream& stream, const Measure& measure, log::Stamp stamp, Events& events) const;
+    void check(Stream& stream, log::Stamp stamp, Incidents& incidents) const;
+    void hold(const Stream& stream, const Measure& measure, log::Stamp stamp, Incidents& incidents) const;
 
     Thresholds m_thresholds;
     std::vector<Stream*> m_awake;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/gap.h"
+
+#include "core/model/text.h"
+#include "core/wire/type_table.h"
+
+namespace posewire::model {
+
+std::string Gap::evidenceText() const {
+    const std::int64_t lastedMs = (toStamp - fromStamp) / std::chrono::milliseconds(1);
+    switch (evidence) {
+    case Evidence::Dropped:
+        return "This computer dropped " + counted(figure, "datagram") + " of the port between packets " +
+               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + ".";
+    case Evidence::Overtaken:
+        return "This computer did not look at " + counted(figure, "packet") + " between packets " +
+               std::to_string(fromPacket) + " and " + std::to_string(toPacket) + " in time.";
+    case Evidence::Damaged:
+        return "Sample " + std::to_string(figure) + " arrived truncated or damaged.";
+    case Evidence::Partial:
+        return "Of sample " + std::to_string(figure) + ", next to the gap, only a part arrived.";
+    case Evidence::OtherStream:
+        return "Type " + wire::typeDigits(otherType) + " of the same source brought sample " +
+               std::to_string(figure) + ", which is missing here.";
+    case Evidence::Reliable:
+        return "TCP loses nothing: " + counted(lost, "sample was", "samples were") + " not sent.";
+    case Evidence::Paused:
+        return "All " + counted(figure, "stream") + " of the source paused together for " +
+               std::to_string(lastedMs) + " ms, and the time code moved by " + std::to_string(timeCodeMoved) +
+               " ms.";
+    case Evidence::None:
+        break;
+    }
+    return isJudged ? "Nothing was dropped here, and nothing else of the source shows where " +
+                          counted(lost, "sample") + " went in " + std::to_string(lastedMs) + " ms."
+                    : "Late arrivals are still waited for.";
+}
+
+} // namespace posewire::model

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/incidents/incident.h"
+
+#include "core/model/incidents/incident_kinds.h"
+#include "core/model/text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::model {
+namespace {
+
+/// This many samples of one stream are more than a warning.
+constexpr std::uint64_t kManySamples = 10;
+/// A longer silence is more than a warning.
+constexpr double kLongSilenceS = 1;
+
+std::uint64_t wholeOf(double value) {
+    return static_cast<std::uint64_t>(std::max(0.0, value));
+}
+
+std::string causeText(const Incident& incident) {
+    return incident.cause ? ", cause: " + std::string(nameOf(*incident.cause)) : std::string();
+}
+
+std::string withDetail(std::string text, const Incident& incident) {
+    return incident.detail.empty() ? text : std::move(text) + ' ' + incident.detail;
+}
+
+std::string lossText(const Incident& incident) {
+    return withDetail(counted(incident.samples, "sample") + " lost in " + counted(incident.count, "gap") +
+                          causeText(incident) + '.',
+                      incident);
+}
+
+std::string localText(const Incident& incident) {
+    const std::uint64_t dropped = wholeOf(incident.value);
+    std::string text = dropped != 0 ? "This computer dropped " + counted(dropped, "datagram")
+                                    : "This computer did not look at everything in time";
+    text += incident.samples != 0 ? ": " + counted(incident.samples, "sample") + " lost." : ".";
+    return withDetail(std::move(text), incident);
+}
+
+std::string outageText(const Incident& incident) {
+    if (incident.isCurrent) {
+        return "No data.";
+    }
+    std::string text =
+        "No data for " + fixedText(log::secondsOf(incident.lastStamp - incident.firstStamp), 2) + " s";
+    if (incident.samples != 0) {
+        text += ": " + counted(incident.samples, "sample") + " lost";
+    }
+    return withDetail(text + causeText(incident) + '.', incident);
+}
+
+std::string limitText(const Incident& incident, const char* what, const char* unit, int decimals) {
+    return std::string(what) + ' ' + fixedText(incident.value, decimals) + ' ' + unit + ", limit " +
+           fixedText(incident.limit, decimals) + ' ' + unit + '.';
+}
+
+template <class Get>
+auto onlyOne(const std::vector<Incident::Part>& parts, Get&& get) {
+    auto first = parts.empty() ? decltype(get(parts.front()))() : get(parts.front());
+    const bool isSame = std::ranges::all_of(parts, [&](const auto& part) { return get(part) == first; });
+    return isSame ? first : decltype(first)();
+}
+
+template <class Get>
+std::vector<std::uint8_t> eachOnce(const std::vector<Incident::Part>& parts, Get&& get) {
+    std::vector<std::uint8_t> values;
+    for (const Incident::Part& part : parts) {
+        if (const auto value = get(part)) {
+            values.push_back(*value);
+        }
+    }
+    std::ranges::sort(values);
+    const auto [end, last] = std::ranges::unique(values);
+    values.erase(end, last);
+    return values;
+}
+
+constexpr auto kCharacterOf = [](const Incident::Part& part) { return part.character; };
+constexpr auto kTypeOf = [](const Incident::Part& part) { return part.type; };
+
+} // namespace
+
+Occurrence Occurrence::at(IncidentKind kind, log::SenderId sender, log::Stamp stamp, std::uint64_t packet) {
+    Occurrence one;
+    one.kind = kind;
+    one.sender = sender;
+    one.from = one.to = stamp;
+    one.fromPacket = one.toPacket = packet;
+    return one;
+}
+
+IncidentSeverity Incident::severity() const {
+    const bool isLoss = kind == IncidentKind::Loss;
+    const bool isGrave =
+        (isLoss && limit > 0 && value > limit) ||
+        (isLoss &&
+         std::ranges::any_of(parts, [](const Part& part) { return part.samples >= kManySamples; })) ||
+        (kind == IncidentKind::Outage && value >= kLongSilenceS);
+    return isGrave ? IncidentSeverity::Error : factsOf(kind).severity;
+}
+
+IncidentGroup Incident::group() const {
+    return factsOf(kind).group;
+}
+
+std::string_view nameOf(IncidentKind kind) {
+    return factsOf(kind).name;
+}
+
+std::string_view wordOf(IncidentKind kind) {
+    return factsOf(kind).word;
+}
+
+std::optional<std::uint8_t> Incident::character() const {
+    return onlyOne(parts, kCharacterOf);
+}
+
+std::optional<std::uint8_t> Incident::type() const {
+    return onlyOne(parts, kTypeOf);
+}
+
+std::vector<std::uint8_t> Incident::characters() const {
+    return eachOnce(parts, kCharacterOf);
+}
+
+std::vector<std::uint8_t> Incident::types() const {
+    return eachOnce(parts, kTypeOf);
+}
+
+Incident Incident::of(std::uint8_t which) const {
+    Incident own = *this;
+    std::erase_if(own.parts, [which](const Part& part) { return part.character.value_or(which) != which; });
+    const bool isShared =
+        std::ranges::any_of(parts, [](const Part& part) { return part.character.has_value(); });
+    if (isShared) {
+        own.samples = own.count = 0;
+        for (const Part& part : own.parts) {
+            own.samples += part.samples;
+            own.count += part.count;
+        }
+    }
+    return own;
+}
+
+bool Incident::concerns(std::uint8_t which) const {
+    return std::ranges::any_of(parts, [&](const Part& part) {
+        return part.character.value_or(which) == which && (part.isCurrent || !isCurrent);
+    });
+}
+
+bool Incident::concerns(std::uint8_t which, std::uint8_t whichType) const {
+    return std::ranges::any_of(parts, [&](const Part& part) {
+        return part.character.value_or(which) == which && part.type.value_or(whichType) == whichType &&
+               (part.isCurrent || !isCurrent);
+    });
+}
+
+std::string Incident::text() const {
+    switch (kind) {
+    case IncidentKind::SourceUp:
+        return "A sender started sending.";
+    case IncidentKind::Loss:
+        return lossText(*this);
+    case IncidentKind::Local:
+        return localText(*this);
+    case IncidentKind::Outage:
+        return outageText(*this);
+    case IncidentKind::Reordered:
+        return counted(count, "datagram") + " came after a later one.";
+    case IncidentKind::Duplicates:
+        return counted(count, "datagram") + " came more than once.";
+    case IncidentKind::Malformed:
+        return counted(count, "datagram") + " could not be decoded.";
+    case IncidentKind::Foreign:
+        return counted(count, "datagram is", "datagrams are") + " not MXTP.";
+    case IncidentKind::Restart:
+        return "The sample counter restarted.";
+    case IncidentKind::Overtaken:
+        return "This computer did not look at " + counted(wholeOf(value), "packet") + " in time.";
+    case IncidentKind::Step:
+    case IncidentKind::Scale:
+    case IncidentKind::MetadataChange:
+    case IncidentKind::RelayLoop:
+        return detail;
+    case IncidentKind::ScaleChange:
+        return "The null pose changed.";
+    case IncidentKind::TimeCode:
+        return !detail.empty() ? detail : "The time code jumped by " + fixedText(value, 0) + " ms.";
+    case IncidentKind::Conflict:
+        return "Two sources send character " + std::to_string(character().value_or(0)) +
+               " at the same time; the other is " + detail + '.';
+    case IncidentKind::ClockSet:
+        return std::string("The receiving computer's clock was set ") + (value < 0 ? "back" : "forward") +
+               " by " + fixedText(std::abs(value), 3) + " s.";
+    case IncidentKind::LossLimit:
+        return limitText(*this, "Loss", "%", 2);
+    case IncidentKind::JitterLimit:
+        return limitText(*this, "Jitter", "ms", 1);
+    case IncidentKind::GapLimit:
+        return limitText(*this, "Gap", "ms", 0);
+    case IncidentKind::AgeLimit:
+        return limitText(*this, "Age", "s", 1);
+    case IncidentKind::RateLimit:
+        return limitText(*this, "Rate off by", "%", 1);
+    }
+    return {};
+}
+
+} // namespace posewire::model

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/time.h"
+#include "core/model/accounting/stream_counts.h"
+#include "core/model/keys.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace posewire::model {
+
+enum class IncidentKind : std::uint8_t {
+    SourceUp,
+    Loss,
+    Local,
+    Outage,
+    Reordered,
+    Duplicates,
+    Malformed,
+    Foreign,
+    Restart,
+    Step,
+    TimeCode,
+    Conflict,
+    Scale,
+    MetadataChange,
+    ScaleChange,
+    Overtaken,
+    RelayLoop,
+    ClockSet,
+    LossLimit,
+    JitterLimit,
+    GapLimit,
+    AgeLimit,
+    RateLimit,
+};
+inline constexpr std::size_t kIncidentKinds = 23;
+
+enum class IncidentSeverity : std::uint8_t { Info, Warning, Error };
+/// What an operator filters by.
+enum class IncidentGroup : std::uint8_t { Sender, Loss, Content, Limit };
+
+/// "source up", "loss" and so on, as people read it.
+[[nodiscard]] std::string_view nameOf(IncidentKind kind);
+/// Of the contract for scripts: "loss", "outage", "local" …; empty for a note, which is no incident there.
+[[nodiscard]] std::string_view wordOf(IncidentKind kind);
+
+/// One thing that happened to one stream, or to a character or sender as a whole.
+struct Occurrence {
+    IncidentKind kind = IncidentKind::SourceUp;
+    log::SenderId sender{}; ///< kNoSender where it is of this computer
+    std::optional<std::uint8_t> character{};
+    std::optional<std::uint8_t> type{}; ///< of the stream, where it is of one
+    log::Stamp from{};
+    log::Stamp to{};
+    std::uint64_t fromPacket = 0;
+    std::uint64_t toPacket = 0;
+    std::uint64_t count = 1;
+    std::uint64_t samples = 0; ///< lost for good
+    double value = 0;          ///< limits: how bad; TimeCode: ms; ClockSet: s; Outage: s
+    double limit = 0;          ///< limits: what must not be exceeded
+    std::optional<LossCause> cause{};
+    std::string detail{};
+    bool isOver = false; ///< of kinds that last until they are ended: for its stream or character
+
+    /// One at one moment.
+    [[nodiscard]] static Occurrence at(IncidentKind kind, log::SenderId sender, log::Stamp stamp,
+                                       std::uint64_t packet = 0);
+};
+
+/// What belongs together of what went wrong, or changed: of one kind, sender and cause, with all characters
+/// and streams that it touched.
+struct Incident {
+    /// What it was to one stream, or to a character or the sender as a whole.
+    struct Part {
+        std::optional<std::uint8_t> character{};
+        std::optional<std::uint8_t> type{};
+        std::uint64_t count = 0;
+        std::uint64_t samples = 0;
+        log::Stamp from{};
+        log::Stamp to{};
+        bool isCurrent = true; ///< of kinds that last until they are ended
+    };
+
+    std::uint64_t number = 0; ///< counted from the beginning of the session
+    IncidentKind kind = IncidentKind::SourceUp;
+    log::SenderId sender{}; ///< kNoSender where it is of this computer
+    std::optional<LossCause> cause{};
+    log::Stamp firstStamp{};
+    log::Stamp lastStamp{};
+    std::uint64_t firstPacket = 0;
+    std::uint64_t lastPacket = 0;
+    std::uint64_t count = 0;   ///< how often it happened
+    std::uint64_t samples = 0; ///< lost for good: Loss, Local, Outage
+    double value = 0;          ///< the worst; see Occurrence
+    double limit = 0;
+    std::string detail{};      ///< evidence of the newest loss; of a note what changed; of Conflict who else
+    std::vector<Part> parts{}; ///< in the order in which they were touched
+    bool isCurrent = true;     ///< lasts, or may
+    std::uint64_t version = 0; ///< of the list when it last changed
+
+    [[nodiscard]] IncidentSeverity severity() const;
+    [[nodiscard]] IncidentGroup group() const;
+    /// Where it is of one alone.
+    [[nodiscard]] std::optional<std::uint8_t> character() const;
+    [[nodiscard]] std::optional<std::uint8_t> type() const;
+    /// Each once, in growing order.
+    [[nodiscard]] std::vector<std::uint8_t> characters() const;
+    [[nodiscard]] std::vector<std::uint8_t> types() const;
+    /// What of it was to one character; as a whole where it is of no character.
+    [[nodiscard]] Incident of(std::uint8_t character) const;
+    /// Whether a character is touched, or all of its sender; of what lasts, whether it still is.
+    [[nodiscard]] bool concerns(std::uint8_t character) const;
+    [[nodiscard]] bool concerns(std::uint8_t character, std::uint8_t type) const;
+    /// One line, without who and when.
+    [[nodiscard]] std::string text() const;
+};
+
+/// How a character does, for all who show it.
+struct Condition {
+    /// Seconds of silence that are a warning, and those that are an error, also before an incident reports
+    /// it.
+    static constexpr double kSilentS = 0.25;
+    static constexpr double kStaleS = 1.0;
+
+    enum class Level : std::uint8_t { Good, Warning, Error };
+    Level level = Level::Good;
+    std::string reason; ///< one line; empty where it is good
+    /// What it rests on where that is an incident: its number. Else silence.
+    std::optional<std::uint64_t> incident{};
+};
+
+} // namespace posewire::model

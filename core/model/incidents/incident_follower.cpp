@@ -1,0 +1,471 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/incidents/incident_follower.h"
+
+#include "core/model/text.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <tuple>
+#include <utility>
+
+namespace posewire::model {
+namespace {
+
+constexpr log::Duration kCheck = std::chrono::milliseconds(20);
+constexpr log::Duration kWatch = std::chrono::milliseconds(500);
+/// Of silence.
+constexpr log::Duration kLong = std::chrono::seconds(1);
+/// Of a stream while others of its character go on: before it is too old.
+constexpr log::Duration kEnded = std::chrono::milliseconds(500);
+constexpr log::Duration kNone = log::Duration::zero();
+/// What happened is not seen in any window of a limit any more.
+constexpr double kWindowAndMore = 1.5;
+constexpr std::int64_t kJumpMs = 500;
+/// A time code that has stood still for as long while samples came.
+constexpr log::Duration kFrozen = std::chrono::seconds(1);
+
+Occurrence occurrenceOf(IncidentKind kind, const log::Packet& packet) {
+    return Occurrence::at(kind, packet.sender, packet.stamp, packet.number);
+}
+
+Occurrence occurrenceOf(IncidentKind kind, const log::StreamKey& stream, const Verdict& verdict) {
+    Occurrence one = Occurrence::at(kind, stream.sender, verdict.stamp, verdict.packet);
+    one.character = stream.character;
+    return one;
+}
+
+Occurrence ofStream(IncidentKind kind, const log::StreamKey& stream, const Verdict& verdict) {
+    Occurrence one = occurrenceOf(kind, stream, verdict);
+    one.type = stream.type;
+    return one;
+}
+
+/// How long a character may be silent: at least three samples of its fastest stream.
+log::Duration patienceWith(const std::vector<Stream*>& streams, log::Duration least, double samples) {
+    double fastestHz = 0;
+    for (const Stream* stream : streams) {
+        fastestHz = std::max(fastestHz, stream->statistics.rateHz());
+    }
+    return fastestHz > 0 ? std::max(least, log::durationOf(samples / fastestHz)) : std::max(least, kLong);
+}
+
+} // namespace
+
+void IncidentFollower::followClock(const log::Timeline& timeline) {
+    for (const std::size_t count = timeline.stepCount(); m_clockSteps < count; ++m_clockSteps) {
+        const log::ClockStep step = timeline.step(m_clockSteps);
+        if (step.change != log::Duration::zero()) {
+            m_untoldSteps.push_back(step);
+        }
+    }
+}
+
+void IncidentFollower::tellClockSets(log::Stamp until) {
+    std::erase_if(m_untoldSteps, [&](const log::ClockStep& step) {
+        if (step.from > until) {
+            return false;
+        }
+        Occurrence one = Occurrence::at(IncidentKind::ClockSet, log::kNoSender, step.from, m_lastPacket);
+        one.value = log::secondsOf(step.change);
+        m_incidents.end(m_incidents.report(one), step.from); // two are two, however soon
+        return true;
+    });
+}
+
+void IncidentFollower::takePacket(const log::Packet& packet, const PacketDigest& digest,
+                                  const std::optional<wire::Header>& header) {
+    m_lastPacket = packet.number;
+    tellClockSets(packet.stamp);
+    if (packet.stamp >= m_nextCheck) {
+        check(packet.stamp);
+        m_nextCheck = packet.stamp + kCheck;
+    }
+    if (packet.stamp >= m_nextWatch) {
+        checkEnded(packet.stamp);
+        m_watch.check(packet.stamp, m_incidents);
+        m_nextWatch = packet.stamp + kWatch;
+    }
+    if (packet.kernelDropsBefore != 0) {
+        Occurrence one = occurrenceOf(IncidentKind::Local, packet);
+        one.cause = LossCause::ThisComputer;
+        one.count = 0;
+        one.value = packet.kernelDropsBefore;
+        m_incidents.report(one);
+    }
+    if (digest.kind == PacketKind::Malformed) {
+        Occurrence one = occurrenceOf(IncidentKind::Malformed, packet);
+        if (header && m_characters.contains({packet.sender, header->character})) {
+            one.character = header->character;
+            one.type = header->type();
+        }
+        m_incidents.report(one);
+    } else if (digest.kind == PacketKind::Foreign) {
+        m_incidents.report(occurrenceOf(IncidentKind::Foreign, packet));
+    }
+}
+
+void IncidentFollower::takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp) {
+    Occurrence one = Occurrence::at(IncidentKind::Overtaken, log::kNoSender, stamp, packet);
+    one.value = static_cast<double>(count);
+    m_incidents.report(one);
+}
+
+void IncidentFollower::retire(log::SenderId sender) {
+    m_watch.retire(sender);
+    m_incidents.retire(sender);
+    m_addresses.erase(sender);
+    m_outages.erase(sender);
+    std::erase_if(m_characters, [sender](const auto& entry) { return entry.first.sender == sender; });
+}
+
+void IncidentFollower::takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
+                                    const std::string& address) {
+    m_watch.wake(stream);
+    if (m_addresses.try_emplace(packet.sender, address).second) {
+        m_incidents.report(occurrenceOf(IncidentKind::SourceUp, packet));
+    }
+    if (countsSamples(header.type())) {
+        noteSampled(packet, header, stream);
+    }
+}
+
+void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream) {
+    const CharacterKey key{packet.sender, header.character};
+    Character& character = m_characters[key];
+    if (!std::exchange(stream.isFollowed, true)) {
+        character.streams.push_back(&stream);
+    }
+    if (std::exchange(stream.hasEnded, false)) {
+        stream.excusedUntil = {};
+        excuse(stream.key, packet.stamp);
+    }
+    if (character.outage != 0) {
+        resume(key, character, packet.stamp);
+    }
+    character.lastSampled = std::max(character.lastSampled, packet.stamp);
+    character.lastPacket = packet.number;
+    noteClaim(packet, header);
+}
+
+void IncidentFollower::fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp) {
+    Occurrence one =
+        Occurrence::at(IncidentKind::Outage, key.sender, character.lastSampled, character.lastPacket);
+    one.character = key.character;
+    one.to = stamp;
+    one.value = log::secondsOf(stamp - character.lastSampled);
+    for (Stream* stream : character.streams) {
+        stream->excusedUntil = log::Stamp::max();
+    }
+    // Whatever its cause turns out to be.
+    std::uint64_t& outage = m_outages[key.sender];
+    const Incident* known = m_incidents.find(outage);
+    if (known != nullptr && known->isCurrent) {
+        m_incidents.addTo(outage, one);
+    } else {
+        outage = m_incidents.report(one);
+    }
+    character.outage = outage;
+    character.isLong = false;
+}
+
+/// Something came of a character that was silent, or nothing is expected of it any more.
+void IncidentFollower::resume(const CharacterKey& key, Character& character, log::Stamp stamp) {
+    const std::uint64_t number = std::exchange(character.outage, 0);
+    character.lastSilence = {character.lastSampled, stamp, number};
+    for (Stream* stream : character.streams) {
+        stream->excusedUntil = stamp + log::durationOf(kWindowAndMore * thresholds().windowS);
+    }
+    Occurrence one = Occurrence::at(IncidentKind::Outage, key.sender, character.lastSampled, m_lastPacket);
+    one.character = key.character;
+    one.to = stamp;
+    one.count = 0;
+    one.value = log::secondsOf(stamp - character.lastSampled);
+    m_incidents.addTo(number, one);
+    m_incidents.endPart(number, key.character, std::nullopt, stamp);
+}
+
+void IncidentFollower::supersede(const CharacterKey& key, log::Stamp stamp) {
+    const auto found = m_characters.find(key);
+    if (found == m_characters.end()) {
+        return;
+    }
+    if (found->second.outage != 0) {
+        resume(key, found->second, stamp);
+    }
+    found->second.lastSampled = {};
+}
+
+/// Two senders that take turns with one character in one type.
+void IncidentFollower::noteClaim(const log::Packet& packet, const wire::Header& header) {
+    auto& [newest, before] = m_claims[{header.character, header.type()}];
+    if (newest.stamp != log::Stamp() && newest.sender != packet.sender) {
+        const bool isBack = before.stamp != log::Stamp() && before.sender == packet.sender &&
+                            packet.stamp - before.stamp < std::chrono::seconds(1);
+        if (isBack) {
+            tellConflict(packet.sender, newest.sender, packet, header);
+            tellConflict(newest.sender, packet.sender, packet, header);
+        }
+        before = newest;
+    }
+    newest = {packet.sender, packet.stamp};
+}
+
+void IncidentFollower::tellConflict(log::SenderId of, log::SenderId other, const log::Packet& packet,
+                                    const wire::Header& header) {
+    Occurrence one = occurrenceOf(IncidentKind::Conflict, packet);
+    one.sender = of;
+    one.character = header.character;
+    const auto found = m_addresses.find(other);
+    one.detail = found != m_addresses.end() ? found->second : "a retired sender";
+    m_incidents.report(one);
+}
+
+void IncidentFollower::takeVerdict(Stream& stream, const Verdict& verdict) {
+    if (verdict.isDuplicate) {
+        m_incidents.report(ofStream(IncidentKind::Duplicates, stream.key, verdict));
+    } else if (verdict.isReordered && !verdict.isStray) {
+        m_incidents.report(ofStream(IncidentKind::Reordered, stream.key, verdict));
+    }
+    if (verdict.gap != 0) {
+        excuse(stream.key, verdict.stamp);
+    }
+    if (countsSamples(stream.key.type)) {
+        noteTimeCode(stream.key, verdict);
+        noteStep(stream, verdict);
+    }
+    if (!verdict.isRestart) {
+        return;
+    }
+    // All streams of a character restart together, each with a verdict of its own.
+    Character& character = m_characters[{stream.key.sender, stream.key.character}];
+    const bool isReported = character.restart != log::Stamp() &&
+                            std::chrono::abs(verdict.stamp - character.restart) < std::chrono::seconds(1);
+    excuse(stream.key, verdict.stamp);
+    stream.usualHz = 0;
+    if (!isReported) {
+        character.restart = verdict.stamp;
+        m_incidents.report(occurrenceOf(IncidentKind::Restart, stream.key, verdict));
+    }
+}
+
+/// The sender sends another share of its samples.
+void IncidentFollower::noteStep(Stream& stream, const Verdict& verdict) {
+    constexpr std::uint64_t kSettled = 128;
+    const std::uint32_t step = stream.accounting.step();
+    if (step == 0 || step == stream.toldStep) {
+        return;
+    }
+    const std::uint32_t before = std::exchange(stream.toldStep, step);
+    const std::uint64_t since = std::exchange(stream.toldStepSince, stream.accounting.datagrams());
+    if (before == 0 || stream.accounting.datagrams() - since < kSettled) {
+        return; // nobody knew it before
+    }
+    Occurrence one = ofStream(IncidentKind::Step, stream.key, verdict);
+    one.detail = "The sample counter moves by " + std::to_string(step) + " now, before by " +
+                 std::to_string(before) + '.';
+    m_incidents.report(one);
+    excuse(stream.key, verdict.stamp);
+    stream.usualHz = 0;
+}
+
+/// A time code that moves differently from our clock while the counter runs on. What came out of order is
+/// no evidence.
+void IncidentFollower::noteTimeCode(const log::StreamKey& stream, const Verdict& verdict) {
+    Character& character = m_characters[{stream.sender, stream.character}];
+    const bool isFirst = character.stamp == log::Stamp();
+    const auto moved = static_cast<std::int32_t>(verdict.sample - character.sample);
+    const bool isBeginning = isFirst || verdict.isRestart || moved < -Probation::kMostBack;
+    if (!verdict.isFirstOfSample || verdict.isReordered || verdict.isStray || (moved <= 0 && !isBeginning)) {
+        return;
+    }
+    const std::int64_t passedMs = (verdict.stamp - character.stamp) / std::chrono::milliseconds(1);
+    const std::int64_t jumpMs = static_cast<std::int32_t>(verdict.timeCode - character.timeCode) - passedMs;
+    const bool isSame = verdict.timeCode == character.timeCode;
+    Occurrence one = occurrenceOf(IncidentKind::TimeCode, stream, verdict);
+    if (isBeginning) {
+        character.moved = {};
+    } else if (!isSame) {
+        if (moved < Probation::kMostForward && std::abs(jumpMs) > kJumpMs &&
+            character.moved != log::Stamp()) {
+            one.value = static_cast<double>(jumpMs);
+            one.detail = "The time code jumped by " + fixedText(one.value, 0) + " ms.";
+            m_incidents.report(one);
+        }
+        character.moved = verdict.stamp;
+    } else if (character.moved != log::Stamp() && verdict.stamp - character.moved >= kFrozen) {
+        one.count = m_incidents.currentLike(one) != nullptr ? 0 : 1;
+        one.detail = "The time code stands still while samples come.";
+        m_incidents.report(one);
+    }
+    character.sample = verdict.sample;
+    character.timeCode = verdict.timeCode;
+    character.stamp = verdict.stamp;
+}
+
+/// Of the outage that a loss is of; 0 for none.
+std::uint64_t IncidentFollower::outageOf(const Loss& loss) const {
+    const auto found = m_characters.find({loss.stream.sender, loss.stream.character});
+    if (found == m_characters.end() || found->second.lastSilence.incident == 0) {
+        return 0;
+    }
+    const Silence& silence = found->second.lastSilence;
+    const log::Duration common = std::min(silence.to, loss.to) - std::max(silence.from, loss.from);
+    return common > kNone && 2 * common >= loss.to - loss.from ? silence.incident : 0;
+}
+
+std::uint64_t IncidentFollower::takeLoss(const Loss& loss) {
+    const bool isLocal = loss.cause == LossCause::ThisComputer;
+    Occurrence one;
+    one.kind = isLocal ? IncidentKind::Local : IncidentKind::Loss;
+    one.sender = loss.stream.sender;
+    one.character = loss.stream.character;
+    one.type = loss.stream.type;
+    one.from = loss.from;
+    one.to = loss.to;
+    one.fromPacket = loss.fromPacket;
+    one.toPacket = loss.toPacket;
+    one.samples = loss.samples;
+    one.cause = loss.cause;
+    one.detail = loss.evidence;
+    excuse(loss.stream, loss.to);
+    if (const std::uint64_t number = outageOf(loss)) {
+        const Incident* outage = m_incidents.find(number);
+        if (outage != nullptr && outage->cause.value_or(loss.cause) == loss.cause) {
+            one.kind = IncidentKind::Outage;
+            one.count = 0;
+            one.isOver = true;
+            m_incidents.addTo(number, one);
+            m_incidents.setCause(number, loss.cause);
+            return number;
+        }
+    }
+    return m_incidents.report(one);
+}
+
+void IncidentFollower::takeBack(std::uint64_t incident, const log::StreamKey& stream, std::uint64_t samples,
+                                bool isAll) {
+    Incident::Part part;
+    part.character = stream.character;
+    part.type = stream.type;
+    m_incidents.takeBack(incident, part, samples, isAll ? 1 : 0);
+}
+
+/// An incident says why the stream is not as it should be: limits need not.
+void IncidentFollower::excuse(const log::StreamKey& key, log::Stamp from) {
+    const auto found = m_characters.find({key.sender, key.character});
+    if (found == m_characters.end()) {
+        return;
+    }
+    for (Stream* stream : found->second.streams) {
+        if (stream->key == key) {
+            stream->excusedUntil =
+                std::max(stream->excusedUntil, from + log::durationOf(kWindowAndMore * thresholds().windowS));
+        }
+    }
+}
+
+void IncidentFollower::takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
+                                  std::string detail) {
+    Occurrence one = occurrenceOf(kind, packet);
+    one.character = key.character;
+    one.detail = std::move(detail);
+    m_incidents.report(one);
+}
+
+void IncidentFollower::takeContradiction(log::SenderId sender, log::Stamp stamp, const std::string& text) {
+    Occurrence one = Occurrence::at(IncidentKind::Scale, sender, stamp, m_lastPacket);
+    one.detail = text;
+    const Incident* known = m_incidents.currentLike(one);
+    if (!text.empty() && (known == nullptr || known->detail != text)) {
+        m_incidents.report(one);
+    } else if (text.empty() && known != nullptr) {
+        m_incidents.end(known->number, stamp);
+    }
+}
+
+void IncidentFollower::advance(log::Stamp stamp) {
+    tellClockSets(stamp - kLong);
+    if (stamp >= m_nextCheck) {
+        check(stamp);
+    }
+}
+
+void IncidentFollower::endFile() {
+    for (auto& [key, character] : m_characters) {
+        character.lastSampled = {};
+    }
+}
+
+void IncidentFollower::check(log::Stamp stamp) {
+    m_incidents.advance(stamp);
+    for (auto& [key, character] : m_characters) {
+        const log::Duration silent =
+            character.lastSampled == log::Stamp() ? kNone : stamp - character.lastSampled;
+        if (character.outage == 0 && silent > kSilent &&
+            silent > patienceWith(character.streams, kSilent, 3)) {
+            fallSilent(key, character, stamp);
+        } else if (character.outage != 0 && silent > kLong && !std::exchange(character.isLong, true)) {
+            Occurrence one =
+                Occurrence::at(IncidentKind::Outage, key.sender, character.lastSampled, character.lastPacket);
+            one.character = key.character;
+            one.to = stamp;
+            one.count = 0;
+            one.value = log::secondsOf(silent);
+            m_incidents.addTo(character.outage, one);
+        }
+    }
+}
+
+/// Streams that ended while others of their characters go on: that is no loss.
+void IncidentFollower::checkEnded(log::Stamp stamp) {
+    for (auto& [key, character] : m_characters) {
+        if (character.outage != 0 || character.lastSampled == log::Stamp() || character.streams.size() < 2) {
+            continue;
+        }
+        for (Stream* stream : character.streams) {
+            const log::Duration silent = character.lastSampled - stream->accounting.lastStamp();
+            const bool isOver = silent > patienceWith(std::vector{stream}, kEnded, 5) &&
+                                stamp - character.lastSampled < kSilent;
+            if (isOver && !std::exchange(stream->hasEnded, true)) {
+                Occurrence one = Occurrence::at(IncidentKind::Step, key.sender,
+                                                stream->accounting.lastStamp(), m_lastPacket);
+                one.to = stamp;
+                one.character = key.character;
+                one.type = stream->key.type;
+                one.cause = LossCause::Unknown;
+                one.detail = "A type is not sent any more while others of its character go on.";
+                m_incidents.report(one);
+                stream->excusedUntil = log::Stamp::max();
+            }
+        }
+    }
+}
+
+std::vector<const Incident*> IncidentFollower::troublesOf(const CharacterKey& key,
+                                                          std::optional<log::Stamp> stamp) const {
+    std::vector<const Incident*> troubles =
+        stamp ? m_incidents.currentAt(*stamp) : m_incidents.currentOf(key.sender);
+    std::erase_if(troubles, [&key](const Incident* incident) {
+        return incident->sender != key.sender || !incident->concerns(key.character) ||
+               incident->severity() == IncidentSeverity::Info;
+    });
+    // What happened is more specific than the limit that it broke.
+    const auto rank = [](const Incident* incident) {
+        return std::tuple(incident->severity(), incident->group() != IncidentGroup::Limit, incident->number);
+    };
+    std::ranges::sort(troubles, [&](const Incident* a, const Incident* b) { return rank(a) > rank(b); });
+    return troubles;
+}
+
+Condition IncidentFollower::conditionOf(const CharacterKey& key, std::optional<log::Stamp> stamp) const {
+    const auto troubles = troublesOf(key, stamp);
+    if (troubles.empty()) {
+        return {};
+    }
+    const Incident& worst = *troubles.front();
+    const bool isError = worst.severity() == IncidentSeverity::Error;
+    return {isError ? Condition::Level::Error : Condition::Level::Warning, worst.of(key.character).text(),
+            worst.number};
+}
+
+} // namespace posewire::model

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/log/packet.h"
+#include "core/log/time.h"
+#include "core/log/timeline.h"
+#include "core/model/accounting/attribution.h"
+#include "core/model/accounting/packet_digest.h"
+#include "core/model/incidents/incidents.h"
+#include "core/model/incidents/thresholds.h"
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace posewire::model {
+
+/// Turns what the session finds in the log into incidents.
+class IncidentFollower final : public LossSink {
+public:
+    /// A character from which nothing has come for as long is silent, or for three of its samples.
+    static constexpr log::Duration kSilent = std::chrono::milliseconds(200);
+
+    [[nodiscard]] const Incidents& incidents() const { return m_incidents; }
+    /// Something that no packet tells.
+    void report(const Occurrence& one) { m_incidents.report(one); }
+    /// See Incidents::reserve.
+    std::uint64_t reserve(log::SenderId sender) { return m_incidents.reserve(sender); }
+    void setThresholds(const Thresholds& thresholds) { m_watch.set(thresholds); }
+    [[nodiscard]] const Thresholds& thresholds() const { return m_watch.thresholds(); }
+
+    /// Looks whether the wall clock was set; takePacket() then tells it in its place among the packets.
+    void followClock(const log::Timeline& timeline);
+    /// Each packet before its content: moves the time of the log, and notes what is no datagram. `header`:
+    /// what could be read of it.
+    void takePacket(const log::Packet& packet, const PacketDigest& digest,
+                    const std::optional<wire::Header>& header);
+    /// Packets just below one were passed over.
+    void takeOvertaken(std::uint64_t packet, std::uint64_t count, log::Stamp stamp);
+    /// Each datagram with its header. `address`: of its sender.
+    void takeDatagram(const log::Packet& packet, const wire::Header& header, Stream& stream,
+                      const std::string& address);
+    void takeVerdict(Stream& stream, const Verdict& verdict);
+    void takeChange(IncidentKind kind, const CharacterKey& key, const log::Packet& packet,
+                    std::string detail);
+    /// What contradicts itself about a sender: one sentence, empty for nothing.
+    void takeContradiction(log::SenderId sender, log::Stamp stamp, const std::string& text);
+
+    std::uint64_t takeLoss(const Loss& loss) override;
+    void takeBack(std::uint64_t incident, const log::StreamKey& stream, std::uint64_t samples,
+                  bool isAll) override;
+
+    /// Nothing of a sender lasts any longer, and its streams are about to go.
+    void retire(log::SenderId sender);
+    /// Another sender sends a character now: that this one is silent is no fault.
+    void supersede(const CharacterKey& key, log::Stamp stamp);
+
+    /// Time passes without packets: reports only who is silent.
+    void advance(log::Stamp stamp);
+
+    /// What came so far is a file, which has ended: nobody in it is expected to send on.
+    void endFile();
+
+    /// What lasts, or lasted at a time in the past, and concerns the character or its sender, worst first, a
+    /// limit behind what is as bad; no notes.
+    [[nodiscard]] std::vector<const Incident*> troublesOf(const CharacterKey& key,
+                                                          std::optional<log::Stamp> stamp) const;
+    /// The worst of these.
+    [[nodiscard]] Condition conditionOf(const CharacterKey& key, std::optional<log::Stamp> stamp) const;
+
+private:
+    /// Nothing of a character came from one stamp to the other.
+    struct Silence {
+        log::Stamp from{};
+        log::Stamp to{};
+        std::uint64_t incident = 0; ///< 0: none yet
+    };
+    struct Character {
+        std::vector<Stream*> streams; ///< those that count samples
+        log::Stamp lastSampled{};     ///< 0: nothing is expected
+        std::uint64_t lastPacket = 0;
+        std::uint64_t outage = 0; ///< its number while nothing comes
+        bool isLong = false;      ///< the outage
+        Silence lastSilence;
+        log::Stamp restart{}; ///< when its counter last restarted
+        // Of the newest sample, for the time code:
+        std::uint32_t sample = 0;
+        std::uint32_t timeCode = 0;
+        log::Stamp stamp{};
+        log::Stamp moved{}; ///< when the time code last changed; 0 before it ever did
+    };
+    /// Who sends a character in a type, and who did before; without a stamp where there is none.
+    struct Claim {
+        log::SenderId sender{};
+        log::Stamp stamp{};
+    };
+    struct Claims {
+        Claim newest;
+        Claim before;
+    };
+    void tellClockSets(log::Stamp until);
+    void check(log::Stamp stamp);
+    void checkEnded(log::Stamp stamp);
+    void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
+    void resume(const CharacterKey& key, Character& character, log::Stamp stamp);
+    void noteSampled(const log::Packet& packet, const wire::Header& header, Stream& stream);
+    void noteStep(Stream& stream, const Verdict& verdict);
+    void noteTimeCode(const log::StreamKey& stream, const Verdict& verdict);
+    void noteClaim(const log::Packet& packet, const wire::Header& header);
+    void tellConflict(log::SenderId of, log::SenderId other, const log::Packet& packet,
+                      const wire::Header& header);
+    [[nodiscard]] std::uint64_t outageOf(const Loss& loss) const;
+    void excuse(const log::StreamKey& key, log::Stamp from);
+
+    Incidents m_incidents;
+    ThresholdWatch m_watch;
+    std::map<log::SenderId, std::string> m_addresses;
+    std::map<log::SenderId, std::uint64_t> m_outages; ///< the newest of each sender
+    std::map<CharacterKey, Character> m_characters;
+    std::map<std::pair<std::uint8_t, std::uint8_t>, Claims> m_claims;
+    std::size_t m_clockSteps = 0;              ///< of the time line that were seen
+    std::vector<log::ClockStep> m_untoldSteps; ///< no packet has come since
+    std::uint64_t m_lastPacket = 0;
+    log::Stamp m_nextCheck{};
+    log::Stamp m_nextWatch{};
+};
+
+} // namespace posewire::model

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/incidents/incidents.h"
+
+#include "core/model/incidents/incident_kinds.h"
+#include "core/model/text.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace posewire::model {
+namespace {
+
+/// Beyond these, what an incident touched is only in its sums.
+constexpr std::size_t kMostPartsOfOne = 1'024;
+/// Fewer samples are no share of anything.
+constexpr std::uint64_t kFew = 3;
+
+} // namespace
+
+Incidents::Episode Incidents::episodeOf(const Occurrence& one) {
+    return {one.sender, one.kind, factsOf(one.kind).isOfCharacter ? one.character : std::nullopt, one.cause};
+}
+
+Incidents::Episode Incidents::episodeOf(const Incident& incident) {
+    return {incident.sender, incident.kind,
+            factsOf(incident.kind).isOfCharacter ? incident.character() : std::nullopt, incident.cause};
+}
+
+std::deque<Incident>::iterator Incidents::placeOf(std::uint64_t number) {
+    return std::ranges::lower_bound(m_incidents, number, {}, &Incident::number);
+}
+
+Incident* Incidents::findOwn(std::uint64_t number) {
+    const auto place = placeOf(number);
+    return place != m_incidents.end() && place->number == number ? &*place : nullptr;
+}
+
+const Incident* Incidents::find(std::uint64_t number) const {
+    const auto place = std::ranges::lower_bound(m_incidents, number, {}, &Incident::number);
+    return place != m_incidents.end() && place->number == number ? &*place : nullptr;
+}
+
+const Incident* Incidents::currentLike(const Occurrence& like) const {
+    const auto found = m_current.find(episodeOf(like));
+    return found == m_current.end() ? nullptr : find(found->second);
+}
+
+std::vector<const Incident*> Incidents::current() const {
+    std::vector<const Incident*> incidents;
+    for (const auto& [episode, number] : m_current) {
+        incidents.push_back(find(number));
+    }
+    std::ranges::sort(incidents, {}, &Incident::number);
+    return incidents;
+}
+
+std::vector<const Incident*> Incidents::currentOf(log::SenderId sender) const {
+    std::vector<const Incident*> incidents;
+    for (auto current = m_current.lower_bound({sender});
+         current != m_current.end() && current->first.sender == sender; ++current) {
+        incidents.push_back(find(current->second));
+    }
+    return incidents;
+}
+
+std::vector<const Incident*> Incidents::currentAt(log::Stamp stamp) const {
+    std::vector<const Incident*> incidents;
+    for (const Incident& incident : m_incidents) {
+        const bool hasLasted = factsOf(incident.kind).lasts ? incident.isCurrent || incident.lastStamp > stamp
+                                                            : incident.lastStamp + kQuiet > stamp;
+        if (incident.firstStamp <= stamp && hasLasted) {
+            incidents.push_back(&incident);
+        }
+    }
+    return incidents;
+}
+
+std::size_t Incidents::memoryBytes() const {
+    constexpr std::size_t kNode = 4 * sizeof(void*);
+    std::size_t bytes =
+        m_incidents.size() * sizeof(Incident) + m_current.size() * (sizeof(*m_current.begin()) + kNode);
+    for (const Incident& incident : m_incidents) {
+        bytes += incident.detail.capacity() + incident.parts.capacity() * sizeof(Incident::Part);
+    }
+    return bytes;
+}
+
+std::uint64_t Incidents::report(Occurrence one) {
+    const auto known = m_current.find(episodeOf(one));
+    Incident& incident = known != m_current.end() ? *findOwn(known->second) : begin(one);
+    const std::uint64_t number = incident.number;
+    add(incident, one);
+    forget();
+    return number;
+}
+
+void Incidents::addTo(std::uint64_t number, const Occurrence& one) {
+    if (Incident* incident = findOwn(number)) {
+        add(*incident, one);
+    }
+}
+
+Incident& Incidents::begin(const Occurrence& one) {
+    std::uint64_t number = 0;
+    const auto reserved = one.kind == IncidentKind::Loss ? m_reserved.find(one.sender) : m_reserved.end();
+    if (reserved != m_reserved.end()) {
+        number = reserved->second;
+        m_reserved.erase(reserved);
+    } else {
+        number = m_next++;
+    }
+    Incident incident;
+    incident.number = number;
+    incident.kind = one.kind;
+    incident.sender = one.sender;
+    incident.cause = one.cause;
+    incident.firstStamp = one.from;
+    incident.firstPacket = one.fromPacket;
+    m_current.emplace(episodeOf(one), number);
+    return *m_incidents.insert(placeOf(number), std::move(incident));
+}
+
+void Incidents::add(Incident& incident, const Occurrence& one) {
+    incident.firstStamp = std::min(incident.firstStamp, one.from);
+    incident.firstPacket = std::min(incident.firstPacket, one.fromPacket);
+    incident.lastStamp = std::max(incident.lastStamp, one.to);
+    incident.lastPacket = std::max(incident.lastPacket, one.toPacket);
+    incident.count += one.count;
+    incident.samples += one.samples;
+    incident.value = factsOf(one.kind).sumsValue ? incident.value + one.value
+                     : incident.count <= one.count || std::abs(one.value) > std::abs(incident.value)
+                         ? one.value
+                         : incident.value;
+    incident.limit = std::max(incident.limit, one.limit);
+    if (!one.detail.empty()) {
+        incident.detail = clippedText(one.detail, kMostDetailBytes);
+    }
+    if (Incident::Part* part = partOf(incident, one)) {
+        part->count += one.count;
+        part->samples += one.samples;
+        part->from = std::min(part->from, one.from);
+        part->to = std::max(part->to, one.to);
+        part->isCurrent = !one.isOver;
+    }
+    changed(incident);
+}
+
+/// Null where there are too many already.
+Incident::Part* Incidents::partOf(Incident& incident, const Occurrence& one) {
+    const auto known = std::ranges::find_if(incident.parts, [&](const Incident::Part& part) {
+        return part.character == one.character && part.type == one.type;
+    });
+    if (known != incident.parts.end()) {
+        return &*known;
+    }
+    if (incident.parts.size() >= kMostPartsOfOne) {
+        return nullptr;
+    }
+    ++m_parts;
+    return &incident.parts.emplace_back(Incident::Part{one.character, one.type, 0, 0, one.from, one.to});
+}
+
+void Incidents::takeBack(std::uint64_t number, const Incident::Part& part, std::uint64_t samples,
+                         std::uint64_t gaps) {
+    const auto place = placeOf(number);
+    if (place == m_incidents.end() || place->number != number) {
+        return;
+    }
+    const auto take = [](std::uint64_t& from, std::uint64_t less) { from -= std::min(from, less); };
+    take(place->samples, samples);
+    take(place->count, gaps);
+    for (Incident::Part& own : place->parts) {
+        if (own.character == part.character && own.type == part.type) {
+            take(own.samples, samples);
+            take(own.count, gaps);
+        }
+    }
+    m_parts -= std::erase_if(place->parts, [](const Incident::Part& own) {
+        return own.samples == 0 && own.count == 0 && own.type.has_value();
+    });
+    changed(*place);
+    const bool isNothing =
+        place->kind == IncidentKind::Loss || (place->kind == IncidentKind::Local && place->value == 0);
+    if (isNothing && place->samples == 0) {
+        erase(place);
+    }
+}
+
+void Incidents::noteLimit(const Occurrence& one) {
+    for (const Incident* known : currentOf(one.sender)) {
+        if (known->kind == IncidentKind::Loss && known->samples >= kFew &&
+            known->concerns(*one.character, *one.type) && one.value > known->value) {
+            Incident& incident = *findOwn(known->number);
+            incident.value = one.value;
+            incident.limit = one.limit;
+            changed(incident);
+        }
+    }
+}
+
+void Incidents::remove(std::uint64_t number) {
+    if (const auto place = placeOf(number); place != m_incidents.end() && place->number == number) {
+        erase(place);
+    }
+}
+
+void Incidents::end(std::uint64_t number, log::Stamp stamp) {
+    Incident* incident = findOwn(number);
+    if (incident != nullptr && incident->isCurrent) {
+        incident->isCurrent = false;
+        incident->lastStamp = std::max(incident->lastStamp, stamp);
+        std::erase_if(m_current, [number](const auto& current) { return current.second == number; });
+        changed(*incident);
+    }
+}
+
+void Incidents::end(const Occurrence& like, log::Stamp stamp) {
+    if (const Incident* incident = currentLike(like)) {
+        end(incident->number, stamp);
+    }
+}
+
+void Incidents::endPart(std::uint64_t number, std::uint8_t character, std::optional<std::uint8_t> type,
+                        log::Stamp stamp) {
+    Incident* incident = findOwn(number);
+    if (incident == nullptr) {
+        return;
+    }
+    for (Incident::Part& part : incident->parts) {
+        if (part.character == character && part.type == type) {
+            part.isCurrent = false;
+            part.to = std::max(part.to, stamp);
+        }
+    }
+    changed(*incident);
+    if (std::ranges::none_of(incident->parts, &Incident::Part::isCurrent)) {
+        end(number, stamp);
+    }
+}
+
+void Incidents::setCause(std::uint64_t number, LossCause cause) {
+    Incident* incident = findOwn(number);
+    if (incident == nullptr || incident->cause == cause) {
+        return;
+    }
+    std::erase_if(m_current, [number](const auto& current) { return current.second == number; });
+    incident->cause = cause;
+    if (incident->isCurrent) {
+        m_current.insert_or_assign(episodeOf(*incident), number);
+    }
+    changed(*incident);
+}
+
+std::uint64_t Incidents::reserve(log::SenderId sender) {
+    const auto [place, isNew] = m_reserved.try_emplace(sender, m_next);
+    m_next += isNew ? 1 : 0;
+    return place->second;
+}
+
+void Incidents::retire(log::SenderId sender) {
+    const auto from = m_current.lower_bound({sender});
+    auto to = from;
+    for (; to != m_current.end() && to->first.sender == sender; ++to) {
+        Incident& incident = *findOwn(to->second);
+        incident.isCurrent = false;
+        changed(incident);
+    }
+    m_current.erase(from, to);
+    m_reserved.erase(sender);
+}
+
+void Incidents::advance(log::Stamp stamp) {
+    std::erase_if(m_current, [&](const auto& current) {
+        Incident& incident = *findOwn(current.second);
+        const bool isOver = !factsOf(incident.kind).lasts && stamp - incident.lastStamp >= kQuiet;
+        if (isOver) {
+            incident.isCurrent = false;
+            changed(incident);
+        }
+        return isOver;
+    });
+}
+
+void Incidents::erase(std::deque<Incident>::iterator place) {
+    m_parts -= place->parts.size();
+    std::erase_if(m_current, [&](const auto& current) { return current.second == place->number; });
+    m_incidents.erase(place);
+    ++m_version;
+}
+
+/// Makes room: the oldest that has ended goes, or the oldest of all where none has.
+void Incidents::forget() {
+    while (m_incidents.size() > kMost || m_parts > kMostParts) {
+        const auto oldest = std::ranges::find(m_incidents, false, &Incident::isCurrent);
+        erase(oldest == m_incidents.end() ? m_incidents.begin() : oldest);
+    }
+}
+
+} // namespace posewire::model

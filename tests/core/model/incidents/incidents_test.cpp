@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+#include "tests/core/model/incidents/incidents_fixture.h"
+
+namespace posewire::model {
+namespace {
+
+TEST_F(IncidentsTest, TellThatASenderComesAndGoes) {
+    poses(1, 100);
+    ASSERT_EQ(of(IncidentKind::SourceUp).size(), 1U);
+    m_session.follow(m_at + 3s); // nothing more comes
+    auto down = of(IncidentKind::Outage);
+    ASSERT_EQ(down.size(), 1U);
+    EXPECT_TRUE(down[0].isCurrent);
+    EXPECT_EQ(down[0].severity(), IncidentSeverity::Error);
+    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Error);
+    m_at += 4s;
+    poses(101, 200);
+    down = of(IncidentKind::Outage);
+    ASSERT_EQ(down.size(), 1U);
+    EXPECT_FALSE(down[0].isCurrent);
+}
+
+TEST_F(IncidentsTest, SayNothingOfSilenceAfterTheEndOfAFile) {
+    poses(1, 100);
+    while (m_session.followFile(m_at)) {
+    }
+    m_session.endFile();
+    m_session.follow(m_at + 3s);
+    EXPECT_TRUE(of(IncidentKind::Outage).empty());
+    // Nor where another sender is live.
+    pose(1, "127.0.0.1:40002");
+    m_session.follow(m_at);
+    m_session.follow(m_at + 3s);
+    const auto down = of(IncidentKind::Outage);
+    ASSERT_EQ(down.size(), 1U);
+    EXPECT_EQ(down[0].sender, sender("127.0.0.1:40002"));
+    EXPECT_EQ(down[0].text(), "No data.");
+}
+
+TEST_F(IncidentsTest, JudgeACharacterWhereTheCursorStands) {
+    poses(1, 300);
+    poses(311, 400); // ten lost
+    poses(401, 1'000);
+    follow();
+    m_session.follow(m_at + 3s); // nothing more comes
+    const auto levelAt = [this](std::uint64_t packet) {
+        m_session.setCursor({Cursor::Mode::Paused, packet});
+        return m_session.conditionOf(key()).level;
+    };
+    EXPECT_EQ(levelAt(200), Condition::Level::Good);
+    EXPECT_NE(levelAt(350), Condition::Level::Good);
+    EXPECT_EQ(levelAt(980), Condition::Level::Good) << "before the silence";
+    m_session.setCursor({});
+    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Error);
+}
+
+TEST_F(IncidentsTest, CountTheGapsOfAnIncidentInOne) {
+    for (std::uint32_t sample = 1; sample <= 500; ++sample, m_at += 10ms) {
+        if (sample % 50 != 0) {
+            pose(sample);
+        }
+    }
+    const auto losses = of(IncidentKind::Loss);
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_EQ(losses[0].count, 9U);
+    EXPECT_EQ(losses[0].samples, 9U);
+    EXPECT_EQ(losses[0].cause, LossCause::Unknown);
+    EXPECT_TRUE(losses[0].text().starts_with("9 samples lost in 9 gaps, cause: unknown."))
+        << losses[0].text();
+    EXPECT_TRUE(losses[0].isCurrent);
+    const std::uint64_t version = m_session.incidents().version();
+    poses(501, 1'200);
+    EXPECT_FALSE(of(IncidentKind::Loss)[0].isCurrent);
+    EXPECT_GT(m_session.incidents().version(), version);
+}
+
+TEST_F(IncidentsTest, TellReorderedSamplesAndNoLoss) {
+    poses(1, 100);
+    m_at += 10ms;
+    poses(102, 104);
+    pose(101);
+    poses(105, 300);
+    ASSERT_EQ(of(IncidentKind::Reordered).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Reordered)[0].count, 1U);
+    EXPECT_TRUE(of(IncidentKind::Loss).empty());
+}
+
+TEST_F(IncidentsTest, TakeALossBackWhereTheSampleComesVeryLate) {
+    poses(1, 100);
+    m_at += 10ms;
+    poses(102, 200);
+    ASSERT_EQ(of(IncidentKind::Loss).size(), 1U);
+    pose(101);
+    EXPECT_TRUE(of(IncidentKind::Loss).empty()) << "it is gone, not over";
+    EXPECT_EQ(of(IncidentKind::Reordered).size(), 1U);
+    EXPECT_EQ(m_session.find(log::StreamKey{sender(), 0, 2})->attributed, (std::array<std::uint64_t, 4>{}));
+}
+
+TEST_F(IncidentsTest, WaitLongerAfterASampleThatCameVeryLate) {
+    poses(1, 100);
+    m_at += 10ms;
+    poses(102, 200);
+    pose(101); // one second late
+    m_at += 10ms;
+    poses(202, 250);
+    EXPECT_TRUE(of(IncidentKind::Loss).empty()) << "it may come yet";
+    poses(251, 500);
+    EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
+}
+
+TEST_F(IncidentsTest, TellAnOutageOfAllStreamsAsOne) {
+    const auto all = [this](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10ms) {
+            pose(sample);
+            send(wire::CentreOfMass{}, sample, m_at);
+        }
+    };
+    all(1, 300);
+    m_at += 1500ms;
+    all(451, 600);
+    const auto outages = of(IncidentKind::Outage);
+    ASSERT_EQ(outages.size(), 1U);
+    EXPECT_EQ(outages[0].samples, 300U);
+    EXPECT_EQ(outages[0].cause, LossCause::Sender) << "the time code moved with it";
+    EXPECT_FALSE(outages[0].isCurrent);
+    EXPECT_TRUE(of(IncidentKind::Loss).empty());
+    for (const Incident& incident : m_session.incidents().all()) {
+        EXPECT_NE(incident.group(), IncidentGroup::Limit) << incident.text();
+    }
+    EXPECT_NE(outages[0].text().find("No data for 1.51 s: 300 samples lost, cause: sender."),
+              std::string::npos)
+        << outages[0].text();
+}
+
+TEST_F(IncidentsTest, TellATypeThatEndsAndNotItsLoss) {
+    for (std::uint32_t sample = 1; sample <= 800; ++sample, m_at += 10ms) {
+        pose(sample);
+        if (sample <= 300) {
+            send(wire::CentreOfMass{}, sample, m_at);
+        }
+    }
+    const auto steps = of(IncidentKind::Step);
+    ASSERT_EQ(steps.size(), 1U);
+    EXPECT_EQ(steps[0].type(), wire::CentreOfMass::kType);
+    EXPECT_EQ(steps[0].cause, LossCause::Unknown);
+    EXPECT_TRUE(of(IncidentKind::Outage).empty());
+    EXPECT_TRUE(of(IncidentKind::AgeLimit).empty());
+}
+
+TEST_F(IncidentsTest, TellThatTheSenderSendsAnotherShareOfItsSamples) {
+    poses(1, 600);
+    for (std::uint32_t sample = 602; sample <= 1'600; sample += 2, m_at += 20ms) {
+        pose(sample);
+    }
+    const auto steps = of(IncidentKind::Step);
+    ASSERT_EQ(steps.size(), 1U);
+    EXPECT_EQ(steps[0].text(), "The sample counter moves by 2 now, before by 1.");
+    EXPECT_TRUE(of(IncidentKind::RateLimit).empty());
+    EXPECT_TRUE(of(IncidentKind::Loss).empty());
+}
+
+TEST_F(IncidentsTest, TellATimeCodeThatStandsStill) {
+    poses(1, 100);
+    for (std::uint32_t sample = 101; sample <= 400; ++sample, m_at += 10ms) {
+        m_timeCodeOff -= 10ms;
+        pose(sample);
+    }
+    ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code stands still while samples come.");
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].count, 1U);
+}
+
+TEST_F(IncidentsTest, TellRestartsMalformedAndForeignDatagrams) {
+    poses(50'000, 50'100);
+    poses(1, 50);
+    sendBytes(std::as_bytes(std::span("MXTP02")), m_at);
+    sendBytes(std::as_bytes(std::span("{\"a\":1}")), m_at);
+    sendBytes(std::as_bytes(std::span("{\"a\":2}")), m_at);
+    EXPECT_EQ(of(IncidentKind::Restart).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Malformed).size(), 1U);
+    ASSERT_EQ(of(IncidentKind::Foreign).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Foreign)[0].count, 2U);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+}
+
+TEST_F(IncidentsTest, CountOneRestartOfAllStreamsOnce) {
+    const auto both = [this](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t sample = first; sample <= last; ++sample, m_at += 10ms) {
+            pose(sample);
+            send(wire::CentreOfMass{}, sample, m_at);
+        }
+    };
+    both(50'000, 50'100);
+    both(1, 150);
+    ASSERT_EQ(of(IncidentKind::Restart).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::Restart)[0].count, 1U);
+    both(50'000, 50'100);
+    EXPECT_EQ(of(IncidentKind::Restart).back().count + of(IncidentKind::Restart).size(), 3U)
+        << "another one is told, as an event of its own or in the same episode";
+}
+
+TEST_F(IncidentsTest, TellChangesOfMetadataButNotItsRepetition) {
+    poses(1, 10);
+    send(wire::MetaData{true, "name:Anna\n"}, 0, m_at);
+    send(wire::MetaData{true, "name:Anna\n"}, 0, m_at);
+    EXPECT_TRUE(of(IncidentKind::MetadataChange).empty());
+    send(wire::MetaData{true, "name:Berta\n"}, 0, m_at);
+    ASSERT_EQ(of(IncidentKind::MetadataChange).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::MetadataChange)[0].text(), "name: Anna → Berta");
+}
+
+TEST_F(IncidentsTest, TellAJumpOfTheTimeCode) {
+    poses(1, 100);
+    m_timeCodeOff = 5s;
+    poses(101, 200);
+    ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
+    EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code jumped by 5000 ms.");
+}
+
+TEST_F(IncidentsTest, TakeNoDatagramThatComesLateForAJumpOfTheTimeCode) {
+    poses(1, 99);
+    const log::Stamp due = m_at;
+    m_at += 10ms;
+    poses(101, 400);
+    m_timeCodeOff = due - m_at; // sample 100 was sent when it was due
+    pose(100);
+    m_timeCodeOff = 0s;
+    poses(401, 500);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+    EXPECT_TRUE(of(IncidentKind::Restart).empty());
+}
+
+TEST_F(IncidentsTest, TellTwoSendersWithOneCharacterButNotASuccessor) {
+    poses(1, 50);
+    for (std::uint32_t sample = 1; sample <= 50; ++sample, m_at += 10ms) {
+        pose(sample, "127.0.0.1:40002"); // the same person from another port
+    }
+    EXPECT_TRUE(of(IncidentKind::Conflict).empty());
+    for (std::uint32_t sample = 51; sample <= 100; ++sample, m_at += 10ms) {
+        pose(sample, "127.0.0.1:40002");
+        pose(sample, "127.0.0.1:40003");
+    }
+    const auto conflicts = of(IncidentKind::Conflict);
+    ASSERT_EQ(conflicts.size(), 2U) << "each is told, naming the other";
+    EXPECT_EQ(conflicts[0].severity(), IncidentSeverity::Error);
+    EXPECT_NE(conflicts[0].sender, conflicts[1].sender);
+    EXPECT_NE(conflicts[0].detail, conflicts[1].detail);
+}
+
+TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {
+    poses(1, 1'000);
+    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
+    for (std::uint32_t sample = 1'001; sample <= 1'400; ++sample, m_at += 10ms) {
+        if (sample % 50 != 0) {
+            pose(sample);
+        }
+    }
+    const auto losses = of(IncidentKind::Loss);
+    ASSERT_EQ(losses.size(), 1U);
+    EXPECT_GT(losses[0].value, 1) << "percent";
+    EXPECT_EQ(losses[0].severity(), IncidentSeverity::Error);
+    EXPECT_TRUE(of(IncidentKind::LossLimit).empty()) << "the loss says it all";
+    poses(1'401, 3'000);
+    follow();
+    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good)
+        << m_session.conditionOf(key()).reason;
+}
+
+} // namespace
+} // namespace posewire::model
