@@ -6,6 +6,7 @@
 #include "app/cli/table_writer.h"
 #include "app/net/receiver.h"
 #include "core/export/reports.h"
+#include "core/export/verdict_json.h"
 #include "core/log/packet_log.h"
 #include "core/log/recording.h"
 #include "core/log/time.h"
@@ -51,6 +52,7 @@ struct MonitorOptions {
     std::string report; ///< empty: none; "-" for standard output
     bool replaces = false;
     bool asJson = false;
+    bool asJsonLines = false;
     bool isQuiet = false;              ///< neither tables nor JSON, only the report
     std::optional<double> fromSeconds; ///< what the report is about, from the first datagram on
     std::optional<double> toSeconds;
@@ -90,8 +92,8 @@ public:
     /// Takes in everything that is in the log.
     void follow(log::Stamp now);
 
-    /// Shows the table if it is time to.
-    void show(const exporting::MonitorFacts& facts);
+    /// Shows the table if it is time to, or writes a line if one is due at a time of the log.
+    void show(const exporting::MonitorFacts& facts, log::Stamp now);
 
     /// Nobody wants more: Ctrl+C, or the reader of the table has gone and nothing is recorded.
     [[nodiscard]] bool isOver() const;
@@ -106,6 +108,7 @@ public:
 
 private:
     ExitStatus writeReport(const exporting::MonitorFacts& facts);
+    void showLine(log::Stamp now);
     [[nodiscard]] bool isReaderGone() const { return m_table && !m_table->isWanted(); }
     ExitStatus finishTable(const exporting::MonitorFacts& facts);
 
@@ -115,7 +118,8 @@ private:
     log::PacketLog m_log;
     model::Session m_session{m_log};
     const bool m_isTerminal = LiveDisplay::isOnTerminal();
-    std::optional<TableWriter> m_table; ///< where one was asked for
+    std::optional<TableWriter> m_table; ///< where tables or lines were asked for
+    exporting::VerdictLines m_lines;
     bool m_isConcluding = false;
     bool m_isReaderTold = false;
     std::chrono::steady_clock::time_point m_nextShow;

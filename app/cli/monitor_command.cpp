@@ -59,8 +59,12 @@ Command addMonitorCommand(CommandLine& program) {
         .form("SECONDS")
         .seconds()
         .showDefault();
-    arguments.flag("--json", options->asJson, "one report at the end instead of a live table");
-    arguments.add("--interval", options->intervalSeconds, "seconds between two tables")
+    Option lines = arguments.flag("--json-lines", options->asJsonLines,
+                                  "an object a line instead of a live table, each interval and when the "
+                                  "verdict changes: verdict, characters, incidents that changed");
+    lines.excludes(
+        arguments.flag("--json", options->asJson, "one report at the end instead of a live table"));
+    arguments.add("--interval", options->intervalSeconds, "seconds between two tables or lines")
         .form("SECONDS")
         .within(0.001, 86'400.0)
         .showDefault();

@@ -17,6 +17,7 @@ public:
           m_recorder(recorder),
           m_clock(run.log().timeline()),
           m_name(std::filesystem::path(options.file).filename().string()),
+          m_followsClosely(options.asJsonLines),
           m_longest(options.durationSeconds > 0 ? log::durationOf(options.durationSeconds)
                                                 : log::Duration::max()) {}
 
@@ -37,7 +38,8 @@ public:
             log.senders().intern(record.sender.value_or(log::SenderInfo{m_name, log::Transport::File, 0}));
         log.writer().append(record.bytes, log::arrivalOf(record, sender, stamp));
         constexpr std::size_t batch = 4096;
-        if (++m_waiting == batch) {
+        const bool isLineDue = m_followsClosely && *m_last - m_flushed >= kLineStep;
+        if (++m_waiting == batch || isLineDue) {
             flush();
         }
     }
@@ -45,12 +47,13 @@ public:
     /// Follows what has come so far.
     void flush() {
         m_waiting = 0;
+        m_flushed = m_last.value_or(log::Stamp());
         m_run.log().writer().publish();
         m_run.follow(m_last.value_or(log::Stamp()));
         if (m_recorder && m_recorded) {
             m_recorded = m_recorder->follow();
         }
-        m_run.show({.durationS = durationS()});
+        m_run.show({.durationS = durationS()}, m_last.value_or(log::Stamp()));
     }
 
     /// The latest stamp.
@@ -61,13 +64,17 @@ public:
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
 
 private:
+    static constexpr log::Duration kLineStep = std::chrono::milliseconds(10);
+
     MonitorRun& m_run;
     std::optional<log::Recorder>& m_recorder;
     log::RecordedClock m_clock;
     const std::string m_name;
+    const bool m_followsClosely; ///< so that lines come when the verdict changes
     const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
+    log::Stamp m_flushed{};
     std::optional<log::Stamp> m_first;
     std::optional<log::Stamp> m_last;
     bool m_isDone = false;

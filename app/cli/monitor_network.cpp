@@ -164,15 +164,17 @@ exporting::MonitorFacts factsOf(const net::Receiver& receiver, double elapsedS) 
 double watch(const MonitorOptions& options, const net::Receiver& receiver, MonitorRun& run,
              RecordingWatch& recording, InputWatch& inputs) {
     using namespace std::chrono;
-    constexpr duration<double> pause{0.05};
+    // A verdict is told at once.
+    const duration<double> pause{options.asJsonLines ? 0.01 : 0.05};
     const log::SystemClock clock;
     const auto start = steady_clock::now();
     while (true) {
         const duration<double> elapsed = steady_clock::now() - start;
         const duration<double> left{options.durationSeconds - elapsed.count()};
         const bool hasEnd = options.durationSeconds > 0;
-        run.follow(run.log().timeline().now(clock));
-        run.show(factsOf(receiver, elapsed.count()));
+        const log::Stamp now = run.log().timeline().now(clock);
+        run.follow(now);
+        run.show(factsOf(receiver, elapsed.count()), now);
         recording.look();
         inputs.look();
         const bool isInVain = options.record == "-" && recording.hasFailed();

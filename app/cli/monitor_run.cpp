@@ -93,7 +93,10 @@ std::string unitOf(const Limit& limit) {
 }
 
 MonitorRun::MonitorRun(const MonitorOptions& options, Console& console)
-    : m_options(options), m_console(console), m_nextShow(std::chrono::steady_clock::now()) {
+    : m_options(options),
+      m_console(console),
+      m_lines(log::durationOf(options.intervalSeconds)),
+      m_nextShow(std::chrono::steady_clock::now()) {
     if (!options.asJson && !options.isQuiet) {
         m_table.emplace(STDOUT_FILENO, m_isTerminal);
     }
@@ -108,17 +111,28 @@ void MonitorRun::follow(log::Stamp now) {
     }
 }
 
-void MonitorRun::show(const exporting::MonitorFacts& facts) {
-    const auto now = std::chrono::steady_clock::now();
+void MonitorRun::showLine(log::Stamp now) {
+    if (const auto line =
+            m_isConcluding ? m_lines.lastLine(m_session, now) : m_lines.lineAt(m_session, now)) {
+        m_table->add(*line, !m_options.file.empty());
+    }
+}
+
+void MonitorRun::show(const exporting::MonitorFacts& facts, log::Stamp now) {
+    const auto clock = std::chrono::steady_clock::now();
     const bool isReplayUnseen = !m_options.file.empty() && !m_isTerminal && !m_isConcluding;
     if (isReaderGone() && !m_isConcluding && !m_isReaderTold && !m_options.record.empty()) {
         m_isReaderTold = true;
         m_console.complain("nobody reads the table any more; recording goes on until Ctrl+C or --duration");
     }
-    if (isReplayUnseen || !m_table || now < m_nextShow) {
+    if (m_table && m_options.asJsonLines) {
+        showLine(now);
         return;
     }
-    m_nextShow = now + std::chrono::microseconds(std::llround(m_options.intervalSeconds * 1e6));
+    if (isReplayUnseen || !m_table || clock < m_nextShow) {
+        return;
+    }
+    m_nextShow = clock + std::chrono::microseconds(std::llround(m_options.intervalSeconds * 1e6));
     m_table->show(liveTable(m_session, facts));
 }
 
@@ -128,8 +142,11 @@ ExitStatus MonitorRun::finishTable(const exporting::MonitorFacts& facts) {
     }
     m_nextShow = {};
     m_isConcluding = true;
-    show(facts);
+    show(facts, m_session.now());
     m_table->finish(Interruption::hasCome);
+    if (const std::uint64_t leftOut = m_table->leftOut(); leftOut != 0) {
+        m_console.complain(std::to_string(leftOut) + " lines were left out: they were not read in time");
+    }
     const std::string failure = m_table->failure();
     return failure.empty() ? ExitStatus::Fine : m_console.unusable(failure);
 }
@@ -153,6 +170,7 @@ void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFai
 
 ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status,
                                 std::optional<log::Stamp> end) {
+    m_session.settle();
     std::ranges::copy(exceeded(m_session, m_options.limits, end), std::back_inserter(facts.exceeded));
     // Nobody may read standard output: all else comes before.
     const ExitStatus reported = m_options.report.empty() ? ExitStatus::Fine : writeReport(facts);
@@ -198,7 +216,7 @@ ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
 }
 
 tl::expected<void, std::string> checkOutputs(const MonitorOptions& options) {
-    const bool wantsOut = options.asJson || options.report == "-";
+    const bool wantsOut = options.asJson || options.asJsonLines || options.report == "-";
     if (options.record == "-" && wantsOut) {
         return tl::unexpected(
             std::string("--record -: something else goes to standard output; name a file for one of them"));

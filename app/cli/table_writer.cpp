@@ -36,13 +36,31 @@ void TableWriter::show(std::vector<std::string> lines) {
     m_changed.notify_all();
 }
 
+void TableWriter::add(std::string line, bool canWait) {
+    std::unique_lock lock(m_mutex);
+    if (canWait) {
+        m_changed.wait(lock, [this] { return m_lines.size() < kMostLines || !m_isWanted; });
+    }
+    if (m_lines.size() >= kMostLines) {
+        m_lines.pop_front();
+        ++m_leftOut;
+    }
+    m_lines.push_back(std::move(line) + '\n');
+    m_changed.notify_all();
+}
+
+std::uint64_t TableWriter::leftOut() const {
+    const std::lock_guard lock(m_mutex);
+    return m_leftOut;
+}
+
 void TableWriter::finish(bool (*isInterrupted)()) {
     using namespace std::chrono;
     constexpr milliseconds step{20};
     constexpr seconds patience{1};
     std::optional<steady_clock::time_point> interrupted;
     std::unique_lock lock(m_mutex);
-    while (m_isWanted && (m_newest || m_isWriting)) {
+    while (m_isWanted && (hasWork() || m_isWriting)) {
         m_changed.wait_for(lock, step);
         if (isInterrupted() && !interrupted) {
             interrupted = steady_clock::now();
@@ -61,15 +79,23 @@ std::string TableWriter::failure() const {
 void TableWriter::run() {
     std::unique_lock lock(m_mutex);
     while (true) {
-        m_changed.wait(lock, [this] { return m_isStopping || m_newest; });
+        m_changed.wait(lock, [this] { return m_isStopping || hasWork(); });
         if (m_isStopping) {
             return;
         }
-        const std::vector<std::string> lines = *std::exchange(m_newest, std::nullopt);
+        std::string text;
+        const auto table = std::exchange(m_newest, std::nullopt);
+        for (; !m_lines.empty(); m_lines.pop_front()) {
+            text += m_lines.front();
+        }
         m_isWriting = true;
+        m_changed.notify_all();
         lock.unlock();
-        const LiveDisplay::Size size = LiveDisplay::terminalSize();
-        write(m_display.show(lines, size.rows, size.columns));
+        if (table) {
+            const LiveDisplay::Size size = LiveDisplay::terminalSize();
+            text += m_display.show(*table, size.rows, size.columns);
+        }
+        write(text);
         lock.lock();
         m_isWriting = false;
         m_changed.notify_all();
@@ -103,6 +129,7 @@ void TableWriter::noteFailure() {
     const bool hasReaderGone = error == EPIPE || (error == EIO && m_isTerminal);
     const std::lock_guard lock(m_mutex);
     m_isWanted = false;
+    m_changed.notify_all();
     if (!hasReaderGone) {
         m_failure = standardOutputFailure(error);
     }

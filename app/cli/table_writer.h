@@ -5,6 +5,8 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
+#include <deque>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -14,8 +16,9 @@
 
 namespace posewire::cli {
 
-/// Writes tables on a thread of its own: who reads slowly or not at all (a pager, a stopped terminal) delays
-/// nobody. It holds the newest table only; one that was not begun in time is replaced by the next.
+/// Writes tables or lines on a thread of its own: who reads slowly or not at all (a pager, a stopped
+/// terminal) delays nobody. It holds the newest table only; one that was not begun in time is replaced by the
+/// next. Of lines it holds a number.
 class TableWriter {
 public:
     /// Writes to this descriptor, which stays the caller's; on a terminal one table over the other.
@@ -28,7 +31,13 @@ public:
     /// Returns at once.
     void show(std::vector<std::string> lines);
 
-    /// Waits until the newest table is written, or nobody reads; at most a second once `isInterrupted` says
+    /// A line of text, without its newline. Where too many wait already the oldest goes; or, of what can
+    /// wait, this waits until there is room or nobody reads.
+    void add(std::string line, bool canWait);
+    /// Lines that nobody read in time.
+    [[nodiscard]] std::uint64_t leftOut() const;
+
+    /// Waits until everything is written, or nobody reads; at most a second once `isInterrupted` says
     /// so.
     void finish(bool (*isInterrupted)());
 
@@ -37,7 +46,10 @@ public:
     [[nodiscard]] std::string failure() const;
 
 private:
+    static constexpr std::size_t kMostLines = 1'024;
+
     void run();
+    [[nodiscard]] bool hasWork() const { return m_newest || !m_lines.empty(); }
     void write(std::string_view text);
     [[nodiscard]] bool hasRoom() const;
     void noteFailure();
@@ -48,6 +60,8 @@ private:
     mutable std::mutex m_mutex;
     std::condition_variable m_changed;
     std::optional<std::vector<std::string>> m_newest;
+    std::deque<std::string> m_lines;
+    std::uint64_t m_leftOut = 0;
     std::string m_failure;
     bool m_isWriting = false;
     std::atomic<bool> m_isStopping = false;

@@ -3,6 +3,7 @@
 
 #include "core/export/json_value.h"
 #include "core/export/session_reading.h"
+#include "core/export/verdict_json.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
@@ -61,9 +62,14 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
     std::ranges::sort(keys);
     JsonValue::List characters;
     for (const model::CharacterKey& key : keys) {
-        characters.push_back({{"id", key.character},
-                              {"name", sentName(session, key)},
-                              {"streams", streamsJson(session, key)}});
+        JsonValue character{{"id", key.character},
+                            {"name", sentName(session, key)},
+                            {"streams", streamsJson(session, key)},
+                            {"state", model::nameOf(model::verdictOf(session, {}, key).state)}};
+        if (!session.find(key)->isConfirmed) {
+            character["unconfirmed"] = true;
+        }
+        characters.push_back(std::move(character));
     }
     return characters;
 }
@@ -119,7 +125,9 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                                  {"samples", retired.samples},
                                                  {"lost", retired.lost}}},
                            {"memory", memoryJson(session.memory())},
-                           {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())}};
+                           {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
+                           {"verdict", verdictJson(session, model::verdictOf(session, {}))},
+                           {"incidents", incidentsJson(session)}};
     return report.text();
 }
 

@@ -135,13 +135,16 @@ std::string listed(const std::string& which, std::size_t count, std::size_t all,
 }
 
 /// Sender, character and type, as far as the event is about them.
-std::string whose(const model::SessionView& session, const model::Event& event) {
+std::string whose(const model::SessionView& session, const model::Incident& event) {
     std::string text = session.addressOf(event.sender).shown();
-    if (event.character) {
-        text += ", " + session.displayName({event.sender, *event.character}).shown();
+    for (const std::uint8_t character : event.characters()) {
+        text += ", " + session.displayName({event.sender, character}).shown();
     }
-    if (event.type) {
-        text += ", " + wire::typeTitle(*event.type);
+    const auto types = event.types();
+    if (types.size() == 1) {
+        text += ", " + wire::typeTitle(types.front());
+    } else if (!types.empty()) {
+        text += ", " + std::to_string(types.size()) + " types";
     }
     return text;
 }
@@ -261,12 +264,12 @@ ReportSteps stepsOf(const model::SessionView& session, const std::optional<model
     return steps;
 }
 
-std::string_view severityName(model::EventSeverity severity) {
+std::string_view severityName(model::IncidentSeverity severity) {
     constexpr std::array<std::string_view, 3> names{"good", "warning", "error"};
     return names[static_cast<std::size_t>(severity)];
 }
 
-std::string_view severityMark(model::EventSeverity severity) {
+std::string_view severityMark(model::IncidentSeverity severity) {
     constexpr std::array<std::string_view, 3> marks{"●", "▲", "■"};
     return marks[static_cast<std::size_t>(severity)];
 }
@@ -336,8 +339,8 @@ std::string gapSection(const model::SessionView& session, const ReportSteps& ste
 }
 
 std::string eventSection(const model::SessionView& session, const ReportSteps& steps) {
-    std::vector<const model::Event*> events;
-    for (const model::Event& event : session.events().all()) {
+    std::vector<const model::Incident*> events;
+    for (const model::Incident& event : session.incidents().all()) {
         if (event.lastStamp >= steps.from && event.firstStamp <= steps.to) {
             events.push_back(&event);
         }
@@ -353,9 +356,9 @@ std::string eventSection(const model::SessionView& session, const ReportSteps& s
                      {"Whose", false, ""},
                      {"Times", true, "how often it happened in this episode"},
                      {"In words", false, ""}});
-    std::for_each(events.begin() + left, events.end(), [&](const model::Event* event) {
+    std::for_each(events.begin() + left, events.end(), [&](const model::Incident* event) {
         const std::string name(severityName(event->severity()));
-        const std::string mark = event->severity() == model::EventSeverity::Info
+        const std::string mark = event->severity() == model::IncidentSeverity::Info
                                      ? ""
                                      : "<span class=\"" + name + "\" aria-label=\"" + name + "\">" +
                                            std::string(severityMark(event->severity())) + "</span> ";

@@ -29,9 +29,9 @@ struct ReportSteps {
                                   const std::optional<model::TimeRange>& range);
 
 /// "good", "warning", "error": shown by shape, colour and words.
-[[nodiscard]] std::string_view severityName(model::EventSeverity severity);
+[[nodiscard]] std::string_view severityName(model::IncidentSeverity severity);
 /// ● ▲ ■
-[[nodiscard]] std::string_view severityMark(model::EventSeverity severity);
+[[nodiscard]] std::string_view severityMark(model::IncidentSeverity severity);
 
 /// Rate, loss and jitter of each character and the losses by cause, over time; empty where there is too
 /// little.

@@ -28,18 +28,18 @@ void addCell(const std::string& content, std::string& line) {
     line += '"';
 }
 
-using model::Event;
+using model::Incident;
 
 constexpr std::string_view kEventHeader =
-    "number,severity,group,event,source,character,type,from,to,firstPacket,lastPacket,count,samples,cause,"
+    "number,severity,group,event,source,characters,types,from,to,firstPacket,lastPacket,count,samples,cause,"
     "current,text\r\n";
 
-std::string_view nameOf(model::EventSeverity severity) {
+std::string_view nameOf(model::IncidentSeverity severity) {
     constexpr std::array<std::string_view, 3> kNames{"info", "warning", "error"};
     return kNames[static_cast<std::size_t>(severity)];
 }
 
-std::string_view nameOf(model::EventGroup group) {
+std::string_view nameOf(model::IncidentGroup group) {
     constexpr std::array<std::string_view, 4> kNames{"source", "loss", "content", "limit"};
     return kNames[static_cast<std::size_t>(group)];
 }
@@ -55,18 +55,32 @@ std::string secondsText(log::WallTime wall) {
            std::string(9 - decimals.size(), '0') + decimals;
 }
 
-JsonValue objectOf(const model::SessionView& session, const Event& event) {
+template <class Item, class ToJson>
+JsonValue listOf(const std::vector<Item>& items, ToJson toJson) {
+    JsonValue::List list;
+    std::ranges::transform(items, std::back_inserter(list), toJson);
+    return list;
+}
+
+/// "1 2 4".
+template <class ToText>
+std::string joined(const std::vector<std::uint8_t>& values, ToText&& toText) {
+    std::string text;
+    for (const std::uint8_t value : values) {
+        text += (text.empty() ? "" : " ") + toText(value);
+    }
+    return text;
+}
+
+JsonValue objectOf(const model::SessionView& session, const Incident& event) {
     JsonValue object{{"number", event.number},
                      {"severity", nameOf(event.severity())},
                      {"group", nameOf(event.group())},
                      {"event", model::nameOf(event.kind)},
                      {"source", std::string(session.addressOf(event.sender).exact())}};
-    if (event.character) {
-        object["character"] = *event.character;
-    }
-    if (event.type) {
-        object["type"] = wire::typeDigits(*event.type);
-    }
+    object["characters"] = listOf(event.characters(), [](std::uint8_t id) { return JsonValue(id); });
+    object["types"] =
+        listOf(event.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); });
     object["fromNs"] = log::nanosecondsOf(session.wallOf(event.firstStamp));
     object["toNs"] = log::nanosecondsOf(session.wallOf(event.lastStamp));
     object["firstPacket"] = event.firstPacket;
@@ -136,13 +150,6 @@ JsonValue vectorOf(const std::array<float, N>& numbers) {
     return list;
 }
 
-template <class Item, class ToJson>
-JsonValue listOf(const std::vector<Item>& items, ToJson toJson) {
-    JsonValue::List list;
-    std::ranges::transform(items, std::back_inserter(list), toJson);
-    return list;
-}
-
 void addPose(const model::NullPose& pose, log::WallTime time, JsonValue& object) {
     object["stampNs"] = log::nanosecondsOf(time);
     object["packet"] = pose.packet;
@@ -176,15 +183,15 @@ std::string csvLine(std::span<const std::string> cells) {
 
 std::string eventsCsv(const EventSheet& sheet) {
     std::string text(kEventHeader);
-    for (const Event* event : sheet.events) {
+    for (const Incident* event : sheet.events) {
         const std::array<std::string, 16> cells{
             std::to_string(event->number),
             std::string(nameOf(event->severity())),
             std::string(nameOf(event->group())),
             std::string(model::nameOf(event->kind)),
             sheet.session.addressOf(event->sender).csv(),
-            event->character ? std::to_string(*event->character) : std::string(),
-            event->type ? wire::typeDigits(*event->type) : std::string(),
+            joined(event->characters(), [](std::uint8_t id) { return std::to_string(id); }),
+            joined(event->types(), wire::typeDigits),
             secondsText(sheet.session.wallOf(event->firstStamp)),
             secondsText(sheet.session.wallOf(event->lastStamp)),
             std::to_string(event->firstPacket),

@@ -17,7 +17,7 @@ namespace posewire::exporting {
 /// Events of a session, in the order given.
 struct EventSheet {
     const model::SessionView& session;
-    std::span<const model::Event* const> events;
+    std::span<const model::Incident* const> events;
 };
 
 /// One table (RFC 4180, UTF-8, lines end with CR LF) with the columns

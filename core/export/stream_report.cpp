@@ -4,6 +4,7 @@
 #include "core/export/html.h"
 #include "core/export/report_sections.h"
 #include "core/export/session_reading.h"
+#include "core/model/session/verdict.h"
 
 #include <algorithm>
 #include <chrono>
@@ -12,7 +13,7 @@ namespace posewire::exporting {
 namespace {
 
 using enum model::Figure;
-using Severity = model::EventSeverity;
+using IncidentSeverity = model::IncidentSeverity;
 
 /// The style sheet. Curves: eight colours that people with red-green blindness can tell apart, in both themes
 /// at least 3:1 against the ground.
@@ -69,12 +70,9 @@ figure,tr,.verdict{break-inside:avoid}h2,h3{break-after:avoid}thead{display:tabl
 )css";
 
 struct Finding {
-    model::EventSeverity severity = model::EventSeverity::Info;
+    model::IncidentSeverity severity = model::IncidentSeverity::Info;
     std::string text; ///< one sentence, not escaped
 };
-
-/// From here on a loss is visible in most figures.
-constexpr double kMuchLoss = 0.01;
 
 std::string counted(std::uint64_t count, const std::string& one, const std::string& many) {
     return grouped(count) + ' ' + (count == 1 ? one : many);
@@ -85,25 +83,33 @@ std::string percent(double ratio) {
     return fixed(value, value >= 10 ? 1 : value >= 0.1 ? 2 : 4) + " %";
 }
 
+/// The verdict of the window and of the JSON, on the range that the report is about.
+Finding verdictFinding(const model::SessionView& session, const std::optional<model::TimeRange>& range) {
+    using State = model::TakeVerdict::State;
+    const model::VerdictSpan span = range ? model::VerdictSpan{range->from, range->to} : model::VerdictSpan{};
+    const model::TakeVerdict verdict = verdictOf(session, span);
+    const auto severity = verdict.state == State::Good      ? IncidentSeverity::Info
+                          : verdict.state == State::Warning ? IncidentSeverity::Warning
+                                                            : IncidentSeverity::Error;
+    return {severity, verdict.text + '.'};
+}
+
 Finding lossFinding(const model::StreamFigures& sum) {
     const std::uint64_t missing = sum.count(Missing);
     if (missing == 0) {
-        return {Severity::Info, "Good: " + counted(sum.count(Samples), "sample", "samples") +
-                                    " expected, every one of them received."};
+        return {IncidentSeverity::Info,
+                counted(sum.count(Samples), "sample", "samples") + " expected, every one of them received."};
     }
-    const double ratio = sum[Missing] / sum.expected();
-    const std::string where = grouped(missing) + " of " +
-                              counted(sum.count(Samples) + missing, "sample", "samples") + " (" +
-                              percent(ratio) + ")";
-    return ratio >= kMuchLoss ? Finding{Severity::Error, "Not good: " + where + " did not arrive whole."}
-                              : Finding{Severity::Warning, "Some loss: " + where + " did not arrive whole."};
+    return {IncidentSeverity::Warning,
+            grouped(missing) + " of " + counted(sum.count(Samples) + missing, "sample", "samples") + " (" +
+                percent(sum[Missing] / sum.expected()) + ") did not arrive whole."};
 }
 
 /// One sentence about a count, unless it is 0.
 void addCounted(std::vector<Finding>& findings, std::uint64_t count, const std::string& one,
                 const std::string& many, const std::string& rest = "") {
     if (count != 0) {
-        findings.push_back({Severity::Warning, counted(count, one, many) + rest});
+        findings.push_back({IncidentSeverity::Warning, counted(count, one, many) + rest});
     }
 }
 
@@ -138,15 +144,15 @@ void addOrder(std::vector<Finding>& findings, const model::StreamFigures& sum) {
 void addSession(std::vector<Finding>& findings, const model::SessionView& session) {
     if (session.overtaken() != 0) {
         findings.push_back(
-            {Severity::Error, "This computer did not look at " +
-                                  counted(session.overtaken(), "packet", "packets") +
-                                  " in time: what was lost with them is counted as lost here."});
+            {IncidentSeverity::Error, "This computer did not look at " +
+                                          counted(session.overtaken(), "packet", "packets") +
+                                          " in time: what was lost with them is counted as lost here."});
     }
     addCounted(findings, session.unfollowed(), "datagram", "datagrams",
                " of too many streams at once could not be accounted for.");
     const model::RetiredTotals& retired = session.retired();
     if (retired.senders != 0) {
-        findings.push_back({retired.lost == 0 ? Severity::Info : Severity::Warning,
+        findings.push_back({retired.lost == 0 ? IncidentSeverity::Info : IncidentSeverity::Warning,
                             counted(retired.senders, "sender", "senders") +
                                 " fell silent and made room for others; together: " +
                                 counted(retired.wellFormed(), "datagram", "datagrams") + ", " +
@@ -159,10 +165,10 @@ void addSenders(std::vector<Finding>& findings, const model::SessionView& sessio
     for (const model::Sender& sender : session.senders()) {
         if (sender.kernelDrops != 0) {
             findings.push_back(
-                {Severity::Error, "This computer dropped " +
-                                      counted(sender.kernelDrops, "datagram", "datagrams") +
-                                      " at the socket that hears " + sender.address().shown() +
-                                      ": it was too busy, or its receive buffer is too small."});
+                {IncidentSeverity::Error, "This computer dropped " +
+                                              counted(sender.kernelDrops, "datagram", "datagrams") +
+                                              " at the socket that hears " + sender.address().shown() +
+                                              ": it was too busy, or its receive buffer is too small."});
         }
         const std::string from = " from " + sender.address().shown();
         addCounted(findings, sender.malformed, "datagram", "datagrams", from + " could not be decoded.");
@@ -172,18 +178,19 @@ void addSenders(std::vector<Finding>& findings, const model::SessionView& sessio
     }
 }
 
-/// What all figures together mean: the first sums it up, the others say why.
-std::vector<Finding> verdictOn(const model::SessionView& session,
-                               const std::vector<model::StreamFigures>& streams,
-                               const StreamReportOptions& options) {
+/// What all figures together mean: the first is the verdict, the others say why.
+std::vector<Finding> findingsOn(const model::SessionView& session,
+                                const std::vector<model::StreamFigures>& streams,
+                                const StreamReportOptions& options) {
     std::vector<Finding> findings;
     model::StreamFigures sum;
     for (const model::StreamFigures& stream : streams) {
         sum.add(stream);
     }
     if (sum.count(Datagrams) == 0) {
-        findings.push_back({Severity::Error, "No MXTP datagram was received."});
+        findings.push_back({IncidentSeverity::Error, "No MXTP datagram was received."});
     } else {
+        findings.push_back(verdictFinding(session, options.range));
         findings.push_back(lossFinding(sum));
         addCauses(findings, sum);
         addOrder(findings, sum);
@@ -191,7 +198,7 @@ std::vector<Finding> verdictOn(const model::SessionView& session,
     addSession(findings, session);
     addSenders(findings, session);
     for (const std::string& line : options.exceeded) {
-        findings.push_back({Severity::Error, line + '.'});
+        findings.push_back({IncidentSeverity::Error, line + '.'});
     }
     return findings;
 }
@@ -302,7 +309,7 @@ std::string streamReport(const model::SessionView& session, const StreamReportOp
            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
            "<title>Stream report</title>\n<style>" +
            std::string(kStyle) + "</style>\n</head>\n<body>\n<h1>Stream report</h1>\n" +
-           verdictList(verdictOn(session, figures, options)) +
+           verdictList(findingsOn(session, figures, options)) +
            "<h2>What this is about</h2>\n<dl class=\"facts\">\n" + timeFacts(session, steps) +
            fact("Written by", escaped(options.application)) + "</dl>\n" + plotSection(session, steps) +
            senderSection(session, figures, steps) + gapSection(session, steps) +

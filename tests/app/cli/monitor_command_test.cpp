@@ -3,6 +3,11 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <sstream>
+
 namespace posewire::cli::test {
 namespace {
 
@@ -42,11 +47,43 @@ TEST(MonitorCommand, ReportsWithTheKeysOfTheInterfaceInItsOrder) {
     const Json& sender = report["sources"][0];
     EXPECT_THAT(first(keysOf(sender), 7), ElementsAre("address", "transport", "datagrams", "bytes",
                                                       "malformed", "skippedBytes", "characters"));
-    EXPECT_THAT(keysOf(sender["characters"][0]), ElementsAre("id", "name", "streams"));
+    EXPECT_THAT(keysOf(sender["characters"][0]), ElementsAre("id", "name", "streams", "state"));
     EXPECT_THAT(first(keysOf(sender["characters"][0]["streams"][0]), 15),
                 ElementsAre("type", "datagrams", "samples", "lost", "duplicates", "reordered", "late",
                             "incomplete", "restarts", "step", "rateHz", "jitterMs", "longestGapSamples",
                             "firstSample", "lastSample"));
+}
+
+TEST(MonitorCommand, PrintsALineWhenTheVerdictChangesAndEachInterval) {
+    const ProgramRun run = runProgram({"monitor", faultyRecording(), "--json-lines", "--interval", "1"});
+    std::vector<Json> lines;
+    std::istringstream text(run.out);
+    for (std::string line; std::getline(text, line);) {
+        lines.push_back(Json::parse(line, nullptr, false));
+        ASSERT_TRUE(lines.back().is_object()) << line;
+        EXPECT_THAT(keysOf(lines.back()), ElementsAre("timeNs", "verdict", "characters", "incidents"));
+    }
+    const auto stateOf = [](const Json& line) { return line["verdict"]["state"].get<std::string>(); };
+    ASSERT_GE(lines.size(), 5U) << run.out << run.err;
+    const auto turned = std::ranges::find_if(
+        lines, [&](const Json& line) { return stateOf(line) != "good" && stateOf(line) != "none"; });
+    ASSERT_NE(turned, lines.end());
+    // Ten samples from 0.42 s on do not come: it must not be called good 250 ms after the next one.
+    const auto begin = RecordingFile::kStart.time_since_epoch() / std::chrono::nanoseconds(1);
+    const double at = static_cast<double>((*turned)["timeNs"].get<std::int64_t>() - begin) / 1e9;
+    EXPECT_GE(at, 0.41);
+    EXPECT_LE(at, 0.70);
+    EXPECT_EQ(stateOf(lines.back()), "warning") << "over, but not long ago" << run.out;
+    EXPECT_THAT(lines.back()["verdict"]["text"].get<std::string>(), HasSubstr("10 samples lost"));
+    std::map<std::uint64_t, std::uint64_t> samples;
+    for (const Json& line : lines) {
+        for (const Json& incident : line["incidents"]) {
+            samples[incident["id"]] = incident["samples"];
+        }
+    }
+    const auto sum = std::accumulate(samples.begin(), samples.end(), std::uint64_t{},
+                                     [](std::uint64_t all, const auto& one) { return all + one.second; });
+    EXPECT_EQ(sum, 10U);
 }
 
 TEST(MonitorCommand, SaysWhatIsKeptByItsPartsAndTheBudget) {

@@ -17,10 +17,10 @@ class EventSheetTest : public testing::Test {
 protected:
     EventSheetTest() {
         gap.number = 7;
-        gap.kind = model::EventKind::Gap;
+        gap.kind = model::IncidentKind::Loss;
         gap.sender = log.senders().intern({"192.168.10.21:52011", log::Transport::Udp, 9763});
-        gap.character = 1;
-        gap.type = 2;
+        gap.parts.push_back({1, 2});
+        gap.parts.push_back({3, 21});
         gap.firstStamp = log::stampOf(1'700'000'000'000'000'001);
         gap.lastStamp = log::stampOf(1'700'000'003'500'000'000);
         gap.firstPacket = 10;
@@ -29,28 +29,28 @@ protected:
         gap.samples = 3;
         gap.cause = model::LossCause::Network;
         gap.detail = "Other streams \"brought\" it, \xff";
-        down.kind = model::EventKind::SenderDown;
+        down.kind = model::IncidentKind::Outage;
+        down.value = 2;
+        down.lastStamp = log::Stamp(std::chrono::seconds(2));
         down.isCurrent = false;
     }
 
     log::PacketLog log{{.memoryCap = std::size_t{1} << 22, .chunkSize = std::size_t{1} << 20}};
     model::Session session{log};
-    model::Event gap;
-    model::Event down;
+    model::Incident gap;
+    model::Incident down;
 };
 
 TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
-    const std::vector<const model::Event*> events{&gap, &down};
+    const std::vector<const model::Incident*> events{&gap, &down};
     const std::string csv = eventsCsv({session, events});
-    EXPECT_THAT(csv, StartsWith("number,severity,group,event,source,character,type,from,to,"));
-    EXPECT_THAT(
-        csv,
-        HasSubstr(
-            "\r\n7,warning,loss,gap,a retired sender,1,02,1700000000.000000001,1700000003.500000000,10,12,"
-            "2,3,network,yes,\"3 samples lost in 2 gaps, cause: network. "
-            "Other streams \"\"brought\"\" it, "));
-    EXPECT_THAT(csv, HasSubstr("\r\n0,error,source,source down,a retired sender,,,0.000000000,"));
-    EXPECT_THAT(csv, EndsWith("No data for 1 s.\r\n"));
+    EXPECT_THAT(csv, StartsWith("number,severity,group,event,source,characters,types,from,to,"));
+    EXPECT_THAT(csv, HasSubstr("\r\n7,warning,loss,loss,a retired sender,1 3,02 "
+                               "21,1700000000.000000001,1700000003.500000000,10,12,"
+                               "2,3,network,yes,\"3 samples lost in 2 gaps, cause: network. "
+                               "Other streams \"\"brought\"\" it, "));
+    EXPECT_THAT(csv, HasSubstr("\r\n0,error,source,outage,a retired sender,,,0.000000000,"));
+    EXPECT_THAT(csv, EndsWith("No data for 2.00 s.\r\n"));
 }
 
 TEST_F(EventSheetTest, WritesStampsOfAnyYear) {
@@ -58,23 +58,23 @@ TEST_F(EventSheetTest, WritesStampsOfAnyYear) {
     gap.lastStamp = log::stampOf(-1);
     down.firstStamp = log::Stamp::min();
     down.lastStamp = log::Stamp::max();
-    const std::vector<const model::Event*> events{&gap, &down};
+    const std::vector<const model::Incident*> events{&gap, &down};
     const std::string csv = eventsCsv({session, events});
     EXPECT_THAT(csv, HasSubstr(",-1.500000000,-0.000000001,"));
     EXPECT_THAT(csv, HasSubstr(",-9223372036.854775808,9223372036.854775807,"));
 }
 
 TEST_F(EventSheetTest, WritesObjectsThatCanBeRead) {
-    const std::vector<const model::Event*> events{&gap, &down};
+    const std::vector<const model::Incident*> events{&gap, &down};
     const auto json = nlohmann::json::parse(eventsJson({session, events}));
     ASSERT_EQ(json.size(), 2U);
-    EXPECT_EQ(json[0]["event"], "gap");
-    EXPECT_EQ(json[0]["type"], "02");
+    EXPECT_EQ(json[0]["event"], "loss");
+    EXPECT_EQ(json[0]["types"], nlohmann::json::parse(R"(["02","21"])"));
     EXPECT_EQ(json[0]["cause"], "network");
     EXPECT_EQ(json[0]["fromNs"], 1'700'000'000'000'000'001);
     EXPECT_EQ(json[0]["samples"], 3);
     EXPECT_EQ(json[0]["current"], true);
-    EXPECT_FALSE(json[1].contains("character"));
+    EXPECT_EQ(json[1]["characters"].size(), 0U);
     EXPECT_FALSE(json[1].contains("cause"));
     EXPECT_EQ(json[1]["current"], false);
 }

@@ -58,8 +58,8 @@ TEST_P(HostileNamesSavedTest, AreTextInReports) {
 }
 
 TEST_P(HostileNamesSavedTest, AreNoFormulasInTables) {
-    std::vector<const model::Event*> events;
-    for (const model::Event& event : m_session.events().all()) {
+    std::vector<const model::Incident*> events;
+    for (const model::Incident& event : m_session.incidents().all()) {
         events.push_back(&event);
     }
     ASSERT_FALSE(events.empty());

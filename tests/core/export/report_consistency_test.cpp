@@ -31,7 +31,8 @@ public:
             m_log.writer().append(sending.bytes, arrival);
         }
         m_log.writer().publish();
-        m_session.follow(arrival.stamp + 1s);
+        m_session.follow(arrival.stamp);
+        m_session.settle();
         report = Json::parse(monitorReport(m_session, {6, 0, {}}));
         html = streamReport(m_session, {});
     }
@@ -167,6 +168,30 @@ TEST_P(Reports, AddUp) {
         EXPECT_LE(stream["late"], stream["reordered"]);
     }
     EXPECT_EQ(datagrams, monitored.report["sources"][0]["datagrams"]);
+}
+
+TEST_P(Reports, TellInIncidentsWhatStreamsLostByCause) {
+    std::map<std::string, std::uint64_t> lost;
+    for (const Json& stream : streams()) {
+        for (const auto& [cause, count] : stream["causes"].items()) {
+            lost[cause] += count.get<std::uint64_t>();
+        }
+    }
+    std::map<std::string, std::uint64_t> told;
+    for (const Json& incident : monitored.report["incidents"]) {
+        if (const std::uint64_t samples = incident["samples"]; samples != 0) {
+            told[incident["cause"]] += samples;
+        }
+    }
+    std::erase_if(lost, [](const auto& one) { return one.second == 0; });
+    EXPECT_EQ(told, lost);
+}
+
+TEST_P(Reports, GiveTheSameVerdictInHtml) {
+    const std::string text = monitored.report["verdict"]["text"];
+    EXPECT_THAT(monitored.html, testing::HasSubstr("<span>" + text + ".</span>"));
+    const bool isGood = monitored.report["verdict"]["state"] == "good";
+    EXPECT_EQ(isGood, GetParam().name == "None") << text;
 }
 
 TEST_P(Reports, GiveTheSameFiguresInHtml) {

@@ -84,7 +84,8 @@ TEST_F(StreamReportTest, SaysInWordsThatAllIsWell) {
     const std::string html = report();
     EXPECT_EQ(faultOf(html), "");
     EXPECT_THAT(html, HasSubstr("verdict good"));
-    EXPECT_THAT(html, HasSubstr("Good: 480 samples expected, every one of them received."));
+    EXPECT_THAT(html, AllOf(HasSubstr("Good for the take: 1 character."),
+                            HasSubstr("480 samples expected, every one of them received.")));
     EXPECT_THAT(html, HasSubstr("2023-11-14 22:13:20.000 UTC"));
 }
 
@@ -128,7 +129,7 @@ TEST_F(StreamReportTest, SaysThatNothingCame) {
 TEST_F(StreamReportTest, IsAboutTheRangeThatWasAskedFor) {
     stream(960);
     const std::string html = report({.range = model::TimeRange{kStart + 1s, kStart + 3s}});
-    EXPECT_THAT(html, HasSubstr("Good: 480 samples"));
+    EXPECT_THAT(html, HasSubstr("480 samples expected, every one"));
     EXPECT_THAT(html, HasSubstr("2023-11-14 22:13:21.000 UTC"));
     EXPECT_THAT(report({.range = model::TimeRange{kStart + 100s, model::kAllTime.to}}),
                 HasSubstr("nothing was received"));

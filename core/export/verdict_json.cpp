@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/verdict_json.h"
+
+#include "core/wire/type_table.h"
+
+#include <functional>
+#include <utility>
+
+namespace posewire::exporting {
+namespace {
+
+JsonValue timeJson(const model::SessionView& session, log::Stamp stamp) {
+    return log::nanosecondsOf(session.wallOf(stamp));
+}
+
+template <class ToJson>
+JsonValue listOf(const std::vector<std::uint8_t>& values, ToJson toJson) {
+    JsonValue::List list;
+    for (const std::uint8_t value : values) {
+        list.push_back(toJson(value));
+    }
+    return list;
+}
+
+JsonValue causeJson(const std::optional<model::LossCause>& cause) {
+    if (!cause) {
+        return {};
+    }
+    constexpr std::array<std::string_view, model::kLossCauses> kNames{"thisComputer", "network", "sender",
+                                                                      "unknown"};
+    return kNames[static_cast<std::size_t>(*cause)];
+}
+
+JsonValue characterJson(const model::SessionView& session, const model::CharacterKey& key,
+                        const model::VerdictSpan& span) {
+    const model::TakeVerdict verdict = model::verdictOf(session, span, key);
+    const model::Incident* incident =
+        verdict.incident ? session.incidents().find(*verdict.incident) : nullptr;
+    return {{"source", std::string(session.addressOf(key.sender).exact())},
+            {"id", key.character},
+            {"name", std::string(session.displayName(key).exact())},
+            {"state", model::nameOf(verdict.state)},
+            {"cause", incident != nullptr ? causeJson(incident->cause) : JsonValue()}};
+}
+
+} // namespace
+
+JsonValue verdictJson(const model::SessionView& session, const model::TakeVerdict& verdict) {
+    const bool isNone = verdict.state == model::TakeVerdict::State::None;
+    return {{"state", model::nameOf(verdict.state)},
+            {"text", verdict.text},
+            {"sinceNs", isNone ? JsonValue() : timeJson(session, verdict.since)}};
+}
+
+JsonValue incidentJson(const model::SessionView& session, const model::ListedIncident& listed) {
+    const model::Incident& incident = listed.incident;
+    const bool isOver = listed.state == model::ListedIncident::State::Over;
+    return {{"id", incident.number},
+            {"kind", model::wordOf(incident.kind)},
+            {"cause", causeJson(incident.cause)},
+            {"state", model::nameOf(listed.state)},
+            {"beginNs", timeJson(session, incident.firstStamp)},
+            {"endNs", isOver ? timeJson(session, incident.lastStamp) : JsonValue()},
+            {"source", incident.sender == log::kNoSender
+                           ? JsonValue()
+                           : JsonValue(std::string(session.addressOf(incident.sender).exact()))},
+            {"characters", listOf(incident.characters(), [](std::uint8_t id) { return JsonValue(id); })},
+            {"types",
+             listOf(incident.types(), [](std::uint8_t type) { return JsonValue(wire::typeDigits(type)); })},
+            {"samples", incident.samples},
+            {"count", incident.count},
+            {"text", model::headlineOf(session, listed)},
+            {"evidence", incident.text()}};
+}
+
+JsonValue incidentsJson(const model::SessionView& session) {
+    JsonValue::List list;
+    for (const model::ListedIncident& listed : model::listedIncidents(session)) {
+        list.push_back(incidentJson(session, listed));
+    }
+    return list;
+}
+
+std::optional<std::string> VerdictLines::lineAt(const model::SessionView& session, log::Stamp now) {
+    const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
+    const bool isSame = verdict.state == m_verdict.state && verdict.incident == m_verdict.incident;
+    if (m_next && now < *m_next && isSame) {
+        return std::nullopt;
+    }
+    return line(session, now, verdict);
+}
+
+std::optional<std::string> VerdictLines::lastLine(const model::SessionView& session, log::Stamp now) {
+    return m_newest == now
+               ? std::nullopt
+               : std::optional(line(session, now, model::verdictOf(session, model::recentSpan(session))));
+}
+
+std::string VerdictLines::line(const model::SessionView& session, log::Stamp now,
+                               const model::TakeVerdict& verdict) {
+    if (!m_next || now >= *m_next) {
+        m_next = std::max(m_next.value_or(now) + m_interval, now);
+    }
+    m_newest = now;
+    m_verdict = verdict;
+    JsonValue::List characters;
+    const model::VerdictSpan span = model::recentSpan(session);
+    for (const model::Character* character : session.currentCharacters()) {
+        characters.push_back(characterJson(session, character->key, span));
+    }
+    return JsonValue{{"timeNs", timeJson(session, now)},
+                     {"verdict", verdictJson(session, verdict)},
+                     {"characters", std::move(characters)},
+                     {"incidents", changedIncidents(session)}}
+        .text();
+}
+
+JsonValue VerdictLines::changedIncidents(const model::SessionView& session) {
+    JsonValue::List list;
+    std::map<std::uint64_t, std::uint64_t> told;
+    for (const model::ListedIncident& listed : model::listedIncidents(session)) {
+        JsonValue json = incidentJson(session, listed);
+        const std::uint64_t sum = std::hash<std::string>{}(json.text());
+        const auto before = m_told.find(listed.incident.number);
+        if (before == m_told.end() || before->second != sum) {
+            list.push_back(std::move(json));
+        }
+        told[listed.incident.number] = sum;
+    }
+    m_told = std::move(told);
+    return list;
+}
+
+} // namespace posewire::exporting

@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/verdict.h"
+
+#include "core/model/accounting/attribution.h"
+#include "core/model/incidents/incident_kinds.h"
+#include "core/model/text.h"
+#include "core/wire/messages.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <map>
+#include <tuple>
+
+namespace posewire::model {
+namespace {
+
+using State = ListedIncident::State;
+using ByCause = std::array<std::uint64_t, kLossCauses>;
+
+constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
+
+bool isNote(const Incident& incident) {
+    return wordOf(incident.kind).empty();
+}
+
+/// "03:28:07", as the receiving computer's clock shows it.
+std::string clockText(log::WallTime time) {
+    const std::time_t seconds =
+        std::chrono::floor<std::chrono::seconds>(time).time_since_epoch() / std::chrono::seconds(1);
+    std::tm local{};
+    localtime_r(&seconds, &local);
+    std::array<char, 16> text{};
+    std::strftime(text.data(), text.size(), "%H:%M:%S", &local);
+    return text.data();
+}
+
+/// What the streams of each sender lost, less what incidents tell.
+std::map<log::SenderId, ByCause> untold(const SessionView& session) {
+    std::map<log::SenderId, ByCause> rest;
+    for (const Stream& stream : session.streams()) {
+        const ByCause lost = stream.lostByCause();
+        ByCause& sums = rest[stream.key.sender];
+        std::ranges::transform(sums, lost, sums.begin(), std::plus());
+    }
+    for (const Incident& incident : session.incidents().all()) {
+        if (const auto sums = rest.find(incident.sender); sums != rest.end() && incident.samples != 0) {
+            std::uint64_t& sum =
+                sums->second[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
+            sum -= std::min(sum, incident.samples);
+        }
+    }
+    return rest;
+}
+
+/// What is not there yet: gaps that late arrivals may still fill, and samples of which a part is under way.
+ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, std::uint64_t samples) {
+    ListedIncident listed;
+    listed.state = State::Provisional;
+    Incident& incident = listed.incident;
+    incident.kind = IncidentKind::Loss;
+    incident.sender = sender;
+    incident.cause = LossCause::Unknown;
+    incident.samples = samples;
+    incident.firstStamp = log::Stamp::max();
+    incident.version = session.incidents().version();
+    session.forEachPending(
+        [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp from, log::Stamp to) {
+            if (stream.sender == sender) {
+                incident.firstStamp = std::min(incident.firstStamp, from);
+                incident.lastStamp = std::max(incident.lastStamp, to);
+                incident.parts.push_back({stream.character, stream.type, 1, missing, from, to});
+                ++incident.count;
+            }
+        });
+    if (incident.parts.empty()) {
+        const Sender* from = session.find(sender);
+        incident.firstStamp = incident.lastStamp = from != nullptr ? from->lastStamp : session.now();
+    }
+    incident.number = session.provisionalNumber(sender);
+    return listed;
+}
+
+/// What did not happen again for twice as long as it took between the times it did, or for a second: more of
+/// it would be of the same incident, but it does not go on.
+bool hasCeased(const SessionView& session, const Incident& incident) {
+    constexpr log::Duration kLeast = std::chrono::seconds(1);
+    const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(2, incident.count) - 1);
+    const log::Duration between = (incident.lastStamp - incident.firstStamp) / repeats;
+    return !factsOf(incident.kind).lasts &&
+           session.now() - incident.lastStamp >= std::clamp(2 * between, kLeast, Incidents::kQuiet);
+}
+
+/// Incidents that are not listed any more.
+ListedIncident forgottenOf(log::SenderId sender, LossCause cause, std::uint64_t samples) {
+    ListedIncident listed;
+    listed.state = State::Over;
+    listed.incident.kind = cause == LossCause::ThisComputer ? IncidentKind::Local : IncidentKind::Loss;
+    listed.incident.sender = sender;
+    listed.incident.cause = cause;
+    listed.incident.samples = samples;
+    listed.incident.detail = "Of incidents that are not listed any more.";
+    listed.incident.isCurrent = false;
+    return listed;
+}
+
+/// "Jonas", "Jonas and Mira", "4 characters", or the sender.
+std::string whom(const SessionView& session, const Incident& incident) {
+    const auto characters = incident.characters();
+    if (characters.empty()) {
+        return session.addressOf(incident.sender).shown();
+    }
+    if (characters.size() > 2) {
+        return std::to_string(characters.size()) + " characters";
+    }
+    std::vector<std::string> names;
+    for (const std::uint8_t character : characters) {
+        names.push_back(session.displayName({incident.sender, character}).shown());
+    }
+    return listed(names);
+}
+
+/// "2.3 %" where that says more than "37 samples".
+std::string amountOf(const SessionView& session, const Incident& incident) {
+    constexpr std::uint64_t kFew = 10;
+    StreamCounts sum;
+    for (const Incident::Part& part : incident.parts) {
+        const bool isStream = part.character && part.type;
+        const Stream* stream =
+            isStream ? session.find(log::StreamKey{incident.sender, *part.character, *part.type}) : nullptr;
+        if (stream != nullptr) {
+            sum += stream->accounting.countsBetween(incident.firstStamp,
+                                                    incident.lastStamp + std::chrono::seconds(1));
+        }
+    }
+    const double percent = 100.0 * static_cast<double>(incident.samples) /
+                           static_cast<double>(std::max<std::uint64_t>(1, sum.expected()));
+    const bool isShare = incident.samples > kFew && sum.expected() > 10 * kFew && percent <= 100;
+    return isShare ? fixedText(percent, percent < 10 ? 1 : 0) + " %" : counted(incident.samples, "sample");
+}
+
+std::string causeOf(const Incident& incident) {
+    return incident.cause && *incident.cause != LossCause::Unknown
+               ? ", " + std::string(nameOf(*incident.cause))
+               : ", cause unknown";
+}
+
+std::string lossHeadline(const SessionView& session, const Incident& incident) {
+    return amountOf(session, incident) + " lost on " + whom(session, incident) + causeOf(incident);
+}
+
+/// By how bad it is: what goes on before what is over.
+auto rankOf(const ListedIncident& listed) {
+    return std::tuple(listed.state != State::Over, listed.state == State::Ongoing, listed.incident.severity(),
+                      listed.incident.group() != IncidentGroup::Limit, listed.incident.samples,
+                      listed.incident.number);
+}
+
+std::string whenOf(const SessionView& session, const ListedIncident& listed) {
+    const std::string from = clockText(session.wallOf(listed.incident.firstStamp));
+    if (listed.state == State::Over) {
+        return ", " + from + " to " + clockText(session.wallOf(listed.incident.lastStamp)) + ", over";
+    }
+    return ", since " + from + ", going on";
+}
+
+bool concerns(const Incident& incident, const std::optional<CharacterKey>& character) {
+    return !character || (incident.sender == character->sender &&
+                          (incident.parts.empty() || incident.concerns(character->character)));
+}
+
+/// Whether anything of it can be drawn.
+bool hasPose(const Character& character) {
+    constexpr std::array kTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType, wire::PoseUnity::kType};
+    return std::ranges::any_of(character.streams, [&](const Stream* stream) {
+        return std::ranges::find(kTypes, stream->key.type) != kTypes.end();
+    });
+}
+
+TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst) {
+    const bool isBad = worst.state == State::Ongoing && worst.incident.severity() == IncidentSeverity::Error;
+    TakeVerdict verdict;
+    verdict.state = isBad ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
+    verdict.text = std::string(isBad ? "Not good: " : "Not quite good: ") + headlineOf(session, worst) +
+                   whenOf(session, worst);
+    verdict.since = worst.incident.firstStamp;
+    verdict.incident = worst.incident.number;
+    if (const auto character = worst.incident.character()) {
+        verdict.character = CharacterKey{worst.incident.sender, *character};
+    }
+    return verdict;
+}
+
+TakeVerdict withoutIncident(const SessionView& session, const std::optional<CharacterKey>& only,
+                            log::Stamp since) {
+    std::vector<const Character*> characters = session.currentCharacters();
+    std::erase_if(characters, [&](const Character* one) { return only && one->key != *only; });
+    if (characters.empty()) {
+        return {TakeVerdict::State::None, "No data yet", {}, {}, {}};
+    }
+    const auto poseless =
+        std::ranges::find_if(characters, [](const Character* one) { return !hasPose(*one); });
+    if (poseless != characters.end()) {
+        std::vector<std::string> types;
+        for (const Stream* stream : (*poseless)->streams) {
+            types.push_back(wire::typeDigits(stream->key.type));
+        }
+        return {TakeVerdict::State::Warning,
+                "Not quite good: no pose to draw of " + session.displayName((*poseless)->key).shown() +
+                    ", which sends " + (types.size() == 1 ? "type " : "types ") + listed(types),
+                since,
+                {},
+                (*poseless)->key};
+    }
+    const std::string who =
+        only ? session.displayName(*only).shown() : counted(characters.size(), "character");
+    return {TakeVerdict::State::Good, "Good for the take: " + who, since, {}, {}};
+}
+
+} // namespace
+
+std::string_view nameOf(ListedIncident::State state) {
+    constexpr std::array<std::string_view, 3> kNames{"provisional", "ongoing", "over"};
+    return kNames[static_cast<std::size_t>(state)];
+}
+
+std::string_view nameOf(TakeVerdict::State state) {
+    constexpr std::array<std::string_view, 4> kNames{"none", "good", "warning", "bad"};
+    return kNames[static_cast<std::size_t>(state)];
+}
+
+std::vector<ListedIncident> listedIncidents(const SessionView& session) {
+    std::vector<ListedIncident> all;
+    for (const auto& [sender, sums] : untold(session)) {
+        for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
+            if (sums[cause] != 0) {
+                all.push_back(cause == kUnknown
+                                  ? provisionalOf(session, sender, sums[cause])
+                                  : forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
+            }
+        }
+    }
+    for (const Incident& incident : session.incidents().all()) {
+        if (!isNote(incident)) {
+            const bool goesOn = incident.isCurrent && !hasCeased(session, incident);
+            all.push_back({incident, goesOn ? State::Ongoing : State::Over});
+        }
+    }
+    std::ranges::stable_sort(all, {}, [](const ListedIncident& one) { return one.incident.number; });
+    return all;
+}
+
+VerdictSpan recentSpan(const SessionView& session, log::Stamp reset) {
+    return {std::max(reset, session.now() - VerdictSpan::kRecent), log::Stamp::max()};
+}
+
+std::string headlineOf(const SessionView& session, const ListedIncident& listed) {
+    const Incident& incident = listed.incident;
+    const std::string who = whom(session, incident);
+    if (listed.state == State::Provisional) {
+        return counted(incident.samples, "sample") + " of " + who + " not yet here";
+    }
+    switch (incident.kind) {
+    case IncidentKind::Loss:
+        return lossHeadline(session, incident);
+    case IncidentKind::Local:
+        return incident.samples != 0 ? lossHeadline(session, incident)
+                                     : "this computer dropped " +
+                                           counted(static_cast<std::uint64_t>(incident.value), "datagram");
+    case IncidentKind::Outage:
+        return "no data from " + who + (incident.cause ? causeOf(incident) : std::string());
+    case IncidentKind::Reordered:
+        return counted(incident.count, "datagram") + " of " + who + " out of order";
+    case IncidentKind::Duplicates:
+        return counted(incident.count, "datagram") + " of " + who + " came twice";
+    case IncidentKind::Malformed:
+        return counted(incident.count, "datagram") + " of " + who + " malformed";
+    case IncidentKind::Foreign:
+        return counted(incident.count, "datagram") + " from " + who + " not MXTP";
+    case IncidentKind::Restart:
+        return who + " restarted";
+    case IncidentKind::Conflict:
+        return who + " comes from two senders, " + session.addressOf(incident.sender).shown() + " and " +
+               incident.detail;
+    case IncidentKind::Overtaken:
+    case IncidentKind::RelayLoop:
+    case IncidentKind::ClockSet: {
+        std::string text = incident.text();
+        text.erase(text.find_last_not_of('.') + 1);
+        return text;
+    }
+    default: {
+        std::string text = incident.text();
+        text.erase(text.find_last_not_of('.') + 1);
+        return who + ": " + text;
+    }
+    }
+}
+
+TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
+                      std::optional<CharacterKey> character) {
+    std::vector<ListedIncident> counting = listedIncidents(session);
+    log::Stamp over = session.firstStamp();
+    std::erase_if(counting, [&](const ListedIncident& one) {
+        const bool isMine = concerns(one.incident, character) && one.incident.firstStamp <= span.to;
+        // Of a sample that is just coming the rest is under way.
+        const bool isUnderWay = one.state == State::Provisional && one.incident.parts.empty();
+        const bool isPast = isUnderWay || (one.state == State::Over && one.incident.lastStamp < span.from);
+        over = isMine && isPast && !isUnderWay ? std::max(over, one.incident.lastStamp) : over;
+        return !isMine || isPast;
+    });
+    if (character) {
+        for (ListedIncident& one : counting) {
+            one.incident = one.incident.of(character->character);
+        }
+    }
+    const auto worst = std::ranges::max_element(counting, {}, rankOf);
+    return worst != counting.end() ? fromIncident(session, *worst)
+                                   : withoutIncident(session, character, over);
+}
+
+} // namespace posewire::model

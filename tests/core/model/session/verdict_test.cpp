@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/verdict.h"
+
+#include "tests/core/model/incidents/incidents_fixture.h"
+
+#include <array>
+#include <numeric>
+
+/// What an operator is told before a take.
+namespace posewire::model {
+namespace {
+
+using State = TakeVerdict::State;
+
+class VerdictTest : public IncidentsTest {
+protected:
+    TakeVerdict verdict() {
+        follow();
+        return verdictOf(m_session, recentSpan(m_session));
+    }
+    TakeVerdict verdictAfter(log::Duration silence) {
+        follow();
+        m_session.follow(m_at - 10ms + silence);
+        return verdictOf(m_session, recentSpan(m_session));
+    }
+    /// What incidents say was lost, by cause.
+    std::array<std::uint64_t, kLossCauses> told() {
+        std::array<std::uint64_t, kLossCauses> sums{};
+        for (const ListedIncident& one : listedIncidents(m_session)) {
+            sums[static_cast<std::size_t>(one.incident.cause.value_or(LossCause::Unknown))] +=
+                one.incident.samples;
+        }
+        return sums;
+    }
+    std::array<std::uint64_t, kLossCauses> lost() {
+        std::array<std::uint64_t, kLossCauses> sums{};
+        for (const Stream& stream : m_session.streams()) {
+            const auto own = stream.lostByCause();
+            std::transform(sums.begin(), sums.end(), own.begin(), sums.begin(), std::plus());
+        }
+        return sums;
+    }
+};
+
+TEST_F(VerdictTest, IsNotGoodBeforeAnythingArrived) {
+    EXPECT_EQ(verdict().state, State::None);
+    EXPECT_EQ(verdict().text, "No data yet");
+}
+
+TEST_F(VerdictTest, IsGoodWhileAPoseComesAndNothingIsWrong) {
+    poses(1, 200);
+    EXPECT_EQ(verdict().state, State::Good);
+    EXPECT_EQ(verdict().text, "Good for the take: 1 character");
+}
+
+TEST_F(VerdictTest, IsNotGoodWithoutAPoseToDraw) {
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
+        send(wire::CentreOfMass{}, sample, m_at);
+        send(wire::LinearKinematics{}, sample, m_at);
+    }
+    EXPECT_EQ(verdict().state, State::Warning);
+    EXPECT_EQ(verdict().text, "Not quite good: no pose to draw of Character 0, which sends types 24 and 21");
+}
+
+TEST_F(VerdictTest, SaysAtOnceWhatIsNotHereYetAndThenWhatIsLost) {
+    poses(1, 1'000);
+    m_at += 120ms;
+    poses(1'013, 1'013);
+    TakeVerdict now = verdict();
+    EXPECT_EQ(now.state, State::Warning);
+    EXPECT_TRUE(now.text.starts_with("Not quite good: 12 samples of Character 0 not yet here, since "))
+        << now.text;
+    const auto number = now.incident;
+    poses(1'014, 1'050);
+    now = verdict();
+    EXPECT_EQ(now.state, State::Bad);
+    EXPECT_TRUE(now.text.starts_with("Not good: 1")) << now.text;
+    EXPECT_NE(now.text.find(" lost on Character 0, cause unknown, since "), std::string::npos) << now.text;
+    EXPECT_TRUE(now.text.ends_with(", going on")) << now.text;
+    EXPECT_EQ(now.incident, number) << "it keeps its number";
+}
+
+TEST_F(VerdictTest, DoesNotClaimLossWhereSamplesAreOutOfOrder) {
+    poses(1, 1'000);
+    for (std::uint32_t sample = 1'001; sample < 2'000; sample += 10) {
+        m_at += 10ms;
+        for (std::uint32_t next = 1; next < 10; ++next, m_at += 10ms) {
+            pose(sample + next);
+            if (next == 4) {
+                pose(sample);
+            }
+            EXPECT_EQ(verdict().text.find("lost"), std::string::npos) << verdict().text;
+        }
+    }
+    EXPECT_EQ(verdict().state, State::Warning);
+    EXPECT_NE(verdict().text.find("out of order"), std::string::npos) << verdict().text;
+    EXPECT_EQ(told(), (std::array<std::uint64_t, kLossCauses>{}));
+}
+
+TEST_F(VerdictTest, IsNotGoodWithinAQuarterOfASecondOfSilence) {
+    poses(1, 300);
+    EXPECT_EQ(verdictAfter(150ms).state, State::Good);
+    const TakeVerdict silent = verdictAfter(230ms);
+    EXPECT_EQ(silent.state, State::Warning);
+    EXPECT_NE(silent.text.find("no data from Character 0"), std::string::npos) << silent.text;
+    EXPECT_EQ(verdictAfter(1'100ms).state, State::Bad);
+}
+
+TEST_F(VerdictTest, MentionsWhatIsOverForTenSecondsAndThenIsGood) {
+    poses(1, 300);
+    m_at += 1s;
+    poses(401, 500);
+    TakeVerdict now = verdict();
+    EXPECT_EQ(now.state, State::Warning);
+    EXPECT_TRUE(now.text.ends_with(", over")) << now.text;
+    poses(501, 1'600);
+    now = verdict();
+    EXPECT_EQ(now.state, State::Good);
+    EXPECT_EQ(verdictOf(m_session, {}).state, State::Warning) << "of all there was";
+}
+
+TEST_F(VerdictTest, IsOfOneCharacterWhereItIsAskedFor) {
+    const auto other = [this](std::uint32_t sample) {
+        wire::Datagram datagram{{}, standingAt(0), {}};
+        datagram.header.sampleCounter = sample;
+        datagram.header.character = 1;
+        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at);
+    };
+    for (std::uint32_t sample = 1; sample <= 500; ++sample, m_at += 10ms) {
+        pose(sample);
+        if (sample % 20 != 0) {
+            other(sample);
+        }
+    }
+    follow();
+    EXPECT_EQ(verdictOf(m_session, {}, CharacterKey{sender(), 0}).state, State::Good);
+    const TakeVerdict bad = verdictOf(m_session, {}, CharacterKey{sender(), 1});
+    EXPECT_EQ(bad.state, State::Bad);
+    EXPECT_EQ(bad.character, (CharacterKey{sender(), 1}));
+}
+
+TEST_F(VerdictTest, DoesNotBelieveACharacterOfOneCorruptHeader) {
+    poses(1, 200);
+    wire::Datagram datagram{{}, standingAt(0), {}};
+    datagram.header.sampleCounter = 201;
+    datagram.header.character = 66;
+    wire::completeHeader(datagram, wire::HeaderEra::Counted);
+    sendBytes(*wire::encode(datagram), m_at);
+    poses(201, 300);
+    EXPECT_EQ(verdict().state, State::Good);
+    EXPECT_EQ(m_session.currentCharacters().size(), 1U);
+    ASSERT_NE(m_session.find(CharacterKey{sender(), 66}), nullptr) << "it is counted";
+    EXPECT_FALSE(m_session.find(CharacterKey{sender(), 66})->isConfirmed);
+}
+
+TEST_F(VerdictTest, TakesAllOfACharacterOnceItIsBelieved) {
+    poses(1, 200);
+    for (std::uint32_t sample = 201; sample <= 260; ++sample, m_at += 10ms) {
+        pose(sample);
+        wire::Datagram datagram{{}, standingAt(0), {}};
+        datagram.header.sampleCounter = sample;
+        datagram.header.character = 1;
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at);
+    }
+    follow();
+    const Stream* stream = m_session.find(log::StreamKey{sender(), 1, 2});
+    ASSERT_NE(stream, nullptr);
+    EXPECT_EQ(stream->accounting.counts().samples, 60U);
+    EXPECT_EQ(m_session.currentCharacters().size(), 2U);
+}
+
+TEST_F(VerdictTest, SumsOfIncidentsAreTheSumsOfTheStreamsAtEveryMoment) {
+    std::uint32_t noise = 12'345;
+    const auto chance = [&noise](std::uint32_t in) {
+        noise = noise * 1'664'525 + 1'013'904'223;
+        return (noise >> 16) % in == 0;
+    };
+    std::vector<std::uint32_t> held;
+    for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 10ms) {
+        if (sample == 1'500) {
+            m_at += 700ms;
+        }
+        if (chance(40)) {
+            held.push_back(sample);
+        } else if (!chance(30)) {
+            pose(sample);
+        }
+        if (!chance(50)) {
+            send(wire::CentreOfMass{}, sample, m_at);
+        }
+        if (!held.empty() && chance(10)) {
+            pose(held.front());
+            held.erase(held.begin());
+        }
+        if (sample % 7 == 0) {
+            follow();
+            ASSERT_EQ(told(), lost()) << sample;
+        }
+    }
+    m_session.settle();
+    EXPECT_EQ(told(), lost());
+    const auto sums = lost();
+    EXPECT_GT(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0}), 100U);
+}
+
+} // namespace
+} // namespace posewire::model
