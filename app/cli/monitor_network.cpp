@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 
 namespace posewire::cli {
@@ -52,6 +53,21 @@ net::NetResult<void> open(net::Receiver& receiver, const Places& places) {
         receiver.addTcpConnection(endpoint);
     }
     return {};
+}
+
+/// Names the port that the system chose, where port 0 asked for any that is free.
+void tellChosenPorts(const net::Receiver& receiver, const Places& places, Console& console) {
+    std::vector<net::Endpoint> asked;
+    std::ranges::transform(places.udp, std::back_inserter(asked), &net::UdpInput::endpoint);
+    asked.insert(asked.end(), places.tcpListen.begin(), places.tcpListen.end());
+    const std::vector<net::InputStatus> inputs = receiver.inputs(); // in the same order
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        if (asked[i].port == 0) {
+            console.complain("port 0 means any that is free: listening on " +
+                             net::textOf(inputs[i].endpoint) +
+                             (inputs[i].kind == net::InputKind::Udp ? " (UDP)" : " (TCP)"));
+        }
+    }
 }
 
 /// Reports the failure of a recording at once, and only once.
@@ -238,6 +254,7 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     if (const auto opened = open(*receiver, *places); !opened) {
         return console.unusable(opened.error().text);
     }
+    tellChosenPorts(*receiver, *places, console);
     std::unique_ptr<log::Recording> recording;
     if (!options.record.empty()) { // now that there is something to record
         auto started = createRecording(options).and_then([&](std::unique_ptr<log::ByteSink>&& sink) {

@@ -97,6 +97,14 @@ TEST(MonitorNetwork, EndsByItselfAfterItsDuration) {
     EXPECT_GE(Json::parse(run.out)["durationS"].get<double>(), 0.1);
 }
 
+TEST(MonitorNetwork, NamesThePortThatTheSystemChose) {
+    const ProgramRun run = runProgram({"monitor", "--udp", "127.0.0.1:0", "--tcp-listen", "127.0.0.1:0",
+                                       "--duration", "0.1"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_THAT(run.err, testing::ContainsRegex("listening on 127.0.0.1:[1-9][0-9]* .UDP."));
+    EXPECT_THAT(run.err, testing::ContainsRegex("listening on 127.0.0.1:[1-9][0-9]* .TCP."));
+}
+
 TEST(MonitorNetwork, SaysWhoHoldsAPort) {
     QUdpSocket holder;
     ASSERT_TRUE(holder.bind(QHostAddress::LocalHost, 0, QAbstractSocket::DontShareAddress));
