@@ -98,8 +98,8 @@ TEST(MonitorNetwork, EndsByItselfAfterItsDuration) {
 }
 
 TEST(MonitorNetwork, NamesThePortThatTheSystemChose) {
-    const ProgramRun run = runProgram({"monitor", "--udp", "127.0.0.1:0", "--tcp-listen", "127.0.0.1:0",
-                                       "--duration", "0.1"});
+    const ProgramRun run =
+        runProgram({"monitor", "--udp", "127.0.0.1:0", "--tcp-listen", "127.0.0.1:0", "--duration", "0.1"});
     EXPECT_EQ(run.status, 0) << run.err;
     EXPECT_THAT(run.err, testing::ContainsRegex("listening on 127.0.0.1:[1-9][0-9]* .UDP."));
     EXPECT_THAT(run.err, testing::ContainsRegex("listening on 127.0.0.1:[1-9][0-9]* .TCP."));
