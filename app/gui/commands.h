@@ -30,6 +30,8 @@ public:
     virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;
     /// Shows the null pose of the shown character as a ghost over its figure.
     virtual void setGhostVisible(bool isVisible) = 0;
+    /// Brings the list of incidents to the front, with one selected where there is a number.
+    virtual void showIncident(std::optional<std::uint64_t> number) = 0;
     virtual void copyText(const QString& text) = 0;
     /// Brings a dock before the others, by its object name.
     virtual void showDock(const QString& dock) = 0;

@@ -102,6 +102,7 @@ tl::expected<DockLayout, QString> parseLayout(const QByteArray& json) {
     }
     DockLayout layout;
     layout.name = (*document)["name"].toString().left(kLongestName);
+    layout.hasLargeVerdict = (*document)["largeVerdict"].toBool();
     const QJsonObject areas = (*document)["areas"].toObject();
     for (const auto& [name, area] : kAreas) {
         const QJsonObject object = areas[QLatin1String(name)].toObject();

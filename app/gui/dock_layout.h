@@ -25,6 +25,7 @@ struct DockLayout {
         std::vector<Place> places;
     };
     QString name;
+    bool hasLargeVerdict = false;
     std::map<Qt::DockWidgetArea, Area> areas; ///< those with places
 };
 

@@ -55,7 +55,7 @@ void openInputs(MainWindow& window, const Options& options) {
         driver.setDemo(options.demoCharacters);
     }
     if (!options.file.isEmpty()) {
-        driver.openFile(options.file);
+        window.openPath(options.file);
         if (options.seekSeconds) {
             QObject::connect(
                 &driver, &SessionDriver::fileOpened, &window,

@@ -40,7 +40,6 @@ struct RelayState {
 /// What there is to say about receiving.
 struct ReceivingState {
     std::vector<PortState> ports;
-    QString file;                        ///< shown instead of ports, or beside them
     std::uint64_t kernelDropped = 0;     ///< in this computer, by the kernel or by the queue of the receiver
     std::uint64_t refusedDatagrams = 0;  ///< from those who are not listened to
     QString allowedProblem{};            ///< a host to listen to whose name is not known; empty for none

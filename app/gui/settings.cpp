@@ -10,6 +10,7 @@
 #include <QDir>
 #include <QFile>
 #include <QFileInfo>
+#include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QStandardPaths>
@@ -52,6 +53,11 @@ Settings settingsOf(const QJsonObject& object) {
     settings.panels = object["panels"].toObject();
     settings.alerts = alertChoicesOf(object["alerts"].toObject());
     settings.inputs = inputChoicesOf(object["sources"].toObject());
+    for (const auto& path : object["recentFiles"].toArray()) {
+        if (path.isString() && settings.recentFiles.size() < Settings::kMostRecentFiles) {
+            settings.recentFiles += path.toString();
+        }
+    }
     return settings;
 }
 
@@ -83,7 +89,8 @@ QByteArray jsonOf(const Settings& settings) {
                              {"docksSum", sumOf(settings.docks)},
                              {"alerts", jsonOf(settings.alerts)},
                              {"panels", settings.panels},
-                             {"sources", jsonOf(settings.inputs)}};
+                             {"sources", jsonOf(settings.inputs)},
+                             {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
     return QJsonDocument(object).toJson();
 }
 

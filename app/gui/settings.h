@@ -9,6 +9,7 @@
 #include <QJsonObject>
 #include <QRect>
 #include <QString>
+#include <QStringList>
 
 #include <tl/expected.hpp>
 
@@ -24,6 +25,8 @@ struct Settings {
     QJsonObject panels; ///< Panel::state() by the name of the dock
     AlertChoices alerts;
     InputChoices inputs;
+    QStringList recentFiles; ///< paths, the newest first, at most kMostRecentFiles
+    static constexpr int kMostRecentFiles = 8;
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/file_import.h"
 
-#include "app/net/receiver.h"
 #include "core/log/packet_log.h"
 #include "core/log/recording_file.h"
 #include "core/wire/header.h"
@@ -99,9 +98,8 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
     return result;
 }
 
-FileImport::FileImport(net::Receiver& receiver, log::PacketLog& log, QString path, log::Stamp end)
-    : m_receiver(receiver),
-      m_log(log),
+FileImport::FileImport(log::PacketLog& log, QString path, log::Stamp end)
+    : m_log(log),
       m_path(std::move(path)),
       m_size(QFileInfo(m_path).size()),
       m_thread([this, end](const std::stop_token& stop) { run(stop, end); }) {}
@@ -111,7 +109,9 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
     std::uint64_t bytesInStep = 0;
     const PacketTaker take = [&](std::span<const std::byte> bytes, const log::SenderInfo& sender,
                                  const log::Arrival& arrival) {
-        m_receiver.submit(bytes, sender, arrival);
+        log::Arrival whole = arrival;
+        whole.sender = m_log.senders().intern(sender);
+        m_log.writer().append(bytes, whole);
         m_bytesRead += bytes.size();
         if (++packets % kPacketsAtOnce == 0 || m_bytesRead - bytesInStep >= kBytesAtOnce) {
             bytesInStep = m_bytesRead;
@@ -121,6 +121,7 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
     ImportResult result =
         importRawFile(m_path, take, end, m_log.timeline(), [&stop] { return stop.stop_requested(); });
     keepStep(stop);
+    m_log.writer().publish(); // also where it was stopped
     const std::lock_guard lock(m_mutex);
     m_result = std::move(result);
 }
@@ -129,7 +130,7 @@ void FileImport::keepStep(const std::stop_token& stop) {
     if (stop.stop_requested()) {
         return;
     }
-    m_receiver.flush();
+    m_log.writer().publish();
     const std::uint64_t written = m_log.history().end();
     std::unique_lock lock(m_mutex);
     m_moved.wait(lock, stop, [&] { return m_followed >= written; });

@@ -17,10 +17,6 @@
 #include <span>
 #include <thread>
 
-namespace posewire::net {
-class Receiver;
-} // namespace posewire::net
-
 namespace posewire::log {
 class PacketLog;
 class Timeline;
@@ -40,12 +36,13 @@ using PacketTaker = std::function<void(std::span<const std::byte> bytes, const l
                                          log::Timeline& timeline,
                                          const std::function<bool()>& isCancelled = {});
 
-/// Brings a file into the log on a thread of its own, in step with who follows the log: what was read waits
-/// until all before it was looked at, so that nothing of a file is ever overtaken, however small the log.
+/// Brings a file into a log on a thread of its own, which alone writes that log, in step with who follows it:
+/// what was read waits until all before it was looked at, so that nothing of a file is ever overtaken,
+/// however small the log.
 class FileImport {
 public:
-    /// Both outlive this.
-    FileImport(net::Receiver& receiver, log::PacketLog& log, QString path, log::Stamp end);
+    /// The log outlives this.
+    FileImport(log::PacketLog& log, QString path, log::Stamp end);
     /// Reads no further.
     ~FileImport() = default;
     FileImport(const FileImport&) = delete;
@@ -61,10 +58,9 @@ public:
 
 private:
     void run(const std::stop_token& stop, log::Stamp end);
-    /// Waits until all that was read is in the log, and was looked at.
+    /// Waits until all that was read was looked at.
     void keepStep(const std::stop_token& stop);
 
-    net::Receiver& m_receiver;
     log::PacketLog& m_log;
     const QString m_path;
     const std::int64_t m_size; ///< bytes

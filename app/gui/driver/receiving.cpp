@@ -216,11 +216,6 @@ void Receiving::takeAllowed() {
     }
 }
 
-void Receiving::noteFile(const QString& path) {
-    keepFromSaving(path);
-    m_state.file = QFileInfo(path).fileName();
-}
-
 void Receiving::measure(log::Stamp now) {
     takeAllowed();
     readStatus();

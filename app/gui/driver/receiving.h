@@ -46,9 +46,6 @@ public:
     /// then.
     void retry();
 
-    /// The file is an input from now on: it is named as one, and not written over.
-    void noteFile(const QString& path);
-
     /// Hosts and nets to listen to, on all inputs; none: everyone. Names are looked up beside the window, and
     /// until they are known they are not listened to.
     void listenTo(const QStringList& allowed);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
 
+#include "app/gui/saving.h"
 #include "app/net/datagram_sender.h"
 #include "core/performer/performer.h"
 #include "core/wire/codec.h"
 
 #include <QClipboard>
-#include <QFileInfo>
 #include <QGuiApplication>
 
 #include <algorithm>
@@ -64,7 +64,7 @@ void sendDemo(const std::stop_token& stop, int characters, std::uint16_t port) {
 } // namespace
 
 SessionDriver::SessionDriver(const log::Clock& clock, QObject* parent)
-    : QObject(parent), m_clock(clock), m_session(m_log), m_receiving(m_log, clock) {
+    : QObject(parent), m_clock(clock), m_live(m_log), m_receiving(m_log, clock) {
     m_timer.setTimerType(Qt::PreciseTimer);
     m_timer.setSingleShot(true);
     connect(&m_timer, &QTimer::timeout, this, [this] {
@@ -79,19 +79,13 @@ SessionDriver::SessionDriver(const log::Clock& clock, QObject* parent)
 
 void SessionDriver::tick() {
     const log::Stamp now = m_log.timeline().now(m_clock);
-    const std::uint64_t endBefore = m_session.end();
+    const std::uint64_t endBefore = m_live.end();
     const log::Moment begin = m_clock.monotonic();
-    bool hasNew = false;
-    const auto follow = isOpening() ? &model::Session::followFile : &model::Session::follow;
-    while ((m_session.*follow)(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
-        hasNew = true;
+    while (m_live.follow(now, kPacketsAtOnce) && m_clock.monotonic() - begin < kFollowTime) {
     }
-    hasNew = hasNew || m_session.end() != endBefore;
-    if (isOpening()) {
-        showReading(hasNew);
-        finishOpening();
-    }
-    m_meter.addFollow(m_clock.monotonic() - begin, m_session.end() - endBefore);
+    const bool hasNew = m_live.end() != endBefore;
+    m_meter.addFollow(m_clock.monotonic() - begin, m_live.end() - endBefore);
+    m_isChanged = (isOpening() && readFile()) || m_isChanged;
     const bool isTableTick = now - m_tableTick >= kTableTick;
     if (now - m_retry >= kRetry) {
         m_retry = now;
@@ -99,7 +93,7 @@ void SessionDriver::tick() {
     }
     // Without new packets ages still grow: figures fade at the tables' pace.
     if ((hasNew && !isPaused()) || m_isChanged ||
-        (isTableTick && !m_session.characters().empty() && !isPaused())) {
+        (isTableTick && !m_live.characters().empty() && !isPaused())) {
         m_isChanged = false;
         emit moved();
     }
@@ -108,12 +102,12 @@ void SessionDriver::tick() {
         m_receiving.measure(now);
         for (const Relaying::Loop& loop : m_receiving.relaying().takeLoops()) {
             model::Occurrence one = model::Occurrence::at(model::IncidentKind::RelayLoop, loop.returner, now,
-                                                          m_session.end() == 0 ? 0 : m_session.end() - 1);
+                                                          m_live.end() == 0 ? 0 : m_live.end() - 1);
             one.detail = loop.text.toStdString();
-            m_session.report(one);
+            m_live.report(one);
             emit relayStopped();
         }
-        m_receiving.examine(m_session, now);
+        m_receiving.examine(m_live, now);
         measureHealth();
         emit tableTick();
     }
@@ -129,85 +123,87 @@ void SessionDriver::measureHealth() {
 }
 
 void SessionDriver::openFile(const QString& path) {
-    m_import.reset();
-    m_importBegin = m_session.end();
-    m_import =
-        std::make_unique<FileImport>(m_receiving.receiver(), m_log, path, m_log.timeline().now(m_clock));
+    closeFile();
+    keepFromSaving(path);
+    m_file = std::make_unique<OpenedFile>(m_clock, path);
+    m_file->session().setThresholds(m_live.thresholds());
 }
 
-/// What is read of a file is shown as it was then: by today's clock all of it would be old.
-void SessionDriver::showReading(bool hasNew) {
-    if (hasNew && m_session.end() != m_importBegin) {
-        setPaused(true);
-        change(&model::Session::setCursor, model::Cursor{model::Cursor::Mode::Paused, m_session.end() - 1});
+bool SessionDriver::readFile() {
+    const bool isFirst = m_file->session().end() == 0;
+    const bool hasNew = m_file->follow(kFollowTime);
+    if (hasNew && isFirst) {
+        showFile();
     }
+    if (!m_file->isReading()) {
+        tellOpened();
+    }
+    return hasNew && m_isFileShown;
+}
+
+void SessionDriver::tellOpened() {
+    if (const QString failure = m_file->failure(); !failure.isEmpty()) {
+        closeFile();
+        emit fileOpened(false, failure);
+        return;
+    }
+    emit fileOpened(true, m_file->notes().join(QLatin1Char(' ')));
 }
 
 QString SessionDriver::openingText() const {
-    return m_import == nullptr ? QString()
-                               : tr("Opening %1: %2 %")
-                                     .arg(QFileInfo(m_import->path()).fileName())
-                                     .arg(std::floor(100 * m_import->share()));
-}
-
-void SessionDriver::finishOpening() {
-    m_import->follow(m_session.end());
-    const auto result = m_import->result();
-    if (!result) {
-        return;
-    }
-    if (!*result) {
-        m_import.reset();
-        emit fileOpened(false, result->error());
-        return;
-    }
-    QStringList texts{result->value(), showFile(endReading())};
-    texts.removeAll(QString());
-    emit fileOpened(true, texts.join(QLatin1Char(' ')));
+    return isOpening() ? tr("Opening %1: %2 %").arg(m_file->name()).arg(std::floor(100 * m_file->share()))
+                       : QString();
 }
 
 void SessionDriver::cancelOpening() {
     if (!isOpening()) {
         return;
     }
-    const QString path = endReading();
-    const std::uint64_t packets = m_session.end() - m_importBegin;
-    const QString text = packets == 0 ? QString() : showFile(path);
-    emit fileOpened(false, tr("Opening %1 was stopped; %2 packets of it were read. %3")
-                               .arg(QFileInfo(path).fileName())
-                               .arg(packets)
-                               .arg(text)
-                               .trimmed());
-}
-
-QString SessionDriver::endReading() {
-    const QString path = m_import->path();
-    m_import.reset();
-    m_receiving.receiver().flush();
-    while (m_session.followFile(
-        m_log.timeline().now(m_clock))) { // where it was stopped: at most what is read at once
+    m_file->stop();
+    const QString text = m_file->notes().join(QLatin1Char(' '));
+    if (m_file->session().end() == 0) {
+        closeFile();
+    } else {
+        showFile();
     }
-    return path;
+    emit fileOpened(false, text);
 }
 
-QString SessionDriver::showFile(const QString& path) {
-    m_receiving.noteFile(path);
-    m_session.endFile();
+void SessionDriver::setFileShown(bool isShown) {
+    if (m_isFileShown != isShown) {
+        m_isFileShown = isShown;
+        m_isChanged = true;
+        m_tableTick = {};
+        emit shownChanged();
+    }
+}
+
+void SessionDriver::showFile() {
+    setFileShown(m_file != nullptr && m_file->session().end() != 0);
+}
+
+void SessionDriver::showLive() {
+    setFileShown(false);
+}
+
+void SessionDriver::goLive() {
+    showLive();
     setPaused(false);
-    setPaused(true);
-    return m_session.begin() <= m_importBegin
-               ? QString()
-               : tr("The first %1 of %2 packets no longer fit into memory: they are counted, but cannot be "
-                    "looked at.")
-                     .arg(m_session.begin() - m_importBegin)
-                     .arg(m_session.end() - m_importBegin);
+}
+
+void SessionDriver::closeFile() {
+    if (m_file != nullptr) {
+        showLive();
+        emit fileClosing();
+        m_file.reset();
+    }
 }
 
 void SessionDriver::seek(double seconds) {
     const auto after = log::durationOf(seconds);
     setPaused(true);
     change(&model::Session::setCursor,
-           model::Cursor{model::Cursor::Mode::Paused, m_session.packetAt(m_session.firstStamp() + after)});
+           model::Cursor{model::Cursor::Mode::Paused, shown().packetAt(shown().firstStamp() + after)});
 }
 
 void SessionDriver::setDemo(int characters) {
@@ -222,8 +218,8 @@ void SessionDriver::setDemo(int characters) {
 }
 
 void SessionDriver::selectPacket(std::uint64_t number) {
-    const auto packet = m_session.packet(number);
-    const model::PacketDigest* digest = m_session.digests().find(number);
+    const auto packet = shown().packet(number);
+    const model::PacketDigest* digest = shown().digests().find(number);
     if (!packet || digest == nullptr) {
         return;
     }
@@ -231,7 +227,7 @@ void SessionDriver::selectPacket(std::uint64_t number) {
     if (digest->type != 0) {
         selection.character = model::CharacterKey{packet->sender, digest->character};
     }
-    const model::Selection& before = m_session.selection();
+    const model::Selection& before = shown().selection();
     selection.segment = before.character == selection.character ? before.segment : -1;
     select(selection);
 }
@@ -242,16 +238,23 @@ void SessionDriver::setGhostVisible(bool isVisible) {
 }
 
 void SessionDriver::setPaused(bool isPaused) {
-    if (isPaused == this->isPaused()) {
+    if (m_isFileShown || isPaused == this->isPaused()) {
         return;
     }
     model::Cursor cursor;
     if (isPaused) {
-        const std::uint64_t end = m_session.end();
+        const std::uint64_t end = shown().end();
         cursor = {model::Cursor::Mode::Paused, end == 0 ? 0 : end - 1};
     }
     change(&model::Session::setCursor, cursor);
     emit pausedChanged(isPaused);
+}
+
+void SessionDriver::showIncident(std::optional<std::uint64_t> number) {
+    model::Selection selection = shown().selection();
+    selection.incident = number;
+    select(selection);
+    showDock(QStringLiteral("events"));
 }
 
 void SessionDriver::copyText(const QString& text) {

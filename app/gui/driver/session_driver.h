@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
-#include "app/gui/driver/file_import.h"
+#include "app/gui/driver/opened_file.h"
 #include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
 #include "app/gui/program_view.h"
@@ -16,15 +16,20 @@
 
 namespace posewire::gui {
 
-/// Lets the session follow the log, once each display tick, and carries out commands. Receiving does not wait
-/// for it.
+/// Lets the live session follow what is received, and that of an opened file what is read, once each display
+/// tick; carries out commands in the one that is shown. Receiving waits for neither.
 class SessionDriver final : public QObject, public Commands, public ProgramView {
     Q_OBJECT
 
 public:
     explicit SessionDriver(const log::Clock& clock, QObject* parent = nullptr);
 
-    [[nodiscard]] model::SessionView& session() { return m_session; }
+    /// What is shown: what is received, or the file.
+    [[nodiscard]] model::SessionView& session() { return shown(); }
+    /// What is received, whatever is shown.
+    [[nodiscard]] model::SessionView& live() { return m_live; }
+    /// Null where none is open.
+    [[nodiscard]] OpenedFile* file() { return m_file.get(); }
     [[nodiscard]] Receiving& receiving() { return m_receiving; }
 
     /// Begins to tick.
@@ -32,14 +37,22 @@ public:
     /// One display tick: what the timer calls.
     void tick();
 
-    /// Begins to read a file of datagrams, instead of one that is being read; fileOpened() says how it went.
-    /// The display stops at its end.
+    /// Begins to read a file of datagrams, instead of one that is open; fileOpened() says how it went. It is
+    /// shown as soon as there is something of it.
     void openFile(const QString& path);
-    [[nodiscard]] bool isOpening() const { return m_import != nullptr; }
+    [[nodiscard]] bool isOpening() const { return m_file != nullptr && m_file->isReading(); }
     /// Reads no further: what was read of the file is there, and fileOpened() says so.
     void cancelOpening();
     /// "Opening take.pcapng: 43 %"; empty where nothing is opened.
     [[nodiscard]] QString openingText() const;
+
+    [[nodiscard]] bool isFileShown() const { return m_isFileShown; }
+    /// Where a file is open, and has something to show.
+    void showFile();
+    void showLive();
+    /// What is received, as it comes.
+    void goLive();
+    void closeFile();
 
     /// Stops the display this many seconds after the first packet there was.
     void seek(double seconds);
@@ -56,13 +69,22 @@ public:
         m_mostMeshBytes = most;
     }
 
-    /// Stops the display at the newest packet, or follows the stream again. Receiving is not touched.
+    /// Stops the display at the newest packet, or follows the stream again. Receiving is not touched, and a
+    /// file stands still anyway.
     void setPaused(bool isPaused);
-    [[nodiscard]] bool isPaused() const { return m_session.cursor().mode == model::Cursor::Mode::Paused; }
+    [[nodiscard]] bool isPaused() const { return shown().cursor().mode == model::Cursor::Mode::Paused; }
+
+    /// A new span counts for the take: counts, incidents and verdict from now on.
+    void resetForTake() {
+        m_live.resetForTake();
+        m_isChanged = true;
+        m_tableTick = {};
+    }
 
     /// What streams must keep from now on.
     void setThresholds(const model::Thresholds& thresholds) {
-        change(&model::Session::setThresholds, thresholds);
+        m_live.setThresholds(thresholds);
+        m_isChanged = true;
     }
 
     // Commands
@@ -88,6 +110,7 @@ public:
         change(&model::Session::setHidden, key, !isVisible);
     }
     void setGhostVisible(bool isVisible) override;
+    void showIncident(std::optional<std::uint64_t> number) override;
     void copyText(const QString& text) override;
     void showDock(const QString& dock) override { emit dockRequested(dock); }
 
@@ -106,6 +129,10 @@ signals:
     /// Ten times a second, after the session has followed.
     void tableTick();
     void pausedChanged(bool isPaused);
+    /// session() is another one now.
+    void shownChanged();
+    /// The file's session goes after this, and must not be looked at any more.
+    void fileClosing();
     /// A relay was switched off because its datagrams came back.
     void relayStopped();
     /// A file was read, or could not be. `text` is what is to be said about it, empty for nothing.
@@ -119,25 +146,24 @@ private:
     /// Calls a setter of the session, and shows what came of it.
     template <class Setter, class... Arguments>
     void change(Setter setter, const Arguments&... arguments) {
-        (m_session.*setter)(arguments...);
+        (shown().*setter)(arguments...);
         m_isChanged = true;
         m_tableTick = {};
     }
     void measureHealth();
-    void showReading(bool hasNew);
-    /// Once the file that is being opened is there, or cannot be.
-    void finishOpening();
-    /// Nothing more is read: all that was is in the session. Returns the path.
-    QString endReading();
-    /// What the session has of the file is all there is. Returns what is to be said about that.
-    QString showFile(const QString& path);
+    /// True if there was anything new of the file.
+    bool readFile();
+    void tellOpened();
+    void setFileShown(bool isShown);
+    [[nodiscard]] model::Session& shown() { return m_isFileShown ? m_file->session() : m_live; }
+    [[nodiscard]] const model::Session& shown() const { return m_isFileShown ? m_file->session() : m_live; }
 
     const log::Clock& m_clock;
     log::PacketLog m_log;
-    model::Session m_session;
+    model::Session m_live;
     Receiving m_receiving;
-    std::unique_ptr<FileImport> m_import; ///< null where no file is being opened
-    std::uint64_t m_importBegin = 0;      ///< its first packet, or one before
+    std::unique_ptr<OpenedFile> m_file; ///< null where none is open
+    bool m_isFileShown = false;
     std::jthread m_demo;
     QTimer m_timer;
     HealthMeter m_meter;

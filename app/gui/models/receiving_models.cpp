@@ -12,8 +12,7 @@ namespace posewire::gui {
 namespace {
 
 using Kind = InputAddress::Kind;
-using Row = InputRow;
-using InputColumn = TableColumn<Row>;
+using InputColumn = TableColumn<PortState>;
 
 QString protocolText(const InputAddress& input) {
     if (input.kind == Kind::Udp) {
@@ -92,39 +91,30 @@ PropertyValue relayStage(const RelayState& relay) {
 
 namespace {
 
-/// A figure of an input that is open; there is none of a file.
+/// A figure of an input that is open.
 InputColumn figureColumn(const QString& title, const QString& help, QString (*figure)(const PortState&)) {
-    return InputColumn::numbers(title, help, [figure](const Row& row) {
-        return row.file.isEmpty() && row.input.id ? figure(row.input) : dash();
-    });
+    return InputColumn::numbers(
+        title, help, [figure](const PortState& input) { return input.id ? figure(input) : dash(); });
 }
 
 InputColumn hostColumn() {
-    const auto text = [](const Row& row) { return row.file.isEmpty() ? hostText(row.input.port) : row.file; };
-    const auto suffix = [](const Row& row, int role) {
-        const bool isEvery =
-            row.file.isEmpty() && row.input.port.address.isEmpty() && row.input.port.groups.isEmpty();
+    const auto suffix = [](const PortState& input, int role) {
+        const bool isEvery = input.port.address.isEmpty() && input.port.groups.isEmpty();
         return role == kSuffixRole && isEvery ? QVariant(tr("· every address")) : QVariant();
     };
     return InputColumn::words(tr("Host"), tr("Where it is heard; for a connection to a sender, that sender"),
-                              text)
+                              [](const PortState& input) { return hostText(input.port); })
         .withMore(suffix);
 }
 
 std::vector<InputColumn> inputColumns() {
     return {
-        InputColumn::words(
-            tr("Protocol"), {},
-            [](const Row& row) { return row.file.isEmpty() ? protocolText(row.input.port) : tr("File"); }),
+        InputColumn::words(tr("Protocol"), {},
+                           [](const PortState& input) { return protocolText(input.port); }),
         hostColumn(),
         InputColumn::numbers(tr("Port"), {},
-                             [](const Row& row) {
-                                 return row.file.isEmpty() ? QString::number(row.input.port.port) : dash();
-                             }),
-        valueColumn(InputColumn{.title = tr("State")},
-                    [](const Row& row) {
-                        return row.file.isEmpty() ? inputState(row.input) : PropertyValue{tr("opened")};
-                    }),
+                             [](const PortState& input) { return QString::number(input.port.port); }),
+        valueColumn(InputColumn{.title = tr("State")}, inputState),
         figureColumn(tr("Datagrams/s"), tr("Over the last second, foreign ones included"),
                      [](const PortState& input) {
                          return grouped(static_cast<std::uint64_t>(std::lround(input.datagramsPerSecond)));
@@ -137,8 +127,8 @@ std::vector<InputColumn> inputColumns() {
                      [](const PortState& input) {
                          return input.port.kind == Kind::Udp ? grouped(input.status.kernelDropped) : dash();
                      })
-            .withColour([](const Row& row) {
-                return row.input.status.kernelDropped > 0 ? QVariant(theme().error) : QVariant();
+            .withColour([](const PortState& input) {
+                return input.status.kernelDropped > 0 ? QVariant(theme().error) : QVariant();
             }),
         figureColumn(tr("Refused"),
                      tr("Datagrams and connections from those who are not listened to, and connections for "
@@ -189,25 +179,13 @@ std::vector<RelayColumn> relayColumns() {
 
 InputModel::InputModel(QObject* parent) : TableModel(inputColumns(), parent) {}
 
-void InputModel::refresh(const ReceivingState& receiving) {
-    std::vector<Row> rows;
-    for (const PortState& state : receiving.ports) {
-        rows.push_back({state, {}});
-    }
-    if (!receiving.file.isEmpty()) {
-        rows.push_back({{}, receiving.file});
-    }
-    setRows(std::move(rows));
-}
-
 std::optional<InputAddress> InputModel::input(int row) const {
-    const bool isInput = row >= 0 && row < rowCount() && rows()[static_cast<std::size_t>(row)].file.isEmpty();
-    return isInput ? std::optional(rows()[static_cast<std::size_t>(row)].input.port) : std::nullopt;
+    return row >= 0 && row < rowCount() ? std::optional(rows()[static_cast<std::size_t>(row)].port)
+                                        : std::nullopt;
 }
 
 int InputModel::rowOf(const InputAddress& input) const {
-    const auto place = std::ranges::find_if(
-        rows(), [&](const Row& row) { return row.file.isEmpty() && row.input.port == input; });
+    const auto place = std::ranges::find(rows(), input, &PortState::port);
     return place == rows().end() ? -1 : static_cast<int>(place - rows().begin());
 }
 

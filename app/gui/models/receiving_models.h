@@ -8,23 +8,17 @@
 
 namespace posewire::gui {
 
-/// An input, or a file where that is not empty.
-struct InputRow {
-    PortState input;
-    QString file;
-};
-
-/// What the window hears: its inputs in the order in which they were added, then the file, if there is one.
-/// Named as MVN's Network Streamer names them: protocol, host, port.
-class InputModel : public TableModel<InputRow> {
+/// What the window hears: its inputs in the order in which they were added, named as MVN's Network Streamer
+/// names them: protocol, host, port.
+class InputModel : public TableModel<PortState> {
 public:
     enum Column : int { kProtocol, kHost, kPort, kState, kRate, kDatagrams, kDropped, kRefused };
 
     explicit InputModel(QObject* parent = nullptr);
 
-    void refresh(const ReceivingState& receiving);
+    void refresh(const ReceivingState& receiving) { setRows(receiving.ports); }
 
-    /// The input of a row; nothing for the file and outside.
+    /// The input of a row; nothing outside.
     [[nodiscard]] std::optional<InputAddress> input(int row) const;
     [[nodiscard]] int rowOf(const InputAddress& input) const; ///< -1 where it is not
 };

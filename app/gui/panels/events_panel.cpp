@@ -112,6 +112,7 @@ void EventsPanel::refresh() {
     const QScopedValueRollback guard(m_isRefreshing, true);
     m_events.refresh();
     m_bar->showCounts(m_events.counts());
+    showAskedFor();
     keepCurrent();
     showEmptyState();
     if (m_isFollowing) {
@@ -119,6 +120,20 @@ void EventsPanel::refresh() {
         m_table->scrollToBottom();
     }
     placeChip();
+}
+
+/// What somebody elsewhere asked for, once.
+void EventsPanel::showAskedFor() {
+    const std::optional<std::uint64_t> incident = m_view.selection().incident;
+    if (std::exchange(m_askedFor, incident) == incident || !incident) {
+        return;
+    }
+    if (const int row = m_events.rowOf(*incident); row >= 0) {
+        m_currentEvent = incident;
+        setFollowing(false);
+        m_table->setCurrentIndex(m_events.index(row, 0));
+        m_table->scrollTo(m_table->currentIndex(), QAbstractItemView::PositionAtCenter);
+    }
 }
 
 /// A reset of the model takes the current row.

@@ -90,6 +90,7 @@ private:
     void applyFilter(const EventModel::Filter& filter);
     void setFollowing(bool isFollowing);
     void placeChip();
+    void showAskedFor();
     void keepCurrent();
     void showEmptyState();
 
@@ -98,6 +99,7 @@ private:
     TableView* m_table;
     QPushButton* m_chip;
     PassingMessage* m_message;
+    std::optional<std::uint64_t> m_askedFor;     ///< of what was selected when it was last looked at
     std::optional<std::uint64_t> m_currentEvent; ///< of the current row, kept while rows come and go
     int m_missed = 0;                            ///< came since following ended
     bool m_isFollowing = true;

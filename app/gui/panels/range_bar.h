@@ -76,17 +76,18 @@ public:
     [[nodiscard]] QString rangeText() const;
 
 private:
-    void addButton(const QString& text, const QString& toolTip, log::Duration last);
+    QToolButton* addButton(const QString& text, const QString& toolTip, const model::RangeChoice& choice);
 
     struct Button {
         QToolButton* button;
-        log::Duration last; ///< 0 for all
+        model::RangeChoice choice;
     };
 
     model::SessionView& m_view;
     Commands& m_commands;
     RangeStrip* m_strip;
     std::vector<Button> m_buttons;
+    QToolButton* m_sinceReset; ///< only after a reset
 };
 
 } // namespace posewire::gui

@@ -68,8 +68,7 @@ EmptyState withoutPort(const ReceivingState& receiving) {
     }
     if (receiving.ports.empty()) {
         state.level = Health::Unknown;
-        state.title = receiving.file.isEmpty() ? tr("Nothing to listen to")
-                                               : tr("No character in %1").arg(receiving.file);
+        state.title = tr("Nothing to listen to");
         state.lines += tr("Choose Input > Inputs or File > Open.");
     }
     return state;
@@ -128,13 +127,18 @@ EmptyState waiting(const ReceivingState& receiving) {
     return state;
 }
 
-EmptyState withoutPose(model::SessionView& session) {
+EmptyState withoutPose(model::SessionView& session, const QString& file) {
     QStringList types;
     for (const model::Stream& stream : session.streams()) {
         const QString type = QStringLiteral("%1").arg(stream.key.type, 2, 10, QLatin1Char('0'));
         if (!types.contains(type)) {
             types += type;
         }
+    }
+    if (!file.isEmpty()) {
+        return {Health::Warning,
+                tr("No pose in %1").arg(file),
+                {tr("Types in it: %1.").arg(types.join(QStringLiteral(", ")))}};
     }
     return {Health::Warning,
             tr("Datagrams arrive, but no pose"),
@@ -165,7 +169,7 @@ PropertyValue characterHealth(model::SessionView& session, const model::Characte
     return {rateHz <= 0 ? tr("one sample") : tr("%1 Hz").arg(rateHz, 0, 'f', 0), Health::Good};
 }
 
-EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving) {
+EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving, const QString& file) {
     const bool hasPose = std::ranges::any_of(session.characters(), [&](const model::Character& character) {
         return session.pose(character.key) != nullptr;
     });
@@ -173,13 +177,16 @@ EmptyState emptyState(model::SessionView& session, const ReceivingState& receivi
         return {};
     }
     if (!session.characters().empty()) {
-        return withoutPose(session);
+        return withoutPose(session, file);
     }
     const auto stranger = std::ranges::find_if(session.senders(), [](const model::Sender& sender) {
         return sender.foreign > 0 && !sender.foreignHead.empty();
     });
     if (stranger != session.senders().end()) {
         return foreign(*stranger);
+    }
+    if (!file.isEmpty()) {
+        return {Health::Warning, tr("No character in %1").arg(file), {}};
     }
     return openPorts(receiving).isEmpty() ? withoutPort(receiving) : waiting(receiving);
 }

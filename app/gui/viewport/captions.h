@@ -25,6 +25,8 @@ struct EmptyState {
     QStringList lines;
 };
 
-[[nodiscard]] EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving);
+/// `file` is the name of the file that the session is of; empty where it is received.
+[[nodiscard]] EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving,
+                                    const QString& file = {});
 
 } // namespace posewire::gui

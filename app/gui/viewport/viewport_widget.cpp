@@ -41,7 +41,7 @@ std::vector<render::Bounds> boxesOf(const SceneFrame& frame) {
 } // namespace
 
 ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, QWidget* parent)
-    : QWidget(parent), m_session(session), m_commands(commands), m_overlay(new ViewportOverlay(this)) {
+    : QWidget(parent), m_session(&session), m_commands(commands), m_overlay(new ViewportOverlay(this)) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Characters in space"));
     setFocusPolicy(Qt::StrongFocus);
@@ -55,17 +55,34 @@ void ViewportWidget::start() {
         return;
     }
     m_presenter = makeOpenGlPresenter(this);
-    const bool isHardware = m_presenter != nullptr;
-    if (!isHardware) {
+    m_isHardware = m_presenter != nullptr;
+    if (!m_isHardware) {
         m_presenter = makeSoftwarePresenter(this);
     }
-    m_builder =
-        std::make_unique<SceneBuilder>(m_session, isHardware ? render::Detail::High : render::Detail::Medium);
+    m_builder = makeBuilder();
     m_presenter->setAttribute(Qt::WA_TransparentForMouseEvents);
     m_presenter->setGeometry(rect());
     m_presenter->lower();
     m_presenter->setVisible(true);
     connect(m_presenter, &Presenter::presented, this, &ViewportWidget::onPresented);
+    refresh();
+}
+
+std::unique_ptr<SceneBuilder> ViewportWidget::makeBuilder() const {
+    return std::make_unique<SceneBuilder>(*m_session,
+                                          m_isHardware ? render::Detail::High : render::Detail::Medium);
+}
+
+void ViewportWidget::showSession(model::SessionView& session, const QString& file) {
+    m_session = &session;
+    m_file = file;
+    m_shown.reset(); // its figures are of the other session
+    m_drawing.reset();
+    m_followed = {};
+    if (m_builder != nullptr) {
+        m_builder = makeBuilder();
+    }
+    updateOverlay();
     refresh();
 }
 
@@ -88,10 +105,10 @@ void ViewportWidget::drawNext() {
     frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
     m_builder->build(m_axes, *frame);
-    m_motion.follow(boxesOf(*frame), aspect(), log::secondsOf(m_session.now() - m_followed));
-    m_followed = m_session.now();
+    m_motion.follow(boxesOf(*frame), aspect(), log::secondsOf(m_session->now() - m_followed));
+    m_followed = m_session->now();
     frame->camera = m_motion.camera();
-    frame->built = m_session.now();
+    frame->built = m_session->now();
     m_isOutdated = m_builder->meshes().isBehind();
     m_drawing = frame;
     m_presenter->present(std::move(frame));
@@ -117,8 +134,8 @@ void ViewportWidget::updateOverlay() {
             labels.push_back(
                 {pointerAt(*place, size()),
                  QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
-                 shown(m_session.displayName(figure.key)), characterHealth(m_session, figure.key),
-                 m_session.selection().character == figure.key});
+                 shown(m_session->displayName(figure.key)), characterHealth(*m_session, figure.key),
+                 m_session->selection().character == figure.key});
         }
     }
     m_overlay->setLabels(std::move(labels));
@@ -129,14 +146,14 @@ void ViewportWidget::updateOverlay() {
              {problem, tr("Everything else in this window works. Installing Mesa's drivers (package "
                           "libgl1-mesa-dri) usually helps.")}});
     } else {
-        m_overlay->setCard(emptyState(m_session, m_receiving));
+        m_overlay->setCard(emptyState(*m_session, m_receiving, m_file));
     }
 }
 
 bool ViewportWidget::isSettled() const {
     constexpr log::Duration kFresh = std::chrono::milliseconds(250);
     const bool isIdle = !m_isOutdated && m_drawing == nullptr;
-    return m_shown != nullptr && (isIdle || m_session.now() - m_shown->built < kFresh);
+    return m_shown != nullptr && (isIdle || m_session->now() - m_shown->built < kFresh);
 }
 
 float ViewportWidget::aspect() const {

@@ -28,6 +28,9 @@ public:
     /// takes time.
     void start();
 
+    /// Shows another session from now on; `file` is the name of the file that it is of, empty for none.
+    void showSession(model::SessionView& session, const QString& file);
+
     /// For when the session, the selection or the view itself has changed.
     void refresh();
     void setReceiving(const ReceivingState& receiving);
@@ -72,14 +75,17 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
+    [[nodiscard]] std::unique_ptr<SceneBuilder> makeBuilder() const;
     void drawNext();
     void onPresented();
     void updateOverlay();
     [[nodiscard]] std::optional<render::Pick> pickAt(const QPointF& pointer) const;
     [[nodiscard]] float aspect() const;
 
-    model::SessionView& m_session;
+    model::SessionView* m_session;
+    QString m_file; ///< that the session is of; empty for none
     Commands& m_commands;
+    bool m_isHardware = false;
     AxesMode m_axes = AxesMode::All;
     CameraMotion m_motion;
     std::unique_ptr<SceneBuilder> m_builder;

@@ -8,9 +8,11 @@
 #include "app/gui/window/docks.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/transport_bar.h"
+#include "app/gui/window/verdict_bar.h"
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDir>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QLabel>
@@ -22,14 +24,27 @@
 #include <QToolButton>
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
 namespace {
 
 /// Raised when docks or tool bars change so that an old state would not fit.
-constexpr int kStateVersion = 1;
+constexpr int kStateVersion = 2;
 constexpr QSize kDefaultSize(1600, 1000);
+constexpr int kLongestPath = 480; // logical pixels
+
+/// A tool bar that stays where it is and holds one widget.
+QToolBar* fixedBar(const QString& title, const QString& name, QWidget* content) {
+    auto* bar = new QToolBar(title);
+    bar->setObjectName(name);
+    bar->setMovable(false);
+    bar->toggleViewAction()->setVisible(false);
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    bar->addWidget(content);
+    return bar;
+}
 
 } // namespace
 
@@ -72,16 +87,24 @@ void MainWindow::makeBars() {
         TransportBar::Actions{m_menus.action("pause"), m_menus.action("live"), m_menus.action("inputs"),
                               m_menus.action("connectionHelp"), m_menus.action("relay")},
         this);
-    auto* bar = new QToolBar(tr("Transport"), this);
-    bar->setObjectName(QStringLiteral("transportBar"));
-    bar->setMovable(false);
-    bar->toggleViewAction()->setVisible(false);
-    bar->setContextMenuPolicy(Qt::PreventContextMenu);
     m_transport->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    bar->addWidget(m_transport);
-    addToolBar(Qt::TopToolBarArea, bar);
+    addToolBar(Qt::TopToolBarArea, fixedBar(tr("Transport"), QStringLiteral("transportBar"), m_transport));
 
-    m_health = new HealthBar(m_driver.session(), m_driver, this);
+    m_verdict = new VerdictBar(m_driver.live(),
+                               {m_menus.action("resetForTake"), m_menus.action("live"),
+                                m_menus.action("showFile"), m_menus.action("closeFile")},
+                               this);
+    m_verdict->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    addToolBarBreak(Qt::TopToolBarArea);
+    addToolBar(Qt::TopToolBarArea, fixedBar(tr("Verdict"), QStringLiteral("verdict"), m_verdict));
+    connect(m_verdict, &VerdictBar::evidenceRequested, this, [this](std::optional<std::uint64_t> incident) {
+        m_driver.showLive();
+        m_driver.showIncident(incident);
+    });
+
+    m_health = m_liveHealth = new HealthBar(m_driver.live(), m_driver, this);
+    connect(menuAt(*menuBar(), QStringLiteral("&File/Open &recent")), &QMenu::aboutToShow, this,
+            &MainWindow::listRecentFiles);
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_health, 1);
     m_stopOpening =
@@ -98,25 +121,66 @@ void MainWindow::makeDocks() {
     for (const PanelInfo& info : panelTable()) {
         auto* dock = new QDockWidget(QCoreApplication::translate("Panel", info.title), this);
         dock->setObjectName(QLatin1String(info.id));
-        Panel* panel = info.make(m_driver.session(), m_driver, m_driver, dock);
-        dock->setWidget(scrolling(panel, dock));
-        panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
+        const Page page = makePage(info, dock);
+        page.panel->restoreState(m_settings.panels[QLatin1String(info.id)].toObject());
+        dock->setWidget(page.scroll);
         auto* title = new DockTitle(dock);
         dock->setTitleBarWidget(title);
         addDockWidget(info.area, dock);
         dock->hide(); // the layout says which ones show: all of them would make the window too wide
         menu->insertAction(before, dock->toggleViewAction());
-        m_docks.push_back({&info, dock, title, panel});
-        connect(dock, &QDockWidget::visibilityChanged, panel, [panel](bool isVisible) {
+        m_docks.push_back({&info, dock, title, page, {}, page.panel});
+        connect(dock, &QDockWidget::visibilityChanged, this, [this, i = m_docks.size() - 1](bool isVisible) {
             if (isVisible) {
-                panel->refresh();
+                m_docks[i].panel->refresh();
             }
         });
     }
     menu->insertSeparator(before);
 }
 
+MainWindow::Page MainWindow::makePage(const PanelInfo& info, QDockWidget* dock) {
+    Panel* panel = info.make(m_driver.session(), m_driver, m_driver, dock);
+    return {scrolling(panel, dock), panel};
+}
+
+void MainWindow::showSession() {
+    const bool isFile = m_driver.isFileShown();
+    for (Dock& dock : m_docks) {
+        if (isFile && dock.file.panel == nullptr) {
+            dock.file = makePage(*dock.info, dock.dock);
+            dock.file.panel->restoreState(dock.live.panel->state());
+        }
+        const Page& page = isFile ? dock.file : dock.live;
+        dock.dock->setWidget(page.scroll);
+        page.scroll->show();
+        dock.panel = page.panel;
+    }
+    if (isFile && m_fileHealth == nullptr) {
+        m_fileHealth = new HealthBar(m_driver.session(), m_driver, this);
+        statusBar()->insertWidget(0, m_fileHealth, 1);
+    }
+    m_health->hide();
+    m_health = isFile ? m_fileHealth : m_liveHealth;
+    m_health->show();
+    m_transport->showSession(m_driver.session(), !isFile);
+    m_viewport->showSession(m_driver.session(), isFile ? m_driver.file()->name() : QString());
+    m_menus.showStates();
+    showReceiving();
+    refreshPanels();
+}
+
+/// Its session is about to go.
+void MainWindow::forgetFile() {
+    for (Dock& dock : m_docks) {
+        delete std::exchange(dock.file, {}).scroll;
+    }
+    delete std::exchange(m_fileHealth, nullptr);
+}
+
 void MainWindow::connectDriver() {
+    connect(&m_driver, &SessionDriver::shownChanged, this, &MainWindow::showSession);
+    connect(&m_driver, &SessionDriver::fileClosing, this, &MainWindow::forgetFile);
     connect(&m_driver, &SessionDriver::moved, m_viewport, &ViewportWidget::refresh);
     connect(&m_driver, &SessionDriver::moved, m_transport, &TransportBar::refresh);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::refreshPanels);
@@ -128,9 +192,10 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);
     connect(&m_driver, &SessionDriver::pausedChanged, this, showStates);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showOpening);
-    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool, const QString& text) {
+    connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool isRead, const QString& text) {
         showOpening();
-        say(text);
+        say(isRead ? QString()
+                   : text); // what there is to know of one that was read is told as long as it shows
     });
     connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
     connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
@@ -150,6 +215,8 @@ void MainWindow::restore() {
         setWindowState(windowState() | Qt::WindowMaximized);
     }
     showLayoutName(m_settings.layout);
+    const auto layout = findLayout(m_settings.layout);
+    m_verdict->setLarge(layout && layout->hasLargeVerdict);
 }
 
 /// Sizes of docks only hold once the window has its own.
@@ -227,6 +294,7 @@ void MainWindow::showReceiving() {
     m_transport->setReceiving(state);
     m_health->refresh(state);
     m_viewport->setReceiving(state);
+    showVerdict();
     if (m_inputs != nullptr) {
         m_inputs->refresh();
     }
@@ -245,6 +313,21 @@ void MainWindow::showOpening() {
     m_stopOpening->setVisible(isOpening);
 }
 
+void MainWindow::showVerdict() {
+    ShownFile file;
+    if (OpenedFile* opened = m_driver.file(); opened != nullptr && opened->session().end() != 0) {
+        file = {opened->name(), m_driver.isFileShown(), QString::fromStdString(opened->verdict().text),
+                opened->notes()};
+    }
+    const bool hasInputs = !m_driver.receiving().state().ports.empty() || m_driver.live().end() != 0;
+    m_menus.action("pause")->setEnabled(!file.isShown);
+    m_menus.action("live")->setEnabled(hasInputs || !file.isShown);
+    m_menus.action("showFile")->setEnabled(!file.name.isEmpty() && !file.isShown);
+    m_menus.action("closeFile")->setEnabled(!file.name.isEmpty());
+    m_menus.action("resetForTake")->setEnabled(m_driver.live().end() != 0);
+    m_verdict->refresh(file, hasInputs);
+}
+
 /// At once: whatever ends this program, the next run must not begin with a loop.
 void MainWindow::keepRelays() {
     m_settings.inputs.relays = m_driver.receiving().choices().relays;
@@ -255,10 +338,35 @@ void MainWindow::keepRelays() {
 
 void MainWindow::openFile() {
     const QString path = QFileDialog::getOpenFileName(this, tr("Open a file of MXTP datagrams"));
-    if (path.isEmpty()) {
-        return;
+    if (!path.isEmpty()) {
+        openPath(path);
     }
+}
+
+void MainWindow::openPath(const QString& path) {
+    const QString whole = QDir().absoluteFilePath(path);
+    m_settings.recentFiles.removeAll(whole);
+    m_settings.recentFiles.prepend(whole);
+    m_settings.recentFiles = m_settings.recentFiles.mid(0, Settings::kMostRecentFiles);
     m_driver.openFile(path);
+}
+
+void MainWindow::listRecentFiles() {
+    QMenu* menu = menuAt(*menuBar(), QStringLiteral("&File/Open &recent"));
+    QAction* clear = m_menus.action("clearRecentFiles");
+    clear->setEnabled(!m_settings.recentFiles.isEmpty());
+    for (QAction* old : menu->actions()) {
+        if (old != clear) {
+            delete old;
+        }
+    }
+    for (const QString& path : m_settings.recentFiles) {
+        const QString name = QDir::toNativeSeparators(path).replace(u'&', QStringLiteral("&&"));
+        auto* action = new QAction(fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestPath), menu);
+        connect(action, &QAction::triggered, this, [this, path] { openPath(path); });
+        menu->insertAction(clear, action);
+    }
+    menu->insertSeparator(clear);
 }
 
 void MainWindow::openInputs(InputsDialog::Page page) {
@@ -282,7 +390,7 @@ void MainWindow::editThresholds() {
 }
 
 void MainWindow::alert() {
-    if (m_sounds.isDue(m_driver.session().incidents(), m_settings.alerts)) {
+    if (m_sounds.isDue(m_driver.live().incidents(), m_settings.alerts)) {
         QApplication::beep();
     }
 }
@@ -301,6 +409,7 @@ void MainWindow::useLayout(const QString& nameOrFile) {
     if (const QStringList unknown = applyLayout(*layout, *this); !unknown.isEmpty()) {
         say(tr("Layout %1: there is no dock named %2").arg(layout->name, unknown.join(tr(" or "))));
     }
+    m_verdict->setLarge(layout->hasLargeVerdict);
     m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
     showLayoutName(layout->name);
     refreshPanels();

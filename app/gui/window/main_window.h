@@ -21,6 +21,7 @@ namespace posewire::gui {
 class DockTitle;
 class HealthBar;
 class TransportBar;
+class VerdictBar;
 
 /// The window: a loop over the table of docks and one over the table of actions.
 class MainWindow final : public QMainWindow {
@@ -39,6 +40,9 @@ public:
 
     // What the actions do.
     void openFile();
+    void openPath(const QString& path);
+    void clearRecentFiles() { m_settings.recentFiles.clear(); }
+    void closeFile() { m_driver.closeFile(); }
     void editThresholds();
     void openInputs(InputsDialog::Page page);
     void useTheme(ThemeChoice choice);
@@ -64,11 +68,18 @@ protected:
     void closeEvent(QCloseEvent* event) override;
 
 private:
+    /// What a dock shows of one session.
+    struct Page {
+        QWidget* scroll = nullptr;
+        Panel* panel = nullptr;
+    };
     struct Dock {
         const PanelInfo* info;
         QDockWidget* dock;
         DockTitle* title;
-        Panel* panel;
+        Page live;
+        Page file;    ///< once a file was shown, until it is closed
+        Panel* panel; ///< of the page that is shown
 
         [[nodiscard]] bool isInSight() const;
     };
@@ -76,6 +87,12 @@ private:
     /// Who carries an entry out: the panel, or the window itself.
     [[nodiscard]] const QWidget& ownerOf(const MenuEntry& entry) const;
     void makeDocks();
+    [[nodiscard]] Page makePage(const PanelInfo& info, QDockWidget* dock);
+    /// Every part of the window shows the session that the driver shows.
+    void showSession();
+    void forgetFile();
+    void showVerdict();
+    void listRecentFiles();
     void makeBars();
     void connectDriver();
     void restore();
@@ -91,8 +108,11 @@ private:
     Settings m_settings;
     ViewportWidget* m_viewport;
     TransportBar* m_transport = nullptr;
-    HealthBar* m_health = nullptr;
-    InputsDialog* m_inputs = nullptr; ///< once it was asked for
+    VerdictBar* m_verdict = nullptr;
+    HealthBar* m_liveHealth = nullptr;
+    HealthBar* m_fileHealth = nullptr; ///< as Dock::file
+    HealthBar* m_health = nullptr;     ///< the one that is shown
+    InputsDialog* m_inputs = nullptr;  ///< once it was asked for
     QToolButton* m_layoutButton = nullptr;
     QToolButton* m_stopOpening = nullptr; ///< shown while a file is being opened
     Menus m_menus;

@@ -111,6 +111,10 @@ constexpr ActionInfo panelsIn(const char* menu) {
 const ActionInfo kActions[] = {
     {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
      Do::call<&Window::openFile>},
+    {"clearRecentFiles", QT_TRANSLATE_NOOP("Action", "&File/Open &recent"),
+     QT_TRANSLATE_NOOP("Action", "&Clear list"), "", Do::call<&Window::clearRecentFiles>},
+    {"closeFile", "&File", QT_TRANSLATE_NOOP("Action", "&Close recording"), "Ctrl+W",
+     Do::call<&Window::closeFile>},
     {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
      Do::callIn<&Window::driver, &SessionDriver::cancelOpening>},
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
@@ -180,7 +184,11 @@ const ActionInfo kActions[] = {
     {"pause", QT_TRANSLATE_NOOP("Action", "&Time"), QT_TRANSLATE_NOOP("Action", "&Pause"), "Space",
      Do::call<togglePaused>, Do::isIn<&Window::driver, &SessionDriver::isPaused>},
     {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End",
-     Do::callIn<&Window::driver, &SessionDriver::setPaused, false>},
+     Do::callIn<&Window::driver, &SessionDriver::goLive>},
+    {"showFile", "&Time", QT_TRANSLATE_NOOP("Action", "Show the &recording"), "Shift+End",
+     Do::callIn<&Window::driver, &SessionDriver::showFile>},
+    {"resetForTake", "&Time", QT_TRANSLATE_NOOP("Action", "Reset &before take"), "Ctrl+Shift+R",
+     Do::callIn<&Window::driver, &SessionDriver::resetForTake>},
 
     {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R",
      Do::call<&Window::openInputs, InputsDialog::Page::Relay>},

@@ -41,7 +41,7 @@ QToolButton* framedButton(QAction* action, QWidget* parent) {
 
 TransportBar::TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent)
     : QWidget(parent),
-      m_session(session),
+      m_session(&session),
       m_actions(actions),
       m_pause(framedButton(actions.pause, this)),
       m_live(framedButton(actions.live, this)),
@@ -88,13 +88,20 @@ void TransportBar::restyle() {
     showMode(modeNow());
 }
 
+void TransportBar::showSession(model::SessionView& session, bool isLive) {
+    m_session = &session;
+    m_pause->setVisible(isLive);
+    m_live->setVisible(isLive);
+    refresh();
+}
+
 TransportBar::Mode TransportBar::modeNow() const {
-    if (m_session.cursor().mode == model::Cursor::Mode::Paused) {
+    if (m_session->cursor().mode == model::Cursor::Mode::Paused) {
         return Mode::Paused;
     }
     const bool isAnyLive =
-        std::ranges::any_of(m_session.characters(), [this](const model::Character& character) {
-            return isLive(m_session, character);
+        std::ranges::any_of(m_session->characters(), [this](const model::Character& character) {
+            return isLive(*m_session, character);
         });
     return isAnyLive ? Mode::Live : Mode::Waiting;
 }
@@ -119,16 +126,16 @@ void TransportBar::refresh() {
     if (const Mode mode = modeNow(); mode != m_mode) {
         showMode(mode);
     }
-    const auto key = shownCharacter(m_session);
-    const model::CharacterPose* pose = key ? m_session.pose(*key) : nullptr;
+    const auto key = shownCharacter(*m_session);
+    const model::CharacterPose* pose = key ? m_session->pose(*key) : nullptr;
     if (pose == nullptr) {
-        m_time->setText(m_session.now() == log::Stamp()
+        m_time->setText(m_session->now() == log::Stamp()
                             ? QStringLiteral("--:--:--.---")
-                            : timeOfDay(m_session.wallOf(m_session.cursorStamp())));
-        m_detail->setText(m_session.end() == 0 ? tr("nothing received yet") : tr("no pose"));
+                            : timeOfDay(m_session->wallOf(m_session->cursorStamp())));
+        m_detail->setText(m_session->end() == 0 ? tr("nothing received yet") : tr("no pose"));
         return;
     }
-    m_time->setText(timeOfDay(m_session.wallOf(pose->stamp)));
+    m_time->setText(timeOfDay(m_session->wallOf(pose->stamp)));
     m_detail->setText(tr("received · sample %1").arg(grouped(pose->sample)));
 }
 
@@ -158,9 +165,6 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
     for (const PortState& state : receiving.ports) {
         const PropertyValue now = inputState(state);
         show(now.health == Health::Good ? Health::Unknown : now.health, displayText(state.port), now.text);
-    }
-    if (!receiving.file.isEmpty()) {
-        show(Health::Unknown, receiving.file, tr("File"));
     }
     for (std::size_t i = shown; i < m_pills.size(); ++i) {
         m_pills[i]->setVisible(false);

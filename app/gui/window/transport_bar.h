@@ -34,6 +34,9 @@ public:
     };
     TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);
 
+    /// Shows another session from now on. One that is not live stands still: nothing starts or stops it.
+    void showSession(model::SessionView& session, bool isLive);
+
     void refresh();
     void setReceiving(const ReceivingState& receiving);
 
@@ -51,7 +54,7 @@ private:
 
     void addPill();
 
-    model::SessionView& m_session;
+    model::SessionView* m_session;
     const Actions m_actions;
     QToolButton* m_pause;
     QToolButton* m_live;

@@ -12,12 +12,13 @@
 
 namespace posewire::model {
 
-/// The time that figures are of: all of it, a length of time before the cursor, or between two stamps.
+/// The time that figures are of: all of it, a length of time before the cursor, from the reset to the cursor,
+/// or between two stamps.
 struct RangeChoice {
     log::Duration last{}; ///< above 0: this long before the cursor
     std::optional<TimeRange> fixed{};
+    bool isSinceReset = false;
 
-    [[nodiscard]] bool isAll() const { return last <= log::Duration::zero() && !fixed; }
     friend bool operator==(const RangeChoice&, const RangeChoice&) = default;
 };
 
@@ -40,9 +41,10 @@ struct FoundBytes {
 struct Selection {
     std::optional<log::SenderId> sender{};
     std::optional<CharacterKey> character{};
-    int segment = -1;                      ///< position in the pose datagram, -1 for none
-    std::optional<std::uint64_t> packet{}; ///< its number in the log; nothing: the newest one
-    std::optional<FoundBytes> found{};     ///< by the newest search
+    int segment = -1;                        ///< position in the pose datagram, -1 for none
+    std::optional<std::uint64_t> packet{};   ///< its number in the log; nothing: the newest one
+    std::optional<FoundBytes> found{};       ///< by the newest search
+    std::optional<std::uint64_t> incident{}; ///< its number, where one was asked for
     friend bool operator==(const Selection&, const Selection&) = default;
 };
 
@@ -63,6 +65,7 @@ struct Choices {
     Annotations annotations;
     std::set<CharacterKey> hidden; ///< characters that are not drawn
     bool isGhostShown = false;     ///< the null pose of the shown character over its figure
+    log::Stamp reset{};            ///< what was before does not count for the take; 0: all counts
 };
 
 } // namespace posewire::model

@@ -48,6 +48,11 @@ public:
         }
     }
     void setHidden(const CharacterKey& key, bool isHidden) { setIn(m_choices.hidden, key, isHidden); }
+    /// From now on a new span counts; what was received stays.
+    void resetForTake() {
+        m_choices.reset = now();
+        m_choices.range = {.isSinceReset = true};
+    }
     void setGhostShown(bool isShown) { m_choices.isGhostShown = isShown; }
 
 private:

@@ -99,8 +99,7 @@ SenderTotals SessionView::allSenders() const {
 }
 
 ForeignText SessionView::addressOf(log::SenderId id) const {
-    const Sender* sender = find(id);
-    if (sender != nullptr) {
+    if (const Sender* sender = find(id)) {
         return sender->address();
     }
     return id == log::kNoSender ? "this computer" : "a retired sender";
@@ -156,6 +155,9 @@ std::uint64_t SessionView::packetAt(log::Stamp stamp) const {
 }
 
 std::optional<TimeRange> SessionView::range() const {
+    if (rangeChoice().isSinceReset) {
+        return TimeRange{reset(), std::max(reset(), cursorStamp() + log::Duration(1))};
+    }
     if (rangeChoice().fixed || rangeChoice().last <= log::Duration::zero()) {
         return rangeChoice().fixed;
     }
@@ -208,10 +210,10 @@ const Character* SessionView::predecessor(const CharacterKey& key) const {
     return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
 }
 
-const Character* SessionView::successor(const Character& character) const {
+const Character* SessionView::successor(const Character& character, std::uint64_t end) const {
     const Character* next = character.after ? find(*character.after) : nullptr;
     const bool hasTakenOver =
-        next != nullptr && next->firstPacket < visibleEnd() && next->firstPacket > character.lastPacket;
+        next != nullptr && next->firstPacket < end && next->firstPacket > character.lastPacket;
     return hasTakenOver ? next : nullptr;
 }
 
@@ -228,10 +230,10 @@ CharacterKey SessionView::current(const CharacterKey& key) const {
     return current;
 }
 
-std::vector<const Character*> SessionView::currentCharacters() const {
+std::vector<const Character*> SessionView::charactersBefore(std::uint64_t end) const {
     std::vector<const Character*> shown;
     for (const Character& character : characters()) {
-        if (character.isConfirmed && !isSuperseded(character.key)) {
+        if (character.isConfirmed && successor(character, end) == nullptr) {
             shown.push_back(&character);
         }
     }

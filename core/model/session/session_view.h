@@ -109,6 +109,8 @@ public:
     [[nodiscard]] const Annotations& annotations() const { return m_choices.annotations; }
     [[nodiscard]] bool isHidden(const CharacterKey& key) const { return m_choices.hidden.contains(key); }
     [[nodiscard]] bool isGhostShown() const { return m_choices.isGhostShown; }
+    /// When the span that counts for the take began; 0: with the session.
+    [[nodiscard]] log::Stamp reset() const { return m_choices.reset; }
 
     // Characters at the cursor.
     /// What is wrong with a character or its sender at the cursor, worst first.
@@ -127,7 +129,11 @@ public:
     /// The one that is shown for a character: itself, or the newest that has taken over.
     [[nodiscard]] CharacterKey current(const CharacterKey& key) const;
     /// All characters that are to be shown at the cursor, in order of first appearance.
-    [[nodiscard]] std::vector<const Character*> currentCharacters() const;
+    [[nodiscard]] std::vector<const Character*> currentCharacters() const {
+        return charactersBefore(visibleEnd());
+    }
+    /// The same now, whatever the cursor.
+    [[nodiscard]] std::vector<const Character*> charactersNow() const { return charactersBefore(end()); }
 
     /// "Factory", or "Character 1" with its ID where no name was sent, or there is no such character.
     [[nodiscard]] ForeignText displayName(const CharacterKey& key) const;
@@ -182,8 +188,12 @@ private:
     struct Decoded;
     [[nodiscard]] Decoded& decoded() const;
 
-    /// Null where nobody has taken over at the cursor.
-    [[nodiscard]] const Character* successor(const Character& character) const;
+    /// Null where nobody has taken over before a packet, or at the cursor.
+    [[nodiscard]] const Character* successor(const Character& character, std::uint64_t end) const;
+    [[nodiscard]] const Character* successor(const Character& character) const {
+        return successor(character, visibleEnd());
+    }
+    [[nodiscard]] std::vector<const Character*> charactersBefore(std::uint64_t end) const;
     [[nodiscard]] bool isPaused() const { return m_choices.cursor.mode == Cursor::Mode::Paused; }
     /// One past the newest packet that the cursor lets through.
     [[nodiscard]] std::uint64_t visibleEnd() const;

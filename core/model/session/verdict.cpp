@@ -195,7 +195,7 @@ TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst
 
 TakeVerdict withoutIncident(const SessionView& session, const std::optional<CharacterKey>& only,
                             log::Stamp since) {
-    std::vector<const Character*> characters = session.currentCharacters();
+    std::vector<const Character*> characters = session.charactersNow();
     std::erase_if(characters, [&](const Character* one) { return only && one->key != *only; });
     if (characters.empty()) {
         return {TakeVerdict::State::None, "No data yet", {}, {}, {}};
@@ -252,8 +252,8 @@ std::vector<ListedIncident> listedIncidents(const SessionView& session) {
     return all;
 }
 
-VerdictSpan recentSpan(const SessionView& session, log::Stamp reset) {
-    return {std::max(reset, session.now() - VerdictSpan::kRecent), log::Stamp::max()};
+VerdictSpan recentSpan(const SessionView& session) {
+    return {std::max(session.reset(), session.now() - VerdictSpan::kRecent), log::Stamp::max()};
 }
 
 std::string headlineOf(const SessionView& session, const ListedIncident& listed) {

@@ -45,8 +45,8 @@ struct VerdictSpan {
     log::Stamp from = log::Stamp::min();
     log::Stamp to = log::Stamp::max();
 };
-/// The last moments of what is on the wire, but nothing before `reset`.
-[[nodiscard]] VerdictSpan recentSpan(const SessionView& session, log::Stamp reset = {});
+/// The last moments of what is on the wire, but nothing before the reset.
+[[nodiscard]] VerdictSpan recentSpan(const SessionView& session);
 
 /// Of all, or of one character and its sender.
 [[nodiscard]] TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/file_import.h"
 
-#include "app/net/receiver.h"
 #include "core/model/session/session.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -37,14 +36,12 @@ protected:
 
     QTemporaryDir m_folder;
     QString m_path = m_folder.filePath("long.bin");
-    log::SystemClock m_clock;
     log::PacketLog m_log{{.memoryCap = 1, .chunkSize = std::size_t{1} << 20}};
     model::Session m_session{m_log};
-    net::Receiver m_receiver{m_log, m_clock};
 };
 
 TEST_F(FileImportTest, WaitsForItsReaderSoThatNothingIsOvertaken) {
-    FileImport import(m_receiver, m_log, m_path, Stage::kStart);
+    FileImport import(m_log, m_path, Stage::kStart);
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
     while (!import.result() && std::chrono::steady_clock::now() < end) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2)); // much slower than a disk
@@ -62,12 +59,12 @@ TEST_F(FileImportTest, WaitsForItsReaderSoThatNothingIsOvertaken) {
 
 TEST_F(FileImportTest, EndsAtOnceWhenNobodyWantsItAnyMore) {
     const auto begin = std::chrono::steady_clock::now();
-    { const FileImport import(m_receiver, m_log, m_path, Stage::kStart); } // nobody ever follows
+    { const FileImport import(m_log, m_path, Stage::kStart); } // nobody ever follows
     EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
 }
 
 TEST_F(FileImportTest, SaysWhatItCannotRead) {
-    FileImport import(m_receiver, m_log, m_folder.filePath("missing"), Stage::kStart);
+    FileImport import(m_log, m_folder.filePath("missing"), Stage::kStart);
     while (!import.result()) {
         std::this_thread::yield();
     }

@@ -138,35 +138,95 @@ TEST_F(SessionDriverTest, APortThatIsTakenIsToldAndTriedAgain) {
     EXPECT_EQ(driver.receiving().openPort(), port);
 }
 
-TEST_F(SessionDriverTest, AFileIsOpenedWhileThePortGoesOnReceiving) {
-    QTemporaryDir folder;
-    const QString path = folder.filePath("take.bin");
-    {
-        QFile file(path);
-        ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-        performer::Performer other{sending(1, {2})};
-        for (std::uint64_t frame = 0; frame < 2000; ++frame) {
-            for (const wire::Datagram& datagram : other.frame(frame)) {
-                const auto bytes = *wire::encode(datagram);
-                file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
-            }
+/// Writes a raw file of samples; its path.
+QString writeFile(const QTemporaryDir& folder, std::uint64_t frames) {
+    QFile file(folder.filePath("take.bin"));
+    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
+    performer::Performer other{sending(1, {2})};
+    for (std::uint64_t frame = 0; frame < frames; ++frame) {
+        for (const wire::Datagram& datagram : other.frame(frame)) {
+            const auto bytes = *wire::encode(datagram);
+            file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<qint64>(bytes.size()));
         }
     }
+    return file.fileName();
+}
+
+TEST_F(SessionDriverTest, AFileTouchesNothingOfWhatIsReceived) {
+    const QTemporaryDir folder;
     listenAndSend(50);
-    ASSERT_EQ(openFile(driver, path), "");
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 50; }));
+    const QSignalSpy shown(&driver, &SessionDriver::shownChanged);
+    ASSERT_EQ(openFile(driver, writeFile(folder, 2000)), "");
+    EXPECT_EQ(shown.count(), 1);
+    EXPECT_TRUE(driver.isFileShown());
+    EXPECT_TRUE(driver.isPaused()) << "by today's clock all of it would be old";
+    EXPECT_EQ(driver.session().end(), 2000U);
+    listenAndSend(50);
+    EXPECT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 100; }));
+    EXPECT_EQ(driver.live().senders().size(), 1U);
+    EXPECT_EQ(driver.live().cursor().mode, model::Cursor::Mode::Following);
+    for (const model::Incident& incident : driver.live().incidents().all()) {
+        EXPECT_NE(incident.kind, model::IncidentKind::Conflict) << incident.text();
+    }
+    driver.goLive();
+    EXPECT_FALSE(driver.isPaused());
+    EXPECT_EQ(driver.session().end(), 100U);
+    driver.showFile();
+    EXPECT_EQ(driver.session().end(), 2000U) << "it is still open";
+}
+
+TEST_F(SessionDriverTest, WhatIsAskedForIsDoneInTheSessionThatIsShown) {
+    const QTemporaryDir folder;
+    listenAndSend(10);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 10; }));
+    ASSERT_EQ(openFile(driver, writeFile(folder, 20)), "");
+    driver.setMarked(15, true);
+    driver.setPaused(false); // a file stands still
     EXPECT_TRUE(driver.isPaused());
-    EXPECT_EQ(driver.receiving().state().file, "take.bin");
-    listenAndSend(50);
-    const auto datagrams = [&](log::Transport transport) {
-        std::uint64_t count = 0;
-        for (const model::Sender& sender : driver.session().senders()) {
-            count += sender.info.transport == transport ? sender.datagrams : 0;
-        }
-        return count;
-    };
-    EXPECT_TRUE(tickUntil(driver, [&] { return datagrams(log::Transport::Udp) == 100; }));
-    EXPECT_EQ(datagrams(log::Transport::File), 2000U);
-    EXPECT_EQ(driver.session().senders().size(), 2U);
+    EXPECT_TRUE(driver.session().annotations().marks.contains(15));
+    EXPECT_TRUE(driver.live().annotations().marks.empty());
+}
+
+TEST_F(SessionDriverTest, ClosingAFileSaysSoBeforeItsSessionGoes) {
+    const QTemporaryDir folder;
+    ASSERT_EQ(openFile(driver, writeFile(folder, 20)), "");
+    std::vector<std::string> order;
+    QObject::connect(&driver, &SessionDriver::shownChanged, &driver, [&] {
+        EXPECT_EQ(&driver.session(), &driver.live());
+        order.emplace_back("shown");
+    });
+    QObject::connect(&driver, &SessionDriver::fileClosing, &driver, [&] {
+        EXPECT_EQ(driver.file()->session().end(), 20U);
+        order.emplace_back("closing");
+    });
+    driver.closeFile();
+    EXPECT_THAT(order, testing::ElementsAre("shown", "closing"));
+    EXPECT_EQ(driver.file(), nullptr);
+    driver.showFile();
+    EXPECT_FALSE(driver.isFileShown());
+}
+
+TEST_F(SessionDriverTest, AFileThatCannotBeReadIsNeverShown) {
+    listenAndSend(10);
+    QSignalSpy opened(&driver, &SessionDriver::fileOpened);
+    const QSignalSpy shown(&driver, &SessionDriver::shownChanged);
+    driver.openFile("/no/such/file");
+    ASSERT_TRUE(tickUntil(driver, [&] { return opened.count() == 1; }));
+    EXPECT_FALSE(opened[0][0].toBool());
+    EXPECT_TRUE(opened[0][1].toString().contains("no such file"));
+    EXPECT_EQ(shown.count(), 0);
+    EXPECT_EQ(driver.file(), nullptr);
+}
+
+TEST_F(SessionDriverTest, AfterAResetOnlyWhatCameSinceCounts) {
+    listenAndSend(10);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 10; }));
+    driver.resetForTake();
+    EXPECT_EQ(driver.live().reset(), driver.live().now());
+    ASSERT_TRUE(driver.live().range());
+    EXPECT_EQ(driver.live().countsOf(driver.live().characters()[0].key, *driver.live().range()).samples, 0U);
+    EXPECT_EQ(driver.live().streams()[0].accounting.counts().samples, 10U) << "what was received stays";
 }
 
 TEST_F(SessionDriverTest, AFinishedRecordingIsNoSenderThatStopped) {
@@ -243,7 +303,8 @@ TEST_F(SessionDriverTest, OpeningAFileCanBeStoppedAndWhatWasReadStays) {
     const std::uint64_t read = driver.session().end();
     EXPECT_LT(read, 20'000U);
     EXPECT_EQ(opened[0][1].toString(),
-              QStringLiteral("Opening long.bin was stopped; %1 packets of it were read.").arg(read));
+              QStringLiteral("Opening long.bin was stopped: %1 packets of it are here.").arg(read));
+    EXPECT_EQ(driver.file()->notes(), QStringList(opened[0][1].toString())) << "said as long as it is open";
     driver.tick();
     EXPECT_EQ(driver.session().end(), read);
     driver.cancelOpening();

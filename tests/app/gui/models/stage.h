@@ -49,6 +49,11 @@ public:
     }
     void setGhostVisible(bool isVisible) override { m_session.setGhostShown(isVisible); }
     void showDock(const QString&) override {}
+    void showIncident(std::optional<std::uint64_t> number) override {
+        model::Selection selection = m_session.selection();
+        selection.incident = number;
+        select(selection);
+    }
     void copyText(const QString& text) override { copied = text; }
 
     int selections = 0;

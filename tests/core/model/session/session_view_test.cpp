@@ -134,10 +134,10 @@ TEST_F(ViewTest, MeasuresAgeAtTheCursorFromWhatHadComeByThen) {
 TEST_F(ViewTest, KeepsAChosenRangeAtTheCursor) {
     poses(1, 100, at(1s));
     follow();
-    EXPECT_TRUE(m_session.rangeChoice().isAll());
+    EXPECT_EQ(m_session.rangeChoice(), RangeChoice{});
     EXPECT_EQ(m_session.range(), std::nullopt);
     m_session.setRange({.last = 500ms});
-    EXPECT_FALSE(m_session.rangeChoice().isAll());
+    EXPECT_NE(m_session.rangeChoice(), RangeChoice{});
     ASSERT_TRUE(m_session.range().has_value());
     // What arrives at this very moment belongs to it.
     EXPECT_EQ(m_session.range()->to, m_session.now() + 1ns);
@@ -148,7 +148,19 @@ TEST_F(ViewTest, KeepsAChosenRangeAtTheCursor) {
     m_session.setRange({.last = 500ms, .fixed = fixed});
     EXPECT_EQ(m_session.range(), fixed) << "wherever the cursor is";
     m_session.setRange({.last = -1ns});
-    EXPECT_TRUE(m_session.rangeChoice().isAll());
+    EXPECT_EQ(m_session.range(), std::nullopt) << "all there is";
+}
+
+TEST_F(ViewTest, CountsForTheTakeFromTheResetOn) {
+    poses(1, 100, at(1s));
+    follow();
+    m_session.resetForTake();
+    EXPECT_EQ(m_session.reset(), m_session.now());
+    ASSERT_TRUE(m_session.range().has_value());
+    EXPECT_EQ(m_session.range()->from, m_session.reset());
+    pauseAt(20);
+    EXPECT_EQ(m_session.range()->seconds(), 0) << "the cursor is before the take";
+    m_session.setRange({});
     EXPECT_EQ(m_session.range(), std::nullopt);
 }
 

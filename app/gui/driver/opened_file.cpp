@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/opened_file.h"
+
+#include <QFileInfo>
+
+#include <utility>
+
+namespace posewire::gui {
+namespace {
+
+/// At once, so that the time that was given is kept to.
+constexpr std::size_t kPacketsAtOnce = 1'000;
+
+} // namespace
+
+OpenedFile::OpenedFile(const log::Clock& clock, QString path)
+    : m_clock(clock),
+      m_path(std::move(path)),
+      m_import(std::make_unique<FileImport>(m_log, m_path, m_log.timeline().now(clock))) {}
+
+QString OpenedFile::name() const {
+    return QFileInfo(m_path).fileName();
+}
+
+bool OpenedFile::follow(log::Duration most) {
+    const log::Stamp now = m_log.timeline().now(m_clock);
+    const log::Moment begin = m_clock.monotonic();
+    const std::uint64_t before = m_session.end();
+    while (m_session.followFile(now, kPacketsAtOnce) && m_clock.monotonic() - begin < most) {
+    }
+    if (m_session.end() != before) { // by today's clock all of it would be old
+        m_session.setCursor({model::Cursor::Mode::Paused, m_session.end() - 1});
+    }
+    if (m_import != nullptr) {
+        m_import->follow(m_session.end());
+        if (const auto result = m_import->result()) {
+            finish(*result);
+        }
+    }
+    return m_session.end() != before;
+}
+
+void OpenedFile::finish(const ImportResult& result) {
+    readRest();
+    m_ending = result ? *result : result.error();
+    if (m_session.end() == 0) {
+        m_failure = m_ending.isEmpty() ? tr("%1 has no datagrams.").arg(m_path) : m_ending;
+    }
+}
+
+void OpenedFile::stop() {
+    if (isReading()) {
+        readRest();
+        m_ending = tr("Opening %1 was stopped: %2 packets of it are here.").arg(name()).arg(m_session.end());
+    }
+}
+
+/// All that is in the log: at most what is read at once.
+void OpenedFile::readRest() {
+    m_import.reset();
+    while (m_session.followFile(m_log.timeline().now(m_clock))) {
+    }
+    m_session.endFile();
+    m_verdictEnd = 0; // its end settles what was open
+    if (m_session.end() != 0) {
+        m_session.setCursor({model::Cursor::Mode::Paused, m_session.end() - 1});
+    }
+}
+
+const model::TakeVerdict& OpenedFile::verdict() {
+    if (m_session.end() != m_verdictEnd) {
+        m_verdictEnd = m_session.end();
+        m_verdict = verdictOf(m_session, {});
+    }
+    return m_verdict;
+}
+
+QStringList OpenedFile::notes() const {
+    QStringList notes;
+    if (!m_ending.isEmpty()) {
+        notes += m_ending;
+    }
+    if (m_session.begin() != 0) {
+        notes += tr("Memory is full: the first %1 of %2 packets are counted, but cannot be looked at.")
+                     .arg(m_session.begin())
+                     .arg(m_session.end());
+    }
+    return notes;
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/driver/file_import.h"
+#include "core/log/clock.h"
+#include "core/log/packet_log.h"
+#include "core/model/session/session.h"
+#include "core/model/session/verdict.h"
+
+#include <QCoreApplication>
+#include <QString>
+#include <QStringList>
+
+#include <memory>
+
+namespace posewire::gui {
+
+/// A file that was opened: a session of its own, so that nothing of it touches what is received. It is shown
+/// as it was then, stopped at its newest packet.
+class OpenedFile {
+    Q_DECLARE_TR_FUNCTIONS(OpenedFile)
+
+public:
+    /// Begins to read. The clock outlives this.
+    OpenedFile(const log::Clock& clock, QString path);
+
+    [[nodiscard]] model::Session& session() { return m_session; }
+    /// Its name without folders.
+    [[nodiscard]] QString name() const;
+
+    [[nodiscard]] bool isReading() const { return m_import != nullptr; }
+    /// How much of it was read, from 0 to 1.
+    [[nodiscard]] double share() const { return m_import == nullptr ? 1 : m_import->share(); }
+    /// Follows what was read, for about as long as `most`; true if anything was new.
+    bool follow(log::Duration most);
+    /// Reads no further: what was read is there.
+    void stop();
+    /// Why nothing could be read; empty while there is no such reason.
+    [[nodiscard]] const QString& failure() const { return m_failure; }
+
+    /// On all of it that was read.
+    [[nodiscard]] const model::TakeVerdict& verdict();
+    /// What the operator must know for as long as the file is shown: that it is cut off, was not read to its
+    /// end, or does not fit into memory. A line each.
+    [[nodiscard]] QStringList notes() const;
+
+private:
+    void finish(const ImportResult& result);
+    void readRest();
+
+    const log::Clock& m_clock;
+    const QString m_path;
+    log::PacketLog m_log;
+    model::Session m_session{m_log};
+    model::TakeVerdict m_verdict;
+    std::uint64_t m_verdictEnd = 0; ///< packets that it is on
+    QString m_failure;
+    QString m_ending;                     ///< where it ends too early, or was stopped
+    std::unique_ptr<FileImport> m_import; ///< null once it was read; last: it writes the log
+};
+
+} // namespace posewire::gui

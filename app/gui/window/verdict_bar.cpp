@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/verdict_bar.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/plain_text.h"
+#include "app/gui/theme/widgets.h"
+
+#include <QAccessible>
+#include <QAction>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QStyle>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr double kLarge = 1.8; // against the desktop's font
+
+Health levelOf(model::TakeVerdict::State state) {
+    using State = model::TakeVerdict::State;
+    switch (state) {
+    case State::Good:
+        return Health::Good;
+    case State::Warning:
+        return Health::Warning;
+    case State::Bad:
+        return Health::Error;
+    case State::None:
+        break;
+    }
+    return Health::Unknown;
+}
+
+QToolButton* buttonFor(QAction* action, const QString& text, QWidget* parent) {
+    QToolButton* button = framedButton(text, action->toolTip(), parent);
+    button->setObjectName(action->objectName() + QStringLiteral("Button"));
+    QObject::connect(button, &QToolButton::clicked, action, &QAction::trigger);
+    return button;
+}
+
+/// "2 good", "1 of 3 good": what waits behind a file.
+QString liveText(const model::SessionView& live, const model::TakeVerdict& verdict) {
+    if (verdict.state == model::TakeVerdict::State::None) {
+        return VerdictBar::tr("no data yet");
+    }
+    const auto characters = live.charactersNow();
+    const auto span = model::recentSpan(live);
+    const auto good = std::ranges::count_if(characters, [&](const model::Character* character) {
+        return verdictOf(live, span, character->key).state == model::TakeVerdict::State::Good;
+    });
+    return static_cast<std::size_t>(good) == characters.size()
+               ? VerdictBar::tr("%1 good").arg(good)
+               : VerdictBar::tr("%1 of %2 good").arg(good).arg(characters.size());
+}
+
+} // namespace
+
+Headline::Headline(QWidget* parent) : QAbstractButton(parent) {
+    setObjectName(QStringLiteral("headline"));
+    setFocusPolicy(Qt::TabFocus);
+    setCursor(Qt::PointingHandCursor);
+    setAttribute(Qt::WA_Hover);
+    setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
+    setToolTip(toolTipText(tr("Click for the evidence")));
+}
+
+void Headline::setVerdict(Health level, const QString& text) {
+    if (level == m_level && text == this->text()) {
+        return;
+    }
+    const bool isTurn = level != m_level;
+    m_level = level;
+    setText(text);
+    setAccessibleName(text);
+    if (isTurn) { // a number that grows need not be spoken
+        QAccessibleEvent spoken(this, QAccessible::Alert);
+        QAccessible::updateAccessibility(&spoken);
+    }
+    update();
+}
+
+void Headline::setLarge(bool isLarge) {
+    if (m_isLarge != isLarge) {
+        m_isLarge = isLarge;
+        updateGeometry();
+        update();
+    }
+}
+
+QString Headline::line() const {
+    return healthText(m_level, text());
+}
+
+QFont Headline::fontFor(int width) const {
+    QFont font = this->font();
+    font.setWeight(QFont::DemiBold);
+    if (m_isLarge) {
+        const double fits =
+            (width - fontMetrics().height()) / std::max(1.0, QFontMetricsF(font).horizontalAdvance(line()));
+        font.setPointSizeF(font.pointSizeF() * std::clamp(fits, 1.0, kLarge));
+    }
+    return font;
+}
+
+QSize Headline::sizeHint() const {
+    QFont font = this->font();
+    font.setWeight(QFont::DemiBold);
+    font.setPointSizeF(font.pointSizeF() * (m_isLarge ? kLarge : 1.0));
+    const QFontMetrics metrics(font);
+    return {metrics.horizontalAdvance(line()) + fontMetrics().height(),
+            metrics.height() + fontMetrics().height() / (m_isLarge ? 1 : 2)};
+}
+
+QSize Headline::minimumSizeHint() const {
+    return {fontMetrics().averageCharWidth() * 20, sizeHint().height()};
+}
+
+void Headline::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const bool isColoured = m_level != Health::Unknown;
+    painter.setPen(hasFocus() ? QPen(theme().accent, 2) : Qt::NoPen);
+    painter.setBrush(isColoured     ? tinted(healthColour(m_level))
+                     : underMouse() ? theme().raised
+                                    : theme().panel);
+    painter.drawRoundedRect(QRectF(rect()).adjusted(1, 1, -1, -1), 4, 4);
+    painter.setFont(fontFor(width()));
+    QRect room = rect().adjusted(fontMetrics().height() / 2, 0, -fontMetrics().height() / 2, 0);
+    if (isColoured) {
+        painter.setPen(healthColour(m_level));
+        painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft, healthSymbol(m_level));
+        room.setLeft(room.left() + painter.fontMetrics().horizontalAdvance(healthText(m_level, {})));
+    }
+    painter.setPen(isColoured ? theme().text : theme().dim);
+    painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
+                     painter.fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
+}
+
+void Headline::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) {
+        click();
+        return;
+    }
+    QAbstractButton::keyPressEvent(event);
+}
+
+VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent)
+    : QWidget(parent),
+      m_live(live),
+      m_headline(new Headline(this)),
+      m_span(dimLabel({}, this)),
+      m_reset(buttonFor(actions.reset, tr("Reset before take"), this)),
+      m_showFile(buttonFor(actions.showFile, {}, this)),
+      m_strip(new QWidget(this)),
+      m_what(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_strip)),
+      m_goLive(buttonFor(actions.live, {}, m_strip)),
+      m_closeFile(buttonFor(actions.closeFile, tr("Close recording"), m_strip)) {
+    setObjectName(QStringLiteral("verdictBar"));
+    m_span->setFont(tabularFont());
+    m_strip->setObjectName(QStringLiteral("strip"));
+    m_what->setObjectName(QStringLiteral("stripText"));
+    m_what->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
+    auto* row = spacedRow({12, 4, 12, 4}, 10);
+    row->addWidget(m_headline, 1);
+    row->addWidget(m_span);
+    row->addWidget(m_reset);
+    row->addWidget(m_showFile);
+    auto* strip = spacedRow({12, 3, 12, 3}, 10, m_strip);
+    strip->addWidget(m_what, 1);
+    strip->addWidget(m_goLive);
+    strip->addWidget(m_closeFile);
+    auto* column = tightColumn(this);
+    column->addLayout(row);
+    column->addWidget(m_strip);
+    m_strip->hide();
+    new EventWatch(m_strip, QEvent::Paint, [this] {
+        QPainter painter(m_strip);
+        painter.fillRect(m_strip->rect(), tinted(theme().accent));
+        painter.fillRect(QRect(0, 0, 4, m_strip->height()), theme().accent);
+    });
+    connect(m_headline, &QAbstractButton::clicked, this,
+            [this] { emit evidenceRequested(m_verdict.incident); });
+}
+
+void VerdictBar::setLarge(bool isLarge) {
+    m_isLarge = isLarge;
+    m_headline->setLarge(isLarge);
+}
+
+void VerdictBar::refresh(const ShownFile& file, bool hasInputs) {
+    m_verdict = verdictOf(m_live, model::recentSpan(m_live));
+    showVerdict(file.isShown);
+    showStrip(file, hasInputs);
+    m_headline->setVisible(hasInputs || file.name.isEmpty());
+    m_span->setVisible(m_headline->isVisibleTo(this));
+    m_reset->setVisible(m_headline->isVisibleTo(this));
+}
+
+void VerdictBar::showVerdict(bool isBehindFile) {
+    const QString text = QString::fromStdString(m_verdict.text);
+    m_headline->setLarge(m_isLarge && !isBehindFile);
+    m_headline->setVerdict(levelOf(m_verdict.state), isBehindFile ? tr("Live: %1").arg(text) : text);
+    m_span->setText(m_live.reset() == log::Stamp()
+                        ? tr("last 10 s")
+                        : tr("reset at %1").arg(timeOfDay(m_live.wallOf(m_live.reset())).chopped(4)));
+    m_reset->setEnabled(m_live.end() != 0);
+}
+
+void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
+    const bool isPaused = !file.isShown && m_live.cursor().mode == model::Cursor::Mode::Paused;
+    m_strip->setVisible(file.isShown || isPaused);
+    m_showFile->setVisible(!file.isShown && !file.name.isEmpty());
+    m_showFile->setText(tr("Show %1").arg(
+        fontMetrics().elidedText(file.name, Qt::ElideMiddle, fontMetrics().averageCharWidth() * 24)));
+    if (file.isShown) {
+        QStringList lines{file.verdict};
+        lines += file.notes;
+        lines.removeAll(QString());
+        m_what->setText(tr("Recording %1").arg(file.name),
+                        QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
+    } else if (isPaused) {
+        m_what->setText(tr("▮▮ Display paused at %1").arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))),
+                        tr(" · receiving goes on, and so does the verdict above"));
+    }
+    m_what->setToolTip(toolTipText(m_what->text()));
+    m_what->setAccessibleName(m_what->text());
+    m_goLive->setVisible(isPaused || hasInputs);
+    m_goLive->setText(file.isShown ? tr("Back to live (%1)").arg(liveText(m_live, m_verdict))
+                                   : tr("Go live"));
+    m_closeFile->setVisible(file.isShown);
+}
+
+void VerdictBar::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.fillRect(rect(), theme().window);
+    painter.fillRect(QRect(0, height() - 1, width(), 1), theme().line);
+}
+
+} // namespace posewire::gui

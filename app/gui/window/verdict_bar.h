@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/theme/theme.h"
+#include "core/model/session/verdict.h"
+
+#include <QAbstractButton>
+#include <QStringList>
+#include <QWidget>
+
+class QAction;
+class QLabel;
+class QToolButton;
+
+namespace posewire::gui {
+
+class ElidedLabel;
+
+/// "● Good for the take: 4 characters", in the colour of what it says. A button: a click gives the evidence.
+class Headline final : public QAbstractButton {
+    Q_OBJECT
+
+public:
+    explicit Headline(QWidget* parent = nullptr);
+
+    /// Tells screen readers when it changes.
+    void setVerdict(Health level, const QString& text);
+    void setLarge(bool isLarge);
+
+    [[nodiscard]] QSize sizeHint() const override;
+    [[nodiscard]] QSize minimumSizeHint() const override;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+
+private:
+    [[nodiscard]] QString line() const;
+    /// As large as it should be, or as there is room for.
+    [[nodiscard]] QFont fontFor(int width) const;
+
+    Health m_level = Health::Unknown;
+    bool m_isLarge = false;
+};
+
+/// What is shown instead of what is received, if anything.
+struct ShownFile {
+    QString name; ///< of the file that is open; empty where none is
+    bool isShown = false;
+    QString verdict{};   ///< on all of it
+    QStringList notes{}; ///< what else the operator must know of it
+};
+
+/// Above everything: whether what is on the wire now is good for the take, whatever is shown; and, where the
+/// display is not live, what it shows and how to come back.
+class VerdictBar final : public QWidget {
+    Q_OBJECT
+
+public:
+    struct Actions {
+        QAction* reset;
+        QAction* live;
+        QAction* showFile;
+        QAction* closeFile;
+    };
+    /// `live` is the session of what is received.
+    VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent = nullptr);
+
+    void setLarge(bool isLarge);
+    /// `hasInputs`: there is something to be live with.
+    void refresh(const ShownFile& file, bool hasInputs);
+    /// As last refreshed.
+    [[nodiscard]] const model::TakeVerdict& verdict() const { return m_verdict; }
+
+signals:
+    /// `incident` is what the verdict rests on, where it rests on one.
+    void evidenceRequested(std::optional<std::uint64_t> incident);
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+
+private:
+    void showVerdict(bool isBehindFile);
+    void showStrip(const ShownFile& file, bool hasInputs);
+
+    model::SessionView& m_live;
+    Headline* m_headline;
+    QLabel* m_span;
+    QToolButton* m_reset;
+    QToolButton* m_showFile;
+    QWidget* m_strip;
+    ElidedLabel* m_what;
+    QToolButton* m_goLive;
+    QToolButton* m_closeFile;
+    model::TakeVerdict m_verdict;
+    bool m_isLarge = false;
+};
+
+} // namespace posewire::gui
