@@ -18,6 +18,7 @@ QJsonObject jsonOf(const AlertChoices& choices) {
     }
     object["warningSound"] = choices.hasWarningSound;
     object["errorSound"] = choices.hasErrorSound;
+    object["notification"] = choices.hasNotification;
     return object;
 }
 
@@ -31,6 +32,7 @@ AlertChoices alertChoicesOf(const QJsonObject& object) {
     }
     choices.hasWarningSound = object["warningSound"].toBool();
     choices.hasErrorSound = object["errorSound"].toBool();
+    choices.hasNotification = object["notification"].toBool();
     return choices;
 }
 

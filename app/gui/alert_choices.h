@@ -12,6 +12,7 @@ struct AlertChoices {
     model::Thresholds thresholds;
     bool hasWarningSound = false;
     bool hasErrorSound = false;
+    bool hasNotification = false; ///< by the desktop, when the verdict turns bad
     friend bool operator==(const AlertChoices&, const AlertChoices&) = default;
 };
 

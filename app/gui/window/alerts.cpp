@@ -4,12 +4,14 @@
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
 #include <QLabel>
 #include <QPushButton>
+#include <QSystemTrayIcon>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -45,11 +47,52 @@ bool AlertSounds::isDue(const model::Incidents& incidents, const AlertChoices& c
     return !std::exchange(m_isFirst, false) && isDue;
 }
 
+bool BadTurns::isDue(const model::TakeVerdict& verdict) {
+    constexpr std::size_t kMost = 1'000;
+    if (verdict.state != model::TakeVerdict::State::Bad) {
+        return false;
+    }
+    if (m_told.size() > kMost) {
+        m_told.erase(m_told.begin());
+    }
+    return m_told.insert(verdict.incident.value_or(0)).second;
+}
+
+QString notificationText(const QString& text) {
+    QString plain = text;
+    return plain.replace(u'<', u'‹').replace(u'>', u'›').replace(u'&', u'＆');
+}
+
+void VerdictNotifier::makeTray() {
+    m_tray = new QSystemTrayIcon(m_window->windowIcon(), m_window);
+    m_tray->show();
+    const auto comeForward = [this] {
+        m_window->show();
+        m_window->raise();
+        m_window->activateWindow();
+    };
+    QObject::connect(m_tray, &QSystemTrayIcon::activated, m_window, comeForward);
+    QObject::connect(m_tray, &QSystemTrayIcon::messageClicked, m_window, comeForward);
+}
+
+void VerdictNotifier::look(const model::TakeVerdict& verdict, bool isWanted) {
+    if (!m_turns.isDue(verdict) || !isWanted) {
+        return;
+    }
+    if (m_tray == nullptr) {
+        makeTray();
+    }
+    QApplication::alert(m_window); // where the desktop has no place for notifications
+    m_tray->showMessage(m_window->windowTitle(), notificationText(QString::fromStdString(verdict.text)),
+                        QSystemTrayIcon::Warning);
+}
+
 ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     : QDialog(parent),
       m_explanation(dimText({}, this)),
       m_warningSound(new QCheckBox(tr("at a &warning"), this)),
-      m_errorSound(new QCheckBox(tr("at an &error"), this)) {
+      m_errorSound(new QCheckBox(tr("at an &error"), this)),
+      m_notification(new QCheckBox(tr("by the &desktop, when the verdict turns bad"), this)) {
     setWindowTitle(tr("Thresholds"));
     auto* form = new QFormLayout;
     for (const model::ThresholdRow& row : model::thresholdTable()) {
@@ -59,6 +102,7 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
     sounds->addWidget(m_warningSound);
     sounds->addWidget(m_errorSound);
     form->addRow(tr("Sound"), sounds);
+    form->addRow(tr("Notification"), m_notification);
     auto* buttons = new QDialogButtonBox(
         QDialogButtonBox::Ok | QDialogButtonBox::Cancel | QDialogButtonBox::RestoreDefaults, this);
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
@@ -112,6 +156,7 @@ AlertChoices ThresholdsDialog::choices() const {
     }
     choices.hasWarningSound = m_warningSound->isChecked();
     choices.hasErrorSound = m_errorSound->isChecked();
+    choices.hasNotification = m_notification->isChecked();
     return choices;
 }
 
@@ -121,6 +166,7 @@ void ThresholdsDialog::setChoices(const AlertChoices& choices) {
     }
     m_warningSound->setChecked(choices.hasWarningSound);
     m_errorSound->setChecked(choices.hasErrorSound);
+    m_notification->setChecked(choices.hasNotification);
     explainHysteresis();
 }
 

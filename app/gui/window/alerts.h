@@ -2,17 +2,19 @@
 #pragma once
 
 #include "app/gui/alert_choices.h"
-#include "core/model/session/session_view.h"
+#include "core/model/session/verdict.h"
 
 #include <QDialog>
 
 #include <map>
+#include <set>
 #include <vector>
 
 class QCheckBox;
 class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
+class QSystemTrayIcon;
 
 namespace posewire::gui {
 
@@ -28,7 +30,36 @@ private:
     bool m_isFirst = true;
 };
 
-/// The limits that streams must keep, and whether a sound announces that one was exceeded.
+/// Decides when the desktop is to be told that the verdict has turned bad: once for each incident.
+class BadTurns {
+public:
+    [[nodiscard]] bool isDue(const model::TakeVerdict& verdict);
+
+private:
+    std::set<std::uint64_t> m_told;
+};
+
+/// A text for the desktop's notifications, which may take markup: nothing in it is.
+[[nodiscard]] QString notificationText(const QString& text);
+
+/// Has the desktop tell that the verdict has turned bad, from a tray icon that comes with the first time.
+class VerdictNotifier final {
+public:
+    /// A click on what is told brings the window forward, which outlives this.
+    explicit VerdictNotifier(QWidget* window) : m_window(window) {}
+
+    /// For each new verdict. What turned bad while it was not wanted is not told later.
+    void look(const model::TakeVerdict& verdict, bool isWanted);
+
+private:
+    void makeTray();
+
+    QWidget* m_window;
+    QSystemTrayIcon* m_tray = nullptr;
+    BadTurns m_turns;
+};
+
+/// The limits that streams must keep, and what announces that one was exceeded.
 class ThresholdsDialog final : public QDialog {
     Q_OBJECT
 
@@ -50,6 +81,7 @@ private:
     QLabel* m_explanation;
     QCheckBox* m_warningSound;
     QCheckBox* m_errorSound;
+    QCheckBox* m_notification;
 };
 
 } // namespace posewire::gui

@@ -393,6 +393,7 @@ void MainWindow::alert() {
     if (m_sounds.isDue(m_driver.live().incidents(), m_settings.alerts)) {
         QApplication::beep();
     }
+    m_notifier.look(m_verdict->verdict(), m_settings.alerts.hasNotification);
 }
 
 void MainWindow::useTheme(ThemeChoice choice) {

@@ -117,6 +117,7 @@ private:
     QToolButton* m_stopOpening = nullptr; ///< shown while a file is being opened
     Menus m_menus;
     AlertSounds m_sounds;
+    VerdictNotifier m_notifier{this};
     std::vector<Dock> m_docks;
     bool m_isRestored = false;
 };

@@ -21,6 +21,7 @@ TEST(AlertChoicesTest, AreReadBackAsTheyWereWritten) {
     choices.thresholds.lossPercent = 2.5;
     choices.thresholds.hysteresis = 0.5;
     choices.hasErrorSound = true;
+    choices.hasNotification = true;
     EXPECT_EQ(alertChoicesOf(jsonOf(choices)), choices);
     EXPECT_EQ(alertChoicesOf({}), AlertChoices());
 }
@@ -73,6 +74,24 @@ TEST(AlertSoundsTest, SoundWhereAWarningBecomesAnErrorAndForWhatIsSettledLate) {
     EXPECT_TRUE(sounds.isDue(incidents, choices));
     incidents.report(loss);
     EXPECT_FALSE(sounds.isDue(incidents, choices));
+}
+
+TEST(BadTurnsTest, TellOnceForAnIncident) {
+    using State = model::TakeVerdict::State;
+    BadTurns turns;
+    EXPECT_FALSE(turns.isDue({State::Warning, "Not quite good", {}, 1, {}}));
+    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, 1, {}}));
+    EXPECT_FALSE(turns.isDue({State::Bad, "Not good: more", {}, 1, {}}));
+    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, 2, {}}));
+    EXPECT_FALSE(turns.isDue({State::Bad, "Not good", {}, 1, {}})) << "again the worst of both";
+    EXPECT_FALSE(turns.isDue({State::Good, "Good", {}, {}, {}}));
+}
+
+TEST(BadTurnsTest, PassOnNoMarkup) {
+    const QString text = notificationText("Not good: no data from <b>Jonas</b> & co");
+    EXPECT_FALSE(text.contains('<'));
+    EXPECT_FALSE(text.contains('&'));
+    EXPECT_TRUE(text.contains("Jonas"));
 }
 
 TEST(ThresholdsDialogTest, GivesBackWhatItShowsAndTheDefaults) {
