@@ -64,8 +64,9 @@ std::span<const UnitInfo> unitTable() {
 }
 
 std::span<const UnitInfo> unitsOf(Dimension dimension) {
-    const auto found = std::ranges::equal_range(kUnits, dimension, {}, &UnitInfo::dimension);
-    return {found.begin(), found.end()};
+    const auto* first = std::ranges::lower_bound(kUnits, dimension, {}, &UnitInfo::dimension);
+    const auto* last = std::ranges::upper_bound(kUnits, dimension, {}, &UnitInfo::dimension);
+    return {first, last};
 }
 
 const UnitInfo* findUnit(std::string_view symbol) {

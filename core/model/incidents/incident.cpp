@@ -74,8 +74,7 @@ std::vector<std::uint8_t> eachOnce(const std::vector<Incident::Part>& parts, Get
         }
     }
     std::ranges::sort(values);
-    const auto [end, last] = std::ranges::unique(values);
-    values.erase(end, last);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
     return values;
 }
 
