@@ -54,14 +54,14 @@ TEST_F(EventSheetTest, WritesATableWithQuotesWhereTheyAreNeeded) {
 }
 
 TEST_F(EventSheetTest, WritesStampsOfAnyYear) {
-    gap.firstStamp = log::stampOf(-1'500'000'000);
-    gap.lastStamp = log::stampOf(-1);
-    down.firstStamp = log::Stamp::min();
+    gap.firstStamp = log::Stamp::min();
+    gap.lastStamp = log::stampOf(-1'500'000'000);
+    down.firstStamp = log::stampOf(1);
     down.lastStamp = log::Stamp::max();
     const std::vector<const model::Incident*> events{&gap, &down};
     const std::string csv = eventsCsv({session, events});
-    EXPECT_THAT(csv, HasSubstr(",-1.500000000,-0.000000001,"));
-    EXPECT_THAT(csv, HasSubstr(",-9223372036.854775808,9223372036.854775807,"));
+    EXPECT_THAT(csv, HasSubstr(",-9223372036.854775808,-1.500000000,"));
+    EXPECT_THAT(csv, HasSubstr(",0.000000001,9223372036.854775807,"));
 }
 
 TEST_F(EventSheetTest, WritesObjectsThatCanBeRead) {
