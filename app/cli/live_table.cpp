@@ -74,8 +74,8 @@ std::string row(std::string_view name, Cell cell) {
     return line;
 }
 
-std::string streamLine(const model::SessionView& session, const model::Stream& stream) {
-    const model::StreamFigures figures = exporting::figuresOf(session, stream);
+std::string streamLine(const model::Stream& stream) {
+    const model::StreamFigures figures = model::figuresOf(stream);
     return row("    " + wire::typeTitle(stream.key.type), [&](const Column& column) {
         return figures.has(column.figure) ? exporting::figureText(figures, column.figure, column.decimals)
                                           : std::string();
@@ -119,7 +119,7 @@ std::vector<std::string> liveTable(const model::SessionView& session, const expo
             lines.push_back("  " + session.displayName(character->key).shown() + " (" +
                             std::to_string(character->key.character) + ")");
             for (const model::Stream* stream : exporting::streamsByType(session, character->key)) {
-                lines.push_back(streamLine(session, *stream));
+                lines.push_back(streamLine(*stream));
             }
         }
     }

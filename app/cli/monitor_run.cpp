@@ -54,7 +54,7 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
         if (!wire::isSampled(stream.key.type)) {
             continue; // sent again now and then: its gaps mean nothing
         }
-        const model::StreamFigures figures = exporting::figuresOf(session, stream);
+        const model::StreamFigures figures = model::figuresOf(stream);
         for (std::size_t i = 0; i < kLimits.size(); ++i) {
             const double lastsMs = end && kLimits[i].figure == model::Figure::SpacingMost
                                        ? log::millisecondsOf(*end - stream.accounting.lastStamp())

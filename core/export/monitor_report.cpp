@@ -43,7 +43,7 @@ JsonValue streamJson(const model::StreamFigures& figures) {
 JsonValue streamsJson(const model::SessionView& session, const model::CharacterKey& key) {
     JsonValue::List list;
     for (const model::Stream* stream : streamsByType(session, key)) {
-        list.push_back(streamJson(figuresOf(session, *stream)));
+        list.push_back(streamJson(model::figuresOf(*stream)));
     }
     return list;
 }

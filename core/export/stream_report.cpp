@@ -4,6 +4,7 @@
 #include "core/export/html.h"
 #include "core/export/report_sections.h"
 #include "core/export/session_reading.h"
+#include "core/model/session/losses.h"
 #include "core/model/session/verdict.h"
 
 #include <algorithm>
@@ -232,8 +233,9 @@ bool hasStamps(const model::SessionView& session) {
 std::vector<model::StreamFigures> allFigures(const model::SessionView& session,
                                              const std::optional<model::TimeRange>& range) {
     std::vector<model::StreamFigures> all;
+    const model::Losses losses(session, range);
     for (const model::Stream& stream : session.streams()) {
-        const model::StreamFigures figures = figuresOf(session, stream, range);
+        const model::StreamFigures figures = losses.figuresOf(stream);
         if (figures[model::Figure::Datagrams] > 0 || !range) {
             all.push_back(figures);
         }

@@ -3,7 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/export/session_reading.h"
+#include "core/model/session/losses.h"
 
 #include <QLocale>
 #include <QStringList>
@@ -35,9 +35,10 @@ QString percent(const std::optional<double>& share, int decimals = 0) {
 
 PropertyValue lostByCause(const Source& from) {
     using enum model::LossCause;
-    std::array<std::uint64_t, model::kLossCauses> lost{};
+    const model::Losses losses(from.view, from.view.range());
+    model::LossesByCause lost{};
     for (const model::Stream& stream : from.view.streams()) {
-        const auto more = exporting::lostByCause(from.view, stream, from.view.range());
+        const model::LossesByCause more = losses.of(stream);
         std::ranges::transform(lost, more, lost.begin(), std::plus());
     }
     const QString toolTip =

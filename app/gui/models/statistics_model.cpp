@@ -57,6 +57,10 @@ constexpr std::array<Column, kStatisticsColumns> kColumns{{
     {Datagrams, "99 999 999"},
     {DatagramRate},
     {Step, "99"},
+    {LostHere},
+    {LostOnNetwork},
+    {LostAtSender},
+    {LostUnknown},
 }};
 
 /// Shorter parts show the beat of samples and buckets, not the rate.
@@ -128,7 +132,7 @@ QString statisticsSample(int column) {
 }
 
 StatisticsModel::StatisticsModel(model::SessionView& view, QObject* parent)
-    : StreamTreeModel(view, columns(*this), parent) {}
+    : StreamTreeModel(view, columns(*this), parent), m_losses(std::in_place, view, m_range) {}
 
 std::vector<TableColumn<StreamRow>> StatisticsModel::columns(const StatisticsModel& model) {
     std::vector<TableColumn<StreamRow>> columns;
@@ -197,6 +201,7 @@ void StatisticsModel::refresh() {
         kept.curve = hasNewCurves ? std::nullopt : std::move(kept.curve);
     }
     m_range = view().range();
+    m_losses.emplace(view(), m_range);
     if (insertNew()) {
         m_cache.clear();
     }
@@ -213,7 +218,7 @@ const model::StreamFigures& StatisticsModel::figures(const QModelIndex& index) c
     Cached& kept = cached(index);
     if (!kept.figures) {
         const model::Stream* shown = stream(index);
-        kept.figures = shown != nullptr ? model::figuresOf(*shown, m_range) : sumOf(index);
+        kept.figures = shown != nullptr ? m_losses->figuresOf(*shown) : sumOf(index);
     }
     return *kept.figures;
 }
@@ -286,7 +291,7 @@ StatisticsModel::Curve StatisticsModel::makeCurve(const QModelIndex& index) cons
 }
 
 std::string StatisticsModel::csvLine(const model::Stream& stream) const {
-    const model::StreamFigures figures = model::figuresOf(stream, m_range);
+    const model::StreamFigures figures = m_losses->figuresOf(stream);
     const model::CharacterKey key = characterOf(stream.key);
     const model::Sender* sender = view().find(key.sender);
     std::vector<std::string> cells{sender == nullptr ? std::string() : sender->address().csv(),

@@ -4,7 +4,7 @@
 #include "app/gui/models/stream_tree_model.h"
 #include "core/log/time.h"
 #include "core/model/accounting/range_figures.h"
-#include "core/model/accounting/stream_figures.h"
+#include "core/model/session/losses.h"
 
 #include <QList>
 
@@ -16,7 +16,7 @@ namespace posewire::gui {
 
 /// The columns of the statistics: the name of a row, then figures, and among them the curve of the rate. The
 /// first are always shown, the others as they fit or are chosen.
-inline constexpr int kStatisticsColumns = 32;
+inline constexpr int kStatisticsColumns = 36;
 inline constexpr int kNameColumn = 0;
 inline constexpr int kCurveColumn = 5;
 /// Those before it are shown however narrow the dock is.
@@ -75,6 +75,7 @@ private:
     [[nodiscard]] static TableColumn<StreamRow> curveColumn(const StatisticsModel& model);
 
     std::optional<model::TimeRange> m_range;
+    std::optional<model::Losses> m_losses; ///< in the range, as of the newest refresh; never empty
     model::RangeChoice m_choice;
     std::chrono::time_point<log::LogTime, std::chrono::seconds> m_curveSecond{};
     mutable std::deque<Cached> m_cache; ///< by the node of the row; what is in it stays where it is

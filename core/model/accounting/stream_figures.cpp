@@ -134,7 +134,7 @@ constexpr std::array kRows{
               lostBy<LossCause::Network>, "Samples that the network lost"},
     FigureRow{LostAtSender, "causes.sender", "Lost at the sender", kCount, Sum::Sum, Trouble::Warning,
               lostBy<LossCause::Sender>, "Samples that the sender never sent"},
-    FigureRow{LostUnknown, "causes.unknown", "Lost, cause unknown", kCount, Sum::Sum, Trouble::Warning,
+    FigureRow{LostUnknown, "causes.unknown", "Lost of unknown cause", kCount, Sum::Sum, Trouble::Warning,
               lostBy<LossCause::Unknown>, "Samples lost without evidence of the cause"},
     FigureRow{Bursts, "bursts", "Bursts", kCount, Sum::Sum, Trouble::Warning, pattern<&Pattern::bursts>,
               "Periods in which losses were less than 16 samples apart (RFC 3611 section 4.7.2), counted "

@@ -96,6 +96,27 @@ TEST_F(StatisticsModelTest, FiguresAreOfTheRangeThatIsChosen) {
     EXPECT_EQ(text(stream(), Column::Lost), QStringLiteral("▲ 1"));
 }
 
+TEST_F(StatisticsModelTest, SaysWhoseLossItWasAlsoInARange) {
+    performer::Performer performer(sending(1, {2, 21}, 100.0));
+    for (std::uint64_t frame = 0; frame < 2000; ++frame) {
+        for (const wire::Datagram& datagram : performer.frame(frame)) {
+            if (frame != 520 || datagram.header.type() != 2) { // the other stream proves that it was sent
+                m_stage.send(datagram, Stage::kStart + std::chrono::milliseconds(10 * frame));
+            }
+        }
+    }
+    refresh();
+    EXPECT_EQ(text(stream(), Column::LostOnNetwork), QStringLiteral("▲ 1"));
+    m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 4s, Stage::kStart + 6s}});
+    refresh();
+    EXPECT_EQ(text(stream(), Column::LostOnNetwork), QStringLiteral("▲ 1"));
+    EXPECT_EQ(text(stream(), Column::LostUnknown), "0");
+    EXPECT_EQ(text(character(), Column::LostOnNetwork), QStringLiteral("▲ 1"));
+    m_stage.commands.selectRange({0s, model::TimeRange{Stage::kStart + 6s, Stage::kStart + 9s}});
+    refresh();
+    EXPECT_EQ(text(stream(), Column::LostOnNetwork), "0");
+}
+
 TEST_F(StatisticsModelTest, SumsOfCharacterAndSenderAddUpAndLeaveOutWhatMakesNoSense) {
     performer::Performer performer(sending(2, {2, 20, 12}, 100.0));
     m_stage.perform(performer, 0, 300, [](std::uint64_t frame) { return frame != 120; });

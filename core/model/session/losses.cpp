@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/losses.h"
+
+#include "core/model/accounting/gap.h"
+
+#include <algorithm>
+
+namespace posewire::model {
+
+namespace {
+
+constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
+
+} // namespace
+
+Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range) : m_range(range) {
+    if (!range) {
+        return;
+    }
+    for (const Gap& gap : session.gaps()) {
+        if (gap.toStamp >= range->from && gap.toStamp < range->to && gap.cause != LossCause::Unknown) {
+            m_known[gap.stream][static_cast<std::size_t>(gap.cause)] += gap.lost;
+        }
+    }
+}
+
+LossesByCause Losses::of(const Stream& stream) const {
+    if (!m_range) {
+        return stream.lostByCause();
+    }
+    const StreamCounts counts = stream.accounting.countsBetween(m_range->from, m_range->to);
+    std::uint64_t left = counts.lost + counts.incomplete;
+    const auto known = m_known.find(stream.key);
+    LossesByCause losses{};
+    for (std::size_t cause = 0; known != m_known.end() && cause < kUnknown; ++cause) {
+        losses[cause] = std::min(known->second[cause], left); // a gap at an edge counts whole
+        left -= losses[cause];
+    }
+    losses[kUnknown] = left;
+    return losses;
+}
+
+StreamFigures Losses::figuresOf(const Stream& stream) const {
+    constexpr std::array kCauses{Figure::LostHere, Figure::LostOnNetwork, Figure::LostAtSender,
+                                 Figure::LostUnknown}; // by LossCause
+    StreamFigures figures = model::figuresOf(stream, m_range);
+    const LossesByCause losses = of(stream);
+    for (std::size_t cause = 0; cause < kCauses.size(); ++cause) {
+        figures.set(kCauses[cause], static_cast<double>(losses[cause]));
+    }
+    return figures;
+}
+
+} // namespace posewire::model
