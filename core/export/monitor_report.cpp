@@ -54,7 +54,8 @@ std::string sentName(const model::SessionView& session, const model::CharacterKe
     return tag != nullptr ? std::string(tag->values.back().text.exact()) : std::string();
 }
 
-JsonValue charactersJson(const model::SessionView& session, const model::Sender& sender) {
+JsonValue charactersJson(const model::SessionView& session, const model::Sender& sender,
+                         const model::TakeVerdicts& verdicts) {
     std::vector<model::CharacterKey> keys;
     for (const model::Character* character : sender.characters) {
         keys.push_back(character->key);
@@ -65,7 +66,7 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
         JsonValue character{{"id", key.character},
                             {"name", sentName(session, key)},
                             {"streams", streamsJson(session, key)},
-                            {"state", model::nameOf(model::verdictOf(session, {}, key).state)}};
+                            {"state", model::nameOf(verdicts.characters.at(key).state)}};
         if (!session.find(key)->isConfirmed) {
             character["unconfirmed"] = true;
         }
@@ -74,14 +75,15 @@ JsonValue charactersJson(const model::SessionView& session, const model::Sender&
     return characters;
 }
 
-JsonValue senderJson(const model::SessionView& session, const model::Sender& sender) {
+JsonValue senderJson(const model::SessionView& session, const model::Sender& sender,
+                     const model::TakeVerdicts& verdicts) {
     return {{"address", sender.info.address},
             {"transport", log::nameOf(sender.info.transport)},
             {"datagrams", sender.datagrams - sender.malformed - sender.foreign},
             {"bytes", sender.bytes - sender.skippedBytes - sender.foreignBytes},
             {"malformed", sender.malformed},
             {"skippedBytes", sender.skippedBytes},
-            {"characters", charactersJson(session, sender)},
+            {"characters", charactersJson(session, sender, verdicts)},
             {"localPort", sender.info.localPort},
             {"kernelDropped", sender.kernelDrops}};
 }
@@ -99,11 +101,12 @@ JsonValue memoryJson(const model::MemoryFigures& memory) {
 std::string monitorReport(const model::SessionView& session, const MonitorFacts& facts) {
     const model::SenderTotals all = session.allSenders();
     const model::RetiredTotals& retired = session.retired();
+    const model::TakeVerdicts verdicts = model::verdictsOf(session, {});
     JsonValue::List senders;
     JsonValue::List foreignSenders;
     for (const model::Sender& sender : session.senders()) {
         if (hasSentMxtp(sender)) {
-            senders.push_back(senderJson(session, sender));
+            senders.push_back(senderJson(session, sender, verdicts));
         }
         if (sender.foreign != 0) {
             foreignSenders.push_back({{"address", sender.info.address},
@@ -126,7 +129,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                                  {"lost", retired.lost}}},
                            {"memory", memoryJson(session.memory())},
                            {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
-                           {"verdict", verdictJson(session, model::verdictOf(session, {}))},
+                           {"verdict", verdictJson(session, verdicts.all)},
                            {"incidents", incidentsJson(session)}};
     return report.text();
 }

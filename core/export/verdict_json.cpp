@@ -32,8 +32,7 @@ JsonValue causeJson(const std::optional<model::LossCause>& cause) {
 }
 
 JsonValue characterJson(const model::SessionView& session, const model::CharacterKey& key,
-                        const model::VerdictSpan& span) {
-    const model::TakeVerdict verdict = model::verdictOf(session, span, key);
+                        const model::TakeVerdict& verdict) {
     const model::Incident* incident =
         verdict.incident ? session.incidents().find(*verdict.incident) : nullptr;
     return {{"source", std::string(session.addressOf(key.sender).exact())},
@@ -104,9 +103,9 @@ std::string VerdictLines::line(const model::SessionView& session, log::Stamp now
     m_newest = now;
     m_verdict = verdict;
     JsonValue::List characters;
-    const model::VerdictSpan span = model::recentSpan(session);
-    for (const model::Character* character : session.currentCharacters()) {
-        characters.push_back(characterJson(session, character->key, span));
+    const model::TakeVerdicts verdicts = model::verdictsOf(session, model::recentSpan(session));
+    for (const model::Character* character : session.charactersNow()) {
+        characters.push_back(characterJson(session, character->key, verdicts.characters.at(character->key)));
     }
     return JsonValue{{"timeNs", timeJson(session, now)},
                      {"verdict", verdictJson(session, verdict)},

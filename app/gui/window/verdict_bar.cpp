@@ -50,9 +50,9 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
         return VerdictBar::tr("no data yet");
     }
     const auto characters = live.charactersNow();
-    const auto span = model::recentSpan(live);
+    const model::TakeVerdicts verdicts = verdictsOf(live, model::recentSpan(live));
     const auto good = std::ranges::count_if(characters, [&](const model::Character* character) {
-        return verdictOf(live, span, character->key).state == model::TakeVerdict::State::Good;
+        return verdicts.characters.at(character->key).state == model::TakeVerdict::State::Good;
     });
     return static_cast<std::size_t>(good) == characters.size()
                ? VerdictBar::tr("%1 good").arg(good)

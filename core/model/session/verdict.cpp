@@ -219,6 +219,82 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     return {TakeVerdict::State::Good, "Good for the take: " + who, since, {}, {}};
 }
 
+bool isPast(const ListedIncident& one, const VerdictSpan& span) {
+    // Of a sample that is just coming the rest is under way.
+    const bool isUnderWay = one.state == State::Provisional && one.incident.parts.empty();
+    return isUnderWay || (one.state == State::Over && one.incident.lastStamp < span.from);
+}
+
+State stateOf(const SessionView& session, const Incident& incident) {
+    return incident.isCurrent && !hasCeased(session, incident) ? State::Ongoing : State::Over;
+}
+
+/// Those that began up to the end of a span and lasted into it.
+std::vector<ListedIncident> listedBetween(const SessionView& session, const VerdictSpan& span) {
+    std::vector<ListedIncident> all;
+    for (const auto& [sender, sums] : untold(session)) {
+        for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
+            if (sums[cause] != 0) {
+                all.push_back(cause == kUnknown
+                                  ? provisionalOf(session, sender, sums[cause])
+                                  : forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
+            }
+        }
+    }
+    for (const Incident& incident : session.incidents().all()) {
+        const bool isMeant = (incident.isCurrent || incident.lastStamp >= span.from) &&
+                             incident.firstStamp <= span.to && !isNote(incident);
+        if (isMeant) {
+            all.push_back({incident, stateOf(session, incident)});
+        }
+    }
+    std::ranges::stable_sort(all, {}, [](const ListedIncident& one) { return one.incident.number; });
+    return all;
+}
+
+/// Lists once what several verdicts are about.
+class Judge {
+public:
+    Judge(const SessionView& session, const VerdictSpan& span)
+        : m_session(session), m_span(span), m_listed(listedBetween(session, span)) {
+        std::erase_if(m_listed, [&](const ListedIncident& one) { return isPast(one, span); });
+    }
+
+    [[nodiscard]] TakeVerdict of(const std::optional<CharacterKey>& character) const {
+        std::optional<ListedIncident> worst;
+        for (const ListedIncident& one : m_listed) {
+            if (!concerns(one.incident, character)) {
+                continue;
+            }
+            ListedIncident mine = one;
+            if (character) {
+                mine.incident = one.incident.of(character->character);
+            }
+            if (!worst || rankOf(*worst) < rankOf(mine)) {
+                worst = std::move(mine);
+            }
+        }
+        return worst ? fromIncident(m_session, *worst)
+                     : withoutIncident(m_session, character, endOfTheLast(character));
+    }
+
+private:
+    /// When the last incident before the span was over; when the session began, where there was none.
+    [[nodiscard]] log::Stamp endOfTheLast(const std::optional<CharacterKey>& character) const {
+        log::Stamp end = m_session.firstStamp();
+        for (const Incident& incident : m_session.incidents().all()) {
+            const bool isOver =
+                incident.firstStamp <= m_span.to && !isNote(incident) && concerns(incident, character);
+            end = isOver ? std::max(end, incident.lastStamp) : end;
+        }
+        return end;
+    }
+
+    const SessionView& m_session;
+    VerdictSpan m_span;
+    std::vector<ListedIncident> m_listed;
+};
+
 } // namespace
 
 std::string_view nameOf(ListedIncident::State state) {
@@ -232,24 +308,7 @@ std::string_view nameOf(TakeVerdict::State state) {
 }
 
 std::vector<ListedIncident> listedIncidents(const SessionView& session) {
-    std::vector<ListedIncident> all;
-    for (const auto& [sender, sums] : untold(session)) {
-        for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
-            if (sums[cause] != 0) {
-                all.push_back(cause == kUnknown
-                                  ? provisionalOf(session, sender, sums[cause])
-                                  : forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
-            }
-        }
-    }
-    for (const Incident& incident : session.incidents().all()) {
-        if (!isNote(incident)) {
-            const bool goesOn = incident.isCurrent && !hasCeased(session, incident);
-            all.push_back({incident, goesOn ? State::Ongoing : State::Over});
-        }
-    }
-    std::ranges::stable_sort(all, {}, [](const ListedIncident& one) { return one.incident.number; });
-    return all;
+    return listedBetween(session, {});
 }
 
 VerdictSpan recentSpan(const SessionView& session) {
@@ -301,24 +360,16 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed)
 
 TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
                       std::optional<CharacterKey> character) {
-    std::vector<ListedIncident> counting = listedIncidents(session);
-    log::Stamp over = session.firstStamp();
-    std::erase_if(counting, [&](const ListedIncident& one) {
-        const bool isMine = concerns(one.incident, character) && one.incident.firstStamp <= span.to;
-        // Of a sample that is just coming the rest is under way.
-        const bool isUnderWay = one.state == State::Provisional && one.incident.parts.empty();
-        const bool isPast = isUnderWay || (one.state == State::Over && one.incident.lastStamp < span.from);
-        over = isMine && isPast && !isUnderWay ? std::max(over, one.incident.lastStamp) : over;
-        return !isMine || isPast;
-    });
-    if (character) {
-        for (ListedIncident& one : counting) {
-            one.incident = one.incident.of(character->character);
-        }
+    return Judge(session, span).of(character);
+}
+
+TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span) {
+    const Judge judge(session, span);
+    TakeVerdicts verdicts{judge.of({}), {}};
+    for (const Character& character : session.characters()) {
+        verdicts.characters[character.key] = judge.of(character.key);
     }
-    const auto worst = std::ranges::max_element(counting, {}, rankOf);
-    return worst != counting.end() ? fromIncident(session, *worst)
-                                   : withoutIncident(session, character, over);
+    return verdicts;
 }
 
 } // namespace posewire::model

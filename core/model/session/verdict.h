@@ -3,6 +3,7 @@
 
 #include "core/model/session/session_view.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -47,6 +48,13 @@ struct VerdictSpan {
 };
 /// The last moments of what is on the wire, but nothing before the reset.
 [[nodiscard]] VerdictSpan recentSpan(const SessionView& session);
+
+/// Of all together, and of each character.
+struct TakeVerdicts {
+    TakeVerdict all;
+    std::map<CharacterKey, TakeVerdict> characters;
+};
+[[nodiscard]] TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span);
 
 /// Of all, or of one character and its sender.
 [[nodiscard]] TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
