@@ -74,7 +74,7 @@ void lookAround(model::Session& session, std::uint64_t records) {
         }
         for (const model::Character& character : session.characters()) {
             static_cast<void>(session.pose(character.key));
-            static_cast<void>(session.conditionOf(character.key));
+            static_cast<void>(session.verdict(character.key));
             static_cast<void>(session.displayName(character.key));
             static_cast<void>(session.nullPoseEvidence(character.key));
             for (const model::Stream* stream : character.streams) {

@@ -109,6 +109,7 @@ public:
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         change(&model::Session::setHidden, key, !isVisible);
     }
+    void forgetSender(log::SenderId sender) override { change(&model::Session::forget, sender); }
     void setGhostVisible(bool isVisible) override;
     void showIncident(std::optional<std::uint64_t> number) override;
     void copyText(const QString& text) override;

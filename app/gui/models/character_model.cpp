@@ -5,20 +5,23 @@
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
-#include "core/model/session/ingest.h"
+#include "core/model/body/character_pose.h"
 #include "core/wire/type_table.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
+#include <set>
 
 namespace posewire::gui {
 
 namespace {
 
-QString transportName(log::Transport transport) {
-    const std::array names{QStringLiteral("UDP"), QStringLiteral("TCP"), tr("file"),
-                           tr("demo")}; // by Transport
-    return names[static_cast<std::size_t>(transport)];
-}
+constexpr std::size_t kUnknown = static_cast<std::size_t>(model::LossCause::Unknown);
+
+/// Of a recording, how much of it is read for the sender's clock.
+constexpr log::Duration kReadBack = std::chrono::seconds(3);
+constexpr std::size_t kMostRead = 2'000;
 
 /// Shows how fast a character comes: its pose, or else the fastest of its streams.
 const model::Stream* leadingStream(const model::Character& character) {
@@ -39,128 +42,342 @@ const model::Stream* leadingStream(const model::Character& character) {
     return fastest;
 }
 
-} // namespace
-
-CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QObject* parent)
-    : StreamTreeModel(view, columns(*this), parent), m_commands(commands) {}
-
-void CharacterModel::refresh() {
-    if (insertNew()) {
-        std::erase_if(m_rates, [this](const auto& entry) { return view().find(entry.first) == nullptr; });
-    }
-    for (const model::Character& character : view().characters()) {
-        const model::Stream* stream = leadingStream(character);
-        const auto* message = stream == nullptr ? nullptr : view().message(character.key, stream->key.type);
-        if (message != nullptr) {
-            m_rates[character.key].add(message->datagram.header.sampleCounter,
-                                       message->datagram.header.timeCode);
-        }
-    }
-    announceChange();
+/// Now on the wire; of a recording at the cursor.
+double ageOf(const model::SessionView& view, log::Stamp newest) {
+    const log::Stamp now = view.isRecording() ? view.cursorStamp() : view.now();
+    return std::max(0.0, log::secondsOf(now - newest));
 }
 
-std::optional<double> CharacterModel::nominalHz(const model::Stream& stream) const {
-    const auto rate = m_rates.find(characterOf(stream.key));
-    if (rate == m_rates.end() || stream.accounting.step() == 0 || !wire::isSampled(stream.key.type)) {
+/// Nothing comes at all where nothing has come for long.
+double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
+    const double rateHz = stream.statistics.rateHz();
+    const bool isSilent = !isRecording && ageS > std::max(kStaleAge, rateHz > 0 ? 2.5 / rateHz : 0.0);
+    return isSilent ? 0 : rateHz;
+}
+
+/// What is not there yet and may still come, by stream.
+std::map<log::StreamKey, std::uint64_t> pendingOf(const model::SessionView& view) {
+    std::map<log::StreamKey, std::uint64_t> pending;
+    view.forEachPending([&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/,
+                            log::Stamp /*to*/) { pending[stream] += missing; });
+    return pending;
+}
+
+/// Reads losses of streams in the board's span, without those that are not settled.
+class SettledLosses {
+public:
+    explicit SettledLosses(const model::SessionView& view)
+        : m_losses(view, boardSpan(view)), m_pending(pendingOf(view)) {}
+
+    void add(const model::Stream& stream, model::LossesByCause& sums) const {
+        model::LossesByCause losses = m_losses.of(stream);
+        if (const auto pending = m_pending.find(stream.key); pending != m_pending.end()) {
+            losses[kUnknown] -= std::min(losses[kUnknown], pending->second);
+        }
+        std::ranges::transform(sums, losses, sums.begin(), std::plus());
+    }
+
+private:
+    model::Losses m_losses;
+    std::map<log::StreamKey, std::uint64_t> m_pending;
+};
+
+QString hertz(const std::optional<double>& rateHz, bool isNominal) {
+    if (!rateHz) {
+        return dash();
+    }
+    return isNominal ? QString::number(*rateHz, 'g', 5) : fixed(*rateHz, 1);
+}
+
+/// Seconds, without the unit, which is in the title.
+QString ageText(double seconds) {
+    return seconds < 1000 ? fixed(seconds, 1) : grouped(static_cast<std::uint64_t>(seconds));
+}
+
+template <class Row>
+TableColumn<Row> lostColumn(const QString& title, model::LossCause cause, const QString& help) {
+    const auto at = static_cast<std::size_t>(cause);
+    return TableColumn<Row>::numbers(title, help, [at](const Row& row) { return grouped(row.lost[at]); })
+        .withColour(
+            [at](const Row& row) { return QVariant(row.lost[at] == 0 ? theme().dim : theme().warning); });
+}
+
+/// Rates, losses and age: the same for characters and their streams, side by side and of the same time.
+template <class Row>
+void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
+    using Column = TableColumn<Row>;
+    columns.push_back(Column::numbers(tr("Nominal Hz"),
+                                      tr("Rate by the sender's own time code and sample counter"),
+                                      [](const Row& row) { return hertz(row.nominalHz, true); })
+                          .dimmed());
+    columns.push_back(Column::numbers(tr("Hz"), tr("Rate measured by arrival at this computer"),
+                                      [](const Row& row) { return hertz(row.measuredHz, false); }));
+    columns.push_back(lostColumn<Row>(tr("Lost here"), model::LossCause::ThisComputer,
+                                      tr("Samples of all its streams that this computer lost, in the time "
+                                         "that stands above the table")));
+    columns.push_back(lostColumn<Row>(tr("network"), model::LossCause::Network,
+                                      tr("Samples that the network lost, in the time that stands above the "
+                                         "table")));
+    columns.push_back(lostColumn<Row>(tr("sender"), model::LossCause::Sender,
+                                      tr("Samples that the sender left out, in the time that stands above "
+                                         "the table")));
+    columns.push_back(lostColumn<Row>(tr("unknown"), model::LossCause::Unknown,
+                                      tr("Samples lost of which nothing shows by whom, in the time that "
+                                         "stands above the table")));
+    columns.push_back(
+        Column::numbers(tr("Age s"), tr("Seconds since its newest datagram"), [](const Row& row) {
+            return ageText(row.ageS);
+        }).withColour([](const Row& row) {
+            return row.ageS >= kStaleAge    ? QVariant(theme().error)
+                   : row.ageS >= kSilentAge ? QVariant(theme().warning)
+                                            : QVariant();
+        }));
+}
+
+std::vector<TableColumn<DetailRow>> detailColumns() {
+    using Column = TableColumn<DetailRow>;
+    std::vector<Column> columns{Column::words(tr("Stream"), {}, [](const DetailRow& row) {
+        return QString::fromStdString(wire::typeTitle(row.key.type));
+    })};
+    addFigureColumns(columns);
+    return columns;
+}
+
+std::vector<TableColumn<EndedSender>> endedColumns() {
+    using Column = TableColumn<EndedSender>;
+    return {Column::words(tr("Ended sender"), {}, [](const EndedSender& row) { return row.address; }),
+            Column::words(tr("Characters"), {}, [](const EndedSender& row) { return row.characters; }),
+            Column::numbers(tr("Ended at"), {}, [](const EndedSender& row) { return row.ended; })};
+}
+
+QString clockOf(const model::SessionView& view, log::Stamp stamp) {
+    return timeOfDay(view.wallOf(stamp)).chopped(4);
+}
+
+} // namespace
+
+std::optional<model::TimeRange> boardSpan(const model::SessionView& view) {
+    if (view.isRecording()) {
         return std::nullopt;
     }
-    const auto frameHz = rate->second.frameHz();
+    // What arrives at this very moment belongs to it.
+    return model::TimeRange{model::recentSpan(view).from, view.now() + log::Duration(1)};
+}
+
+QString boardSpanText(const model::SessionView& view) {
+    if (view.isRecording()) {
+        return tr("whole recording");
+    }
+    const log::Duration recent = model::VerdictSpan::kRecent;
+    return view.now() - view.reset() < recent ? tr("since the reset")
+                                              : tr("last %1 s").arg(recent / std::chrono::seconds(1));
+}
+
+std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOrder order) {
+    std::vector<model::CharacterKey> keys;
+    for (const model::Character* character : view.charactersNow()) {
+        keys.push_back(character->key);
+    }
+    if (order == BoardOrder::TroubleFirst) {
+        using State = model::TakeVerdict::State;
+        std::ranges::stable_sort(keys, {}, [&view](const model::CharacterKey& key) {
+            constexpr std::array kRanks{2, 3, 1, 0}; // by State
+            static_assert(static_cast<int>(State::Bad) == 3);
+            return kRanks[static_cast<std::size_t>(view.verdict(key).state)];
+        });
+    }
+    return keys;
+}
+
+void NominalRates::follow(const model::SessionView& view,
+                          const std::vector<model::CharacterKey>& characters) {
+    const std::set<model::CharacterKey> there(characters.begin(), characters.end());
+    std::erase_if(m_rates, [&](const auto& entry) { return !there.contains(entry.first); });
+    for (const model::CharacterKey& key : characters) {
+        const model::Character& character = *view.find(key);
+        const model::Stream* stream = leadingStream(character);
+        if (stream == nullptr) {
+            continue;
+        }
+        Learnt& learnt = m_rates[key];
+        const std::uint64_t restarts = character.counterRestarts();
+        if (learnt.type != stream->key.type || learnt.restarts != restarts) {
+            learnt = {stream->key.type, restarts, 0, {}};
+        }
+        if (view.isRecording()) {
+            if (!learnt.rate.frameHz() && std::exchange(learnt.end, view.end()) != view.end()) {
+                view.visitHeaders(stream->key, stream->accounting.lastStamp() - kReadBack, kMostRead,
+                                  [&learnt](log::Stamp /*stamp*/, const wire::Header& header) {
+                                      learnt.rate.add(header.sampleCounter, header.timeCode);
+                                  });
+            }
+        } else if (stream->newest.packet != UINT64_MAX) {
+            const wire::Header& header = stream->newest.datagram.header;
+            learnt.rate.add(header.sampleCounter, header.timeCode);
+        }
+    }
+}
+
+std::optional<double> NominalRates::of(const model::Stream& stream) const {
+    const auto learnt = m_rates.find({stream.key.sender, stream.key.character});
+    if (learnt == m_rates.end() || stream.accounting.step() == 0 || !wire::isSampled(stream.key.type)) {
+        return std::nullopt;
+    }
+    const auto frameHz = learnt->second.rate.frameHz();
     return frameHz ? std::optional(*frameHz / stream.accounting.step()) : std::nullopt;
 }
 
-std::vector<TableColumn<StreamRow>> CharacterModel::columns(const CharacterModel& model) {
-    using Column = TableColumn<StreamRow>;
-    const auto help = [&model](const StreamRow& row) {
-        return row.kind == Kind::Character ? tr("Character ID %1. Check mark: shown in the viewport. Double "
-                                                "click: frame in the viewport.")
-                                                 .arg(row.key.character)
-                                           : QString();
-    };
-    const auto name = [&model](const StreamRow& row) { return model.nameOf(row); };
-    const auto marks = [&model](const StreamRow& row, int role) {
-        if (role == Qt::CheckStateRole && row.kind == Kind::Character) {
-            const bool isHidden = model.view().isHidden(characterOf(row.key));
-            return QVariant(isHidden ? Qt::Unchecked : Qt::Checked);
+CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QObject* parent)
+    : TableModel(columns(view), parent), m_view(view), m_commands(commands) {}
+
+void CharacterModel::refresh() {
+    const auto keys = boardOf(m_view, m_order);
+    m_rates.follow(m_view, keys);
+    const SettledLosses losses(m_view);
+    std::vector<BoardRow> rows;
+    for (const model::CharacterKey& key : keys) {
+        BoardRow row;
+        row.key = key;
+        row.verdict = m_view.verdict(key);
+        row.restarts = m_view.restartsOf(key);
+        row.ageS = ageOf(m_view, m_view.find(key)->lastStamp);
+        if (const model::Stream* leading = leadingStream(*m_view.find(key))) {
+            row.nominalHz = m_rates.of(*leading);
+            row.measuredHz = measuredHz(*leading, row.ageS, m_view.isRecording());
         }
-        return model.marksOf(row, role);
-    };
-    return {
-        Column::words(tr("Character, stream"), {}, name).withToolTip(help).withMore(marks),
-        Column::numbers(tr("Hz"), {}, [&model](const auto& row) { return model.rateOf(row); })
-            .withColour([](const StreamRow& row) {
-                return row.kind == Kind::Sender ? QVariant(theme().dim) : QVariant();
-            })
-            .withToolTip([&model](const auto& row) { return model.rateHelp(row); }),
-        valueColumn(Column::numbers(tr("Lost"), tr("Samples that never arrived, or what is wrong"), {}),
-                    [&model](const StreamRow& row) { return model.stateOf(row); }),
-    };
-}
-
-QString CharacterModel::rateOf(const StreamRow& row) const {
-    if (row.kind == Kind::Sender) {
-        return transportName(senderOf(row).info.transport);
-    }
-    if (row.kind == Kind::Character) {
-        const model::Stream* leading = leadingStream(characterAt(row));
-        return leading == nullptr ? QString() : fixed(leading->statistics.rateHz(), 1);
-    }
-    const model::Stream& stream = streamOf(row);
-    const auto nominal = nominalHz(stream);
-    const QString measured = fixed(stream.statistics.rateHz(), 1);
-    return nominal ? QStringLiteral("%1/%2").arg(QString::number(*nominal, 'g', 5), measured) : measured;
-}
-
-QString CharacterModel::rateHelp(const StreamRow& row) const {
-    if (row.kind != Kind::Stream) {
-        return {};
-    }
-    return nominalHz(streamOf(row)) ? tr("Nominal rate, from the sender's time code and sample "
-                                         "counter / measured by arrival at this "
-                                         "computer")
-                                    : tr("Measured by arrival at this computer");
-}
-
-/// The tooltip says it in full, since a narrow column cuts it; of senders with every contradiction in what
-/// they send.
-PropertyValue CharacterModel::stateOf(const StreamRow& row) const {
-    PropertyValue state;
-    QStringList lines;
-    switch (row.kind) {
-    case Kind::Sender:
-        state = senderState(view(), senderOf(row));
-        for (const model::Contradiction& one : senderOf(row).contradictions()) {
-            lines += healthText(Health::Warning, QString::fromStdString(one.text));
+        for (const model::Character* one : m_view.lineage(key)) {
+            for (const model::Stream* stream : one->streams) {
+                losses.add(*stream, row.lost);
+            }
         }
-        break;
-    case Kind::Character:
-        state = characterState(view(), characterAt(row));
-        break;
-    case Kind::Stream:
-        state = streamState(view(), streamOf(row));
-        break;
+        if (const model::CharacterPose* pose = m_view.pose(key)) {
+            row.poseType = pose->type;
+        }
+        rows.push_back(std::move(row));
     }
-    lines.prepend(state.display());
-    lines.removeAll(QString());
-    state.toolTip = lines.join(QLatin1Char('\n'));
-    return state;
+    setRows(std::move(rows));
+}
+
+std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& view) {
+    using Column = TableColumn<BoardRow>;
+    const auto help = [&view](const BoardRow& row) {
+        return tr("Character ID %1, %2. Check mark: shown in the viewport. Double click: frame in the "
+                  "viewport.")
+            .arg(row.key.character)
+            .arg(portHistory(view, row.key));
+    };
+    const auto marks = [&view](const BoardRow& row, int role) {
+        switch (role) {
+        case Qt::CheckStateRole:
+            return QVariant(view.isHidden(row.key) ? Qt::Unchecked : Qt::Checked);
+        case kSuffixRole:
+            return QVariant(QStringLiteral("· %1").arg(row.key.character));
+        case kDotRole:
+            return QVariant(characterColour(view, row.key));
+        default:
+            return QVariant();
+        }
+    };
+    std::vector<Column> columns{
+        Column::words(tr("Character"), {},
+                      [&view](const BoardRow& row) { return characterName(view, row.key); })
+            .withToolTip(help)
+            .withMore(marks),
+        valueColumn(Column::words(tr("Verdict"), tr("Whether it is good now on the wire"), {}),
+                    [](const BoardRow& row) { return verdictState(row.verdict); })
+            .withMore([](const BoardRow& row, int role) {
+                const QString words = restartWords(row.restarts);
+                return role == kSuffixRole && !words.isEmpty() ? QVariant(QStringLiteral("· ") + words)
+                                                               : QVariant();
+            })};
+    addFigureColumns(columns);
+    columns.push_back(Column::words(
+        tr("Pose"), tr("The type of message that its figure is drawn from"), [](const BoardRow& row) {
+            return row.poseType ? QString::fromStdString(wire::typeDigits(*row.poseType)) : tr("none");
+        }));
+    return columns;
+}
+
+std::optional<model::CharacterKey> CharacterModel::character(const QModelIndex& index) const {
+    return index.isValid() ? std::optional(rows()[static_cast<std::size_t>(index.row())].key) : std::nullopt;
+}
+
+QModelIndex CharacterModel::indexOf(const model::CharacterKey& key) const {
+    const auto row =
+        std::ranges::find_if(rows(), [&](const BoardRow& one) { return m_view.isSame(one.key, key); });
+    return row == rows().end() ? QModelIndex() : index(static_cast<int>(row - rows().begin()), 0);
 }
 
 bool CharacterModel::setData(const QModelIndex& index, const QVariant& value, int role) {
     if (!checkIndex(index, CheckIndexOption::IndexIsValid) || role != Qt::CheckStateRole ||
-        index.column() != kName || rowOf(index).kind != Kind::Character) {
+        index.column() != kName) {
         return false;
     }
-    m_commands.setCharacterVisible(characterOf(rowOf(index).key), value.toInt() == Qt::Checked);
+    m_commands.setCharacterVisible(*character(index), value.toInt() == Qt::Checked);
     emit dataChanged(index, index, {Qt::CheckStateRole});
     return true;
 }
 
 Qt::ItemFlags CharacterModel::flags(const QModelIndex& index) const {
-    Qt::ItemFlags flags = QAbstractItemModel::flags(index);
-    if (index.isValid() && index.column() == kName && rowOf(index).kind == Kind::Character) {
+    Qt::ItemFlags flags = TableModel::flags(index);
+    if (index.isValid() && index.column() == kName) {
         flags |= Qt::ItemIsUserCheckable;
     }
     return flags;
+}
+
+CharacterDetailModel::CharacterDetailModel(model::SessionView& view, QObject* parent)
+    : TableModel(detailColumns(), parent), m_view(view) {}
+
+void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key, const NominalRates& rates) {
+    std::vector<DetailRow> rows;
+    const model::Character* character = key ? m_view.find(*key) : nullptr;
+    if (character != nullptr) {
+        const SettledLosses losses(m_view);
+        for (const model::Stream* stream : character->streams) {
+            DetailRow row;
+            row.key = stream->key;
+            row.ageS = ageOf(m_view, stream->accounting.lastStamp());
+            row.nominalHz = rates.of(*stream);
+            if (wire::isSampled(stream->key.type)) {
+                row.measuredHz = measuredHz(*stream, row.ageS, m_view.isRecording());
+            }
+            losses.add(*stream, row.lost);
+            rows.push_back(row);
+        }
+        std::ranges::sort(rows, {}, [](const DetailRow& row) { return row.key.type; });
+    }
+    setRows(std::move(rows));
+}
+
+EndedSenderModel::EndedSenderModel(model::SessionView& view, QObject* parent)
+    : TableModel(endedColumns(), parent), m_view(view) {}
+
+void EndedSenderModel::refresh() {
+    std::vector<EndedSender> rows;
+    for (const model::Sender* sender : m_view.endedSenders()) {
+        QStringList names;
+        for (const model::Character* character : sender->characters) {
+            names += characterName(m_view, character->key);
+        }
+        rows.push_back({sender->id, shown(sender->address()), names.join(QStringLiteral(", ")),
+                        clockOf(m_view, sender->lastStamp)});
+    }
+    setRows(std::move(rows));
+}
+
+QString portHistory(const model::SessionView& view, const model::CharacterKey& key) {
+    QStringList parts;
+    for (const model::Character* one : view.lineage(key)) {
+        const QString address = shown(view.addressOf(one->key.sender));
+        parts += one->key == key ? (parts.isEmpty() ? tr("from %1") : tr("now from %1")).arg(address)
+                                 : tr("from %1 until %2").arg(address, clockOf(view, one->lastStamp));
+    }
+    return parts.join(QStringLiteral(", "));
+}
+
+QString restartWords(std::uint64_t restarts) {
+    return restarts == 0 ? QString() : tr("restarted %1 ×").arg(grouped(restarts));
 }
 
 } // namespace posewire::gui

@@ -107,6 +107,20 @@ QString statisticsFilterTitle(int column) {
     return title == nullptr ? QString() : tr(title);
 }
 
+QString characterFilter(const model::SessionView& view, const model::CharacterKey& key) {
+    QStringList sources;
+    for (const model::Character* one : view.lineage(key)) {
+        if (const model::Sender* sender = view.find(one->key.sender)) {
+            sources += expression("source", sender->info.address);
+        }
+    }
+    const QString source = sources.join(QStringLiteral(" || "));
+    const QString character = conditionsOf({}, key.character, nullptr).front();
+    return view.senders().size() < 2 || sources.empty() ? character
+           : sources.size() == 1                        ? character + QStringLiteral(" && ") + source
+                                 : character + QStringLiteral(" && (") + source + QLatin1Char(')');
+}
+
 QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
     const char* condition = conditionOf(event.kind);
     const bool isLimit = event.group() == model::IncidentGroup::Limit;

@@ -17,6 +17,9 @@ namespace posewire::gui {
 /// that count nothing that packets could show.
 [[nodiscard]] QString statisticsFilterTitle(int column);
 
+/// For the packets of a character, from whichever port of its sender.
+[[nodiscard]] QString characterFilter(const model::SessionView& view, const model::CharacterKey& key);
+
 /// For the packets at which an event happened; empty for what no packet shows.
 [[nodiscard]] QString packetFilterOf(model::SessionView& view, const model::Incident& event);
 

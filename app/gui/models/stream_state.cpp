@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/stream_state.h"
 
-#include "app/gui/models/event_model.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/wire/type_table.h"
 
 #include <algorithm>
+#include <array>
 
 namespace posewire::gui {
 
@@ -34,15 +34,6 @@ PropertyValue ended() {
     return {tr("ended")};
 }
 
-/// What is missing of one sample is missing in each of its types: the worst stream counts.
-std::uint64_t lostOf(const model::Character& character) {
-    std::uint64_t lost = 0;
-    for (const model::Stream* stream : character.streams) {
-        lost = std::max(lost, stream->accounting.counts().lost);
-    }
-    return lost;
-}
-
 /// What does not fit together about a sender, in brief; empty where all does.
 QString contradictionOf(const model::Sender* sender) {
     const auto found = sender != nullptr ? sender->contradictions() : std::vector<model::Contradiction>();
@@ -61,6 +52,15 @@ double ageOf(model::SessionView& view, log::Stamp stamp) {
 }
 
 } // namespace
+
+Health healthOf(model::TakeVerdict::State state) {
+    constexpr std::array kHealths{Health::Unknown, Health::Good, Health::Warning, Health::Error}; // by State
+    return kHealths[static_cast<std::size_t>(state)];
+}
+
+PropertyValue verdictState(const model::TakeVerdict& verdict) {
+    return {fromUtf8(verdict.brief), healthOf(verdict.state), fromUtf8(verdict.text)};
+}
 
 PropertyValue streamState(model::SessionView& view, const model::Stream& stream) {
     if (view.isSuperseded({stream.key.sender, stream.key.character})) {
@@ -84,20 +84,7 @@ PropertyValue characterState(model::SessionView& view, const model::Character& c
     if (view.isSuperseded(character.key)) {
         return ended();
     }
-    const model::Condition condition = view.conditionOf(character.key);
-    if (condition.level == model::Condition::Level::Good) {
-        return {grouped(lostOf(character)), Health::Good};
-    }
-    const Health health = condition.level == model::Condition::Level::Error ? Health::Error : Health::Warning;
-    const double age = view.ageSeconds(character.key);
-    if (age >= kSilentAge) {
-        return {(age >= kStaleAge ? tr("stale %1") : tr("silent %1")).arg(duration(age)), health};
-    }
-    if (const model::Incident* event =
-            condition.incident ? view.incidents().find(*condition.incident) : nullptr) {
-        return {briefWords(event->of(character.key.character)), health};
-    }
-    return {contradictionOf(view.find(character.key.sender)), health};
+    return verdictState(view.verdict(character.key));
 }
 
 PropertyValue senderState(model::SessionView& view, const model::Sender& sender) {

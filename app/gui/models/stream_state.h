@@ -3,18 +3,21 @@
 
 #include "app/gui/models/column.h"
 #include "core/model/session/session_view.h"
+#include "core/model/session/verdict.h"
 
 namespace posewire::gui {
 
 /// Without data for this long a stream is silent, and for the second it is stale (seconds).
-inline constexpr double kSilentAge = model::Condition::kSilentS;
-inline constexpr double kStaleAge = model::Condition::kStaleS;
+inline constexpr double kSilentAge = 0.25;
+inline constexpr double kStaleAge = 1.0;
 
 /// Whether a stream is well: age first, then malformed datagrams, then lost samples. Types that are sent now
 /// and then (12, 13) never get stale.
 [[nodiscard]] PropertyValue streamState(model::SessionView& view, const model::Stream& stream);
-/// The session's own judgement (SessionView::conditionOf) in a few words; what was lost in all where it is
-/// good.
+[[nodiscard]] Health healthOf(model::TakeVerdict::State state);
+/// A verdict in a few words; the tooltip has it in full.
+[[nodiscard]] PropertyValue verdictState(const model::TakeVerdict& verdict);
+/// The session's own verdict on a character (SessionView::verdicts).
 [[nodiscard]] PropertyValue characterState(model::SessionView& view, const model::Character& character);
 [[nodiscard]] PropertyValue senderState(model::SessionView& view, const model::Sender& sender);
 

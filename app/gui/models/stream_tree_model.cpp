@@ -59,7 +59,9 @@ std::vector<StreamRow> StreamTreeModel::rowsWithout(Kind kind) const {
         }
     } else if (kind == Kind::Character) {
         for (const model::Character& character : m_view.characters()) {
-            add(characterRow(character.key));
+            if (character.isConfirmed) {
+                add(characterRow(character.key));
+            }
         }
     } else {
         for (const model::Stream& stream : m_view.streams()) {
@@ -94,7 +96,9 @@ void StreamTreeModel::addNode(const StreamRow& row, int parent) {
     place(node, parent);
     if (row.kind == Kind::Sender) {
         for (const model::Character* character : senderOf(row).characters) {
-            addNode(characterRow(character->key), node);
+            if (character->isConfirmed) {
+                addNode(characterRow(character->key), node);
+            }
         }
     } else if (row.kind == Kind::Character) {
         for (const model::Stream* stream : characterAt(row).streams) {

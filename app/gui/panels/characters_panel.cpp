@@ -1,35 +1,192 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/characters_panel.h"
 
+#include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/models/stream_state.h"
+#include "app/gui/models/text.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 
+#include <QEvent>
+#include <QHBoxLayout>
 #include <QItemSelectionModel>
+#include <QLabel>
+#include <QMenu>
+#include <QToolButton>
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
+
+namespace {
+
+using Do = ActionsOf<CharactersPanel>;
+
+constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/&Characters");
+
+const ActionInfo kActions[] = {
+    {"troubleFirst", kMenu, QT_TRANSLATE_NOOP("Action", "&Trouble first"), "",
+     Do::call<&CharactersPanel::toggleTroubleFirst>, Do::is<&CharactersPanel::isTroubleFirst>},
+    {"characterDetail", kMenu, QT_TRANSLATE_NOOP("Action", "&Detail of the selected"), "",
+     Do::call<&CharactersPanel::toggleDetail>, Do::is<&CharactersPanel::isDetailShown>},
+    {"frameCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Frame selected"), "",
+     Do::call<&CharactersPanel::frameSelected>},
+    {"soloCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Solo selected, or show all"), "",
+     Do::call<&CharactersPanel::soloSelected>},
+    {"toggleCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Hide or show selected"), "",
+     Do::call<&CharactersPanel::toggleSelected>},
+    {"packetsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Packets of selected"), "",
+     Do::call<&CharactersPanel::showPacketsOfSelected>},
+    {"incidentsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Incidents of selected"), "",
+     Do::call<&CharactersPanel::showIncidentsOfSelected>},
+    {"forgetEnded", kMenu, QT_TRANSLATE_NOOP("Action", "F&orget ended senders"), "",
+     Do::call<&CharactersPanel::forgetEnded>},
+};
+
+QToolButton* toggle(const QString& name, const QString& text, const QString& toolTip, QWidget* parent) {
+    QToolButton* button = framedButton(text, toolTip, parent);
+    button->setObjectName(name);
+    button->setCheckable(true);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return button;
+}
+
+std::vector<QString> figureSamples() {
+    return {QStringLiteral("Nominal Hz"), QStringLiteral("1000.0"), QStringLiteral("Lost here"),
+            QStringLiteral("network"),    QStringLiteral("sender"), QStringLiteral("unknown"),
+            QStringLiteral("Age s")};
+}
+
+} // namespace
+
+/// Cells of lines that are lower where all have room then.
+class BoardDelegate final : public CellDelegate {
+public:
+    using CellDelegate::CellDelegate;
+
+    /// True where it is another height than before.
+    bool setHeight(int height) { return std::exchange(m_height, height) != height; }
+    [[nodiscard]] QSize sizeHint(const QStyleOptionViewItem& option,
+                                 const QModelIndex& index) const override {
+        const QSize hint = CellDelegate::sizeHint(option, index);
+        return {hint.width(), m_height > 0 ? m_height : hint.height()};
+    }
+
+private:
+    int m_height = 0;
+};
+
+std::span<const ActionInfo> CharactersPanel::actionTable() {
+    return kActions;
+}
 
 CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
                                  QWidget* parent)
     : Panel(view, commands, parent),
       m_program(program),
       m_model(view, commands),
-      m_table(new TableView(tr("Characters"), commands, this)) {
-    tightColumn(this)->addWidget(m_table);
+      m_detailModel(view),
+      m_endedModel(view),
+      m_troubleFirst(toggle(QStringLiteral("troubleFirst"), tr("Trouble first"),
+                            tr("The worst verdict on top; else in order of appearance"), this)),
+      m_detailToggle(toggle(QStringLiteral("detail"), tr("Detail"),
+                            tr("The streams of the selected character, and where they come from"), this)),
+      m_span(dimLabel({}, this)),
+      m_table(new TableView(tr("Characters"), commands, this)),
+      m_rows(new BoardDelegate(m_table)),
+      m_detail(new QWidget(this)),
+      m_history(dimText({}, m_detail)),
+      m_streams(new TableView(tr("Streams of the selected character"), commands, m_detail)),
+      m_ended(new QWidget(this)),
+      m_endedToggle(flatButton({}, tr("Senders that others have taken over from"), m_ended)),
+      m_endedTable(new TableView(tr("Ended senders"), commands, m_ended)) {
+    auto* column = tightColumn(this);
+    addBar();
+    m_table->setObjectName(QStringLiteral("board"));
     m_table->setModel(&m_model);
-    m_table->setRootIsDecorated(true);
-    m_table->setColumnSamples({QString(), QStringLiteral("240/239.9"), QStringLiteral("▲ silent 0.9 s")},
-                              QStringLiteral("    02 Pose, qu"));
+    m_table->setItemDelegate(m_rows);
+    std::vector<QString> samples{QStringLiteral("     Performer name · 10"), QString()};
+    std::ranges::copy(figureSamples(), std::back_inserter(samples));
+    samples.push_back(QStringLiteral("none"));
+    m_table->setColumnSamples(std::move(samples), QStringLiteral("■ 10.0 % lost, network"));
+    m_table->columns().setGivingWay({CharacterModel::kPose, CharacterModel::kNominal, CharacterModel::kAge,
+                                     CharacterModel::kMeasured, CharacterModel::kLostUnknown,
+                                     CharacterModel::kLostHere, CharacterModel::kLostAtSender,
+                                     CharacterModel::kLostOnNetwork});
+    m_table->viewport()->installEventFilter(this);
+    column->addWidget(m_table, 1);
+
+    auto* detail = tightColumn(m_detail);
+    detail->addWidget(new Line(m_detail));
+    m_history->setContentsMargins(8, 3, 8, 3);
+    detail->addWidget(m_history);
+    m_streams->setObjectName(QStringLiteral("characterStreams"));
+    m_streams->setModel(&m_detailModel);
+    samples = {QString()};
+    std::ranges::copy(figureSamples(), std::back_inserter(samples));
+    m_streams->setColumnSamples(std::move(samples), QStringLiteral("02 Pose, quaternion"));
+    m_streams->setOptionalColumns(1);
+    detail->addWidget(m_streams);
+    column->addWidget(m_detail);
+    m_detail->hide();
+    addEnded();
+
     showEmptyState();
-    m_table->expandNew();
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             &CharactersPanel::select);
-    connect(m_table, &QAbstractItemView::doubleClicked, this, &CharactersPanel::frame);
+    connect(m_table, &QAbstractItemView::doubleClicked, this, &CharactersPanel::frameSelected);
+    connect(m_table, &TableView::menuRequested, this, &CharactersPanel::addActions);
+}
+
+void CharactersPanel::addBar() {
+    auto* row = spacedRow({8, 3, 8, 3}, 6);
+    row->addWidget(m_troubleFirst);
+    row->addWidget(m_detailToggle);
+    row->addStretch(1);
+    row->addWidget(m_span);
+    m_span->setObjectName(QStringLiteral("span"));
+    m_span->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    m_span->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    row->setStretchFactor(m_span, 1);
+    static_cast<QVBoxLayout*>(layout())->addLayout(row);
+    connect(m_troubleFirst, &QToolButton::clicked, this, &CharactersPanel::setTroubleFirst);
+    connect(m_detailToggle, &QToolButton::clicked, this, &CharactersPanel::setDetailShown);
+}
+
+void CharactersPanel::addEnded() {
+    auto* column = tightColumn(m_ended);
+    column->addWidget(new Line(m_ended));
+    auto* row = spacedRow({4, 2, 8, 2}, 6);
+    m_endedToggle->setObjectName(QStringLiteral("endedSenders"));
+    m_endedToggle->setCheckable(true);
+    m_endedToggle->setFocusPolicy(Qt::StrongFocus);
+    row->addWidget(m_endedToggle);
+    row->addStretch(1);
+    QToolButton* forget =
+        flatButton(tr("Forget"), tr("Take ended senders out of all lists; sums keep them"), m_ended);
+    forget->setObjectName(QStringLiteral("forgetEnded"));
+    forget->setFocusPolicy(Qt::StrongFocus);
+    row->addWidget(forget);
+    column->addLayout(row);
+    m_endedTable->setModel(&m_endedModel);
+    m_endedTable->setColumnSamples(
+        {QStringLiteral("255.255.255.255:65535"), QString(), QStringLiteral("00:00:00")});
+    column->addWidget(m_endedTable);
+    m_endedTable->hide();
+    m_ended->hide();
+    layout()->addWidget(m_ended);
+    connect(m_endedToggle, &QToolButton::clicked, this, &CharactersPanel::showEnded);
+    connect(forget, &QToolButton::clicked, this, &CharactersPanel::forgetEnded);
+    connect(m_endedTable, &TableView::menuRequested, this, &CharactersPanel::addEndedActions);
 }
 
 void CharactersPanel::showEmptyState() {
+    if (m_view.isRecording()) {
+        m_table->setEmptyText(tr("No character in this recording."));
+        return;
+    }
     const std::vector<PortState> ports = m_program.receivingState().ports;
     const auto open =
         std::ranges::find_if(ports, [](const PortState& state) { return state.id.has_value(); });
@@ -41,57 +198,221 @@ void CharactersPanel::showEmptyState() {
 }
 
 void CharactersPanel::refresh() {
-    if (m_view.characters().empty()) {
-        showEmptyState();
-    }
     m_isFollowing = true;
     m_model.refresh();
+    if (m_model.rowCount() == 0) {
+        showEmptyState();
+    } else {
+        m_table->setEmptyText(tr("%1, one in each row").arg(summary()));
+    }
     followSelection();
     m_isFollowing = false;
+    const model::Unproven unproven = m_view.unproven();
+    QString span = tr("lost: %1").arg(boardSpanText(m_view));
+    if (unproven.characters != 0) {
+        span.prepend(tr("%1 unconfirmed · ").arg(grouped(unproven.characters)));
+        m_span->setToolTip(toolTipText(tr("IDs of which too little came to believe that they are characters: "
+                                          "corrupt datagrams may have invented them. Datagrams: %1.")
+                                           .arg(grouped(unproven.datagrams))));
+    } else {
+        m_span->setToolTip(toolTipText(tr("The time that the columns of lost samples are of")));
+    }
+    m_span->setText(span);
+    showDetail();
+    showEnded();
+    fitRows();
 }
 
 QString CharactersPanel::summary() const {
-    const auto characters = m_view.currentCharacters();
+    const auto characters = m_view.charactersNow();
     if (characters.empty()) {
         return {};
     }
-    const auto live = std::ranges::count_if(
-        characters, [this](const model::Character* character) { return isLive(m_view, *character); });
-    return tr("%1 of %2 live").arg(live).arg(characters.size());
+    const auto good = std::ranges::count_if(characters, [this](const model::Character* character) {
+        return m_view.verdict(character->key).state == model::TakeVerdict::State::Good;
+    });
+    return tr("%1 of %2 good").arg(good).arg(characters.size());
 }
 
+QJsonObject CharactersPanel::state() const {
+    QJsonObject state = m_table->columns().state();
+    state["troubleFirst"] = isTroubleFirst();
+    state["detail"] = isDetailShown();
+    return state;
+}
+
+void CharactersPanel::restoreState(const QJsonObject& state) {
+    m_table->columns().restore(state);
+    setTroubleFirst(state["troubleFirst"].toBool());
+    setDetailShown(state["detail"].toBool());
+}
+
+void CharactersPanel::setTroubleFirst(bool isFirst) {
+    m_troubleFirst->setChecked(isFirst);
+    m_model.setOrder(isFirst ? BoardOrder::TroubleFirst : BoardOrder::Appearance);
+    refresh();
+}
+
+void CharactersPanel::setDetailShown(bool isShown) {
+    m_detailToggle->setChecked(isShown);
+    refresh();
+}
+
+bool CharactersPanel::isDetailShown() const {
+    return m_detailToggle->isChecked();
+}
+
+/// As high as its rows, but no higher than half of the dock.
+void CharactersPanel::showDetail() {
+    const auto key = selected();
+    const bool isShown = isDetailShown() && key;
+    if (isShown) {
+        m_detailModel.refresh(key, m_model.nominalRates());
+        QStringList parts{characterName(m_view, *key), restartWords(m_view.restartsOf(*key)),
+                          portHistory(m_view, *key)};
+        parts.removeAll(QString());
+        m_history->setText(parts.join(QStringLiteral(" · ")));
+        m_streams->setFixedHeight(
+            std::min(m_streams->heightForRows(std::max(1, m_detailModel.rowCount())), height() / 2));
+    }
+    m_detail->setVisible(isShown);
+}
+
+void CharactersPanel::showEnded() {
+    m_endedModel.refresh();
+    const int count = m_endedModel.rowCount();
+    m_ended->setVisible(count != 0);
+    const bool isOpen = m_endedToggle->isChecked();
+    m_endedTable->setVisible(isOpen && count != 0);
+    const QString words = count == 1 ? tr("1 ended sender") : tr("%1 ended senders").arg(count);
+    m_endedToggle->setText((isOpen ? QStringLiteral("▾ ") : QStringLiteral("▸ ")) + words);
+    m_endedToggle->setAccessibleName(words);
+    if (isOpen) {
+        constexpr int kMostRows = 4;
+        m_endedTable->setFixedHeight(m_endedTable->heightForRows(std::clamp(count, 1, kMostRows)));
+    }
+}
+
+/// Lines become lower, down to the height of the letters, so that as many performers as can be are in view.
+void CharactersPanel::fitRows() {
+    const int usual = CellDelegate::rowHeight(m_table->fontMetrics());
+    const int least = m_table->fontMetrics().height() + 2;
+    const int rows = std::max(1, m_model.rowCount());
+    if (m_rows->setHeight(std::clamp(m_table->viewport()->height() / rows, least, usual))) {
+        m_table->doItemsLayout();
+    }
+}
+
+bool CharactersPanel::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Resize && watched == m_table->viewport()) {
+        fitRows();
+    }
+    return Panel::eventFilter(watched, event);
+}
+
+/// Rows may have changed places: the current one is that of the selection, wherever it is now.
 void CharactersPanel::followSelection() {
     const model::Selection& selection = m_view.selection();
-    if (selection == m_followed) {
-        return;
-    }
-    m_followed = selection;
-    const QModelIndex current = m_table->currentIndex();
-    const bool isAlreadyThere = selection.character ? m_model.character(current) == selection.character
-                                                    : m_model.sender(current) == selection.sender;
-    if (isAlreadyThere) {
-        return;
-    }
     const QModelIndex wanted = selection.character ? m_model.indexOf(*selection.character) : QModelIndex();
-    m_table->setCurrentIndex(wanted);
+    if (m_table->currentIndex().row() != wanted.row()) {
+        m_table->setCurrentIndex(wanted);
+    }
     if (!wanted.isValid()) {
         m_table->clearSelection();
+    } else if (m_followed.character != selection.character) {
+        m_table->scrollTo(wanted);
     }
+    m_followed = selection;
+}
+
+std::optional<model::CharacterKey> CharactersPanel::selected() const {
+    const auto& key = m_view.selection().character;
+    return key && m_view.find(*key) != nullptr ? std::optional(m_view.currentNow(*key)) : std::nullopt;
 }
 
 void CharactersPanel::select(const QModelIndex& index) {
-    if (m_isFollowing || !index.isValid()) {
-        return;
-    }
     const auto key = m_model.character(index);
-    model::Selection selection = key ? selectionOf(m_view, *key) : model::Selection{};
-    selection.sender = m_model.sender(index);
-    m_commands.select(selection);
+    if (!m_isFollowing && key) {
+        m_commands.select(selectionOf(m_view, *key));
+    }
 }
 
-void CharactersPanel::frame(const QModelIndex& index) {
-    if (const auto key = m_model.character(index)) {
+bool CharactersPanel::isSolo(const model::CharacterKey& key) const {
+    return std::ranges::all_of(m_view.charactersNow(), [&](const model::Character* one) {
+        return m_view.isHidden(one->key) != m_view.isSame(one->key, key);
+    });
+}
+
+void CharactersPanel::frameSelected() {
+    if (const auto key = selected()) {
         m_commands.frameCharacter(*key);
+    }
+}
+
+void CharactersPanel::soloSelected() {
+    if (const auto key = selected()) {
+        const bool showsAll = isSolo(*key);
+        for (const model::Character* one : m_view.charactersNow()) {
+            m_commands.setCharacterVisible(one->key, showsAll || m_view.isSame(one->key, *key));
+        }
+    }
+}
+
+void CharactersPanel::toggleSelected() {
+    if (const auto key = selected()) {
+        m_commands.setCharacterVisible(*key, m_view.isHidden(*key));
+    }
+}
+
+void CharactersPanel::showPacketsOfSelected() {
+    if (const auto key = selected()) {
+        m_commands.setDisplayFilter(characterFilter(m_view, *key));
+        m_commands.showDock(QStringLiteral("packets"));
+    }
+}
+
+void CharactersPanel::showIncidentsOfSelected() {
+    if (const auto key = selected()) {
+        m_commands.showIncident(m_view.verdict(*key).incident);
+    }
+}
+
+void CharactersPanel::forgetEnded() {
+    for (const EndedSender& one : std::vector(m_endedModel.rows())) {
+        m_commands.forgetSender(one.sender);
+    }
+    refresh();
+}
+
+void CharactersPanel::addActions(QMenu& menu, const QModelIndex& index) {
+    const auto key = m_model.character(index);
+    if (!key) {
+        return;
+    }
+    m_commands.select(selectionOf(m_view, *key)); // what the entries are about
+    const auto add = [&](const QString& text, void (CharactersPanel::*run)()) {
+        connect(menu.addAction(text), &QAction::triggered, this, run);
+    };
+    add(tr("Frame"), &CharactersPanel::frameSelected);
+    add(isSolo(*key) && m_model.rowCount() > 1 ? tr("Show all") : tr("Solo"), &CharactersPanel::soloSelected);
+    add(m_view.isHidden(*key) ? tr("Show") : tr("Hide"), &CharactersPanel::toggleSelected);
+    menu.addSeparator();
+    add(tr("Show packets"), &CharactersPanel::showPacketsOfSelected);
+    add(tr("Show incidents"), &CharactersPanel::showIncidentsOfSelected);
+    menu.addSeparator();
+    QAction* forget = menu.addAction(tr("Forget sender %1").arg(shown(m_view.addressOf(key->sender))));
+    forget->setEnabled(m_view.isForgettable(key->sender));
+    connect(forget, &QAction::triggered, this,
+            [this, sender = key->sender] { m_commands.forgetSender(sender); });
+    menu.addSeparator();
+}
+
+void CharactersPanel::addEndedActions(QMenu& menu, const QModelIndex& index) {
+    if (index.isValid()) {
+        const log::SenderId sender = m_endedModel.rows()[static_cast<std::size_t>(index.row())].sender;
+        connect(menu.addAction(tr("Forget")), &QAction::triggered, this,
+                [this, sender] { m_commands.forgetSender(sender); });
+        menu.addSeparator();
     }
 }
 

@@ -5,9 +5,15 @@
 #include "app/gui/panel.h"
 #include "app/gui/panels/table_view.h"
 
+class QLabel;
+class QToolButton;
+
 namespace posewire::gui {
 
-/// Dock `characters`: who is on the air, how fast and how well. Selects for all docks.
+class BoardDelegate;
+
+/// Dock `characters`: a board of all performers, a line each, with what each is in detail and which senders
+/// have ended below. Selects for all docks.
 class CharactersPanel : public Panel {
     Q_OBJECT
 
@@ -15,18 +21,63 @@ public:
     CharactersPanel(model::SessionView& view, Commands& commands, const ProgramView& program,
                     QWidget* parent);
 
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+
     void refresh() override;
     [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QJsonObject state() const override;
+    void restoreState(const QJsonObject& state) override;
+
+    void setTroubleFirst(bool isFirst);
+    [[nodiscard]] bool isTroubleFirst() const { return m_model.order() == BoardOrder::TroubleFirst; }
+    void toggleTroubleFirst() { setTroubleFirst(!isTroubleFirst()); }
+    void setDetailShown(bool isShown);
+    [[nodiscard]] bool isDetailShown() const;
+    void toggleDetail() { setDetailShown(!isDetailShown()); }
+
+    // Of the selected character; nothing happens where none is.
+    void frameSelected();
+    /// Hides all others; shows all again where that is so already.
+    void soloSelected();
+    void toggleSelected();
+    void showPacketsOfSelected();
+    void showIncidentsOfSelected();
+
+    /// Takes all ended senders out of the lists.
+    void forgetEnded();
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
 private:
+    void addBar();
+    void addEnded();
+    void addActions(QMenu& menu, const QModelIndex& index);
+    void addEndedActions(QMenu& menu, const QModelIndex& index);
     void showEmptyState();
+    void showEnded();
+    void showDetail();
+    void fitRows();
     void followSelection();
     void select(const QModelIndex& index);
-    void frame(const QModelIndex& index);
+    [[nodiscard]] std::optional<model::CharacterKey> selected() const;
+    [[nodiscard]] bool isSolo(const model::CharacterKey& key) const;
 
     const ProgramView& m_program;
     CharacterModel m_model;
+    CharacterDetailModel m_detailModel;
+    EndedSenderModel m_endedModel;
+    QToolButton* m_troubleFirst;
+    QToolButton* m_detailToggle;
+    QLabel* m_span; ///< the time that losses are of
     TableView* m_table;
+    BoardDelegate* m_rows;
+    QWidget* m_detail;
+    QLabel* m_history;
+    TableView* m_streams;
+    QWidget* m_ended;
+    QToolButton* m_endedToggle;
+    TableView* m_endedTable;
     model::Selection m_followed; ///< the selection that the table shows
     bool m_isFollowing = false;
 };

@@ -170,13 +170,14 @@ PropertyValue characterHealth(model::SessionView& session, const model::Characte
 }
 
 EmptyState emptyState(model::SessionView& session, const ReceivingState& receiving, const QString& file) {
-    const bool hasPose = std::ranges::any_of(session.characters(), [&](const model::Character& character) {
-        return session.pose(character.key) != nullptr;
+    const auto characters = session.currentCharacters();
+    const bool hasPose = std::ranges::any_of(characters, [&](const model::Character* character) {
+        return session.pose(character->key) != nullptr;
     });
     if (hasPose) {
         return {};
     }
-    if (!session.characters().empty()) {
+    if (!characters.empty()) {
         return withoutPose(session, file);
     }
     const auto stranger = std::ranges::find_if(session.senders(), [](const model::Sender& sender) {

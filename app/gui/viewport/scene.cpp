@@ -140,7 +140,7 @@ void SceneBuilder::build(AxesMode axes, SceneFrame& frame) {
         }
         addFigure(character, *pose, frame);
         Figure& figure = frame.figures.back();
-        const bool isSelected = selection.character == character.key;
+        const bool isSelected = m_session.isSelected(character.key);
         figure.look.selectedSegment =
             isSelected && selection.segment < model::kBodySegmentCount ? selection.segment : -1;
         if (axes == AxesMode::All || (axes == AxesMode::Selected && isSelected)) {

@@ -135,7 +135,7 @@ void ViewportWidget::updateOverlay() {
                 {pointerAt(*place, size()),
                  QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
                  shown(m_session->displayName(figure.key)), characterHealth(*m_session, figure.key),
-                 m_session->selection().character == figure.key});
+                 m_session->isSelected(figure.key)});
         }
     }
     m_overlay->setLabels(std::move(labels));

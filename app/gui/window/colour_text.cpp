@@ -50,7 +50,14 @@ void ColourText::paintEvent(QPaintEvent* /*event*/) {
         painter.drawRoundedRect(frame, radius, radius);
     }
     painter.setPen(healthColour(m_level));
-    painter.drawText(rect(), Qt::AlignCenter, text());
+    if (m_look == Look::Pill) {
+        painter.drawText(rect(), Qt::AlignCenter, text());
+        return;
+    }
+    const int margin = fontMetrics().height() / 4 + 1;
+    const QRect room = rect().adjusted(margin, 0, -margin, 0);
+    painter.drawText(room, Qt::AlignLeft | Qt::AlignVCenter,
+                     fontMetrics().elidedText(text(), Qt::ElideRight, room.width() + 1));
 }
 
 /// Enter as well as the space bar.

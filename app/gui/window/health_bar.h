@@ -6,6 +6,7 @@
 #include "app/gui/theme/widgets.h"
 #include "core/model/session/session_view.h"
 
+#include <QPointer>
 #include <QWidget>
 
 #include <vector>
@@ -15,11 +16,10 @@ class QHBoxLayout;
 namespace posewire::gui {
 
 class ColourText;
+class HealthList;
 
-/// "Lost 12 of 2 400 samples in the last 10 s."
-[[nodiscard]] QString lossText(model::SessionView& session, const model::CharacterKey& key);
-
-/// The bottom line: each character in a word, what this computer receives, keeps and drops.
+/// The bottom line: how each character does in a few words, the worst first; what this computer receives,
+/// keeps and drops.
 class HealthBar final : public QWidget {
     Q_OBJECT
 
@@ -35,8 +35,10 @@ public:
     void say(const QString& text) { m_message->say(text); }
 
 private:
-    /// Opens a popup that says why a character is as it is; `entry` counts those that are shown.
-    void explain(std::size_t entry);
+    /// Selects a character, and says in a popup why it is as it is.
+    void explain(const model::CharacterKey& key, QWidget& anchor);
+    void showList();
+    [[nodiscard]] int entryWidth() const;
     void refreshCharacters();
     void fitEntries();
     void addEntry();
@@ -46,8 +48,9 @@ private:
     QHBoxLayout* m_entriesLayout;
     QWidget* m_entriesArea;
     std::vector<ColourText*> m_entries;       ///< as many as there ever were characters to show
-    std::vector<model::CharacterKey> m_shown; ///< whom the first of them show, in the session's order
+    std::vector<model::CharacterKey> m_shown; ///< all, the worst first; the first entries show them
     ColourText* m_more;                       ///< how many there is no room for
+    QPointer<HealthList> m_list;              ///< while it is open
     PassingMessage* m_message;
     ColourText* m_rate;
     ColourText* m_history;

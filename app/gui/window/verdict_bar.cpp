@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/verdict_bar.h"
 
+#include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/plain_text.h"
@@ -22,21 +23,6 @@ namespace {
 
 constexpr double kLarge = 1.8; // against the desktop's font
 
-Health levelOf(model::TakeVerdict::State state) {
-    using State = model::TakeVerdict::State;
-    switch (state) {
-    case State::Good:
-        return Health::Good;
-    case State::Warning:
-        return Health::Warning;
-    case State::Bad:
-        return Health::Error;
-    case State::None:
-        break;
-    }
-    return Health::Unknown;
-}
-
 QToolButton* buttonFor(QAction* action, const QString& text, QWidget* parent) {
     QToolButton* button = framedButton(text, action->toolTip(), parent);
     button->setObjectName(action->objectName() + QStringLiteral("Button"));
@@ -50,9 +36,8 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
         return VerdictBar::tr("no data yet");
     }
     const auto characters = live.charactersNow();
-    const model::TakeVerdicts verdicts = verdictsOf(live, model::recentSpan(live));
     const auto good = std::ranges::count_if(characters, [&](const model::Character* character) {
-        return verdicts.characters.at(character->key).state == model::TakeVerdict::State::Good;
+        return live.verdict(character->key).state == model::TakeVerdict::State::Good;
     });
     return static_cast<std::size_t>(good) == characters.size()
                ? VerdictBar::tr("%1 good").arg(good)
@@ -194,7 +179,7 @@ void VerdictBar::setLarge(bool isLarge) {
 }
 
 void VerdictBar::refresh(const ShownFile& file, bool hasInputs) {
-    m_verdict = verdictOf(m_live, model::recentSpan(m_live));
+    m_verdict = m_live.verdicts().all;
     showVerdict(file.isShown);
     showStrip(file, hasInputs);
     m_headline->setVisible(hasInputs || file.name.isEmpty());
@@ -205,7 +190,7 @@ void VerdictBar::refresh(const ShownFile& file, bool hasInputs) {
 void VerdictBar::showVerdict(bool isBehindFile) {
     const QString text = QString::fromStdString(m_verdict.text);
     m_headline->setLarge(m_isLarge && !isBehindFile);
-    m_headline->setVerdict(levelOf(m_verdict.state), isBehindFile ? tr("Live: %1").arg(text) : text);
+    m_headline->setVerdict(healthOf(m_verdict.state), isBehindFile ? tr("Live: %1").arg(text) : text);
     m_span->setText(m_live.reset() == log::Stamp()
                         ? tr("last 10 s")
                         : tr("reset at %1").arg(timeOfDay(m_live.wallOf(m_live.reset())).chopped(4)));

@@ -121,18 +121,4 @@ struct Incident {
     [[nodiscard]] std::string text() const;
 };
 
-/// How a character does, for all who show it.
-struct Condition {
-    /// Seconds of silence that are a warning, and those that are an error, also before an incident reports
-    /// it.
-    static constexpr double kSilentS = 0.25;
-    static constexpr double kStaleS = 1.0;
-
-    enum class Level : std::uint8_t { Good, Warning, Error };
-    Level level = Level::Good;
-    std::string reason; ///< one line; empty where it is good
-    /// What it rests on where that is an incident: its number. Else silence.
-    std::optional<std::uint64_t> incident{};
-};
-
 } // namespace posewire::model

@@ -141,6 +141,10 @@ void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header
     }
     if (character.outage != 0) {
         resume(key, character, packet.stamp);
+    } else if (character.lastSampled == log::Stamp()) { // its first sample, or nobody took over after all
+        for (Stream* each : character.streams) {
+            each->excusedUntil = {};
+        }
     }
     character.lastSampled = std::max(character.lastSampled, packet.stamp);
     character.lastPacket = packet.number;
@@ -193,6 +197,16 @@ void IncidentFollower::supersede(const CharacterKey& key, log::Stamp stamp) {
         resume(key, found->second, stamp);
     }
     found->second.lastSampled = {};
+    for (Stream* stream : found->second.streams) { // nothing is expected of them
+        stream->excusedUntil = log::Stamp::max();
+    }
+    for (const Incident* lasting : m_incidents.currentOf(key.sender)) {
+        if (lasting->group() == IncidentGroup::Limit) {
+            for (const std::uint8_t type : lasting->types()) {
+                m_incidents.endPart(lasting->number, key.character, type, stamp);
+            }
+        }
+    }
 }
 
 /// Two senders that take turns with one character in one type.
@@ -455,17 +469,6 @@ std::vector<const Incident*> IncidentFollower::troublesOf(const CharacterKey& ke
     };
     std::ranges::sort(troubles, [&](const Incident* a, const Incident* b) { return rank(a) > rank(b); });
     return troubles;
-}
-
-Condition IncidentFollower::conditionOf(const CharacterKey& key, std::optional<log::Stamp> stamp) const {
-    const auto troubles = troublesOf(key, stamp);
-    if (troubles.empty()) {
-        return {};
-    }
-    const Incident& worst = *troubles.front();
-    const bool isError = worst.severity() == IncidentSeverity::Error;
-    return {isError ? Condition::Level::Error : Condition::Level::Warning, worst.of(key.character).text(),
-            worst.number};
 }
 
 } // namespace posewire::model

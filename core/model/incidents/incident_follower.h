@@ -67,8 +67,6 @@ public:
     /// limit behind what is as bad; no notes.
     [[nodiscard]] std::vector<const Incident*> troublesOf(const CharacterKey& key,
                                                           std::optional<log::Stamp> stamp) const;
-    /// The worst of these.
-    [[nodiscard]] Condition conditionOf(const CharacterKey& key, std::optional<log::Stamp> stamp) const;
 
 private:
     /// Nothing of a character came from one stamp to the other.

@@ -68,6 +68,7 @@ std::uint64_t Ingest::provisionalNumber(log::SenderId sender) {
 
 bool Ingest::follow(log::Stamp now, std::size_t most) {
     const std::size_t count = takeNew(now, most);
+    m_isFile = false;
     if (count > 0) {
         m_isLive = now - m_observed < kLive && m_observed - now < kLive;
     }
@@ -79,6 +80,7 @@ bool Ingest::follow(log::Stamp now, std::size_t most) {
 }
 
 bool Ingest::followFile(log::Stamp now, std::size_t most) {
+    m_isFile = true;
     return takeNew(now, most) > 0;
 }
 
@@ -122,7 +124,7 @@ void Ingest::lookForContradictions() {
     m_nextContradictions = m_observed + kContradictions;
     for (const Sender& sender : m_senders) {
         if (sender.isPerforming()) {
-            const auto found = sender.contradictions();
+            const auto found = hasEnded(sender) ? std::vector<Contradiction>() : sender.contradictions();
             m_incidents->takeContradiction(sender.id, m_observed, found.empty() ? "" : found.front().text);
         }
     }

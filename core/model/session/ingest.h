@@ -21,6 +21,7 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace posewire::model {
@@ -77,6 +78,7 @@ public:
     static constexpr std::size_t kBucketsOfSender = 256;
     /// Of all characters together: what they hold goes, oldest first, where it would be more.
     static constexpr std::size_t kMetadataBudget = std::size_t{8} << 20;
+    static constexpr log::Duration kForgettable = std::chrono::seconds(1);
     static constexpr std::size_t kNullPoseBudget = std::size_t{16} << 20;
 
     explicit Ingest(const log::PacketLog& log);
@@ -95,6 +97,14 @@ public:
     /// Something that no packet tells: it happened in this computer.
     void report(const Occurrence& one);
     void setOverride(log::SenderId sender, const SenderOverride& overrides);
+    /// Retires a sender from which nothing more is expected: others have taken over its characters, or it has
+    /// been silent for kForgettable. False, and nothing happens, where it is neither.
+    bool forget(log::SenderId sender);
+    [[nodiscard]] bool isForgettable(log::SenderId sender) const;
+    /// Whether others have taken over all characters of a sender.
+    [[nodiscard]] bool hasEnded(const Sender& sender) const;
+    /// Whether what was followed last is a file.
+    [[nodiscard]] bool isFile() const { return m_isFile; }
 
     [[nodiscard]] const Roster<log::SenderId, Sender>& senders() const { return m_senders; }
     [[nodiscard]] const Roster<CharacterKey, Character>& characters() const { return m_characters; }
@@ -183,6 +193,9 @@ private:
     void promote(const Sender& sender);
     bool retireSilent();
     void retireOldest(const Recency& recency, std::size_t count);
+    void retire(const std::unordered_set<log::SenderId>& going);
+    [[nodiscard]] Character* heirOf(const Character& character);
+    void bequeath(const Character& character);
 
     const log::PacketLog& m_log;
     log::LogFollower m_follower;
@@ -214,6 +227,7 @@ private:
     std::unique_ptr<IncidentFollower> m_incidents;
     std::unique_ptr<Attribution> m_attribution; ///< tells them of losses
     log::Stamp m_nextContradictions{};
+    bool m_isFile = false;
     bool m_isLive = false; ///< packets have come as they were stamped
 };
 

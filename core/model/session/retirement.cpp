@@ -81,8 +81,15 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
     for (auto id = recency.begin(); id != recency.end() && going.size() < count; ++id) {
         going.insert(*id);
     }
+    retire(going);
+}
+
+void Ingest::retire(const std::unordered_set<log::SenderId>& going) {
     for (const log::SenderId id : going) {
         const Sender& sender = *find(id);
+        for (const Character* character : sender.characters) {
+            bequeath(*character);
+        }
         m_retired.retire(sender);
         forgetHostOf(sender);
         if (m_passersBy.size() >= kMostPassersBy) {
@@ -106,6 +113,56 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
     m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
     m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
     fitDepth();
+}
+
+bool Ingest::isForgettable(log::SenderId sender) const {
+    const Sender* known = find(sender);
+    return known != nullptr && (hasEnded(*known) || m_now - known->lastStamp >= kForgettable);
+}
+
+bool Ingest::forget(log::SenderId sender) {
+    const bool isGoing = isForgettable(sender);
+    if (isGoing) {
+        retire({sender});
+    }
+    return isGoing;
+}
+
+bool Ingest::hasEnded(const Sender& sender) const {
+    return sender.isPerforming() && std::ranges::all_of(sender.characters, [this](const Character* one) {
+               const Character* after = one->after ? find(*one->after) : nullptr;
+               return after != nullptr && after->firstPacket > one->lastPacket;
+           });
+}
+
+/// Null where nobody has taken over.
+Character* Ingest::heirOf(const Character& character) {
+    Character* after = character.after ? m_characters.find(*character.after) : nullptr;
+    return after != nullptr && after->firstPacket > character.lastPacket ? after : nullptr;
+}
+
+/// What is known of a character that goes stays with the one that has taken over: it is the same one.
+void Ingest::bequeath(const Character& character) {
+    Character* before = character.before ? m_characters.find(*character.before) : nullptr;
+    Character* heir = heirOf(character);
+    if (before != nullptr) {
+        before->after = heir != nullptr ? std::optional(heir->key) : std::nullopt;
+    }
+    if (heir == nullptr) {
+        return;
+    }
+    heir->before = character.before;
+    heir->formerRestarts += character.formerRestarts + character.counterRestarts() + 1;
+    if (before == nullptr) {
+        heir->formerFirstPacket = character.formerFirstPacket.value_or(character.firstPacket);
+    }
+    if (heir->metadata.tags().empty()) {
+        heir->metadata = character.metadata;
+    }
+    const auto poses = m_nullPoses.find(character.key);
+    if (poses != m_nullPoses.end() && !m_nullPoses.contains(heir->key)) {
+        m_nullPoses[heir->key] = poses->second;
+    }
 }
 
 void Ingest::forgetHostOf(const Sender& sender) {

@@ -44,4 +44,12 @@ LengthUnit Sender::positionUnit(std::uint8_t type) const {
     return row != nullptr && row->frame == wire::Frame::YUp ? detector.result().yUpUnit : positionUnit();
 }
 
+std::uint64_t Character::counterRestarts() const {
+    std::uint64_t restarts = 0;
+    for (const Stream* stream : streams) { // all restart together
+        restarts = std::max(restarts, stream->accounting.counts().restarts);
+    }
+    return restarts;
+}
+
 } // namespace posewire::model

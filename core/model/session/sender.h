@@ -74,7 +74,7 @@ struct Character {
 
     CharacterKey key;
     std::vector<const Stream*> streams{}; ///< in order of first appearance
-    std::size_t ordinal = 0;              ///< place in the order of first appearance, for default colours
+    std::size_t ordinal = 0;              ///< for default colours alone; that of `before`, where there is one
     Metadata metadata;
     log::Stamp lastStamp{};
     bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers
@@ -82,6 +82,12 @@ struct Character {
     std::uint64_t lastPacket = 0;
     std::optional<CharacterKey> before; ///< see SessionView::predecessor
     std::optional<CharacterKey> after;  ///< who has this one as `before`
+    /// Of those before it that are not listed any more: their restarts, and when the first of them appeared.
+    std::uint64_t formerRestarts = 0;
+    std::optional<std::uint64_t> formerFirstPacket;
+
+    /// How often its counters were set back.
+    [[nodiscard]] std::uint64_t counterRestarts() const;
 };
 
 } // namespace posewire::model

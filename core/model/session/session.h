@@ -47,7 +47,16 @@ public:
             m_choices.annotations.comments[packet] = std::move(comment);
         }
     }
-    void setHidden(const CharacterKey& key, bool isHidden) { setIn(m_choices.hidden, key, isHidden); }
+    /// Through restarts of its sender.
+    void setHidden(const CharacterKey& key, bool isHidden) {
+        for (const Character* one : lineage(currentNow(key))) {
+            setIn(m_choices.hidden, one->key, false);
+        }
+        setIn(m_choices.hidden, key, isHidden);
+    }
+    /// Takes a sender out of all lists that has ended, or has been silent for a second: its sums stay, and
+    /// what its characters were goes to those that took over. False, and nothing happens, where it sends.
+    bool forget(log::SenderId sender);
     /// From now on a new span counts; what was received stays.
     void resetForTake() {
         m_choices.reset = now();

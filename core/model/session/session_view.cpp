@@ -186,60 +186,6 @@ std::vector<const Incident*> SessionView::troublesOf(const CharacterKey& key) co
     return m_ingest.incidents().troublesOf(key, pausedStamp());
 }
 
-Condition SessionView::conditionOf(const CharacterKey& key) const {
-    if (isSuperseded(key)) {
-        return {};
-    }
-    const Condition condition = m_ingest.incidents().conditionOf(key, pausedStamp());
-    if (condition.level != Condition::Level::Good) {
-        return condition;
-    }
-    const double age = ageSeconds(key);
-    if (age >= Condition::kStaleS) {
-        return {Condition::Level::Error, "No data for 1 s.", {}};
-    }
-    if (age >= Condition::kSilentS) {
-        return {Condition::Level::Warning, "No data for 0.25 s.", {}};
-    }
-    return condition;
-}
-
-const Character* SessionView::predecessor(const CharacterKey& key) const {
-    const Character* character = find(key);
-    const Character* before = character != nullptr && character->before ? find(*character->before) : nullptr;
-    return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
-}
-
-const Character* SessionView::successor(const Character& character, std::uint64_t end) const {
-    const Character* next = character.after ? find(*character.after) : nullptr;
-    const bool hasTakenOver =
-        next != nullptr && next->firstPacket < end && next->firstPacket > character.lastPacket;
-    return hasTakenOver ? next : nullptr;
-}
-
-bool SessionView::isSuperseded(const CharacterKey& key) const {
-    const Character* character = find(key);
-    return character != nullptr && successor(*character) != nullptr;
-}
-
-CharacterKey SessionView::current(const CharacterKey& key) const {
-    CharacterKey current = key;
-    for (const Character* character = find(key); character != nullptr; character = successor(*character)) {
-        current = character->key;
-    }
-    return current;
-}
-
-std::vector<const Character*> SessionView::charactersBefore(std::uint64_t end) const {
-    std::vector<const Character*> shown;
-    for (const Character& character : characters()) {
-        if (character.isConfirmed && successor(character, end) == nullptr) {
-            shown.push_back(&character);
-        }
-    }
-    return shown;
-}
-
 const Metadata& SessionView::metadata(const CharacterKey& key) const {
     const Character* character = find(key);
     for (const Character* other = character; other != nullptr; other = predecessor(other->key)) {

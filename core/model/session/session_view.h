@@ -19,7 +19,16 @@ struct CharacterPose;
 struct Gap;
 struct NullPose;
 struct NullPoseEvidence;
+struct TakeVerdict;
+struct TakeVerdicts;
 struct Thresholds;
+struct VerdictSpan;
+
+/// Characters on no list, because a corrupt header may have invented them, and what came of them.
+struct Unproven {
+    std::size_t characters = 0;
+    std::uint64_t datagrams = 0;
+};
 
 /// The session as panels, exports and the viewport read it: what was received, at the operator's cursor, and
 /// what the operator chose. It changes nothing but its own memory of what it decoded. One thread.
@@ -107,7 +116,8 @@ public:
     [[nodiscard]] std::optional<TimeRange> range() const;
     [[nodiscard]] const std::string& displayFilter() const { return m_choices.displayFilter; }
     [[nodiscard]] const Annotations& annotations() const { return m_choices.annotations; }
-    [[nodiscard]] bool isHidden(const CharacterKey& key) const { return m_choices.hidden.contains(key); }
+    /// Also where it was hidden before its sender was restarted.
+    [[nodiscard]] bool isHidden(const CharacterKey& key) const;
     [[nodiscard]] bool isGhostShown() const { return m_choices.isGhostShown; }
     /// When the span that counts for the take began; 0: with the session.
     [[nodiscard]] log::Stamp reset() const { return m_choices.reset; }
@@ -115,9 +125,16 @@ public:
     // Characters at the cursor.
     /// What is wrong with a character or its sender at the cursor, worst first.
     [[nodiscard]] std::vector<const Incident*> troublesOf(const CharacterKey& key) const;
-    /// How a character does at the cursor: the one rule for all who show it. By the worst of its troubles;
-    /// else by its silence.
-    [[nodiscard]] Condition conditionOf(const CharacterKey& key) const;
+
+    /// How all do now on the wire, whatever the cursor: the one judgement that everything in the window
+    /// shows; of a recording in all of it. Valid until the session follows the log again.
+    [[nodiscard]] const TakeVerdicts& verdicts() const;
+    /// The time that these verdicts are of.
+    [[nodiscard]] VerdictSpan verdictSpan() const;
+    /// Of one character; of one that is not listed that there is nothing.
+    [[nodiscard]] const TakeVerdict& verdict(const CharacterKey& key) const;
+    /// What is followed is a file.
+    [[nodiscard]] bool isRecording() const { return m_ingest.isFile(); }
 
     /// A sender that is restarted has another port, and some senders use a port for each kind of message. So
     /// a character of the same host with the same ID that fell silent before this one came is the same one:
@@ -127,8 +144,30 @@ public:
     /// True where another sender has taken over at the cursor; its character is shown instead of this one.
     [[nodiscard]] bool isSuperseded(const CharacterKey& key) const;
     /// The one that is shown for a character: itself, or the newest that has taken over.
-    [[nodiscard]] CharacterKey current(const CharacterKey& key) const;
-    /// All characters that are to be shown at the cursor, in order of first appearance.
+    [[nodiscard]] CharacterKey current(const CharacterKey& key) const {
+        return currentBefore(key, visibleEnd());
+    }
+    /// The same now, whatever the cursor.
+    [[nodiscard]] CharacterKey currentNow(const CharacterKey& key) const { return currentBefore(key, end()); }
+    /// A character with all that it took over from, the oldest first and itself last; empty where there is
+    /// none.
+    [[nodiscard]] std::vector<const Character*> lineage(const CharacterKey& key) const;
+    /// Whether two are one character, before and after restarts of its sender.
+    [[nodiscard]] bool isSame(const CharacterKey& a, const CharacterKey& b) const;
+    /// Whether it is the selected one, before or after a restart.
+    [[nodiscard]] bool isSelected(const CharacterKey& key) const {
+        return selection().character && isSame(*selection().character, key);
+    }
+    /// How often its sender was restarted: came from another port, or set its counters back.
+    [[nodiscard]] std::uint64_t restartsOf(const CharacterKey& key) const;
+    /// Senders of which others have taken over every character.
+    [[nodiscard]] std::vector<const Sender*> endedSenders() const;
+    /// Whether Session::forget would take it out of the lists.
+    [[nodiscard]] bool isForgettable(log::SenderId sender) const { return m_ingest.isForgettable(sender); }
+    /// Characters that may be the invention of corrupt headers.
+    [[nodiscard]] Unproven unproven() const;
+    /// All characters that are to be shown at the cursor, in order of first appearance: one that was
+    /// restarted stays where it was.
     [[nodiscard]] std::vector<const Character*> currentCharacters() const {
         return charactersBefore(visibleEnd());
     }
@@ -190,10 +229,9 @@ private:
 
     /// Null where nobody has taken over before a packet, or at the cursor.
     [[nodiscard]] const Character* successor(const Character& character, std::uint64_t end) const;
-    [[nodiscard]] const Character* successor(const Character& character) const {
-        return successor(character, visibleEnd());
-    }
+    [[nodiscard]] CharacterKey currentBefore(const CharacterKey& key, std::uint64_t end) const;
     [[nodiscard]] std::vector<const Character*> charactersBefore(std::uint64_t end) const;
+    [[nodiscard]] std::uint64_t appearance(const Character& character) const;
     [[nodiscard]] bool isPaused() const { return m_choices.cursor.mode == Cursor::Mode::Paused; }
     /// One past the newest packet that the cursor lets through.
     [[nodiscard]] std::uint64_t visibleEnd() const;
@@ -210,6 +248,9 @@ private:
     Ingest& m_ingest;
     const Choices& m_choices;
     std::unique_ptr<Decoded> m_decoded;
+    /// What was judged last, and of what.
+    struct Judged;
+    mutable std::shared_ptr<Judged> m_judged;
 };
 
 } // namespace posewire::model

@@ -122,8 +122,8 @@ std::string whom(const SessionView& session, const Incident& incident) {
     return listed(names);
 }
 
-/// "2.3 %" where that says more than "37 samples".
-std::string amountOf(const SessionView& session, const Incident& incident) {
+/// "2.3 %" where that says more than "37 samples"; `noun` is for a number.
+std::string amountOf(const SessionView& session, const Incident& incident, std::string_view noun) {
     constexpr std::uint64_t kFew = 10;
     StreamCounts sum;
     for (const Incident::Part& part : incident.parts) {
@@ -138,7 +138,10 @@ std::string amountOf(const SessionView& session, const Incident& incident) {
     const double percent = 100.0 * static_cast<double>(incident.samples) /
                            static_cast<double>(std::max<std::uint64_t>(1, sum.expected()));
     const bool isShare = incident.samples > kFew && sum.expected() > 10 * kFew && percent <= 100;
-    return isShare ? fixedText(percent, percent < 10 ? 1 : 0) + " %" : counted(incident.samples, "sample");
+    if (isShare) {
+        return fixedText(percent, percent < 10 ? 1 : 0) + " %";
+    }
+    return noun.empty() ? std::to_string(incident.samples) : counted(incident.samples, noun);
 }
 
 std::string causeOf(const Incident& incident) {
@@ -148,7 +151,45 @@ std::string causeOf(const Incident& incident) {
 }
 
 std::string lossHeadline(const SessionView& session, const Incident& incident) {
-    return amountOf(session, incident) + " lost on " + whom(session, incident) + causeOf(incident);
+    return amountOf(session, incident, "sample") + " lost on " + whom(session, incident) + causeOf(incident);
+}
+
+/// Of an outage: "no data for 1.2 s".
+std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
+    const log::Stamp end = listed.state == State::Over ? listed.incident.lastStamp
+                                                       : std::max(session.now(), listed.incident.lastStamp);
+    const double seconds = log::secondsOf(end - listed.incident.firstStamp);
+    return "no data for " + fixedText(seconds, seconds < 10 ? 1 : 0) + " s";
+}
+
+std::string briefOf(const SessionView& session, const ListedIncident& listed) {
+    const Incident& incident = listed.incident;
+    const std::string count = std::to_string(incident.count);
+    if (listed.state == State::Provisional) {
+        return std::to_string(incident.samples) + " not yet here";
+    }
+    switch (incident.kind) {
+    case IncidentKind::Loss:
+    case IncidentKind::Local:
+        return incident.samples != 0 ? amountOf(session, incident, {}) + " lost" + causeOf(incident)
+                                     : fixedText(incident.value, 0) + " dropped here";
+    case IncidentKind::Outage:
+        return silenceOf(session, listed) + (incident.cause ? causeOf(incident) : std::string());
+    case IncidentKind::Reordered:
+        return count + " out of order";
+    case IncidentKind::Duplicates:
+        return count + " came twice";
+    case IncidentKind::Malformed:
+        return count + " malformed";
+    case IncidentKind::Foreign:
+        return count + " not MXTP";
+    case IncidentKind::Restart:
+        return "restarted";
+    case IncidentKind::Conflict:
+        return "also from " + incident.detail;
+    default:
+        return std::string(nameOf(incident.kind));
+    }
 }
 
 /// By how bad it is: what goes on before what is over.
@@ -166,9 +207,17 @@ std::string whenOf(const SessionView& session, const ListedIncident& listed) {
     return ", since " + from + ", going on";
 }
 
-bool concerns(const Incident& incident, const std::optional<CharacterKey>& character) {
-    return !character || (incident.sender == character->sender &&
-                          (incident.parts.empty() || incident.concerns(character->character)));
+/// Which character a verdict is on: itself and all that it took over from; none for all together.
+using Line = std::vector<CharacterKey>;
+
+bool concerns(const Incident& incident, const CharacterKey& character) {
+    return incident.sender == character.sender &&
+           (incident.parts.empty() || incident.concerns(character.character));
+}
+
+bool concerns(const Incident& incident, const Line& line) {
+    return line.empty() ||
+           std::ranges::any_of(line, [&](const CharacterKey& one) { return concerns(incident, one); });
 }
 
 /// Whether anything of it can be drawn.
@@ -185,6 +234,7 @@ TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst
     verdict.state = isBad ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
     verdict.text = std::string(isBad ? "Not good: " : "Not quite good: ") + headlineOf(session, worst) +
                    whenOf(session, worst);
+    verdict.brief = briefOf(session, worst) + (worst.state == State::Over ? ", over" : "");
     verdict.since = worst.incident.firstStamp;
     verdict.incident = worst.incident.number;
     if (const auto character = worst.incident.character()) {
@@ -198,7 +248,7 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     std::vector<const Character*> characters = session.charactersNow();
     std::erase_if(characters, [&](const Character* one) { return only && one->key != *only; });
     if (characters.empty()) {
-        return {TakeVerdict::State::None, "No data yet", {}, {}, {}};
+        return {TakeVerdict::State::None, "No data yet", "no data yet", {}, {}, {}};
     }
     const auto poseless =
         std::ranges::find_if(characters, [](const Character* one) { return !hasPose(*one); });
@@ -210,13 +260,14 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
         return {TakeVerdict::State::Warning,
                 "Not quite good: no pose to draw of " + session.displayName((*poseless)->key).shown() +
                     ", which sends " + (types.size() == 1 ? "type " : "types ") + listed(types),
+                "no pose",
                 since,
                 {},
                 (*poseless)->key};
     }
     const std::string who =
         only ? session.displayName(*only).shown() : counted(characters.size(), "character");
-    return {TakeVerdict::State::Good, "Good for the take: " + who, since, {}, {}};
+    return {TakeVerdict::State::Good, "Good for the take: " + who, "good", since, {}, {}};
 }
 
 bool isPast(const ListedIncident& one, const VerdictSpan& span) {
@@ -258,12 +309,26 @@ public:
     Judge(const SessionView& session, const VerdictSpan& span)
         : m_session(session), m_span(span), m_listed(listedBetween(session, span)) {
         std::erase_if(m_listed, [&](const ListedIncident& one) { return isPast(one, span); });
+        for (const Incident& incident : session.incidents().all()) {
+            if (incident.firstStamp <= span.to && !isNote(incident)) {
+                m_past.push_back(&incident);
+            }
+        }
+        // So that the end of the last is found at once.
+        std::ranges::stable_sort(m_past, std::ranges::greater(), &Incident::lastStamp);
     }
 
     [[nodiscard]] TakeVerdict of(const std::optional<CharacterKey>& character) const {
+        Line line;
+        if (character) {
+            for (const Character* one : m_session.lineage(*character)) {
+                line.push_back(one->key);
+            }
+            line = line.empty() ? Line{*character} : line;
+        }
         std::optional<ListedIncident> worst;
         for (const ListedIncident& one : m_listed) {
-            if (!concerns(one.incident, character)) {
+            if (!concerns(one.incident, line)) {
                 continue;
             }
             ListedIncident mine = one;
@@ -275,24 +340,22 @@ public:
             }
         }
         return worst ? fromIncident(m_session, *worst)
-                     : withoutIncident(m_session, character, endOfTheLast(character));
+                     : withoutIncident(m_session, character, endOfTheLast(line));
     }
 
 private:
     /// When the last incident before the span was over; when the session began, where there was none.
-    [[nodiscard]] log::Stamp endOfTheLast(const std::optional<CharacterKey>& character) const {
-        log::Stamp end = m_session.firstStamp();
-        for (const Incident& incident : m_session.incidents().all()) {
-            const bool isOver =
-                incident.firstStamp <= m_span.to && !isNote(incident) && concerns(incident, character);
-            end = isOver ? std::max(end, incident.lastStamp) : end;
-        }
-        return end;
+    [[nodiscard]] log::Stamp endOfTheLast(const Line& line) const {
+        const auto last =
+            std::ranges::find_if(m_past, [&](const Incident* incident) { return concerns(*incident, line); });
+        return last == m_past.end() ? m_session.firstStamp()
+                                    : std::max(m_session.firstStamp(), (*last)->lastStamp);
     }
 
     const SessionView& m_session;
     VerdictSpan m_span;
     std::vector<ListedIncident> m_listed;
+    std::vector<const Incident*> m_past; ///< that ended last first
 };
 
 } // namespace
@@ -370,6 +433,45 @@ TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span) {
         verdicts.characters[character.key] = judge.of(character.key);
     }
     return verdicts;
+}
+
+struct SessionView::Judged {
+    /// What verdicts rest on.
+    struct Basis {
+        std::uint64_t end = 0;
+        log::Stamp now{};
+        std::uint64_t incidents = 0;
+        log::Stamp reset{};
+        std::uint64_t retired = 0;
+        bool isRecording = false;
+        friend bool operator==(const Basis&, const Basis&) = default;
+    };
+    Basis basis;
+    TakeVerdicts verdicts;
+};
+
+VerdictSpan SessionView::verdictSpan() const {
+    return isRecording() ? VerdictSpan{} : recentSpan(*this);
+}
+
+const TakeVerdicts& SessionView::verdicts() const {
+    const Judged::Basis basis{end(),
+                              isRecording() ? log::Stamp() : now(), // at rest nothing happens
+                              incidents().version(),
+                              reset(),
+                              retired().senders,
+                              isRecording()};
+    if (m_judged == nullptr || m_judged->basis != basis) {
+        m_judged = std::make_shared<Judged>(Judged{basis, verdictsOf(*this, verdictSpan())});
+    }
+    return m_judged->verdicts;
+}
+
+const TakeVerdict& SessionView::verdict(const CharacterKey& key) const {
+    static const TakeVerdict none;
+    const auto& characters = verdicts().characters;
+    const auto found = characters.find(key);
+    return found == characters.end() ? none : found->second;
 }
 
 } // namespace posewire::model

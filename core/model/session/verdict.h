@@ -30,6 +30,7 @@ struct TakeVerdict {
     enum class State : std::uint8_t { None, Good, Warning, Bad };
     State state = State::None;
     std::string text;   ///< one line, the worst first
+    std::string brief;  ///< the same in a few words, without whose and since when: "37 lost, network"
     log::Stamp since{}; ///< when what it says began; of Good when the last incident was over; of None 0
     std::optional<std::uint64_t> incident{}; ///< that it rests on
     std::optional<CharacterKey> character{}; ///< that it is about, where it is one
@@ -56,7 +57,7 @@ struct TakeVerdicts {
 };
 [[nodiscard]] TakeVerdicts verdictsOf(const SessionView& session, const VerdictSpan& span);
 
-/// Of all, or of one character and its sender.
+/// Of all, or of one character and its sender, through restarts of the sender.
 [[nodiscard]] TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
                                     std::optional<CharacterKey> character = {});
 

@@ -47,6 +47,7 @@ public:
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         m_session.setHidden(key, !isVisible);
     }
+    void forgetSender(log::SenderId sender) override { m_session.forget(sender); }
     void setGhostVisible(bool isVisible) override { m_session.setGhostShown(isVisible); }
     void showDock(const QString&) override {}
     void showIncident(std::optional<std::uint64_t> number) override {

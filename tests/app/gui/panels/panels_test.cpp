@@ -11,6 +11,7 @@
 
 #include <QHeaderView>
 #include <QTest>
+#include <QToolButton>
 
 #include <memory>
 #include <set>
@@ -83,13 +84,13 @@ TEST_F(PanelsTest, EveryTableHasANameForScreenReaders) {
 TEST_F(PanelsTest, SummariesTellTheStateInAFewWords) {
     performer::Performer performer(sending(2, {2, 12, 23}));
     m_stage.perform(performer, 0, 60);
-    EXPECT_EQ(open<CharactersPanel>()->summary(), "2 of 2 live");
+    EXPECT_EQ(open<CharactersPanel>()->summary(), "2 of 2 good");
     EXPECT_EQ(open<StatisticsPanel>()->summary(), "6 streams");
     EXPECT_EQ(open<TrackersPanel>()->summary(), QStringLiteral("Pelvis · 1"));
     EXPECT_EQ(open<MetadataPanel>()->summary(),
               QString::fromStdString(m_stage.session.displayName(m_stage.key()).shown()));
     m_stage.now += 5s;
-    EXPECT_EQ(open<CharactersPanel>()->summary(), "0 of 2 live");
+    EXPECT_EQ(open<CharactersPanel>()->summary(), "0 of 2 good");
 }
 
 TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
@@ -97,8 +98,7 @@ TEST_F(PanelsTest, ClickingACharacterSelectsItForAllPanels) {
     m_stage.perform(performer, 0, 10);
     const auto panel = open<CharactersPanel>();
     TableView* view = table(*panel);
-    const QModelIndex second = view->model()->index(1, 0, view->model()->index(0, 0));
-    EXPECT_TRUE(view->isExpanded(second));
+    const QModelIndex second = view->model()->index(1, 0);
     QTest::mouseClick(view->viewport(), Qt::LeftButton, {}, view->visualRect(second).center());
     EXPECT_EQ(m_stage.session.selection().character, m_stage.key(1));
     EXPECT_EQ(m_stage.session.selection().sender, m_stage.sender());
@@ -118,18 +118,73 @@ TEST_F(PanelsTest, CharactersFollowASelectionMadeElsewhereWithoutAskingForIt) {
     EXPECT_EQ(m_stage.session.selection().segment, 3);
 }
 
-TEST_F(PanelsTest, KeepsWhatTheOperatorCollapsed) {
-    performer::Performer performer(sending(1, {2}));
+TEST_F(PanelsTest, TwentyCharactersAreInViewAtOnce) {
+    performer::Performer performer(sending(20, {2}));
     m_stage.perform(performer, 0, 10);
     const auto panel = open<CharactersPanel>();
-    TableView* view = table(*panel);
-    const QModelIndex character = view->model()->index(0, 0, view->model()->index(0, 0));
-    view->collapse(character);
-    performer::Performer more(sending(1, {2, 21, 22}));
-    m_stage.perform(more, 10, 20);
+    panel->resize(620, 440);
     refresh(*panel);
-    EXPECT_EQ(view->model()->rowCount(character), 3);
-    EXPECT_FALSE(view->isExpanded(character));
+    TableView* view = table(*panel);
+    ASSERT_EQ(view->model()->rowCount(), 20);
+    EXPECT_LE(view->visualRect(view->model()->index(19, 0)).bottom(), view->viewport()->height());
+    EXPECT_GE(view->visualRect(view->model()->index(0, 0)).height(), view->fontMetrics().height());
+}
+
+TEST_F(PanelsTest, TheBoardShowsDetailOfTheSelectedOnlyAndKeepsWhatWasSet) {
+    performer::Performer performer(sending(2, {2, 21}));
+    m_stage.perform(performer, 0, 10);
+    const auto panel = open<CharactersPanel>();
+    auto* streams = panel->findChild<TableView*>("characterStreams");
+    panel->toggleDetail();
+    EXPECT_FALSE(streams->isVisible()) << "nothing is selected";
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
+    refresh(*panel);
+    EXPECT_TRUE(streams->isVisible());
+    EXPECT_EQ(streams->model()->rowCount(), 2);
+    panel->setTroubleFirst(true);
+    const auto other = open<CharactersPanel>();
+    other->restoreState(panel->state());
+    EXPECT_TRUE(other->isTroubleFirst() && other->isDetailShown());
+}
+
+TEST_F(PanelsTest, SoloHidesAllOthersAndShowsThemAgain) {
+    performer::Performer performer(sending(3, {2}));
+    m_stage.perform(performer, 0, 10);
+    const auto panel = open<CharactersPanel>();
+    m_stage.session.setSelection({m_stage.sender(), m_stage.key(1), -1});
+    panel->soloSelected();
+    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key(0)) && m_stage.session.isHidden(m_stage.key(2)));
+    EXPECT_FALSE(m_stage.session.isHidden(m_stage.key(1)));
+    panel->soloSelected();
+    EXPECT_FALSE(m_stage.session.isHidden(m_stage.key(0)) || m_stage.session.isHidden(m_stage.key(2)));
+    panel->toggleSelected();
+    EXPECT_TRUE(m_stage.session.isHidden(m_stage.key(1)));
+    panel->showPacketsOfSelected();
+    EXPECT_EQ(m_stage.session.displayFilter(), "character == 1");
+}
+
+TEST_F(PanelsTest, EndedSendersFoldAwayAndCanBeForgotten) {
+    const auto sendFrom = [this](const std::string& address) {
+        performer::Performer performer(sending(1, {2}));
+        for (std::uint64_t frame = 0; frame < 20; ++frame) {
+            m_stage.send(performer.frame(frame).front(), m_stage.now + 4ms, address);
+        }
+    };
+    sendFrom("10.0.0.5:1000");
+    const auto panel = open<CharactersPanel>();
+    auto* ended = panel->findChild<QToolButton*>("endedSenders");
+    EXPECT_FALSE(ended->isVisible());
+    sendFrom("10.0.0.5:1001");
+    sendFrom("10.0.0.5:1002");
+    refresh(*panel);
+    EXPECT_EQ(table(*panel)->model()->rowCount(), 1);
+    EXPECT_TRUE(ended->isVisible());
+    EXPECT_EQ(ended->accessibleName(), "2 ended senders");
+    const std::uint64_t datagrams = m_stage.session.allSenders().datagrams;
+    panel->forgetEnded();
+    EXPECT_FALSE(ended->isVisible());
+    EXPECT_EQ(m_stage.session.senders().size(), 1U);
+    EXPECT_EQ(m_stage.session.allSenders().datagrams, datagrams);
 }
 
 TEST_F(PanelsTest, PickingATrackerSelectsItsSegmentAndBack) {

@@ -77,7 +77,7 @@ TEST_F(Viewport, LabelsStaleDataAsStale) {
     viewport.refresh();
     EXPECT_TRUE(
         QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).state.health == Health::Error; }));
-    EXPECT_TRUE(viewport.overlay().labels()[0].state.text.contains("stale"));
+    EXPECT_TRUE(viewport.overlay().labels()[0].state.text.contains("no data for 3"));
 }
 
 TEST_F(Viewport, HidesACharacterOnRequest) {

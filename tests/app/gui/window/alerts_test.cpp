@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/alerts.h"
 #include "app/gui/window/health_bar.h"
+#include "app/gui/window/health_popup.h"
 #include "app/gui/window/report_saving.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QAbstractButton>
+#include <QAbstractItemView>
 #include <QDialogButtonBox>
 #include <QDoubleSpinBox>
 #include <QFile>
@@ -79,12 +81,12 @@ TEST(AlertSoundsTest, SoundWhereAWarningBecomesAnErrorAndForWhatIsSettledLate) {
 TEST(BadTurnsTest, TellOnceForAnIncident) {
     using State = model::TakeVerdict::State;
     BadTurns turns;
-    EXPECT_FALSE(turns.isDue({State::Warning, "Not quite good", {}, 1, {}}));
-    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, 1, {}}));
-    EXPECT_FALSE(turns.isDue({State::Bad, "Not good: more", {}, 1, {}}));
-    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, 2, {}}));
-    EXPECT_FALSE(turns.isDue({State::Bad, "Not good", {}, 1, {}})) << "again the worst of both";
-    EXPECT_FALSE(turns.isDue({State::Good, "Good", {}, {}, {}}));
+    EXPECT_FALSE(turns.isDue({State::Warning, "Not quite good", {}, {}, 1, {}}));
+    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, {}, 1, {}}));
+    EXPECT_FALSE(turns.isDue({State::Bad, "Not good: more", {}, {}, 1, {}}));
+    EXPECT_TRUE(turns.isDue({State::Bad, "Not good", {}, {}, 2, {}}));
+    EXPECT_FALSE(turns.isDue({State::Bad, "Not good", {}, {}, 1, {}})) << "again the worst of both";
+    EXPECT_FALSE(turns.isDue({State::Good, "Good", {}, {}, {}, {}}));
 }
 
 TEST(BadTurnsTest, PassOnNoMarkup) {
@@ -150,6 +152,48 @@ TEST_F(HealthBarTest, SaysThatAllCameWhereItIsGood) {
     EXPECT_TRUE(popup->findChildren<QAbstractButton*>("trouble").empty());
     popup->findChild<QPushButton*>(QStringLiteral("frameCharacter"))->click();
     EXPECT_EQ(m_stage.commands.framed.size(), 1U);
+}
+
+TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
+    performer::Performer twenty(sending(20, {2}, 60.0));
+    for (std::uint64_t frame = 0; frame < 240; ++frame) {
+        for (const wire::Datagram& datagram : twenty.frame(frame)) {
+            if (datagram.header.character != 17 || frame % 10 != 0) {
+                m_stage.send(datagram, Stage::kStart + log::durationOf(static_cast<double>(frame) / 60));
+            }
+        }
+    }
+    m_stage.follow();
+    m_bar.resize(1'400, 30);
+    m_bar.show();
+    m_bar.refresh({});
+    const int width = m_bar.firstEntry()->width();
+    QTest::keyClick(m_bar.firstEntry(), Qt::Key_Return);
+    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(17));
+    m_bar.findChild<QWidget*>("healthPopup")->close();
+    auto* more = m_bar.findChild<QAbstractButton*>("more");
+    ASSERT_TRUE(more->isVisible());
+    QTest::keyClick(more, Qt::Key_Return);
+    auto* list = m_bar.findChild<QWidget*>("healthList");
+    ASSERT_NE(list, nullptr);
+    auto* table = list->findChild<QAbstractItemView*>();
+    ASSERT_EQ(table->model()->rowCount(), 20);
+    emit table->clicked(table->model()->index(19, 0));
+    EXPECT_EQ(m_stage.session.selection().character, m_stage.key(19));
+    m_stage.now += 3s; // other words
+    m_stage.follow();
+    m_bar.refresh({});
+    EXPECT_EQ(m_bar.firstEntry()->width(), width);
+}
+
+TEST_F(HealthBarTest, SaysTheSameAsTheVerdictAlsoWhilePaused) {
+    perform(0, 240);
+    m_stage.session.setCursor({model::Cursor::Mode::Paused, 60});
+    m_stage.now += 3s;
+    m_stage.follow();
+    m_bar.refresh({});
+    const auto* entry = qobject_cast<QAbstractButton*>(m_bar.firstEntry());
+    EXPECT_TRUE(entry->text().contains(QStringLiteral("no data for 3"))) << entry->text().toStdString();
 }
 
 TEST_F(HealthBarTest, CountsWhatWasLost) {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/verdict.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
 /// At which bounds what comes, and what does not, becomes an event.
@@ -70,8 +71,8 @@ TEST_F(IncidentBounds, ACharacterIsSilentWhileItsSenderSendsAnother) {
     EXPECT_EQ(outages[0].characters(), (std::vector<std::uint8_t>{1}));
     EXPECT_EQ(outages[0].firstStamp, last);
     EXPECT_TRUE(outages[0].isCurrent);
-    EXPECT_EQ(m_session.conditionOf({sender(), 1}).level, Condition::Level::Error);
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
+    EXPECT_EQ(m_session.verdict({sender(), 1}).state, TakeVerdict::State::Bad);
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good);
     for (std::uint32_t sample = 401; sample <= 500; ++sample, m_at += 10ms) {
         pose(sample);
         poseOfOther(sample);
@@ -233,8 +234,6 @@ TEST_F(IncidentBounds, TroublesAreSortedWorstFirstAndLimitsLastOfTheirLike) {
     EXPECT_TRUE(troubles.front()->kind == IncidentKind::Foreign ||
                 troubles.front()->kind == IncidentKind::Loss)
         << nameOf(troubles.front()->kind);
-    EXPECT_EQ(m_session.conditionOf(key()).incident, troubles.front()->number);
-    EXPECT_EQ(m_session.conditionOf(key()).reason, troubles.front()->text());
     for (std::size_t i = 1; i < troubles.size(); ++i) {
         EXPECT_GE(troubles[i - 1]->severity(), troubles[i]->severity());
         if (troubles[i - 1]->severity() == troubles[i]->severity()) {

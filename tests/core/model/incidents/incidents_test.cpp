@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/verdict.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
 namespace posewire::model {
@@ -12,7 +13,7 @@ TEST_F(IncidentsTest, TellThatASenderComesAndGoes) {
     ASSERT_EQ(down.size(), 1U);
     EXPECT_TRUE(down[0].isCurrent);
     EXPECT_EQ(down[0].severity(), IncidentSeverity::Error);
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Error);
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Bad);
     m_at += 4s;
     poses(101, 200);
     down = of(IncidentKind::Outage);
@@ -37,21 +38,20 @@ TEST_F(IncidentsTest, SayNothingOfSilenceAfterTheEndOfAFile) {
     EXPECT_EQ(down[0].text(), "No data.");
 }
 
-TEST_F(IncidentsTest, JudgeACharacterWhereTheCursorStands) {
+TEST_F(IncidentsTest, TroubleACharacterWhereTheCursorStands) {
     poses(1, 300);
     poses(311, 400); // ten lost
     poses(401, 1'000);
     follow();
     m_session.follow(m_at + 3s); // nothing more comes
-    const auto levelAt = [this](std::uint64_t packet) {
+    const auto isTroubledAt = [this](std::uint64_t packet) {
         m_session.setCursor({Cursor::Mode::Paused, packet});
-        return m_session.conditionOf(key()).level;
+        return !m_session.troublesOf(key()).empty();
     };
-    EXPECT_EQ(levelAt(200), Condition::Level::Good);
-    EXPECT_NE(levelAt(350), Condition::Level::Good);
-    EXPECT_EQ(levelAt(980), Condition::Level::Good) << "before the silence";
-    m_session.setCursor({});
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Error);
+    EXPECT_FALSE(isTroubledAt(200));
+    EXPECT_TRUE(isTroubledAt(350));
+    EXPECT_FALSE(isTroubledAt(980)) << "before the silence";
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Bad) << "now, whatever the cursor";
 }
 
 TEST_F(IncidentsTest, CountTheGapsOfAnIncidentInOne) {
@@ -249,7 +249,8 @@ TEST_F(IncidentsTest, TellTwoSendersWithOneCharacterButNotASuccessor) {
 
 TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {
     poses(1, 1'000);
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
+    follow();
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good);
     for (std::uint32_t sample = 1'001; sample <= 1'400; ++sample, m_at += 10ms) {
         if (sample % 50 != 0) {
             pose(sample);
@@ -262,8 +263,7 @@ TEST_F(IncidentsTest, CallALossAboveItsLimitAnError) {
     EXPECT_TRUE(of(IncidentKind::LossLimit).empty()) << "the loss says it all";
     poses(1'401, 3'000);
     follow();
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good)
-        << m_session.conditionOf(key()).reason;
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good) << m_session.verdict(key()).text;
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/model/session/verdict.h"
 #include "tests/core/model/session/session_fixture.h"
 
 #include "core/model/incidents/incident_follower.h"
@@ -69,7 +70,7 @@ TEST_F(ClockSetTest, IsNobodysLossRestartOrJitter) {
     EXPECT_EQ(counts.lost, 0U);
     EXPECT_EQ(counts.restarts, 0U);
     EXPECT_EQ(counts.samples, 1500U);
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
+    EXPECT_EQ(m_session.verdict(key()).state, TakeVerdict::State::Good);
 }
 
 TEST_F(ClockSetTest, ShowsInTimesOfDayOnly) {

@@ -2,12 +2,15 @@
 #include "tests/core/model/session/session_fixture.h"
 
 #include "core/model/incidents/thresholds.h"
+#include "core/model/session/verdict.h"
 
 #include <string>
 
 /// How a character does, in one word and one sentence; and what the session keeps of the wildest input.
 namespace posewire::model {
 namespace {
+
+using State = TakeVerdict::State;
 
 class ConditionTest : public SessionTest {
 protected:
@@ -25,78 +28,96 @@ protected:
             sendBytes(*wire::encode(datagram), m_at);
         }
     }
-    Condition conditionAfter(log::Duration silence) {
+    TakeVerdict verdictAfter(log::Duration silence) {
         follow();
         m_session.follow(m_at - 10ms + silence);
-        return m_session.conditionOf(key());
+        return m_session.verdict(key());
     }
     log::Stamp m_at{100s};
 };
 
 TEST_F(ConditionTest, IsGoodWhileDataComes) {
     poses(1, 300);
-    const Condition condition = conditionAfter(0ms);
-    EXPECT_EQ(condition.level, Condition::Level::Good);
-    EXPECT_EQ(condition.reason, "");
-    EXPECT_EQ(condition.incident, std::nullopt);
+    const TakeVerdict verdict = verdictAfter(0ms);
+    EXPECT_EQ(verdict.state, State::Good);
+    EXPECT_EQ(verdict.brief, "good");
+    EXPECT_EQ(verdict.incident, std::nullopt);
 }
 
 TEST_F(ConditionTest, WarnsOfAFifthOfASecondOfSilence) {
     poses(1, 300);
-    EXPECT_EQ(conditionAfter(200ms).level, Condition::Level::Good);
-    const Condition silent = conditionAfter(225ms);
-    EXPECT_EQ(silent.level, Condition::Level::Warning);
-    EXPECT_EQ(silent.reason, "No data.");
+    EXPECT_EQ(verdictAfter(200ms).state, State::Good);
+    const TakeVerdict silent = verdictAfter(225ms);
+    EXPECT_EQ(silent.state, State::Warning);
+    EXPECT_EQ(silent.brief, "no data for 0.2 s");
     ASSERT_TRUE(silent.incident.has_value());
     EXPECT_EQ(m_session.incidents().find(*silent.incident)->kind, IncidentKind::Outage);
-    EXPECT_EQ(conditionAfter(999ms).level, Condition::Level::Warning);
+    EXPECT_EQ(verdictAfter(999ms).state, State::Warning);
 }
 
 TEST_F(ConditionTest, IsAnErrorAfterASecondOfSilence) {
     poses(1, 300);
-    const Condition down = conditionAfter(1'200ms);
-    EXPECT_EQ(down.level, Condition::Level::Error);
-    EXPECT_EQ(down.reason, "No data.");
-    ASSERT_TRUE(down.incident.has_value());
-    EXPECT_EQ(m_session.incidents().find(*down.incident)->kind, IncidentKind::Outage);
+    const TakeVerdict down = verdictAfter(1'200ms);
+    EXPECT_EQ(down.state, State::Bad);
+    EXPECT_EQ(down.brief, "no data for 1.2 s");
 }
 
-TEST_F(ConditionTest, IsThatOfThePausedMoment) {
+TEST_F(ConditionTest, IsThatOfNowWhilePaused) {
     poses(1, 100);
-    m_at += 600ms;
-    poses(101, 100);
-    conditionAfter(5s);
+    follow();
     m_session.setCursor({Cursor::Mode::Paused, 50});
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Good);
+    EXPECT_EQ(verdictAfter(0ms).state, State::Good);
+    EXPECT_EQ(verdictAfter(5s).state, State::Bad) << "the sender died meanwhile";
     m_session.setCursor({});
-    EXPECT_EQ(m_session.conditionOf(key()).level, Condition::Level::Error);
+    EXPECT_EQ(m_session.verdict(key()).state, State::Bad);
+}
+
+TEST_F(ConditionTest, IsTheSameAsTheVerdictThatScriptsGet) {
+    poses(1, 100);
+    poses(111, 200);
+    const TakeVerdict mine = verdictAfter(0ms);
+    EXPECT_EQ(mine, verdictOf(m_session, recentSpan(m_session), key()));
+    EXPECT_EQ(m_session.verdicts().all, verdictOf(m_session, recentSpan(m_session)));
+}
+
+TEST_F(ConditionTest, OfARecordingIsThatOfAllOfIt) {
+    poses(1, 100);
+    poses(111, 3'000);
+    while (m_session.followFile(m_at + 100h)) {
+    }
+    m_session.endFile();
+    m_session.setCursor({Cursor::Mode::Paused, 50});
+    EXPECT_TRUE(m_session.isRecording());
+    EXPECT_EQ(m_session.verdict(key()).state, State::Warning);
+    EXPECT_TRUE(m_session.verdict(key()).brief.ends_with("lost, cause unknown, over"))
+        << m_session.verdict(key()).brief;
 }
 
 TEST_F(ConditionTest, WarnsWhereASenderContradictsItself) {
     poses(1, 100);
     m_session.setOverride(sender(), {.revision = Revision::E});
-    Condition condition = conditionAfter(0ms);
-    EXPECT_EQ(condition.level, Condition::Level::Good) << "nothing was followed when it was declared";
+    EXPECT_EQ(verdictAfter(0ms).state, State::Good) << "nothing was followed when it was declared";
     m_session.setOverride(sender(), {.revision = Revision::E});
-    condition = conditionAfter(0ms);
-    EXPECT_EQ(condition.level, Condition::Level::Warning);
-    EXPECT_EQ(condition.reason, "declared E, but header counts are filled");
+    const TakeVerdict verdict = verdictAfter(0ms);
+    EXPECT_EQ(verdict.state, State::Warning);
+    EXPECT_NE(verdict.text.find("declared E, but header counts are filled"), std::string::npos)
+        << verdict.text;
     m_session.setOverride(sender(), {.revision = Revision::N});
-    EXPECT_EQ(conditionAfter(0ms).level, Condition::Level::Good);
+    EXPECT_TRUE(verdictAfter(0ms).brief.ends_with(", over"));
 }
 
 TEST_F(ConditionTest, WarnsOfASenderThatChangesItsHeaders) {
     poses(1, 50);
     poses(51, 50, wire::HeaderEra::Reserved);
-    const Condition condition = conditionAfter(0ms);
-    EXPECT_EQ(condition.level, Condition::Level::Warning);
-    EXPECT_NE(condition.reason.find("type 02"), std::string::npos) << condition.reason;
+    const TakeVerdict verdict = verdictAfter(0ms);
+    EXPECT_EQ(verdict.state, State::Warning);
+    EXPECT_NE(verdict.text.find("type 02"), std::string::npos) << verdict.text;
 }
 
-TEST_F(ConditionTest, OfAnUnknownCharacterIsGood) {
+TEST_F(ConditionTest, OfAnUnknownCharacterIsNone) {
     poses(1, 10);
     follow();
-    EXPECT_EQ(m_session.conditionOf({sender(), 99}).level, Condition::Level::Good);
+    EXPECT_EQ(m_session.verdict({sender(), 99}).state, State::None);
     EXPECT_TRUE(m_session.troublesOf({sender(), 99}).empty());
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "tests/core/model/session/session_fixture.h"
+#include "core/model/session/verdict.h"
+#include "tests/core/model/incidents/incidents_fixture.h"
 
 namespace posewire::model {
 namespace {
@@ -61,6 +62,118 @@ TEST_F(SuccessionTest, ShowsTheOldSenderAgainBeforeItsSuccessorCame) {
     EXPECT_TRUE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
     m_session.setCursor({Cursor::Mode::Paused, 0});
     EXPECT_FALSE(m_session.isSuperseded(keyOf("10.0.0.5:1000")));
+}
+
+/// Poses at 100 Hz from ports that follow each other.
+class RestartTest : public IncidentsTest {
+protected:
+    void posesFrom(const std::string& address, std::uint32_t count, std::uint32_t first = 1) {
+        for (std::uint32_t sample = first; sample < first + count; ++sample, m_at += 10ms) {
+            pose(sample, address);
+        }
+        follow();
+    }
+    CharacterKey keyOf(const std::string& address) { return {sender(address), 0}; }
+    std::vector<CharacterKey> shown() {
+        std::vector<CharacterKey> keys;
+        for (const Character* one : m_session.charactersNow()) {
+            keys.push_back(one->key);
+        }
+        return keys;
+    }
+    const std::string m_first = "10.0.0.5:1000";
+    const std::string m_second = "10.0.0.5:1001";
+    const std::string m_third = "10.0.0.5:1002";
+};
+
+TEST_F(RestartTest, IsOneCharacterThroughPortsWithAHistory) {
+    posesFrom(m_first, 100);
+    m_at += 1s;
+    posesFrom(m_second, 100);
+    m_at += 1s;
+    posesFrom(m_third, 100);
+    EXPECT_EQ(shown(), std::vector{keyOf(m_third)});
+    EXPECT_EQ(m_session.restartsOf(keyOf(m_third)), 2U);
+    EXPECT_EQ(m_session.lineage(keyOf(m_third)).size(), 3U);
+    EXPECT_TRUE(m_session.isSame(keyOf(m_first), keyOf(m_third)));
+    ASSERT_EQ(m_session.endedSenders().size(), 2U);
+    m_session.setSelection({sender(m_first), keyOf(m_first), -1});
+    EXPECT_TRUE(m_session.isSelected(keyOf(m_third)));
+    m_session.setHidden(keyOf(m_first), true);
+    EXPECT_TRUE(m_session.isHidden(keyOf(m_third)));
+    m_session.setHidden(keyOf(m_third), false);
+    EXPECT_FALSE(m_session.isHidden(keyOf(m_first)));
+}
+
+TEST_F(RestartTest, CountsRestartsOnTheSamePort) {
+    posesFrom(m_first, 400, 10'000);
+    posesFrom(m_first, 400);
+    EXPECT_EQ(m_session.restartsOf(keyOf(m_first)), 1U);
+    EXPECT_TRUE(m_session.endedSenders().empty());
+}
+
+TEST_F(RestartTest, KeepsItsVerdictThroughAnotherPort) {
+    posesFrom(m_first, 300);
+    posesFrom(m_first, 100, 311); // ten lost
+    m_at += 300ms;
+    posesFrom(m_second, 200);
+    const TakeVerdict verdict = m_session.verdict(keyOf(m_second));
+    EXPECT_EQ(verdict.state, TakeVerdict::State::Warning) << "what is said of all is said of somebody";
+    EXPECT_EQ(verdict.text, m_session.verdicts().all.text);
+}
+
+TEST_F(RestartTest, ForgetsTheEndedAndLosesNothing) {
+    send(wire::MetaData{true, "name:Ana\n"}, 1, m_at);
+    posesFrom("127.0.0.1:40001", 100);
+    m_at += 1s;
+    posesFrom("127.0.0.1:40002", 100);
+    m_at += 1s;
+    posesFrom("127.0.0.1:40003", 100);
+    const CharacterKey now = keyOf("127.0.0.1:40003");
+    const SenderTotals before = m_session.allSenders();
+    m_session.setSelection({sender(), key(), -1});
+    m_session.setHidden(key(), true);
+    EXPECT_FALSE(m_session.forget(now.sender)) << "it sends";
+    EXPECT_TRUE(m_session.forget(sender("127.0.0.1:40002"))) << "from the middle of the line";
+    EXPECT_EQ(shown(), std::vector{now}) << "the first is not back";
+    EXPECT_TRUE(m_session.forget(sender()));
+    EXPECT_TRUE(m_session.endedSenders().empty());
+    EXPECT_EQ(m_session.senders().size(), 1U);
+    EXPECT_EQ(m_session.restartsOf(now), 2U);
+    EXPECT_EQ(m_session.displayName(now), "Ana");
+    EXPECT_EQ(m_session.selection().character, now);
+    EXPECT_TRUE(m_session.isHidden(now));
+    EXPECT_EQ(m_session.allSenders().datagrams, before.datagrams);
+    EXPECT_EQ(m_session.retired().samples, 200U);
+}
+
+TEST_F(RestartTest, ForgetsWhoIsSilentForLong) {
+    posesFrom(m_first, 100);
+    EXPECT_FALSE(m_session.isForgettable(sender(m_first)));
+    m_session.follow(m_at + 2s);
+    EXPECT_TRUE(m_session.forget(sender(m_first)));
+    EXPECT_TRUE(shown().empty());
+    posesFrom(m_first, 100, 101);
+    EXPECT_EQ(shown().size(), 1U) << "it is back";
+}
+
+TEST_F(RestartTest, IsNoTroubleOfTheSenderThatEnded) {
+    posesFrom(m_first, 300);
+    posesFrom(m_second, 2'000); // at once, so that nobody was silent
+    EXPECT_EQ(m_session.verdict(keyOf(m_second)).state, TakeVerdict::State::Good)
+        << m_session.verdict(keyOf(m_second)).text;
+    EXPECT_EQ(m_session.verdicts().all.state, TakeVerdict::State::Good) << m_session.verdicts().all.text;
+}
+
+TEST_F(RestartTest, EndsWithItsSenderWhatOnlyThatSenderCanEnd) {
+    posesFrom(m_first, 300);
+    m_session.setOverride(sender(m_first), {.revision = Revision::E});
+    ASSERT_EQ(m_session.verdict(keyOf(m_first)).state, TakeVerdict::State::Warning);
+    m_session.setOverride(sender(m_first), {.revision = Revision::E});
+    posesFrom(m_second, 1'500);
+    EXPECT_TRUE(std::ranges::none_of(m_session.incidents().all(), [&](const Incident& one) {
+        return one.sender == sender(m_first) && one.isCurrent && one.kind == IncidentKind::Scale;
+    }));
 }
 
 } // namespace

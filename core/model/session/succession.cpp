@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/session_view.h"
+
+#include <algorithm>
+
+/// Who is who: a character is the same one through restarts of its sender.
+namespace posewire::model {
+
+const Character* SessionView::predecessor(const CharacterKey& key) const {
+    const Character* character = find(key);
+    const Character* before = character != nullptr && character->before ? find(*character->before) : nullptr;
+    return before != nullptr && before->lastPacket < character->firstPacket ? before : nullptr;
+}
+
+const Character* SessionView::successor(const Character& character, std::uint64_t end) const {
+    const Character* next = character.after ? find(*character.after) : nullptr;
+    const bool hasTakenOver =
+        next != nullptr && next->firstPacket < end && next->firstPacket > character.lastPacket;
+    return hasTakenOver ? next : nullptr;
+}
+
+bool SessionView::isSuperseded(const CharacterKey& key) const {
+    const Character* character = find(key);
+    return character != nullptr && successor(*character, visibleEnd()) != nullptr;
+}
+
+CharacterKey SessionView::currentBefore(const CharacterKey& key, std::uint64_t end) const {
+    CharacterKey current = key;
+    for (const Character* character = find(key); character != nullptr;
+         character = successor(*character, end)) {
+        current = character->key;
+    }
+    return current;
+}
+
+std::vector<const Character*> SessionView::charactersBefore(std::uint64_t end) const {
+    std::vector<const Character*> shown;
+    for (const Character& character : characters()) {
+        if (character.isConfirmed && successor(character, end) == nullptr) {
+            shown.push_back(&character);
+        }
+    }
+    std::ranges::stable_sort(shown, {}, [this](const Character* one) { return appearance(*one); });
+    return shown;
+}
+
+std::vector<const Character*> SessionView::lineage(const CharacterKey& key) const {
+    std::vector<const Character*> line;
+    for (const Character* one = find(key); one != nullptr; one = predecessor(one->key)) {
+        line.push_back(one);
+    }
+    std::ranges::reverse(line);
+    return line;
+}
+
+/// Of the first packet of the first of its line, listed or not.
+std::uint64_t SessionView::appearance(const Character& character) const {
+    const Character* first = &character;
+    for (const Character* one = first; one != nullptr; one = predecessor(one->key)) {
+        first = one;
+    }
+    return first->formerFirstPacket.value_or(first->firstPacket);
+}
+
+bool SessionView::isSame(const CharacterKey& a, const CharacterKey& b) const {
+    return a == b || currentNow(a) == currentNow(b);
+}
+
+bool SessionView::isHidden(const CharacterKey& key) const {
+    return !m_choices.hidden.empty() && (m_choices.hidden.contains(key) ||
+                                         std::ranges::any_of(lineage(currentNow(key)), [&](const auto* one) {
+                                             return m_choices.hidden.contains(one->key);
+                                         }));
+}
+
+std::uint64_t SessionView::restartsOf(const CharacterKey& key) const {
+    const auto line = lineage(key);
+    std::uint64_t restarts = line.empty() ? 0 : line.size() - 1;
+    for (const Character* one : line) {
+        restarts += one->formerRestarts + one->counterRestarts();
+    }
+    return restarts;
+}
+
+std::vector<const Sender*> SessionView::endedSenders() const {
+    std::vector<const Sender*> ended;
+    for (const Sender& sender : senders()) {
+        if (m_ingest.hasEnded(sender)) {
+            ended.push_back(&sender);
+        }
+    }
+    return ended;
+}
+
+Unproven SessionView::unproven() const {
+    Unproven sums;
+    for (const Character& character : characters()) {
+        if (!character.isConfirmed) {
+            ++sums.characters;
+            for (const Stream* stream : character.streams) {
+                sums.datagrams += stream->accounting.datagrams();
+            }
+        }
+    }
+    return sums;
+}
+
+} // namespace posewire::model
