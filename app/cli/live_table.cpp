@@ -90,6 +90,9 @@ std::string summaryLine(const model::SessionView& session, const exporting::Moni
     if (session.overtaken() != 0) {
         line += "   not looked at in time " + grouped(session.overtaken());
     }
+    if (const model::Unproven unproven = session.unproven(); unproven.characters != 0) {
+        line += "   unconfirmed characters " + grouped(unproven.characters);
+    }
     if (facts.refusedDatagrams != 0) {
         line += "   refused by --from " + grouped(facts.refusedDatagrams);
     }
@@ -116,6 +119,9 @@ std::vector<std::string> liveTable(const model::SessionView& session, const expo
         lines.push_back(sender.address().shown() + " (" + std::string(log::nameOf(sender.info.transport)) +
                         ")");
         for (const model::Character* character : sender.characters) {
+            if (!character->isConfirmed) {
+                continue;
+            }
             lines.push_back("  " + session.displayName(character->key).shown() + " (" +
                             std::to_string(character->key.character) + ")");
             for (const model::Stream* stream : exporting::streamsByType(session, character->key)) {

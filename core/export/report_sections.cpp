@@ -83,7 +83,7 @@ std::vector<SvgPlot> plotsOf(const model::SessionView& session, const ReportStep
     for (const model::Character& character : session.characters()) {
         const std::size_t colour = plots[0].series.size();
         const auto streams = sampledStreams(session, character.key);
-        if (colour == kMostCurves || streams.empty()) {
+        if (colour == kMostCurves || streams.empty() || !character.isConfirmed) {
             continue;
         }
         Series series = seriesOf(streams, steps);

@@ -276,6 +276,8 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
                           const ReportSteps& steps) {
     std::string html;
     for (const model::Sender& sender : session.senders()) {
+        const auto unconfirmed = static_cast<std::uint64_t>(
+            std::ranges::count(sender.characters, false, &model::Character::isConfirmed));
         html += "<h2>" + sender.address().html() + " <span class=\"dim\">" +
                 escaped(log::nameOf(sender.info.transport)) +
                 (sender.info.localPort != 0 ? " to port " + std::to_string(sender.info.localPort) : "") +
@@ -283,8 +285,12 @@ std::string senderSection(const model::SessionView& session, const std::vector<m
                 fact("Datagrams", grouped(sender.datagrams) + ", " + grouped(sender.bytes) + " bytes") +
                 fact("Malformed", grouped(sender.malformed)) + fact("Not MXTP", grouped(sender.foreign)) +
                 (sender.skippedBytes != 0 ? fact("Bytes of no datagram", grouped(sender.skippedBytes)) : "") +
-                fact("Dropped by this computer", grouped(sender.kernelDrops)) + "</dl>\n";
+                fact("Dropped by this computer", grouped(sender.kernelDrops)) +
+                (unconfirmed != 0 ? fact("Unconfirmed characters", grouped(unconfirmed)) : "") + "</dl>\n";
         for (const model::Character* character : sender.characters) {
+            if (!character->isConfirmed) {
+                continue;
+            }
             html += "<h3>" + session.displayName(character->key).html() + " <span class=\"dim\">character " +
                     std::to_string(character->key.character) + "</span></h3>\n" +
                     metadataList(session, character->key) +
