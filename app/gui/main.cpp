@@ -8,6 +8,7 @@
 #include "app/gui/window/main_window.h"
 
 #include <QApplication>
+#include <QStandardPaths>
 #include <QTimer>
 
 #include <csignal>
@@ -124,7 +125,7 @@ int main(int argc, char** argv) {
     QApplication::setWindowIcon(applicationIcon());
 
     const log::SystemClock clock;
-    SessionDriver driver(clock);
+    SessionDriver driver(clock, QStandardPaths::writableLocation(QStandardPaths::CacheLocation));
     MainWindow window(driver, file, settings);
     if (options->size.isValid()) {
         window.resize(options->size);

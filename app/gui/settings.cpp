@@ -41,6 +41,20 @@ QByteArray docksOf(const QJsonObject& object) {
     return object["docksSum"].toString() == sumOf(docks) ? docks : QByteArray();
 }
 
+QJsonObject jsonOf(const HistoryChoice& history) {
+    return {{"disk", history.isOnDisk}, {"gigabytes", history.gigabytes}};
+}
+
+HistoryChoice historyOf(const QJsonObject& object) {
+    HistoryChoice history;
+    history.isOnDisk = object["disk"].toBool(history.isOnDisk);
+    const int gigabytes = object["gigabytes"].toInt();
+    if (gigabytes >= 1 && gigabytes <= HistoryChoice::kMostGigabytes) {
+        history.gigabytes = gigabytes;
+    }
+    return history;
+}
+
 Settings settingsOf(const QJsonObject& object) {
     Settings settings;
     settings.theme = themeNamed(object["theme"].toString()).value_or(settings.theme);
@@ -53,6 +67,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.panels = object["panels"].toObject();
     settings.alerts = alertChoicesOf(object["alerts"].toObject());
     settings.inputs = inputChoicesOf(object["sources"].toObject());
+    settings.history = historyOf(object["history"].toObject());
     for (const auto& path : object["recentFiles"].toArray()) {
         if (path.isString() && settings.recentFiles.size() < Settings::kMostRecentFiles) {
             settings.recentFiles += path.toString();
@@ -90,6 +105,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"alerts", jsonOf(settings.alerts)},
                              {"panels", settings.panels},
                              {"sources", jsonOf(settings.inputs)},
+                             {"history", jsonOf(settings.history)},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
     return QJsonDocument(object).toJson();
 }

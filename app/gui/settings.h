@@ -15,6 +15,14 @@
 
 namespace posewire::gui {
 
+/// How much of what is received is kept on the disk, too.
+struct HistoryChoice {
+    static constexpr int kMostGigabytes = 10'000;
+    bool isOnDisk = true;
+    int gigabytes = 8; ///< at most, and never more than a tenth of what is free
+    friend bool operator==(const HistoryChoice&, const HistoryChoice&) = default;
+};
+
 /// What is kept from one run to the next.
 struct Settings {
     ThemeChoice theme = ThemeChoice::System;
@@ -25,6 +33,7 @@ struct Settings {
     QJsonObject panels; ///< Panel::state() by the name of the dock
     AlertChoices alerts;
     InputChoices inputs;
+    HistoryChoice history;
     QStringList recentFiles; ///< paths, the newest first, at most kMostRecentFiles
     static constexpr int kMostRecentFiles = 8;
     friend bool operator==(const Settings&, const Settings&) = default;

@@ -96,6 +96,28 @@ private:
     std::span<const std::byte> m_rest;
 };
 
+class DescriptorStore final : public ByteStore {
+public:
+    explicit DescriptorStore(Descriptor descriptor) : m_descriptor(std::move(descriptor)) {}
+
+    [[nodiscard]] std::size_t readAt(std::uint64_t offset, std::span<std::byte> into) const override {
+        std::size_t filled = 0;
+        while (filled < into.size()) {
+            const ssize_t count = ::pread(m_descriptor.number(), into.data() + filled, into.size() - filled,
+                                          static_cast<off_t>(offset + filled));
+            if (count > 0) {
+                filled += static_cast<std::size_t>(count);
+            } else if (count == 0 || errno != EINTR) {
+                break;
+            }
+        }
+        return filled;
+    }
+
+private:
+    Descriptor m_descriptor;
+};
+
 tl::unexpected<FileError> unreadable(const std::string& path, int error) {
     switch (error) {
     case ENOENT:
@@ -105,6 +127,8 @@ tl::unexpected<FileError> unreadable(const std::string& path, int error) {
         return tl::unexpected(FileError{path + ": is a folder; name a file in it"});
     case EACCES:
         return tl::unexpected(FileError{path + ": no permission to read it; ask its owner"});
+    case ESPIPE:
+        return tl::unexpected(FileError{path + ": is a pipe or a device; name a file"});
     case ENXIO:
         return tl::unexpected(FileError{path + ": is a socket or a device that is not there; name a file"});
     default:
@@ -126,6 +150,18 @@ tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string&
         return unreadable(path, EISDIR);
     }
     return std::make_unique<DescriptorSource>(std::move(descriptor), path, std::move(isCancelled));
+}
+
+tl::expected<std::shared_ptr<const ByteStore>, FileError> openStore(const std::string& path) {
+    Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    if (!descriptor.isOpen()) {
+        return unreadable(path, errno);
+    }
+    struct stat status {};
+    if (::fstat(descriptor.number(), &status) != 0 || !S_ISREG(status.st_mode)) {
+        return unreadable(path, S_ISDIR(status.st_mode) ? EISDIR : ESPIPE);
+    }
+    return std::make_shared<DescriptorStore>(std::move(descriptor));
 }
 
 std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled) {

@@ -52,6 +52,19 @@ std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled = {});
 /// Reads from a stream that belongs to the caller.
 std::unique_ptr<ByteSource> readingFrom(std::istream& stream, std::string name);
 
+/// Bytes that can be read anywhere, as often as wanted and from any thread.
+class ByteStore {
+public:
+    virtual ~ByteStore() = default;
+
+    /// Fills the front of `into` with what there is from a place on, and returns how much: less only where
+    /// the bytes end, or cannot be read.
+    [[nodiscard]] virtual std::size_t readAt(std::uint64_t offset, std::span<std::byte> into) const = 0;
+};
+
+/// Fails as openFile() does, and where a file can only be read once, such as a pipe.
+tl::expected<std::shared_ptr<const ByteStore>, FileError> openStore(const std::string& path);
+
 /// Where bytes go in order. After a failure nothing more is to be written.
 class ByteSink {
 public:

@@ -131,8 +131,10 @@ void ChunkPool::give(std::unique_ptr<Chunk> chunk) {
     }
 }
 
-ChunkHistory::ChunkHistory(LogLimits limits)
-    : m_limits(sensible(limits)), m_pool(std::make_shared<ChunkPool>(m_limits.chunkSize)) {}
+ChunkHistory::ChunkHistory(LogLimits limits, std::shared_ptr<const Scratch> scratch)
+    : m_limits(sensible(limits)),
+      m_scratch(std::move(scratch)),
+      m_pool(std::make_shared<ChunkPool>(m_limits.chunkSize)) {}
 
 ChunkHistory::~ChunkHistory() {
     m_pool->close();
@@ -142,7 +144,7 @@ ChunkHistory::~ChunkHistory() {
 }
 
 std::size_t ChunkHistory::left(std::size_t chunks, std::uint64_t packets) const {
-    const std::size_t used = chunks * m_limits.chunkSize + packets * kBesidePacket;
+    const std::size_t used = chunks * m_limits.chunkSize + packets * besidePacket();
     return m_limits.memoryCap - std::min(m_limits.memoryCap, used);
 }
 
@@ -158,7 +160,7 @@ ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first) {
         const std::lock_guard lock(m_mutex);
         const auto kept = [&] { return m_chunks.empty() ? 0 : first - m_chunks.front().first; };
         const std::uint64_t newest = m_chunks.empty() ? 0 : first - m_chunks.back().first;
-        beside = std::clamp((newest + newest / 4) * kBesidePacket, mostBeside / 64, mostBeside);
+        beside = std::clamp((newest + newest / 4) * besidePacket(), mostBeside / 64, mostBeside);
         while (!m_chunks.empty() && left(m_chunks.size() + 1, kept()) < beside) {
             dropped.push_back(std::move(m_chunks.front()));
             m_chunks.pop_front();
@@ -176,7 +178,7 @@ ChunkHistory::Begun ChunkHistory::beginChunk(std::uint64_t first) {
     const std::lock_guard lock(m_mutex);
     m_chunks.push_back({first, chunk});
     m_version.fetch_add(1, std::memory_order_release);
-    return {std::move(chunk), first + std::min(rest, mostBeside) / kBesidePacket};
+    return {std::move(chunk), first + std::min(rest, mostBeside) / besidePacket()};
 }
 
 std::vector<ChunkHistory::Entry> ChunkHistory::entries() const {
@@ -196,7 +198,7 @@ LogFigures ChunkHistory::figures() const {
     const std::lock_guard lock(m_mutex);
     figures.end = end();
     figures.begin = m_chunks.empty() ? 0 : std::min(m_chunks.front().first, figures.end);
-    const std::size_t beside = (figures.end - figures.begin) * kBesidePacket;
+    const std::size_t beside = (figures.end - figures.begin) * besidePacket();
     figures.chunkBytes = m_chunks.size() * m_limits.chunkSize;
     figures.memoryInUse = figures.chunkBytes + beside;
     figures.memoryAllocated = allocated + beside;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/scratch.h"
 #include "core/log/sender_table.h"
 #include "core/log/time.h"
 
@@ -111,9 +112,11 @@ private:
 };
 
 /// What is kept of each packet beside its chunk as long as the log has it, at most: its place in the
-/// StreamIndex, its model::PacketDigest, and its number twice where a display filter finds it. The cap of the
-/// log is for these too.
-inline constexpr std::size_t kBesidePacket = 56;
+/// StreamIndex, its model::PacketDigest, and a bit or two where a display filter finds it. The cap of the log
+/// is for these too.
+inline constexpr std::size_t kBesidePacket = 44;
+/// What of that is in memory where the rest is in a scratch file.
+inline constexpr std::size_t kBesidePacketInMemory = 4;
 
 struct LogLimits {
     /// Bytes of chunks and of what is kept beside them. Two chunks are kept whatever it says, with half a
@@ -127,7 +130,7 @@ struct LogFigures {
     std::uint64_t begin = 0;     ///< number of the oldest packet kept: as many have been dropped from history
     std::uint64_t end = 0;       ///< one past the newest packet
     std::size_t chunkBytes = 0;  ///< of the chunks in the log
-    std::size_t memoryInUse = 0; ///< the same and kBesidePacket for each packet
+    std::size_t memoryInUse = 0; ///< the same and what is kept beside each packet
     std::size_t memoryAllocated = 0; ///< the same and what readers still hold and what is spare
     std::size_t memoryCap = 0;
 };
@@ -141,7 +144,9 @@ public:
         std::weak_ptr<const Chunk> chunk;
     };
 
-    explicit ChunkHistory(LogLimits limits);
+    /// `scratch`: where what is kept beside packets lies.
+    explicit ChunkHistory(LogLimits limits,
+                          std::shared_ptr<const Scratch> scratch = std::make_shared<Scratch>());
     ~ChunkHistory();
 
     struct Begun {
@@ -165,6 +170,10 @@ public:
     [[nodiscard]] LogFigures figures() const;
 
 private:
+    /// Bytes of memory that are kept beside each packet.
+    [[nodiscard]] std::size_t besidePacket() const {
+        return m_scratch->hasFile() ? kBesidePacketInMemory : kBesidePacket;
+    }
     struct Held {
         std::uint64_t first;
         std::shared_ptr<Chunk> chunk;
@@ -174,6 +183,7 @@ private:
     [[nodiscard]] std::size_t left(std::size_t chunks, std::uint64_t packets) const;
 
     const LogLimits m_limits;
+    const std::shared_ptr<const Scratch> m_scratch; ///< for what is kept beside packets
     const std::shared_ptr<ChunkPool> m_pool;
     mutable std::mutex m_mutex;
     std::deque<Held> m_chunks;

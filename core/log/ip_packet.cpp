@@ -264,7 +264,8 @@ std::optional<TcpSegment> tcpSegmentOf(const IpPacket& packet) {
                       packet.offset + size,
                       packet.time,
                       begins,
-                      (flags & 5U) != 0};
+                      (flags & 5U) != 0,
+                      packet.isInOnePiece};
 }
 
 void appendUdpFrame(std::vector<std::byte>& out, const IpEndpoint& sender, const IpEndpoint& target,

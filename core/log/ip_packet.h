@@ -30,6 +30,7 @@ struct IpPacket {
     std::uint32_t identity = 0;       ///< common to the fragments of a packet
     std::uint32_t fragmentOffset = 0; ///< of this payload in the whole packet's, in bytes
     bool hasMoreFragments = false;
+    bool isInOnePiece = true; ///< the payload in the file
 
     [[nodiscard]] bool isFragment() const { return hasMoreFragments || fragmentOffset != 0; }
 };
@@ -60,8 +61,9 @@ struct TcpSegment {
     std::span<const std::byte> bytes; ///< as much as was captured
     std::uint64_t offset = 0;         ///< of `bytes` in the file
     std::optional<WallTime> time{};
-    bool begins = false; ///< SYN
-    bool ends = false;   ///< FIN or RST
+    bool begins = false;      ///< SYN
+    bool ends = false;        ///< FIN or RST
+    bool isInOnePiece = true; ///< in the file
 };
 
 /// Empty where the header of the segment is damaged. The packet must be TCP.

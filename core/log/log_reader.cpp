@@ -7,7 +7,8 @@
 
 namespace posewire::log {
 
-LogReader::LogReader(const PacketLog& log) : m_history(&log.history()) {
+LogReader::LogReader(const PacketLog& log)
+    : m_history(&log.history()), m_past(&log.past()), m_pastReader(log.past()) {
     refresh();
 }
 
@@ -22,7 +23,7 @@ bool LogReader::refresh() {
         m_entries = m_history->entries();
     }
     // The list may be younger than the end: all that was to be seen can have been dropped in between.
-    m_begin = m_entries.empty() ? 0 : std::min(m_entries.front().first, m_end);
+    m_begin = m_entries.empty() ? 0 : std::min({m_entries.front().first, m_past->begin(), m_end});
     return m_end != before;
 }
 
@@ -30,17 +31,24 @@ std::optional<Packet> LogReader::packetElsewhere(std::uint64_t number) {
     if (number < m_begin || number >= m_end) {
         return std::nullopt;
     }
+    return enterChunk(number) ? view(number) : m_pastReader.packet(number);
+}
+
+bool LogReader::enterChunk(std::uint64_t number) {
     const auto next = std::ranges::upper_bound(m_entries, number, {}, &ChunkHistory::Entry::first);
+    if (next == m_entries.begin()) {
+        return false;
+    }
     const auto entry = next - 1;
     std::shared_ptr<const Chunk>& held = m_held[entry->first];
     held = held ? held : entry->chunk.lock();
     if (!held) {
-        return std::nullopt;
+        return false;
     }
     m_current = held.get();
     m_currentFirst = entry->first;
     m_currentCount = (next == m_entries.end() ? m_end : std::min(next->first, m_end)) - m_currentFirst;
-    return view(number);
+    return true;
 }
 
 } // namespace posewire::log

@@ -3,6 +3,7 @@
 
 #include "core/log/chunk_history.h"
 #include "core/log/packet.h"
+#include "core/log/past.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,7 @@ class PacketLog;
 ///
 /// The bytes of a packet stay valid until the next refresh() or the end of the reader, also where the log
 /// drops them meanwhile: what was looked at is held, chunk by chunk. A packet that was not looked at may be
-/// gone.
+/// gone. Of packets that lie in files those are held that were looked at last: PastReader::kHeld.
 class LogReader {
 public:
     explicit LogReader(const PacketLog& log);
@@ -33,8 +34,8 @@ public:
     /// One past the newest packet there was at the last refresh().
     [[nodiscard]] std::uint64_t end() const { return m_end; }
 
-    /// Nothing where the number is outside [begin, end) or the log has dropped the packet since the last
-    /// refresh().
+    /// Nothing where the number is outside [begin, end), the log has dropped the packet since the last
+    /// refresh(), or it was dropped from memory before it was written to a file.
     [[nodiscard]] std::optional<Packet> packet(std::uint64_t number) {
         if (number - m_currentFirst < m_currentCount) {
             return view(number);
@@ -44,6 +45,7 @@ public:
 
 private:
     std::optional<Packet> packetElsewhere(std::uint64_t number);
+    [[nodiscard]] bool enterChunk(std::uint64_t number);
 
     [[nodiscard]] Packet view(std::uint64_t number) const {
         const Record& record = m_current->record(static_cast<std::size_t>(number - m_currentFirst));
@@ -53,6 +55,8 @@ private:
     }
 
     const ChunkHistory* m_history;
+    const Past* m_past;
+    PastReader m_pastReader;
     std::uint64_t m_begin = 0;
     std::uint64_t m_end = 0;
     std::uint64_t m_version = 0;

@@ -5,13 +5,16 @@
 #include "core/log/log_reader.h"
 #include "core/log/log_writer.h"
 #include "core/log/packet.h"
+#include "core/log/past.h"
+#include "core/log/scratch.h"
 #include "core/log/sender_table.h"
 #include "core/log/timeline.h"
 
 namespace posewire::log {
 
 /// Every packet received, in the order of arrival: append-only, in chunks, the oldest dropped at a cap of
-/// memory. One thread writes, any number read, each through a LogReader of its own:
+/// memory; what of those lies in a file (see Past) is still read as any other packet. One thread writes, any
+/// number read, each through a LogReader of its own:
 ///
 ///     PacketLog log;
 ///     log.writer().append(bytes, {.stamp = now, .sender = log.senders().intern(info)});
@@ -24,7 +27,10 @@ namespace posewire::log {
 ///     }
 class PacketLog {
 public:
-    explicit PacketLog(LogLimits limits = {}) : m_history(limits), m_writer(m_history, m_senders) {}
+    /// `scratch`: for what is kept of each packet besides its bytes.
+    explicit PacketLog(LogLimits limits = {},
+                       const std::shared_ptr<Scratch>& scratch = std::make_shared<Scratch>())
+        : m_past(scratch), m_history(limits, scratch), m_writer(m_history, m_senders) {}
 
     /// For one thread at a time; another may take over when the first has ended.
     [[nodiscard]] LogWriter& writer() { return m_writer; }
@@ -39,10 +45,16 @@ public:
     /// From any thread.
     [[nodiscard]] LogFigures figures() const { return m_history.figures(); }
 
+    /// Packets that lie in files.
+    [[nodiscard]] Past& past() { return m_past; }
+    [[nodiscard]] const Past& past() const { return m_past; }
+    [[nodiscard]] const std::shared_ptr<Scratch>& scratch() const { return m_past.scratch(); }
+
     /// What a LogReader looks at.
     [[nodiscard]] const ChunkHistory& history() const { return m_history; }
 
 private:
+    Past m_past;
     ChunkHistory m_history;
     SenderTable m_senders;
     Timeline m_timeline;

@@ -269,6 +269,7 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     block.halves(static_cast<std::uint64_t>(since.count()));
     block.number(m_frame.size(), 4);
     block.number(m_frame.size(), 4);
+    m_packetOffset = m_bytes + m_block.size() + m_frame.size() - packet.bytes.size();
     block.padded(m_frame);
     const RecordedOrigin origin = originOf(packet, sender, ends, setBy - *m_setBefore);
     const bool isMistakable =

@@ -90,6 +90,8 @@ public:
     /// Last of all.
     Result finish();
 
+    /// Where the bytes of the packet added last begin in the file.
+    [[nodiscard]] std::uint64_t packetOffset() const { return m_packetOffset; }
     [[nodiscard]] std::uint64_t packets() const { return m_packets; }
     [[nodiscard]] std::uint64_t bytes() const { return m_bytes; } ///< of the file so far
 
@@ -102,6 +104,7 @@ private:
     std::vector<std::byte> m_frame;
     std::uint64_t m_packets = 0;
     std::uint64_t m_bytes = 0;
+    std::uint64_t m_packetOffset = 0;
     std::uint64_t m_kernelDrops = 0;
     std::optional<Duration> m_setBefore; ///< what the clock was set by when the recording began
     WallTime m_firstTime = WallTime::max();

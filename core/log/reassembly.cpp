@@ -24,9 +24,12 @@ std::size_t costOf(std::span<const std::byte> bytes) {
 }
 
 FileRecord recordOf(const IpPacket& packet, const UdpPayload& payload) {
-    return {
-        payload.offset, payload.bytes, packet.time,
-        SenderInfo{endpointText({packet.sender, payload.sourcePort}), Transport::Udp, payload.targetPort}};
+    return {.offset = payload.offset,
+            .bytes = payload.bytes,
+            .time = packet.time,
+            .sender = SenderInfo{endpointText({packet.sender, payload.sourcePort}), Transport::Udp,
+                                 payload.targetPort},
+            .isInOnePiece = packet.isInOnePiece};
 }
 
 } // namespace
@@ -106,6 +109,7 @@ void IpFragments::give(const Pending& pending) const {
     }
     IpPacket whole = pending.packet;
     whole.bytes = bytes;
+    whole.isInOnePiece = false;
     m_visit(whole);
 }
 
@@ -124,7 +128,7 @@ void TcpStream::add(const TcpSegment& segment) {
         }
         return;
     }
-    append(segment.sequence, segment.bytes, segment.offset, segment.time);
+    append(segment);
     appendWaiting(segment.time);
     if (hasWaitedTooLong(segment)) {
         passOver();
@@ -143,19 +147,17 @@ void TcpStream::restart(std::uint32_t firstSequence) {
     m_expected = firstSequence;
 }
 
-/// Hands on what is new of a segment that begins at the expected byte or before it.
-void TcpStream::append(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t fileOffset,
-                       std::optional<WallTime> time) {
-    const std::size_t known = m_expected - sequence;
-    if (known >= bytes.size()) {
+void TcpStream::append(const TcpSegment& segment) {
+    const std::size_t known = m_expected - segment.sequence;
+    if (known >= segment.bytes.size()) {
         return;
     }
-    const auto added = bytes.subspan(known);
-    m_places.push_back({m_given, fileOffset + known});
+    const auto added = segment.bytes.subspan(known);
+    m_places.push_back({m_given, segment.offset + known, segment.isInOnePiece});
     m_given += added.size();
     m_expected += static_cast<std::uint32_t>(added.size());
     m_expectedPosition += added.size();
-    m_time = time;
+    m_time = segment.time;
     m_framer.push(added, [this](const TcpFramer::Piece& piece) { visit(piece); });
     while (m_places.size() > 1 && m_places[1].position <= m_given - m_framer.kept()) {
         m_places.pop_front();
@@ -174,8 +176,10 @@ void TcpStream::keepWaiting(TcpSegment segment, std::uint64_t position) {
         position += size;
     }
     m_waitingSize += costOf(segment.bytes);
-    m_waiting.emplace(position,
-                      Waiting{{segment.bytes.begin(), segment.bytes.end()}, segment.offset, segment.time});
+    m_waiting.emplace(position, Waiting{{segment.bytes.begin(), segment.bytes.end()},
+                                        segment.offset,
+                                        segment.time,
+                                        segment.isInOnePiece});
 }
 
 /// Hands on what has waited for the bytes before it. Without a time each keeps its own.
@@ -185,7 +189,11 @@ void TcpStream::appendWaiting(std::optional<WallTime> time) {
         const Waiting& waiting = node.mapped();
         m_waitingSize -= costOf(waiting.bytes);
         const auto behind = static_cast<std::uint32_t>(m_expectedPosition - node.key());
-        append(m_expected - behind, waiting.bytes, waiting.fileOffset, time ? time : waiting.time);
+        append({.sequence = m_expected - behind,
+                .bytes = waiting.bytes,
+                .offset = waiting.fileOffset,
+                .time = time ? time : waiting.time,
+                .isInOnePiece = waiting.isInOnePiece});
     }
 }
 
@@ -218,11 +226,13 @@ void TcpStream::visit(const TcpFramer::Piece& piece) {
         m_places.pop_front();
     }
     const Place& place = m_places.front();
-    m_visit({place.fileOffset + (piece.offset - place.position),
-             piece.bytes,
-             m_time,
-             m_sender,
-             {.skipped = piece.kind == TcpFramer::Kind::Skipped}});
+    const std::uint64_t end = piece.offset + piece.bytes.size();
+    m_visit({.offset = place.fileOffset + (piece.offset - place.position),
+             .bytes = piece.bytes,
+             .time = m_time,
+             .sender = m_sender,
+             .flags = {.skipped = piece.kind == TcpFramer::Kind::Skipped},
+             .isInOnePiece = place.isInOnePiece && (m_places.size() == 1 || end <= m_places[1].position)});
 }
 
 void Reassembly::add(const CapturedFrame& frame) {

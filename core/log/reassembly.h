@@ -73,14 +73,16 @@ private:
         std::vector<std::byte> bytes;
         std::uint64_t fileOffset = 0;
         std::optional<WallTime> time;
+        bool isInOnePiece = true;
     };
     struct Place {
         std::uint64_t position = 0; ///< in what the framer has been given
         std::uint64_t fileOffset = 0;
+        bool isInOnePiece = true;
     };
 
-    void append(std::uint32_t sequence, std::span<const std::byte> bytes, std::uint64_t fileOffset,
-                std::optional<WallTime> time);
+    /// Hands on what is new of a segment that begins at the expected byte or before it.
+    void append(const TcpSegment& segment);
     void keepWaiting(TcpSegment segment, std::uint64_t position);
     void appendWaiting(std::optional<WallTime> time);
     void passOver();

@@ -24,6 +24,9 @@ struct FileRecord {
     Duration setBy{};                        ///< what its clock had been set by, known to recordings
     std::uint32_t kernelDropsBefore = 0;     ///< as in Arrival; known to recordings, see PcapngWriter
     std::span<const std::string> comments{}; ///< UTF-8, valid during the call; of recordings
+    /// The bytes lie like this in the file, from `offset` on; else they were put together from several
+    /// frames.
+    bool isInOnePiece = true;
 };
 
 /// What the log keeps of a record of `sender`.

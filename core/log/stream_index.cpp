@@ -6,33 +6,57 @@
 namespace posewire::log {
 namespace {
 
-/// Place of the last entry whose member is not above `limit`.
+/// How many entries have a member that is not above `limit`.
 template <typename Value, typename Member>
-std::optional<std::size_t> newestAtOrBefore(const std::deque<StreamEntry>& entries, Value limit,
-                                            Member member) {
-    const auto later = std::ranges::upper_bound(entries, limit, {}, member);
-    return later == entries.begin() ? std::nullopt : std::optional<std::size_t>(later - entries.begin() - 1);
+std::size_t countAtOrBefore(const StreamEntries& entries, Value limit, Member member) {
+    std::size_t low = 0;
+    std::size_t high = entries.size();
+    while (low < high) {
+        const std::size_t middle = low + (high - low) / 2;
+        if (limit < entries[middle].*member) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+std::optional<std::size_t> lastOf(std::size_t count) {
+    return count == 0 ? std::nullopt : std::optional(count - 1);
 }
 
 } // namespace
 
 std::optional<std::size_t> StreamEntries::atOrBeforePacket(std::uint64_t packet) const {
-    return newestAtOrBefore(m_entries, packet, &StreamEntry::packet);
+    return lastOf(countAtOrBefore(*this, packet, &StreamEntry::packet));
 }
 
 std::optional<std::size_t> StreamEntries::atOrBeforeStamp(Stamp stamp) const {
-    return newestAtOrBefore(m_entries, stamp, &StreamEntry::stamp);
+    return lastOf(countAtOrBefore(*this, stamp, &StreamEntry::stamp));
 }
 
 void StreamEntries::append(StreamEntry entry) {
-    if (!m_entries.empty()) {
-        entry.stamp = std::max(entry.stamp, m_entries.back().stamp);
+    if (!empty()) {
+        entry.stamp = std::max(entry.stamp, back().stamp);
     }
-    m_entries.push_back(entry);
+    if (m_end == m_blocks.size() * kBlock) {
+        m_blocks.push_back(m_scratch->make<Block>());
+    }
+    (*m_blocks.back())[m_end % kBlock] = entry;
+    ++m_end;
 }
 
 void StreamEntries::dropBefore(std::uint64_t packet) {
-    m_entries.erase(m_entries.begin(), std::ranges::lower_bound(m_entries, packet, {}, &StreamEntry::packet));
+    if (packet == 0 || empty()) {
+        return;
+    }
+    m_begin += countAtOrBefore(*this, packet - 1, &StreamEntry::packet);
+    while (m_begin >= kBlock) {
+        m_blocks.pop_front();
+        m_begin -= kBlock;
+        m_end -= kBlock;
+    }
 }
 
 void StreamIndex::add(const Packet& packet, const wire::Header& header) {
@@ -64,12 +88,12 @@ void StreamIndex::dropBefore(std::uint64_t begin) {
 }
 
 std::size_t StreamIndex::memoryBytes() const {
-    constexpr std::size_t kOfStream = 640; // with the first block of its entries
+    constexpr std::size_t kOfStream = 128;
     std::size_t entries = 0;
     for (const auto& [key, stream] : m_streams) {
-        entries += stream.size();
+        entries += stream.memoryBytes();
     }
-    return m_streams.size() * kOfStream + entries * sizeof(StreamEntry);
+    return m_streams.size() * kOfStream + entries;
 }
 
 const StreamEntries* StreamIndex::find(const StreamKey& key) const {
@@ -86,7 +110,7 @@ StreamEntries* StreamIndex::entriesFor(const StreamKey& key) {
         if (m_streams.size() == kStreamLimit) {
             return nullptr;
         }
-        found = m_streams.try_emplace(key).first;
+        found = m_streams.try_emplace(key, m_scratch).first;
     }
     m_lastKey = key;
     m_lastEntries = &found->second;

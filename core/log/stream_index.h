@@ -2,14 +2,17 @@
 #pragma once
 
 #include "core/log/packet.h"
+#include "core/log/scratch.h"
 #include "core/log/time.h"
 #include "core/wire/header.h"
 
+#include <array>
 #include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <unordered_map>
 
@@ -50,10 +53,16 @@ struct StreamEntry {
 /// The entries of one stream, oldest first.
 class StreamEntries {
 public:
-    [[nodiscard]] std::size_t size() const { return m_entries.size(); }
-    [[nodiscard]] bool empty() const { return m_entries.empty(); }
-    [[nodiscard]] const StreamEntry& operator[](std::size_t index) const { return m_entries[index]; }
-    [[nodiscard]] const StreamEntry& back() const { return m_entries.back(); }
+    explicit StreamEntries(std::shared_ptr<Scratch> scratch = std::make_shared<Scratch>())
+        : m_scratch(std::move(scratch)) {}
+
+    [[nodiscard]] std::size_t size() const { return m_end - m_begin; }
+    [[nodiscard]] bool empty() const { return size() == 0; }
+    [[nodiscard]] const StreamEntry& operator[](std::size_t index) const {
+        const std::size_t place = m_begin + index;
+        return (*m_blocks[place / kBlock])[place % kBlock];
+    }
+    [[nodiscard]] const StreamEntry& back() const { return (*this)[size() - 1]; }
 
     /// Place of the newest entry at or before a packet or a stamp; nothing where all are later.
     [[nodiscard]] std::optional<std::size_t> atOrBeforePacket(std::uint64_t packet) const;
@@ -62,8 +71,17 @@ public:
     void append(StreamEntry entry);
     void dropBefore(std::uint64_t packet);
 
+    [[nodiscard]] std::size_t memoryBytes() const { return m_blocks.size() * (sizeof(Block) + kBesideBlock); }
+
 private:
-    std::deque<StreamEntry> m_entries;
+    static constexpr std::size_t kBlock = 21;       // small: most streams of a flood have few
+    static constexpr std::size_t kBesideBlock = 64; // who owns it
+    using Block = std::array<StreamEntry, kBlock>;
+
+    std::shared_ptr<Scratch> m_scratch;
+    std::deque<std::shared_ptr<Block>> m_blocks;
+    std::size_t m_begin = 0; ///< of the first block, before this all are forgotten
+    std::size_t m_end = 0;   ///< counted from the beginning of the first block
 };
 
 /// Finds the datagrams of each stream by time. Belongs to one thread, which takes in what the log gets and
@@ -73,6 +91,9 @@ public:
     /// A sender that makes up characters and types must not grow the index for ever: further streams are left
     /// out.
     static constexpr std::size_t kStreamLimit = 4096;
+
+    explicit StreamIndex(std::shared_ptr<Scratch> scratch = std::make_shared<Scratch>())
+        : m_scratch(std::move(scratch)) {}
 
     /// Takes in one datagram of the log. Numbers must grow.
     void add(const Packet& packet, const wire::Header& header);
@@ -89,6 +110,7 @@ public:
 private:
     StreamEntries* entriesFor(const StreamKey& key);
 
+    std::shared_ptr<Scratch> m_scratch;
     std::unordered_map<StreamKey, StreamEntries> m_streams;
     StreamKey m_lastKey;
     StreamEntries* m_lastEntries = nullptr;

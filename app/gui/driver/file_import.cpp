@@ -91,7 +91,7 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
             const log::Duration place = stamps.next(record);
             const log::Stamp stamp =
                 record.time ? clock.stampOf(*record.time, record.setBy) : end - length + place;
-            take(record.bytes, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
+            take(record, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
         },
         isCancelled);
     clock.end();
@@ -105,25 +105,48 @@ FileImport::FileImport(log::PacketLog& log, QString path, log::Stamp end)
       m_thread([this, end](const std::stop_token& stop) { run(stop, end); }) {}
 
 void FileImport::run(const std::stop_token& stop, log::Stamp end) {
-    std::uint64_t packets = 0;
+    if (const auto store = log::openStore(QFile::encodeName(m_path).toStdString());
+        store && m_log.scratch()->hasFile()) {
+        m_past.emplace(m_log.past(), m_log.senders(), *store);
+    }
     std::uint64_t bytesInStep = 0;
-    const PacketTaker take = [&](std::span<const std::byte> bytes, const log::SenderInfo& sender,
-                                 const log::Arrival& arrival) {
+    const PacketTaker taker = [&](const log::FileRecord& record, const log::SenderInfo& sender,
+                                  const log::Arrival& arrival) {
         log::Arrival whole = arrival;
         whole.sender = m_log.senders().intern(sender);
-        m_log.writer().append(bytes, whole);
-        m_bytesRead += bytes.size();
-        if (++packets % kPacketsAtOnce == 0 || m_bytesRead - bytesInStep >= kBytesAtOnce) {
+        take(record, whole);
+        if (m_packetsRead % kPacketsAtOnce == 0 || m_bytesRead - bytesInStep >= kBytesAtOnce) {
             bytesInStep = m_bytesRead;
             keepStep(stop);
         }
     };
     ImportResult result =
-        importRawFile(m_path, take, end, m_log.timeline(), [&stop] { return stop.stop_requested(); });
+        importRawFile(m_path, taker, end, m_log.timeline(), [&stop] { return stop.stop_requested(); });
     keepStep(stop);
     m_log.writer().publish(); // also where it was stopped
+    if (m_past) {
+        m_past->finish();
+    }
     const std::lock_guard lock(m_mutex);
     m_result = std::move(result);
+}
+
+void FileImport::take(const log::FileRecord& record, log::Arrival arrival) {
+    m_log.writer().append(record.bytes, arrival);
+    if (m_past && !m_log.scratch()->hasFile()) { // full: from here on memory has to do
+        m_past.reset();
+        m_log.past().dropBefore(UINT64_MAX);
+    }
+    if (m_past && record.isInOnePiece) {
+        m_past->add(m_packetsRead, arrival, record.offset, record.bytes.size());
+    } else if (m_past) {
+        m_past->keep(m_packetsRead, arrival, record.bytes);
+    }
+    if (m_past && m_past->isFull()) {
+        m_past->finish();
+    }
+    ++m_packetsRead;
+    m_bytesRead += record.bytes.size();
 }
 
 void FileImport::keepStep(const std::stop_token& stop) {

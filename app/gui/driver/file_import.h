@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "core/log/packet.h"
+#include "core/log/past.h"
+#include "core/log/recording_file.h"
 #include "core/log/time.h"
 
 #include <QString>
@@ -26,7 +27,7 @@ namespace posewire::gui {
 
 /// What was read well, but not to the end where it says why; or why nothing could be read. For the operator.
 using ImportResult = tl::expected<QString, QString>;
-using PacketTaker = std::function<void(std::span<const std::byte> bytes, const log::SenderInfo& sender,
+using PacketTaker = std::function<void(const log::FileRecord& record, const log::SenderInfo& sender,
                                        const log::Arrival& arrival)>;
 
 /// Reads a file of datagrams, in the order of the file. Captures keep stamps and senders; a raw file has
@@ -38,7 +39,8 @@ using PacketTaker = std::function<void(std::span<const std::byte> bytes, const l
 
 /// Brings a file into a log on a thread of its own, which alone writes that log, in step with who follows it:
 /// what was read waits until all before it was looked at, so that nothing of a file is ever overtaken,
-/// however small the log.
+/// however small the log. Where the log has a scratch file, what its memory drops is read from the file
+/// itself from then on.
 class FileImport {
 public:
     /// The log outlives this.
@@ -58,6 +60,7 @@ public:
 
 private:
     void run(const std::stop_token& stop, log::Stamp end);
+    void take(const log::FileRecord& record, log::Arrival arrival);
     /// Waits until all that was read was looked at.
     void keepStep(const std::stop_token& stop);
 
@@ -65,7 +68,9 @@ private:
     const QString m_path;
     const std::int64_t m_size; ///< bytes
     std::atomic<std::uint64_t> m_bytesRead = 0;
-    mutable std::mutex m_mutex; ///< guards the members below
+    std::uint64_t m_packetsRead = 0;       ///< the thread's own
+    std::optional<log::PastWriter> m_past; ///< likewise
+    mutable std::mutex m_mutex;            ///< guards the members below
     std::condition_variable_any m_moved;
     std::uint64_t m_followed = 0;
     std::optional<ImportResult> m_result;

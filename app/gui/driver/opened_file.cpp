@@ -11,11 +11,15 @@ namespace {
 /// At once, so that the time that was given is kept to.
 constexpr std::size_t kPacketsAtOnce = 1'000;
 
+/// Of a file that is read again where it is wanted.
+constexpr std::size_t kMemoryCap = std::size_t{64} << 20;
+
 } // namespace
 
-OpenedFile::OpenedFile(const log::Clock& clock, QString path)
+OpenedFile::OpenedFile(const log::Clock& clock, QString path, const std::shared_ptr<log::Scratch>& scratch)
     : m_clock(clock),
       m_path(std::move(path)),
+      m_log(scratch->hasFile() ? log::LogLimits{.memoryCap = kMemoryCap} : log::LogLimits{}, scratch),
       m_import(std::make_unique<FileImport>(m_log, m_path, m_log.timeline().now(clock))) {}
 
 QString OpenedFile::name() const {

@@ -16,13 +16,14 @@
 namespace posewire::gui {
 
 /// A file that was opened: a session of its own, so that nothing of it touches what is received. It is shown
-/// as it was then, stopped at its newest packet.
+/// as it was then, stopped at its newest packet. Its packets are read from the file where they are wanted; in
+/// memory are only the newest that were read, unless there is no room for a scratch file.
 class OpenedFile {
     Q_DECLARE_TR_FUNCTIONS(OpenedFile)
 
 public:
     /// Begins to read. The clock outlives this.
-    OpenedFile(const log::Clock& clock, QString path);
+    OpenedFile(const log::Clock& clock, QString path, const std::shared_ptr<log::Scratch>& scratch);
 
     [[nodiscard]] model::Session& session() { return m_session; }
     /// Its name without folders.

@@ -7,7 +7,10 @@
 #include "core/wire/codec.h"
 
 #include <QClipboard>
+#include <QDir>
+#include <QFile>
 #include <QGuiApplication>
+#include <QStorageInfo>
 
 #include <algorithm>
 #include <cmath>
@@ -28,6 +31,18 @@ constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
 /// A demo that fell behind (a sleeping computer) continues from now instead of flooding the receiver with the
 /// past.
 constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
+
+/// Of what is free in a folder, the most that something of ours takes.
+std::uint64_t tenthOfFree(const QString& folder) {
+    return static_cast<std::uint64_t>(std::max<qint64>(QStorageInfo(folder).bytesAvailable(), 0)) / 10;
+}
+
+std::shared_ptr<log::Scratch> newScratch(const QString& folder) {
+    if (folder.isEmpty() || !QDir().mkpath(folder)) {
+        return std::make_shared<log::Scratch>();
+    }
+    return std::make_shared<log::Scratch>(QFile::encodeName(folder).toStdString(), tenthOfFree(folder));
+}
 
 /// The performer as a sender beside the window, until it is asked to stop.
 void sendDemo(const std::stop_token& stop, int characters, std::uint16_t port) {
@@ -63,8 +78,13 @@ void sendDemo(const std::stop_token& stop, int characters, std::uint16_t port) {
 
 } // namespace
 
-SessionDriver::SessionDriver(const log::Clock& clock, QObject* parent)
-    : QObject(parent), m_clock(clock), m_live(m_log), m_receiving(m_log, clock) {
+SessionDriver::SessionDriver(const log::Clock& clock, QString cacheFolder, QObject* parent)
+    : QObject(parent),
+      m_clock(clock),
+      m_cacheFolder(std::move(cacheFolder)),
+      m_log({}, newScratch(m_cacheFolder)),
+      m_live(m_log),
+      m_receiving(m_log, clock) {
     m_timer.setTimerType(Qt::PreciseTimer);
     m_timer.setSingleShot(true);
     connect(&m_timer, &QTimer::timeout, this, [this] {
@@ -122,10 +142,32 @@ void SessionDriver::measureHealth() {
     }
 }
 
+QString SessionDriver::keepHistory(std::uint64_t most) {
+    m_history.reset();
+    log::discardHistories(QFile::encodeName(m_cacheFolder).toStdString(), most);
+    if (most == 0 || m_cacheFolder.isEmpty()) {
+        return {};
+    }
+    if (!m_log.scratch()->hasFile()) { // what is kept of each packet would grow in memory
+        return tr("There is no room for scratch files in %1: only what is in memory can be looked back at.")
+            .arg(m_cacheFolder);
+    }
+    const QString application =
+        QCoreApplication::applicationName() + u' ' + QCoreApplication::applicationVersion();
+    const log::DiskHistoryChoice choice{QFile::encodeName(m_cacheFolder).toStdString(),
+                                        std::min(most, tenthOfFree(m_cacheFolder))};
+    auto history = log::DiskHistory::start(m_log, choice, {{}, {}, application.toStdString()});
+    if (!history) {
+        return QString::fromStdString(history.error().text);
+    }
+    m_history = std::move(*history);
+    return {};
+}
+
 void SessionDriver::openFile(const QString& path) {
     closeFile();
     keepFromSaving(path);
-    m_file = std::make_unique<OpenedFile>(m_clock, path);
+    m_file = std::make_unique<OpenedFile>(m_clock, path, newScratch(m_cacheFolder));
     m_file->session().setThresholds(m_live.thresholds());
 }
 

@@ -6,6 +6,7 @@
 #include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
 #include "app/gui/program_view.h"
+#include "core/log/disk_history.h"
 #include "core/model/session/session.h"
 
 #include <QObject>
@@ -22,7 +23,9 @@ class SessionDriver final : public QObject, public Commands, public ProgramView 
     Q_OBJECT
 
 public:
-    explicit SessionDriver(const log::Clock& clock, QObject* parent = nullptr);
+    /// `cacheFolder`: where scratch files and the history may be; made where it is missing. Without one, all
+    /// that can be looked back at is in memory.
+    explicit SessionDriver(const log::Clock& clock, QString cacheFolder = {}, QObject* parent = nullptr);
 
     /// What is shown: what is received, or the file.
     [[nodiscard]] model::SessionView& session() { return shown(); }
@@ -36,6 +39,14 @@ public:
     void start() { m_timer.start(0); }
     /// One display tick: what the timer calls.
     void tick();
+
+    /// Keeps what is received on the disk, too, as many bytes of it at most and no more than a tenth of what
+    /// is free, so that it can be looked back at when memory has dropped it; 0 for nothing. What was kept
+    /// before goes. The answer is why nothing can be kept, empty where it can.
+    QString keepHistory(std::uint64_t most);
+    [[nodiscard]] const QString& cacheFolder() const { return m_cacheFolder; }
+    /// Null where nothing is kept.
+    [[nodiscard]] const log::DiskHistory* diskHistory() const { return m_history.get(); }
 
     /// Begins to read a file of datagrams, instead of one that is open; fileOpened() says how it went. It is
     /// shown as soon as there is something of it.
@@ -160,7 +171,9 @@ private:
     [[nodiscard]] const model::Session& shown() const { return m_isFileShown ? m_file->session() : m_live; }
 
     const log::Clock& m_clock;
+    const QString m_cacheFolder; ///< empty for none
     log::PacketLog m_log;
+    std::unique_ptr<log::DiskHistory> m_history; ///< null where nothing is kept
     model::Session m_live;
     Receiving m_receiving;
     std::unique_ptr<OpenedFile> m_file; ///< null where none is open

@@ -173,16 +173,17 @@ PropertyValue delay(const Source& from) {
 
 PropertyValue history(const Source& from) {
     const log::LogFigures figures = from.view.figures();
-    return {tr("%1 of %2").arg(grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)),
-            Health::Unknown,
-            tr("Memory of the packets kept and of their index, and its limit; at the limit the oldest go")};
+    return {
+        tr("%1 of %2").arg(grouped(figures.memoryInUse >> 20), megabytes(figures.memoryCap)), Health::Unknown,
+        tr("Memory of the newest packets and of their index, and its limit; at the limit the oldest go from "
+           "memory, and stay on disk where a history is kept there (File > History)")};
 }
 
 PropertyValue packets(const Source& from) {
-    const log::LogFigures figures = from.view.figures();
-    const QString kept = grouped(figures.end - figures.begin);
-    return {figures.begin == 0 ? kept : tr("%1 of %2").arg(kept, grouped(figures.end)), Health::Unknown,
-            tr("Packets that can be looked back at, of all that were received")};
+    const std::uint64_t end = from.view.end();
+    const QString kept = grouped(end - from.view.begin());
+    return {from.view.begin() == 0 ? kept : tr("%1 of %2").arg(kept, grouped(end)), Health::Unknown,
+            tr("Packets that can be looked back at, in memory or on disk, of all that were received")};
 }
 
 PropertyValue overtaken(const Source& from) {

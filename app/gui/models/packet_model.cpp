@@ -128,8 +128,8 @@ void PacketModel::removeDropped() {
         beginRemoveRows({}, 0, rows - 1);
     }
     if (m_isFiltered) {
-        m_matches.erase(m_matches.begin(), std::ranges::lower_bound(m_matches, begin));
-        m_problems.erase(m_problems.begin(), std::ranges::lower_bound(m_problems, begin));
+        m_matches.dropBefore(begin);
+        m_problems.dropBefore(begin);
     } else {
         m_begin = std::max(begin, m_begin);
     }
@@ -169,8 +169,8 @@ void PacketModel::startAgain(bool isFiltered) {
 
 void PacketModel::addMatches(const std::vector<std::uint64_t>& numbers,
                              const std::vector<std::uint64_t>& problems) {
-    m_matches.insert(m_matches.end(), numbers.begin(), numbers.end());
-    m_problems.insert(m_problems.end(), problems.begin(), problems.end());
+    m_matches.append(numbers);
+    m_problems.append(problems);
 }
 
 void PacketModel::setTimeMode(TimeMode mode) {
@@ -200,8 +200,7 @@ int PacketModel::rowFrom(std::uint64_t number) const {
         return static_cast<int>(std::clamp(number, m_begin, m_begin + static_cast<std::uint64_t>(m_rows)) -
                                 m_begin);
     }
-    const auto end = m_matches.begin() + m_rows;
-    return static_cast<int>(std::lower_bound(m_matches.begin(), end, number) - m_matches.begin());
+    return static_cast<int>(std::min(m_matches.placeOf(number), static_cast<std::size_t>(m_rows)));
 }
 
 int PacketModel::rowOf(std::uint64_t number) const {
@@ -213,21 +212,18 @@ std::optional<std::uint64_t> PacketModel::nextProblem(std::uint64_t after) const
     if (!m_isFiltered) {
         return m_view.digests().nextProblem(after);
     }
-    const auto found = std::ranges::upper_bound(m_problems, after);
-    return found == m_problems.end() || rowOf(*found) < 0 ? std::nullopt : std::optional(*found);
+    const std::size_t place = m_problems.placeOf(after + 1);
+    const bool isThere = place < m_problems.size() && rowOf(m_problems[place]) >= 0;
+    return isThere ? std::optional(m_problems[place]) : std::nullopt;
 }
 
 std::optional<std::uint64_t> PacketModel::previousProblem(std::uint64_t before) const {
     if (!m_isFiltered) {
         return m_view.digests().previousProblem(before);
     }
-    const auto found = std::ranges::lower_bound(m_problems, before);
-    return found == m_problems.begin() || rowOf(*(found - 1)) < 0 ? std::nullopt
-                                                                  : std::optional(*(found - 1));
-}
-
-std::vector<std::uint64_t> PacketModel::matches() const {
-    return {m_matches.begin(), m_matches.begin() + m_rows};
+    const std::size_t place = m_problems.placeOf(before);
+    const bool isThere = place > 0 && rowOf(m_problems[place - 1]) >= 0;
+    return isThere ? std::optional(m_problems[place - 1]) : std::nullopt;
 }
 
 int PacketModel::rowCount(const QModelIndex& parent) const {

@@ -3,8 +3,8 @@
 
 #include "app/gui/models/column.h"
 #include "app/gui/models/packet_facts.h"
+#include "app/gui/models/packet_numbers.h"
 
-#include <deque>
 #include <optional>
 #include <vector>
 
@@ -54,7 +54,7 @@ public:
     [[nodiscard]] std::optional<std::uint64_t> nextProblem(std::uint64_t after) const;
     [[nodiscard]] std::optional<std::uint64_t> previousProblem(std::uint64_t before) const;
     /// With a filter: the numbers of all rows.
-    [[nodiscard]] std::vector<std::uint64_t> matches() const;
+    [[nodiscard]] const PacketNumbers& matches() const { return m_matches; }
 
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
@@ -78,10 +78,10 @@ private:
     model::SessionView& m_view;
     bool m_isFiltered = false;
     int m_rows = 0;
-    std::uint64_t m_begin = 0;            ///< without a filter: the packet of the first row
-    std::deque<std::uint64_t> m_matches;  ///< with a filter; the first m_rows of them are rows
-    std::deque<std::uint64_t> m_problems; ///< those of m_matches that are problems
-    std::uint64_t m_removed = 0;          ///< rows that went at the front
+    std::uint64_t m_begin = 0;   ///< without a filter: the packet of the first row
+    PacketNumbers m_matches;     ///< with a filter; the first m_rows of them are rows
+    PacketNumbers m_problems;    ///< those of m_matches that are problems
+    std::uint64_t m_removed = 0; ///< rows that went at the front
     TimeMode m_timeMode = TimeMode::SinceFirst;
     DeltaMode m_deltaMode = DeltaMode::Stream;
     model::Annotations m_annotations;           ///< as last shown

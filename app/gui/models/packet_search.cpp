@@ -66,15 +66,14 @@ PacketSearch::Result PacketSearch::wait() {
 
 void PacketSearch::run(const std::stop_token& stop) {
     log::LogReader reader(m_log);
-    const std::vector<std::uint64_t>& among = m_request.among;
+    const PacketNumbers& among = m_request.among;
     const std::uint64_t base = among.empty() ? reader.begin() : 0;
     const std::uint64_t count = among.empty() ? reader.end() - base : among.size();
     const auto numberAt = [&](std::uint64_t place) { return among.empty() ? base + place : among[place]; };
     // Places of the packets before the start, and of those up to and with it.
     const auto placeOf = [&](std::uint64_t number) {
-        return among.empty()
-                   ? std::clamp(number, base, base + count) - base
-                   : static_cast<std::uint64_t>(std::ranges::lower_bound(among, number) - among.begin());
+        return among.empty() ? std::clamp(number, base, base + count) - base
+                             : std::uint64_t{among.placeOf(number)};
     };
     const std::uint64_t start = m_request.isForward ? placeOf(m_request.from + 1) : placeOf(m_request.from);
     for (std::uint64_t i = 0; i < count && !stop.stop_requested(); ++i) {

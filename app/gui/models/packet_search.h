@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/packet_numbers.h"
 #include "app/gui/models/position_units.h"
 #include "core/filter/filter.h"
 #include "core/log/log_follower.h"
@@ -46,7 +47,7 @@ public:
         BytePattern pattern;
         std::uint64_t from = 0; ///< the packet after (or before) which it begins
         bool isForward = true;
-        std::vector<std::uint64_t> among{}; ///< in growing order; empty for all packets
+        PacketNumbers among{}; ///< empty for all packets
     };
     struct Result {
         std::optional<std::uint64_t> packet; ///< nothing: nowhere

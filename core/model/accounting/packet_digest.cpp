@@ -79,11 +79,11 @@ void PacketDigests::append(std::uint64_t number, const PacketDigest& digest) {
         m_firstOfBlocks = m_begin = m_end = number;
     }
     while (number - m_firstOfBlocks >= m_blocks.size() * kBlock) {
-        m_blocks.push_back(std::make_shared<Block>());
+        m_blocks.push_back({m_scratch->make<Digests>()});
     }
     const std::uint64_t place = number - m_firstOfBlocks;
-    Block& block = *m_blocks[place / kBlock];
-    block.digests[place % kBlock] = digest;
+    Block& block = m_blocks[place / kBlock];
+    (*block.digests)[place % kBlock] = digest;
     block.problems += digest.isProblem() ? 1 : 0;
     m_end = number + 1;
 }
@@ -101,18 +101,18 @@ void PacketDigests::amend(const Verdict& verdict) {
         return;
     }
     const std::uint64_t place = verdict.packet - m_firstOfBlocks;
-    std::shared_ptr<Block>& block = m_blocks[place / kBlock];
-    if (block.use_count() > 1) {
-        block = std::make_shared<Block>(*block);
+    Block& block = m_blocks[place / kBlock];
+    if (block.digests.use_count() > 1) {
+        block.digests = copyOf(*block.digests);
     }
-    PacketDigest& digest = block->digests[place % kBlock];
-    block->problems -= digest.isProblem() ? 1 : 0;
+    PacketDigest& digest = (*block.digests)[place % kBlock];
+    block.problems -= digest.isProblem() ? 1 : 0;
     applyVerdict(verdict, digest);
-    block->problems += digest.isProblem() ? 1 : 0;
+    block.problems += digest.isProblem() ? 1 : 0;
 }
 
 PacketDigests PacketDigests::excerpt(std::uint64_t from) const {
-    PacketDigests excerpt;
+    PacketDigests excerpt(m_scratch);
     excerpt.m_begin = std::clamp(from, m_begin, m_end);
     excerpt.m_end = m_end;
     const std::uint64_t first = (excerpt.m_begin - m_firstOfBlocks) / kBlock;
@@ -120,15 +120,21 @@ PacketDigests PacketDigests::excerpt(std::uint64_t from) const {
     excerpt.m_blocks.assign(m_blocks.begin() + static_cast<std::ptrdiff_t>(first), m_blocks.end());
     const bool isLastComplete = (m_end - m_firstOfBlocks) % kBlock == 0;
     if (excerpt.m_begin != m_end && !isLastComplete) {
-        excerpt.m_blocks.back() = std::make_shared<Block>(*m_blocks.back());
+        excerpt.m_blocks.back().digests = copyOf(*m_blocks.back().digests);
     }
     return excerpt;
+}
+
+std::shared_ptr<PacketDigests::Digests> PacketDigests::copyOf(const Digests& digests) const {
+    std::shared_ptr<Digests> copy = m_scratch->make<Digests>();
+    *copy = digests;
+    return copy;
 }
 
 std::optional<std::uint64_t> PacketDigests::nextProblem(std::uint64_t after) const {
     for (std::uint64_t number = std::max(after + 1, m_begin); number < m_end;) {
         const std::uint64_t place = number - m_firstOfBlocks;
-        if (m_blocks[place / kBlock]->problems == 0) {
+        if (m_blocks[place / kBlock].problems == 0) {
             number += kBlock - place % kBlock;
         } else if (at(number).isProblem()) {
             return number;
@@ -142,7 +148,7 @@ std::optional<std::uint64_t> PacketDigests::nextProblem(std::uint64_t after) con
 std::optional<std::uint64_t> PacketDigests::previousProblem(std::uint64_t before) const {
     for (std::uint64_t end = std::min(before, m_end); end > m_begin;) {
         const std::uint64_t place = end - 1 - m_firstOfBlocks;
-        if (m_blocks[place / kBlock]->problems == 0) {
+        if (m_blocks[place / kBlock].problems == 0) {
             end -= std::min(end - m_begin, place % kBlock + 1);
         } else if (at(end - 1).isProblem()) {
             return end - 1;

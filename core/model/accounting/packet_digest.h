@@ -3,6 +3,7 @@
 
 #include "core/log/chunk_history.h"
 #include "core/log/packet.h"
+#include "core/log/scratch.h"
 #include "core/log/stream_index.h"
 #include "core/model/accounting/stream_accounting.h"
 #include "core/wire/codec.h"
@@ -47,8 +48,7 @@ struct PacketDigest {
     }
 };
 static_assert(sizeof(PacketDigest) == 12, "one is kept for every packet of the log");
-static_assert(sizeof(log::StreamEntry) + sizeof(PacketDigest) + 2 * sizeof(std::uint64_t) <=
-                  log::kBesidePacket,
+static_assert(sizeof(log::StreamEntry) + sizeof(PacketDigest) + 2 <= log::kBesidePacket,
               "the cap of the log is for what is kept of its packets");
 
 /// What a packet shows by itself. `datagram` is what it was decoded to, null where that failed.
@@ -81,6 +81,9 @@ public:
     /// Digests as they were; for one other thread to read while more are appended.
     using Excerpt = PacketDigests;
 
+    explicit PacketDigests(std::shared_ptr<log::Scratch> scratch = std::make_shared<log::Scratch>())
+        : m_scratch(std::move(scratch)) {}
+
     /// Numbers grow; those that are left out have an empty digest.
     void append(std::uint64_t number, const PacketDigest& digest);
     void dropBefore(std::uint64_t begin);
@@ -90,12 +93,12 @@ public:
     [[nodiscard]] std::uint64_t begin() const { return m_begin; }
     [[nodiscard]] std::uint64_t end() const { return m_end; }
 
-    [[nodiscard]] std::size_t memoryBytes() const { return m_blocks.size() * sizeof(Block); }
+    [[nodiscard]] std::size_t memoryBytes() const { return m_blocks.size() * sizeof(Digests); }
 
     /// The number must lie within.
     [[nodiscard]] const PacketDigest& at(std::uint64_t number) const {
         const std::uint64_t place = number - m_firstOfBlocks;
-        return m_blocks[place / kBlock]->digests[place % kBlock];
+        return (*m_blocks[place / kBlock].digests)[place % kBlock];
     }
     /// Null outside [begin, end).
     [[nodiscard]] const PacketDigest* find(std::uint64_t number) const {
@@ -111,13 +114,17 @@ public:
 
 private:
     static constexpr std::size_t kBlock = 4096;
+    using Digests = std::array<PacketDigest, kBlock>;
     struct Block {
-        std::array<PacketDigest, kBlock> digests;
+        std::shared_ptr<Digests> digests;
         std::size_t problems = 0; ///< a block without one is passed over
     };
 
-    std::deque<std::shared_ptr<Block>> m_blocks; ///< all but the last are complete
-    std::uint64_t m_firstOfBlocks = 0;           ///< number of the first digest of the first block
+    [[nodiscard]] std::shared_ptr<Digests> copyOf(const Digests& digests) const;
+
+    std::shared_ptr<log::Scratch> m_scratch;
+    std::deque<Block> m_blocks;        ///< all but the last are complete
+    std::uint64_t m_firstOfBlocks = 0; ///< number of the first digest of the first block
     std::uint64_t m_begin = 0;
     std::uint64_t m_end = 0;
 };

@@ -49,6 +49,8 @@ std::string changeBy(const Metadata& metadata, std::uint64_t packet) {
 Ingest::Ingest(const log::PacketLog& log)
     : m_log(log),
       m_follower(log),
+      m_index(log.scratch()),
+      m_digests(log.scratch()),
       m_incidents(std::make_unique<IncidentFollower>()),
       m_attribution(std::make_unique<Attribution>(*m_incidents)) {}
 

@@ -92,8 +92,9 @@ MemoryFigures Ingest::memory() const {
         accounting += sizeof(Sender) + sender.history.memoryBytes();
     }
     const log::LogFigures log = m_log.figures();
+    const std::size_t index = m_index.memoryBytes() + m_digests.memoryBytes();
     return {{{"log", "packets", log.chunkBytes, log.memoryCap},
-             {"index", "index", m_index.memoryBytes() + m_digests.memoryBytes(), 0},
+             {"index", "index", m_log.scratch()->hasFile() ? 0 : index, 0},
              {"accounting", "accounting", accounting, kMostAccounting},
              {"messages", "messages", messages, kMostMessages},
              {"metadata", "metadata", metadataBytes(), kMetadataBudget},

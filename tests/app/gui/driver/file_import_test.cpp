@@ -34,6 +34,31 @@ protected:
         }
     }
 
+    /// What is to be read anywhere, whatever the memory of the log holds.
+    static void expectAllOf(model::Session& session) {
+        ASSERT_EQ(session.end(), kDatagrams);
+        EXPECT_EQ(session.begin(), 0U);
+        const model::CharacterKey key = session.characters().front().key;
+        for (const std::uint64_t number : {0U, 39'999U, 1U, 20'000U, 7U, 35'000U}) {
+            session.setCursor({model::Cursor::Mode::Paused, number});
+            const model::Message* message = session.message(key, 2);
+            ASSERT_NE(message, nullptr) << number;
+            EXPECT_EQ(message->packet, number);
+            EXPECT_EQ(message->datagram.header.sampleCounter, number + 1);
+            ASSERT_NE(session.digests().find(number), nullptr);
+            EXPECT_EQ(session.digests().find(number)->type, 2);
+        }
+    }
+    /// Follows until it is in the log.
+    void follow(FileImport& import, log::PacketLog& log, model::Session& session) {
+        while (!import.result()) {
+            session.followFile(log.timeline().now(m_clock));
+            import.follow(session.end());
+        }
+        session.followFile(log.timeline().now(m_clock));
+    }
+
+    log::SystemClock m_clock;
     QTemporaryDir m_folder;
     QString m_path = m_folder.filePath("long.bin");
     log::PacketLog m_log{{.memoryCap = 1, .chunkSize = std::size_t{1} << 20}};
@@ -55,6 +80,38 @@ TEST_F(FileImportTest, WaitsForItsReaderSoThatNothingIsOvertaken) {
     EXPECT_GT(m_session.begin(), 0U) << "the log is smaller than the file";
     EXPECT_EQ(m_session.senders().front().datagrams, kDatagrams);
     EXPECT_EQ(m_session.streams().front().accounting.counts().samples, kDatagrams);
+}
+
+TEST_F(FileImportTest, ReadsFromTheFileWhatMemoryHasDropped) {
+    const auto scratch =
+        std::make_shared<log::Scratch>(m_folder.path().toStdString(), std::uint64_t{1} << 30);
+    if (!scratch->hasFile()) {
+        GTEST_SKIP() << "no files without a name in " << m_folder.path().toStdString();
+    }
+    log::PacketLog log(m_log.history().limits(), scratch);
+    model::Session session(log);
+    FileImport import(log, m_path, Stage::kStart);
+    follow(import, log, session);
+    EXPECT_GT(log.figures().begin, 20'000U) << "the log is smaller than the file";
+    expectAllOf(session);
+    EXPECT_EQ(scratch->figures().heapBytes, 0U);
+    EXPECT_LE(log.figures().memoryAllocated, log.figures().memoryCap);
+}
+
+TEST_F(FileImportTest, KeepsWhatFitsIntoMemoryWhereTheDiskIsFull) {
+    const auto scratch = std::make_shared<log::Scratch>(m_folder.path().toStdString(), 0);
+    if (!scratch->hasFile()) {
+        GTEST_SKIP() << "no files without a name in " << m_folder.path().toStdString();
+    }
+    log::PacketLog log(m_log.history().limits(), scratch); // finds out when it needs some
+    model::Session session(log);
+    FileImport import(log, m_path, Stage::kStart);
+    follow(import, log, session);
+    EXPECT_EQ(session.senders().front().datagrams, kDatagrams);
+    EXPECT_EQ(session.overtaken(), 0U);
+    EXPECT_GT(session.begin(), 20'000U);
+    EXPECT_TRUE(session.packet(session.begin()));
+    EXPECT_LT(scratch->figures().heapBytes, std::size_t{2} << 20);
 }
 
 TEST_F(FileImportTest, EndsAtOnceWhenNobodyWantsItAnyMore) {

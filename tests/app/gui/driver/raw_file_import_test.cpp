@@ -31,9 +31,9 @@ protected:
     QString import(const QString& file) {
         const auto imported = importRawFile(
             file,
-            [this](std::span<const std::byte> bytes, const log::SenderInfo& sender, log::Arrival arrival) {
+            [this](const log::FileRecord& record, const log::SenderInfo& sender, log::Arrival arrival) {
                 arrival.sender = log.senders().intern(sender);
-                log.writer().append(bytes, arrival);
+                log.writer().append(record.bytes, arrival);
                 log.writer().publish();
             },
             Stage::kStart, log.timeline());

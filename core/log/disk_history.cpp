@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/disk_history.h"
+
+#include "core/log/output_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <string_view>
+#include <utility>
+
+#include <signal.h>
+#include <unistd.h>
+
+namespace posewire::log {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::milliseconds kPause{50};
+constexpr std::uint64_t kLeastFile = std::uint64_t{1} << 20;
+
+// "history-<process>-<file>.pcapng"
+constexpr std::string_view kPrefix = "history-";
+constexpr std::string_view kSuffix = ".pcapng";
+
+/// Of the file; nothing where the name is not one of ours.
+std::optional<int> processOf(std::string_view name) {
+    if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) {
+        return std::nullopt;
+    }
+    int process = 0;
+    const char* begin = name.data() + kPrefix.size();
+    const auto [end, error] = std::from_chars(begin, name.data() + name.size(), process);
+    return error == std::errc() && process > 0 && *end == '-' ? std::optional(process) : std::nullopt;
+}
+
+bool isRunning(int process) {
+    return ::kill(process, 0) == 0 || errno == EPERM;
+}
+
+} // namespace
+
+tl::expected<std::unique_ptr<DiskHistory>, FileError>
+DiskHistory::start(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info) {
+    std::unique_ptr<DiskHistory> history(new DiskHistory(log, choice, info));
+    if (const auto begun = history->beginFile(history->m_follower.position()); !begun) {
+        return tl::unexpected(begun.error());
+    }
+    history->m_thread = std::jthread([raw = history.get()](const std::stop_token& stop) { raw->run(stop); });
+    return history;
+}
+
+DiskHistory::DiskHistory(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info)
+    : m_log(log), m_choice(choice), m_info(info), m_follower(log), m_senders(log.senders()) {}
+
+DiskHistory::~DiskHistory() {
+    m_thread = {};
+    m_log.past().dropBefore(UINT64_MAX);
+    std::error_code ignored;
+    for (const File& file : m_files) {
+        fs::remove(file.path, ignored);
+    }
+}
+
+DiskHistoryFigures DiskHistory::figures() const {
+    const std::lock_guard lock(m_mutex);
+    return m_figures;
+}
+
+std::optional<FileError> DiskHistory::failure() const {
+    const std::lock_guard lock(m_mutex);
+    return m_failure;
+}
+
+void DiskHistory::run(const std::stop_token& stop) {
+    while (!stop.stop_requested()) {
+        const Result followed = follow().or_else([this](const FileError& why) { return makeRoom(why); });
+        note(followed);
+        if (!followed) {
+            return;
+        }
+        std::unique_lock lock(m_mutex);
+        m_changed.wait_for(lock, stop, kPause, [] { return false; });
+    }
+}
+
+DiskHistory::Result DiskHistory::follow() {
+    m_follower.refresh();
+    while (const auto packet = m_follower.next()) {
+        if (const auto written = write(*packet); !written) {
+            return written;
+        }
+    }
+    return m_sink->flush();
+}
+
+DiskHistory::Result DiskHistory::write(const Packet& packet) {
+    if (m_writer->bytes() >= std::max(kLeastFile, m_choice.most / kFiles)) {
+        if (const auto begun = endFile().and_then([&] { return beginFile(packet.number); }); !begun) {
+            return begun;
+        }
+    }
+    const SenderInfo* sender = m_senders.find(packet.sender);
+    const Duration setBy = m_log.timeline().setByAt(packet.stamp);
+    if (const auto added = m_writer->add(packet, sender != nullptr ? *sender : SenderInfo{}, {}, setBy);
+        !added) {
+        return added;
+    }
+    m_past->add(packet.number, {packet.stamp, packet.sender, packet.kernelDropsBefore, packet.flags},
+                m_writer->packetOffset(), packet.bytes.size());
+    m_files.back().bytes = m_writer->bytes();
+    return m_past->isFull() ? handOver() : Result();
+}
+
+DiskHistory::Result DiskHistory::handOver() {
+    const auto flushed = m_sink->flush();
+    if (flushed) {
+        m_past->finish();
+    }
+    return flushed;
+}
+
+DiskHistory::Result DiskHistory::beginFile(std::uint64_t first) {
+    while (m_files.size() >= kFiles || (m_files.size() > 1 && isDiskFull())) {
+        dropOldest();
+    }
+    const std::string name = std::string(kPrefix) + std::to_string(::getpid()) + "-" +
+                             std::to_string(++m_fileCount) + std::string(kSuffix);
+    const std::string path = fs::path(m_choice.folder) / name;
+    auto sink = createFile(path, {.mayReplace = true});
+    if (!sink) {
+        return tl::unexpected(sink.error());
+    }
+    auto store = openStore(path);
+    if (!store) {
+        return tl::unexpected(store.error());
+    }
+    m_sink = std::move(*sink);
+    m_files.push_back({path, first});
+    m_writer.emplace(*m_sink);
+    m_past.emplace(m_log.past(), m_log.senders(), *store);
+    return m_writer->begin(m_info);
+}
+
+DiskHistory::Result DiskHistory::endFile() {
+    return m_writer->finish().and_then([this] { return handOver(); });
+}
+
+/// The disk is full, say. What was not handed over by now is missing in the history.
+DiskHistory::Result DiskHistory::makeRoom(const FileError& why) {
+    m_past.reset();
+    const std::size_t kept = m_files.size() / 2;
+    while (m_files.size() > kept) {
+        dropOldest();
+    }
+    return kept == 0 ? tl::unexpected(why) : beginFile(m_follower.position());
+}
+
+void DiskHistory::dropOldest() {
+    std::error_code ignored;
+    fs::remove(m_files.front().path, ignored);
+    m_files.pop_front();
+    m_log.past().dropBefore(m_files.empty() ? UINT64_MAX : m_files.front().first);
+}
+
+bool DiskHistory::isDiskFull() const {
+    std::error_code failed;
+    const fs::space_info space = fs::space(m_choice.folder, failed);
+    return !failed && space.available < m_choice.leaveFree;
+}
+
+void DiskHistory::note(const Result& result) {
+    const std::lock_guard lock(m_mutex);
+    m_figures = {0, m_files.empty() ? m_follower.position() : m_files.front().first, m_follower.position(),
+                 m_follower.overtaken()};
+    for (const File& file : m_files) {
+        m_figures.bytes += file.bytes;
+    }
+    if (!result) {
+        m_failure = result.error();
+    }
+}
+
+std::vector<std::string> lostHistories(const std::string& folder) {
+    std::vector<fs::directory_entry> files;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const auto process = processOf(entry.path().filename().string());
+        if (process && !isRunning(*process) && entry.is_regular_file(failed)) {
+            files.push_back(entry);
+        }
+    }
+    std::ranges::sort(files, {},
+                      [&](const fs::directory_entry& entry) { return entry.last_write_time(failed); });
+    std::vector<std::string> paths;
+    for (const fs::directory_entry& entry : files) {
+        paths.push_back(entry.path());
+    }
+    return paths;
+}
+
+void discardHistories(const std::string& folder, std::uint64_t most) {
+    std::error_code failed;
+    std::uint64_t bytes = 0;
+    const std::vector<std::string> files = lostHistories(folder);
+    for (auto file = files.rbegin(); file != files.rend(); ++file) { // the newest first
+        const std::uintmax_t size = fs::file_size(*file, failed);
+        bytes += failed ? 0 : size;
+        if (bytes > most) {
+            fs::remove(*file, failed);
+        }
+    }
+}
+
+} // namespace posewire::log

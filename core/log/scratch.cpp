@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/scratch.h"
+
+#include <algorithm>
+#include <functional>
+
+#ifdef __linux__
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#endif
+
+namespace posewire::log {
+namespace {
+
+/// Few sizes, so that what was given back is taken again.
+constexpr std::size_t kLeast = 512;
+
+constexpr std::size_t roundedUp(std::size_t size) {
+    return (size + kLeast - 1) / kLeast * kLeast;
+}
+
+#ifdef __linux__
+
+int openScratch(const std::string& folder) {
+    return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+}
+
+/// Null where there is no room for it: the disk has room for what was mapped, so that no access can fail.
+std::byte* mapSegment(int file, std::uint64_t offset) {
+    if (::posix_fallocate(file, static_cast<off_t>(offset), Scratch::kSegment) != 0) {
+        return nullptr;
+    }
+    void* memory = ::mmap(nullptr, Scratch::kSegment, PROT_READ | PROT_WRITE, MAP_SHARED, file,
+                          static_cast<off_t>(offset));
+    return memory == MAP_FAILED ? nullptr : static_cast<std::byte*>(memory);
+}
+
+/// It stays where it is, and in the memory of this process no longer.
+void letGo(std::byte* segment) {
+    ::madvise(segment, Scratch::kSegment, MADV_DONTNEED);
+}
+
+void unmapSegment(std::byte* segment) {
+    ::munmap(segment, Scratch::kSegment);
+}
+
+void closeScratch(int file) {
+    ::close(file);
+}
+
+#else // elsewhere it is ordinary memory
+
+int openScratch(const std::string&) {
+    return -1;
+}
+std::byte* mapSegment(int, std::uint64_t) {
+    return nullptr;
+}
+void letGo(std::byte*) {}
+void unmapSegment(std::byte*) {}
+void closeScratch(int) {}
+
+#endif
+
+} // namespace
+
+Scratch::Scratch(const std::string& folder, std::uint64_t most) : m_file(openScratch(folder)), m_most(most) {}
+
+Scratch::~Scratch() {
+    for (std::byte* segment : m_segments) {
+        unmapSegment(segment);
+    }
+    if (m_file >= 0) {
+        closeScratch(m_file);
+    }
+}
+
+std::shared_ptr<std::byte[]> Scratch::bytes(std::size_t size) {
+    return {take(size), [owner = shared_from_this(), size](std::byte* used) { owner->give(used, size); }};
+}
+
+bool Scratch::hasFile() const {
+    const std::lock_guard lock(m_mutex);
+    return m_file >= 0;
+}
+
+ScratchFigures Scratch::figures() const {
+    const std::lock_guard lock(m_mutex);
+    return {m_segments.size() * kSegment, m_heapBytes};
+}
+
+std::byte* Scratch::take(std::size_t size) {
+    const std::size_t rounded = roundedUp(size);
+    const std::lock_guard lock(m_mutex);
+    if (auto spare = m_spare.find(rounded); spare != m_spare.end() && !spare->second.empty()) {
+        std::byte* memory = spare->second.back();
+        spare->second.pop_back();
+        return memory;
+    }
+    if (m_file >= 0 && rounded <= kSegment && (m_used + rounded <= kSegment || grow() != nullptr)) {
+        std::byte* memory = m_segments.back() + m_used;
+        m_used += rounded;
+        return memory;
+    }
+    m_heapBytes += size;
+    return static_cast<std::byte*>(::operator new (size, std::align_val_t{alignof(std::max_align_t)}));
+}
+
+void Scratch::give(std::byte* memory, std::size_t size) {
+    const std::lock_guard lock(m_mutex);
+    if (isInFile(memory)) {
+        m_spare[roundedUp(size)].push_back(memory);
+    } else {
+        m_heapBytes -= size;
+        ::operator delete (memory, std::align_val_t{alignof(std::max_align_t)});
+    }
+}
+
+/// What is full is seldom looked at. Null where the file grows no more, now and later: what is kept in memory
+/// instead is bounded by others, and not twice.
+std::byte* Scratch::grow() {
+    const std::uint64_t end = m_segments.size() * kSegment;
+    std::byte* segment = end + kSegment <= m_most ? mapSegment(m_file, end) : nullptr;
+    if (segment == nullptr) {
+        closeScratch(m_file);
+        m_file = -1;
+        return nullptr;
+    }
+    std::ranges::for_each(m_segments, letGo);
+    m_segments.push_back(segment);
+    m_used = 0;
+    return segment;
+}
+
+bool Scratch::isInFile(const std::byte* memory) const {
+    return std::ranges::any_of(m_segments, [memory](const std::byte* segment) {
+        return !std::less<>()(memory, segment) && std::less<>()(memory, segment + kSegment);
+    });
+}
+
+} // namespace posewire::log
