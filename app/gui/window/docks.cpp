@@ -8,6 +8,7 @@
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
+#include <QApplication>
 #include <QDockWidget>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -33,6 +34,8 @@ QToolButton* flatButton(const QString& name, QWidget* parent) {
 }
 
 constexpr int kLeastLines = 3;
+/// Of the edge that shows where the keyboard is.
+constexpr int kKeyboardMark = 3;
 
 /// What the content needs at a width without being squeezed.
 int leastHeight(const QWidget& content, int width) {
@@ -100,6 +103,7 @@ DockTitle::DockTitle(QDockWidget* dock)
     row->addWidget(m_close);
     connect(m_float, &QToolButton::clicked, dock, [dock] { dock->setFloating(!dock->isFloating()); });
     connect(m_close, &QToolButton::clicked, dock, &QDockWidget::close);
+    connect(qApp, &QApplication::focusChanged, this, [this] { update(); });
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
     new EventWatch(dock, QEvent::Paint,
                    [dock] { // afloat it has no other edge, and lies on what looks the same
@@ -138,6 +142,10 @@ void DockTitle::setSummary(const QString& summary) {
     m_summary->setText({}, summary);
 }
 
+bool DockTitle::hasKeyboard() const {
+    return parentWidget()->isAncestorOf(QApplication::focusWidget());
+}
+
 void DockTitle::showButtons(bool isShown) {
     m_float->setVisible(isShown);
     m_close->setVisible(isShown);
@@ -147,6 +155,9 @@ void DockTitle::paintEvent(QPaintEvent* /*event*/) {
     QPainter painter(this);
     painter.fillRect(rect(), theme().header);
     painter.fillRect(QRect(0, height() - 1, width(), 1), theme().line);
+    if (hasKeyboard()) {
+        painter.fillRect(QRect(0, 0, kKeyboardMark, height() - 1), theme().accent);
+    }
 }
 
 QWidget* scrolling(QWidget* content, QDockWidget* dock) {

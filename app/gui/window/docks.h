@@ -12,7 +12,7 @@ namespace posewire::gui {
 class ElidedLabel;
 
 /// The title of a dock: its name, a short summary at the right, and under the pointer what floats and closes
-/// it.
+/// it. An edge shows where the keyboard is.
 class DockTitle final : public QWidget {
     Q_OBJECT
 
@@ -31,6 +31,7 @@ protected:
 private:
     void restyle();
     void showButtons(bool isShown);
+    [[nodiscard]] bool hasKeyboard() const;
 
     QLabel* m_title;
     ElidedLabel* m_summary;

@@ -5,8 +5,11 @@
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
+#include "app/gui/window/command_palette.h"
 #include "app/gui/window/docks.h"
 #include "app/gui/window/health_bar.h"
+#include "app/gui/window/history_dialog.h"
+#include "app/gui/window/keyboard.h"
 #include "app/gui/window/transport_bar.h"
 #include "app/gui/window/verdict_bar.h"
 
@@ -65,6 +68,8 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     makeDocks();
     connectDriver();
     m_driver.setThresholds(m_settings.alerts.thresholds);
+    new PressingKeys(this);
+    keepHistory();
     restore();
 }
 
@@ -432,32 +437,29 @@ void MainWindow::dockAll() {
     }
 }
 
-void MainWindow::nextDock() {
-    std::vector<QWidget*> stops{m_viewport};
-    std::size_t current = 0;
-    for (const Dock& dock : m_docks) {
-        if (!dock.panel->isVisible()) {
-            continue;
-        }
-        if (dock.dock->isAncestorOf(QApplication::focusWidget())) {
-            current = stops.size();
-        }
-        stops.push_back(dock.panel);
+void MainWindow::findCommand() {
+    CommandPalette palette(*menuBar(), this);
+    palette.exec();
+    if (QAction* chosen = palette.chosen()) {
+        chosen->trigger();
     }
-    if (m_health->firstEntry() != nullptr) {
-        current = m_health->isAncestorOf(QApplication::focusWidget()) ? stops.size() : current;
-        stops.push_back(m_health);
+}
+
+void MainWindow::editHistory() {
+    HistoryDialog dialog(m_driver, m_settings.history, this);
+    if (dialog.exec() == QDialog::Accepted && dialog.choice() != m_settings.history) {
+        m_settings.history = dialog.choice();
+        keepHistory();
     }
-    QWidget* next = stops[(current + 1) % stops.size()];
-    const auto reached = std::ranges::find(m_docks, next, &Dock::panel);
-    if (reached != m_docks.end()) {
-        reached->dock->raise();
+}
+
+void MainWindow::keepHistory() {
+    constexpr std::uint64_t gigabyte = 1'000'000'000;
+    const HistoryChoice& choice = m_settings.history;
+    const std::uint64_t most = static_cast<std::uint64_t>(choice.gigabytes) * gigabyte;
+    if (const QString problem = m_driver.keepHistory(choice.isOnDisk ? most : 0); !problem.isEmpty()) {
+        say(problem);
     }
-    const QList<QWidget*> children = next->findChildren<QWidget*>();
-    const auto focusable = std::ranges::find_if(children, [](const QWidget* child) {
-        return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;
-    });
-    (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
 }
 
 void MainWindow::showDock(const QString& dock) {

@@ -52,7 +52,11 @@ public:
     void resetLayout() { useLayout(m_settings.layout); }
     /// Brings every floating dock back into the window, and the window back onto a screen.
     void dockAll();
-    void nextDock();
+    /// The keyboard goes to the next part of the window (1), or the one before (-1).
+    void moveFocus(int direction);
+    /// Lists all commands of the menus, to be found by their words.
+    void findCommand();
+    void editHistory();
     /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
     void toggleFullScreen() { setWindowState(windowState() ^ Qt::WindowFullScreen); }
@@ -101,6 +105,7 @@ private:
     void showReceiving();
     void showOpening();
     void keepRelays();
+    void keepHistory();
     void alert();
 
     SessionDriver& m_driver;

@@ -122,6 +122,7 @@ const ActionInfo kActions[] = {
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", Do::call<saveReport>},
     panelsIn("&File"),
     lineIn("&File"),
+    {"history", "&File", QT_TRANSLATE_NOOP("Action", "&History…"), "", Do::call<&Window::editHistory>},
     {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", Do::call<&Window::close>},
 
     panelsIn(QT_TRANSLATE_NOOP("Action", "&Edit")),
@@ -134,7 +135,9 @@ const ActionInfo kActions[] = {
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
      Do::call<&Window::resetLayout>},
     {"dockAll", "&View", QT_TRANSLATE_NOOP("Action", "&Dock all"), "", Do::call<&Window::dockAll>},
-    {"nextDock", "&View", QT_TRANSLATE_NOOP("Action", "&Next dock"), "F6", Do::call<&Window::nextDock>},
+    {"nextDock", "&View", QT_TRANSLATE_NOOP("Action", "&Next dock"), "F6", Do::call<&Window::moveFocus, 1>},
+    {"previousDock", "&View", QT_TRANSLATE_NOOP("Action", "&Previous dock"), "Shift+F6",
+     Do::call<&Window::moveFocus, -1>},
     lineIn("&View"),
     {"layoutCheck", QT_TRANSLATE_NOOP("Action", "&View/&Layout"), QT_TRANSLATE_NOOP("Action", "&Check"),
      "Ctrl+1", Do::call<useShippedLayout<0>>},
@@ -198,6 +201,9 @@ const ActionInfo kActions[] = {
      QT_TRANSLATE_NOOP("Action", "&Copy diagnostics"), "", Do::call<copyDiagnostics>},
 
     panelsIn("T&ools"),
+    lineIn("T&ools"),
+    {"findCommand", "T&ools", QT_TRANSLATE_NOOP("Action", "&Find a command…"), "Ctrl+Shift+P",
+     Do::call<&Window::findCommand>},
 
     {"connectionHelp", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Connection help"),
      "Shift+F1", Do::call<&Window::openInputs, InputsDialog::Page::Help>},

@@ -334,7 +334,7 @@ TEST_F(MainWindowTest, F6GoesThroughTheDocksAndBackToTheViewport) {
     window->viewport().setFocus();
     std::set<QWidget*> visited;
     for (std::size_t i = 0; i <= panelTable().size(); ++i) {
-        window->nextDock();
+        window->moveFocus(1);
         visited.insert(window->focusWidget());
     }
     EXPECT_EQ(visited.size(), panelTable().size() + 1);
@@ -347,7 +347,7 @@ TEST_F(MainWindowTest, F6BringsADockBehindATabToTheFront) {
     QTest::qWait(1);
     window->viewport().setFocus();
     for (std::size_t i = 0; i <= panelTable().size(); ++i) {
-        window->nextDock();
+        window->moveFocus(1);
         const QWidget* focused = window->focusWidget();
         ASSERT_NE(focused, nullptr);
         QTest::qWait(1);

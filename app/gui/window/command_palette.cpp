@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/command_palette.h"
+
+#include "app/gui/theme/theme.h"
+
+#include <QAction>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLineEdit>
+#include <QMenu>
+#include <QMenuBar>
+#include <QTreeWidget>
+#include <QVBoxLayout>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kRows = 14; ///< in sight
+
+QString withoutMnemonic(const QString& text) {
+    QString plain;
+    for (qsizetype i = 0; i < text.size(); ++i) {
+        if (text[i] == u'&' && i + 1 < text.size()) {
+            ++i;
+        }
+        plain += text[i];
+    }
+    return plain;
+}
+
+void collect(const QList<QAction*>& actions, const QString& menu, std::vector<Command>& into) {
+    for (QAction* action : actions) {
+        const QString name = withoutMnemonic(action->text());
+        if (action->menu() != nullptr) {
+            emit action->menu()->aboutToShow(); // its entries are as when it is opened
+            collect(action->menu()->actions(), menu.isEmpty() ? name : menu + QStringLiteral(" › ") + name,
+                    into);
+        } else if (!action->isSeparator() && action->isVisible() && !name.isEmpty()) {
+            into.push_back({action, name, menu});
+        }
+    }
+}
+
+QStringList wordsOf(const QString& text) {
+    QStringList words;
+    QString word;
+    for (const QChar letter : text) {
+        if (letter.isLetterOrNumber()) {
+            word += letter;
+        } else if (!word.isEmpty()) {
+            words += std::exchange(word, {});
+        }
+    }
+    return word.isEmpty() ? words : words << word;
+}
+
+} // namespace
+
+std::vector<Command> commandsOf(const QMenuBar& bar) {
+    std::vector<Command> commands;
+    collect(bar.actions(), {}, commands);
+    return commands;
+}
+
+bool isMeant(const Command& command, const QString& typed) {
+    const QStringList words = wordsOf(command.name) + wordsOf(command.menu);
+    return std::ranges::all_of(wordsOf(typed), [&](const QString& wanted) {
+        return std::ranges::any_of(
+            words, [&](const QString& word) { return word.startsWith(wanted, Qt::CaseInsensitive); });
+    });
+}
+
+CommandPalette::CommandPalette(const QMenuBar& bar, QWidget* window)
+    : QDialog(window),
+      m_commands(commandsOf(bar)),
+      m_line(new QLineEdit(this)),
+      m_list(new QTreeWidget(this)) {
+    setWindowTitle(tr("Commands"));
+    m_line->setPlaceholderText(tr("What to do: words of a command or of its menu"));
+    m_line->setAccessibleName(tr("Words of a command"));
+    m_line->setClearButtonEnabled(true);
+    m_line->installEventFilter(this);
+    m_list->setAccessibleName(tr("Commands"));
+    m_list->setColumnCount(3);
+    m_list->setHeaderLabels({tr("Command"), tr("Menu"), tr("Shortcut")});
+    m_list->setRootIsDecorated(false);
+    m_list->setUniformRowHeights(true);
+    m_list->setAllColumnsShowFocus(true);
+    m_list->setFocusPolicy(Qt::NoFocus);
+    m_list->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    m_list->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    m_list->header()->setSectionResizeMode(2, QHeaderView::ResizeToContents);
+    m_list->header()->setStretchLastSection(false);
+    auto* column = new QVBoxLayout(this);
+    column->addWidget(m_line);
+    column->addWidget(m_list);
+    connect(m_line, &QLineEdit::textChanged, this, &CommandPalette::list);
+    connect(m_line, &QLineEdit::returnPressed, this, &CommandPalette::choose);
+    connect(m_list, &QTreeWidget::itemClicked, this, &CommandPalette::choose);
+    list({});
+    const int row = m_list->sizeHintForRow(0);
+    const int width = std::min(fontMetrics().averageCharWidth() * 84, window->width() - row);
+    const int height = m_line->sizeHint().height() + (kRows + 3) * row;
+    resize(width, std::min(height, window->height() - 2 * row));
+    move(window->geometry().left() + (window->width() - this->width()) / 2,
+         window->geometry().top() + 2 * row);
+}
+
+void CommandPalette::list(const QString& typed) {
+    m_list->clear();
+    for (std::size_t i = 0; i < m_commands.size(); ++i) {
+        const Command& command = m_commands[i];
+        if (!isMeant(command, typed)) {
+            continue;
+        }
+        const QAction& action = *command.action;
+        const QString name = action.isChecked() ? QStringLiteral("✓ ") + command.name : command.name;
+        auto* row = new QTreeWidgetItem(
+            m_list, {name, command.menu, action.shortcut().toString(QKeySequence::NativeText)});
+        row->setData(0, Qt::UserRole, static_cast<qulonglong>(i));
+        row->setDisabled(!action.isEnabled());
+        row->setForeground(1, theme().dim);
+        row->setForeground(2, theme().dim);
+    }
+    m_list->setCurrentItem(m_list->topLevelItem(0));
+}
+
+/// An entry that can't be carried out now stays where it is.
+void CommandPalette::choose() {
+    const QTreeWidgetItem* row = m_list->currentItem();
+    if (row != nullptr && !row->isDisabled()) {
+        m_chosen = m_commands[row->data(0, Qt::UserRole).toULongLong()].action;
+        accept();
+    }
+}
+
+/// The keyboard stays in the line; these keys move in the list.
+bool CommandPalette::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == m_line && event->type() == QEvent::KeyPress) {
+        const int key = static_cast<QKeyEvent*>(event)->key();
+        if (key == Qt::Key_Up || key == Qt::Key_Down || key == Qt::Key_PageUp || key == Qt::Key_PageDown) {
+            const int step = key == Qt::Key_PageUp || key == Qt::Key_PageDown ? kRows : 1;
+            const int sign = key == Qt::Key_Up || key == Qt::Key_PageUp ? -1 : 1;
+            const int row = m_list->indexOfTopLevelItem(m_list->currentItem()) + sign * step;
+            m_list->setCurrentItem(m_list->topLevelItem(std::clamp(row, 0, m_list->topLevelItemCount() - 1)));
+            return true;
+        }
+    }
+    return QDialog::eventFilter(watched, event);
+}
+
+} // namespace posewire::gui

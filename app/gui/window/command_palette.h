@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QDialog>
+#include <QString>
+
+#include <vector>
+
+class QAction;
+class QLineEdit;
+class QMenuBar;
+class QTreeWidget;
+
+namespace posewire::gui {
+
+/// An entry of the menus.
+struct Command {
+    QAction* action;
+    QString name; ///< as people read it, without the letter to press
+    QString menu; ///< "View › Camera"
+};
+
+/// All entries of the menus as they are now, in their order.
+[[nodiscard]] std::vector<Command> commandsOf(const QMenuBar& bar);
+
+/// Whether each word that was typed begins a word of the name or of the menu, in any order, whatever the
+/// case.
+[[nodiscard]] bool isMeant(const Command& command, const QString& typed);
+
+/// All commands of the menus, to be found by their words: typing narrows the list, Enter carries out the
+/// current one, Escape leaves.
+class CommandPalette final : public QDialog {
+    Q_OBJECT
+
+public:
+    CommandPalette(const QMenuBar& bar, QWidget* window);
+
+    /// What was asked for; null for nothing. Still to be carried out.
+    [[nodiscard]] QAction* chosen() const { return m_chosen; }
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void list(const QString& typed);
+    void choose();
+
+    const std::vector<Command> m_commands;
+    QLineEdit* m_line;
+    QTreeWidget* m_list;
+    QAction* m_chosen = nullptr;
+};
+
+} // namespace posewire::gui

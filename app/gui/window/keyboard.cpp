@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/keyboard.h"
+
+#include "app/gui/window/health_bar.h"
+#include "app/gui/window/main_window.h"
+
+#include <QAbstractButton>
+#include <QAbstractItemView>
+#include <QApplication>
+#include <QComboBox>
+#include <QDockWidget>
+#include <QKeyEvent>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+bool isPressing(const QKeyEvent& event, bool isSpaceOnly) {
+    const bool isPlain = (event.modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
+    const bool isSpace = event.key() == Qt::Key_Space || event.key() == Qt::Key_Select;
+    const bool isEnter = event.key() == Qt::Key_Return || event.key() == Qt::Key_Enter;
+    return isPlain && (isSpace || (isEnter && !isSpaceOnly));
+}
+
+/// The box in the current row of a table; invalid where it has none.
+QModelIndex boxOf(const QAbstractItemView& view) {
+    const QModelIndex current = view.currentIndex();
+    const int columns = current.isValid() ? current.model()->columnCount(current.parent()) : 0;
+    for (int column = 0; column < columns; ++column) {
+        const QModelIndex cell = current.siblingAtColumn(column);
+        if ((cell.flags() & Qt::ItemIsUserCheckable) != 0 && cell.data(Qt::CheckStateRole).isValid()) {
+            return cell;
+        }
+    }
+    return {};
+}
+
+void toggle(QAbstractItemView& view, const QModelIndex& box) {
+    const bool isOn = box.data(Qt::CheckStateRole).toInt() == Qt::Checked;
+    view.model()->setData(box, isOn ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
+}
+
+void press(QAbstractButton& button) {
+    auto* tool = qobject_cast<QToolButton*>(&button);
+    if (tool != nullptr && tool->menu() != nullptr && tool->popupMode() == QToolButton::InstantPopup) {
+        tool->showMenu();
+    } else {
+        button.click();
+    }
+}
+
+} // namespace
+
+PressingKeys::PressingKeys(QObject* parent) : QObject(parent) {
+    QCoreApplication::instance()->installEventFilter(this);
+}
+
+/// A shortcut takes a key before the widget that has the focus gets it, unless that says that it wants it.
+bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() != QEvent::ShortcutOverride && event->type() != QEvent::KeyPress) {
+        return false;
+    }
+    auto* key = static_cast<QKeyEvent*>(event);
+    auto* button = qobject_cast<QAbstractButton*>(watched);
+    auto* list = qobject_cast<QComboBox*>(watched);
+    auto* table = qobject_cast<QAbstractItemView*>(watched);
+    if ((button == nullptr && list == nullptr && table == nullptr) || !isPressing(*key, table != nullptr)) {
+        return false;
+    }
+    const QModelIndex box = table != nullptr ? boxOf(*table) : QModelIndex();
+    if (table != nullptr && !box.isValid()) {
+        return false;
+    }
+    event->accept();
+    if (event->type() == QEvent::KeyPress && !key->isAutoRepeat()) {
+        if (button != nullptr) {
+            press(*button);
+        } else if (list != nullptr) {
+            list->showPopup();
+        } else {
+            toggle(*table, box);
+        }
+    }
+    return true;
+}
+
+void MainWindow::moveFocus(int direction) {
+    std::vector<QWidget*> stops{m_viewport};
+    std::size_t current = 0;
+    for (const Dock& dock : m_docks) {
+        if (!dock.panel->isVisible()) {
+            continue;
+        }
+        if (dock.dock->isAncestorOf(QApplication::focusWidget())) {
+            current = stops.size();
+        }
+        stops.push_back(dock.panel);
+    }
+    if (m_health->firstEntry() != nullptr) {
+        current = m_health->isAncestorOf(QApplication::focusWidget()) ? stops.size() : current;
+        stops.push_back(m_health);
+    }
+    const std::size_t step = direction < 0 ? stops.size() - 1 : 1;
+    QWidget* next = stops[(current + step) % stops.size()];
+    const auto reached = std::ranges::find(m_docks, next, &Dock::panel);
+    if (reached != m_docks.end()) {
+        reached->dock->raise();
+    }
+    const QList<QWidget*> children = next->findChildren<QWidget*>();
+    const auto focusable = std::ranges::find_if(children, [](const QWidget* child) {
+        return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;
+    });
+    (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
+}
+
+} // namespace posewire::gui

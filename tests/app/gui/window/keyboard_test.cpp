@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/keyboard.h"
+
+#include "app/gui/window/command_palette.h"
+#include "app/gui/window/main_window.h"
+#include "core/log/clock.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QLineEdit>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QStandardItemModel>
+#include <QTableView>
+#include <QTemporaryDir>
+#include <QTest>
+#include <QToolButton>
+#include <QTreeWidget>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+namespace posewire::gui {
+namespace {
+
+class KeyboardTest : public testing::Test {
+protected:
+    void SetUp() override {
+        m_window.resize(1280, 800);
+        m_window.show();
+        QTest::qWait(1);
+    }
+    [[nodiscard]] bool isPaused() const { return m_driver.isPaused(); }
+    [[nodiscard]] const Command* command(const QString& name) {
+        m_commands = commandsOf(*m_window.menuBar());
+        const auto found = std::ranges::find(m_commands, name, &Command::name);
+        return found == m_commands.end() ? nullptr : &*found;
+    }
+
+    QTemporaryDir m_folder;
+    SettingsFile m_file{m_folder.filePath("settings.json")};
+    log::SystemClock m_clock;
+    SessionDriver m_driver{m_clock};
+    MainWindow m_window{m_driver, m_file, {}};
+    std::vector<Command> m_commands;
+};
+
+TEST_F(KeyboardTest, SpaceAndEnterPressTheButtonThatHasTheFocusAndDoNotPause) {
+    for (const Qt::Key key : {Qt::Key_Space, Qt::Key_Return, Qt::Key_Enter}) {
+        QPushButton push(&m_window);
+        QToolButton tool(&m_window);
+        QCheckBox box(&m_window);
+        for (QAbstractButton* button : std::initializer_list<QAbstractButton*>{&push, &tool, &box}) {
+            int presses = 0;
+            QObject::connect(button, &QAbstractButton::clicked, &m_window, [&] { ++presses; });
+            button->show();
+            button->setFocus();
+            QTest::keyClick(button, key);
+            EXPECT_EQ(presses, 1) << button->metaObject()->className() << " " << key;
+            EXPECT_FALSE(isPaused());
+        }
+        EXPECT_TRUE(box.isChecked());
+    }
+}
+
+TEST_F(KeyboardTest, SpaceTogglesTheBoxOfTheCurrentRowInWhateverColumn) {
+    QStandardItemModel model(3, 2);
+    auto* item = new QStandardItem("shown");
+    item->setCheckable(true);
+    model.setItem(1, 0, item);
+    QTableView table(&m_window);
+    table.setModel(&model);
+    table.show();
+    table.setCurrentIndex(model.index(1, 1));
+    QTest::keyClick(&table, Qt::Key_Space);
+    EXPECT_EQ(item->checkState(), Qt::Checked);
+    EXPECT_FALSE(isPaused());
+    QTest::keyClick(&table, Qt::Key_Space);
+    EXPECT_EQ(item->checkState(), Qt::Unchecked);
+}
+
+TEST_F(KeyboardTest, SpacePausesWhereNothingElseTakesIt) {
+    QTest::keyClick(&m_window, Qt::Key_Space);
+    EXPECT_TRUE(isPaused());
+}
+
+TEST_F(KeyboardTest, EveryEntryOfEveryMenuIsACommand) {
+    const std::vector<Command> commands = commandsOf(*m_window.menuBar());
+    for (const MenuEntry& entry : menuEntries()) {
+        if (entry.action->run != nullptr) {
+            EXPECT_TRUE(std::ranges::any_of(commands, [&](const Command& each) {
+                return each.action->objectName() == entry.action->id;
+            })) << entry.action->id;
+        }
+    }
+    for (const Command& each : commands) {
+        EXPECT_FALSE(each.name.contains(u'&')) << each.name.toStdString();
+        EXPECT_FALSE(each.menu.isEmpty()) << each.name.toStdString();
+    }
+}
+
+TEST_F(KeyboardTest, CommandsAreMeantByTheBeginningsOfTheirWordsInAnyOrder) {
+    const Command front{nullptr, "Front", "View › Camera"};
+    for (const char* typed : {"", "front", "FRO", "cam fr", "view front", "fr, ca"}) {
+        EXPECT_TRUE(isMeant(front, typed)) << typed;
+    }
+    for (const char* typed : {"ront", "front back", "x"}) {
+        EXPECT_FALSE(isMeant(front, typed)) << typed;
+    }
+}
+
+TEST_F(KeyboardTest, ThePaletteChoosesWhatWasTypedAndMovesInItsList) {
+    CommandPalette palette(*m_window.menuBar(), &m_window);
+    palette.show();
+    auto* line = palette.findChild<QLineEdit*>();
+    auto* list = palette.findChild<QTreeWidget*>();
+    const int all = list->topLevelItemCount();
+    QTest::keyClicks(line, "theme");
+    EXPECT_LT(list->topLevelItemCount(), all);
+    QTest::keyClick(line, Qt::Key_Down);
+    QTest::keyClick(line, Qt::Key_Return);
+    ASSERT_NE(palette.chosen(), nullptr);
+    EXPECT_EQ(palette.chosen()->objectName(), "themeDark");
+    EXPECT_EQ(palette.result(), QDialog::Accepted);
+}
+
+TEST_F(KeyboardTest, WhatCannotBeDoneNowIsListedAndNotChosen) {
+    const Command* live = command("Back to live");
+    ASSERT_NE(live, nullptr);
+    live->action->setEnabled(false);
+    CommandPalette palette(*m_window.menuBar(), &m_window);
+    QTest::keyClicks(palette.findChild<QLineEdit*>(), "back to live");
+    EXPECT_EQ(palette.findChild<QTreeWidget*>()->topLevelItemCount(), 1);
+    QTest::keyClick(palette.findChild<QLineEdit*>(), Qt::Key_Return);
+    EXPECT_EQ(palette.chosen(), nullptr);
+}
+
+} // namespace
+} // namespace posewire::gui
