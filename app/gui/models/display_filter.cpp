@@ -120,9 +120,12 @@ QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
         conditions.prepend(text.contains(QLatin1String("||")) ? QLatin1Char('(') + text + QLatin1Char(')')
                                                               : text);
     }
+    const bool isSettled = event.lastPacket != 0;
     conditions +=
         isLimit ? rangeFilter(view, rangeOf(view, event))
-                : QStringLiteral("number >= %1 && number <= %2").arg(event.firstPacket).arg(event.lastPacket);
+        : !isSettled
+            ? rangeFilter(view, {event.firstStamp, event.lastStamp + std::chrono::milliseconds(1)})
+            : QStringLiteral("number >= %1 && number <= %2").arg(event.firstPacket).arg(event.lastPacket);
     return conditions.join(QStringLiteral(" && "));
 }
 

@@ -1,21 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/commands.h"
 #include "app/gui/models/column.h"
-#include "core/model/session/session_view.h"
+#include "app/gui/models/incident_words.h"
+#include "core/model/session/verdict.h"
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 namespace posewire::gui {
 
-/// The events of the session, or those that are asked for, in the order in which they began.
-class EventModel : public ColumnModel<model::Incident> {
+/// What one row of the list is about: an incident or a note, or what it was to one stream. Both may be partly
+/// or altogether not here yet.
+struct IncidentLine {
+    using Incident = model::Incident;
+
+    const Incident* settled = nullptr; ///< null where nothing of it is settled
+    const Incident* pending = nullptr; ///< what late packets may still bring; null where there is none
+    model::ListedIncident::State state{};
+    bool isPart = false;
+    const Incident::Part* settledPart = nullptr;
+    const Incident::Part* pendingPart = nullptr;
+
+    [[nodiscard]] const Incident& incident() const { return settled != nullptr ? *settled : *pending; }
+    /// Null for the incident as a whole.
+    [[nodiscard]] const Incident::Part* part() const {
+        return settledPart != nullptr ? settledPart : pendingPart;
+    }
+};
+
+/// The incidents of the session with its notes, or those that are asked for, in the order in which they
+/// began; below each that touched several streams, these. What is not settled yet is a row of its own, which
+/// keeps its place when it is, or is told in the row of what it seems to belong to.
+class IncidentModel : public ColumnModel<IncidentLine, QAbstractItemModel> {
 public:
-    enum Column : int { kSeverity, kTime, kWho, kText, kCount, kKind, kGroup, kLasted };
+    enum Column : int {
+        kSeverity,
+        kTime,
+        kWho,
+        kText,
+        kLost,
+        kCause,
+        kLasted,
+        kCount,
+        kKind,
+        kGroup,
+    };
 
     /// What is listed.
     struct Filter {
@@ -26,10 +60,10 @@ public:
         friend bool operator==(const Filter&, const Filter&) = default;
     };
 
-    explicit EventModel(model::SessionView& view, QObject* parent = nullptr);
+    explicit IncidentModel(model::SessionView& view, QObject* parent = nullptr);
 
-    /// Shows what has happened meanwhile: at most one removal, one insertion and one change, or a reset where
-    /// those would not do.
+    /// Shows what has happened meanwhile: rows come and go where they belong, and one change is announced; a
+    /// reset where too many do at once.
     void refresh();
 
     void setFilter(const Filter& filter);
@@ -44,50 +78,57 @@ public:
         std::size_t unseen = 0;
         std::array<std::size_t, 3> severities{}; ///< by IncidentSeverity
     };
-    /// Of all events, whatever the filter.
+    /// Of all that is settled, whatever the filter.
     [[nodiscard]] Counts counts() const;
 
-    /// Null where the session has dropped it.
-    [[nodiscard]] const model::Incident* event(const QModelIndex& index) const;
-    /// -1 where it is not listed.
-    [[nodiscard]] int rowOf(std::uint64_t number) const;
+    /// Nothing where it is gone. Valid until the next refresh.
+    [[nodiscard]] std::optional<IncidentLine> line(const QModelIndex& index) const;
+    /// The row of an incident as a whole; invalid where it is not listed.
+    [[nodiscard]] QModelIndex indexOf(std::uint64_t number) const;
+    /// Those that are settled.
     [[nodiscard]] std::vector<const model::Incident*> listed() const;
 
     /// False until markSeen() has been called since it began.
-    [[nodiscard]] bool isSeen(const model::Incident& event) const { return event.number < m_seenEnd; }
+    [[nodiscard]] bool isSeen(const model::Incident& incident) const {
+        return incident.number < m_seenEnd && incident.number != 0;
+    }
 
+    [[nodiscard]] QModelIndex index(int row, int column, const QModelIndex& parent = {}) const override;
+    [[nodiscard]] QModelIndex parent(const QModelIndex& index) const override;
     [[nodiscard]] int rowCount(const QModelIndex& parent = {}) const override;
     [[nodiscard]] QVariant data(const QModelIndex& index, int role = Qt::DisplayRole) const override;
 
 private:
-    [[nodiscard]] bool matches(const model::Incident& event) const;
-    void show(std::vector<std::uint64_t> numbers);
+    /// The number of an incident; below 0 for a sum of those that are not listed any more.
+    using Key = std::int64_t;
+    using Keys = std::vector<Key>;
+    /// Character and type, as far as a part is of one.
+    using Stream = std::pair<std::optional<std::uint8_t>, std::optional<std::uint8_t>>;
+    using State = model::ListedIncident::State;
+
+    [[nodiscard]] std::optional<IncidentLine> whole(Key key) const;
+    [[nodiscard]] bool matches(const IncidentLine& line) const;
+    /// Which incident something that is not here yet belongs to, as far as can be told; nothing where it may
+    /// become one of its own.
+    [[nodiscard]] std::optional<Key> hostOf(const model::Incident& pending) const;
+    /// Reads what may change without the list: whether any did.
+    bool readUnsettled();
+    void show(Keys keys);
+    void insert(const Keys& keys, std::size_t from, std::size_t to);
+    [[nodiscard]] std::vector<Stream> streamsOf(Key key) const;
+    /// Those below an incident.
+    void showStreams(Key key);
+    [[nodiscard]] int rowOf(Key key) const;
 
     model::SessionView& m_view;
     Filter m_filter;
-    std::vector<std::uint64_t> m_numbers; ///< of the events that are listed
-    std::uint64_t m_version = 0;          ///< of the events when last shown
-    std::uint64_t m_seenEnd = 0;          ///< events before this number have been seen
+    Keys m_keys;                                            ///< of the rows, growing
+    std::unordered_map<Key, std::vector<Stream>> m_streams; ///< below rows that have several
+    std::map<Key, model::ListedIncident> m_pending;         ///< by the row that tells it
+    std::map<Key, State> m_current;                         ///< of those that last
+    std::uint64_t m_version = 0;                            ///< of the incidents when last shown
+    bool m_isFilterNew = false;
+    std::uint64_t m_seenEnd = 0; ///< those before this number have been seen
 };
-
-[[nodiscard]] Health healthOf(model::IncidentSeverity severity);
-/// "error", "warning", "note".
-[[nodiscard]] QString severityWord(model::IncidentSeverity severity);
-[[nodiscard]] QString groupWord(model::IncidentGroup group);
-
-/// Whose event it is: "Mira Lin · 02", "Factory", or the address where it is of no character.
-[[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& event);
-
-/// A few words for a cell or a chip: "31 lost · network", "jitter 12.1 ms", "stale".
-[[nodiscard]] QString briefWords(const model::Incident& event);
-
-/// The packet where the newest of it is to be seen: its own, or the last one before where it has none.
-/// Nothing where the log has dropped it.
-[[nodiscard]] std::optional<std::uint64_t> eventPacket(model::SessionView& view,
-                                                       const model::Incident& event);
-
-/// Selects that packet and brings the dock of packets to the front, with its like. False where the log has
-/// dropped it.
-bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Incident& event);
 
 } // namespace posewire::gui

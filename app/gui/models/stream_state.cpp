@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/stream_state.h"
 
-#include "app/gui/models/event_model.h"
+#include "app/gui/models/incident_words.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/wire/type_table.h"

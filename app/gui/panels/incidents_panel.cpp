@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/events_panel.h"
+#include "app/gui/panels/incidents_panel.h"
 
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
@@ -44,11 +44,11 @@ bool isEnd(const QEvent& event) {
 
 } // namespace
 
-EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
-      m_events(view),
-      m_bar(new EventBar(this)),
-      m_table(new TableView(tr("Events"), commands, this)),
+      m_incidents(view),
+      m_bar(new IncidentBar(this)),
+      m_table(new TableView(tr("Incidents"), commands, this)),
       m_chip(new QPushButton(m_table)),
       m_message(new PassingMessage(kMessageMs, this)) {
     auto* column = tightColumn(this);
@@ -58,60 +58,67 @@ EventsPanel::EventsPanel(model::SessionView& view, Commands& commands, QWidget* 
     column->addWidget(m_message);
     m_chip->setObjectName(QStringLiteral("newestEvent"));
     m_chip->setFocusPolicy(Qt::NoFocus); // the End key does the same
-    m_chip->setToolTip(tr("Go to the newest event and follow (End)"));
+    m_chip->setToolTip(tr("Go to the newest incident and follow (End)"));
     m_chip->hide();
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
-    m_table->setModel(&m_events);
-    m_table->setColumnSamples(
-        {QStringLiteral("▲ warning"), QStringLiteral("10:42:17.508"), QStringLiteral("192.168.10.21:52011"),
-         QString(), QStringLiteral("99 999"), QStringLiteral("character conflict"), QStringLiteral("Content"),
-         QStringLiteral("lasts")},
-        QStringLiteral("14 samples lost in 13 gaps, cause: network. Type 23 brought sample"));
-    m_table->setOptionalColumns(EventModel::kCount);
+    m_table->setModel(&m_incidents);
+    m_table->setColumnSamples({QStringLiteral("      ▲ warning"), QStringLiteral("10:42:17.508"),
+                               QStringLiteral("192.168.10.21:52011"), QString(), QStringLiteral("99 999"),
+                               QStringLiteral("this computer"), QStringLiteral("not settled"),
+                               QStringLiteral("99 999"), QStringLiteral("metadata change"),
+                               QStringLiteral("Content")},
+                              QStringLiteral("14 samples lost in 13 gaps, cause"));
+    m_table->setRootIsDecorated(true);
+    m_table->setOptionalColumns(IncidentModel::kLost);
     connectParts();
     showEmptyState();
 }
 
-std::span<const ActionInfo> EventsPanel::actionTable() {
+std::span<const ActionInfo> IncidentsPanel::actionTable() {
     static constexpr ActionInfo kActions[] = {
-        {"exportEvents", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "Export &events…"),
-         "", ActionsOf<EventsPanel>::call<&EventsPanel::exportFile>},
+        {"exportEvents", QT_TRANSLATE_NOOP("Action", "&File"),
+         QT_TRANSLATE_NOOP("Action", "Export &incidents…"), "",
+         ActionsOf<IncidentsPanel>::call<&IncidentsPanel::exportFile>},
+        {"onlyIncident", "&Go", QT_TRANSLATE_NOOP("Action", "Show only the &incident's packets"),
+         "Ctrl+Return", ActionsOf<IncidentsPanel>::call<&IncidentsPanel::showOnlyCurrent>},
     };
     return kActions;
 }
 
-void EventsPanel::connectParts() {
-    connect(m_bar, &EventBar::filterChanged, this, &EventsPanel::applyFilter);
-    connect(m_bar, &EventBar::seenRequested, this, &EventsPanel::markSeen);
-    connect(m_bar, &EventBar::exportRequested, this, &EventsPanel::exportFile);
-    connect(m_bar, &EventBar::left, m_table, qOverload<>(&QWidget::setFocus));
-    connect(m_table, &QAbstractItemView::activated, this, &EventsPanel::jump);
-    connect(m_table, &TableView::menuRequested, this, &EventsPanel::addActions);
+void IncidentsPanel::connectParts() {
+    connect(m_bar, &IncidentBar::filterChanged, this, &IncidentsPanel::applyFilter);
+    connect(m_bar, &IncidentBar::seenRequested, this, &IncidentsPanel::markSeen);
+    connect(m_bar, &IncidentBar::exportRequested, this, &IncidentsPanel::exportFile);
+    connect(m_bar, &IncidentBar::left, m_table, qOverload<>(&QWidget::setFocus));
+    connect(m_table, &QAbstractItemView::activated, this, [this](const QModelIndex& row) { jump(row); });
+    connect(m_table, &TableView::menuRequested, this, &IncidentsPanel::addActions);
     connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& index) {
-                const model::Incident* event = m_isRefreshing ? nullptr : m_events.event(index);
-                if (event != nullptr) {
-                    m_currentEvent = event->number;
+                const auto line = m_isRefreshing ? std::nullopt : m_incidents.line(index);
+                if (line) {
+                    m_current = line->incident().number;
                     setFollowing(false);
                 }
             });
     connect(m_table->verticalScrollBar(), &QScrollBar::valueChanged, this, [this](int value) {
         if (!m_isRefreshing) {
-            setFollowing(value == m_table->verticalScrollBar()->maximum() && !m_currentEvent);
+            setFollowing(value == m_table->verticalScrollBar()->maximum() && !m_current);
         }
     });
-    connect(&m_events, &QAbstractItemModel::rowsInserted, this,
-            [this](const QModelIndex&, int first, int last) { m_missed += last - first + 1; });
-    connect(m_chip, &QPushButton::clicked, this, &EventsPanel::newest);
+    connect(&m_incidents, &QAbstractItemModel::rowsInserted, this,
+            [this](const QModelIndex& parent, int first, int last) {
+                m_missed += parent.isValid() ? 0 : last - first + 1;
+            });
+    connect(m_chip, &QPushButton::clicked, this, &IncidentsPanel::newest);
     m_table->installEventFilter(this);
     m_table->header()->installEventFilter(this);
 }
 
-void EventsPanel::refresh() {
+void IncidentsPanel::refresh() {
     const QScopedValueRollback guard(m_isRefreshing, true);
-    m_events.refresh();
-    m_bar->showCounts(m_events.counts());
+    m_incidents.refresh();
+    m_bar->showCounts(m_incidents.counts());
     showAskedFor();
     keepCurrent();
     showEmptyState();
@@ -123,40 +130,39 @@ void EventsPanel::refresh() {
 }
 
 /// What somebody elsewhere asked for, once.
-void EventsPanel::showAskedFor() {
+void IncidentsPanel::showAskedFor() {
     const std::optional<std::uint64_t> incident = m_view.selection().incident;
     if (std::exchange(m_askedFor, incident) == incident || !incident) {
         return;
     }
-    if (const int row = m_events.rowOf(*incident); row >= 0) {
-        m_currentEvent = incident;
+    if (const QModelIndex row = m_incidents.indexOf(*incident); row.isValid()) {
+        m_current = incident;
         setFollowing(false);
-        m_table->setCurrentIndex(m_events.index(row, 0));
+        m_table->setCurrentIndex(row);
         m_table->scrollTo(m_table->currentIndex(), QAbstractItemView::PositionAtCenter);
     }
 }
 
 /// A reset of the model takes the current row.
-void EventsPanel::keepCurrent() {
-    if (!m_currentEvent || m_table->currentIndex().isValid()) {
+void IncidentsPanel::keepCurrent() {
+    if (!m_current || m_table->currentIndex().isValid()) {
         return;
     }
-    const int row = m_events.rowOf(*m_currentEvent);
-    if (row >= 0) {
-        m_table->setCurrentIndex(m_events.index(row, 0));
+    if (const QModelIndex row = m_incidents.indexOf(*m_current); row.isValid()) {
+        m_table->setCurrentIndex(row);
     }
 }
 
-void EventsPanel::applyFilter(const EventModel::Filter& filter) {
+void IncidentsPanel::applyFilter(const IncidentModel::Filter& filter) {
     const QScopedValueRollback guard(m_isRefreshing, true);
-    m_events.setFilter(filter);
+    m_incidents.setFilter(filter);
     m_missed = 0;
     keepCurrent();
     showEmptyState();
     placeChip();
 }
 
-void EventsPanel::setFollowing(bool isFollowing) {
+void IncidentsPanel::setFollowing(bool isFollowing) {
     if (isFollowing != m_isFollowing) {
         m_isFollowing = isFollowing;
         m_missed = 0;
@@ -164,16 +170,16 @@ void EventsPanel::setFollowing(bool isFollowing) {
     }
 }
 
-void EventsPanel::newest() {
-    m_currentEvent.reset();
+void IncidentsPanel::newest() {
+    m_current.reset();
     m_table->selectionModel()->clear();
     m_table->scrollToBottom();
     setFollowing(true);
 }
 
-void EventsPanel::placeChip() {
+void IncidentsPanel::placeChip() {
     const QHeaderView* header = m_table->header();
-    m_chip->setVisible(!m_isFollowing && m_events.rowCount() > 0);
+    m_chip->setVisible(!m_isFollowing && m_incidents.rowCount() > 0);
     m_chip->setText(m_missed == 0 ? tr("↓ Follow")
                                   : tr("↓ %1 new").arg(grouped(static_cast<std::uint64_t>(m_missed))));
     // In the line of column titles it covers no row.
@@ -182,42 +188,53 @@ void EventsPanel::placeChip() {
     m_chip->raise();
 }
 
-void EventsPanel::showEmptyState() {
+void IncidentsPanel::showEmptyState() {
     const bool isAll = m_view.incidents().all().empty();
-    const EventModel::Filter& filter = m_events.filter();
-    m_table->setEmptyText(isAll ? tr("Nothing has happened yet.\nGaps and their causes, restarts, malformed "
-                                     "data, changes and exceeded limits are listed here.")
-                          : filter.onlyCurrent && m_events.counts().current == 0
-                              ? tr("No event lasts now. Earlier events are under History.")
-                              : tr("No event matches the filter."));
+    const IncidentModel::Filter& filter = m_incidents.filter();
+    m_table->setEmptyText(
+        isAll ? tr("No incidents.\nLosses and whose they are, outages, restarts, malformed data, changes and "
+                   "exceeded limits are listed here.")
+        : filter.onlyCurrent && m_incidents.counts().current == 0
+            ? tr("No incident goes on now. Earlier ones are under History.")
+            : tr("No incident matches the filter."));
 }
 
-void EventsPanel::jump(const QModelIndex& index) {
-    const model::Incident* event = m_events.event(index);
-    if (event != nullptr && !showPacketsOf(m_view, m_commands, *event)) {
-        m_message->say(tr("The packets of this event are no longer in memory."));
+void IncidentsPanel::jump(const QModelIndex& index, PacketLook look) {
+    const auto line = m_incidents.line(index);
+    if (line &&
+        !showPackets(m_view, m_commands, packetsBehind(m_view, line->incident(), line->part()), look)) {
+        m_message->say(noPacketsText());
     }
 }
 
-void EventsPanel::addActions(QMenu& menu, const QModelIndex& index) {
+void IncidentsPanel::showOnlyCurrent() {
+    if (m_table->currentIndex().isValid()) {
+        jump(m_table->currentIndex(), PacketLook::Alone);
+    } else {
+        m_message->say(tr("No incident is selected."));
+    }
+}
+
+void IncidentsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     if (index.isValid()) {
         const QPersistentModelIndex row(index);
-        menu.addAction(tr("Show its packets"), this, [this, row] { jump(row); });
+        menu.addAction(tr("Show the packets"), this, [this, row] { jump(row); });
+        menu.addAction(tr("Show only these packets"), this, [this, row] { jump(row, PacketLook::Alone); });
         menu.addSeparator();
     }
-    menu.addAction(tr("Mark all as seen"), this, &EventsPanel::markSeen);
-    menu.addAction(tr("Export…"), this, &EventsPanel::exportFile);
+    menu.addAction(tr("Mark all as seen"), this, &IncidentsPanel::markSeen);
+    menu.addAction(tr("Export…"), this, &IncidentsPanel::exportFile);
     menu.addSeparator();
     for (const auto& format : exporting::formats<exporting::EventSheet>()) {
         const QString text = tr("Copy all as %1").arg(QLatin1String(format.title));
         menu.addAction(text, this, [this, write = format.write] {
-            m_commands.copyText(QString::fromStdString(write({m_view, m_events.listed()})));
+            m_commands.copyText(QString::fromStdString(write({m_view, m_incidents.listed()})));
         });
     }
 }
 
-void EventsPanel::exportFile() {
-    const QString path = askWhereToSave(this, tr("Export events"), QStringLiteral("events.csv"),
+void IncidentsPanel::exportFile() {
+    const QString path = askWhereToSave(this, tr("Export incidents"), QStringLiteral("incidents.csv"),
                                         fileFilters<exporting::EventSheet>());
     if (!path.isEmpty()) {
         const QString problem = save(path);
@@ -225,13 +242,13 @@ void EventsPanel::exportFile() {
     }
 }
 
-QString EventsPanel::save(const QString& path) {
+QString IncidentsPanel::save(const QString& path) {
     const auto& format = exporting::formatFor<exporting::EventSheet>(path.toStdString());
-    return saveFile(path, format.write({m_view, m_events.listed()}));
+    return saveFile(path, format.write({m_view, m_incidents.listed()}));
 }
 
-QString EventsPanel::summary() const {
-    const EventModel::Counts counts = m_events.counts();
+QString IncidentsPanel::summary() const {
+    const IncidentModel::Counts counts = m_incidents.counts();
     if (counts.all == 0) {
         return {};
     }
@@ -241,10 +258,10 @@ QString EventsPanel::summary() const {
                : text + QStringLiteral(" · ") + tr("%1 new").arg(grouped(counts.unseen));
 }
 
-QJsonObject EventsPanel::state() const {
+QJsonObject IncidentsPanel::state() const {
     QJsonObject state = m_table->columns().state();
-    const EventModel::Filter& filter = m_events.filter();
-    const EventModel::Filter shipped;
+    const IncidentModel::Filter& filter = m_incidents.filter();
+    const IncidentModel::Filter shipped;
     if (filter.onlyCurrent) {
         state["current"] = true;
     }
@@ -257,8 +274,8 @@ QJsonObject EventsPanel::state() const {
     return state;
 }
 
-void EventsPanel::restoreState(const QJsonObject& state) {
-    EventModel::Filter filter;
+void IncidentsPanel::restoreState(const QJsonObject& state) {
+    IncidentModel::Filter filter;
     filter.onlyCurrent = state["current"].toBool();
     readFlags(state["severities"], filter.severities);
     readFlags(state["groups"], filter.groups);
@@ -266,7 +283,7 @@ void EventsPanel::restoreState(const QJsonObject& state) {
     m_table->columns().restore(state);
 }
 
-bool EventsPanel::eventFilter(QObject* watched, QEvent* event) {
+bool IncidentsPanel::eventFilter(QObject* watched, QEvent* event) {
     if (event->type() == QEvent::Resize) {
         placeChip();
     } else if (watched == m_table && isEnd(*event)) {

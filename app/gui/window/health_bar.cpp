@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/health_bar.h"
 
-#include "app/gui/models/event_model.h"
+#include "app/gui/models/incident_words.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
@@ -49,7 +49,7 @@ QString historyText(model::SessionView& session) {
 }
 
 constexpr log::Duration kPast = std::chrono::seconds(10);
-/// More would be a list: that is in the dock of events.
+/// More would be a list: that is in the dock of incidents.
 constexpr std::size_t kMostLines = 6;
 
 /// A few lines of text behind the mark of its severity, with a dim note below; a button by mouse and
@@ -222,7 +222,7 @@ private:
             m_commands.setCharacterVisible(m_key, true);
             m_commands.frameCharacter(m_key);
         });
-        add(QStringLiteral("allEvents"), tr("All events"),
+        add(QStringLiteral("allEvents"), tr("All incidents"),
             [this] { m_commands.showDock(QStringLiteral("events")); });
         column.addLayout(row);
     }
