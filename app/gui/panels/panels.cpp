@@ -2,6 +2,7 @@
 #include "app/gui/panel.h"
 
 #include "app/gui/panels/characters_panel.h"
+#include "app/gui/panels/faults_panel.h"
 #include "app/gui/panels/incidents_panel.h"
 #include "app/gui/panels/inspector_panel.h"
 #include "app/gui/panels/metadata_panel.h"
@@ -45,6 +46,7 @@ constexpr PanelInfo kPanels[] = {
     dock<PacketsPanel>("packets", QT_TRANSLATE_NOOP("Panel", "Packets"), kBottom),
     dock<NullPosePanel>("nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), kRight),
     dock<IncidentsPanel>("events", QT_TRANSLATE_NOOP("Panel", "Incidents"), kBottom),
+    dock<FaultsPanel>("faults", QT_TRANSLATE_NOOP("Panel", "Faults"), kBottom),
 };
 
 } // namespace

@@ -299,7 +299,7 @@ TEST_F(PacketsPanelTest, KeepsRoomForNotesWhereNotAllColumnsFit) {
     EXPECT_FALSE(isShown(PacketModel::kPart));
     EXPECT_TRUE(isShown(PacketModel::kNote) && isShown(PacketModel::kSample));
     EXPECT_EQ(list().horizontalScrollBar()->maximum(), 0);
-    list().header().setChosen({PacketModel::kNumber, PacketModel::kPart});
+    list().header().setChosen({"No.", "Part"});
     EXPECT_TRUE(isShown(PacketModel::kPart));
     EXPECT_FALSE(isShown(PacketModel::kSample));
     list().setCurrentIndex(m_panel.packets().index(3, PacketModel::kNumber));
