@@ -3,8 +3,8 @@
 
 #include "app/gui/models/packet_model.h"
 #include "app/gui/theme/words.h"
-#include "core/model/accounting/gap.h"
 #include "core/filter/completion.h"
+#include "core/model/accounting/gap.h"
 #include "core/model/incidents/thresholds.h"
 #include "core/wire/type_table.h"
 
@@ -198,8 +198,8 @@ PacketsBehind packetsBehind(model::SessionView& view, const StatisticsModel& mod
         for (const model::Stream* stream : model.streamsOf(index)) {
             streams.push_back(stream->key);
         }
-        return lossesBehind(view, {std::move(streams),
-                                   static_cast<model::LossCause>(cause - kCauses.begin()), model.range()});
+        return lossesBehind(view, {std::move(streams), static_cast<model::LossCause>(cause - kCauses.begin()),
+                                   model.range()});
     }
     PacketsBehind behind{statisticsFilter(view, model, index)};
     const model::Stream* stream = model.stream(index);

@@ -18,7 +18,8 @@ namespace posewire::gui {
 [[nodiscard]] PacketsBehind packetsBehind(model::SessionView& view, const StatisticsModel& model,
                                           const QModelIndex& index);
 /// All of some streams.
-[[nodiscard]] PacketsBehind streamsBehind(model::SessionView& view, const std::vector<log::StreamKey>& streams,
+[[nodiscard]] PacketsBehind streamsBehind(model::SessionView& view,
+                                          const std::vector<log::StreamKey>& streams,
                                           const std::optional<model::TimeRange>& range);
 
 /// Losses of some streams, in a range or in all there is.

@@ -81,8 +81,7 @@ std::vector<TableColumn<FaultRow>> FaultModel::columns(const FaultModel& model) 
         tr("Expected"), tr("Samples that should have come; shares are of these"),
         [](const FaultRow& row) { return row.counts.expected == 0 ? dash() : grouped(row.counts.expected); });
     return withHelpInCells(std::vector<FaultColumn>{
-        std::move(name),
-        countColumn(kThisComputer, tr("This computer"), tr("Samples that this computer dropped")),
+        std::move(name), countColumn(kThisComputer, tr("Here"), tr("Samples that this computer dropped")),
         countColumn(kNetwork, tr("Network"), tr("Samples that the network lost")),
         countColumn(kSender, tr("Sender"), tr("Samples that the sender never sent")),
         countColumn(kUnknown, tr("Unknown"), tr("Samples lost without evidence of the cause")),
@@ -201,7 +200,8 @@ QString FaultModel::csv() const {
         return exporting::csvLine(cells);
     };
     std::vector<std::string> titles;
-    for (int column = kThisComputer; column <= kExpected; ++column) {
+    titles.push_back(tr("This computer").toStdString());
+    for (int column = kNetwork; column <= kExpected; ++column) {
         titles.push_back(headerData(column, Qt::Horizontal, Qt::DisplayRole).toString().toStdString());
     }
     std::string text = line({tr("Character"), tr("Name"), tr("Type")}, titles);

@@ -3,6 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
+#include "core/wire/type_table.h"
 
 #include <algorithm>
 
@@ -44,11 +45,16 @@ QString wordsOf(model::SessionView& view, const IncidentLine& line) {
         return fromUtf8(line.isPart ? line.incident().text(*line.settledPart) : line.settled->text());
     };
     if (line.isPart) {
-        const QString pending =
-            line.pendingPart == nullptr ? QString() : pendingWords(line.pendingPart->samples);
-        return line.settledPart == nullptr ? pending
-               : pending.isEmpty()         ? settledWords()
-                                           : settledWords() + QStringLiteral(" · ") + pending;
+        const auto type = line.part()->type;
+        QStringList words;
+        if (line.settledPart != nullptr) {
+            words += settledWords();
+        }
+        if (line.pendingPart != nullptr) {
+            words += pendingWords(line.pendingPart->samples);
+        }
+        const QString said = words.join(QStringLiteral(" · "));
+        return type ? tr("%1: %2").arg(QString::fromStdString(wire::typeTitle(*type)), said) : said;
     }
     if (line.settled == nullptr) {
         return fromUtf8(headlineOf(view, {*line.pending, State::Provisional})) + QLatin1Char('.');

@@ -67,8 +67,7 @@ QString whoseWords(model::SessionView& view, const model::Incident& incident,
     if (!part.character) {
         return shown(view.addressOf(incident.sender));
     }
-    const QString name = characterName(view, {incident.sender, *part.character});
-    return part.type ? tr("%1 · %2").arg(name, QString::fromStdString(wire::typeTitle(*part.type))) : name;
+    return characterName(view, {incident.sender, *part.character});
 }
 
 QString briefWords(const model::Incident& incident) {

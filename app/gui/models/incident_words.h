@@ -15,7 +15,7 @@ namespace posewire::gui {
 
 /// Whose incident it is: "Mira Lin · 02", "Factory", or the address where it is of no character.
 [[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& incident);
-/// "Mira Lin · 02 Pose, quaternion", "Mira Lin", or the address.
+/// "Mira Lin", or the address.
 [[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& incident,
                                  const model::Incident::Part& part);
 

@@ -41,11 +41,13 @@ FaultsPanel::FaultsPanel(model::SessionView& view, Commands& commands, QWidget* 
     m_table->setRootIsDecorated(true);
     m_table->setSelectionBehavior(QAbstractItemView::SelectItems);
     m_table->setAllColumnsShowFocus(false);
-    const QString count = QStringLiteral("99 999  99.9 %");
+    const QString count = QStringLiteral("999 9.9 %");
     m_table->setColumnSamples(
         {QString(), count, count, count, count, QStringLiteral("▲ ") + count, QStringLiteral("99 999 999")},
-        QStringLiteral("    02 Pose, quate"));
+        QStringLiteral("   ● Mira L"));
     m_table->setOptionalColumns(FaultModel::kLost);
+    m_table->columns().setUsual({FaultModel::kName, FaultModel::kThisComputer, FaultModel::kNetwork,
+                                 FaultModel::kSender, FaultModel::kUnknown, FaultModel::kLost});
     m_table->setEmptyText(tr("No stream received yet.\nWhat each character lost, and whose fault it was, is "
                              "counted here: this computer, the network, the sender, or not known."));
     connectParts();

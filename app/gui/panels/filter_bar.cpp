@@ -132,6 +132,7 @@ void FilterBar::setApplied(const QString& text) {
     m_appliedText = text;
     if (text != this->text()) {
         m_line->setText(text);
+        m_line->setCursorPosition(0); // of a long one the beginning says more
     }
     restyle();
 }

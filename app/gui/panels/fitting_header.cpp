@@ -72,7 +72,8 @@ void FittingHeader::setChosen(const QStringList& columns) {
 }
 
 QJsonObject FittingHeader::state() const {
-    return m_chosen.isEmpty() ? QJsonObject() : QJsonObject{{"columns", QJsonArray::fromStringList(m_chosen)}};
+    return m_chosen.isEmpty() ? QJsonObject()
+                              : QJsonObject{{"columns", QJsonArray::fromStringList(m_chosen)}};
 }
 
 int FittingHeader::openColumn() const {
@@ -159,7 +160,8 @@ int FittingHeader::columnBeside(int column, int direction) const {
 }
 
 void FittingHeader::addColumnActions(QMenu& menu) {
-    QAction* fitting = menu.addAction(m_usual.empty() ? tr("As many columns as fit") : tr("The usual columns"));
+    QAction* fitting =
+        menu.addAction(m_usual.empty() ? tr("As many columns as fit") : tr("The usual columns"));
     fitting->setCheckable(true);
     fitting->setChecked(m_chosen.isEmpty());
     connect(fitting, &QAction::triggered, this, [this] { setChosen({}); });

@@ -64,13 +64,16 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_message->setContentsMargins(10, 3, 10, 4);
     m_table->setModel(&m_incidents);
     m_table->setColumnSamples({QStringLiteral("      ▲ warning"), QStringLiteral("10:42:17.508"),
-                               QStringLiteral("192.168.10.21:52011"), QString(), QStringLiteral("99 999"),
+                               QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
                                QStringLiteral("this computer"), QStringLiteral("not settled"),
                                QStringLiteral("99 999"), QStringLiteral("metadata change"),
                                QStringLiteral("Content")},
-                              QStringLiteral("14 samples lost in 13 gaps, cause"));
+                              QStringLiteral("1055 samples lost in 1029 "));
     m_table->setRootIsDecorated(true);
-    m_table->setOptionalColumns(IncidentModel::kLost);
+    // Whose fault it was stays longest beside what happened, which tells the rest.
+    m_table->columns().setGivingWay({IncidentModel::kGroup, IncidentModel::kKind, IncidentModel::kCount,
+                                     IncidentModel::kLost, IncidentModel::kTime, IncidentModel::kLasted,
+                                     IncidentModel::kCause});
     connectParts();
     showEmptyState();
 }

@@ -175,10 +175,13 @@ void PacketsPanel::goBack() {
         say(tr("There is nothing to go back to: no jump led here."));
         return;
     }
+    {
+        const QScopedValueRollback guard(m_isFollowing, true); // a list that gets the focus takes a row
+        m_list->setFocus();
+    }
     m_commands.goBack();
-    m_list->setFollowing(!m_view.selection().packet);
     refresh();
-    m_list->setFocus();
+    m_list->setFollowing(!m_view.selection().packet);
 }
 
 void PacketsPanel::followSelection() {

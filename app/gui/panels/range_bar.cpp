@@ -242,7 +242,9 @@ bool RangeStrip::event(QEvent* event) {
 }
 
 RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent)
-    : QWidget(parent), m_strip(new RangeStrip(view, commands, this)), m_span(new SpanBar(view, commands, this)) {
+    : QWidget(parent),
+      m_strip(new RangeStrip(view, commands, this)),
+      m_span(new SpanBar(view, commands, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* row = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2, this);
     row->addWidget(m_strip, 1);

@@ -64,7 +64,17 @@ void StatisticsPanel::setUpStreams() {
         samples.push_back(statisticsSample(column));
     }
     m_table->setColumnSamples(std::move(samples), QStringLiteral("    02 Pose, qu"));
-    m_table->setOptionalColumns(kNameColumn + 1);
+    // Whose fault it was stays longest; other docks have the rate and what was dropped here, too.
+    std::vector<int> givingWay;
+    for (int column = kStatisticsColumns - 1; column >= kUsualStatistics; --column) {
+        givingWay.push_back(column);
+    }
+    using enum model::Figure;
+    for (const model::Figure figure :
+         {Jitter, Rate, LostHere, LostUnknown, LostAtSender, LostOnNetwork, LossShare}) {
+        givingWay.push_back(columnOf(figure));
+    }
+    m_table->columns().setGivingWay(std::move(givingWay));
     std::vector<int> usual(kUsualStatistics);
     std::iota(usual.begin(), usual.end(), kNameColumn);
     m_table->columns().setUsual(std::move(usual));

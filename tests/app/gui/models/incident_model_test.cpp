@@ -159,9 +159,8 @@ TEST_F(IncidentModelTest, OneOutageIsOneRowThatOpensToItsStreams) {
     const auto below = [&](int part, int column) {
         return m_model.index(part, column, outage).data().toString();
     };
-    EXPECT_EQ(below(0, IncidentModel::kWho),
-              characterName(m_stage.session, m_stage.key(0)) + QStringLiteral(" · 02 Pose, quaternion"));
-    EXPECT_EQ(below(0, IncidentModel::kText), "90 samples lost");
+    EXPECT_EQ(below(0, IncidentModel::kWho), characterName(m_stage.session, m_stage.key(0)));
+    EXPECT_EQ(below(0, IncidentModel::kText), "02 Pose, quaternion: 90 samples lost");
     EXPECT_EQ(below(11, IncidentModel::kLost), "90");
     EXPECT_EQ(text(row, IncidentModel::kLost).remove(QChar(0x202f)), "1080");
     EXPECT_EQ(m_model.index(0, 0, outage).parent(), outage);

@@ -162,6 +162,7 @@ TEST_F(PacketsPanelTest, SaysThatAJumpPutTheFilterThereAndGoesBackByButtonOrKey)
     poses(0, 200);
     EXPECT_TRUE(list().isFollowing());
     auto* back = bar().findChild<QPushButton*>("back");
+    m_panel.activateWindow();
     m_stage.commands.jump(50, "number == 50");
     filterBy("number == 50");
     EXPECT_TRUE(back->isVisible());
