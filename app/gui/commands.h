@@ -25,6 +25,10 @@ public:
     virtual void setOverride(log::SenderId sender, const model::SenderOverride& overrides) = 0;
     /// What the list of packets shows; empty for all.
     virtual void setDisplayFilter(const QString& filter) = 0;
+    /// Shows a packet with another filter, or the same, so that goBack() brings both back as they were.
+    /// Nothing is selected where there is no such packet.
+    virtual void jump(std::uint64_t packet, const QString& filter) = 0;
+    virtual void goBack() = 0;
     /// Points the camera at a character.
     virtual void frameCharacter(const model::CharacterKey& key) = 0;
     virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;

@@ -259,11 +259,11 @@ void SessionDriver::setDemo(int characters) {
     emit demoChanged(isDemoRunning());
 }
 
-void SessionDriver::selectPacket(std::uint64_t number) {
+std::optional<model::Selection> SessionDriver::selectionOf(std::uint64_t number) const {
     const auto packet = shown().packet(number);
     const model::PacketDigest* digest = shown().digests().find(number);
     if (!packet || digest == nullptr) {
-        return;
+        return std::nullopt;
     }
     model::Selection selection{packet->sender, std::nullopt, -1, number};
     if (digest->type != 0) {
@@ -271,7 +271,17 @@ void SessionDriver::selectPacket(std::uint64_t number) {
     }
     const model::Selection& before = shown().selection();
     selection.segment = before.character == selection.character ? before.segment : -1;
-    select(selection);
+    return selection;
+}
+
+void SessionDriver::selectPacket(std::uint64_t number) {
+    if (const auto selection = selectionOf(number)) {
+        select(*selection);
+    }
+}
+
+void SessionDriver::jump(std::uint64_t packet, const QString& filter) {
+    change(&model::Session::jump, selectionOf(packet).value_or(shown().selection()), filter.toStdString());
 }
 
 void SessionDriver::setGhostVisible(bool isVisible) {

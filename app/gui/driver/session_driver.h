@@ -116,6 +116,8 @@ public:
     void setDisplayFilter(const QString& filter) override {
         change(&model::Session::setDisplayFilter, filter.toStdString());
     }
+    void jump(std::uint64_t packet, const QString& filter) override;
+    void goBack() override { change(&model::Session::goBack); }
     void frameCharacter(const model::CharacterKey& key) override { emit frameRequested(key); }
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         change(&model::Session::setHidden, key, !isVisible);
@@ -163,6 +165,8 @@ private:
         m_tableTick = {};
     }
     void measureHealth();
+    /// A packet with its sender and character; nothing where there is no such packet.
+    [[nodiscard]] std::optional<model::Selection> selectionOf(std::uint64_t packet) const;
     /// True if there was anything new of the file.
     bool readFile();
     void tellOpened();

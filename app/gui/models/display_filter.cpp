@@ -4,12 +4,16 @@
 #include "app/gui/models/packet_model.h"
 #include "app/gui/theme/words.h"
 #include "core/filter/completion.h"
+#include "core/model/accounting/gap.h"
 #include "core/model/incidents/thresholds.h"
 #include "core/wire/type_table.h"
 
 #include <QStringList>
 
 #include <algorithm>
+#include <array>
+#include <deque>
+#include <set>
 
 namespace posewire::gui {
 
@@ -71,6 +75,50 @@ QString noteFilter(const model::PacketDigest& digest) {
     return {};
 }
 
+/// The streams' own conditions: type, character and sources, as far as others have others.
+QStringList conditionsOf(model::SessionView& view, const std::vector<log::StreamKey>& streams) {
+    std::set<std::uint8_t> types;
+    std::set<std::uint8_t> characters;
+    std::set<log::SenderId> senders;
+    for (const log::StreamKey& stream : streams) {
+        types.insert(stream.type);
+        characters.insert(stream.character);
+        senders.insert(stream.sender);
+    }
+    const auto onlyOne = [](const std::set<std::uint8_t>& values) {
+        return values.size() == 1 ? std::optional(*values.begin()) : std::nullopt;
+    };
+    QStringList conditions = conditionsOf(onlyOne(types), onlyOne(characters), nullptr);
+    QStringList sources;
+    for (const log::SenderId id : senders) {
+        if (const model::Sender* sender = view.find(id)) {
+            sources += expression("source", sender->info.address);
+        }
+    }
+    if (senders.size() < view.senders().size() && !sources.isEmpty()) {
+        const QString any = sources.join(QStringLiteral(" || "));
+        conditions += sources.size() == 1 ? any : QLatin1Char('(') + any + QLatin1Char(')');
+    }
+    return conditions;
+}
+
+PacketsBehind behindOf(model::SessionView& view, const std::vector<log::StreamKey>& streams,
+                       const QStringList& more) {
+    PacketsBehind behind{(conditionsOf(view, streams) + more).join(QStringLiteral(" && "))};
+    const auto isAlike = [&](auto member) {
+        return !streams.empty() && std::ranges::all_of(streams, [&](const log::StreamKey& one) {
+            return one.*member == streams.front().*member;
+        });
+    };
+    if (isAlike(&log::StreamKey::type)) {
+        behind.type = streams.front().type;
+    }
+    if (isAlike(&log::StreamKey::character)) {
+        behind.character = streams.front().character;
+    }
+    return behind;
+}
+
 } // namespace
 
 QString rangeFilter(model::SessionView& view, const model::TimeRange& range) {
@@ -96,6 +144,70 @@ QString statisticsFilter(model::SessionView& view, const StatisticsModel& model,
         conditions += rangeFilter(view, *model.range());
     }
     return conditions.join(QStringLiteral(" && "));
+}
+
+PacketsBehind streamsBehind(model::SessionView& view, const std::vector<log::StreamKey>& streams,
+                            const std::optional<model::TimeRange>& range) {
+    return behindOf(view, streams, range ? QStringList{rangeFilter(view, *range)} : QStringList());
+}
+
+PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses) {
+    constexpr qsizetype kMostNamed = 200;
+    const std::set<log::StreamKey> streams(losses.streams.begin(), losses.streams.end());
+    QStringList numbers;
+    std::optional<std::uint64_t> newest;
+    bool hasOthers = false;
+    const std::deque<model::Gap>& gaps = view.gaps();
+    for (auto gap = gaps.rbegin(); gap != gaps.rend(); ++gap) {
+        const bool isThere = gap->lost != 0 && gap->toPacket >= view.begin() && streams.contains(gap->stream);
+        const bool isInside =
+            !losses.range || (gap->toStamp >= losses.range->from && gap->toStamp < losses.range->to);
+        if (!isThere || !isInside) {
+            continue;
+        }
+        if (losses.cause && gap->cause != *losses.cause) {
+            hasOthers = true;
+            continue;
+        }
+        newest = newest.value_or(gap->toPacket);
+        if (numbers.size() < kMostNamed) {
+            numbers.prepend(QString::number(gap->toPacket));
+        }
+    }
+    if (hasOthers) {
+        return {QStringLiteral("number in {%1}").arg(numbers.join(QStringLiteral(", "))), newest};
+    }
+    QStringList conditions{QStringLiteral("gap > 0")};
+    if (losses.range) {
+        conditions += rangeFilter(view, *losses.range);
+    }
+    PacketsBehind behind = behindOf(view, losses.streams, conditions);
+    behind.packet = newest;
+    behind.isTrouble = true;
+    return behind;
+}
+
+PacketsBehind packetsBehind(model::SessionView& view, const StatisticsModel& model,
+                            const QModelIndex& index) {
+    using enum model::Figure;
+    constexpr std::array kCauses{LostHere, LostOnNetwork, LostAtSender, LostUnknown}; // by LossCause
+    const auto figure = figureIn(index.column());
+    const auto* cause = figure ? std::ranges::find(kCauses, *figure) : kCauses.end();
+    if (cause != kCauses.end()) {
+        std::vector<log::StreamKey> streams;
+        for (const model::Stream* stream : model.streamsOf(index)) {
+            streams.push_back(stream->key);
+        }
+        return lossesBehind(view, {std::move(streams), static_cast<model::LossCause>(cause - kCauses.begin()),
+                                   model.range()});
+    }
+    PacketsBehind behind{statisticsFilter(view, model, index)};
+    const model::Stream* stream = model.stream(index);
+    const auto character = model.character(index);
+    behind.type = stream == nullptr ? std::nullopt : std::optional(stream->key.type);
+    behind.character = character ? std::optional(character->character) : std::nullopt;
+    behind.isTrouble = figure && model::rowOf(*figure).condition != nullptr;
+    return behind;
 }
 
 QString statisticsFilterTitle(int column) {
@@ -134,9 +246,12 @@ QString packetFilterOf(model::SessionView& view, const model::Incident& event) {
         conditions.prepend(text.contains(QLatin1String("||")) ? QLatin1Char('(') + text + QLatin1Char(')')
                                                               : text);
     }
+    const bool isSettled = event.lastPacket != 0;
     conditions +=
         isLimit ? rangeFilter(view, rangeOf(view, event))
-                : QStringLiteral("number >= %1 && number <= %2").arg(event.firstPacket).arg(event.lastPacket);
+        : !isSettled
+            ? rangeFilter(view, {event.firstStamp, event.lastStamp + std::chrono::milliseconds(1)})
+            : QStringLiteral("number >= %1 && number <= %2").arg(event.firstPacket).arg(event.lastPacket);
     return conditions.join(QStringLiteral(" && "));
 }
 

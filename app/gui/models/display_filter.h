@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/models/packet_jump.h"
 #include "app/gui/models/statistics_model.h"
 
 /// Display filters for the packets behind what the window shows, in the filter language.
@@ -13,6 +14,23 @@ namespace posewire::gui {
 /// wrong, those at which it did.
 [[nodiscard]] QString statisticsFilter(model::SessionView& view, const StatisticsModel& model,
                                        const QModelIndex& index);
+/// The packets that a cell of the statistics is about.
+[[nodiscard]] PacketsBehind packetsBehind(model::SessionView& view, const StatisticsModel& model,
+                                          const QModelIndex& index);
+/// All of some streams.
+[[nodiscard]] PacketsBehind streamsBehind(model::SessionView& view,
+                                          const std::vector<log::StreamKey>& streams,
+                                          const std::optional<model::TimeRange>& range);
+
+/// Losses of some streams, in a range or in all there is.
+struct LossesSought {
+    std::vector<log::StreamKey> streams;
+    std::optional<model::LossCause> cause{}; ///< nothing for all
+    std::optional<model::TimeRange> range{};
+};
+/// The packets after these losses; of one cause among others, as many of the newest as a filter can name.
+[[nodiscard]] PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses);
+
 /// What the packets of such a filter are, in the words of a menu: "Packets after a gap"; empty for columns
 /// that count nothing that packets could show.
 [[nodiscard]] QString statisticsFilterTitle(int column);

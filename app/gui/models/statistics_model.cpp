@@ -23,15 +23,18 @@ struct Column {
     const char* sample = "9999.99"; ///< as wide as its content may become
 };
 
-// Settings know columns by their place: new ones belong at the end.
 constexpr std::array<Column, kStatisticsColumns> kColumns{{
     {std::nullopt, ""},
     {Rate, "9999.9"},
+    {LossShare, "▲ 99.99"},
+    {LostHere, "▲ 9999"},
+    {LostOnNetwork, "▲ 9999"},
+    {LostAtSender, "▲ 9999"},
+    {LostUnknown, "▲ 9999"},
     {Jitter, "999.99"},
     {Lost, "▲ 9999"},
     {Reordered, "99999"},
     {std::nullopt, "0000000"},
-    {LossShare, "▲ 99.99"},
     {Duplicates},
     {Late},
     {Incomplete},
@@ -57,10 +60,6 @@ constexpr std::array<Column, kStatisticsColumns> kColumns{{
     {Datagrams, "99 999 999"},
     {DatagramRate},
     {Step, "99"},
-    {LostHere},
-    {LostOnNetwork},
-    {LostAtSender},
-    {LostUnknown},
 }};
 
 /// Shorter parts show the beat of samples and buckets, not the rate.
@@ -312,7 +311,7 @@ QString StatisticsModel::csv() const {
     }
     for (const Column& column : kColumns) {
         if (column.figure) {
-            titles.push_back(tr(model::rowOf(*column.figure).shortTitle()).toStdString());
+            titles.push_back(tr(model::rowOf(*column.figure).title).toStdString());
         }
     }
     std::string text = exporting::csvLine(titles);

@@ -15,12 +15,13 @@
 namespace posewire::gui {
 
 /// The columns of the statistics: the name of a row, then figures, and among them the curve of the rate. The
-/// first are always shown, the others as they fit or are chosen.
+/// first are shown as they fit, the others where they are chosen.
 inline constexpr int kStatisticsColumns = 36;
 inline constexpr int kNameColumn = 0;
-inline constexpr int kCurveColumn = 5;
-/// Those before it are shown however narrow the dock is.
-inline constexpr int kFirstOptionalStatistic = kCurveColumn;
+inline constexpr int kCurveColumn = 10;
+/// Those before it are shown until the operator chooses others: what decides whether a stream is good, and
+/// whose fault it is where it is not.
+inline constexpr int kUsualStatistics = 8;
 
 /// The figure of a column; nothing for the name and the curve.
 [[nodiscard]] std::optional<model::Figure> figureIn(int column);
@@ -46,6 +47,13 @@ public:
     [[nodiscard]] const model::StreamFigures& figures(const QModelIndex& index) const;
     /// The range of the figures; nothing for all.
     [[nodiscard]] const std::optional<model::TimeRange>& range() const { return m_range; }
+
+    /// Those of a row and below it, in the order of the rows.
+    [[nodiscard]] std::vector<const model::Stream*> streamsOf(const QModelIndex& index) const {
+        std::vector<const model::Stream*> streams;
+        addStreams(index, streams);
+        return streams;
+    }
 
     /// A line for each stream, with titles (RFC 4180): sender, character, type, and every figure.
     [[nodiscard]] QString csv() const;

@@ -70,6 +70,25 @@ void paintSeries(QPainter& painter, const QRectF& rect, const QList<float>& seri
     painter.drawPath(path);
 }
 
+/// Beside a number: dim, smaller, in a column of its own, where there is room for both. Returns where the
+/// number ends.
+int paintShare(QPainter& painter, const QRect& rect, const QString& number, const QString& share,
+               bool isSelected) {
+    const int numberWidth = painter.fontMetrics().horizontalAdvance(number);
+    const QFont font = painter.font();
+    QFont small = font;
+    small.setPixelSize(std::max(8, QFontInfo(font).pixelSize() * 7 / 8));
+    painter.setFont(small);
+    const int reserved = painter.fontMetrics().horizontalAdvance(QStringLiteral(" <0.1 %"));
+    const bool isRoom = numberWidth + reserved <= rect.width();
+    if (isRoom) {
+        painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
+        painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, share);
+    }
+    painter.setFont(font);
+    return rect.right() - (isRoom ? reserved : 0);
+}
+
 void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option, const QModelIndex& index) {
     const QVariant dot = index.data(kDotRole);
     const QVariant swatch = index.data(kSwatchRole);
@@ -91,6 +110,10 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
     }
     painter.setPen(isSelected ? onSelection(colour) : colour);
     if (CellDelegate::isNumber(index)) {
+        if (index.data(kSuffixRole).isValid()) {
+            rect.setRight(paintShare(painter, rect, option.text, suffix, isSelected));
+            painter.setPen(isSelected ? onSelection(colour) : colour);
+        }
         painter.drawText(rect, Qt::AlignRight | Qt::AlignVCenter, shown);
         return;
     }

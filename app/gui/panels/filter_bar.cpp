@@ -47,6 +47,8 @@ FilterBar::FilterBar(QWidget* parent)
       m_progressRow(new QWidget(this)),
       m_progress(new QProgressBar(this)),
       m_problem(plainLabel(this)),
+      m_jumpRow(new QWidget(this)),
+      m_back(new QPushButton(m_jumpRow)),
       m_saved(defaultFilters()) {
     m_line->setObjectName(QStringLiteral("displayFilter"));
     m_line->setAccessibleName(tr("Display filter"));
@@ -92,7 +94,34 @@ void FilterBar::layOut() {
     auto* column = tightColumn(this);
     column->addLayout(row);
     column->addWidget(m_problem);
+    layOutJump();
+    column->addWidget(m_jumpRow);
     column->addWidget(m_progressRow);
+}
+
+void FilterBar::layOutJump() {
+    auto* row = spacedRow({10, 0, 8, 6}, 8, m_jumpRow);
+    auto* said = new ElidedLabel(Qt::AlignLeft, m_jumpRow);
+    said->setText(tr("A jump put this filter here."));
+    said->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    row->addWidget(m_back);
+    row->addWidget(said, 1);
+    m_back->setObjectName(QStringLiteral("back"));
+    connect(m_back, &QPushButton::clicked, this, &FilterBar::backRequested);
+    m_jumpRow->hide();
+}
+
+void FilterBar::setJump(const std::optional<QString>& before) {
+    m_jumpRow->setVisible(before.has_value());
+    if (before) {
+        constexpr int kShown = 32; // characters
+        QString filter =
+            fontMetrics().elidedText(*before, Qt::ElideRight, fontMetrics().averageCharWidth() * kShown);
+        filter.replace(QLatin1Char('&'), QLatin1String("&&"));
+        m_back->setText(before->isEmpty() ? tr("← Back to all packets") : tr("← Back to %1").arg(filter));
+        m_back->setToolTip(
+            toolTipText(tr("%1 (Alt+Left)").arg(before->isEmpty() ? tr("No filter") : *before)));
+    }
 }
 
 QString FilterBar::text() const {
@@ -103,6 +132,7 @@ void FilterBar::setApplied(const QString& text) {
     m_appliedText = text;
     if (text != this->text()) {
         m_line->setText(text);
+        m_line->setCursorPosition(0); // of a long one the beginning says more
     }
     restyle();
 }

@@ -14,6 +14,7 @@ class QCompleter;
 class QLabel;
 class QLineEdit;
 class QProgressBar;
+class QPushButton;
 class QStandardItemModel;
 
 namespace posewire::gui {
@@ -33,6 +34,9 @@ public:
     void setApplied(const QString& text);
     /// Puts the keyboard into the line.
     void focusLine();
+
+    /// Says that a jump put the filter there, and what was filtered by before; nothing where none did.
+    void setJump(const std::optional<QString>& before);
 
     /// How far a filter has come through the log, as a share; nothing while none is on its way.
     void setProgress(std::optional<double> share);
@@ -59,6 +63,8 @@ signals:
     /// Only ever with a text that is right.
     void applied(const QString& text);
     void cancelRequested();
+    /// The filter from before the jump is wanted.
+    void backRequested();
     /// The keyboard is wanted in the list.
     void left();
 
@@ -68,6 +74,7 @@ protected:
 
 private:
     void layOut();
+    void layOutJump();
     void makeCompleter();
     void check();
     void showError();
@@ -93,6 +100,8 @@ private:
     QWidget* m_progressRow;
     QProgressBar* m_progress;
     QLabel* m_problem;
+    QWidget* m_jumpRow;
+    QPushButton* m_back;
     QCompleter* m_completer = nullptr;
     bool m_hasChosen = false; ///< one of the offers, by the arrows
     QStandardItemModel* m_offers = nullptr;

@@ -4,6 +4,7 @@
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/theme/plain_text.h"
 
+#include <QJsonArray>
 #include <QMenu>
 #include <QScopedValueRollback>
 
@@ -28,6 +29,9 @@ FittingHeader::FittingHeader(QAbstractItemView* table, QFont (*cellFont)(), int 
 void FittingHeader::setSamples(std::vector<QString> samples, const QString& leastOpen) {
     m_samples = std::move(samples);
     m_leastOpen = leastOpen;
+    while (model() != nullptr && m_names.size() < columns()) {
+        m_names += model()->headerData(static_cast<int>(m_names.size()), Qt::Horizontal).toString();
+    }
     measure();
 }
 
@@ -44,13 +48,32 @@ void FittingHeader::setGivingWay(std::vector<int> columns) {
     measure();
 }
 
-void FittingHeader::setChosen(const QJsonArray& columns) {
-    m_chosen = columns;
+void FittingHeader::setUsual(std::vector<int> columns) {
+    m_usual = std::move(columns);
+    measure();
+}
+
+void FittingHeader::restore(const QJsonObject& state) {
+    QStringList columns;
+    for (const auto& column : state["columns"].toArray()) {
+        columns += column.toString();
+    }
+    setChosen(columns);
+}
+
+void FittingHeader::setChosen(const QStringList& columns) {
+    m_chosen.clear();
+    for (const QString& name : m_names) {
+        if (columns.contains(name)) {
+            m_chosen += name;
+        }
+    }
     measure();
 }
 
 QJsonObject FittingHeader::state() const {
-    return m_chosen.isEmpty() ? QJsonObject() : QJsonObject{{"columns", m_chosen}};
+    return m_chosen.isEmpty() ? QJsonObject()
+                              : QJsonObject{{"columns", QJsonArray::fromStringList(m_chosen)}};
 }
 
 int FittingHeader::openColumn() const {
@@ -76,7 +99,11 @@ int FittingHeader::leastOpenWidth() const {
 
 bool FittingHeader::isWanted(int column) const {
     const int kept = m_kept == Kept::First ? 0 : openColumn();
-    return column == kept || (m_chosen.isEmpty() ? !m_useless.contains(column) : m_chosen.contains(column));
+    if (!m_chosen.isEmpty()) {
+        return column == kept || m_chosen.contains(m_names[column]);
+    }
+    const bool isUsual = m_usual.empty() || std::ranges::find(m_usual, column) != m_usual.end();
+    return column == kept || (isUsual && !m_useless.contains(column));
 }
 
 void FittingHeader::measure() {
@@ -133,7 +160,8 @@ int FittingHeader::columnBeside(int column, int direction) const {
 }
 
 void FittingHeader::addColumnActions(QMenu& menu) {
-    QAction* fitting = menu.addAction(tr("As many columns as fit"));
+    QAction* fitting =
+        menu.addAction(m_usual.empty() ? tr("As many columns as fit") : tr("The usual columns"));
     fitting->setCheckable(true);
     fitting->setChecked(m_chosen.isEmpty());
     connect(fitting, &QAction::triggered, this, [this] { setChosen({}); });
@@ -151,10 +179,10 @@ void FittingHeader::addColumnActions(QMenu& menu) {
 }
 
 void FittingHeader::choose(int column, bool isShown) {
-    QJsonArray chosen;
+    QStringList chosen;
     for (int each = 0; each < columns(); ++each) {
         if (each == column ? isShown : !isSectionHidden(each)) {
-            chosen.append(each);
+            chosen += m_names[each];
         }
     }
     setChosen(chosen);

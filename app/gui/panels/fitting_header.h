@@ -3,8 +3,8 @@
 
 #include <QAbstractItemView>
 #include <QHeaderView>
-#include <QJsonArray>
 #include <QJsonObject>
+#include <QStringList>
 
 #include <vector>
 
@@ -33,11 +33,14 @@ public:
     /// From now on the operator can choose columns.
     void setGivingWay(std::vector<int> columns);
     [[nodiscard]] bool isChoosable() const { return !m_givingWay.empty(); }
-    /// The columns that the operator chose; empty for as many as fit.
-    void setChosen(const QJsonArray& columns);
+    /// Without a choice of the operator only these are shown, as they fit.
+    void setUsual(std::vector<int> columns);
+    /// The columns that the operator chose, by their titles as they were at first; none for the usual ones.
+    /// What no column is called is left out.
+    void setChosen(const QStringList& columns);
     /// The same as a panel keeps it: "columns", or nothing where the operator chose none.
     [[nodiscard]] QJsonObject state() const;
-    void restore(const QJsonObject& state) { setChosen(state["columns"].toArray()); }
+    void restore(const QJsonObject& state);
     /// One entry for each column that can be chosen.
     void addColumnActions(QMenu& menu);
 
@@ -65,7 +68,9 @@ private:
     QString m_leastOpen;
     std::vector<int> m_givingWay;
     QList<int> m_useless;
-    QJsonArray m_chosen;
+    std::vector<int> m_usual; ///< empty for all
+    QStringList m_names;      ///< by column
+    QStringList m_chosen;
     bool m_isFitting = false;
 };
 

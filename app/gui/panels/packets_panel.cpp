@@ -57,6 +57,7 @@ void PacketsPanel::connectParts() {
         refresh();
     });
     connect(m_filter, &FilterBar::cancelRequested, this, &PacketsPanel::cancelFilter);
+    connect(m_filter, &FilterBar::backRequested, this, &PacketsPanel::goBack);
     connect(m_filter, &FilterBar::left, this, [this] { m_list->setFocus(); });
     connect(m_clear, &QPushButton::clicked, this, &PacketsPanel::clearFilter);
     connect(m_find, &FindBar::findRequested, this, &PacketsPanel::search);
@@ -123,6 +124,9 @@ void PacketsPanel::followCursor() {
 
 /// The session's filter may have been set by another dock.
 void PacketsPanel::followFilter() {
+    const model::Jump* jump = m_view.filterJump();
+    m_filter->setJump(jump == nullptr ? std::nullopt
+                                      : std::optional(QString::fromStdString(jump->filterBefore)));
     const QString text = QString::fromStdString(m_view.displayFilter());
     // What a sender's positions come in turns out, or is declared, while it sends.
     const auto units = m_comparesLengths ? unusualPositionUnits(m_view) : PositionUnits();
@@ -164,6 +168,20 @@ void PacketsPanel::clearFilter() {
     m_commands.setDisplayFilter({});
     refresh();
     m_list->setFocus();
+}
+
+void PacketsPanel::goBack() {
+    if (!m_view.canGoBack()) {
+        say(tr("There is nothing to go back to: no jump led here."));
+        return;
+    }
+    {
+        const QScopedValueRollback guard(m_isFollowing, true); // a list that gets the focus takes a row
+        m_list->setFocus();
+    }
+    m_commands.goBack();
+    refresh();
+    m_list->setFollowing(!m_view.selection().packet);
 }
 
 void PacketsPanel::followSelection() {

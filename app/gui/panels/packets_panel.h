@@ -58,6 +58,8 @@ private:
     void showEmptyState();
     void cancelFilter();
     void clearFilter();
+    /// To the filter and the selection before the newest jump.
+    void goBack();
     void selectRow(const QModelIndex& index);
     void say(const QString& text);
     void showMenu(const QPoint& globalPlace);

@@ -2,7 +2,8 @@
 #include "app/gui/panel.h"
 
 #include "app/gui/panels/characters_panel.h"
-#include "app/gui/panels/events_panel.h"
+#include "app/gui/panels/faults_panel.h"
+#include "app/gui/panels/incidents_panel.h"
 #include "app/gui/panels/inspector_panel.h"
 #include "app/gui/panels/metadata_panel.h"
 #include "app/gui/panels/nullpose_panel.h"
@@ -44,7 +45,8 @@ constexpr PanelInfo kPanels[] = {
     dock<TrackersPanel>("trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), kRight),
     dock<PacketsPanel>("packets", QT_TRANSLATE_NOOP("Panel", "Packets"), kBottom),
     dock<NullPosePanel>("nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), kRight),
-    dock<EventsPanel>("events", QT_TRANSLATE_NOOP("Panel", "Events"), kBottom),
+    dock<IncidentsPanel>("events", QT_TRANSLATE_NOOP("Panel", "Incidents"), kBottom),
+    dock<FaultsPanel>("faults", QT_TRANSLATE_NOOP("Panel", "Faults"), kBottom),
 };
 
 } // namespace

@@ -242,51 +242,18 @@ bool RangeStrip::event(QEvent* event) {
 }
 
 RangeBar::RangeBar(model::SessionView& view, Commands& commands, QWidget* parent)
-    : QWidget(parent), m_view(view), m_commands(commands), m_strip(new RangeStrip(view, commands, this)) {
+    : QWidget(parent),
+      m_strip(new RangeStrip(view, commands, this)),
+      m_span(new SpanBar(view, commands, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
-    spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2, this)->addWidget(m_strip, 1);
-    addButton(tr("10 s"), tr("Figures for the last ten seconds"), {std::chrono::seconds(10), {}});
-    addButton(tr("1 min"), tr("Figures for the last minute"), {std::chrono::seconds(60), {}});
-    m_sinceReset =
-        addButton(tr("Reset"), tr("Figures since the reset before the take"), {.isSinceReset = true});
-    addButton(tr("All"), tr("Figures for everything received"), {});
-}
-
-QToolButton* RangeBar::addButton(const QString& text, const QString& toolTip,
-                                 const model::RangeChoice& choice) {
-    QToolButton* button = framedButton(text, toolTip, this);
-    button->setCheckable(true);
-    layout()->addWidget(button);
-    m_buttons.push_back({button, choice});
-    connect(button, &QToolButton::clicked, this, [this, choice] {
-        m_commands.selectRange(choice);
-        refresh();
-    });
-    return button;
+    auto* row = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2, this);
+    row->addWidget(m_strip, 1);
+    row->addWidget(m_span);
 }
 
 void RangeBar::refresh() {
     m_strip->refresh();
-    const model::RangeChoice& choice = m_view.rangeChoice();
-    for (const Button& each : m_buttons) {
-        each.button->setChecked(choice == each.choice);
-    }
-    m_sinceReset->setVisible(m_view.reset() != log::Stamp());
-}
-
-QString RangeBar::rangeText() const {
-    const auto range = m_view.range();
-    if (!range) {
-        return {};
-    }
-    const QString length = duration(range->seconds());
-    if (m_view.rangeChoice().isSinceReset) {
-        return tr("since reset, %1").arg(length);
-    }
-    if (!m_view.rangeChoice().fixed) {
-        return tr("last %1").arg(length);
-    }
-    return tr("%1 + %2").arg(timeOfDay(m_view.wallOf(range->from)).chopped(2), length);
+    m_span->refresh();
 }
 
 } // namespace posewire::gui

@@ -3,14 +3,12 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/models/statistics_model.h"
+#include "app/gui/panels/span_bar.h"
 #include "core/log/time.h"
 
 #include <QWidget>
 
 #include <optional>
-#include <vector>
-
-class QToolButton;
 
 namespace posewire::gui {
 
@@ -63,7 +61,7 @@ private:
     bool m_isMoved = false;
 };
 
-/// The strip of the history with buttons for the newest ten seconds, the newest minute and all.
+/// The strip of the history, and the choice of the time that figures are of.
 class RangeBar : public QWidget {
     Q_OBJECT
 
@@ -72,22 +70,9 @@ public:
 
     void refresh();
 
-    /// "last 10 s", "10:42:17.5 + 2.1 s"; empty for all.
-    [[nodiscard]] QString rangeText() const;
-
 private:
-    QToolButton* addButton(const QString& text, const QString& toolTip, const model::RangeChoice& choice);
-
-    struct Button {
-        QToolButton* button;
-        model::RangeChoice choice;
-    };
-
-    model::SessionView& m_view;
-    Commands& m_commands;
     RangeStrip* m_strip;
-    std::vector<Button> m_buttons;
-    QToolButton* m_sinceReset; ///< only after a reset
+    SpanBar* m_span;
 };
 
 } // namespace posewire::gui

@@ -4,16 +4,19 @@
 #include "app/gui/models/computer_facts.h"
 #include "app/gui/models/display_filter.h"
 #include "app/gui/models/shown_character.h"
-#include "app/gui/theme/widgets.h"
+#include "app/gui/models/span_text.h"
 
 #include <QMenu>
 #include <QSplitter>
+
+#include <numeric>
 
 namespace posewire::gui {
 
 namespace {
 
 constexpr int kFactsShown = 4;
+constexpr int kMessageMs = 6000;
 
 } // namespace
 
@@ -25,8 +28,9 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, c
       m_range(new RangeBar(view, commands, this)),
       m_table(new TableView(tr("Statistics of streams"), commands, this)),
       m_facts(new TableView(tr("This computer"), commands, this)),
-      m_filterToRange(new QAction(tr("Filter packets to this range"), this)),
-      m_parts(new QSplitter(Qt::Vertical, this)) {
+      m_filterToRange(new QAction(tr("Show only the packets of this range"), this)),
+      m_parts(new QSplitter(Qt::Vertical, this)),
+      m_message(new PassingMessage(kMessageMs, this)) {
     setUpStreams();
     m_facts->showFacts(m_computer, QStringLiteral("Foreign datagrams"));
     m_facts->setMinimumHeight(m_facts->heightForRows(1));
@@ -35,6 +39,9 @@ StatisticsPanel::StatisticsPanel(model::SessionView& view, Commands& commands, c
     layout->addWidget(m_range);
     layout->addWidget(new Line(this));
     layout->addWidget(m_parts, 1);
+    layout->addWidget(m_message);
+    m_message->setForegroundRole(QPalette::PlaceholderText);
+    m_message->setContentsMargins(10, 3, 10, 4);
     m_parts->setHandleWidth(1);
     m_parts->addWidget(m_table);
     m_parts->addWidget(m_facts);
@@ -57,12 +64,26 @@ void StatisticsPanel::setUpStreams() {
         samples.push_back(statisticsSample(column));
     }
     m_table->setColumnSamples(std::move(samples), QStringLiteral("    02 Pose, qu"));
-    m_table->setOptionalColumns(kFirstOptionalStatistic);
+    // Whose fault it was stays longest; other docks have the rate and what was dropped here, too.
+    std::vector<int> givingWay;
+    for (int column = kStatisticsColumns - 1; column >= kUsualStatistics; --column) {
+        givingWay.push_back(column);
+    }
+    using enum model::Figure;
+    for (const model::Figure figure :
+         {Jitter, Rate, LostHere, LostUnknown, LostAtSender, LostOnNetwork, LossShare}) {
+        givingWay.push_back(columnOf(figure));
+    }
+    m_table->columns().setGivingWay(std::move(givingWay));
+    std::vector<int> usual(kUsualStatistics);
+    std::iota(usual.begin(), usual.end(), kNameColumn);
+    m_table->columns().setUsual(std::move(usual));
     m_table->setEmptyText(
         tr("No stream received yet.\nRates, jitter and losses of every stream appear here."));
     m_table->expandNew();
     connect(m_table, &QAbstractItemView::clicked, this, &StatisticsPanel::select);
-    connect(m_table, &QAbstractItemView::activated, this, &StatisticsPanel::showPackets);
+    connect(m_table, &QAbstractItemView::activated, this,
+            [this](const QModelIndex& cell) { showPackets(cell); });
     connect(m_table, &TableView::menuRequested, this, &StatisticsPanel::addActions);
 }
 
@@ -79,8 +100,7 @@ QString StatisticsPanel::summary() const {
         return {};
     }
     const QString streams = count == 1 ? tr("1 stream") : tr("%1 streams").arg(count);
-    const QString range = m_range->rangeText();
-    return range.isEmpty() ? streams : range;
+    return tr("%1 · %2").arg(spanText(m_view), streams);
 }
 
 void StatisticsPanel::select(const QModelIndex& index) {
@@ -90,27 +110,30 @@ void StatisticsPanel::select(const QModelIndex& index) {
     m_commands.select(selection);
 }
 
-void StatisticsPanel::showPackets(const QModelIndex& index) {
-    if (index.isValid()) {
-        m_commands.setDisplayFilter(statisticsFilter(m_view, m_streams, index));
-        m_commands.showDock(QStringLiteral("packets"));
+void StatisticsPanel::showPackets(const QModelIndex& index, PacketLook look) {
+    const bool isOfStreams = index.isValid() && !m_streams.streamsOf(index).empty();
+    if (isOfStreams && !gui::showPackets(m_view, m_commands, packetsBehind(m_view, m_streams, index), look)) {
+        m_message->say(noPacketsText());
     }
 }
 
 void StatisticsPanel::filterToRange() {
     if (const auto range = m_view.range()) {
-        m_commands.setDisplayFilter(rangeFilter(m_view, *range));
-        m_commands.showDock(QStringLiteral("packets"));
+        if (!gui::showPackets(m_view, m_commands, {rangeFilter(m_view, *range)}, PacketLook::Alone)) {
+            m_message->say(noPacketsText());
+        }
     }
 }
 
 void StatisticsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     if (index.isValid()) {
-        QMenu* packets = menu.addMenu(tr("Show packets"));
+        const QPersistentModelIndex current(index);
+        menu.addAction(tr("Show the packets"), this, [this, current] { showPackets(current); });
+        QMenu* packets = menu.addMenu(tr("Show only these packets"));
         for (int column = 0; column < kStatisticsColumns; ++column) {
             if (const QString title = statisticsFilterTitle(column); !title.isEmpty()) {
                 const QPersistentModelIndex cell = index.siblingAtColumn(column);
-                packets->addAction(title, this, [this, cell] { showPackets(cell); });
+                packets->addAction(title, this, [this, cell] { showPackets(cell, PacketLook::Alone); });
             }
         }
         menu.addAction(m_filterToRange);

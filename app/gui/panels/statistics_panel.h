@@ -2,10 +2,12 @@
 #pragma once
 
 #include "app/gui/models/column.h"
+#include "app/gui/models/packet_jump.h"
 #include "app/gui/models/statistics_model.h"
 #include "app/gui/panel.h"
 #include "app/gui/panels/range_bar.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/theme/widgets.h"
 
 class QSplitter;
 
@@ -25,8 +27,8 @@ public:
     [[nodiscard]] QJsonObject state() const override { return m_table->columns().state(); }
     void restoreState(const QJsonObject& state) override { m_table->columns().restore(state); }
 
-    /// Lists the packets that a cell counts in the dock of packets.
-    void showPackets(const QModelIndex& index);
+    /// Shows the packets that a cell counts in the dock of packets.
+    void showPackets(const QModelIndex& index, PacketLook look = PacketLook::InContext);
     /// Lists all packets of the range in the dock of packets.
     void filterToRange();
 
@@ -42,6 +44,7 @@ private:
     TableView* m_facts;
     QAction* m_filterToRange;
     QSplitter* m_parts;
+    PassingMessage* m_message;
 };
 
 } // namespace posewire::gui

@@ -2,7 +2,7 @@
 #include "app/gui/window/health_popup.h"
 
 #include "app/gui/models/character_model.h"
-#include "app/gui/models/event_model.h"
+#include "app/gui/models/incident_words.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"

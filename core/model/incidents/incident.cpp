@@ -209,4 +209,26 @@ std::string Incident::text() const {
     return {};
 }
 
+std::string Incident::text(const Part& part) const {
+    Incident own = *this;
+    own.parts = {part};
+    own.firstStamp = part.from;
+    own.lastStamp = part.to;
+    own.count = part.count;
+    own.samples = part.samples;
+    own.isCurrent = isCurrent && part.isCurrent;
+    const bool isSilence = kind == IncidentKind::Outage && part.samples == 0;
+    if (isSilence) {
+        own.cause.reset();
+    }
+    const bool isLoss =
+        kind == IncidentKind::Loss || kind == IncidentKind::Local || kind == IncidentKind::Outage;
+    std::string text = isLoss && !isSilence ? counted(part.samples, "sample") + " lost" : own.text();
+    if (isLoss && part.count != 0 && kind != IncidentKind::Outage) {
+        text += ", " + counted(part.count, "gap");
+    }
+    text.erase(text.find_last_not_of('.') + 1);
+    return text;
+}
+
 } // namespace posewire::model

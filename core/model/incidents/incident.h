@@ -119,6 +119,8 @@ struct Incident {
     [[nodiscard]] bool concerns(std::uint8_t character, std::uint8_t type) const;
     /// One line, without who and when.
     [[nodiscard]] std::string text() const;
+    /// The same of one part: "12 samples lost, 3 gaps".
+    [[nodiscard]] std::string text(const Part& part) const;
 };
 
 } // namespace posewire::model

@@ -4,11 +4,13 @@
 #include "core/model/accounting/stream_counts.h"
 #include "core/model/keys.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace posewire::model {
 
@@ -56,16 +58,36 @@ struct Annotations {
     friend bool operator==(const Annotations&, const Annotations&) = default;
 };
 
+/// What the operator saw before packets were shown from elsewhere.
+struct Jump {
+    std::string filterBefore;
+    Selection selectionBefore;
+    std::string filter; ///< that it put instead; the same where it kept the one before
+};
+
 /// What the operator chose. Part of the session, so that all panels agree without knowing each other.
 struct Choices {
     Cursor cursor;
     Selection selection;
     RangeChoice range;         ///< what time statistics are of; stays while the selection changes
     std::string displayFilter; ///< which packets are listed, in the filter language; empty for all
+    std::vector<Jump> jumps;   ///< that can be undone, the newest last
     Annotations annotations;
     std::set<CharacterKey> hidden; ///< characters that are not drawn
     bool isGhostShown = false;     ///< the null pose of the shown character over its figure
     log::Stamp reset{};            ///< what was before does not count for the take; 0: all counts
+
+    /// Jumps that can be undone; the oldest are forgotten.
+    static constexpr std::size_t kMostJumps = 50;
+
+    /// The one that put the filter in force there; null where the operator chose it.
+    [[nodiscard]] const Jump* filterJump() const;
+    /// What the operator filters by, also while a jump put another filter in its place.
+    [[nodiscard]] const std::string& ownFilter() const;
+    /// Shows packets from elsewhere. From a filter that a jump put there one goes back to the operator's own.
+    void jump(const Selection& to, std::string filter);
+    /// To the filter and the selection before the newest jump. Nothing happens where there was none.
+    void goBack();
 };
 
 } // namespace posewire::model

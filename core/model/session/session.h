@@ -36,6 +36,11 @@ public:
     void setRange(const RangeChoice& range) { m_choices.range = range; }
     /// The filter is not checked here.
     void setDisplayFilter(std::string filter) { m_choices.displayFilter = std::move(filter); }
+    /// See Choices.
+    void jump(const Selection& selection, std::string filter) {
+        m_choices.jump(selection, std::move(filter));
+    }
+    void goBack() { m_choices.goBack(); }
     void setMarked(std::uint64_t packet, bool isMarked) {
         setIn(m_choices.annotations.marks, packet, isMarked);
     }

@@ -115,6 +115,11 @@ public:
     /// The range that was chosen, as it is at the cursor; nothing for all there is.
     [[nodiscard]] std::optional<TimeRange> range() const;
     [[nodiscard]] const std::string& displayFilter() const { return m_choices.displayFilter; }
+    /// See Choices.
+    [[nodiscard]] const Jump* filterJump() const { return m_choices.filterJump(); }
+    [[nodiscard]] const std::string& ownFilter() const { return m_choices.ownFilter(); }
+    /// Whether goBack() has somewhere to go.
+    [[nodiscard]] bool canGoBack() const { return !m_choices.jumps.empty(); }
     [[nodiscard]] const Annotations& annotations() const { return m_choices.annotations; }
     /// Also where it was hidden before its sender was restarted.
     [[nodiscard]] bool isHidden(const CharacterKey& key) const;

@@ -22,10 +22,6 @@ using ByCause = std::array<std::uint64_t, kLossCauses>;
 
 constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
 
-bool isNote(const Incident& incident) {
-    return wordOf(incident.kind).empty();
-}
-
 /// "03:28:07", as the receiving computer's clock shows it.
 std::string clockText(log::WallTime time) {
     const std::time_t seconds =
@@ -270,18 +266,17 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     return {TakeVerdict::State::Good, "Good for the take: " + who, "good", since, {}, {}};
 }
 
+/// Of a sample that is just coming the rest is under way.
+bool isOnlyComing(const ListedIncident& one) {
+    return one.state == State::Provisional && one.incident.parts.empty();
+}
+
 bool isPast(const ListedIncident& one, const VerdictSpan& span) {
-    // Of a sample that is just coming the rest is under way.
-    const bool isUnderWay = one.state == State::Provisional && one.incident.parts.empty();
-    return isUnderWay || (one.state == State::Over && one.incident.lastStamp < span.from);
+    return isOnlyComing(one) || (one.state == State::Over && one.incident.lastStamp < span.from);
 }
 
-State stateOf(const SessionView& session, const Incident& incident) {
-    return incident.isCurrent && !hasCeased(session, incident) ? State::Ongoing : State::Over;
-}
-
-/// Those that began up to the end of a span and lasted into it.
-std::vector<ListedIncident> listedBetween(const SessionView& session, const VerdictSpan& span) {
+/// What no incident of the list tells.
+std::vector<ListedIncident> unlistedOf(const SessionView& session) {
     std::vector<ListedIncident> all;
     for (const auto& [sender, sums] : untold(session)) {
         for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
@@ -292,6 +287,12 @@ std::vector<ListedIncident> listedBetween(const SessionView& session, const Verd
             }
         }
     }
+    return all;
+}
+
+/// Those that began up to the end of a span and lasted into it.
+std::vector<ListedIncident> listedBetween(const SessionView& session, const VerdictSpan& span) {
+    std::vector<ListedIncident> all = unlistedOf(session);
     for (const Incident& incident : session.incidents().all()) {
         const bool isMeant = (incident.isCurrent || incident.lastStamp >= span.from) &&
                              incident.firstStamp <= span.to && !isNote(incident);
@@ -368,6 +369,20 @@ std::string_view nameOf(ListedIncident::State state) {
 std::string_view nameOf(TakeVerdict::State state) {
     constexpr std::array<std::string_view, 4> kNames{"none", "good", "warning", "bad"};
     return kNames[static_cast<std::size_t>(state)];
+}
+
+bool isNote(const Incident& incident) {
+    return wordOf(incident.kind).empty();
+}
+
+ListedIncident::State stateOf(const SessionView& session, const Incident& incident) {
+    return incident.isCurrent && !hasCeased(session, incident) ? State::Ongoing : State::Over;
+}
+
+std::vector<ListedIncident> unsettledIncidents(const SessionView& session) {
+    std::vector<ListedIncident> all = unlistedOf(session);
+    std::erase_if(all, isOnlyComing);
+    return all;
 }
 
 std::vector<ListedIncident> listedIncidents(const SessionView& session) {

@@ -25,6 +25,14 @@ struct ListedIncident {
 /// not come yet and may. Their samples sum up to what the streams lost, by cause.
 [[nodiscard]] std::vector<ListedIncident> listedIncidents(const SessionView& session);
 
+/// Those of them that the session's own list does not have, oldest first: what is not settled yet, without
+/// what is only just coming, and sums of what is not listed any more, which have no number.
+[[nodiscard]] std::vector<ListedIncident> unsettledIncidents(const SessionView& session);
+/// Of an incident of the session's list; a note is over unless it lasts.
+[[nodiscard]] ListedIncident::State stateOf(const SessionView& session, const Incident& incident);
+/// Whether it is a note: something to know, and no fault.
+[[nodiscard]] bool isNote(const Incident& incident);
+
 /// The answer to: is it good, and if not, whose fault, and is it over?
 struct TakeVerdict {
     enum class State : std::uint8_t { None, Good, Warning, Bad };

@@ -43,6 +43,12 @@ public:
     void setDisplayFilter(const QString& filter) override {
         m_session.setDisplayFilter(filter.toStdString());
     }
+    void jump(std::uint64_t packet, const QString& filter) override {
+        model::Selection selection = m_session.selection();
+        selection.packet = packet;
+        m_session.jump(selection, filter.toStdString());
+    }
+    void goBack() override { m_session.goBack(); }
     void frameCharacter(const model::CharacterKey& key) override { framed.push_back(key); }
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         m_session.setHidden(key, !isVisible);

@@ -158,6 +158,37 @@ TEST(PacketsPanelOfASmallLog, SaysWhatTheFilterWasTooLateFor) {
     EXPECT_TRUE(panel.message().startsWith("Packets left memory"));
 }
 
+TEST_F(PacketsPanelTest, SaysThatAJumpPutTheFilterThereAndGoesBackByButtonOrKey) {
+    poses(0, 200);
+    EXPECT_TRUE(list().isFollowing());
+    auto* back = bar().findChild<QPushButton*>("back");
+    m_panel.activateWindow();
+    m_stage.commands.jump(50, "number == 50");
+    filterBy("number == 50");
+    EXPECT_TRUE(back->isVisible());
+    EXPECT_TRUE(back->text().endsWith("Back to all packets")) << back->text().toStdString();
+    EXPECT_EQ(list().currentIndex(), m_panel.packets().index(0, list().currentIndex().column()));
+    back->click();
+    EXPECT_FALSE(back->isVisible());
+    EXPECT_EQ(bar().text(), "");
+    EXPECT_EQ(selected(), std::nullopt);
+    EXPECT_TRUE(list().isFollowing());
+    filterBy("type == 02");
+    m_stage.commands.jump(60, "type == 02");
+    refresh();
+    EXPECT_FALSE(back->isVisible()) << "it is the operator's own";
+    m_stage.commands.jump(60, "gap > 0");
+    refresh();
+    EXPECT_TRUE(back->text().endsWith("Back to type == 02")) << back->text().toStdString();
+    trigger("back");
+    EXPECT_EQ(bar().text(), "type == 02");
+    EXPECT_EQ(selected(), 60U);
+    trigger("back");
+    EXPECT_EQ(selected(), std::nullopt);
+    trigger("back");
+    EXPECT_TRUE(m_panel.message().startsWith("There is nothing to go back to"));
+}
+
 TEST_F(PacketsPanelTest, ShowsWhereTheDisplayWasStoppedInThePast) {
     poses(0, 500);
     m_stage.session.setCursor({model::Cursor::Mode::Paused, 499});
@@ -269,7 +300,7 @@ TEST_F(PacketsPanelTest, KeepsRoomForNotesWhereNotAllColumnsFit) {
     EXPECT_FALSE(isShown(PacketModel::kPart));
     EXPECT_TRUE(isShown(PacketModel::kNote) && isShown(PacketModel::kSample));
     EXPECT_EQ(list().horizontalScrollBar()->maximum(), 0);
-    list().header().setChosen({PacketModel::kNumber, PacketModel::kPart});
+    list().header().setChosen({"No.", "Part"});
     EXPECT_TRUE(isShown(PacketModel::kPart));
     EXPECT_FALSE(isShown(PacketModel::kSample));
     list().setCurrentIndex(m_panel.packets().index(3, PacketModel::kNumber));

@@ -58,7 +58,7 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnowAndMakesEachOfThem) {
     }
     // Names of docks are for good; a new dock need not be here.
     EXPECT_THAT(ids, testing::IsSupersetOf({"characters", "metadata", "timecode", "statistics", "inspector",
-                                            "trackers", "packets", "nullpose", "events"}));
+                                            "trackers", "packets", "nullpose", "events", "faults"}));
 }
 
 TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {
@@ -85,7 +85,7 @@ TEST_F(PanelsTest, SummariesTellTheStateInAFewWords) {
     performer::Performer performer(sending(2, {2, 12, 23}));
     m_stage.perform(performer, 0, 60);
     EXPECT_EQ(open<CharactersPanel>()->summary(), "2 of 2 good");
-    EXPECT_EQ(open<StatisticsPanel>()->summary(), "6 streams");
+    EXPECT_EQ(open<StatisticsPanel>()->summary(), "all, 0.2 s · 6 streams");
     EXPECT_EQ(open<TrackersPanel>()->summary(), QStringLiteral("Pelvis · 1"));
     EXPECT_EQ(open<MetadataPanel>()->summary(),
               QString::fromStdString(m_stage.session.displayName(m_stage.key()).shown()));

@@ -329,6 +329,42 @@ TEST_F(ViewTest, KeepsWhatTheOperatorChose) {
     EXPECT_EQ(m_session.thresholds(), limits);
 }
 
+TEST_F(ViewTest, AJumpIsUndoneWithTheFilterAndTheSelectionThereWere) {
+    Selection own;
+    own.packet = 7;
+    m_session.setSelection(own);
+    m_session.setDisplayFilter("type == 02");
+    EXPECT_FALSE(m_session.canGoBack());
+    Selection there;
+    there.packet = 99;
+    m_session.jump(there, "type == 02");
+    EXPECT_EQ(m_session.filterJump(), nullptr) << "it kept the operator's filter";
+    there.packet = 120;
+    m_session.jump(there, "gap > 0");
+    ASSERT_NE(m_session.filterJump(), nullptr);
+    EXPECT_EQ(m_session.ownFilter(), "type == 02");
+    there.packet = 130;
+    m_session.jump(there, "duplicate"); // from a jump's filter to another
+    EXPECT_EQ(m_session.ownFilter(), "type == 02");
+    m_session.goBack();
+    EXPECT_EQ(m_session.displayFilter(), "type == 02");
+    EXPECT_EQ(m_session.selection().packet, 99U);
+    m_session.goBack();
+    EXPECT_EQ(m_session.selection(), own);
+    EXPECT_EQ(m_session.displayFilter(), "type == 02");
+    m_session.goBack();
+    EXPECT_EQ(m_session.selection(), own);
+}
+
+TEST_F(ViewTest, AFilterThatIsWrittenAfterAJumpIsTheOperatorsOwn) {
+    m_session.jump({}, "gap > 0");
+    m_session.setDisplayFilter("gap > 1");
+    EXPECT_EQ(m_session.filterJump(), nullptr);
+    EXPECT_EQ(m_session.ownFilter(), "gap > 1");
+    m_session.goBack();
+    EXPECT_EQ(m_session.displayFilter(), "");
+}
+
 TEST_F(ViewTest, KeepsMarksAndCommentsByPacketNumber) {
     m_session.setMarked(5, true);
     m_session.setMarked(5, true);

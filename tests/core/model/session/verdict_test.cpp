@@ -80,6 +80,26 @@ TEST_F(VerdictTest, SaysAtOnceWhatIsNotHereYetAndThenWhatIsLost) {
     EXPECT_EQ(now.incident, number) << "it keeps its number";
 }
 
+TEST_F(VerdictTest, WhatIsNotSettledKeepsItsNumberAndItsStreams) {
+    poses(1, 1'000);
+    EXPECT_TRUE(unsettledIncidents(m_session).empty());
+    m_at += 120ms;
+    poses(1'013, 1'013);
+    follow();
+    const auto unsettled = unsettledIncidents(m_session);
+    ASSERT_EQ(unsettled.size(), 1U);
+    ASSERT_EQ(unsettled[0].incident.parts.size(), 1U);
+    EXPECT_EQ(unsettled[0].incident.parts[0].samples, 12U);
+    EXPECT_EQ(headlineOf(m_session, unsettled[0]), "12 samples of Character 0 not yet here");
+    poses(1'014, 1'050);
+    follow();
+    EXPECT_TRUE(unsettledIncidents(m_session).empty());
+    const Incident* settled = m_session.incidents().find(unsettled[0].incident.number);
+    ASSERT_NE(settled, nullptr);
+    EXPECT_EQ(settled->text(settled->parts[0]), "12 samples lost, 1 gap");
+    EXPECT_EQ(stateOf(m_session, *settled), ListedIncident::State::Ongoing);
+}
+
 TEST_F(VerdictTest, DoesNotClaimLossWhereSamplesAreOutOfOrder) {
     poses(1, 1'000);
     for (std::uint32_t sample = 1'001; sample < 2'000; sample += 10) {

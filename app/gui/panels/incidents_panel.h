@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/models/event_model.h"
+#include "app/gui/models/incident_model.h"
 #include "app/gui/panel.h"
 #include "app/gui/theme/widgets.h"
 
@@ -16,18 +16,18 @@ namespace posewire::gui {
 
 class TableView;
 
-/// What the events dock lists: now or all that happened, which severities and groups, and a text.
-class EventBar final : public QWidget {
+/// What the dock of incidents lists: now or all that happened, which severities and groups, and a text.
+class IncidentBar final : public QWidget {
     Q_OBJECT
 
 public:
-    explicit EventBar(QWidget* parent = nullptr);
+    explicit IncidentBar(QWidget* parent = nullptr);
 
-    void setFilter(const EventModel::Filter& filter);
-    void showCounts(const EventModel::Counts& counts);
+    void setFilter(const IncidentModel::Filter& filter);
+    void showCounts(const IncidentModel::Counts& counts);
 
 signals:
-    void filterChanged(const EventModel::Filter& filter);
+    void filterChanged(const IncidentModel::Filter& filter);
     void seenRequested();
     void exportRequested();
     /// The keyboard is wanted in the list.
@@ -53,13 +53,13 @@ private:
     QMenu* m_groups = nullptr;
 };
 
-/// Dock `events`: what happened and what still lasts, who caused it, and the way to the packets that
-/// show it.
-class EventsPanel : public Panel {
+/// Dock `events`: the incidents, what happened and what still lasts, whose fault it was, each with the
+/// streams that it touched, and the way to the packets that show it.
+class IncidentsPanel : public Panel {
     Q_OBJECT
 
 public:
-    EventsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+    IncidentsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
 
     [[nodiscard]] static std::span<const ActionInfo> actionTable();
 
@@ -68,9 +68,11 @@ public:
     [[nodiscard]] QJsonObject state() const override;
     void restoreState(const QJsonObject& state) override;
 
-    /// Selects the packet of an event and shows it in the dock of packets, among its like.
-    void jump(const QModelIndex& index);
-    /// Saves the listed events in the format of the name's suffix. Returns what went wrong, empty for
+    /// Shows the packets of an incident, or of what it was to one stream, in the dock of packets.
+    void jump(const QModelIndex& index, PacketLook look = PacketLook::InContext);
+    /// Of the current row, and nothing else.
+    void showOnlyCurrent();
+    /// Saves the listed incidents in the format of the name's suffix. Returns what went wrong, empty for
     /// nothing.
     [[nodiscard]] QString save(const QString& path);
     [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
@@ -78,7 +80,7 @@ public:
     [[nodiscard]] QString message() const { return m_message->said(); }
 
     void exportFile();
-    void markSeen() { m_events.markSeen(); }
+    void markSeen() { m_incidents.markSeen(); }
     void newest();
 
 protected:
@@ -87,21 +89,21 @@ protected:
 private:
     void connectParts();
     void addActions(QMenu& menu, const QModelIndex& index);
-    void applyFilter(const EventModel::Filter& filter);
+    void applyFilter(const IncidentModel::Filter& filter);
     void setFollowing(bool isFollowing);
     void placeChip();
     void showAskedFor();
     void keepCurrent();
     void showEmptyState();
 
-    EventModel m_events;
-    EventBar* m_bar;
+    IncidentModel m_incidents;
+    IncidentBar* m_bar;
     TableView* m_table;
     QPushButton* m_chip;
     PassingMessage* m_message;
-    std::optional<std::uint64_t> m_askedFor;     ///< of what was selected when it was last looked at
-    std::optional<std::uint64_t> m_currentEvent; ///< of the current row, kept while rows come and go
-    int m_missed = 0;                            ///< came since following ended
+    std::optional<std::uint64_t> m_askedFor; ///< of what was selected when it was last looked at
+    std::optional<std::uint64_t> m_current;  ///< of the current row, kept while rows come and go
+    int m_missed = 0;                        ///< came since following ended
     bool m_isFollowing = true;
     bool m_isRefreshing = false;
 };

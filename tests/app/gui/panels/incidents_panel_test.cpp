@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/events_panel.h"
+#include "app/gui/panels/incidents_panel.h"
 
 #include "app/gui/panels/table_view.h"
 #include "tests/app/gui/models/stage.h"
@@ -26,9 +26,9 @@ public:
     QString shown;
 };
 
-class EventsPanelTest : public testing::Test {
+class IncidentsPanelTest : public testing::Test {
 protected:
-    EventsPanelTest() {
+    IncidentsPanelTest() {
         m_panel.resize(900, 260);
         m_panel.show();
         perform(0, 240, 60, 63);
@@ -51,7 +51,7 @@ protected:
     [[nodiscard]] QModelIndex rowWith(const QString& text) const {
         const QAbstractItemModel* model = m_table->model();
         for (int row = 0; row < model->rowCount(); ++row) {
-            if (model->index(row, EventModel::kText).data().toString().contains(text)) {
+            if (model->index(row, IncidentModel::kText).data().toString().contains(text)) {
                 return model->index(row, 0);
             }
         }
@@ -64,23 +64,79 @@ protected:
     Stage m_stage;
     DockCommands m_commands{m_stage.session};
     performer::Performer m_performer{sending(1, {2}, 60.0)};
-    EventsPanel m_panel{m_stage.session, m_commands, nullptr};
+    IncidentsPanel m_panel{m_stage.session, m_commands, nullptr};
     TableView* m_table = m_panel.findChild<TableView*>();
     int m_sender = 0;
 };
 
-TEST_F(EventsPanelTest, EnterOnAGapShowsItsPackets) {
+TEST_F(IncidentsPanelTest, EnterOnAGapShowsItsPackets) {
     const QModelIndex gap = rowWith(QStringLiteral("samples lost"));
     ASSERT_TRUE(gap.isValid());
     m_table->setCurrentIndex(gap);
     QTest::keyClick(m_table, Qt::Key_Return);
     EXPECT_EQ(m_commands.shown, QStringLiteral("packets"));
-    EXPECT_NE(m_stage.session.displayFilter().find("gap > 0"), std::string::npos);
+    EXPECT_EQ(m_stage.session.displayFilter(), "") << "its packets in their context";
     ASSERT_TRUE(m_stage.session.selection().packet.has_value());
     EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 3U);
 }
 
-TEST_F(EventsPanelTest, SummaryTellsWhatGoesOnAndWhatIsNew) {
+TEST_F(IncidentsPanelTest, AJumpKeepsTheFilterOfTheOperator) {
+    m_stage.session.setDisplayFilter("type == 02");
+    m_panel.jump(rowWith(QStringLiteral("samples lost")));
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02");
+    EXPECT_EQ(m_stage.session.filterJump(), nullptr);
+    m_stage.session.goBack();
+    EXPECT_FALSE(m_stage.session.selection().packet.has_value());
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 02");
+}
+
+TEST_F(IncidentsPanelTest, AFilterThatHidesThePacketIsWidenedAndComesBack) {
+    m_stage.session.setDisplayFilter("type == 20");
+    m_panel.jump(rowWith(QStringLiteral("samples lost")));
+    const std::string filter = m_stage.session.displayFilter();
+    EXPECT_TRUE(filter.starts_with("type == 20 || gap > 0 && type == 02")) << filter;
+    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
+    EXPECT_TRUE(
+        isListed(m_stage.session, QString::fromStdString(filter), *m_stage.session.selection().packet));
+    EXPECT_EQ(m_stage.session.ownFilter(), "type == 20");
+    m_stage.session.goBack();
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 20");
+}
+
+TEST_F(IncidentsPanelTest, ShowsOnlyItsPacketsWhereThatIsAskedFor) {
+    m_stage.session.setDisplayFilter("type == 02");
+    m_table->setCurrentIndex(rowWith(QStringLiteral("samples lost")));
+    m_panel.showOnlyCurrent();
+    EXPECT_TRUE(m_stage.session.displayFilter().starts_with("gap > 0 && type == 02"));
+    EXPECT_EQ(m_stage.session.ownFilter(), "type == 02");
+    EXPECT_EQ(m_commands.shown, QStringLiteral("packets"));
+}
+
+TEST_F(IncidentsPanelTest, AStreamOfAnIncidentLeadsToItsOwnPackets) {
+    performer::Performer performer(sending(2, {20, 21}, 60.0));
+    m_stage.perform(performer, 240, 480, [](std::uint64_t frame) { return frame < 300 || frame >= 310; });
+    m_stage.follow();
+    m_panel.refresh();
+    const QAbstractItemModel* model = m_table->model();
+    int seen = 0;
+    for (int row = 0; row < model->rowCount(); ++row) {
+        const QModelIndex whole = model->index(row, 0);
+        for (int part = 0; part < model->rowCount(whole); ++part) {
+            m_panel.jump(model->index(part, 0, whole));
+            const auto packet = m_stage.session.selection().packet;
+            ASSERT_TRUE(packet.has_value());
+            const auto* digest = m_stage.session.digests().find(*packet);
+            const QString what = model->index(part, IncidentModel::kText, whole).data().toString();
+            const QString type = QStringLiteral("%1 ").arg(int{digest->type}, 2, 10, QLatin1Char('0'));
+            EXPECT_TRUE(what.startsWith(type)) << what.toStdString();
+            EXPECT_GT(digest->gap, 0U);
+            ++seen;
+        }
+    }
+    EXPECT_GE(seen, 4);
+}
+
+TEST_F(IncidentsPanelTest, SummaryTellsWhatGoesOnAndWhatIsNew) {
     const QString summary = m_panel.summary();
     EXPECT_TRUE(summary.contains(QStringLiteral(" current · "))) << summary.toStdString();
     EXPECT_FALSE(summary.contains(QStringLiteral("new")));
@@ -89,7 +145,7 @@ TEST_F(EventsPanelTest, SummaryTellsWhatGoesOnAndWhatIsNew) {
     EXPECT_TRUE(m_panel.summary().endsWith(QStringLiteral("1 new"))) << m_panel.summary().toStdString();
 }
 
-TEST_F(EventsPanelTest, FollowsTheNewestUntilARowIsSelected) {
+TEST_F(IncidentsPanelTest, FollowsTheNewestUntilARowIsSelected) {
     sendForeign(40);
     QScrollBar* bar = m_table->verticalScrollBar();
     EXPECT_GT(bar->maximum(), 0);
@@ -107,23 +163,23 @@ TEST_F(EventsPanelTest, FollowsTheNewestUntilARowIsSelected) {
     EXPECT_EQ(bar->value(), bar->maximum());
 }
 
-TEST_F(EventsPanelTest, ButtonsFilterAndAreRemembered) {
+TEST_F(IncidentsPanelTest, ButtonsFilterAndAreRemembered) {
     button("notes")->click();
     EXPECT_FALSE(rowWith(QStringLiteral("A sender started")).isValid());
     EXPECT_TRUE(rowWith(QStringLiteral("samples lost")).isValid());
-    EventsPanel again(m_stage.session, m_commands, nullptr);
+    IncidentsPanel again(m_stage.session, m_commands, nullptr);
     again.restoreState(m_panel.state());
     EXPECT_EQ(again.state(), m_panel.state());
     EXPECT_FALSE(again.state().isEmpty());
     auto* text = m_panel.findChild<QLineEdit*>(QStringLiteral("eventText"));
     QTest::keyClicks(text, QStringLiteral("nothing has such a text"));
     EXPECT_EQ(m_table->model()->rowCount(), 0);
-    EXPECT_TRUE(m_table->accessibleDescription().contains(QStringLiteral("No event matches the filter")));
+    EXPECT_TRUE(m_table->accessibleDescription().contains(QStringLiteral("No incident matches the filter")));
     QTest::keyClick(text, Qt::Key_Escape);
     EXPECT_GT(m_table->model()->rowCount(), 0);
 }
 
-TEST_F(EventsPanelTest, SavesByTheEndingAndSaysWhatWentWrong) {
+TEST_F(IncidentsPanelTest, SavesByTheEndingAndSaysWhatWentWrong) {
     const QTemporaryDir folder;
     EXPECT_EQ(m_panel.save(folder.filePath("events.json")), QString());
     QFile json(folder.filePath("events.json"));
@@ -136,7 +192,7 @@ TEST_F(EventsPanelTest, SavesByTheEndingAndSaysWhatWentWrong) {
     EXPECT_TRUE(m_panel.save(folder.filePath("none/events.csv")).contains("cannot be written"));
 }
 
-TEST_F(EventsPanelTest, EveryControlIsReachedByTheKeyboardAndNamed) {
+TEST_F(IncidentsPanelTest, EveryControlIsReachedByTheKeyboardAndNamed) {
     for (const QToolButton* each : m_panel.findChildren<QToolButton*>()) {
         if (!each->objectName().isEmpty()) {
             EXPECT_NE(each->focusPolicy() & Qt::TabFocus, 0) << each->objectName().toStdString();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/gui/panels/events_panel.h"
+#include "app/gui/panels/incidents_panel.h"
 
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
@@ -26,49 +26,49 @@ std::size_t placeOf(model::IncidentSeverity severity) {
 
 } // namespace
 
-EventBar::EventBar(QWidget* parent) : QWidget(parent) {
+IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent) {
     auto* row = spacedRow({8, 6, 8, 6}, 6, this);
     m_current =
-        addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what still lasts, or may"));
+        addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what still goes on, or may"));
     m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
     auto* group = new QButtonGroup(this);
     for (QToolButton* button : {m_current, m_history}) {
         button->setCheckable(true);
         group->addButton(button);
     }
-    connect(m_current, &QToolButton::toggled, this, &EventBar::change);
+    connect(m_current, &QToolButton::toggled, this, &IncidentBar::change);
     addSeverities();
     m_text = new QLineEdit(this);
     m_text->setObjectName(QStringLiteral("eventText"));
-    m_text->setAccessibleName(tr("Text to filter events by"));
+    m_text->setAccessibleName(tr("Text to filter incidents by"));
     m_text->setPlaceholderText(tr("Filter"));
     m_text->setClearButtonEnabled(true);
     m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 8);
     m_text->installEventFilter(this);
-    connect(m_text, &QLineEdit::textChanged, this, &EventBar::change);
+    connect(m_text, &QLineEdit::textChanged, this, &IncidentBar::change);
     row->addWidget(m_text, 1);
     addCommands();
     setFilter({});
 }
 
 /// In a narrow dock they give way first, into a menu.
-void EventBar::addCommands() {
+void IncidentBar::addCommands() {
     auto* commands = new CommandBar(this);
     addGroups(*commands);
     connect(commands->addCommand(
                 QStringLiteral("markSeen"), tr("Mark seen"),
-                tr("Mark all events so far as seen: they are dimmed and no longer counted as new")),
-            &QAction::triggered, this, &EventBar::seenRequested);
+                tr("Mark all incidents so far as seen: they are dimmed and no longer counted as new")),
+            &QAction::triggered, this, &IncidentBar::seenRequested);
     connect(commands->addCommand(QStringLiteral("exportEvents"), tr("Export…"),
-                                 tr("Save the listed events as CSV or JSON")),
-            &QAction::triggered, this, &EventBar::exportRequested);
+                                 tr("Save the listed incidents as CSV or JSON")),
+            &QAction::triggered, this, &IncidentBar::exportRequested);
     for (QToolButton* button : commands->findChildren<QToolButton*>()) {
         button->installEventFilter(this);
     }
     layout()->addWidget(commands);
 }
 
-QToolButton* EventBar::addButton(const QString& name, const QString& text, const QString& toolTip) {
+QToolButton* IncidentBar::addButton(const QString& name, const QString& text, const QString& toolTip) {
     QToolButton* button = framedButton(text, toolTip, this);
     button->setObjectName(name);
     button->setFocusPolicy(Qt::StrongFocus);
@@ -77,7 +77,7 @@ QToolButton* EventBar::addButton(const QString& name, const QString& text, const
     return button;
 }
 
-void EventBar::addSeverities() {
+void IncidentBar::addSeverities() {
     const std::array<std::pair<const char*, QString>, 3> texts{
         {{"notes", tr("Show notes")}, {"warnings", tr("Show warnings")}, {"errors", tr("Show errors")}}};
     for (const model::IncidentSeverity severity : kSeverities) {
@@ -85,28 +85,28 @@ void EventBar::addSeverities() {
         QToolButton* button = addButton(QLatin1String(name), {}, toolTip);
         button->setAccessibleName(toolTip);
         button->setCheckable(true);
-        connect(button, &QToolButton::toggled, this, &EventBar::change);
+        connect(button, &QToolButton::toggled, this, &IncidentBar::change);
         m_severities[placeOf(severity)] = button;
     }
     showCounts({});
     paintSeverities();
 }
 
-void EventBar::addGroups(CommandBar& commands) {
+void IncidentBar::addGroups(CommandBar& commands) {
     m_groupCommand =
-        commands.addCommand(QStringLiteral("eventGroups"), {}, tr("Which groups of events are listed"));
+        commands.addCommand(QStringLiteral("eventGroups"), {}, tr("Which groups of incidents are listed"));
     m_groups = new QMenu(this);
-    for (std::size_t i = 0; i < EventModel::Filter().groups.size(); ++i) {
+    for (std::size_t i = 0; i < IncidentModel::Filter().groups.size(); ++i) {
         QAction* action = m_groups->addAction(groupWord(static_cast<model::IncidentGroup>(i)));
         action->setCheckable(true);
-        connect(action, &QAction::toggled, this, &EventBar::change);
+        connect(action, &QAction::toggled, this, &IncidentBar::change);
     }
     m_groupCommand->setMenu(m_groups);
     qobject_cast<QToolButton*>(commands.widgetForAction(m_groupCommand))
         ->setPopupMode(QToolButton::InstantPopup);
 }
 
-void EventBar::setFilter(const EventModel::Filter& filter) {
+void IncidentBar::setFilter(const IncidentModel::Filter& filter) {
     {
         const QSignalBlocker blocker(this); // each part would announce what is shown so far
         (filter.onlyCurrent ? m_current : m_history)->setChecked(true);
@@ -121,11 +121,11 @@ void EventBar::setFilter(const EventModel::Filter& filter) {
     change();
 }
 
-void EventBar::change() {
+void IncidentBar::change() {
     if (m_groups == nullptr) {
         return; // still being made
     }
-    EventModel::Filter filter;
+    IncidentModel::Filter filter;
     filter.onlyCurrent = m_current->isChecked();
     for (std::size_t i = 0; i < m_severities.size(); ++i) {
         filter.severities[i] = m_severities[i]->isChecked();
@@ -141,14 +141,14 @@ void EventBar::change() {
     emit filterChanged(filter);
 }
 
-void EventBar::showCounts(const EventModel::Counts& counts) {
+void IncidentBar::showCounts(const IncidentModel::Counts& counts) {
     for (const model::IncidentSeverity severity : kSeverities) {
         QToolButton* button = m_severities[placeOf(severity)];
         button->setText(healthText(healthOf(severity), grouped(counts.severities[placeOf(severity)])));
     }
 }
 
-void EventBar::paintSeverities() {
+void IncidentBar::paintSeverities() {
     for (const model::IncidentSeverity severity : kSeverities) {
         const QColor colour =
             severity == model::IncidentSeverity::Info ? theme().dim : healthColour(healthOf(severity));
@@ -162,7 +162,7 @@ void EventBar::paintSeverities() {
     }
 }
 
-bool EventBar::eventFilter(QObject* watched, QEvent* event) {
+bool IncidentBar::eventFilter(QObject* watched, QEvent* event) {
     const bool isPress = event->type() == QEvent::KeyPress;
     if (!isPress && event->type() != QEvent::ShortcutOverride) {
         return QWidget::eventFilter(watched, event);
@@ -188,7 +188,7 @@ bool EventBar::eventFilter(QObject* watched, QEvent* event) {
     return QWidget::eventFilter(watched, event);
 }
 
-void EventBar::changeEvent(QEvent* event) {
+void IncidentBar::changeEvent(QEvent* event) {
     QWidget::changeEvent(event);
     if (event->type() == QEvent::PaletteChange && m_text != nullptr) {
         paintSeverities();

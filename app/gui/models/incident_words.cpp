@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/incident_words.h"
+
+#include "app/gui/models/display_filter.h"
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+using model::IncidentKind;
+
+/// An incident as if it were of one part alone.
+model::Incident partOf(const model::Incident& incident, const model::Incident::Part& part) {
+    model::Incident own = incident;
+    own.parts = {part};
+    own.firstStamp = part.from;
+    own.lastStamp = part.to;
+    return own;
+}
+
+QString lossWords(const model::Incident& incident) {
+    if (incident.samples == 0) {
+        return tr("%1 dropped here").arg(grouped(static_cast<std::uint64_t>(incident.value)));
+    }
+    const QString lost = tr("%1 lost").arg(grouped(incident.samples));
+    return incident.cause && *incident.cause != model::LossCause::Unknown
+               ? lost + QStringLiteral(" · ") + fromUtf8(model::nameOf(*incident.cause))
+               : lost;
+}
+
+} // namespace
+
+Health healthOf(model::IncidentSeverity severity) {
+    constexpr std::array kHealths{Health::Good, Health::Warning, Health::Error}; // by IncidentSeverity
+    return kHealths[static_cast<std::size_t>(severity)];
+}
+
+QString severityWord(model::IncidentSeverity severity) {
+    const std::array words{tr("note"), tr("warning"), tr("error")}; // by IncidentSeverity
+    return words[static_cast<std::size_t>(severity)];
+}
+
+QString groupWord(model::IncidentGroup group) {
+    const std::array words{tr("Sender"), tr("Loss"), tr("Content"), tr("Limit")}; // by IncidentGroup
+    return words[static_cast<std::size_t>(group)];
+}
+
+QString whoseWords(model::SessionView& view, const model::Incident& incident) {
+    const std::vector<std::uint8_t> characters = incident.characters();
+    if (characters.empty()) {
+        return shown(view.addressOf(incident.sender));
+    }
+    const QString name = characters.size() == 1 ? characterName(view, {incident.sender, characters.front()})
+                                                : tr("%1 characters").arg(grouped(characters.size()));
+    const auto type = incident.type();
+    return type ? name + QStringLiteral(" · ") + QString::fromStdString(wire::typeDigits(*type)) : name;
+}
+
+QString whoseWords(model::SessionView& view, const model::Incident& incident,
+                   const model::Incident::Part& part) {
+    if (!part.character) {
+        return shown(view.addressOf(incident.sender));
+    }
+    return characterName(view, {incident.sender, *part.character});
+}
+
+QString briefWords(const model::Incident& incident) {
+    switch (incident.kind) {
+    case IncidentKind::Loss:
+    case IncidentKind::Local:
+        return lossWords(incident);
+    case IncidentKind::Outage:
+        return tr("no data");
+    case IncidentKind::Reordered:
+        return tr("%1 reordered").arg(grouped(incident.count));
+    case IncidentKind::Duplicates:
+        return tr("%1 doubled").arg(grouped(incident.count));
+    case IncidentKind::Malformed:
+        return tr("%1 malformed").arg(grouped(incident.count));
+    case IncidentKind::Foreign:
+        return tr("%1 foreign").arg(grouped(incident.count));
+    case IncidentKind::TimeCode:
+        return incident.value == 0 ? tr("time code stands still")
+                                   : tr("time code %1 ms").arg(signedFixed(incident.value, 0));
+    case IncidentKind::AgeLimit:
+        return tr("stale");
+    case IncidentKind::LossLimit:
+        return tr("loss %1 %").arg(fixed(incident.value, 1));
+    case IncidentKind::JitterLimit:
+        return tr("jitter %1 ms").arg(fixed(incident.value, 1));
+    case IncidentKind::GapLimit:
+        return tr("gap %1 ms").arg(fixed(incident.value, 0));
+    case IncidentKind::RateLimit:
+        return tr("rate off %1 %").arg(fixed(incident.value, 0));
+    default:
+        return fromUtf8(model::nameOf(incident.kind));
+    }
+}
+
+std::optional<std::uint64_t> incidentPacket(model::SessionView& view, const model::Incident& incident) {
+    // Conditions that last are found by the clock: no packet is theirs.
+    if (incident.kind == IncidentKind::Outage || incident.kind >= IncidentKind::LossLimit) {
+        const std::uint64_t after = view.packetFrom(incident.firstStamp + log::Duration(1));
+        return after == view.begin() ? std::nullopt : std::optional(after - 1);
+    }
+    return incident.lastPacket >= view.begin() && incident.lastPacket < view.end()
+               ? std::optional(incident.lastPacket)
+               : std::nullopt;
+}
+
+PacketsBehind packetsBehind(model::SessionView& view, const model::Incident& incident,
+                            const model::Incident::Part* part) {
+    const model::Incident own = part != nullptr ? partOf(incident, *part) : incident;
+    PacketsBehind behind{packetFilterOf(view, own)};
+    behind.type = own.type();
+    behind.character = own.character();
+    const bool isSilence = own.kind == IncidentKind::Outage && (own.isCurrent || own.samples == 0);
+    const bool isSettled = own.lastPacket != 0;
+    if (isSilence || (isSettled && part == nullptr) || own.group() == model::IncidentGroup::Limit) {
+        behind.packet = incidentPacket(view, own);
+    }
+    return behind;
+}
+
+bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Incident& incident) {
+    return showPackets(view, commands, packetsBehind(view, incident), PacketLook::InContext);
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/packet_jump.h"
+#include "app/gui/theme/theme.h"
+#include "core/model/incidents/incident.h"
+
+/// Incidents as the window shows them, wherever it does.
+namespace posewire::gui {
+
+[[nodiscard]] Health healthOf(model::IncidentSeverity severity);
+/// "error", "warning", "note".
+[[nodiscard]] QString severityWord(model::IncidentSeverity severity);
+[[nodiscard]] QString groupWord(model::IncidentGroup group);
+
+/// Whose incident it is: "Mira Lin · 02", "Factory", or the address where it is of no character.
+[[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& incident);
+/// "Mira Lin", or the address.
+[[nodiscard]] QString whoseWords(model::SessionView& view, const model::Incident& incident,
+                                 const model::Incident::Part& part);
+
+/// A few words for a cell or a chip: "31 lost · network", "jitter 12.1 ms", "stale".
+[[nodiscard]] QString briefWords(const model::Incident& incident);
+
+/// The packet where the newest of it is to be seen: its own, or the last one before where it has none.
+/// Nothing where the log has dropped it.
+[[nodiscard]] std::optional<std::uint64_t> incidentPacket(model::SessionView& view,
+                                                          const model::Incident& incident);
+
+/// What shows an incident, or one part of it.
+[[nodiscard]] PacketsBehind packetsBehind(model::SessionView& view, const model::Incident& incident,
+                                          const model::Incident::Part* part = nullptr);
+
+/// Goes to that packet in its context; see showPackets().
+bool showPacketsOf(model::SessionView& view, Commands& commands, const model::Incident& incident);
+
+} // namespace posewire::gui

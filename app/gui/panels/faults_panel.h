@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/fault_model.h"
+#include "app/gui/panel.h"
+#include "app/gui/panels/span_bar.h"
+#include "app/gui/panels/table_view.h"
+#include "app/gui/theme/widgets.h"
+
+#include <optional>
+#include <vector>
+
+namespace posewire::gui {
+
+/// Dock `faults`: how much each character lost, and whose fault it was, over the time that was chosen for all
+/// figures.
+class FaultsPanel : public Panel {
+    Q_OBJECT
+
+public:
+    FaultsPanel(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    void refresh() override;
+    [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QJsonObject state() const override { return m_table->columns().state(); }
+    void restoreState(const QJsonObject& state) override { m_table->columns().restore(state); }
+
+    /// Shows the packets that a cell counts in the dock of packets.
+    void showPackets(const QModelIndex& cell, PacketLook look);
+
+protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+    void connectParts();
+    void addActions(QMenu& menu, const QModelIndex& index);
+    void select(const QModelIndex& index);
+    void keepPlace();
+    void restorePlace();
+
+    FaultModel m_faults;
+    ElidedLabel* m_span;
+    SpanBar* m_choice;
+    TableView* m_table;
+    PassingMessage* m_message;
+    // While the model is reset:
+    std::vector<FaultRow> m_opened;
+    std::optional<FaultRow> m_current;
+    int m_currentColumn = 0;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/incidents_panel.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/panels/table_view.h"
+#include "app/gui/saving.h"
+
+#include <QEvent>
+#include <QHeaderView>
+#include <QJsonArray>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QPushButton>
+#include <QScopedValueRollback>
+#include <QScrollBar>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kMessageMs = 6000;
+
+QJsonArray flagsOf(std::span<const bool> flags) {
+    QJsonArray array;
+    for (const bool flag : flags) {
+        array.append(flag);
+    }
+    return array;
+}
+
+/// Flags that are not there stay as they are.
+void readFlags(const QJsonValue& value, std::span<bool> flags) {
+    const QJsonArray array = value.toArray();
+    for (std::size_t i = 0; i < flags.size(); ++i) {
+        flags[i] = array.at(static_cast<qsizetype>(i)).toBool(flags[i]);
+    }
+}
+
+bool isEnd(const QEvent& event) {
+    const bool isKey = event.type() == QEvent::KeyPress || event.type() == QEvent::ShortcutOverride;
+    return isKey && static_cast<const QKeyEvent&>(event).key() == Qt::Key_End &&
+           static_cast<const QKeyEvent&>(event).modifiers() == Qt::NoModifier;
+}
+
+} // namespace
+
+IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(view, commands, parent),
+      m_incidents(view),
+      m_bar(new IncidentBar(this)),
+      m_table(new TableView(tr("Incidents"), commands, this)),
+      m_chip(new QPushButton(m_table)),
+      m_message(new PassingMessage(kMessageMs, this)) {
+    auto* column = tightColumn(this);
+    column->addWidget(m_bar);
+    column->addWidget(new Line(this));
+    column->addWidget(m_table, 1);
+    column->addWidget(m_message);
+    m_chip->setObjectName(QStringLiteral("newestEvent"));
+    m_chip->setFocusPolicy(Qt::NoFocus); // the End key does the same
+    m_chip->setToolTip(tr("Go to the newest incident and follow (End)"));
+    m_chip->hide();
+    m_message->setForegroundRole(QPalette::PlaceholderText);
+    m_message->setContentsMargins(10, 3, 10, 4);
+    m_table->setModel(&m_incidents);
+    m_table->setColumnSamples({QStringLiteral("      ▲ warning"), QStringLiteral("10:42:17.508"),
+                               QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
+                               QStringLiteral("this computer"), QStringLiteral("not settled"),
+                               QStringLiteral("99 999"), QStringLiteral("metadata change"),
+                               QStringLiteral("Content")},
+                              QStringLiteral("1055 samples lost in 1029 "));
+    m_table->setRootIsDecorated(true);
+    // Whose fault it was stays longest beside what happened, which tells the rest.
+    m_table->columns().setGivingWay({IncidentModel::kGroup, IncidentModel::kKind, IncidentModel::kCount,
+                                     IncidentModel::kLost, IncidentModel::kTime, IncidentModel::kLasted,
+                                     IncidentModel::kCause});
+    connectParts();
+    showEmptyState();
+}
+
+std::span<const ActionInfo> IncidentsPanel::actionTable() {
+    static constexpr ActionInfo kActions[] = {
+        {"exportEvents", QT_TRANSLATE_NOOP("Action", "&File"),
+         QT_TRANSLATE_NOOP("Action", "Export &incidents…"), "",
+         ActionsOf<IncidentsPanel>::call<&IncidentsPanel::exportFile>},
+        {"onlyIncident", "&Go", QT_TRANSLATE_NOOP("Action", "Show only the &incident's packets"),
+         "Ctrl+Return", ActionsOf<IncidentsPanel>::call<&IncidentsPanel::showOnlyCurrent>},
+    };
+    return kActions;
+}
+
+void IncidentsPanel::connectParts() {
+    connect(m_bar, &IncidentBar::filterChanged, this, &IncidentsPanel::applyFilter);
+    connect(m_bar, &IncidentBar::seenRequested, this, &IncidentsPanel::markSeen);
+    connect(m_bar, &IncidentBar::exportRequested, this, &IncidentsPanel::exportFile);
+    connect(m_bar, &IncidentBar::left, m_table, qOverload<>(&QWidget::setFocus));
+    connect(m_table, &QAbstractItemView::activated, this, [this](const QModelIndex& row) { jump(row); });
+    connect(m_table, &TableView::menuRequested, this, &IncidentsPanel::addActions);
+    connect(m_table->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
+            [this](const QModelIndex& index) {
+                const auto line = m_isRefreshing ? std::nullopt : m_incidents.line(index);
+                if (line) {
+                    m_current = line->incident().number;
+                    setFollowing(false);
+                }
+            });
+    connect(m_table->verticalScrollBar(), &QScrollBar::valueChanged, this, [this](int value) {
+        if (!m_isRefreshing) {
+            setFollowing(value == m_table->verticalScrollBar()->maximum() && !m_current);
+        }
+    });
+    connect(&m_incidents, &QAbstractItemModel::rowsInserted, this,
+            [this](const QModelIndex& parent, int first, int last) {
+                m_missed += parent.isValid() ? 0 : last - first + 1;
+            });
+    connect(m_chip, &QPushButton::clicked, this, &IncidentsPanel::newest);
+    m_table->installEventFilter(this);
+    m_table->header()->installEventFilter(this);
+}
+
+void IncidentsPanel::refresh() {
+    const QScopedValueRollback guard(m_isRefreshing, true);
+    m_incidents.refresh();
+    m_bar->showCounts(m_incidents.counts());
+    showAskedFor();
+    keepCurrent();
+    showEmptyState();
+    if (m_isFollowing) {
+        m_missed = 0;
+        m_table->scrollToBottom();
+    }
+    placeChip();
+}
+
+/// What somebody elsewhere asked for, once.
+void IncidentsPanel::showAskedFor() {
+    const std::optional<std::uint64_t> incident = m_view.selection().incident;
+    if (std::exchange(m_askedFor, incident) == incident || !incident) {
+        return;
+    }
+    if (const QModelIndex row = m_incidents.indexOf(*incident); row.isValid()) {
+        m_current = incident;
+        setFollowing(false);
+        m_table->setCurrentIndex(row);
+        m_table->scrollTo(m_table->currentIndex(), QAbstractItemView::PositionAtCenter);
+    }
+}
+
+/// A reset of the model takes the current row.
+void IncidentsPanel::keepCurrent() {
+    if (!m_current || m_table->currentIndex().isValid()) {
+        return;
+    }
+    if (const QModelIndex row = m_incidents.indexOf(*m_current); row.isValid()) {
+        m_table->setCurrentIndex(row);
+    }
+}
+
+void IncidentsPanel::applyFilter(const IncidentModel::Filter& filter) {
+    const QScopedValueRollback guard(m_isRefreshing, true);
+    m_incidents.setFilter(filter);
+    m_missed = 0;
+    keepCurrent();
+    showEmptyState();
+    placeChip();
+}
+
+void IncidentsPanel::setFollowing(bool isFollowing) {
+    if (isFollowing != m_isFollowing) {
+        m_isFollowing = isFollowing;
+        m_missed = 0;
+        placeChip();
+    }
+}
+
+void IncidentsPanel::newest() {
+    m_current.reset();
+    m_table->selectionModel()->clear();
+    m_table->scrollToBottom();
+    setFollowing(true);
+}
+
+void IncidentsPanel::placeChip() {
+    const QHeaderView* header = m_table->header();
+    m_chip->setVisible(!m_isFollowing && m_incidents.rowCount() > 0);
+    m_chip->setText(m_missed == 0 ? tr("↓ Follow")
+                                  : tr("↓ %1 new").arg(grouped(static_cast<std::uint64_t>(m_missed))));
+    // In the line of column titles it covers no row.
+    m_chip->resize(m_chip->sizeHint().width(), header->height() - 2);
+    m_chip->move(header->geometry().right() - m_chip->width(), header->y());
+    m_chip->raise();
+}
+
+void IncidentsPanel::showEmptyState() {
+    const bool isAll = m_view.incidents().all().empty();
+    const IncidentModel::Filter& filter = m_incidents.filter();
+    m_table->setEmptyText(
+        isAll ? tr("No incidents.\nLosses and whose they are, outages, restarts, malformed data, changes and "
+                   "exceeded limits are listed here.")
+        : filter.onlyCurrent && m_incidents.counts().current == 0
+            ? tr("No incident goes on now. Earlier ones are under History.")
+            : tr("No incident matches the filter."));
+}
+
+void IncidentsPanel::jump(const QModelIndex& index, PacketLook look) {
+    const auto line = m_incidents.line(index);
+    if (line &&
+        !showPackets(m_view, m_commands, packetsBehind(m_view, line->incident(), line->part()), look)) {
+        m_message->say(noPacketsText());
+    }
+}
+
+void IncidentsPanel::showOnlyCurrent() {
+    if (m_table->currentIndex().isValid()) {
+        jump(m_table->currentIndex(), PacketLook::Alone);
+    } else {
+        m_message->say(tr("No incident is selected."));
+    }
+}
+
+void IncidentsPanel::addActions(QMenu& menu, const QModelIndex& index) {
+    if (index.isValid()) {
+        const QPersistentModelIndex row(index);
+        menu.addAction(tr("Show the packets"), this, [this, row] { jump(row); });
+        menu.addAction(tr("Show only these packets"), this, [this, row] { jump(row, PacketLook::Alone); });
+        menu.addSeparator();
+    }
+    menu.addAction(tr("Mark all as seen"), this, &IncidentsPanel::markSeen);
+    menu.addAction(tr("Export…"), this, &IncidentsPanel::exportFile);
+    menu.addSeparator();
+    for (const auto& format : exporting::formats<exporting::EventSheet>()) {
+        const QString text = tr("Copy all as %1").arg(QLatin1String(format.title));
+        menu.addAction(text, this, [this, write = format.write] {
+            m_commands.copyText(QString::fromStdString(write({m_view, m_incidents.listed()})));
+        });
+    }
+}
+
+void IncidentsPanel::exportFile() {
+    const QString path = askWhereToSave(this, tr("Export incidents"), QStringLiteral("incidents.csv"),
+                                        fileFilters<exporting::EventSheet>());
+    if (!path.isEmpty()) {
+        const QString problem = save(path);
+        m_message->say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
+    }
+}
+
+QString IncidentsPanel::save(const QString& path) {
+    const auto& format = exporting::formatFor<exporting::EventSheet>(path.toStdString());
+    return saveFile(path, format.write({m_view, m_incidents.listed()}));
+}
+
+QString IncidentsPanel::summary() const {
+    const IncidentModel::Counts counts = m_incidents.counts();
+    if (counts.all == 0) {
+        return {};
+    }
+    const QString text = tr("%1 current · %2").arg(grouped(counts.current), grouped(counts.all));
+    return counts.unseen == 0 || counts.unseen == counts.all
+               ? text
+               : text + QStringLiteral(" · ") + tr("%1 new").arg(grouped(counts.unseen));
+}
+
+QJsonObject IncidentsPanel::state() const {
+    QJsonObject state = m_table->columns().state();
+    const IncidentModel::Filter& filter = m_incidents.filter();
+    const IncidentModel::Filter shipped;
+    if (filter.onlyCurrent) {
+        state["current"] = true;
+    }
+    if (filter.severities != shipped.severities) {
+        state["severities"] = flagsOf(filter.severities);
+    }
+    if (filter.groups != shipped.groups) {
+        state["groups"] = flagsOf(filter.groups);
+    }
+    return state;
+}
+
+void IncidentsPanel::restoreState(const QJsonObject& state) {
+    IncidentModel::Filter filter;
+    filter.onlyCurrent = state["current"].toBool();
+    readFlags(state["severities"], filter.severities);
+    readFlags(state["groups"], filter.groups);
+    m_bar->setFilter(filter);
+    m_table->columns().restore(state);
+}
+
+bool IncidentsPanel::eventFilter(QObject* watched, QEvent* event) {
+    if (event->type() == QEvent::Resize) {
+        placeChip();
+    } else if (watched == m_table && isEnd(*event)) {
+        // The window's own End goes back to live; here it goes to the newest event.
+        if (event->type() == QEvent::KeyPress) {
+            newest();
+        }
+        event->accept();
+        return true;
+    }
+    return Panel::eventFilter(watched, event);
+}
+
+} // namespace posewire::gui

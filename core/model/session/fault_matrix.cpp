@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/fault_matrix.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
+namespace posewire::model {
+namespace {
+
+FaultCounts countsOf(const Losses& losses, const Stream& stream, const std::optional<TimeRange>& range) {
+    FaultCounts counts;
+    counts.lost = losses.of(stream);
+    if (countsSamples(stream.key.type)) {
+        counts.expected = stream.accounting.counts(range).expected();
+    }
+    return counts;
+}
+
+void add(CharacterFaults& character, const log::StreamKey& key, const FaultCounts& counts) {
+    const auto place = std::ranges::lower_bound(character.streams, key.type, {}, &StreamFaults::type);
+    const bool isThere = place != character.streams.end() && place->type == key.type;
+    StreamFaults& stream = isThere ? *place : *character.streams.insert(place, {key.type});
+    stream.counts += counts;
+    stream.streams.push_back(key);
+    character.counts += counts;
+}
+
+} // namespace
+
+std::uint64_t FaultCounts::total() const {
+    return std::accumulate(lost.begin(), lost.end(), std::uint64_t{0});
+}
+
+double FaultCounts::shareOf(std::uint64_t samples) const {
+    return expected == 0 ? 0 : static_cast<double>(samples) / static_cast<double>(expected);
+}
+
+FaultCounts& FaultCounts::operator+=(const FaultCounts& other) {
+    std::ranges::transform(lost, other.lost, lost.begin(), std::plus());
+    expected += other.expected;
+    return *this;
+}
+
+FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRange>& range) {
+    const Losses losses(session, range);
+    FaultMatrix matrix;
+    CharacterFaults unconfirmed;
+    for (const Character& character : session.characters()) {
+        const CharacterKey current = session.current(character.key);
+        auto row = std::ranges::find(matrix.characters, current, &CharacterFaults::current);
+        if (character.isConfirmed && row == matrix.characters.end()) {
+            matrix.characters.push_back({character.key, current});
+            row = matrix.characters.end() - 1;
+        }
+        CharacterFaults& faults = character.isConfirmed ? *row : unconfirmed;
+        for (const Stream* stream : character.streams) {
+            const FaultCounts counts = countsOf(losses, *stream, range);
+            if (countsSamples(stream->key.type) || counts.total() != 0) {
+                add(faults, stream->key, counts);
+                matrix.sum += counts;
+            }
+        }
+    }
+    if (unconfirmed.counts.expected != 0) {
+        matrix.unconfirmed = std::move(unconfirmed);
+    }
+    return matrix;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/faults_panel.h"
+
+#include "tests/app/gui/models/stage.h"
+
+#include <QHeaderView>
+#include <QTest>
+#include <QToolButton>
+
+namespace posewire::gui {
+namespace {
+
+class FaultsPanelTest : public testing::Test {
+protected:
+    FaultsPanelTest() {
+        m_panel.resize(900, 260);
+        m_panel.show();
+    }
+    void perform(std::uint64_t from, std::uint64_t to) {
+        for (std::uint64_t frame = from; frame < to; ++frame) {
+            for (const wire::Datagram& datagram : m_performer.frame(frame)) {
+                if (frame % 50 != 25 || datagram.header.type() != 20) {
+                    m_stage.send(datagram, Stage::kStart + log::durationOf(static_cast<double>(frame) / 100));
+                }
+            }
+        }
+        refresh();
+    }
+    void refresh() {
+        m_stage.follow();
+        m_panel.refresh();
+    }
+    [[nodiscard]] QModelIndex character(int column = 0) const { return m_table->model()->index(1, column); }
+    [[nodiscard]] QToolButton* button(const QString& text) const {
+        for (QToolButton* each : m_panel.findChildren<QToolButton*>()) {
+            if (each->text() == text) {
+                return each;
+            }
+        }
+        return nullptr;
+    }
+
+    Stage m_stage;
+    performer::Performer m_performer{sending(1, {2, 20}, 100.0)};
+    FaultsPanel m_panel{m_stage.session, m_stage.commands, nullptr};
+    TableView* m_table = m_panel.findChild<TableView*>();
+};
+
+TEST_F(FaultsPanelTest, SaysWhyItIsEmpty) {
+    refresh();
+    EXPECT_TRUE(m_table->accessibleDescription().startsWith("No stream received yet."));
+    EXPECT_EQ(m_panel.summary(), "");
+}
+
+TEST_F(FaultsPanelTest, NamesTheSpanAtItsHeadAndSharesItWithTheStatistics) {
+    perform(0, 400);
+    auto* span = m_panel.findChild<ElidedLabel*>("span");
+    EXPECT_EQ(span->text(), QStringLiteral("Samples lost · all, 4.0 s"));
+    EXPECT_FALSE(button("Since reset")->isVisible());
+    EXPECT_FALSE(button("Selection")->isVisible());
+    button("10 s")->click();
+    refresh();
+    EXPECT_EQ(m_stage.session.rangeChoice().last, 10s);
+    EXPECT_EQ(span->text(), QStringLiteral("Samples lost · last 10 s"));
+    m_stage.commands.selectRange({{}, model::TimeRange{Stage::kStart, Stage::kStart + 1s}});
+    refresh();
+    EXPECT_TRUE(button("Selection")->isVisible());
+    EXPECT_TRUE(span->text().contains(QStringLiteral("selection "))) << span->text().toStdString();
+    m_stage.session.resetForTake();
+    refresh();
+    EXPECT_TRUE(button("Since reset")->isVisible());
+    EXPECT_TRUE(button("Since reset")->isChecked());
+}
+
+TEST_F(FaultsPanelTest, EnterOnACellShowsItsPacketsAndKeepsTheFilter) {
+    perform(0, 400);
+    m_stage.commands.setDisplayFilter("type == 20");
+    m_table->setCurrentIndex(character(FaultModel::kNetwork));
+    QTest::keyClick(m_table, Qt::Key_Return);
+    ASSERT_TRUE(m_stage.session.selection().packet.has_value());
+    EXPECT_EQ(m_stage.session.digests().find(*m_stage.session.selection().packet)->gap, 1U);
+    EXPECT_EQ(m_stage.session.displayFilter(), "type == 20");
+    m_panel.showPackets(character(FaultModel::kNetwork), PacketLook::Alone);
+    EXPECT_EQ(m_stage.session.displayFilter(), "character == 0 && gap > 0");
+    EXPECT_EQ(m_stage.session.ownFilter(), "type == 20");
+}
+
+TEST_F(FaultsPanelTest, ACellWithoutLossesLeadsNowhere) {
+    perform(0, 20);
+    m_panel.showPackets(character(FaultModel::kSender), PacketLook::InContext);
+    EXPECT_FALSE(m_stage.session.selection().packet.has_value());
+}
+
+TEST_F(FaultsPanelTest, ArrowsGoFromCellToCellAndOpenRows) {
+    perform(0, 100);
+    m_table->setCurrentIndex(character());
+    m_table->setFocus();
+    QTest::keyClick(m_table, Qt::Key_Right);
+    EXPECT_TRUE(m_table->isExpanded(character()));
+    QTest::keyClick(m_table, Qt::Key_Right);
+    EXPECT_EQ(m_table->currentIndex(), character(FaultModel::kThisComputer));
+    QTest::keyClick(m_table, Qt::Key_Right);
+    QTest::keyClick(m_table, Qt::Key_Left);
+    QTest::keyClick(m_table, Qt::Key_Left);
+    EXPECT_EQ(m_table->currentIndex(), character());
+}
+
+TEST_F(FaultsPanelTest, WhatIsOpenStaysOpenWhenRowsCome) {
+    perform(0, 100);
+    m_table->expand(character());
+    m_table->setCurrentIndex(character(FaultModel::kNetwork));
+    performer::Performer other(sending(1, {2}, 100.0));
+    for (std::uint64_t frame = 100; frame < 200; ++frame) {
+        for (const wire::Datagram& datagram : other.frame(frame)) {
+            m_stage.send(datagram, Stage::kStart + log::durationOf(static_cast<double>(frame) / 100),
+                         "192.168.10.99:5000");
+        }
+    }
+    refresh();
+    EXPECT_EQ(m_table->model()->rowCount(), 3);
+    EXPECT_TRUE(m_table->isExpanded(character()));
+    EXPECT_EQ(m_table->currentIndex(), character(FaultModel::kNetwork));
+}
+
+} // namespace
+} // namespace posewire::gui

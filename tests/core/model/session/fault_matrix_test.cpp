@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/fault_matrix.h"
+
+#include "tests/core/model/incidents/incidents_fixture.h"
+
+#include <functional>
+
+namespace posewire::model {
+namespace {
+
+constexpr auto kNetwork = static_cast<std::size_t>(LossCause::Network);
+constexpr auto kUnknown = static_cast<std::size_t>(LossCause::Unknown);
+
+class FaultMatrixTest : public IncidentsTest {
+protected:
+    /// One sample of a character in types 02 and 20, or in the first alone.
+    void sample(std::uint8_t character, std::uint32_t number, bool isWhole,
+                const std::string& address = "127.0.0.1:40001") {
+        one(character, number, standingAt(0), address);
+        if (isWhole) {
+            one(character, number, wire::JointAngles{}, address);
+        }
+    }
+    void samples(
+        std::uint8_t character, std::uint32_t first, std::uint32_t last,
+        const std::function<bool(std::uint32_t)>& isWhole = [](std::uint32_t) { return true; },
+        const std::string& address = "127.0.0.1:40001") {
+        for (std::uint32_t number = first; number <= last; ++number, m_at += 10ms) {
+            sample(character, number, isWhole(number), address);
+        }
+    }
+    FaultMatrix matrix(const std::optional<TimeRange>& range = {}) {
+        follow();
+        return faultMatrix(m_session, range);
+    }
+
+private:
+    void one(std::uint8_t character, std::uint32_t number, wire::Body body, const std::string& address) {
+        wire::Datagram datagram{{}, std::move(body), {}};
+        datagram.header.sampleCounter = number;
+        datagram.header.character = character;
+        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at, address);
+    }
+};
+
+TEST_F(FaultMatrixTest, IsEmptyBeforeAnythingCame) {
+    EXPECT_TRUE(matrix().characters.empty());
+    EXPECT_FALSE(matrix().unconfirmed.has_value());
+    EXPECT_EQ(matrix().sum.total(), 0U);
+}
+
+TEST_F(FaultMatrixTest, SumsStreamsByCauseAmongWhatWasExpected) {
+    samples(0, 1, 400, [](std::uint32_t number) { return number % 100 != 50; });
+    const FaultMatrix all = matrix();
+    ASSERT_EQ(all.characters.size(), 1U);
+    const CharacterFaults& character = all.characters[0];
+    ASSERT_EQ(character.streams.size(), 2U);
+    EXPECT_EQ(character.streams[0].type, 2);
+    EXPECT_EQ(character.streams[0].counts.total(), 0U);
+    EXPECT_EQ(character.streams[1].counts.lost[kNetwork], 4U);
+    EXPECT_EQ(character.streams[1].counts.expected, 400U);
+    EXPECT_DOUBLE_EQ(character.streams[1].counts.shareOf(4), 0.01);
+    EXPECT_EQ(character.counts.lost[kNetwork], 4U);
+    EXPECT_EQ(all.sum.total(), 4U);
+    EXPECT_EQ(all.sum.expected, 800U);
+}
+
+TEST_F(FaultMatrixTest, CountsOnlyWhatIsInTheRange) {
+    samples(0, 1, 400, [](std::uint32_t number) { return number != 100 && number != 300; });
+    const FaultMatrix half = matrix(TimeRange{log::Stamp(102s), log::Stamp(104s)});
+    EXPECT_EQ(half.sum.lost[kNetwork], 1U);
+    EXPECT_EQ(half.sum.expected, 400U);
+}
+
+TEST_F(FaultMatrixTest, ACharacterIsOneRowThroughARestartOfItsSender) {
+    const auto isWhole = [](std::uint32_t number) { return number != 100; };
+    samples(0, 1, 200, isWhole);
+    m_at += 2s;
+    samples(0, 1, 200, isWhole, "127.0.0.1:40002");
+    const FaultMatrix all = matrix();
+    ASSERT_EQ(all.characters.size(), 1U);
+    EXPECT_EQ(all.characters[0].first, key());
+    EXPECT_EQ(all.characters[0].current, (CharacterKey{sender("127.0.0.1:40002"), 0}));
+    ASSERT_EQ(all.characters[0].streams.size(), 2U);
+    EXPECT_EQ(all.characters[0].streams[1].counts.total(), 2U);
+    EXPECT_EQ(all.characters[0].streams[1].streams.size(), 2U);
+    EXPECT_EQ(all.sum.expected, 800U);
+}
+
+TEST_F(FaultMatrixTest, WhoIsNotConfirmedCountsApart) {
+    samples(0, 1, 300);
+    sample(66, 301, false);
+    samples(0, 302, 400);
+    const FaultMatrix all = matrix();
+    ASSERT_EQ(all.characters.size(), 1U);
+    ASSERT_TRUE(all.unconfirmed.has_value());
+    EXPECT_EQ(all.unconfirmed->counts.expected, 1U);
+}
+
+TEST_F(FaultMatrixTest, SumsUpToWhatTheStreamsLostWhateverTheCause) {
+    samples(0, 1, 300, [](std::uint32_t number) { return number % 7 != 0; });
+    m_at += 100ms;
+    samples(0, 311, 600);
+    LossesByCause lost{};
+    follow();
+    for (const Stream& stream : m_session.streams()) {
+        std::ranges::transform(lost, stream.lostByCause(), lost.begin(), std::plus());
+    }
+    const FaultMatrix all = matrix();
+    EXPECT_EQ(all.sum.lost, lost);
+    EXPECT_EQ(all.sum.lost[kUnknown], 20U);
+}
+
+} // namespace
+} // namespace posewire::model
