@@ -3,14 +3,34 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <numeric>
 
 namespace posewire::model {
 namespace {
 
-FaultCounts countsOf(const Losses& losses, const Stream& stream, const std::optional<TimeRange>& range) {
+using Pending = std::map<log::StreamKey, std::uint64_t>;
+
+Pending pendingOf(const SessionView& session, const std::optional<TimeRange>& range) {
+    Pending pending;
+    session.forEachPending(
+        [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/, log::Stamp to) {
+            if (!range || (to >= range->from && to < range->to)) {
+                pending[stream] += missing;
+            }
+        });
+    return pending;
+}
+
+FaultCounts countsOf(const Losses& losses, const Stream& stream, const Pending& pending,
+                     const std::optional<TimeRange>& range) {
     FaultCounts counts;
     counts.lost = losses.of(stream);
+    if (const auto missing = pending.find(stream.key); missing != pending.end()) {
+        std::uint64_t& unknown = counts.lost[static_cast<std::size_t>(LossCause::Unknown)];
+        counts.pending = std::min(unknown, missing->second);
+        unknown -= counts.pending;
+    }
     if (countsSamples(stream.key.type)) {
         counts.expected = stream.accounting.counts(range).expected();
     }
@@ -38,12 +58,14 @@ double FaultCounts::shareOf(std::uint64_t samples) const {
 
 FaultCounts& FaultCounts::operator+=(const FaultCounts& other) {
     std::ranges::transform(lost, other.lost, lost.begin(), std::plus());
+    pending += other.pending;
     expected += other.expected;
     return *this;
 }
 
 FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRange>& range) {
     const Losses losses(session, range);
+    const Pending pending = pendingOf(session, range);
     FaultMatrix matrix;
     CharacterFaults unconfirmed;
     for (const Character& character : session.characters()) {
@@ -55,7 +77,7 @@ FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRang
         }
         CharacterFaults& faults = character.isConfirmed ? *row : unconfirmed;
         for (const Stream* stream : character.streams) {
-            const FaultCounts counts = countsOf(losses, *stream, range);
+            const FaultCounts counts = countsOf(losses, *stream, pending, range);
             if (countsSamples(stream->key.type) || counts.total() != 0) {
                 add(faults, stream->key, counts);
                 matrix.sum += counts;

@@ -13,6 +13,7 @@ namespace posewire::model {
 /// Samples that did not come whole, by whose loss it was, among those that should have come.
 struct FaultCounts {
     LossesByCause lost{};
+    std::uint64_t pending = 0;  ///< not here yet, and not yet lost: late packets may still bring them
     std::uint64_t expected = 0; ///< 0 also where that is not known: of messages sent again and again
 
     [[nodiscard]] std::uint64_t total() const;

@@ -99,6 +99,20 @@ TEST_F(FaultMatrixTest, WhoIsNotConfirmedCountsApart) {
     EXPECT_EQ(all.unconfirmed->counts.expected, 1U);
 }
 
+TEST_F(FaultMatrixTest, WhatIsNotHereYetIsNobodysLoss) {
+    samples(0, 1, 300);
+    m_at += 50ms;
+    samples(0, 306, 306);
+    FaultMatrix all = matrix();
+    EXPECT_EQ(all.sum.total(), 0U);
+    EXPECT_EQ(all.sum.pending, 10U);
+    EXPECT_EQ(matrix(TimeRange{log::Stamp(100s), log::Stamp(102s)}).sum.pending, 0U);
+    samples(0, 307, 360);
+    all = matrix();
+    EXPECT_EQ(all.sum.total(), 10U);
+    EXPECT_EQ(all.sum.pending, 0U);
+}
+
 TEST_F(FaultMatrixTest, SumsUpToWhatTheStreamsLostWhateverTheCause) {
     samples(0, 1, 300, [](std::uint32_t number) { return number % 7 != 0; });
     m_at += 100ms;
