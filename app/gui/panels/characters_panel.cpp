@@ -93,7 +93,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
                             tr("The worst verdict on top; else in order of appearance"), this)),
       m_detailToggle(toggle(QStringLiteral("detail"), tr("Detail"),
                             tr("The streams of the selected character, and where they come from"), this)),
-      m_span(dimLabel({}, this)),
+      m_span(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)),
       m_table(new TableView(tr("Characters"), commands, this)),
       m_rows(new BoardDelegate(m_table)),
       m_detail(new QWidget(this)),
@@ -147,8 +147,6 @@ void CharactersPanel::addBar() {
     row->addStretch(1);
     row->addWidget(m_span);
     m_span->setObjectName(QStringLiteral("span"));
-    m_span->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    m_span->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
     row->setStretchFactor(m_span, 1);
     static_cast<QVBoxLayout*>(layout())->addLayout(row);
     connect(m_troubleFirst, &QToolButton::clicked, this, &CharactersPanel::setTroubleFirst);
@@ -217,7 +215,7 @@ void CharactersPanel::refresh() {
     } else {
         m_span->setToolTip(toolTipText(tr("The time that the columns of lost samples are of")));
     }
-    m_span->setText(span);
+    m_span->setText({}, span);
     showDetail();
     showEnded();
     fitRows();

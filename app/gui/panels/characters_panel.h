@@ -11,6 +11,7 @@ class QToolButton;
 namespace posewire::gui {
 
 class BoardDelegate;
+class ElidedLabel;
 
 /// Dock `characters`: a board of all performers, a line each, with what each is in detail and which senders
 /// have ended below. Selects for all docks.
@@ -69,7 +70,7 @@ private:
     EndedSenderModel m_endedModel;
     QToolButton* m_troubleFirst;
     QToolButton* m_detailToggle;
-    QLabel* m_span; ///< the time that losses are of
+    ElidedLabel* m_span; ///< the time that losses are of
     TableView* m_table;
     BoardDelegate* m_rows;
     QWidget* m_detail;

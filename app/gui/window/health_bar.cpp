@@ -42,6 +42,14 @@ QString historyText(model::SessionView& session) {
     return HealthBar::tr("history %1").arg(text);
 }
 
+/// What is said of those that have no room.
+QString leftOut(std::size_t all, std::size_t fitting) {
+    if (fitting != 0) {
+        return HealthBar::tr("+ %1 more").arg(grouped(all - fitting));
+    }
+    return all == 1 ? HealthBar::tr("1 character") : HealthBar::tr("%1 characters").arg(grouped(all));
+}
+
 } // namespace
 
 HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* parent)
@@ -81,7 +89,8 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
     }
     m_dropped->setToolTip(
         tr("Datagrams that reached this computer and were dropped because its receive buffer was full."));
-    m_history->setToolTip(tr("How far back the packets in memory go, and how much memory they may use."));
+    m_history->setToolTip(
+        tr("How far back packets can be looked at, in memory or on disk, and how much memory they use."));
 }
 
 void HealthBar::refresh(const ReceivingState& receiving) {
@@ -135,7 +144,7 @@ void HealthBar::fitEntries() {
     const auto all = m_shown.size();
     const bool isAll = static_cast<int>(all) * each <= room;
     const std::size_t fitting =
-        isAll ? all : std::min<std::size_t>(all, std::max(1, (room - reserve) / each));
+        isAll ? all : std::min<std::size_t>(all, std::max(0, (room - reserve) / each));
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
         m_entries[i]->setVisible(i < fitting);
     }
@@ -143,8 +152,7 @@ void HealthBar::fitEntries() {
     // The first that has no room is the worst of them.
     const Health worst =
         fitting < all ? healthOf(m_session.verdict(m_shown[fitting]).state) : Health::Unknown;
-    m_more->setContent(worst == Health::Good ? Health::Unknown : worst,
-                       tr("+ %1 more").arg(grouped(all - fitting)));
+    m_more->setContent(worst == Health::Good ? Health::Unknown : worst, leftOut(all, fitting));
 }
 
 void HealthBar::addEntry() {
@@ -157,7 +165,10 @@ void HealthBar::addEntry() {
 }
 
 QWidget* HealthBar::firstEntry() const {
-    return m_shown.empty() ? nullptr : m_entries.front();
+    if (m_shown.empty()) {
+        return nullptr;
+    }
+    return m_entries.front()->isHidden() ? m_more : m_entries.front();
 }
 
 void HealthBar::explain(const model::CharacterKey& key, QWidget& anchor) {

@@ -111,6 +111,11 @@ TEST(ThresholdsDialogTest, GivesBackWhatItShowsAndTheDefaults) {
 
 class HealthBarTest : public testing::Test {
 protected:
+    HealthBarTest() {
+        m_bar.resize(1'400, 30);
+        m_bar.show();
+    }
+
     void perform(std::uint64_t from, std::uint64_t to, std::uint64_t lostFrom = 0, std::uint64_t lostTo = 0) {
         m_stage.perform(m_performer, from, to,
                         [=](std::uint64_t frame) { return frame < lostFrom || frame >= lostTo; });
@@ -186,6 +191,16 @@ TEST_F(HealthBarTest, ShowsTheWorstFirstAndAllInAList) {
     m_stage.follow();
     m_bar.refresh({});
     EXPECT_EQ(m_bar.firstEntry()->width(), width);
+}
+
+TEST_F(HealthBarTest, ANarrowBarCountsTheCharactersAndNothingOverlaps) {
+    perform(0, 60);
+    m_bar.resize(180, 30);
+    m_bar.show();
+    m_bar.refresh({});
+    auto* more = m_bar.findChild<QAbstractButton*>("more");
+    EXPECT_EQ(m_bar.firstEntry(), more);
+    EXPECT_TRUE(more->text().contains("1 character")) << more->text().toStdString();
 }
 
 TEST_F(HealthBarTest, SaysTheSameAsTheVerdictAlsoWhilePaused) {
