@@ -36,6 +36,7 @@ HistoryDialog::HistoryDialog(SessionDriver& driver, const HistoryChoice& choice,
       m_gigabytes(new QSpinBox(this)) {
     setWindowTitle(tr("History"));
     m_isOnDisk->setChecked(choice.isOnDisk);
+    m_gigabytes->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_gigabytes->setRange(1, HistoryChoice::kMostGigabytes);
     m_gigabytes->setSuffix(tr(" GB"));
     m_gigabytes->setValue(choice.gigabytes);
