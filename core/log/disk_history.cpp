@@ -4,13 +4,11 @@
 #include "core/log/output_file.h"
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <filesystem>
 #include <string_view>
 #include <utility>
 
-#include <signal.h>
 #include <unistd.h>
 
 namespace posewire::log {
@@ -21,23 +19,15 @@ namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kPause{50};
 constexpr std::uint64_t kLeastFile = std::uint64_t{1} << 20;
 
-// "history-<process>-<file>.pcapng"
+// "history-<process>-<file>.pcapng": the process is for whoever looks into the folder, no more. Its number
+// may be used again.
 constexpr std::string_view kPrefix = "history-";
 constexpr std::string_view kSuffix = ".pcapng";
 
-/// Of the file; nothing where the name is not one of ours.
-std::optional<int> processOf(std::string_view name) {
-    if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) {
-        return std::nullopt;
-    }
-    int process = 0;
-    const char* begin = name.data() + kPrefix.size();
-    const auto [end, error] = std::from_chars(begin, name.data() + name.size(), process);
-    return error == std::errc() && process > 0 && *end == '-' ? std::optional(process) : std::nullopt;
-}
-
-bool isRunning(int process) {
-    return ::kill(process, 0) == 0 || errno == EPERM;
+bool isHistory(const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    std::error_code failed;
+    return name.starts_with(kPrefix) && name.ends_with(kSuffix) && entry.is_regular_file(failed);
 }
 
 } // namespace
@@ -126,22 +116,35 @@ DiskHistory::Result DiskHistory::beginFile(std::uint64_t first) {
     while (m_files.size() >= kFiles || (m_files.size() > 1 && isDiskFull())) {
         dropOldest();
     }
-    const std::string name = std::string(kPrefix) + std::to_string(::getpid()) + "-" +
-                             std::to_string(++m_fileCount) + std::string(kSuffix);
-    const std::string path = fs::path(m_choice.folder) / name;
-    auto sink = createFile(path, {.mayReplace = true});
-    if (!sink) {
-        return tl::unexpected(sink.error());
+    const auto path = createNext();
+    if (!path) {
+        return tl::unexpected(path.error());
     }
-    auto store = openStore(path);
+    m_files.push_back({*path, first, FileLock::take(*path)});
+    auto store = openStore(*path);
     if (!store) {
         return tl::unexpected(store.error());
     }
-    m_sink = std::move(*sink);
-    m_files.push_back({path, first});
     m_writer.emplace(*m_sink);
     m_past.emplace(m_log.past(), m_log.senders(), *store);
     return m_writer->begin(m_info);
+}
+
+/// Opens a file under a name that nothing has, and returns that.
+tl::expected<std::string, FileError> DiskHistory::createNext() {
+    while (true) {
+        const std::string name = std::string(kPrefix) + std::to_string(::getpid()) + "-" +
+                                 std::to_string(++m_fileCount) + std::string(kSuffix);
+        const std::string path = fs::path(m_choice.folder) / name;
+        auto sink = createFile(path);
+        if (sink) {
+            m_sink = std::move(*sink);
+            return path;
+        }
+        if (std::error_code failed; !fs::exists(path, failed)) {
+            return tl::unexpected(sink.error());
+        }
+    }
 }
 
 DiskHistory::Result DiskHistory::endFile() {
@@ -187,8 +190,8 @@ std::vector<std::string> lostHistories(const std::string& folder) {
     std::vector<fs::directory_entry> files;
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
-        const auto process = processOf(entry.path().filename().string());
-        if (process && !isRunning(*process) && entry.is_regular_file(failed)) {
+        // An empty one may be about to be locked.
+        if (isHistory(entry) && entry.file_size(failed) > 0 && FileLock::take(entry.path())) {
             files.push_back(entry);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/log/file_lock.h"
 #include "core/log/log_follower.h"
 #include "core/log/packet_log.h"
 #include "core/log/past.h"
@@ -58,7 +59,8 @@ private:
     using Result = PcapngWriter::Result;
     struct File {
         std::string path;
-        std::uint64_t first; ///< packet
+        std::uint64_t first;          ///< packet
+        std::optional<FileLock> lock; ///< says that its process lives; none where the disk knows no locks
         std::uint64_t bytes = 0;
     };
 
@@ -70,6 +72,7 @@ private:
     Result handOver();
     /// Whose first packet is `first`.
     Result beginFile(std::uint64_t first);
+    tl::expected<std::string, FileError> createNext();
     Result endFile();
     /// Goes on in a new file where others made room.
     Result makeRoom(const FileError& why);

@@ -8,13 +8,15 @@
 #include "core/model/incidents/incident_follower.h"
 #include "core/model/session/session.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <numeric>
 #include <sstream>
 
 // Whatever bytes a file has: it is read as a capture, followed by a session, looked at from several cursors,
-// and written as every report there is. No packet is lost on the way, and every loss has one cause.
+// and written as every report there is. No packet is lost on the way, every loss has one cause, and what is
+// read again from the file is what memory has.
 namespace {
 
 using namespace posewire;
@@ -25,8 +27,23 @@ void require(bool condition) {
     }
 }
 
-/// How many records it has.
-std::uint64_t readInto(log::PacketLog& log, const std::uint8_t* data, std::size_t size) {
+class MemoryStore final : public log::ByteStore {
+public:
+    explicit MemoryStore(std::span<const std::uint8_t> bytes) : m_bytes(std::as_bytes(bytes)) {}
+    [[nodiscard]] std::size_t readAt(std::uint64_t offset, std::span<std::byte> into) const override {
+        const auto from = m_bytes.subspan(std::min<std::size_t>(offset, m_bytes.size()));
+        const std::size_t size = std::min(from.size(), into.size());
+        std::copy_n(from.begin(), size, into.begin());
+        return size;
+    }
+
+private:
+    std::span<const std::byte> m_bytes;
+};
+
+/// How many records it has. `past`: notes where they lie, as for a file that memory has no room for.
+std::uint64_t readInto(log::PacketLog& log, log::PastWriter& past, const std::uint8_t* data,
+                       std::size_t size) {
     std::istringstream bytes(std::string(reinterpret_cast<const char*>(data), size));
     const auto source = log::readingFrom(bytes, "input");
     std::uint64_t records = 0;
@@ -35,13 +52,38 @@ std::uint64_t readInto(log::PacketLog& log, const std::uint8_t* data, std::size_
     static_cast<void>(log::readFile(*source, [&](const log::FileRecord& record) {
         const log::SenderId sender =
             log.senders().intern(record.sender.value_or(log::SenderInfo{"input", log::Transport::File, 0}));
-        ++records;
         const log::Stamp stamp = record.time ? clock.stampOf(*record.time, record.setBy)
                                              : log::Stamp(std::chrono::milliseconds(records));
-        log.writer().append(record.bytes, log::arrivalOf(record, sender, stamp));
+        const log::Arrival arrival = log::arrivalOf(record, sender, stamp);
+        log.writer().append(record.bytes, arrival);
+        if (record.isInOnePiece) {
+            past.add(records, arrival, record.offset, record.bytes.size());
+        } else {
+            past.keep(records, arrival, record.bytes);
+        }
+        ++records;
     }));
     log.writer().publish();
+    past.finish();
     return records;
+}
+
+/// In the file is what memory has, in whatever order it is asked for.
+void checkPast(const log::PacketLog& log, const log::Past& past, std::uint64_t records) {
+    log::LogReader memory(log);
+    log::PastReader file(past);
+    for (const std::uint64_t step :
+         {std::uint64_t{1}, std::uint64_t{7}, records - 1}) { // forward, around, back
+        std::uint64_t number = 0;
+        for (std::uint64_t i = 0; i < records; ++i, number = (number + step) % records) {
+            const auto kept = memory.packet(number);
+            const auto read = file.packet(number);
+            require(kept && read && std::ranges::equal(kept->bytes, read->bytes));
+            require(kept->stamp == read->stamp && kept->sender == read->sender &&
+                    kept->kernelDropsBefore == read->kernelDropsBefore && kept->flags == read->flags);
+        }
+    }
+    require(!file.packet(records));
 }
 
 void checkCounts(const model::SessionView& session, std::uint64_t records) {
@@ -109,7 +151,10 @@ void write(const model::Session& session) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     log::PacketLog log({.memoryCap = std::size_t{64} << 20, .chunkSize = std::size_t{1} << 20});
     model::Session session(log);
-    const std::uint64_t records = readInto(log, data, size);
+    log::Past past(std::make_shared<log::Scratch>());
+    log::PastWriter writer(past, log.senders(), std::make_shared<MemoryStore>(std::span(data, size)));
+    const std::uint64_t records = readInto(log, writer, data, size);
+    checkPast(log, past, records);
     while (session.followFile({})) {
     }
     session.endFile();

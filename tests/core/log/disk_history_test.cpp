@@ -11,6 +11,8 @@
 #include <fstream>
 #include <functional>
 
+#include <unistd.h>
+
 namespace posewire::log {
 namespace {
 
@@ -129,17 +131,24 @@ TEST_F(DiskHistoryTest, ItsFilesAreRecordingsThatSurviveTheProcess) {
     EXPECT_EQ(read, m_next);
 }
 
-TEST_F(DiskHistoryTest, FilesOfDeadProcessesAreFoundAndNoOthers) {
-    const auto history = start(m_log, m_folder);
-    for (const char* name : {"history-999999999-1.pcapng", "history-999999999-2.pcapng", "take.pcapng",
-                             "history-x-1.pcapng", "history-1-1.pcapng"}) {
+/// Whatever number its process has: another process may have it by now, and containers number their own.
+TEST_F(DiskHistoryTest, FilesThatNobodyUsesAreFoundAndNoOthers) {
+    const std::string own = "history-" + std::to_string(::getpid()) + "-";
+    for (const std::string& name : {own + "1.pcapng", own + "2.pcapng"}) {
         std::ofstream(m_folder / name) << "x";
     }
-    fs::last_write_time(m_folder / "history-999999999-2.pcapng",
+    std::ofstream(m_folder / "take.pcapng") << "x";
+    std::ofstream(m_folder / "history-1-1.pcapng").flush(); // may be about to be used
+    fs::last_write_time(m_folder / (own + "2.pcapng"),
                         fs::file_time_type::clock::now() - std::chrono::hours(1));
+    const auto history = start(m_log, m_folder);
+    ASSERT_NE(history, nullptr);
+    appendInStep(*history, 750);
+    EXPECT_TRUE(fs::exists(m_folder / (own + "3.pcapng"))) << "a name of its own";
     const std::vector<std::string> lost = lostHistories(m_folder);
     ASSERT_EQ(lost.size(), 2U);
-    EXPECT_EQ(lost[0], m_folder / "history-999999999-2.pcapng") << "the oldest first";
+    EXPECT_EQ(lost[0], m_folder / (own + "2.pcapng")) << "the oldest first";
+    EXPECT_EQ(lost[1], m_folder / (own + "1.pcapng"));
     EXPECT_TRUE(lostHistories(m_folder / "none").empty());
 }
 
