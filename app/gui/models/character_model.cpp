@@ -17,8 +17,6 @@ namespace posewire::gui {
 
 namespace {
 
-constexpr std::size_t kUnknown = static_cast<std::size_t>(model::LossCause::Unknown);
-
 /// Of a recording, how much of it is read for the sender's clock.
 constexpr log::Duration kReadBack = std::chrono::seconds(3);
 constexpr std::size_t kMostRead = 2'000;
@@ -55,32 +53,9 @@ double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
     return isSilent ? 0 : rateHz;
 }
 
-/// What is not there yet and may still come, by stream.
-std::map<log::StreamKey, std::uint64_t> pendingOf(const model::SessionView& view) {
-    std::map<log::StreamKey, std::uint64_t> pending;
-    view.forEachPending([&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/,
-                            log::Stamp /*to*/) { pending[stream] += missing; });
-    return pending;
+void add(const model::LossesByCause& losses, model::LossesByCause& sums) {
+    std::ranges::transform(sums, losses, sums.begin(), std::plus());
 }
-
-/// Reads losses of streams in the board's span, without those that are not settled.
-class SettledLosses {
-public:
-    explicit SettledLosses(const model::SessionView& view)
-        : m_losses(view, boardSpan(view)), m_pending(pendingOf(view)) {}
-
-    void add(const model::Stream& stream, model::LossesByCause& sums) const {
-        model::LossesByCause losses = m_losses.of(stream);
-        if (const auto pending = m_pending.find(stream.key); pending != m_pending.end()) {
-            losses[kUnknown] -= std::min(losses[kUnknown], pending->second);
-        }
-        std::ranges::transform(sums, losses, sums.begin(), std::plus());
-    }
-
-private:
-    model::Losses m_losses;
-    std::map<log::StreamKey, std::uint64_t> m_pending;
-};
 
 QString hertz(const std::optional<double>& rateHz, bool isNominal) {
     if (!rateHz) {
@@ -233,7 +208,7 @@ CharacterModel::CharacterModel(model::SessionView& view, Commands& commands, QOb
 void CharacterModel::refresh() {
     const auto keys = boardOf(m_view, m_order);
     m_rates.follow(m_view, keys);
-    const SettledLosses losses(m_view);
+    const model::Losses losses(m_view, boardSpan(m_view));
     std::vector<BoardRow> rows;
     for (const model::CharacterKey& key : keys) {
         BoardRow row;
@@ -247,7 +222,7 @@ void CharacterModel::refresh() {
         }
         for (const model::Character* one : m_view.lineage(key)) {
             for (const model::Stream* stream : one->streams) {
-                losses.add(*stream, row.lost);
+                add(losses.of(*stream).byCause, row.lost);
             }
         }
         if (const model::CharacterPose* pose = m_view.pose(key)) {
@@ -333,7 +308,7 @@ void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key
     std::vector<DetailRow> rows;
     const model::Character* character = key ? m_view.find(*key) : nullptr;
     if (character != nullptr) {
-        const SettledLosses losses(m_view);
+        const model::Losses losses(m_view, boardSpan(m_view));
         for (const model::Stream* stream : character->streams) {
             DetailRow row;
             row.key = stream->key;
@@ -342,7 +317,7 @@ void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key
             if (wire::isSampled(stream->key.type)) {
                 row.measuredHz = measuredHz(*stream, row.ageS, m_view.isRecording());
             }
-            losses.add(*stream, row.lost);
+            add(losses.of(*stream).byCause, row.lost);
             rows.push_back(row);
         }
         std::ranges::sort(rows, {}, [](const DetailRow& row) { return row.key.type; });

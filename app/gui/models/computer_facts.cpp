@@ -37,9 +37,11 @@ PropertyValue lostByCause(const Source& from) {
     using enum model::LossCause;
     const model::Losses losses(from.view, from.view.range());
     model::LossesByCause lost{};
+    std::uint64_t pending = 0;
     for (const model::Stream& stream : from.view.streams()) {
-        const model::LossesByCause more = losses.of(stream);
-        std::ranges::transform(lost, more, lost.begin(), std::plus());
+        const model::StreamLosses more = losses.of(stream);
+        std::ranges::transform(lost, more.byCause, lost.begin(), std::plus());
+        pending += more.pending;
     }
     const QString toolTip =
         tr("Samples lost, by whose loss it was as far as there is evidence: the network, the sender, this "
@@ -54,6 +56,9 @@ PropertyValue lostByCause(const Source& from) {
     add(tr("sender %1"), Sender);
     add(tr("here %1"), ThisComputer);
     add(tr("unknown %1"), Unknown);
+    if (parts.isEmpty() && pending != 0) {
+        return {tr("%1 not yet here").arg(grouped(pending)), Health::Unknown, toolTip};
+    }
     if (parts.isEmpty()) {
         return {tr("nothing lost"), Health::Good, toolTip};
     }

@@ -3,38 +3,15 @@
 
 #include <algorithm>
 #include <functional>
-#include <map>
 #include <numeric>
 
 namespace posewire::model {
 namespace {
 
-using Pending = std::map<log::StreamKey, std::uint64_t>;
-
-Pending pendingOf(const SessionView& session, const std::optional<TimeRange>& range) {
-    Pending pending;
-    session.forEachPending(
-        [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/, log::Stamp to) {
-            if (!range || (to >= range->from && to < range->to)) {
-                pending[stream] += missing;
-            }
-        });
-    return pending;
-}
-
-FaultCounts countsOf(const Losses& losses, const Stream& stream, const Pending& pending,
-                     const std::optional<TimeRange>& range) {
-    FaultCounts counts;
-    counts.lost = losses.of(stream);
-    if (const auto missing = pending.find(stream.key); missing != pending.end()) {
-        std::uint64_t& unknown = counts.lost[static_cast<std::size_t>(LossCause::Unknown)];
-        counts.pending = std::min(unknown, missing->second);
-        unknown -= counts.pending;
-    }
-    if (countsSamples(stream.key.type)) {
-        counts.expected = stream.accounting.counts(range).expected();
-    }
-    return counts;
+FaultCounts countsOf(const Losses& losses, const Stream& stream, const std::optional<TimeRange>& range) {
+    const auto [lost, pending] = losses.of(stream);
+    const bool isCounted = countsSamples(stream.key.type);
+    return {lost, pending, isCounted ? stream.accounting.counts(range).expected() : 0};
 }
 
 void add(CharacterFaults& character, const log::StreamKey& key, const FaultCounts& counts) {
@@ -65,7 +42,6 @@ FaultCounts& FaultCounts::operator+=(const FaultCounts& other) {
 
 FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRange>& range) {
     const Losses losses(session, range);
-    const Pending pending = pendingOf(session, range);
     FaultMatrix matrix;
     CharacterFaults unconfirmed;
     for (const Character& character : session.characters()) {
@@ -77,7 +53,7 @@ FaultMatrix faultMatrix(const SessionView& session, const std::optional<TimeRang
         }
         CharacterFaults& faults = character.isConfirmed ? *row : unconfirmed;
         for (const Stream* stream : character.streams) {
-            const FaultCounts counts = countsOf(losses, *stream, pending, range);
+            const FaultCounts counts = countsOf(losses, *stream, range);
             if (countsSamples(stream->key.type) || counts.total() != 0) {
                 add(faults, stream->key, counts);
                 matrix.sum += counts;

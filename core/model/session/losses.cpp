@@ -14,6 +14,12 @@ constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
 } // namespace
 
 Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range) : m_range(range) {
+    session.forEachPending(
+        [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/, log::Stamp to) {
+            if (!range || (to >= range->from && to < range->to)) {
+                m_pending[stream] += missing;
+            }
+        });
     if (!range) {
         return;
     }
@@ -24,7 +30,17 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
     }
 }
 
-LossesByCause Losses::of(const Stream& stream) const {
+StreamLosses Losses::of(const Stream& stream) const {
+    StreamLosses losses{causesOf(stream)};
+    if (const auto missing = m_pending.find(stream.key); missing != m_pending.end()) {
+        losses.pending = std::min(losses.byCause[kUnknown], missing->second);
+        losses.byCause[kUnknown] -= losses.pending;
+    }
+    return losses;
+}
+
+/// What is pending is Unknown.
+LossesByCause Losses::causesOf(const Stream& stream) const {
     if (!m_range) {
         return stream.lostByCause();
     }
@@ -44,7 +60,7 @@ StreamFigures Losses::figuresOf(const Stream& stream) const {
     constexpr std::array kCauses{Figure::LostHere, Figure::LostOnNetwork, Figure::LostAtSender,
                                  Figure::LostUnknown}; // by LossCause
     StreamFigures figures = model::figuresOf(stream, m_range);
-    const LossesByCause losses = of(stream);
+    const LossesByCause losses = of(stream).byCause;
     for (std::size_t cause = 0; cause < kCauses.size(); ++cause) {
         figures.set(kCauses[cause], static_cast<double>(losses[cause]));
     }

@@ -106,6 +106,10 @@ TEST_F(FaultMatrixTest, WhatIsNotHereYetIsNobodysLoss) {
     FaultMatrix all = matrix();
     EXPECT_EQ(all.sum.total(), 0U);
     EXPECT_EQ(all.sum.pending, 10U);
+    const Stream& stream = m_session.streams().front();
+    const StreamFigures figures = Losses(m_session, {}).figuresOf(stream);
+    EXPECT_EQ(figures.count(Figure::LostUnknown), 0U) << "statistics and report say no more than the matrix";
+    EXPECT_EQ(figuresOf(stream).count(Figure::LostUnknown), 5U) << "causes of scripts sum up to what is lost";
     EXPECT_EQ(matrix(TimeRange{log::Stamp(100s), log::Stamp(102s)}).sum.pending, 0U);
     samples(0, 307, 360);
     all = matrix();
