@@ -63,7 +63,7 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
     m_table->setModel(&m_incidents);
-    m_table->setColumnSamples({QStringLiteral("      ▲ warning"), QStringLiteral("10:42:17.508"),
+    m_table->setColumnSamples({QStringLiteral("    ▲ warning"), QStringLiteral("10:42:17.508"),
                                QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
                                QStringLiteral("this computer"), QStringLiteral("not settled"),
                                QStringLiteral("99 999"), QStringLiteral("metadata change"),
@@ -74,6 +74,8 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_table->columns().setGivingWay({IncidentModel::kGroup, IncidentModel::kKind, IncidentModel::kCount,
                                      IncidentModel::kLost, IncidentModel::kTime, IncidentModel::kLasted,
                                      IncidentModel::kCause});
+    m_table->columns().addElastic(IncidentModel::kWho, QStringLiteral("20 characters"),
+                                  QStringLiteral("Mira Lindqvist · 02 Pose, quaternion"));
     connectParts();
     showEmptyState();
 }

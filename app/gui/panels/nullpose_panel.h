@@ -8,13 +8,14 @@
 #include "app/gui/panels/table_view.h"
 #include "core/export/formats.h"
 
-#include <QLabel>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTextBrowser>
 #include <QToolButton>
 
 namespace posewire::gui {
+
+class ElidedLabel;
 
 /// What contradicts itself in scale messages, in words: gravest first, each with what it means. As high as
 /// its text, up to a share of the dock; selectable, and a finding about a segment is a link to it.
@@ -95,7 +96,7 @@ private:
     TableView* m_scaleTable;
     QToolButton* m_ghost;
     QToolButton* m_export;
-    QLabel* m_comparison; ///< with what "Δ ref" compares
+    ElidedLabel* m_comparison; ///< with what "Δ ref" compares
     QWidget* m_noticeLine;
     int m_point = -1;
     bool m_isFollowing = false;

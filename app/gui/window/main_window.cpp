@@ -63,6 +63,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     setCentralWidget(m_viewport);
+    layout()->setSizeConstraint(QLayout::SetNoConstraint); // docks give way; the window stays on its screen
     addViewportButtons(*m_viewport);
     makeBars();
     makeDocks();
