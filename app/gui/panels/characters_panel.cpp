@@ -41,6 +41,8 @@ const ActionInfo kActions[] = {
      Do::call<&CharactersPanel::showPacketsOfSelected>},
     {"incidentsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Incidents of selected"), "",
      Do::call<&CharactersPanel::showIncidentsOfSelected>},
+    {"showEnded", kMenu, QT_TRANSLATE_NOOP("Action", "&Ended senders"), "",
+     Do::call<&CharactersPanel::toggleEnded>, Do::is<&CharactersPanel::isEndedShown>},
     {"forgetEnded", kMenu, QT_TRANSLATE_NOOP("Action", "F&orget ended senders"), "",
      Do::call<&CharactersPanel::forgetEnded>},
 };
@@ -200,11 +202,7 @@ void CharactersPanel::showEmptyState() {
 void CharactersPanel::refresh() {
     m_isFollowing = true;
     m_model.refresh();
-    if (m_model.rowCount() == 0) {
-        showEmptyState();
-    } else {
-        m_table->setEmptyText(tr("%1, one in each row").arg(summary()));
-    }
+    showEmptyState();
     constexpr qsizetype kMostKept = 36;                  // characters
     for (int row = 0; row < m_model.rowCount(); ++row) { // once wider, it stays: words shift nothing
         const QString verdict = m_model.index(row, CharacterModel::kVerdict).data().toString();
@@ -383,6 +381,14 @@ void CharactersPanel::showIncidentsOfSelected() {
     if (const auto key = selected()) {
         m_commands.showIncident(m_view.verdict(*key).incident);
     }
+}
+
+void CharactersPanel::toggleEnded() {
+    m_endedToggle->click();
+}
+
+bool CharactersPanel::isEndedShown() const {
+    return m_endedToggle->isChecked();
 }
 
 void CharactersPanel::forgetEnded() {

@@ -79,6 +79,8 @@ public:
     /// What was said last below the list.
     [[nodiscard]] QString message() const { return m_message->said(); }
 
+    [[nodiscard]] const IncidentModel::Filter& filter() const { return m_incidents.filter(); }
+    void setFilter(const IncidentModel::Filter& filter) { m_bar->setFilter(filter); }
     void exportFile();
     void markSeen() { m_incidents.markSeen(); }
     void newest();

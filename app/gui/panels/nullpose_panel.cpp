@@ -154,16 +154,14 @@ void NullPosePanel::makeButtons() {
     auto* menu = new QMenu(m_export);
     for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
         menu->addAction(tr("Save as &%1…").arg(QLatin1String(format.title)), this,
-                        [this, &format] { chooseFile(format); });
+                        [this, &format] { chooseFile(format, fileFilter(format)); });
     }
     menu->addSeparator();
     for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
-        menu->addAction(tr("Copy as %1").arg(QLatin1String(format.title)), this, [this, &format] {
-            m_commands.copyText(QString::fromStdString(format.write(sheet())));
-        });
+        menu->addAction(tr("Copy as %1").arg(QLatin1String(format.title)), this,
+                        [this, &format] { copyAs(format); });
     }
-    menu->addAction(tr("Copy the contradictions"), this,
-                    [this] { m_commands.copyText(findingsText(m_reading.findings())); });
+    menu->addAction(tr("Copy the contradictions"), this, &NullPosePanel::copyContradictions);
     m_export->setMenu(menu);
 }
 
@@ -344,12 +342,47 @@ QString NullPosePanel::save(const QString& path) const {
     return saveFile(path, exporting::formatFor<exporting::NullPoseSheet>(path.toStdString()).write(sheet()));
 }
 
-void NullPosePanel::chooseFile(const SheetFormat& format) {
+std::span<const ActionInfo> NullPosePanel::actionTable() {
+    using Do = ActionsOf<NullPosePanel>;
+    static constexpr const char* kCopy = QT_TRANSLATE_NOOP("Action", "&Edit/Copy n&ull pose");
+    static constexpr ActionInfo kActions[] = {
+        {"exportNullPose", "&File", QT_TRANSLATE_NOOP("Action", "Export &null pose…"), "",
+         Do::call<&NullPosePanel::exportFile>},
+        {"copyNullPoseCsv", kCopy, QT_TRANSLATE_NOOP("Action", "As &CSV"), "",
+         Do::call<&NullPosePanel::copyCsv>},
+        {"copyNullPoseJson", kCopy, QT_TRANSLATE_NOOP("Action", "As &JSON"), "",
+         Do::call<&NullPosePanel::copyJson>},
+        {"copyContradictions", kCopy, QT_TRANSLATE_NOOP("Action", "Contra&dictions"), "",
+         Do::call<&NullPosePanel::copyContradictions>},
+    };
+    return kActions;
+}
+
+void NullPosePanel::exportFile() {
+    chooseFile(exporting::formats<exporting::NullPoseSheet>()[0], fileFilters<exporting::NullPoseSheet>());
+}
+
+void NullPosePanel::copyCsv() {
+    copyAs(exporting::formatFor<exporting::NullPoseSheet>(".csv"));
+}
+
+void NullPosePanel::copyJson() {
+    copyAs(exporting::formatFor<exporting::NullPoseSheet>(".json"));
+}
+
+void NullPosePanel::copyAs(const SheetFormat& format) {
+    m_commands.copyText(QString::fromStdString(format.write(sheet())));
+}
+
+void NullPosePanel::copyContradictions() {
+    m_commands.copyText(findingsText(m_reading.findings()));
+}
+
+void NullPosePanel::chooseFile(const SheetFormat& format, const QString& filters) {
     const std::string name = sheet().character.fileName("Character");
-    const QString path =
-        askWhereToSave(this, tr("Save null pose"),
-                       QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)),
-                       fileFilter(format));
+    const QString path = askWhereToSave(
+        this, tr("Save null pose"),
+        QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)), filters);
     const QString problem = path.isEmpty() ? QString() : save(path);
     if (!problem.isEmpty()) {
         MessageBox(tr("Save null pose"), problem, QMessageBox::Ok, this).exec();

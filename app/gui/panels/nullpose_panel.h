@@ -59,6 +59,11 @@ public:
     /// Writes what is shown to a file, in the format of the name's suffix. Returns what went wrong, empty for
     /// nothing.
     [[nodiscard]] QString save(const QString& path) const;
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+    void exportFile();
+    void copyCsv();
+    void copyJson();
+    void copyContradictions();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -73,7 +78,9 @@ private:
     void followSelection();
     void selectPlace(int place);
     void selectPoint(int point);
-    void chooseFile(const SheetFormat& format);
+    /// Asks for a name that ends as the format's files do.
+    void chooseFile(const SheetFormat& format, const QString& filters);
+    void copyAs(const SheetFormat& format);
     [[nodiscard]] exporting::NullPoseSheet sheet() const;
     void showContent();
     [[nodiscard]] QString emptyText() const;
