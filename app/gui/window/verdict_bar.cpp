@@ -12,6 +12,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
+#include <QRegularExpression>
 #include <QStyle>
 #include <QToolButton>
 
@@ -46,6 +47,11 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
 
 } // namespace
 
+QString spokenWords(QString text) {
+    static const QRegularExpression kNumbers(QStringLiteral("[0-9.:\\s\u202f]+"));
+    return text.replace(kNumbers, QStringLiteral(" "));
+}
+
 QString fittingHeadline(const QString& text, const QFontMetrics& metrics, int width) {
     static const QString kNotGood = QStringLiteral("Not good: ");
     static const QString kGoingOn = QStringLiteral(", going on");
@@ -74,11 +80,11 @@ void Headline::setVerdict(Health level, const QString& text) {
     if (level == m_level && text == this->text()) {
         return;
     }
-    const bool isTurn = level != m_level;
+    const bool isTurn = level != m_level || spokenWords(text) != spokenWords(this->text());
     m_level = level;
     setText(text);
     setAccessibleName(text);
-    if (isTurn) { // a number that grows need not be spoken
+    if (isTurn) {
         QAccessibleEvent spoken(this, QAccessible::Alert);
         QAccessible::updateAccessibility(&spoken);
     }

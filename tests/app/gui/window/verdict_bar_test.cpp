@@ -93,6 +93,15 @@ TEST_F(VerdictBarTest, OffersNothingLiveWithoutAnInput) {
     EXPECT_FALSE(strip()->isHidden());
 }
 
+TEST(HeadlineTest, WhatIsSpokenChangesWithWhatIsSaidAndNotWithItsNumbers) {
+    const QString lost = "Not good: 1.9 % lost on Jonas, network, since 11:37:18, going on";
+    EXPECT_EQ(spokenWords(lost),
+              spokenWords("Not good: 12 % lost on Jonas, network, since 11:37:19, going on"));
+    EXPECT_NE(spokenWords(lost),
+              spokenWords("Not good: 1.9 % lost on Mira, network, since 11:37:18, going on"));
+    EXPECT_NE(spokenWords(lost), spokenWords("Not good: no data from Jonas, since 11:37:18, going on"));
+}
+
 TEST(FittingHeadline, SaysWhetherItLastsBeforeWhatIsCut) {
     const QFontMetrics metrics{QFont()};
     const QString text = "Not good: 1.9 % lost on 4 characters, network, since 11:37:18, going on";
