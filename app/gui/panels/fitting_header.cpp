@@ -162,7 +162,9 @@ void FittingHeader::fit() {
     }
     fitElastic(width - needed);
     const int others = length() - sectionSize(open);
-    resizeSection(open, std::max(leastOpenWidth(), width - others));
+    // One that is kept for what it says gets narrower before all of it is scrolled away.
+    const int least = m_kept == Kept::Open ? textWidth(QStringLiteral("12345678")) : leastOpenWidth();
+    resizeSection(open, std::max(least, width - others));
 }
 
 /// `spare` is what is left of the width, less than 0 where it is too small.

@@ -19,11 +19,11 @@ MOST = 20_000  # objects: what is asked for must stay bounded
 
 def start_again():
     """In a session with an accessibility bus that nobody else uses."""
-    environment = dict(os.environ, POSEWIRE_AT_SPI="1", QT_LINUX_ACCESSIBILITY_ALWAYS_ON="1", QT_QPA_PLATFORM="xcb",
-                       XDG_RUNTIME_DIR=tempfile.mkdtemp(prefix="runtime_"))
     system = "/usr/bin/python3"  # it has what the distribution packages
     interpreter = system if os.path.exists(system) else sys.executable
     for _ in range(4):  # the registry of accessible programs sometimes ends as it begins
+        environment = dict(os.environ, POSEWIRE_AT_SPI="1", QT_LINUX_ACCESSIBILITY_ALWAYS_ON="1",
+                           QT_QPA_PLATFORM="xcb", XDG_RUNTIME_DIR=tempfile.mkdtemp(prefix="runtime_"))
         code = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", "dbus-run-session", "--",
                                interpreter, *sys.argv], env=environment, timeout=240).returncode
         if code != NO_BUS:
@@ -130,6 +130,8 @@ def main():
     folder = tempfile.mkdtemp(prefix="screen_reader_")
     port = free_port()
     Atspi.init()
+    Atspi.get_desktop(0).get_child_count()  # starts the registry
+    time.sleep(1.5)
     window = Window(sys.argv[1], folder, port, "Debug")
     sender = subprocess.Popen([sys.argv[2], "send", "--to", f"127.0.0.1:{port}", "--characters", "2", "--rate", "60"],
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
