@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <utility>
@@ -20,6 +21,7 @@ namespace posewire::gui {
 namespace {
 
 constexpr int kLeastCharacters = 54;
+constexpr int kLeastLines = 13; ///< a title, tabs, a bar, column titles and some rows
 constexpr double kDefaultExtent = 0.22;
 constexpr int kLongestName = 60;
 /// Against other places: pixels times the sum of all shares must be an int.
@@ -66,27 +68,55 @@ QDockWidget* putPlace(const DockLayout::Place& place, Qt::DockWidgetArea area, Q
     return first;
 }
 
-void sizeArea(Qt::DockWidgetArea area, double share, QMainWindow& window,
-              const std::vector<std::pair<QDockWidget*, int>>& docks) {
+/// How wide a column of docks at a side is, or how high the row at the bottom, in pixels.
+int extentOf(Qt::DockWidgetArea area, double share, const QMainWindow& window) {
+    // A share of a small window would cut its tables: docks have room for words and rows, up to a third of
+    // its width and two fifths of its height.
+    const QFontMetrics metrics = window.fontMetrics();
     const bool isBottom = area == Qt::BottomDockWidgetArea;
     const int across = isBottom ? window.height() : window.width();
-    const int along = isBottom ? window.width() : window.height();
+    const int least = isBottom ? std::min(metrics.height() * kLeastLines, across * 2 / 5)
+                               : std::min(metrics.averageCharWidth() * kLeastCharacters, across / 3);
+    return std::max(static_cast<int>(across * share), least);
+}
+
+/// The docks that show in an area, each with its share.
+using Shares = std::vector<std::pair<QDockWidget*, int>>;
+
+/// The docks of an area share its length.
+void shareOut(Qt::DockWidgetArea area, const Shares& docks, int length, QMainWindow& window) {
     const int total = std::accumulate(docks.begin(), docks.end(), 0,
                                       [](int sum, const auto& dock) { return sum + dock.second; });
     QList<QDockWidget*> widgets;
     QList<int> lengths;
-    for (const auto& [dock, weight] : docks) {
+    for (const auto& [dock, share] : docks) {
         widgets += dock;
-        lengths += along * weight / std::max(1, total);
+        lengths += length * share / std::max(1, total);
     }
-    if (widgets.isEmpty()) {
-        return;
-    }
-    // A share of a small window would cut its tables: a column of docks has room for words, up to a third.
-    const int words = isBottom ? 0 : window.fontMetrics().averageCharWidth() * kLeastCharacters;
-    const int extentNow = std::max(static_cast<int>(across * share), std::min(words, across / 3));
-    window.resizeDocks({widgets.front()}, {extentNow}, isBottom ? Qt::Vertical : Qt::Horizontal);
     window.resizeDocks(widgets, lengths, orientationOf(area));
+}
+
+void sizeAreas(const DockLayout& layout, const std::map<Qt::DockWidgetArea, Shares>& placed,
+               QMainWindow& window) {
+    // The columns at the sides at once: one after the other they would take the room from each other.
+    QList<QDockWidget*> sides;
+    QList<int> widths;
+    for (const auto& [side, docks] : placed) {
+        const int extent = extentOf(side, layout.areas.at(side).extent, window);
+        if (side == Qt::BottomDockWidgetArea) {
+            window.resizeDocks({docks.front().first}, {extent}, Qt::Vertical);
+        } else {
+            sides += docks.front().first;
+            widths += extent;
+        }
+    }
+    window.resizeDocks(sides, widths, Qt::Horizontal);
+    const int between = std::accumulate(widths.begin(), widths.end(), window.width(), std::minus());
+    for (const auto& [side, docks] : placed) {
+        if (docks.size() > 1) {
+            shareOut(side, docks, side == Qt::BottomDockWidgetArea ? between : window.height(), window);
+        }
+    }
 }
 
 } // namespace
@@ -151,15 +181,15 @@ QStringList applyLayout(const DockLayout& layout, QMainWindow& window) {
         dock->setFloating(false);
         window.removeDockWidget(dock);
     }
+    std::map<Qt::DockWidgetArea, Shares> placed;
     for (const auto& [side, area] : layout.areas) {
-        std::vector<std::pair<QDockWidget*, int>> docks;
         for (const DockLayout::Place& place : area.places) {
             if (QDockWidget* dock = putPlace(place, side, window); dock != nullptr) {
-                docks.emplace_back(dock, place.share);
+                placed[side].emplace_back(dock, place.share);
             }
         }
-        sizeArea(side, area.extent, window, docks);
     }
+    sizeAreas(layout, placed, window);
     return unknownDocks(layout, names);
 }
 

@@ -102,6 +102,16 @@ std::string secondsText(log::Duration duration) {
     return std::to_string(duration / std::chrono::seconds(1)) + " s";
 }
 
+/// "12 345", with narrow spaces.
+std::string grouped(std::uint64_t number) {
+    std::string text = std::to_string(number);
+    for (std::size_t place = text.size(); place > 3;) {
+        place -= 3;
+        text.insert(place, "\u202f");
+    }
+    return text;
+}
+
 /// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)".
 std::string addressesText(const ConnectionFacts& facts) {
     constexpr std::size_t kMost = 3;
@@ -144,7 +154,7 @@ void findLeftOut(const ConnectionFacts& facts, Findings& findings) {
     }
     if (refused != 0 && facts.silence >= kSilence) {
         findings.push_back({Kind::NotListenedTo,
-                            std::to_string(refused) + (refused == 1 ? " datagram has" : " datagrams have") +
+                            grouped(refused) + (refused == 1 ? " datagram has" : " datagrams have") +
                                 " arrived from hosts that are not listened to",
                             "add the sender's address under Listen only to, or leave that empty"});
     }
@@ -182,9 +192,9 @@ void findForeign(const ConnectionFacts& facts, Findings& findings) {
         const bool isOne = sender.count == 1;
         const std::string from =
             ports == 1 ? sender.address : host + " (" + std::to_string(ports) + " ports)";
-        std::string text = std::to_string(sender.count) + (isOne ? " datagram" : " datagrams") + " from " +
-                           from + (isOne ? " is not MXTP; it" : " are not MXTP; the newest") +
-                           " begins with " + shownBytes(sender.firstBytes);
+        std::string text = grouped(sender.count) + (isOne ? " datagram" : " datagrams") + " from " + from +
+                           (isOne ? " is not MXTP; it" : " are not MXTP; the newest") + " begins with " +
+                           shownBytes(sender.firstBytes);
         text += guess.empty() ? "" : ", which looks like " + guess;
         findings.push_back({Kind::NotMxtp, text,
                             "another program sends to this port: stop it, or have MVN send to another port "
@@ -210,7 +220,7 @@ void findPeers(const ConnectionFacts& facts, Findings& findings) {
             } else if (peer.datagrams == 0 && peer.skippedBytes != 0) {
                 findings.push_back({Kind::GarbledPeer,
                                     peer.address + " is connected by TCP, and none of its " +
-                                        std::to_string(peer.bytes) + " bytes are MXTP",
+                                        grouped(peer.bytes) + " bytes are MXTP",
                                     "another program has connected to this port: stop it, or listen on "
                                     "another port"});
             }

@@ -175,7 +175,8 @@ void addSenders(std::vector<Finding>& findings, const model::SessionView& sessio
         addCounted(findings, sender.malformed, "datagram", "datagrams", from + " could not be decoded.");
         addCounted(findings, sender.skippedBytes, "byte", "bytes", from + " belonged to no datagram.");
         addCounted(findings, sender.foreign, "datagram", "datagrams",
-                   from + " were not MXTP; the newest begins with " + sender.foreignText() + '.');
+                   from + (sender.foreign == 1 ? " was" : " were") + " not MXTP; the newest begins with " +
+                       sender.foreignText() + '.');
     }
 }
 

@@ -83,6 +83,7 @@ public:
     void editSelected();
     void removeSelected(); ///< until it is undone
     void endEditing();
+    void select(const InputAddress& input); ///< what it is doing, or what is wrong with it, is said below
     void applyAllowed(); ///< listens to those who are typed, where that makes sense
 
     [[nodiscard]] InputForm& form() const { return *m_form; }
@@ -102,7 +103,6 @@ private:
     void layOut();
     void remove(const InputAddress& input);
     void putBack(const InputAddress& input, int row);
-    void select(const InputAddress& input);
     void showChoice();
     void showAllowedNote();
     [[nodiscard]] std::optional<InputAddress> selected() const;

@@ -81,13 +81,13 @@ TableColumn<Row> lostColumn(const QString& title, model::LossCause cause, const 
 template <class Row>
 void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
     using Column = TableColumn<Row>;
-    columns.push_back(Column::numbers(tr("Nominal Hz"),
-                                      tr("Rate by the sender's own time code and sample counter"),
+    columns.push_back(Column::numbers(tr("Nominal"),
+                                      tr("Rate in Hz by the sender's own time code and sample counter"),
                                       [](const Row& row) { return hertz(row.nominalHz, true); })
                           .dimmed());
-    columns.push_back(Column::numbers(tr("Hz"), tr("Rate measured by arrival at this computer"),
+    columns.push_back(Column::numbers(tr("Hz"), tr("Rate in Hz, measured by arrival at this computer"),
                                       [](const Row& row) { return hertz(row.measuredHz, false); }));
-    columns.push_back(lostColumn<Row>(tr("Lost here"), model::LossCause::ThisComputer,
+    columns.push_back(lostColumn<Row>(tr("here"), model::LossCause::ThisComputer,
                                       tr("Samples of all its streams that this computer lost, in the time "
                                          "that stands above the table")));
     columns.push_back(lostColumn<Row>(tr("network"), model::LossCause::Network,
@@ -99,14 +99,13 @@ void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
     columns.push_back(lostColumn<Row>(tr("unknown"), model::LossCause::Unknown,
                                       tr("Samples lost of which nothing shows by whom, in the time that "
                                          "stands above the table")));
-    columns.push_back(
-        Column::numbers(tr("Age s"), tr("Seconds since its newest datagram"), [](const Row& row) {
-            return ageText(row.ageS);
-        }).withColour([](const Row& row) {
-            return row.ageS >= kStaleAge    ? QVariant(theme().error)
-                   : row.ageS >= kSilentAge ? QVariant(theme().warning)
-                                            : QVariant();
-        }));
+    columns.push_back(Column::numbers(tr("Age"), tr("Seconds since its newest datagram"), [](const Row& row) {
+                          return ageText(row.ageS);
+                      }).withColour([](const Row& row) {
+        return row.ageS >= kStaleAge    ? QVariant(theme().error)
+               : row.ageS >= kSilentAge ? QVariant(theme().warning)
+                                        : QVariant();
+    }));
 }
 
 std::vector<TableColumn<DetailRow>> detailColumns() {
@@ -261,9 +260,12 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
         valueColumn(Column::words(tr("Verdict"), tr("Whether it is good now on the wire"), {}),
                     [](const BoardRow& row) { return verdictState(row.verdict); })
             .withMore([](const BoardRow& row, int role) {
-                const QString words = restartWords(row.restarts);
-                return role == kSuffixRole && !words.isEmpty() ? QVariant(QStringLiteral("· ") + words)
-                                                               : QVariant();
+                if (row.restarts == 0) {
+                    return QVariant();
+                }
+                return role == kSuffixRole ? QVariant(QStringLiteral("· ") + restartWords(row.restarts))
+                       : role == kShortSuffixRole ? QVariant(QStringLiteral("↻%1").arg(grouped(row.restarts)))
+                                                  : QVariant();
             })};
     addFigureColumns(columns);
     columns.push_back(Column::words(

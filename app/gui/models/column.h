@@ -22,6 +22,8 @@ namespace posewire::gui {
 inline constexpr int kDotRole = Qt::UserRole + 1;    ///< QColor: a filled circle before the text
 inline constexpr int kSwatchRole = Qt::UserRole + 2; ///< QColor: a square before the text
 inline constexpr int kSuffixRole = Qt::UserRole + 3; ///< QString: dim text after the text
+/// QString: what stands for the suffix where it does not fit.
+inline constexpr int kShortSuffixRole = Qt::UserRole + 7;
 /// bool: the text of the cell before stretches over this one too.
 inline constexpr int kSpanRole = Qt::UserRole + 5;
 inline constexpr int kSeriesRole = Qt::UserRole + 4; ///< QList<float>: a small curve; NaN breaks it

@@ -143,7 +143,8 @@ QString FieldModel::helpOf(std::int32_t node) const {
 }
 
 QVariant FieldModel::colour(std::int32_t node, int column) const {
-    const Health own = m_document->health(node);
+    // The sign of what is wrong below has its colour.
+    const Health own = column == kField ? m_document->worstWithin(node) : m_document->health(node);
     if (own != Health::Unknown && column <= kWire) {
         return healthColour(own);
     }

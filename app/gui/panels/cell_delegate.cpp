@@ -92,7 +92,7 @@ int paintShare(QPainter& painter, const QRect& rect, const QString& number, cons
 void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option, const QModelIndex& index) {
     const QVariant dot = index.data(kDotRole);
     const QVariant swatch = index.data(kSwatchRole);
-    const QString suffix = index.data(kSuffixRole).toString();
+    QString suffix = index.data(kSuffixRole).toString();
     const QFontMetrics metrics = painter.fontMetrics();
     const bool isSelected = option.state.testFlag(QStyle::State_Selected);
     const QVariant given = index.data(Qt::ForegroundRole);
@@ -118,17 +118,24 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
         return;
     }
     // A short suffix, such as an ID, distinguishes equal names: the text gives way. A long one gives
-    // way itself.
-    const int suffixWidth = suffix.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + suffix);
-    const int reserved = suffixWidth <= rect.width() / 4 ? suffixWidth : 0;
+    // way itself, to its short form if it has one.
+    const auto widthWith = [&metrics](const QString& words) {
+        return words.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + words);
+    };
+    if (widthWith(suffix) > rect.width() - metrics.horizontalAdvance(option.text)) {
+        const QString brief = index.data(kShortSuffixRole).toString();
+        suffix = brief.isEmpty() ? suffix : brief;
+    }
+    const int suffixWidth = widthWith(suffix);
+    const int reserved = suffixWidth <= rect.width() / 3 ? suffixWidth : 0;
     const QString text =
         metrics.elidedText(option.text, Qt::ElideRight, std::max(0, rect.width() - reserved));
     painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
     rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
-    if (suffixWidth > 0 && rect.width() > 0) {
+    const QString added = metrics.elidedText(suffix, Qt::ElideRight, rect.width());
+    if (added.size() > 1) { // an ellipsis alone says nothing
         painter.setPen(isSelected ? onSelection(theme().dim) : theme().dim);
-        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter,
-                         metrics.elidedText(suffix, Qt::ElideRight, rect.width()));
+        painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, added);
     }
 }
 

@@ -41,6 +41,8 @@ const ActionInfo kActions[] = {
      Do::call<&CharactersPanel::showPacketsOfSelected>},
     {"incidentsOfCharacter", kMenu, QT_TRANSLATE_NOOP("Action", "&Incidents of selected"), "",
      Do::call<&CharactersPanel::showIncidentsOfSelected>},
+    {"showEnded", kMenu, QT_TRANSLATE_NOOP("Action", "&Ended senders"), "",
+     Do::call<&CharactersPanel::toggleEnded>, Do::is<&CharactersPanel::isEndedShown>},
     {"forgetEnded", kMenu, QT_TRANSLATE_NOOP("Action", "F&orget ended senders"), "",
      Do::call<&CharactersPanel::forgetEnded>},
 };
@@ -54,9 +56,9 @@ QToolButton* toggle(const QString& name, const QString& text, const QString& too
 }
 
 std::vector<QString> figureSamples() {
-    return {QStringLiteral("Nominal Hz"), QStringLiteral("1000.0"), QStringLiteral("Lost here"),
-            QStringLiteral("network"),    QStringLiteral("sender"), QStringLiteral("unknown"),
-            QStringLiteral("Age s")};
+    return {QStringLiteral("1000"),  QStringLiteral("1000.0"), QStringLiteral("9 999"),
+            QStringLiteral("9 999"), QStringLiteral("9 999"),  QStringLiteral("9 999"),
+            QStringLiteral("99.9")};
 }
 
 } // namespace
@@ -107,7 +109,7 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
     m_table->setObjectName(QStringLiteral("board"));
     m_table->setModel(&m_model);
     m_table->setItemDelegate(m_rows);
-    std::vector<QString> samples{QStringLiteral("     Performer name · 10"), QString()};
+    std::vector<QString> samples{QStringLiteral("         Mira Lindqvist · 10"), QString()};
     std::ranges::copy(figureSamples(), std::back_inserter(samples));
     samples.push_back(QStringLiteral("none"));
     m_table->setColumnSamples(std::move(samples), QStringLiteral("■ 10.0 % lost, network"));
@@ -115,6 +117,8 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
                                      CharacterModel::kMeasured, CharacterModel::kLostUnknown,
                                      CharacterModel::kLostHere, CharacterModel::kLostAtSender,
                                      CharacterModel::kLostOnNetwork});
+    m_table->columns().addElastic(CharacterModel::kName, QStringLiteral("         Mira Li"),
+                                  QStringLiteral("         Performer with a name · 10"));
     m_table->viewport()->installEventFilter(this);
     column->addWidget(m_table, 1);
 
@@ -198,17 +202,21 @@ void CharactersPanel::showEmptyState() {
 void CharactersPanel::refresh() {
     m_isFollowing = true;
     m_model.refresh();
-    if (m_model.rowCount() == 0) {
-        showEmptyState();
-    } else {
-        m_table->setEmptyText(tr("%1, one in each row").arg(summary()));
+    showEmptyState();
+    constexpr qsizetype kMostKept = 36;                  // characters
+    for (int row = 0; row < m_model.rowCount(); ++row) { // once wider, it stays: words shift nothing
+        const QString verdict = m_model.index(row, CharacterModel::kVerdict).data().toString();
+        m_table->columns().keepOpenFor(verdict.left(kMostKept));
     }
     followSelection();
     m_isFollowing = false;
     const model::Unproven unproven = m_view.unproven();
-    QString span = tr("lost: %1").arg(boardSpanText(m_view));
+    // Beside the columns that it is about.
+    const bool hasLosses = !m_table->isColumnHidden(CharacterModel::kLostOnNetwork);
+    QString span = hasLosses ? tr("lost: %1").arg(boardSpanText(m_view)) : QString();
     if (unproven.characters != 0) {
-        span.prepend(tr("%1 unconfirmed · ").arg(grouped(unproven.characters)));
+        span.prepend(tr("%1 unconfirmed").arg(grouped(unproven.characters)) +
+                     (hasLosses ? QStringLiteral(" · ") : QString()));
         m_span->setToolTip(toolTipText(tr("IDs of which too little came to believe that they are characters: "
                                           "corrupt datagrams may have invented them. Datagrams: %1.")
                                            .arg(grouped(unproven.datagrams))));
@@ -373,6 +381,14 @@ void CharactersPanel::showIncidentsOfSelected() {
     if (const auto key = selected()) {
         m_commands.showIncident(m_view.verdict(*key).incident);
     }
+}
+
+void CharactersPanel::toggleEnded() {
+    m_endedToggle->click();
+}
+
+bool CharactersPanel::isEndedShown() const {
+    return m_endedToggle->isChecked();
 }
 
 void CharactersPanel::forgetEnded() {

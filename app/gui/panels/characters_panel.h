@@ -44,6 +44,8 @@ public:
     void showPacketsOfSelected();
     void showIncidentsOfSelected();
 
+    void toggleEnded();
+    [[nodiscard]] bool isEndedShown() const;
     /// Takes all ended senders out of the lists.
     void forgetEnded();
 

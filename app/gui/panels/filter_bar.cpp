@@ -253,6 +253,8 @@ void FilterBar::showSaved() {
             apply();
         });
         QWidget* button = m_buttons->widgetForAction(action);
+        button->setAccessibleName(tr("Filter packets: %1").arg(m_saved[i].name));
+        button->setAccessibleDescription(m_saved[i].text);
         button->setContextMenuPolicy(Qt::CustomContextMenu);
         connect(button, &QWidget::customContextMenuRequested, this,
                 [this, i, button](const QPoint& place) { askAbout(i, button->mapToGlobal(place)); });

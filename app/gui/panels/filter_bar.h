@@ -53,6 +53,8 @@ public:
     };
     [[nodiscard]] const std::vector<Saved>& saved() const { return m_saved; }
     void setSaved(std::vector<Saved> saved);
+    /// As a button, under a name that is asked for.
+    void saveCurrent();
     [[nodiscard]] const QStringList& history() const { return m_history; }
 
     /// History and saved filters, to be kept from one run to the next.
@@ -90,7 +92,6 @@ private:
     void hideOffers();
     bool offersTake(int key);
     void showSaved();
-    void saveCurrent();
     void askAbout(std::size_t index, const QPoint& place);
     void rename(std::size_t index);
     [[nodiscard]] QString askForName(const QString& title, const QString& accept, QString before);

@@ -35,6 +35,13 @@ void FittingHeader::setSamples(std::vector<QString> samples, const QString& leas
     measure();
 }
 
+void FittingHeader::keepOpenFor(const QString& text) {
+    if (textWidth(text) > leastOpenWidth()) {
+        m_leastOpen = text;
+        fit();
+    }
+}
+
 void FittingHeader::setUseful(int column, bool isUseful) {
     if (m_useless.contains(column) == isUseful) {
         isUseful ? static_cast<void>(m_useless.removeAll(column)) : m_useless.append(column);
@@ -45,6 +52,11 @@ void FittingHeader::setUseful(int column, bool isUseful) {
 void FittingHeader::setGivingWay(std::vector<int> columns) {
     m_givingWay = std::move(columns);
     setContextMenuPolicy(Qt::CustomContextMenu);
+    measure();
+}
+
+void FittingHeader::addElastic(int column, const QString& least, const QString& most) {
+    m_elastic.push_back({column, least, most});
     measure();
 }
 
@@ -113,7 +125,9 @@ void FittingHeader::measure() {
     {
         const QScopedValueRollback guard(m_isFitting, true);
         for (int column = 0; column < columns(); ++column) {
-            if (column != openColumn()) {
+            // What fit() sizes is not sized twice: scroll bars would come and go, and begin all over.
+            const bool isElastic = std::ranges::find(m_elastic, column, &Elastic::column) != m_elastic.end();
+            if (column != openColumn() && !isElastic) {
                 resizeSection(column, sampleWidth(column));
             }
         }
@@ -146,8 +160,23 @@ void FittingHeader::fit() {
             setSectionHidden(column, !isSectionHidden(column));
         }
     }
+    fitElastic(width - needed);
     const int others = length() - sectionSize(open);
-    resizeSection(open, std::max(leastOpenWidth(), width - others));
+    // One that is kept for what it says gets narrower before all of it is scrolled away.
+    const int least = m_kept == Kept::Open ? textWidth(QStringLiteral("12345678")) : leastOpenWidth();
+    resizeSection(open, std::max(least, width - others));
+}
+
+/// `spare` is what is left of the width, less than 0 where it is too small.
+void FittingHeader::fitElastic(int spare) {
+    for (const Elastic& one : m_elastic) {
+        if (!isSectionHidden(one.column)) {
+            const int usual = sampleWidth(one.column);
+            const int fitting = std::clamp(usual + spare, textWidth(one.least), textWidth(one.most));
+            resizeSection(one.column, fitting);
+            spare -= fitting - usual;
+        }
+    }
 }
 
 int FittingHeader::columnBeside(int column, int direction) const {

@@ -27,11 +27,16 @@ public:
     /// One sample for each column, as long as its content may become; an empty one takes the room left, but
     /// never less than `leastOpen` needs, or 22 characters without it.
     void setSamples(std::vector<QString> samples, const QString& leastOpen = {});
+    /// Makes the column that takes the room left never narrower than `text` needs, where it would be.
+    void keepOpenFor(const QString& text);
     /// Columns that say nothing are left out altogether.
     void setUseful(int column, bool isUseful);
     /// Where not all columns fit, these give way to the one that takes the room left, the first one first.
     /// From now on the operator can choose columns.
     void setGivingWay(std::vector<int> columns);
+    /// A column that gets narrower, down to what `least` needs, where even the columns that are left do not
+    /// fit; and wider, up to what `most` needs, where there is room left. The one added first comes first.
+    void addElastic(int column, const QString& least, const QString& most);
     [[nodiscard]] bool isChoosable() const { return !m_givingWay.empty(); }
     /// Without a choice of the operator only these are shown, as they fit.
     void setUsual(std::vector<int> columns);
@@ -52,6 +57,13 @@ public:
     [[nodiscard]] int columnBeside(int column, int direction) const;
 
 private:
+    struct Elastic {
+        int column;
+        QString least;
+        QString most;
+    };
+
+    void fitElastic(int spare);
     [[nodiscard]] int columns() const { return static_cast<int>(m_samples.size()); }
     [[nodiscard]] int openColumn() const;
     [[nodiscard]] bool isWanted(int column) const;
@@ -67,6 +79,7 @@ private:
     std::vector<QString> m_samples;
     QString m_leastOpen;
     std::vector<int> m_givingWay;
+    std::vector<Elastic> m_elastic;
     QList<int> m_useless;
     std::vector<int> m_usual; ///< empty for all
     QStringList m_names;      ///< by column

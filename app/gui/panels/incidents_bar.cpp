@@ -4,7 +4,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 
-#include <QButtonGroup>
+#include <QActionGroup>
 #include <QEvent>
 #include <QKeyEvent>
 #include <QLineEdit>
@@ -26,18 +26,23 @@ std::size_t placeOf(model::IncidentSeverity severity) {
 
 } // namespace
 
-IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent) {
+IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent), m_commands(new CommandBar(this)) {
     auto* row = spacedRow({8, 6, 8, 6}, 6, this);
-    m_current =
-        addButton(QStringLiteral("currentEvents"), tr("Current"), tr("Only what still goes on, or may"));
-    m_history = addButton(QStringLiteral("eventHistory"), tr("History"), tr("All that happened"));
-    auto* group = new QButtonGroup(this);
-    for (QToolButton* button : {m_current, m_history}) {
-        button->setCheckable(true);
-        group->addButton(button);
-    }
-    connect(m_current, &QToolButton::toggled, this, &IncidentBar::change);
+    auto* group = new QActionGroup(this);
+    m_current = addToggle("currentEvents", tr("Current"), tr("Only what still goes on, or may"));
+    m_history = addToggle("eventHistory", tr("History"), tr("All that happened"));
+    group->addAction(m_current);
+    group->addAction(m_history);
     addSeverities();
+    addGroups();
+    const auto add = [this](const char* name, const QString& text, const QString& toolTip) {
+        return m_commands->addCommand(QLatin1String(name), text, toolTip);
+    };
+    connect(add("markSeen", tr("Mark seen"),
+                tr("Mark all incidents so far as seen: they are dimmed and no longer counted as new")),
+            &QAction::triggered, this, &IncidentBar::seenRequested);
+    connect(add("exportEvents", tr("Export…"), tr("Save the listed incidents as CSV or JSON")),
+            &QAction::triggered, this, &IncidentBar::exportRequested);
     m_text = new QLineEdit(this);
     m_text->setObjectName(QStringLiteral("eventText"));
     m_text->setAccessibleName(tr("Text to filter incidents by"));
@@ -46,35 +51,20 @@ IncidentBar::IncidentBar(QWidget* parent) : QWidget(parent) {
     m_text->setMinimumWidth(fontMetrics().averageCharWidth() * 8);
     m_text->installEventFilter(this);
     connect(m_text, &QLineEdit::textChanged, this, &IncidentBar::change);
+    row->addWidget(m_commands);
     row->addWidget(m_text, 1);
-    addCommands();
+    for (QToolButton* button : m_commands->findChildren<QToolButton*>()) {
+        button->installEventFilter(this);
+    }
     setFilter({});
 }
 
-/// In a narrow dock they give way first, into a menu.
-void IncidentBar::addCommands() {
-    auto* commands = new CommandBar(this);
-    addGroups(*commands);
-    connect(commands->addCommand(
-                QStringLiteral("markSeen"), tr("Mark seen"),
-                tr("Mark all incidents so far as seen: they are dimmed and no longer counted as new")),
-            &QAction::triggered, this, &IncidentBar::seenRequested);
-    connect(commands->addCommand(QStringLiteral("exportEvents"), tr("Export…"),
-                                 tr("Save the listed incidents as CSV or JSON")),
-            &QAction::triggered, this, &IncidentBar::exportRequested);
-    for (QToolButton* button : commands->findChildren<QToolButton*>()) {
-        button->installEventFilter(this);
-    }
-    layout()->addWidget(commands);
-}
-
-QToolButton* IncidentBar::addButton(const QString& name, const QString& text, const QString& toolTip) {
-    QToolButton* button = framedButton(text, toolTip, this);
-    button->setObjectName(name);
-    button->setFocusPolicy(Qt::StrongFocus);
-    button->installEventFilter(this);
-    layout()->addWidget(button);
-    return button;
+/// In a narrow dock the last ones go into a menu.
+QAction* IncidentBar::addToggle(const char* name, const QString& text, const QString& toolTip) {
+    QAction* action = m_commands->addCommand(QLatin1String(name), text, toolTip);
+    action->setCheckable(true);
+    connect(action, &QAction::toggled, this, &IncidentBar::change);
+    return action;
 }
 
 void IncidentBar::addSeverities() {
@@ -82,19 +72,15 @@ void IncidentBar::addSeverities() {
         {{"notes", tr("Show notes")}, {"warnings", tr("Show warnings")}, {"errors", tr("Show errors")}}};
     for (const model::IncidentSeverity severity : kSeverities) {
         const auto& [name, toolTip] = texts[placeOf(severity)];
-        QToolButton* button = addButton(QLatin1String(name), {}, toolTip);
-        button->setAccessibleName(toolTip);
-        button->setCheckable(true);
-        connect(button, &QToolButton::toggled, this, &IncidentBar::change);
-        m_severities[placeOf(severity)] = button;
+        m_severities[placeOf(severity)] = addToggle(name, {}, toolTip);
     }
     showCounts({});
     paintSeverities();
 }
 
-void IncidentBar::addGroups(CommandBar& commands) {
+void IncidentBar::addGroups() {
     m_groupCommand =
-        commands.addCommand(QStringLiteral("eventGroups"), {}, tr("Which groups of incidents are listed"));
+        m_commands->addCommand(QStringLiteral("eventGroups"), {}, tr("Which groups of incidents are listed"));
     m_groups = new QMenu(this);
     for (std::size_t i = 0; i < IncidentModel::Filter().groups.size(); ++i) {
         QAction* action = m_groups->addAction(groupWord(static_cast<model::IncidentGroup>(i)));
@@ -102,7 +88,7 @@ void IncidentBar::addGroups(CommandBar& commands) {
         connect(action, &QAction::toggled, this, &IncidentBar::change);
     }
     m_groupCommand->setMenu(m_groups);
-    qobject_cast<QToolButton*>(commands.widgetForAction(m_groupCommand))
+    qobject_cast<QToolButton*>(m_commands->widgetForAction(m_groupCommand))
         ->setPopupMode(QToolButton::InstantPopup);
 }
 
@@ -122,7 +108,7 @@ void IncidentBar::setFilter(const IncidentModel::Filter& filter) {
 }
 
 void IncidentBar::change() {
-    if (m_groups == nullptr) {
+    if (m_text == nullptr) {
         return; // still being made
     }
     IncidentModel::Filter filter;
@@ -143,8 +129,8 @@ void IncidentBar::change() {
 
 void IncidentBar::showCounts(const IncidentModel::Counts& counts) {
     for (const model::IncidentSeverity severity : kSeverities) {
-        QToolButton* button = m_severities[placeOf(severity)];
-        button->setText(healthText(healthOf(severity), grouped(counts.severities[placeOf(severity)])));
+        m_severities[placeOf(severity)]->setText(
+            healthText(healthOf(severity), grouped(counts.severities[placeOf(severity)])));
     }
 }
 
@@ -155,7 +141,7 @@ void IncidentBar::paintSeverities() {
         const QString sheet =
             QStringLiteral("QToolButton:checked { color: %1; } QToolButton:!checked { color: %2; }")
                 .arg(colour.name(), theme().dim.name());
-        QToolButton* button = m_severities[placeOf(severity)];
+        QWidget* button = m_commands->widgetForAction(m_severities[placeOf(severity)]);
         if (button->styleSheet() != sheet) {
             button->setStyleSheet(sheet);
         }

@@ -36,6 +36,34 @@ void readFlags(const QJsonValue& value, std::span<bool> flags) {
     }
 }
 
+using Severity = model::IncidentSeverity;
+
+bool listsCurrent(const IncidentsPanel& panel) {
+    return panel.filter().onlyCurrent;
+}
+
+template <bool onlyCurrent>
+void listCurrent(IncidentsPanel& panel) {
+    IncidentModel::Filter filter = panel.filter();
+    filter.onlyCurrent = onlyCurrent;
+    panel.setFilter(filter);
+}
+
+template <Severity severity>
+bool listsSeverity(const IncidentsPanel& panel) {
+    return panel.filter().severities[static_cast<std::size_t>(severity)];
+}
+
+template <Severity severity>
+void toggleSeverity(IncidentsPanel& panel) {
+    IncidentModel::Filter filter = panel.filter();
+    bool& isListed = filter.severities[static_cast<std::size_t>(severity)];
+    isListed = !isListed;
+    panel.setFilter(filter);
+}
+
+constexpr const char* kList = QT_TRANSLATE_NOOP("Action", "&View/&Incidents");
+
 bool isEnd(const QEvent& event) {
     const bool isKey = event.type() == QEvent::KeyPress || event.type() == QEvent::ShortcutOverride;
     return isKey && static_cast<const QKeyEvent&>(event).key() == Qt::Key_End &&
@@ -63,7 +91,7 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_message->setForegroundRole(QPalette::PlaceholderText);
     m_message->setContentsMargins(10, 3, 10, 4);
     m_table->setModel(&m_incidents);
-    m_table->setColumnSamples({QStringLiteral("      ▲ warning"), QStringLiteral("10:42:17.508"),
+    m_table->setColumnSamples({QStringLiteral("    ▲ warning"), QStringLiteral("10:42:17.508"),
                                QStringLiteral("Mira Lindqvist · 02"), QString(), QStringLiteral("99 999"),
                                QStringLiteral("this computer"), QStringLiteral("not settled"),
                                QStringLiteral("99 999"), QStringLiteral("metadata change"),
@@ -74,17 +102,33 @@ IncidentsPanel::IncidentsPanel(model::SessionView& view, Commands& commands, QWi
     m_table->columns().setGivingWay({IncidentModel::kGroup, IncidentModel::kKind, IncidentModel::kCount,
                                      IncidentModel::kLost, IncidentModel::kTime, IncidentModel::kLasted,
                                      IncidentModel::kCause});
+    m_table->columns().addElastic(IncidentModel::kWho, QStringLiteral("20 characters"),
+                                  QStringLiteral("Mira Lindqvist · 02 Pose, quaternion"));
     connectParts();
     showEmptyState();
 }
 
 std::span<const ActionInfo> IncidentsPanel::actionTable() {
+    using Do = ActionsOf<IncidentsPanel>;
     static constexpr ActionInfo kActions[] = {
+        {"currentIncidents", kList, QT_TRANSLATE_NOOP("Action", "&Current"), "", Do::call<listCurrent<true>>,
+         Do::is<listsCurrent>},
+        {"incidentHistory", kList, QT_TRANSLATE_NOOP("Action", "&History"), "", Do::call<listCurrent<false>>,
+         Do::is<listsCurrent, false>},
+        lineIn(kList),
+        {"listErrors", kList, QT_TRANSLATE_NOOP("Action", "&Errors"), "",
+         Do::call<toggleSeverity<Severity::Error>>, Do::is<listsSeverity<Severity::Error>>},
+        {"listWarnings", kList, QT_TRANSLATE_NOOP("Action", "&Warnings"), "",
+         Do::call<toggleSeverity<Severity::Warning>>, Do::is<listsSeverity<Severity::Warning>>},
+        {"listNotes", kList, QT_TRANSLATE_NOOP("Action", "&Notes"), "",
+         Do::call<toggleSeverity<Severity::Info>>, Do::is<listsSeverity<Severity::Info>>},
+        lineIn(kList),
+        {"markIncidentsSeen", kList, QT_TRANSLATE_NOOP("Action", "&Mark all as seen"), "",
+         Do::call<&IncidentsPanel::markSeen>},
         {"exportEvents", QT_TRANSLATE_NOOP("Action", "&File"),
-         QT_TRANSLATE_NOOP("Action", "Export &incidents…"), "",
-         ActionsOf<IncidentsPanel>::call<&IncidentsPanel::exportFile>},
+         QT_TRANSLATE_NOOP("Action", "Export &incidents…"), "", Do::call<&IncidentsPanel::exportFile>},
         {"onlyIncident", "&Go", QT_TRANSLATE_NOOP("Action", "Show only the &incident's packets"),
-         "Ctrl+Return", ActionsOf<IncidentsPanel>::call<&IncidentsPanel::showOnlyCurrent>},
+         "Ctrl+Return", Do::call<&IncidentsPanel::showOnlyCurrent>},
     };
     return kActions;
 }

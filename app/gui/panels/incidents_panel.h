@@ -38,16 +38,16 @@ protected:
     void changeEvent(QEvent* event) override;
 
 private:
-    QToolButton* addButton(const QString& name, const QString& text, const QString& toolTip);
+    QAction* addToggle(const char* name, const QString& text, const QString& toolTip);
     void addSeverities();
-    void addCommands();
-    void addGroups(CommandBar& commands);
+    void addGroups();
     void change();
     void paintSeverities();
 
-    QToolButton* m_current = nullptr;
-    QToolButton* m_history = nullptr;
-    std::array<QToolButton*, 3> m_severities{}; ///< by IncidentSeverity
+    CommandBar* m_commands;
+    QAction* m_current = nullptr;
+    QAction* m_history = nullptr;
+    std::array<QAction*, 3> m_severities{}; ///< by IncidentSeverity
     QLineEdit* m_text = nullptr;
     QAction* m_groupCommand = nullptr;
     QMenu* m_groups = nullptr;
@@ -79,6 +79,8 @@ public:
     /// What was said last below the list.
     [[nodiscard]] QString message() const { return m_message->said(); }
 
+    [[nodiscard]] const IncidentModel::Filter& filter() const { return m_incidents.filter(); }
+    void setFilter(const IncidentModel::Filter& filter) { m_bar->setFilter(filter); }
     void exportFile();
     void markSeen() { m_incidents.markSeen(); }
     void newest();

@@ -111,34 +111,11 @@ void InspectorPanel::connectParts() {
     connect(m_previous, &QToolButton::clicked, this, [this] { step(-1); });
     connect(m_next, &QToolButton::clicked, this, [this] { step(1); });
     m_hold->setCheckable(true);
+    m_hold->setAccessibleName(tr("Hold this packet"));
     connect(m_hold, &QToolButton::clicked, this, &InspectorPanel::hold);
     m_compare->setMenu(new QMenu(m_compare));
     m_compare->setPopupMode(QToolButton::InstantPopup);
     connect(m_compare->menu(), &QMenu::aboutToShow, this, &InspectorPanel::fillCompareMenu);
-}
-
-void InspectorPanel::fillCompareMenu() {
-    QMenu* menu = m_compare->menu();
-    menu->clear();
-    const auto add = [&](const QString& text, Comparison comparison) {
-        QAction* action = menu->addAction(text, this, [this, comparison] { compare(comparison); });
-        action->setCheckable(true);
-        action->setChecked(m_comparison == comparison);
-        return action;
-    };
-    add(tr("Do not compare"), Comparison::None);
-    add(tr("With the previous packet of its stream"), Comparison::Previous);
-    add(m_reference ? tr("With the reference, packet %1").arg(grouped(*m_reference))
-                    : tr("With the reference"),
-        Comparison::Reference)
-        ->setEnabled(m_reference.has_value());
-    menu->addSeparator();
-    menu->addAction(tr("Set this packet as reference"), this, &InspectorPanel::setReference);
-    QAction* only = menu->addAction(tr("Only differences"));
-    only->setCheckable(true);
-    only->setChecked(m_model.isOnlyDifferences());
-    connect(only, &QAction::toggled, this,
-            [this](bool isOnly) { m_fields->change([&] { m_model.setOnlyDifferences(isOnly); }); });
 }
 
 void InspectorPanel::refresh() {
@@ -360,7 +337,9 @@ void InspectorPanel::followSelection(bool isNewPacket) {
 
 /// The field that the found bytes begin in, and all of them.
 void InspectorPanel::showFound(const model::FoundBytes& found) {
-    goTo(m_document->nodeAt(found.begin));
+    if (const std::int32_t node = m_document->nodeAt(found.begin); node >= 0) {
+        showField(node);
+    }
     m_bytes->setSelected({found.begin, found.end});
     m_bytes->scrollTo(found.begin);
 }
@@ -396,9 +375,13 @@ void InspectorPanel::activate(std::int64_t offset) {
 }
 
 void InspectorPanel::goTo(std::int32_t node) {
-    if (node < 0) {
-        return;
+    if (node >= 0) {
+        showField(node);
+        m_bytes->scrollTo(rangeOf(*m_document, node).begin);
     }
+}
+
+void InspectorPanel::showField(std::int32_t node) {
     m_fields->setCurrentNode(node);
     // Not shown where only differences are, and it has none: its bytes are there all the same.
     if (const QModelIndex index = m_model.indexOf(node); index.isValid()) {
@@ -407,7 +390,6 @@ void InspectorPanel::goTo(std::int32_t node) {
                                                                    : QAbstractItemView::PositionAtCenter);
     }
     describeCurrent();
-    m_bytes->scrollTo(rangeOf(*m_document, node).begin);
 }
 
 void InspectorPanel::openMenu(const QPoint& at) {

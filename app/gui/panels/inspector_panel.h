@@ -22,6 +22,8 @@ class InspectorPanel : public Panel {
 public:
     InspectorPanel(model::SessionView& view, Commands& commands, QWidget* parent);
 
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+
     void refresh() override;
     [[nodiscard]] QString summary() const override;
 
@@ -30,7 +32,13 @@ public:
 
     enum class Comparison { None, Previous, Reference };
     void compare(Comparison comparison);
+    [[nodiscard]] Comparison comparison() const { return m_comparison; }
     void setReference();
+    void toggleOnlyDifferences();
+    [[nodiscard]] bool isOnlyDifferences() const { return m_model.isOnlyDifferences(); }
+    /// Keeps showing the packet that is shown, or follows the stream again.
+    void toggleHold();
+    [[nodiscard]] bool isHeld() const;
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -56,6 +64,8 @@ private:
     void select(std::int32_t node);
     void activate(std::int64_t offset);
     void goTo(std::int32_t node);
+    /// The same without its bytes.
+    void showField(std::int32_t node);
     void openMenu(const QPoint& at);
     void step(int direction);
     void hold(bool isHeld);

@@ -9,6 +9,8 @@
 #include <QActionGroup>
 #include <QMenu>
 
+#include <type_traits>
+
 namespace posewire::gui {
 
 namespace {
@@ -33,6 +35,52 @@ QString check(const QActionGroup& group, const std::optional<Value>& declared) {
     }
     return text;
 }
+
+/// As it was detected, where nothing is declared.
+constexpr int kAutomatic = -1;
+
+template <auto member, auto value>
+void declare(MetadataPanel& panel) {
+    SenderOverride overrides = panel.detection().declared();
+    if constexpr (std::is_same_v<decltype(value), int>) {
+        (overrides.*member).reset();
+    } else {
+        overrides.*member = value;
+    }
+    panel.detection().declare(overrides);
+}
+
+template <auto member, auto value>
+bool isDeclared(const MetadataPanel& panel) {
+    const SenderOverride overrides = panel.detection().declared();
+    if constexpr (std::is_same_v<decltype(value), int>) {
+        return !(overrides.*member);
+    } else {
+        return overrides.*member == value;
+    }
+}
+
+template <auto member, auto value>
+constexpr ActionInfo entry(const char* id, const char* menu, const char* text) {
+    using Do = ActionsOf<MetadataPanel>;
+    return {id, menu, text, "", Do::call<declare<member, value>>, Do::is<isDeclared<member, value>>};
+}
+
+constexpr auto kRevision = &SenderOverride::revision;
+constexpr auto kUnit = &SenderOverride::positionUnit;
+constexpr const char* kRevisions = QT_TRANSLATE_NOOP("Action", "&Input/&Revision of the sender");
+constexpr const char* kUnits = QT_TRANSLATE_NOOP("Action", "&Input/&Units of positions");
+
+constexpr ActionInfo kActions[] = {
+    entry<kRevision, kAutomatic>("revisionAutomatic", kRevisions, QT_TRANSLATE_NOOP("Action", "&Automatic")),
+    entry<kRevision, Revision::E>("revisionE", kRevisions, QT_TRANSLATE_NOOP("Action", "&E")),
+    entry<kRevision, Revision::JOrK>("revisionJ", kRevisions, QT_TRANSLATE_NOOP("Action", "&J or K")),
+    entry<kRevision, Revision::N>("revisionN", kRevisions, QT_TRANSLATE_NOOP("Action", "&L to N")),
+    entry<kUnit, kAutomatic>("unitsAutomatic", kUnits, QT_TRANSLATE_NOOP("Action", "&Automatic")),
+    entry<kUnit, LengthUnit::Metre>("unitsMetres", kUnits, QT_TRANSLATE_NOOP("Action", "&Metres")),
+    entry<kUnit, LengthUnit::Centimetre>("unitsCentimetres", kUnits,
+                                         QT_TRANSLATE_NOOP("Action", "&Centimetres")),
+};
 
 } // namespace
 
@@ -80,14 +128,23 @@ DetectionBar::addChoice(const QString& toolTip, std::optional<Value> SenderOverr
         action->setCheckable(true);
         action->setData(value ? QVariant(static_cast<int>(*value)) : QVariant());
         connect(action, &QAction::triggered, this, [this, value = value, declared] {
-            if (const model::Sender* sender = m_sender ? m_view.find(*m_sender) : nullptr) {
-                SenderOverride overrides = sender->overrides;
-                overrides.*declared = value;
-                m_commands.setOverride(*m_sender, overrides);
-            }
+            SenderOverride overrides = this->declared();
+            overrides.*declared = value;
+            declare(overrides);
         });
     }
     return choice;
+}
+
+SenderOverride DetectionBar::declared() const {
+    const model::Sender* sender = m_sender ? m_view.find(*m_sender) : nullptr;
+    return sender == nullptr ? SenderOverride() : sender->overrides;
+}
+
+void DetectionBar::declare(const SenderOverride& overrides) {
+    if (m_sender && m_view.find(*m_sender) != nullptr) {
+        m_commands.setOverride(*m_sender, overrides);
+    }
 }
 
 void DetectionBar::showSender(std::optional<log::SenderId> sender) {
@@ -128,8 +185,13 @@ MetadataPanel::MetadataPanel(model::SessionView& view, Commands& commands, QWidg
     m_table->setModel(&m_model);
     m_table->setRootIsDecorated(true);
     m_table->setColumnSamples({QStringLiteral("name · 22 changes"), QString(), QStringLiteral("99 min")});
+    m_table->setOptionalColumns(2);
     m_table->setEmptyText(
         tr("No character selected.\nMetadata (type 12) appears here as soon as a character arrives."));
+}
+
+std::span<const ActionInfo> MetadataPanel::actionTable() {
+    return kActions;
 }
 
 void MetadataPanel::refresh() {

@@ -20,6 +20,10 @@ public:
 
     /// `sender` is whom the choices are about; without one the bar is hidden.
     void showSender(std::optional<log::SenderId> sender);
+    /// What is declared about the sender that is shown.
+    [[nodiscard]] model::SenderOverride declared() const;
+    /// Nothing happens where none is shown.
+    void declare(const model::SenderOverride& overrides);
 
 private:
     /// A button that opens a menu of values, one of which is declared.
@@ -48,8 +52,11 @@ class MetadataPanel : public Panel {
 public:
     MetadataPanel(model::SessionView& view, Commands& commands, QWidget* parent);
 
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+
     void refresh() override;
     [[nodiscard]] QString summary() const override;
+    [[nodiscard]] DetectionBar& detection() const { return *m_detection; }
 
 private:
     MetadataModel m_model;

@@ -95,7 +95,7 @@ NullPosePanel::NullPosePanel(model::SessionView& view, Commands& commands, QWidg
       m_scaleTable(new TableView(tr("Scale information, type 10"), commands, this)),
       m_ghost(framedButton(tr("Ghost"), tr("Show the null pose over the live figure (Shift+G)"), this)),
       m_export(framedButton(tr("Export ▾"), tr("Save or copy what was sent, as CSV or JSON"), this)),
-      m_comparison(plainLabel(this)),
+      m_comparison(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)),
       m_noticeLine(new Line(this)) {
     makeTables();
     makeButtons();
@@ -128,9 +128,6 @@ void NullPosePanel::makeTables() {
     m_scaleTable->setColumnSamples(
         {QStringLiteral("99"), QStringLiteral("Right Upper Arm"), number, number, number, QString()});
     m_factTable->showFacts(m_facts, QStringLiteral("Props (11)"));
-    const QString widest = QStringLiteral("Props (11)00:00:00 · 99.9 s");
-    m_factTable->setMinimumWidth(QFontMetrics(tabularFont()).horizontalAdvance(widest) +
-                                 5 * CellDelegate::margin(fontMetrics()));
     connect(m_segmentTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
             [this](const QModelIndex& index) { selectPlace(index.row()); });
     connect(m_pointTable->selectionModel(), &QItemSelectionModel::currentRowChanged, this,
@@ -157,16 +154,14 @@ void NullPosePanel::makeButtons() {
     auto* menu = new QMenu(m_export);
     for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
         menu->addAction(tr("Save as &%1…").arg(QLatin1String(format.title)), this,
-                        [this, &format] { chooseFile(format); });
+                        [this, &format] { chooseFile(format, fileFilter(format)); });
     }
     menu->addSeparator();
     for (const SheetFormat& format : exporting::formats<exporting::NullPoseSheet>()) {
-        menu->addAction(tr("Copy as %1").arg(QLatin1String(format.title)), this, [this, &format] {
-            m_commands.copyText(QString::fromStdString(format.write(sheet())));
-        });
+        menu->addAction(tr("Copy as %1").arg(QLatin1String(format.title)), this,
+                        [this, &format] { copyAs(format); });
     }
-    menu->addAction(tr("Copy the contradictions"), this,
-                    [this] { m_commands.copyText(findingsText(m_reading.findings())); });
+    menu->addAction(tr("Copy the contradictions"), this, &NullPosePanel::copyContradictions);
     m_export->setMenu(menu);
 }
 
@@ -191,8 +186,7 @@ void NullPosePanel::layOut() {
     for (QSplitter* splitter : {m_splitter, m_overview}) {
         splitter->setHandleWidth(1);
     }
-    row->addStretch(1);
-    row->addWidget(m_comparison);
+    row->addWidget(m_comparison, 1);
     m_noticeLine->hide();
     layout->addWidget(m_notices);
     layout->addWidget(m_noticeLine);
@@ -216,7 +210,6 @@ void NullPosePanel::refresh() {
     }
     m_segmentTable->setEmptyText(emptyText());
     m_facts.refresh();
-    setTextColour(*m_comparison, theme().dim);
     m_ghost->setChecked(m_view.isGhostShown());
     followSelection();
     arrange();
@@ -230,8 +223,8 @@ void NullPosePanel::showContent() {
     m_figure->setVisible(hasPose);
     m_export->setEnabled(!m_reading.isEmpty());
     const auto& height = m_reading.measures().height;
-    m_comparison->setText(hasPose && height ? tr("ref: the reference body at %1 m").arg(fixed(*height, 3))
-                                            : QString());
+    m_comparison->setText({}, hasPose && height ? tr("ref: the reference body at %1 m").arg(fixed(*height, 3))
+                                                : QString());
     m_ghost->setEnabled(hasPose);
     m_tabs->setTabVisible(m_tabs->indexOf(m_scaleTable), m_reading.scale() != nullptr);
     if (!hasPose && m_reading.scale() != nullptr) {
@@ -308,7 +301,13 @@ void NullPosePanel::arrange() {
     if (!isRoomy) {
         m_tabs->setTabVisible(m_tabs->indexOf(m_overview), !m_reading.isEmpty());
     }
-    m_overview->setOrientation(width() >= 30 * fontMetrics().height() ? Qt::Horizontal : Qt::Vertical);
+    // Beside the figure the facts have the room they need; a narrow dock has them below it.
+    const bool isWide = width() >= 30 * fontMetrics().height();
+    const QString widest = QStringLiteral("Props (11)00:00:00 · 99.9 s");
+    m_factTable->setMinimumWidth(isWide ? QFontMetrics(tabularFont()).horizontalAdvance(widest) +
+                                              5 * CellDelegate::margin(fontMetrics())
+                                        : 0);
+    m_overview->setOrientation(isWide ? Qt::Horizontal : Qt::Vertical);
     if (isRoomy && !m_isDivided && m_overview->isVisible()) {
         m_isDivided = true;
         m_splitter->setSizes({4, 5});
@@ -343,12 +342,47 @@ QString NullPosePanel::save(const QString& path) const {
     return saveFile(path, exporting::formatFor<exporting::NullPoseSheet>(path.toStdString()).write(sheet()));
 }
 
-void NullPosePanel::chooseFile(const SheetFormat& format) {
+std::span<const ActionInfo> NullPosePanel::actionTable() {
+    using Do = ActionsOf<NullPosePanel>;
+    static constexpr const char* kCopy = QT_TRANSLATE_NOOP("Action", "&Edit/Copy n&ull pose");
+    static constexpr ActionInfo kActions[] = {
+        {"exportNullPose", "&File", QT_TRANSLATE_NOOP("Action", "Export &null pose…"), "",
+         Do::call<&NullPosePanel::exportFile>},
+        {"copyNullPoseCsv", kCopy, QT_TRANSLATE_NOOP("Action", "As &CSV"), "",
+         Do::call<&NullPosePanel::copyCsv>},
+        {"copyNullPoseJson", kCopy, QT_TRANSLATE_NOOP("Action", "As &JSON"), "",
+         Do::call<&NullPosePanel::copyJson>},
+        {"copyContradictions", kCopy, QT_TRANSLATE_NOOP("Action", "Contra&dictions"), "",
+         Do::call<&NullPosePanel::copyContradictions>},
+    };
+    return kActions;
+}
+
+void NullPosePanel::exportFile() {
+    chooseFile(exporting::formats<exporting::NullPoseSheet>()[0], fileFilters<exporting::NullPoseSheet>());
+}
+
+void NullPosePanel::copyCsv() {
+    copyAs(exporting::formatFor<exporting::NullPoseSheet>(".csv"));
+}
+
+void NullPosePanel::copyJson() {
+    copyAs(exporting::formatFor<exporting::NullPoseSheet>(".json"));
+}
+
+void NullPosePanel::copyAs(const SheetFormat& format) {
+    m_commands.copyText(QString::fromStdString(format.write(sheet())));
+}
+
+void NullPosePanel::copyContradictions() {
+    m_commands.copyText(findingsText(m_reading.findings()));
+}
+
+void NullPosePanel::chooseFile(const SheetFormat& format, const QString& filters) {
     const std::string name = sheet().character.fileName("Character");
-    const QString path =
-        askWhereToSave(this, tr("Save null pose"),
-                       QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)),
-                       fileFilter(format));
+    const QString path = askWhereToSave(
+        this, tr("Save null pose"),
+        QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)), filters);
     const QString problem = path.isEmpty() ? QString() : save(path);
     if (!problem.isEmpty()) {
         MessageBox(tr("Save null pose"), problem, QMessageBox::Ok, this).exec();

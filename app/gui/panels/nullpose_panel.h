@@ -8,13 +8,14 @@
 #include "app/gui/panels/table_view.h"
 #include "core/export/formats.h"
 
-#include <QLabel>
 #include <QSplitter>
 #include <QTabWidget>
 #include <QTextBrowser>
 #include <QToolButton>
 
 namespace posewire::gui {
+
+class ElidedLabel;
 
 /// What contradicts itself in scale messages, in words: gravest first, each with what it means. As high as
 /// its text, up to a share of the dock; selectable, and a finding about a segment is a link to it.
@@ -58,6 +59,11 @@ public:
     /// Writes what is shown to a file, in the format of the name's suffix. Returns what went wrong, empty for
     /// nothing.
     [[nodiscard]] QString save(const QString& path) const;
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+    void exportFile();
+    void copyCsv();
+    void copyJson();
+    void copyContradictions();
 
 protected:
     void resizeEvent(QResizeEvent* event) override;
@@ -72,7 +78,9 @@ private:
     void followSelection();
     void selectPlace(int place);
     void selectPoint(int point);
-    void chooseFile(const SheetFormat& format);
+    /// Asks for a name that ends as the format's files do.
+    void chooseFile(const SheetFormat& format, const QString& filters);
+    void copyAs(const SheetFormat& format);
     [[nodiscard]] exporting::NullPoseSheet sheet() const;
     void showContent();
     [[nodiscard]] QString emptyText() const;
@@ -95,7 +103,7 @@ private:
     TableView* m_scaleTable;
     QToolButton* m_ghost;
     QToolButton* m_export;
-    QLabel* m_comparison; ///< with what "Δ ref" compares
+    ElidedLabel* m_comparison; ///< with what "Δ ref" compares
     QWidget* m_noticeLine;
     int m_point = -1;
     bool m_isFollowing = false;

@@ -29,7 +29,7 @@ QString fitting(const QFontMetrics& metrics, const QString& text, int width) {
 void PacketView::paintEvent(QPaintEvent* event) {
     const int rows = model() == nullptr ? 0 : model()->rowCount();
     if (rows == 0) {
-        drawEmptyText(*viewport(), accessibleDescription());
+        drawEmptyText(*viewport(), m_emptyText);
         return;
     }
     QPainter painter(viewport());

@@ -6,6 +6,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/panels/fitting_header.h"
+#include "app/gui/panels/packet_accessible.h"
 #include "app/gui/theme/theme.h"
 
 #include <QContextMenuEvent>
@@ -29,6 +30,7 @@ PacketView::PacketView(const QString& name, QWidget* parent)
     : QAbstractItemView(parent),
       m_header(new FittingHeader(this, packetFont, 2, FittingHeader::Kept::Open)),
       m_newest(new QPushButton(this)) {
+    installPacketAccessible();
     setAccessibleName(name);
     setFrameShape(QFrame::NoFrame);
     setSelectionMode(ExtendedSelection);
@@ -65,10 +67,22 @@ void PacketView::setModel(QAbstractItemModel* model) {
 }
 
 void PacketView::setEmptyText(const QString& text) {
-    if (text != accessibleDescription()) {
-        setAccessibleDescription(text);
+    if (text != m_emptyText) {
+        m_emptyText = text;
+        describe();
         viewport()->update();
     }
+}
+
+/// Only while it is empty it is said what to do.
+void PacketView::describe() {
+    const bool isEmpty = model() == nullptr || model()->rowCount() == 0;
+    setAccessibleDescription(isEmpty ? m_emptyText : QString());
+}
+
+int PacketView::rowsInSight() const {
+    const int rows = model() == nullptr ? 0 : model()->rowCount();
+    return std::clamp(rows - topRow(), 0, wholeRows());
 }
 
 int PacketView::rowHeight() const {
@@ -120,6 +134,7 @@ void PacketView::onRowsInserted(int count) {
     m_missed += m_isFollowing || m_isCatchingUp ? 0 : static_cast<std::uint64_t>(count);
     fitScrollBars();
     placeButton();
+    describe();
     viewport()->update();
 }
 
@@ -129,11 +144,13 @@ void PacketView::onRowsRemoved(int first, int count) {
         verticalScrollBar()->setValue(topRow() - count);
     }
     fitScrollBars();
+    describe();
     viewport()->update();
 }
 
 void PacketView::onReset() {
     m_missed = 0;
+    describe();
     fitScrollBars();
     placeButton();
     viewport()->update();

@@ -36,6 +36,9 @@ public:
     /// Whether the whole row is in sight.
     [[nodiscard]] bool isShown(const QModelIndex& index) const;
     [[nodiscard]] int rowHeight() const;
+    /// The rows of which all is in sight: the first one, and how many.
+    [[nodiscard]] int firstInSight() const { return topRow(); }
+    [[nodiscard]] int rowsInSight() const;
     [[nodiscard]] FittingHeader& header() const { return *m_header; }
     /// Rows that are selected, in order, at most `most`.
     [[nodiscard]] std::vector<int> selectedRows(std::size_t most) const;
@@ -75,6 +78,7 @@ private:
     void onRowsInserted(int count);
     void onRowsRemoved(int first, int count);
     void onReset();
+    void describe();
     void fitScrollBars();
     void placeButton();
     void noteFollowing(bool isFollowing);
@@ -84,6 +88,7 @@ private:
     void paintCell(QPainter& painter, const QModelIndex& index, QRect rect, bool isSelected) const;
 
     FittingHeader* m_header;
+    QString m_emptyText;
     QPushButton* m_newest;
     bool m_isFollowing = true;
     bool m_isAdjusting = false; ///< the scroll bar moves because rows come or go, not because anybody scrolls

@@ -56,6 +56,8 @@ struct PacketsPanel::Actions {
         lineIn(kEdit),
         {"filter", kEdit, QT_TRANSLATE_NOOP("Action", "&Filter packets"), "Ctrl+L",
          Do::callIn<&PacketsPanel::m_filter, &FilterBar::focusLine>},
+        {"saveFilter", kEdit, QT_TRANSLATE_NOOP("Action", "&Save filter as a button…"), "",
+         Do::callIn<&PacketsPanel::m_filter, &FilterBar::saveCurrent>},
         {"filterByCell", kCell, QT_TRANSLATE_NOOP("Action", "&Only this"), "Ctrl+Shift+L",
          Do::call<&PacketsPanel::applyCell, FilterJoin::Replace>},
         {"filterAndCell", kCell, QT_TRANSLATE_NOOP("Action", "… &and"), "",

@@ -32,8 +32,12 @@ PacketsPanel::PacketsPanel(model::SessionView& view, Commands& commands, QWidget
     column->addWidget(m_list, 1);
     column->addWidget(m_message);
     m_list->setModel(&m_packets);
-    m_list->header().setGivingWay(
-        {PacketModel::kPart, PacketModel::kSize, PacketModel::kDelta, PacketModel::kTime});
+    m_list->header().setGivingWay({PacketModel::kPart, PacketModel::kSize, PacketModel::kDelta,
+                                   PacketModel::kTime, PacketModel::kSample});
+    m_list->header().addElastic(PacketModel::kCharacter, QStringLiteral("● 10 Mi"),
+                                QStringLiteral("● 10 Mira Lindqvist"));
+    m_list->header().addElastic(PacketModel::kType, QStringLiteral("22 Angula"),
+                                QStringLiteral("22 Angular kinematics"));
     m_clear->setObjectName(QStringLiteral("clearFilter"));
     m_clear->hide();
     m_message->setObjectName(QStringLiteral("message"));
@@ -72,8 +76,9 @@ void PacketsPanel::fitColumns() {
         {QStringLiteral("9 999 999"),
          isSinceFirst ? QStringLiteral("9999.9999") : QStringLiteral("2026-11-21 10:42:17.508123"),
          QStringLiteral("9999.99"), QStringLiteral("192.168.10.21:52011"),
-         QStringLiteral("02 Pose, quaternion"), QStringLiteral("● 0 Mira Lin"), QStringLiteral("99 999"),
-         QStringLiteral("1/1"), QStringLiteral("9 999"), QString()});
+         QStringLiteral("22 Angular kinematics"), QStringLiteral("● 0 Mira Lin"), QStringLiteral("99 999"),
+         QStringLiteral("1/1"), QStringLiteral("9 999"), QString()},
+        QStringLiteral("▲ gap: 1 sample"));
 }
 
 void PacketsPanel::refresh() {

@@ -61,9 +61,29 @@ void TableView::expandNew() {
 }
 
 void TableView::setEmptyText(const QString& text) {
+    if (text != m_emptyText) {
+        m_emptyText = text;
+        describe();
+        viewport()->update();
+    }
+}
+
+void TableView::setModel(QAbstractItemModel* model) {
+    QTreeView::setModel(model);
+    if (model != nullptr) {
+        connect(model, &QAbstractItemModel::rowsRemoved, this, &TableView::describe);
+        connect(model, &QAbstractItemModel::rowsInserted, this, &TableView::describe);
+        connect(model, &QAbstractItemModel::modelReset, this, &TableView::describe);
+        describe();
+    }
+}
+
+/// Only while it is empty it is said what to do.
+void TableView::describe() {
+    const bool isEmpty = model() == nullptr || model()->rowCount() == 0;
+    const QString text = isEmpty ? m_emptyText : QString();
     if (text != accessibleDescription()) {
         setAccessibleDescription(text);
-        viewport()->update();
     }
 }
 
@@ -100,7 +120,7 @@ void TableView::dataChanged(const QModelIndex& topLeft, const QModelIndex& botto
 void TableView::paintEvent(QPaintEvent* event) {
     QTreeView::paintEvent(event);
     if (model() != nullptr && model()->rowCount() == 0) {
-        drawEmptyText(*viewport(), accessibleDescription());
+        drawEmptyText(*viewport(), m_emptyText);
     }
 }
 

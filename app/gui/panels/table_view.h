@@ -26,6 +26,7 @@ public:
     TableView(const QString& name, Commands& commands, QWidget* parent);
 
     [[nodiscard]] FittingHeader& columns() const { return *m_columns; }
+    void setModel(QAbstractItemModel* model) override;
     /// Samples as FittingHeader has them, after the model.
     void setColumnSamples(std::vector<QString> samples,
                           const QString& leastOpen = QStringLiteral("12345678"));
@@ -41,7 +42,8 @@ public:
     /// below those is left as it is: whether it shows is up to the operator by then.
     void expandNew();
 
-    /// What to do where the table is empty: its description for screen readers, shown while it has no rows.
+    /// What to do where the table is empty: shown while it has no rows, and its description for screen
+    /// readers then.
     void setEmptyText(const QString& text);
 
     /// Height that shows `rows` rows and the header.
@@ -68,8 +70,10 @@ protected:
 
 private:
     void addRows(QString& text, const QModelIndex& parent) const;
+    void describe();
 
     FittingHeader* m_columns;
+    QString m_emptyText;
 };
 
 } // namespace posewire::gui

@@ -115,11 +115,31 @@ QToolButton* TimecodePanel::addChoice(const QString& text, ClockChoice choice) {
     button->setCheckable(true);
     button->setChecked(choice == m_choice);
     button->setAccessibleName(tr("Large clock: %1").arg(text));
-    connect(button, &QToolButton::clicked, this, [this, choice] {
-        m_choice = choice;
-        showClock();
-    });
+    connect(button, &QToolButton::clicked, this, [this, choice] { choose(choice); });
+    m_buttons[choice] = button;
     return button;
+}
+
+std::span<const ActionInfo> TimecodePanel::actionTable() {
+    using Do = ActionsOf<TimecodePanel>;
+    static constexpr const char* kClock = QT_TRANSLATE_NOOP("Action", "&View/Time c&ode");
+    static constexpr ActionInfo kActions[] = {
+        {"clockOfHeader", kClock, QT_TRANSLATE_NOOP("Action", "&Header"), "",
+         Do::call<&TimecodePanel::choose, ClockChoice::Header>,
+         Do::is<&TimecodePanel::choice, ClockChoice::Header>},
+        {"clockOfType25", kClock, QT_TRANSLATE_NOOP("Action", "&Type 25"), "",
+         Do::call<&TimecodePanel::choose, ClockChoice::Type25>,
+         Do::is<&TimecodePanel::choice, ClockChoice::Type25>},
+        {"clockFullScreen", kClock, QT_TRANSLATE_NOOP("Action", "On the &full screen"), "",
+         Do::call<&TimecodePanel::setFullScreen, true>},
+    };
+    return kActions;
+}
+
+void TimecodePanel::choose(ClockChoice choice) {
+    m_choice = choice;
+    m_buttons[choice]->setChecked(true);
+    showClock();
 }
 
 void TimecodePanel::refresh() {

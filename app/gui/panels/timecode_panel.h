@@ -6,6 +6,7 @@
 #include "app/gui/panels/table_view.h"
 #include "app/gui/theme/widgets.h"
 
+#include <map>
 #include <memory>
 
 namespace posewire::gui {
@@ -53,7 +54,12 @@ class TimecodePanel : public Panel {
 public:
     TimecodePanel(model::SessionView& view, Commands& commands, QWidget* parent);
 
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+
     void refresh() override;
+    /// Which clock is the large one.
+    void choose(ClockChoice choice);
+    [[nodiscard]] ClockChoice choice() const { return m_choice; }
     [[nodiscard]] QString summary() const override {
         return m_choice == ClockChoice::Header ? tr("header · ms") : tr("type 25");
     }
@@ -70,6 +76,7 @@ private:
 
     ClockHistory m_clock;
     ClockChoice m_choice = ClockChoice::Header;
+    std::map<ClockChoice, QToolButton*> m_buttons;
     PropertyModel m_facts;
     ClockWidget* m_large;
     TableView* m_table;

@@ -34,6 +34,8 @@ struct TimePlot::Parts {
     [[nodiscard]] static QCPAxis* values(const Chart& chart) { return chart.axes->axis(QCPAxis::atLeft); }
 
     void fitValues(std::size_t number);
+    /// As many labels of values as stand above each other; none where there is no room for two.
+    void fitLabels(const Chart& chart);
     /// One rectangle in each chart.
     void addHatch();
 
@@ -172,9 +174,19 @@ void TimePlot::Parts::fitValues(std::size_t number) {
     values(charts[number])->setRange(all.center() - spread / 2, all.center() + spread / 2);
 }
 
+void TimePlot::Parts::fitLabels(const Chart& chart) {
+    constexpr int kMost = 3;
+    QCPAxis* axis = values(chart);
+    const int line = QFontMetrics(axis->tickLabelFont()).height();
+    axis->ticker()->setTickStepStrategy(QCPAxisTicker::tssMeetTickCount);
+    axis->ticker()->setTickCount(std::clamp(chart.axes->height() / (2 * line), 1, kMost));
+    axis->setTickLabels(chart.axes->height() >= 2 * line);
+}
+
 void TimePlot::replot() {
     for (std::size_t i = 0; i < m_parts->charts.size(); ++i) {
         m_parts->fitValues(i);
+        m_parts->fitLabels(m_parts->charts[i]);
     }
     const auto [lower, upper] = valueRange(0);
     QVector<QCPGraphData> marks;
@@ -196,6 +208,15 @@ void TimePlot::paintSoon() {
 std::pair<double, double> TimePlot::valueRange(int chart) const {
     const QCPRange range = Parts::values(m_parts->charts[static_cast<std::size_t>(chart)])->range();
     return {range.lower, range.upper};
+}
+
+int TimePlot::valueLabels(int chart) const {
+    const QCPAxis* axis = Parts::values(m_parts->charts[static_cast<std::size_t>(chart)]);
+    return axis->tickLabels() ? static_cast<int>(axis->tickVector().size()) : 0;
+}
+
+int TimePlot::chartHeight(int chart) const {
+    return m_parts->charts[static_cast<std::size_t>(chart)].axes->height();
 }
 
 void TimePlot::applyColours() {

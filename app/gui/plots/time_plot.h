@@ -45,6 +45,10 @@ public:
     /// The values that the axis of a chart spans, as of the last replot().
     [[nodiscard]] std::pair<double, double> valueRange(int chart) const;
 
+    /// How many values are written beside a chart, and how high it is, as of the last replot().
+    [[nodiscard]] int valueLabels(int chart) const;
+    [[nodiscard]] int chartHeight(int chart) const;
+
     [[nodiscard]] QSize minimumSizeHint() const override {
         return {fontMetrics().height() * 8, fontMetrics().height() * 9};
     }

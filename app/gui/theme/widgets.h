@@ -75,6 +75,10 @@ public:
     explicit ElidedLabel(Qt::Alignment alignment, QWidget* parent = nullptr);
 
     void setText(const QString& text, const QString& dim = {});
+    void setAlignment(Qt::Alignment alignment) {
+        m_alignment = alignment;
+        update();
+    }
     [[nodiscard]] QString text() const { return m_text + m_dim; }
 
     [[nodiscard]] QSize sizeHint() const override;

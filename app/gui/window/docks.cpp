@@ -142,6 +142,13 @@ void DockTitle::setSummary(const QString& summary) {
     m_summary->setText({}, summary);
 }
 
+void DockTitle::setTabbed(bool isTabbed) {
+    if (isTabbed == m_title->isVisibleTo(this)) {
+        m_title->setVisible(!isTabbed);
+        m_summary->setAlignment(isTabbed ? Qt::AlignLeft : Qt::AlignRight);
+    }
+}
+
 bool DockTitle::hasKeyboard() const {
     return parentWidget()->isAncestorOf(QApplication::focusWidget());
 }

@@ -20,6 +20,8 @@ public:
     explicit DockTitle(QDockWidget* dock);
 
     void setSummary(const QString& summary);
+    /// Where a tab says the name, the title does not say it again.
+    void setTabbed(bool isTabbed);
 
     /// QDockWidget makes as much room as is said here, whatever the widget's fixed height.
     [[nodiscard]] QSize sizeHint() const override;

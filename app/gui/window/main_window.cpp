@@ -2,6 +2,7 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/dock_layout.h"
+#include "app/gui/inputs/inputs_page.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
@@ -63,6 +64,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     setCentralWidget(m_viewport);
+    layout()->setSizeConstraint(QLayout::SetNoConstraint); // docks give way; the window stays on its screen
     addViewportButtons(*m_viewport);
     makeBars();
     makeDocks();
@@ -87,11 +89,14 @@ void MainWindow::makeBars() {
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
     menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
 
-    m_transport = new TransportBar(
-        m_driver.session(),
-        TransportBar::Actions{m_menus.action("pause"), m_menus.action("live"), m_menus.action("inputs"),
-                              m_menus.action("connectionHelp"), m_menus.action("relay")},
-        this);
+    m_transport = new TransportBar(m_driver.session(),
+                                   TransportBar::Actions{m_menus.action("pause"), m_menus.action("live"),
+                                                         m_menus.action("inputs"), m_menus.action("relay")},
+                                   this);
+    connect(m_transport, &TransportBar::inputRequested, this, [this](const InputAddress& input) {
+        openInputs(InputsDialog::Page::Inputs);
+        m_inputs->inputs().select(input);
+    });
     m_transport->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Transport"), QStringLiteral("transportBar"), m_transport));
 
@@ -290,6 +295,7 @@ void MainWindow::refreshPanels() {
         if (dock.isInSight()) {
             dock.panel->refresh();
             dock.title->setSummary(dock.panel->summary());
+            dock.title->setTabbed(!tabifiedDockWidgets(dock.dock).isEmpty());
         }
     }
 }

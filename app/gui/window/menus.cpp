@@ -90,6 +90,29 @@ void selectCharacter(Window& window) {
     }
 }
 
+/// The evidence of the live verdict, as a click on it gives it.
+void showEvidence(Window& window) {
+    window.driver().showLive();
+    window.driver().showIncident(window.driver().live().verdicts().all.incident);
+}
+
+/// What figures are of: the newest seconds, or all.
+template <int seconds>
+void useNewest(Window& window) {
+    window.driver().selectRange({.last = std::chrono::seconds(seconds)});
+}
+void useSinceReset(Window& window) {
+    window.driver().selectRange({.isSinceReset = true});
+}
+template <int seconds>
+bool isNewestUsed(const Window& window) {
+    return window.driver().session().rangeChoice() ==
+           model::RangeChoice{.last = std::chrono::seconds(seconds)};
+}
+bool isSinceResetUsed(const Window& window) {
+    return window.driver().session().rangeChoice().isSinceReset;
+}
+
 /// Entries that differ by what they choose.
 template <int index>
 constexpr ActionInfo selectEntry(const char* id, const char* text, const char* shortcut) {
@@ -107,6 +130,8 @@ constexpr const char* kPanels = "panels"; ///< an id
 constexpr ActionInfo panelsIn(const char* menu) {
     return {kPanels, menu, "", ""};
 }
+
+constexpr const char* kFigures = QT_TRANSLATE_NOOP("Action", "&Time/&Figures of");
 
 const ActionInfo kActions[] = {
     {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
@@ -131,6 +156,7 @@ const ActionInfo kActions[] = {
      Do::call<&Window::openInputs, InputsDialog::Page::Inputs>},
     {"demo", "&Input", QT_TRANSLATE_NOOP("Action", "&Demo stream"), "Ctrl+D", Do::call<toggleDemo>,
      Do::isIn<&Window::driver, &SessionDriver::isDemoRunning>},
+    panelsIn("&Input"),
 
     {"resetLayout", QT_TRANSLATE_NOOP("Action", "&View"), QT_TRANSLATE_NOOP("Action", "&Reset layout"), "",
      Do::call<&Window::resetLayout>},
@@ -192,6 +218,17 @@ const ActionInfo kActions[] = {
      Do::callIn<&Window::driver, &SessionDriver::showFile>},
     {"resetForTake", "&Time", QT_TRANSLATE_NOOP("Action", "Reset &before take"), "Ctrl+Shift+R",
      Do::callIn<&Window::driver, &SessionDriver::resetForTake>},
+    {"verdictEvidence", "&Time", QT_TRANSLATE_NOOP("Action", "&Evidence of the verdict"), "",
+     Do::call<showEvidence>},
+    {"figures10s", kFigures, QT_TRANSLATE_NOOP("Action", "The last 10 &s"), "", Do::call<useNewest<10>>,
+     Do::is<isNewestUsed<10>>},
+    {"figuresMinute", kFigures, QT_TRANSLATE_NOOP("Action", "The last &minute"), "", Do::call<useNewest<60>>,
+     Do::is<isNewestUsed<60>>},
+    {"figuresSinceReset", kFigures, QT_TRANSLATE_NOOP("Action", "Since the &reset"), "",
+     Do::call<useSinceReset>, Do::is<isSinceResetUsed>},
+    {"figuresOfAll", kFigures, QT_TRANSLATE_NOOP("Action", "&All"), "", Do::call<useNewest<0>>,
+     Do::is<isNewestUsed<0>>},
+    panelsIn("&Time"),
 
     {"relay", QT_TRANSLATE_NOOP("Action", "T&ools"), QT_TRANSLATE_NOOP("Action", "&Relay…"), "Ctrl+R",
      Do::call<&Window::openInputs, InputsDialog::Page::Relay>},

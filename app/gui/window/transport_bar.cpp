@@ -54,7 +54,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     m_live->setToolButtonStyle(Qt::ToolButtonTextOnly);
     m_live->setProperty("framed", false);
     m_add->setText(tr("Input"));
-    m_time->setAccessibleName(tr("Time of day shown"));
+    m_time->setAccessibleDescription(tr("Time of day shown"));
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 6, 12, 7);
     row->setSpacing(10);
@@ -143,10 +143,8 @@ void TransportBar::addPill() {
     auto* pill = new ColourText(ColourText::Look::Pill, this);
     pill->setObjectName(QStringLiteral("inputPill%1").arg(m_pills.size()));
     pill->setClickable(true);
-    connect(pill, &QAbstractButton::clicked, this, [this, pill] {
-        const bool isTrouble = pill->level() == Health::Warning || pill->level() == Health::Error;
-        (isTrouble ? m_actions.help : m_actions.inputs)->trigger();
-    });
+    connect(pill, &QAbstractButton::clicked, this,
+            [this, place = m_pills.size()] { emit inputRequested(m_inputs[place]); });
     m_pillLayout->addWidget(pill);
     m_pills.push_back(pill);
 }
@@ -162,7 +160,9 @@ void TransportBar::setReceiving(const ReceivingState& receiving) {
         pill->setContent(level, text);
         pill->setToolTip(toolTipText(toolTip));
     };
+    m_inputs.clear();
     for (const PortState& state : receiving.ports) {
+        m_inputs.push_back(state.port);
         const PropertyValue now = inputState(state);
         show(now.health == Health::Good ? Health::Unknown : now.health, displayText(state.port), now.text);
     }

@@ -23,13 +23,12 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `pause` stops and continues, `live` goes to the end, `inputs` is for the list of inputs, `help` says
-    /// why nothing comes, `relay` is for forwarding.
+    /// `pause` stops and continues, `live` goes to the end, `inputs` is for the list of inputs, `relay` is
+    /// for forwarding.
     struct Actions {
         QAction* pause;
         QAction* live;
         QAction* inputs;
-        QAction* help;
         QAction* relay;
     };
     TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);
@@ -39,6 +38,10 @@ public:
 
     void refresh();
     void setReceiving(const ReceivingState& receiving);
+
+signals:
+    /// More is wanted about an input.
+    void inputRequested(const InputAddress& input);
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -64,6 +67,7 @@ private:
     QLabel* m_detail;
     QHBoxLayout* m_pillLayout;
     std::vector<ColourText*> m_pills; ///< of the inputs; a click tells more
+    std::vector<InputAddress> m_inputs;
     Mode m_mode = Mode::Waiting;
 };
 

@@ -12,6 +12,7 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
+#include <QRegularExpression>
 #include <QStyle>
 #include <QToolButton>
 
@@ -46,6 +47,26 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
 
 } // namespace
 
+QString spokenWords(QString text) {
+    static const QRegularExpression kNumbers(QStringLiteral("[0-9.:\\s\u202f]+"));
+    return text.replace(kNumbers, QStringLiteral(" "));
+}
+
+QString fittingHeadline(const QString& text, const QFontMetrics& metrics, int width) {
+    static const QString kNotGood = QStringLiteral("Not good: ");
+    static const QString kGoingOn = QStringLiteral(", going on");
+    const qsizetype begin = text.indexOf(kNotGood);
+    if (metrics.horizontalAdvance(text) <= width) {
+        return text;
+    }
+    if (begin < 0 || !text.endsWith(kGoingOn)) {
+        return metrics.elidedText(text, Qt::ElideRight, width);
+    }
+    const QString what = text.sliced(begin + kNotGood.size()).chopped(kGoingOn.size());
+    return metrics.elidedText(text.first(begin) + QStringLiteral("Not good, going on: ") + what,
+                              Qt::ElideRight, width);
+}
+
 Headline::Headline(QWidget* parent) : QAbstractButton(parent) {
     setObjectName(QStringLiteral("headline"));
     setFocusPolicy(Qt::TabFocus);
@@ -59,11 +80,11 @@ void Headline::setVerdict(Health level, const QString& text) {
     if (level == m_level && text == this->text()) {
         return;
     }
-    const bool isTurn = level != m_level;
+    const bool isTurn = level != m_level || spokenWords(text) != spokenWords(this->text());
     m_level = level;
     setText(text);
     setAccessibleName(text);
-    if (isTurn) { // a number that grows need not be spoken
+    if (isTurn) {
         QAccessibleEvent spoken(this, QAccessible::Alert);
         QAccessible::updateAccessibility(&spoken);
     }
@@ -86,8 +107,9 @@ QFont Headline::fontFor(int width) const {
     QFont font = this->font();
     font.setWeight(QFont::DemiBold);
     if (m_isLarge) {
-        const double fits =
-            (width - fontMetrics().height()) / std::max(1.0, QFontMetricsF(font).horizontalAdvance(line()));
+        constexpr double kHinting = 0.96; // letters do not grow in step with their size
+        const double fits = kHinting * (width - fontMetrics().height()) /
+                            std::max(1.0, QFontMetricsF(font).horizontalAdvance(line()));
         font.setPointSizeF(font.pointSizeF() * std::clamp(fits, 1.0, kLarge));
     }
     return font;
@@ -124,7 +146,7 @@ void Headline::paintEvent(QPaintEvent* /*event*/) {
     }
     painter.setPen(isColoured ? theme().text : theme().dim);
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
-                     painter.fontMetrics().elidedText(text(), Qt::ElideRight, room.width()));
+                     fittingHeadline(text(), painter.fontMetrics(), room.width()));
 }
 
 void Headline::keyPressEvent(QKeyEvent* event) {

@@ -16,6 +16,11 @@ namespace posewire::gui {
 
 class ElidedLabel;
 
+/// A verdict without its numbers: one that grows need not be spoken.
+[[nodiscard]] QString spokenWords(QString text);
+/// As much of a verdict as fits: whether it lasts comes before what is cut.
+[[nodiscard]] QString fittingHeadline(const QString& text, const QFontMetrics& metrics, int width);
+
 /// "● Good for the take: 4 characters", in the colour of what it says. A button: a click gives the evidence.
 class Headline final : public QAbstractButton {
     Q_OBJECT

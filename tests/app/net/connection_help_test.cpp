@@ -113,6 +113,8 @@ TEST_F(ConnectionHelpTest, ForeignDatagramsAreShownAndGuessedAt) {
     EXPECT_THAT(finding.text, HasSubstr("17 datagrams from 10.0.0.9:4000"));
     EXPECT_THAT(finding.text, HasSubstr("2f 62 6f 64"));
     EXPECT_THAT(finding.text, HasSubstr("looks like OSC"));
+    facts.foreign[0].count = 1'234'567;
+    EXPECT_THAT(connectionHelp(facts)[0].text, HasSubstr("1\u202f234\u202f567 datagrams from"));
     facts.foreign[0].count = 1;
     EXPECT_THAT(connectionHelp(facts)[0].text, HasSubstr("1 datagram from 10.0.0.9:4000 is not MXTP; it"));
     facts.foreign[0].firstBytes = bytesOf("\x91\x92\x93\x94");

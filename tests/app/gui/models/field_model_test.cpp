@@ -170,6 +170,22 @@ TEST(FieldModel, PassesTheModelTesterThroughChanges) {
     EXPECT_EQ(model.rowCount(), 1);
 }
 
+TEST(FieldModel, ColoursTheSignOfWhatIsWrongBelow) {
+    Bytes bytes = encoded(nullPose(0));
+    bytes.resize(24 + 4 + 100);
+    FieldModel model;
+    model.setDocument(documentOf(bytes));
+    int signs = 0;
+    for (int row = 0; row < model.rowCount(); ++row) {
+        const QModelIndex field = model.index(row, FieldModel::kField);
+        if (field.data().toString().startsWith(healthSymbol(Health::Error))) {
+            ++signs;
+            EXPECT_EQ(field.data(Qt::ForegroundRole).value<QColor>(), healthColour(Health::Error));
+        }
+    }
+    EXPECT_GE(signs, 1);
+}
+
 TEST(FieldModel, KeepsItsRowsForAPacketWithTheSameFields) {
     FieldModel model;
     model.setDocument(documentOf(poseBytes()));

@@ -3,6 +3,7 @@
 
 #include "tests/app/gui/models/stage.h"
 
+#include <QScrollBar>
 #include <QTest>
 
 namespace posewire::gui {
@@ -70,6 +71,19 @@ TEST_F(InspectorPanelTest, ShowsTheBytesThatWereLookedFor) {
     m_stage.commands.selectPacket(1);
     refresh();
     EXPECT_NE(bytes().selected(), (ByteRange{2, 4})) << "of another packet";
+}
+
+TEST_F(InspectorPanelTest, ScrollsToFoundBytesOnce) {
+    bytes().resize(300, 60);
+    int scrolls = 0;
+    QObject::connect(bytes().verticalScrollBar(), &QScrollBar::valueChanged, &bytes(), [&] { ++scrolls; });
+    model::Selection selection = m_stage.session.selection();
+    const std::uint32_t begin = bytesOf(14).begin + 20; // rows away from where its segment begins
+    selection.packet = 0;
+    selection.found = {0, begin, begin + 7};
+    m_stage.commands.select(selection);
+    refresh();
+    EXPECT_EQ(scrolls, 1);
 }
 
 TEST_F(InspectorPanelTest, PickingAByteSelectsItsFieldAndSegment) {

@@ -14,7 +14,6 @@
 #include <QHeaderView>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QScrollBar>
 #include <QTest>
 
 #include <memory>
@@ -442,6 +441,17 @@ TEST_F(PacketsPanelTest, BringsTheKeyboardToTheFilterAndToTheFindBar) {
     EXPECT_TRUE(m_panel.findChild<QLineEdit*>("displayFilter")->hasFocus());
     trigger("findPrevious");
     EXPECT_TRUE(m_panel.findChild<FindBar*>()->isVisible()) << "there is nothing to look for yet";
+}
+
+TEST_F(PacketsPanelTest, NotesHaveRoomBeforeNamesAndFiguresDo) {
+    poses(1, 10);
+    const int note = QFontMetrics(packetFont()).horizontalAdvance(QStringLiteral("▲ gap: 1 sample"));
+    for (const int width : {1400, 650, 500}) {
+        m_panel.resize(width, 300);
+        EXPECT_GE(list().header().sectionSize(PacketModel::kNote), note) << width;
+    }
+    m_panel.resize(300, 300);
+    EXPECT_EQ(list().horizontalScrollBar()->maximum(), 0) << "in the least room, all gives way a little";
 }
 
 } // namespace

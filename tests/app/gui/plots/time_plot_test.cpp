@@ -53,6 +53,22 @@ TEST_F(TimePlotTest, FitsEachChartToItsOwnCurvesWithRoomAround) {
     EXPECT_DOUBLE_EQ(flatLower + flatUpper, 4);
 }
 
+TEST_F(TimePlotTest, LabelsOfValuesNeverTouchInLowCharts) {
+    m_plot.setCurve(m_curve, std::array<TimePlot::Point, 2>{{{-5, -4}, {-1, 6}}});
+    for (const int height : {40, 60, 80, 110, 150, 300}) {
+        m_plot.resize(300, height);
+        m_plot.replot();
+        QTest::qWait(1);
+        m_plot.replot();
+        for (const int chart : {m_upper, m_lower}) {
+            const int labels = m_plot.valueLabels(chart);
+            EXPECT_TRUE(labels <= 1 || labels * m_plot.fontMetrics().height() <= m_plot.chartHeight(chart))
+                << height << " pixels: " << labels << " labels in " << m_plot.chartHeight(chart);
+        }
+    }
+    EXPECT_GE(m_plot.valueLabels(m_upper), 2) << "where there is room";
+}
+
 TEST_F(TimePlotTest, BreaksCurvesAtNoNumberAndDrawsThemInTheirColour) {
     m_plot.setCurve(m_curve, std::array<TimePlot::Point, 2>{{{-10, 0}, {0, 0}}});
     const int whole = pixelsOf(painted(), theme().axisX);

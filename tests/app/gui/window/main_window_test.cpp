@@ -2,7 +2,9 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/dock_layout.h"
+#include "app/gui/inputs/inputs_page.h"
 #include "app/gui/panels/find_bar.h"
+#include "app/gui/panels/table_view.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/colour_text.h"
@@ -287,12 +289,13 @@ TEST_F(MainWindowTest, APillOfAnInputTellsMoreAboutIt) {
         const auto* pill = window->findChild<ColourText*>("inputPill1");
         return pill != nullptr && pill->level() == Health::Error;
     }));
-    const QSignalSpy help(action(*window, "connectionHelp"), &QAction::triggered);
-    const QSignalSpy inputs(action(*window, "inputs"), &QAction::triggered);
-    window->findChild<ColourText*>("inputPill1")->click();
-    EXPECT_EQ(help.count(), 1);
-    window->findChild<ColourText*>("inputPill0")->click();
-    EXPECT_EQ(inputs.count(), 1);
+    for (const int row : {1, 0}) {
+        window->findChild<ColourText*>(QStringLiteral("inputPill%1").arg(row))->click();
+        auto* inputs = window->findChild<InputsDialog*>();
+        ASSERT_NE(inputs, nullptr);
+        EXPECT_TRUE(inputs->isVisible());
+        EXPECT_EQ(inputs->inputs().table().currentIndex().row(), row);
+    }
 }
 
 TEST_F(MainWindowTest, AFloatingDockHasAnEdge) {
@@ -307,6 +310,89 @@ TEST_F(MainWindowTest, AFloatingDockHasAnEdge) {
           QPoint(picture.width() / 2, picture.height() - 1)}) {
         EXPECT_EQ(picture.pixelColor(edge), theme().dim) << edge.x() << ", " << edge.y();
     }
+}
+
+TEST_F(MainWindowTest, ATitleDoesNotRepeatWhatItsTabSays) {
+    const auto window = makeWindow();
+    window->useLayout("Check");
+    const auto name = [&](const char* of) {
+        return dock(*window, of)->titleBarWidget()->findChild<QLabel*>();
+    };
+    ASSERT_EQ(name("events")->text(), "Incidents");
+    EXPECT_TRUE(name("events")->isHidden());
+    EXPECT_FALSE(name("characters")->isHidden());
+    dock(*window, "events")->setFloating(true);
+    emit driver.tableTick();
+    EXPECT_FALSE(name("events")->isHidden());
+}
+
+TEST_F(MainWindowTest, EveryButtonOfADockIsInAMenu) {
+    const std::map<QString, QString> entries{{"Trouble first", "troubleFirst"},
+                                             {"Detail", "characterDetail"},
+                                             {"▸ 0 ended senders", "showEnded"},
+                                             {"↑", "findPrevious"},
+                                             {"↓", "findNext"},
+                                             {"Forget", "forgetEnded"},
+                                             {"Header", "clockOfHeader"},
+                                             {"Type 25", "clockOfType25"},
+                                             {"10 s", "figures10s"},
+                                             {"1 min", "figuresMinute"},
+                                             {"Since reset", "figuresSinceReset"},
+                                             {"All", "figuresOfAll"},
+                                             {"‹", "previousOfStream"},
+                                             {"›", "nextOfStream"},
+                                             {"Hold", "holdPacket"},
+                                             {"Compare ▾", "comparePrevious"},
+                                             {"Ghost", "ghost"},
+                                             {"Export ▾", "exportNullPose"},
+                                             {"Current", "currentIncidents"},
+                                             {"History", "incidentHistory"},
+                                             {"■ 0", "listErrors"},
+                                             {"▲ 0", "listWarnings"},
+                                             {"● 0", "listNotes"},
+                                             {"Mark seen", "markIncidentsSeen"},
+                                             {"Export…", "exportEvents"},
+                                             {"+", "saveFilter"}};
+    // Selection ends a range, which All does; saved filters and groups are lists of their own.
+    const QStringList others{
+        "",      "»", "Selection", "Groups ▾", "Problems", "Pose", "Meta && scale", "×", "Clear the filter",
+        "Cancel"};
+    const auto window = makeWindow();
+    for (const auto* each : window->findChildren<QDockWidget*>(Qt::FindDirectChildrenOnly)) {
+        for (const auto* button : each->widget()->findChildren<QToolButton*>()) {
+            const auto entry = entries.find(button->text());
+            EXPECT_TRUE(entry != entries.end() || others.contains(button->text()))
+                << each->objectName().toStdString() << ": " << button->text().toStdString();
+            EXPECT_TRUE(entry == entries.end() || action(*window, entry->second) != nullptr)
+                << button->text().toStdString();
+        }
+    }
+}
+
+TEST_F(MainWindowTest, TheMenuOfFiguresChoosesTheirRange) {
+    const auto window = makeWindow();
+    action(*window, "figures10s")->trigger();
+    EXPECT_EQ(driver.session().rangeChoice(), (model::RangeChoice{.last = std::chrono::seconds(10)}));
+    EXPECT_TRUE(action(*window, "figures10s")->isChecked());
+    EXPECT_FALSE(action(*window, "figuresOfAll")->isChecked());
+    action(*window, "figuresOfAll")->trigger();
+    EXPECT_EQ(driver.session().rangeChoice(), model::RangeChoice());
+    EXPECT_TRUE(action(*window, "figuresOfAll")->isChecked());
+}
+
+TEST_F(MainWindowTest, TheMenuOfIncidentsDoesWhatItsButtonsDo) {
+    const auto window = makeWindow();
+    window->useLayout("Check");
+    const auto* current = dock(*window, "events")->findChild<QToolButton*>("currentEvents");
+    action(*window, "currentIncidents")->trigger();
+    EXPECT_TRUE(current->isChecked());
+    EXPECT_FALSE(action(*window, "incidentHistory")->isChecked());
+    action(*window, "incidentHistory")->trigger();
+    EXPECT_FALSE(current->isChecked());
+    const auto* notes = dock(*window, "events")->findChild<QToolButton*>("notes");
+    EXPECT_TRUE(notes->isChecked());
+    action(*window, "listNotes")->trigger();
+    EXPECT_FALSE(notes->isChecked());
 }
 
 TEST_F(MainWindowTest, NamesTheDocksOfALayoutThatDoNotExist) {

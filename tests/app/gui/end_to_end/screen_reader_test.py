@@ -1,0 +1,157 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a screen reader finds in the window: over AT-SPI, under Xvfb, while two characters are received.
+
+usage: screen_reader_test.py POSEWIRE POSEWIRE_CLI     (starts itself again under a D-Bus of its own)
+"""
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+
+SKIPPED = 77
+NO_BUS = 75
+DEPTH = 40
+MOST = 20_000  # objects: what is asked for must stay bounded
+
+
+def start_again():
+    """In a session with an accessibility bus that nobody else uses."""
+    system = "/usr/bin/python3"  # it has what the distribution packages
+    interpreter = system if os.path.exists(system) else sys.executable
+    for _ in range(4):  # the registry of accessible programs sometimes ends as it begins
+        environment = dict(os.environ, POSEWIRE_AT_SPI="1", QT_LINUX_ACCESSIBILITY_ALWAYS_ON="1",
+                           QT_QPA_PLATFORM="xcb", XDG_RUNTIME_DIR=tempfile.mkdtemp(prefix="runtime_"))
+        code = subprocess.run(["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", "dbus-run-session", "--",
+                               interpreter, *sys.argv], env=environment, timeout=240).returncode
+        if code != NO_BUS:
+            break
+    sys.exit(code)
+
+
+def free_port():
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+class Window:
+    def __init__(self, program, folder, port, layout):
+        self.process = subprocess.Popen([program, "--settings", folder + "/settings.json", "--layout", layout,
+                                         "--size", "1500x900", "--udp", str(port)], env=dict(os.environ))
+        self.root = None
+
+    def find(self):
+        desktop = Atspi.get_desktop(0)
+        for i in range(desktop.get_child_count()):
+            one = desktop.get_child_at_index(i)
+            if one is not None and one.get_process_id() == self.process.pid:
+                return one
+        return None
+
+    def wait(self):
+        for _ in range(40):
+            self.root = self.find()
+            if self.root is not None and self.root.get_child_count() > 0:
+                return
+            time.sleep(0.2)
+        print("the window is not on the accessibility bus")
+        sys.exit(NO_BUS)
+
+
+def objects(root):
+    """All that is shown below, with the path of names to it."""
+    left = [(root, "", 0)]
+    count = 0
+    while left:
+        one, path, depth = left.pop()
+        count += 1
+        assert count < MOST, "too much to list: " + path
+        states = one.get_state_set()
+        if depth > 1 and not states.contains(Atspi.StateType.VISIBLE):
+            continue
+        yield one, path
+        if depth < DEPTH and not states.contains(Atspi.StateType.MANAGES_DESCENDANTS):
+            for i in range(one.get_child_count()):
+                child = one.get_child_at_index(i)
+                if child is not None:
+                    left.append((child, path + "/" + (child.get_name() or child.get_role_name()), depth + 1))
+
+
+def tables(root):
+    return {one.get_name(): one for one, _ in objects(root)
+            if one.get_role() in (Atspi.Role.TABLE, Atspi.Role.TREE, Atspi.Role.TREE_TABLE)}
+
+
+def rows(table):
+    """Texts of the cells, row by row."""
+    grid = table.get_table_iface()
+    cells = []
+    for row in range(grid.get_n_rows()):
+        line = [grid.get_accessible_at(row, column) for column in range(grid.get_n_columns())]
+        cells.append([cell.get_name() if cell is not None else "" for cell in line])
+    return cells
+
+
+def check_controls(root):
+    for one, path in objects(root):
+        if one.get_role() in (Atspi.Role.PUSH_BUTTON, Atspi.Role.TOGGLE_BUTTON, Atspi.Role.CHECK_BOX,
+                              Atspi.Role.RADIO_BUTTON, Atspi.Role.COMBO_BOX, Atspi.Role.ENTRY, Atspi.Role.TEXT,
+                              Atspi.Role.SPIN_BUTTON) and one.get_state_set().contains(Atspi.StateType.SHOWING):
+            assert len(one.get_name().strip()) > 1, f"a control has no name: {path} ({one.get_role_name()})"
+
+
+def check_live(window):
+    root = window.root
+    found = tables(root)
+    print("tables:", sorted(found))
+    for name in ("Characters", "Packets", "Statistics of streams", "Metadata"):
+        assert name in found, f"no table is called {name}"
+        filled = rows(found[name])
+        assert len(filled) > 1 and any(any(line) for line in filled), f"{name} has no rows: {filled}"
+        assert not found[name].get_description(), f"{name} is filled and says: {found[name].get_description()}"
+    board = rows(found["Characters"])
+    assert any("Mira Lindqvist" in cell for line in board for cell in line), board
+    before = rows(found["Packets"])
+    assert 1 < len(before) < 200, f"{len(before)} rows of packets: only those in sight are listed"
+    time.sleep(1)
+    assert rows(found["Packets"]) != before, "the packets stand still"
+    check_controls(root)
+    names = [one.get_name() for one, _ in objects(root)]
+    assert any(name.startswith("Good for the take") for name in names), "the verdict has no name"
+    assert "Hold this packet" in names and "Filter packets: Problems" in names
+    times = [name for name in names if len(name) == 12 and name[2] == name[5] == ":"]
+    assert times, "nothing says the time that is shown"
+
+
+def main():
+    folder = tempfile.mkdtemp(prefix="screen_reader_")
+    port = free_port()
+    Atspi.init()
+    Atspi.get_desktop(0).get_child_count()  # starts the registry
+    time.sleep(1.5)
+    window = Window(sys.argv[1], folder, port, "Debug")
+    sender = subprocess.Popen([sys.argv[2], "send", "--to", f"127.0.0.1:{port}", "--characters", "2", "--rate", "60"],
+                              stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        window.wait()
+        time.sleep(4)
+        check_live(window)
+    finally:
+        sender.terminate()
+        window.process.terminate()
+        window.process.wait(20)
+
+
+if "POSEWIRE_AT_SPI" not in os.environ:
+    start_again()
+try:
+    import gi
+    gi.require_version("Atspi", "2.0")
+    from gi.repository import Atspi
+except (ImportError, ValueError) as problem:
+    print("skipped:", problem)
+    sys.exit(SKIPPED)
+main()
