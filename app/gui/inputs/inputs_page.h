@@ -84,7 +84,7 @@ public:
     void removeSelected(); ///< until it is undone
     void endEditing();
     void select(const InputAddress& input); ///< what it is doing, or what is wrong with it, is said below
-    void applyAllowed(); ///< listens to those who are typed, where that makes sense
+    void applyAllowed();                    ///< listens to those who are typed, where that makes sense
 
     [[nodiscard]] InputForm& form() const { return *m_form; }
     [[nodiscard]] QLineEdit& allowedEdit() const { return *m_allowed; }
