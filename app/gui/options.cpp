@@ -230,13 +230,24 @@ QStringList allowedAtStart(const Options& options, const InputChoices& choices) 
     return options.allowed.isEmpty() ? choices.allowed : options.allowed;
 }
 
+/// QCommandLineParser knows no optional values: "--demo" alone, or before a file, is completed. A number that
+/// follows it is its value.
+QStringList withDemoCompleted(QStringList arguments) {
+    for (qsizetype i = 0; i < arguments.size(); ++i) {
+        if (arguments[i] == QLatin1String("--demo")) {
+            bool hasNumber = false;
+            static_cast<void>(arguments.value(i + 1).toInt(&hasNumber));
+            const QString number = hasNumber ? arguments.takeAt(i + 1) : QStringLiteral("2");
+            arguments[i] += QLatin1Char('=') + number;
+        }
+    }
+    return arguments;
+}
+
 tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {
     QCommandLineParser parser;
     describe(parser);
-    // QCommandLineParser knows no optional values: "--demo" alone is completed.
-    QStringList completed = arguments;
-    std::ranges::replace(completed, QStringLiteral("--demo"), QStringLiteral("--demo=2"));
-    if (!parser.parse(completed)) {
+    if (!parser.parse(withDemoCompleted(arguments))) {
         return wrong(parser.errorText());
     }
     if (parser.isSet(QStringLiteral("help"))) {

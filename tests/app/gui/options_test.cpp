@@ -66,7 +66,8 @@ TEST(Options, SeekIsATimeInAFile) {
 TEST(Options, DemoHasTwoCharactersUnlessTold) {
     EXPECT_EQ(parse({"--demo"})->demoCharacters, 2);
     EXPECT_EQ(parse({"--demo=5"})->demoCharacters, 5);
-    // What follows "--demo" is a file, not its number.
+    EXPECT_EQ(parse({"--demo", "5", "--udp", "9000"})->demoCharacters, 5);
+    // What else follows "--demo" is a file.
     const auto options = parse({"--demo", "take.bin"});
     ASSERT_TRUE(options);
     EXPECT_EQ(options->file, "take.bin");
