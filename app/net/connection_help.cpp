@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/net/connection_help.h"
 
+#include "core/model/text.h"
 #include "core/wire/text.h"
 
 #include <algorithm>
@@ -104,12 +105,7 @@ std::string secondsText(log::Duration duration) {
 
 /// "12 345", with narrow spaces.
 std::string grouped(std::uint64_t number) {
-    std::string text = std::to_string(number);
-    for (std::size_t place = text.size(); place > 3;) {
-        place -= 3;
-        text.insert(place, "\u202f");
-    }
-    return text;
+    return model::grouped(number, "\u202f");
 }
 
 /// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)".

@@ -2,6 +2,7 @@
 #include "core/export/html.h"
 
 #include "core/model/foreign_text.h"
+#include "core/model/text.h"
 
 #include <algorithm>
 #include <array>
@@ -163,11 +164,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string grouped(std::uint64_t number) {
-    std::string digits = std::to_string(number);
-    for (std::size_t place = digits.size(); place > 3; place -= 3) {
-        digits.insert(place - 3, ",");
-    }
-    return digits;
+    return model::grouped(number, ",");
 }
 
 std::string fixed(double number, int places) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/text.h"
 
+#include "core/model/text.h"
+
 #include <QDateTime>
 
 #include <cmath>
@@ -29,11 +31,7 @@ QString readable(std::span<const std::byte> bytes) {
 }
 
 QString grouped(std::uint64_t value) {
-    QString digits = QString::number(value);
-    for (auto at = digits.size() - 3; at > 0; at -= 3) {
-        digits.insert(at, QChar(0x202f));
-    }
-    return digits;
+    return QString::fromStdString(model::grouped(value, "\u202f"));
 }
 
 QString fixed(double value, int decimals) {
