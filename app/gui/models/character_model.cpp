@@ -53,10 +53,6 @@ double measuredHz(const model::Stream& stream, double ageS, bool isRecording) {
     return isSilent ? 0 : rateHz;
 }
 
-void add(const model::LossesByCause& losses, model::LossesByCause& sums) {
-    std::ranges::transform(sums, losses, sums.begin(), std::plus());
-}
-
 QString hertz(const std::optional<double>& rateHz, bool isNominal) {
     if (!rateHz) {
         return dash();
@@ -221,7 +217,7 @@ void CharacterModel::refresh() {
         }
         for (const model::Character* one : m_view.lineage(key)) {
             for (const model::Stream* stream : one->streams) {
-                add(losses.of(*stream).byCause, row.lost);
+                model::addLosses(row.lost, losses.of(*stream).byCause);
             }
         }
         if (const model::CharacterPose* pose = m_view.pose(key)) {
@@ -319,7 +315,7 @@ void CharacterDetailModel::refresh(const std::optional<model::CharacterKey>& key
             if (wire::isSampled(stream->key.type)) {
                 row.measuredHz = measuredHz(*stream, row.ageS, m_view.isRecording());
             }
-            add(losses.of(*stream).byCause, row.lost);
+            row.lost = losses.of(*stream).byCause;
             rows.push_back(row);
         }
         std::ranges::sort(rows, {}, [](const DetailRow& row) { return row.key.type; });

@@ -40,7 +40,7 @@ PropertyValue lostByCause(const Source& from) {
     std::uint64_t pending = 0;
     for (const model::Stream& stream : from.view.streams()) {
         const model::StreamLosses more = losses.of(stream);
-        std::ranges::transform(lost, more.byCause, lost.begin(), std::plus());
+        model::addLosses(lost, more.byCause);
         pending += more.pending;
     }
     const QString toolTip =

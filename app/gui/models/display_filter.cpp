@@ -189,16 +189,16 @@ PacketsBehind lossesBehind(model::SessionView& view, const LossesSought& losses)
 
 PacketsBehind packetsBehind(model::SessionView& view, const StatisticsModel& model,
                             const QModelIndex& index) {
-    using enum model::Figure;
-    constexpr std::array kCauses{LostHere, LostOnNetwork, LostAtSender, LostUnknown}; // by LossCause
     const auto figure = figureIn(index.column());
-    const auto* cause = figure ? std::ranges::find(kCauses, *figure) : kCauses.end();
-    if (cause != kCauses.end()) {
+    const auto* cause =
+        figure ? std::ranges::find(model::kFigureOfCause, *figure) : model::kFigureOfCause.end();
+    if (cause != model::kFigureOfCause.end()) {
         std::vector<log::StreamKey> streams;
         for (const model::Stream* stream : model.streamsOf(index)) {
             streams.push_back(stream->key);
         }
-        return lossesBehind(view, {std::move(streams), static_cast<model::LossCause>(cause - kCauses.begin()),
+        return lossesBehind(view, {std::move(streams),
+                                   static_cast<model::LossCause>(cause - model::kFigureOfCause.begin()),
                                    model.range()});
     }
     PacketsBehind behind{statisticsFilter(view, model, index)};

@@ -34,7 +34,7 @@ double FaultCounts::shareOf(std::uint64_t samples) const {
 }
 
 FaultCounts& FaultCounts::operator+=(const FaultCounts& other) {
-    std::ranges::transform(lost, other.lost, lost.begin(), std::plus());
+    addLosses(lost, other.lost);
     pending += other.pending;
     expected += other.expected;
     return *this;

@@ -13,6 +13,10 @@ constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
 
 } // namespace
 
+void addLosses(LossesByCause& sums, const LossesByCause& more) {
+    std::ranges::transform(sums, more, sums.begin(), std::plus());
+}
+
 Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range) : m_range(range) {
     session.forEachPending(
         [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp /*from*/, log::Stamp to) {
@@ -57,12 +61,10 @@ LossesByCause Losses::causesOf(const Stream& stream) const {
 }
 
 StreamFigures Losses::figuresOf(const Stream& stream) const {
-    constexpr std::array kCauses{Figure::LostHere, Figure::LostOnNetwork, Figure::LostAtSender,
-                                 Figure::LostUnknown}; // by LossCause
     StreamFigures figures = model::figuresOf(stream, m_range);
     const LossesByCause losses = of(stream).byCause;
-    for (std::size_t cause = 0; cause < kCauses.size(); ++cause) {
-        figures.set(kCauses[cause], static_cast<double>(losses[cause]));
+    for (std::size_t cause = 0; cause < kFigureOfCause.size(); ++cause) {
+        figures.set(kFigureOfCause[cause], static_cast<double>(losses[cause]));
     }
     return figures;
 }

@@ -13,6 +13,12 @@ namespace posewire::model {
 
 /// Samples by LossCause.
 using LossesByCause = std::array<std::uint64_t, kLossCauses>;
+void addLosses(LossesByCause& sums, const LossesByCause& more);
+
+/// The figure of a stream that says how much was lost by a cause, by LossCause.
+inline constexpr std::array kFigureOfCause{Figure::LostHere, Figure::LostOnNetwork, Figure::LostAtSender,
+                                           Figure::LostUnknown};
+static_assert(kFigureOfCause.size() == kLossCauses);
 
 /// What one stream lacks; the sum of all is what it has lost and what is incomplete.
 struct StreamLosses {
