@@ -12,7 +12,6 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
-#include <QRegularExpression>
 #include <QStyle>
 #include <QToolButton>
 
@@ -47,26 +46,6 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
 
 } // namespace
 
-QString spokenWords(QString text) {
-    static const QRegularExpression kNumbers(QStringLiteral("[0-9.:\\s\u202f]+"));
-    return text.replace(kNumbers, QStringLiteral(" "));
-}
-
-QString fittingHeadline(const QString& text, const QFontMetrics& metrics, int width) {
-    static const QString kNotGood = QStringLiteral("Not good: ");
-    static const QString kGoingOn = QStringLiteral(", going on");
-    const qsizetype begin = text.indexOf(kNotGood);
-    if (metrics.horizontalAdvance(text) <= width) {
-        return text;
-    }
-    if (begin < 0 || !text.endsWith(kGoingOn)) {
-        return metrics.elidedText(text, Qt::ElideRight, width);
-    }
-    const QString what = text.sliced(begin + kNotGood.size()).chopped(kGoingOn.size());
-    return metrics.elidedText(text.first(begin) + QStringLiteral("Not good, going on: ") + what,
-                              Qt::ElideRight, width);
-}
-
 Headline::Headline(QWidget* parent) : QAbstractButton(parent) {
     setObjectName(QStringLiteral("headline"));
     setFocusPolicy(Qt::TabFocus);
@@ -76,12 +55,15 @@ Headline::Headline(QWidget* parent) : QAbstractButton(parent) {
     setToolTip(toolTipText(tr("Click for the evidence")));
 }
 
-void Headline::setVerdict(Health level, const QString& text) {
-    if (level == m_level && text == this->text()) {
+void Headline::setVerdict(const model::TakeVerdict& verdict, const QString& context) {
+    const QString text = context + QString::fromStdString(verdict.text);
+    const bool isTurn = !sayTheSame(verdict, m_verdict);
+    m_verdict = verdict;
+    if (!isTurn && text == this->text()) {
         return;
     }
-    const bool isTurn = level != m_level || spokenWords(text) != spokenWords(this->text());
-    m_level = level;
+    m_level = healthOf(verdict.state);
+    m_narrow = context + QString::fromStdString(verdict.narrow);
     setText(text);
     setAccessibleName(text);
     if (isTurn) {
@@ -145,8 +127,10 @@ void Headline::paintEvent(QPaintEvent* /*event*/) {
         room.setLeft(room.left() + painter.fontMetrics().horizontalAdvance(healthText(m_level, {})));
     }
     painter.setPen(isColoured ? theme().text : theme().dim);
+    const QFontMetrics metrics = painter.fontMetrics();
+    const bool fits = metrics.horizontalAdvance(text()) <= room.width();
     painter.drawText(room, Qt::AlignVCenter | Qt::AlignLeft,
-                     fittingHeadline(text(), painter.fontMetrics(), room.width()));
+                     fits ? text() : metrics.elidedText(m_narrow, Qt::ElideRight, room.width()));
 }
 
 void Headline::keyPressEvent(QKeyEvent* event) {
@@ -210,9 +194,8 @@ void VerdictBar::refresh(const ShownFile& file, bool hasInputs) {
 }
 
 void VerdictBar::showVerdict(bool isBehindFile) {
-    const QString text = QString::fromStdString(m_verdict.text);
     m_headline->setLarge(m_isLarge && !isBehindFile);
-    m_headline->setVerdict(healthOf(m_verdict.state), isBehindFile ? tr("Live: %1").arg(text) : text);
+    m_headline->setVerdict(m_verdict, isBehindFile ? tr("Live: ") : QString());
     m_span->setText(m_live.reset() == log::Stamp()
                         ? tr("last 10 s")
                         : tr("reset at %1").arg(timeOfDay(m_live.wallOf(m_live.reset())).chopped(4)));

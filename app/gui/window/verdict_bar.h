@@ -16,11 +16,6 @@ namespace posewire::gui {
 
 class ElidedLabel;
 
-/// A verdict without its numbers: one that grows need not be spoken.
-[[nodiscard]] QString spokenWords(QString text);
-/// As much of a verdict as fits: whether it lasts comes before what is cut.
-[[nodiscard]] QString fittingHeadline(const QString& text, const QFontMetrics& metrics, int width);
-
 /// "● Good for the take: 4 characters", in the colour of what it says. A button: a click gives the evidence.
 class Headline final : public QAbstractButton {
     Q_OBJECT
@@ -28,8 +23,9 @@ class Headline final : public QAbstractButton {
 public:
     explicit Headline(QWidget* parent = nullptr);
 
-    /// Tells screen readers when it changes.
-    void setVerdict(Health level, const QString& text);
+    /// Tells screen readers when it says something else: a number that grows need not be spoken. `context`
+    /// stands before it, where it is set.
+    void setVerdict(const model::TakeVerdict& verdict, const QString& context);
     void setLarge(bool isLarge);
 
     [[nodiscard]] QSize sizeHint() const override;
@@ -45,6 +41,8 @@ private:
     [[nodiscard]] QFont fontFor(int width) const;
 
     Health m_level = Health::Unknown;
+    model::TakeVerdict m_verdict;
+    QString m_narrow; ///< instead of text(), where that has no room
     bool m_isLarge = false;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/model/session/session_view.h"
+#include "core/model/session/listed_incidents.h"
 
 #include <map>
 #include <optional>
@@ -12,27 +12,6 @@
 /// Whether it is good: in the window, the report and the JSON the same answer in the same words.
 namespace posewire::model {
 
-/// An incident as it is listed: with what is not settled yet.
-struct ListedIncident {
-    enum class State : std::uint8_t { Provisional, Ongoing, Over };
-    Incident incident;
-    State state = State::Ongoing;
-};
-/// "provisional", "ongoing", "over".
-[[nodiscard]] std::string_view nameOf(ListedIncident::State state);
-
-/// All incidents of a session that are no notes, by growing number; for each sender one more with what has
-/// not come yet and may. Their samples sum up to what the streams lost, by cause.
-[[nodiscard]] std::vector<ListedIncident> listedIncidents(const SessionView& session);
-
-/// Those of them that the session's own list does not have, oldest first: what is not settled yet, without
-/// what is only just coming, and sums of what is not listed any more, which have no number.
-[[nodiscard]] std::vector<ListedIncident> unsettledIncidents(const SessionView& session);
-/// Of an incident of the session's list; a note is over unless it lasts.
-[[nodiscard]] ListedIncident::State stateOf(const SessionView& session, const Incident& incident);
-/// Whether it is a note: something to know, and no fault.
-[[nodiscard]] bool isNote(const Incident& incident);
-
 /// The answer to: is it good, and if not, whose fault, and is it over?
 struct TakeVerdict {
     enum class State : std::uint8_t { None, Good, Warning, Bad };
@@ -42,9 +21,13 @@ struct TakeVerdict {
     log::Stamp since{}; ///< when what it says began; of Good when the last incident was over; of None 0
     std::optional<std::uint64_t> incident{}; ///< that it rests on
     std::optional<CharacterKey> character{}; ///< that it is about, where it is one
+    bool isOver = false;  ///< what it says is over, and mentioned only because it is recent
+    std::string narrow{}; ///< `text` with whether it lasts first, where the end of it has no room
 
     friend bool operator==(const TakeVerdict&, const TakeVerdict&) = default;
 };
+/// Whether both say the same, but for numbers that grow and a time that passes.
+[[nodiscard]] bool sayTheSame(const TakeVerdict& one, const TakeVerdict& other);
 /// "none", "good", "warning", "bad".
 [[nodiscard]] std::string_view nameOf(TakeVerdict::State state);
 
@@ -68,8 +51,5 @@ struct TakeVerdicts {
 /// Of all, or of one character and its sender, through restarts of the sender.
 [[nodiscard]] TakeVerdict verdictOf(const SessionView& session, const VerdictSpan& span,
                                     std::optional<CharacterKey> character = {});
-
-/// "37 samples lost on Jonas, network": what an incident is in a few words, and whose.
-[[nodiscard]] std::string headlineOf(const SessionView& session, const ListedIncident& listed);
 
 } // namespace posewire::model

@@ -93,29 +93,6 @@ TEST_F(VerdictBarTest, OffersNothingLiveWithoutAnInput) {
     EXPECT_FALSE(strip()->isHidden());
 }
 
-TEST(HeadlineTest, WhatIsSpokenChangesWithWhatIsSaidAndNotWithItsNumbers) {
-    const QString lost = "Not good: 1.9 % lost on Jonas, network, since 11:37:18, going on";
-    EXPECT_EQ(spokenWords(lost),
-              spokenWords("Not good: 12 % lost on Jonas, network, since 11:37:19, going on"));
-    EXPECT_NE(spokenWords(lost),
-              spokenWords("Not good: 1.9 % lost on Mira, network, since 11:37:18, going on"));
-    EXPECT_NE(spokenWords(lost), spokenWords("Not good: no data from Jonas, since 11:37:18, going on"));
-}
-
-TEST(FittingHeadline, SaysWhetherItLastsBeforeWhatIsCut) {
-    const QFontMetrics metrics{QFont()};
-    const QString text = "Not good: 1.9 % lost on 4 characters, network, since 11:37:18, going on";
-    const int width = metrics.horizontalAdvance(text);
-    EXPECT_EQ(fittingHeadline(text, metrics, width), text);
-    const std::string cut = fittingHeadline(text, metrics, width * 2 / 3).toStdString();
-    EXPECT_THAT(cut, StartsWith("Not good, going on: 1.9 % lost on 4"));
-    EXPECT_THAT(cut, testing::EndsWith("…"));
-    EXPECT_THAT(fittingHeadline("Live: " + text, metrics, width * 2 / 3).toStdString(),
-                StartsWith("Live: Not good, going on: "));
-    const QString over = "Not good: 1.9 % lost on 4 characters, network, from 11:37:18 to 11:38:02";
-    EXPECT_THAT(fittingHeadline(over, metrics, width / 2).toStdString(), StartsWith("Not good: 1.9 %"));
-}
-
 TEST_F(VerdictBarTest, LeadsToItsEvidenceByMouseAndKeyboard) {
     send(0, 60);
     send(70, 120);

@@ -70,6 +70,7 @@ TEST_F(VerdictTest, SaysAtOnceWhatIsNotHereYetAndThenWhatIsLost) {
     EXPECT_EQ(now.state, State::Warning);
     EXPECT_TRUE(now.text.starts_with("Not quite good: 12 samples of Character 0 not yet here, since "))
         << now.text;
+    EXPECT_TRUE(now.narrow.starts_with("Not quite good, going on: 12 samples of ")) << now.narrow;
     const auto number = now.incident;
     poses(1'014, 1'050);
     now = verdict();
@@ -133,10 +134,24 @@ TEST_F(VerdictTest, MentionsWhatIsOverForTenSecondsAndThenIsGood) {
     TakeVerdict now = verdict();
     EXPECT_EQ(now.state, State::Warning);
     EXPECT_TRUE(now.text.ends_with(", over")) << now.text;
+    EXPECT_TRUE(now.narrow.starts_with("Not quite good, over: ")) << now.narrow;
     poses(501, 1'600);
     now = verdict();
     EXPECT_EQ(now.state, State::Good);
     EXPECT_EQ(verdictOf(m_session, {}).state, State::Warning) << "of all there was";
+}
+
+/// What is spoken again, and what is not.
+TEST_F(VerdictTest, SaysTheSameWhileOnlyItsNumbersGrow) {
+    poses(1, 300);
+    const TakeVerdict good = verdict();
+    poses(313, 350);
+    const TakeVerdict lost = verdict();
+    EXPECT_FALSE(sayTheSame(good, lost));
+    poses(363, 400);
+    const TakeVerdict more = verdict();
+    EXPECT_NE(lost.text, more.text);
+    EXPECT_TRUE(sayTheSame(lost, more)) << lost.text << '\n' << more.text;
 }
 
 TEST_F(VerdictTest, IsOfOneCharacterWhereItIsAskedFor) {

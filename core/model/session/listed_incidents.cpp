@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/session/listed_incidents.h"
+
+#include "core/model/incidents/incident_kinds.h"
+#include "core/model/session/losses.h"
+#include "core/model/text.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <ctime>
+#include <map>
+
+namespace posewire::model {
+namespace {
+
+using State = ListedIncident::State;
+
+constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
+
+/// "03:28:07", as the receiving computer's clock shows it.
+std::string clockText(log::WallTime time) {
+    const std::time_t seconds =
+        std::chrono::floor<std::chrono::seconds>(time).time_since_epoch() / std::chrono::seconds(1);
+    std::tm local{};
+    localtime_r(&seconds, &local);
+    std::array<char, 16> text{};
+    std::strftime(text.data(), text.size(), "%H:%M:%S", &local);
+    return text.data();
+}
+
+/// What the streams of each sender lost, less what incidents tell.
+std::map<log::SenderId, LossesByCause> untold(const SessionView& session) {
+    std::map<log::SenderId, LossesByCause> rest;
+    for (const Stream& stream : session.streams()) {
+        addLosses(rest[stream.key.sender], stream.lostByCause());
+    }
+    for (const Incident& incident : session.incidents().all()) {
+        if (const auto sums = rest.find(incident.sender); sums != rest.end() && incident.samples != 0) {
+            std::uint64_t& sum =
+                sums->second[static_cast<std::size_t>(incident.cause.value_or(LossCause::Unknown))];
+            sum -= std::min(sum, incident.samples);
+        }
+    }
+    return rest;
+}
+
+/// What is not there yet: gaps that late arrivals may still fill, and samples of which a part is under way.
+ListedIncident provisionalOf(const SessionView& session, log::SenderId sender, std::uint64_t samples) {
+    ListedIncident listed;
+    listed.state = State::Provisional;
+    Incident& incident = listed.incident;
+    incident.kind = IncidentKind::Loss;
+    incident.sender = sender;
+    incident.cause = LossCause::Unknown;
+    incident.samples = samples;
+    incident.firstStamp = log::Stamp::max();
+    incident.version = session.incidents().version();
+    session.forEachPending(
+        [&](const log::StreamKey& stream, std::uint64_t missing, log::Stamp from, log::Stamp to) {
+            if (stream.sender == sender) {
+                incident.firstStamp = std::min(incident.firstStamp, from);
+                incident.lastStamp = std::max(incident.lastStamp, to);
+                incident.parts.push_back({stream.character, stream.type, 1, missing, from, to});
+                ++incident.count;
+            }
+        });
+    if (incident.parts.empty()) {
+        const Sender* from = session.find(sender);
+        incident.firstStamp = incident.lastStamp = from != nullptr ? from->lastStamp : session.now();
+    }
+    incident.number = session.provisionalNumber(sender);
+    return listed;
+}
+
+/// What did not happen again for twice as long as it took between the times it did, or for a second: more of
+/// it would be of the same incident, but it does not go on.
+bool hasCeased(const SessionView& session, const Incident& incident) {
+    constexpr log::Duration kLeast = std::chrono::seconds(1);
+    const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(2, incident.count) - 1);
+    const log::Duration between = (incident.lastStamp - incident.firstStamp) / repeats;
+    return !factsOf(incident.kind).lasts &&
+           session.now() - incident.lastStamp >= std::clamp(2 * between, kLeast, Incidents::kQuiet);
+}
+
+/// Incidents that are not listed any more.
+ListedIncident forgottenOf(log::SenderId sender, LossCause cause, std::uint64_t samples) {
+    ListedIncident listed;
+    listed.state = State::Over;
+    listed.incident.kind = cause == LossCause::ThisComputer ? IncidentKind::Local : IncidentKind::Loss;
+    listed.incident.sender = sender;
+    listed.incident.cause = cause;
+    listed.incident.samples = samples;
+    listed.incident.detail = "Of incidents that are not listed any more.";
+    listed.incident.isCurrent = false;
+    return listed;
+}
+
+/// "Jonas", "Jonas and Mira", "4 characters", or the sender.
+std::string whom(const SessionView& session, const Incident& incident) {
+    const auto characters = incident.characters();
+    if (characters.empty()) {
+        return session.addressOf(incident.sender).shown();
+    }
+    if (characters.size() > 2) {
+        return std::to_string(characters.size()) + " characters";
+    }
+    std::vector<std::string> names;
+    for (const std::uint8_t character : characters) {
+        names.push_back(session.displayName({incident.sender, character}).shown());
+    }
+    return listed(names);
+}
+
+/// "2.3 %" where that says more than "37 samples"; `noun` is for a number.
+std::string amountOf(const SessionView& session, const Incident& incident, std::string_view noun) {
+    constexpr std::uint64_t kFew = 10;
+    StreamCounts sum;
+    for (const Incident::Part& part : incident.parts) {
+        const bool isStream = part.character && part.type;
+        const Stream* stream =
+            isStream ? session.find(log::StreamKey{incident.sender, *part.character, *part.type}) : nullptr;
+        if (stream != nullptr) {
+            sum += stream->accounting.countsBetween(incident.firstStamp,
+                                                    incident.lastStamp + std::chrono::seconds(1));
+        }
+    }
+    const double percent = 100.0 * static_cast<double>(incident.samples) /
+                           static_cast<double>(std::max<std::uint64_t>(1, sum.expected()));
+    const bool isShare = incident.samples > kFew && sum.expected() > 10 * kFew && percent <= 100;
+    if (isShare) {
+        return fixedText(percent, percent < 10 ? 1 : 0) + " %";
+    }
+    return noun.empty() ? std::to_string(incident.samples) : counted(incident.samples, noun);
+}
+
+std::string causeOf(const Incident& incident) {
+    return incident.cause && *incident.cause != LossCause::Unknown
+               ? ", " + std::string(nameOf(*incident.cause))
+               : ", cause unknown";
+}
+
+std::string lossHeadline(const SessionView& session, const Incident& incident) {
+    return amountOf(session, incident, "sample") + " lost on " + whom(session, incident) + causeOf(incident);
+}
+
+/// Of an outage: "no data for 1.2 s".
+std::string silenceOf(const SessionView& session, const ListedIncident& listed) {
+    const log::Stamp end = listed.state == State::Over ? listed.incident.lastStamp
+                                                       : std::max(session.now(), listed.incident.lastStamp);
+    const double seconds = log::secondsOf(end - listed.incident.firstStamp);
+    return "no data for " + fixedText(seconds, seconds < 10 ? 1 : 0) + " s";
+}
+
+/// What no incident of the list tells.
+std::vector<ListedIncident> unlistedOf(const SessionView& session) {
+    std::vector<ListedIncident> all;
+    for (const auto& [sender, sums] : untold(session)) {
+        for (std::size_t cause = 0; cause < kLossCauses; ++cause) {
+            if (sums[cause] != 0) {
+                all.push_back(cause == kUnknown
+                                  ? provisionalOf(session, sender, sums[cause])
+                                  : forgottenOf(sender, static_cast<LossCause>(cause), sums[cause]));
+            }
+        }
+    }
+    return all;
+}
+
+} // namespace
+
+std::string_view nameOf(ListedIncident::State state) {
+    constexpr std::array<std::string_view, 3> kNames{"provisional", "ongoing", "over"};
+    return kNames[static_cast<std::size_t>(state)];
+}
+
+bool isNote(const Incident& incident) {
+    return wordOf(incident.kind).empty();
+}
+
+ListedIncident::State stateOf(const SessionView& session, const Incident& incident) {
+    return incident.isCurrent && !hasCeased(session, incident) ? State::Ongoing : State::Over;
+}
+
+std::vector<ListedIncident> unsettledIncidents(const SessionView& session) {
+    std::vector<ListedIncident> all = unlistedOf(session);
+    std::erase_if(all, isOnlyComing);
+    return all;
+}
+
+/// Of a sample that is just coming the rest is under way.
+bool isOnlyComing(const ListedIncident& one) {
+    return one.state == State::Provisional && one.incident.parts.empty();
+}
+
+std::vector<ListedIncident> listedIncidents(const SessionView& session, log::Stamp from, log::Stamp to) {
+    std::vector<ListedIncident> all = unlistedOf(session);
+    for (const Incident& incident : session.incidents().all()) {
+        const bool isMeant = (incident.isCurrent || incident.lastStamp >= from) &&
+                             incident.firstStamp <= to && !isNote(incident);
+        if (isMeant) {
+            all.push_back({incident, stateOf(session, incident)});
+        }
+    }
+    std::ranges::stable_sort(all, {}, [](const ListedIncident& one) { return one.incident.number; });
+    return all;
+}
+
+std::string headlineOf(const SessionView& session, const ListedIncident& listed) {
+    const Incident& incident = listed.incident;
+    const std::string who = whom(session, incident);
+    if (listed.state == State::Provisional) {
+        return counted(incident.samples, "sample") + " of " + who + " not yet here";
+    }
+    switch (incident.kind) {
+    case IncidentKind::Loss:
+        return lossHeadline(session, incident);
+    case IncidentKind::Local:
+        return incident.samples != 0 ? lossHeadline(session, incident)
+                                     : "this computer dropped " +
+                                           counted(static_cast<std::uint64_t>(incident.value), "datagram");
+    case IncidentKind::Outage:
+        return "no data from " + who + (incident.cause ? causeOf(incident) : std::string());
+    case IncidentKind::Reordered:
+        return counted(incident.count, "datagram") + " of " + who + " out of order";
+    case IncidentKind::Duplicates:
+        return counted(incident.count, "datagram") + " of " + who + " came twice";
+    case IncidentKind::Malformed:
+        return counted(incident.count, "datagram") + " of " + who + " malformed";
+    case IncidentKind::Foreign:
+        return counted(incident.count, "datagram") + " from " + who + " not MXTP";
+    case IncidentKind::Restart:
+        return who + " restarted";
+    case IncidentKind::Conflict:
+        return who + " comes from two senders, " + session.addressOf(incident.sender).shown() + " and " +
+               incident.detail;
+    case IncidentKind::Overtaken:
+    case IncidentKind::RelayLoop:
+    case IncidentKind::ClockSet: {
+        std::string text = incident.text();
+        text.erase(text.find_last_not_of('.') + 1);
+        return text;
+    }
+    default: {
+        std::string text = incident.text();
+        text.erase(text.find_last_not_of('.') + 1);
+        return who + ": " + text;
+    }
+    }
+}
+
+std::string briefOf(const SessionView& session, const ListedIncident& listed) {
+    const Incident& incident = listed.incident;
+    const std::string count = std::to_string(incident.count);
+    if (listed.state == State::Provisional) {
+        return std::to_string(incident.samples) + " not yet here";
+    }
+    switch (incident.kind) {
+    case IncidentKind::Loss:
+    case IncidentKind::Local:
+        return incident.samples != 0 ? amountOf(session, incident, {}) + " lost" + causeOf(incident)
+                                     : fixedText(incident.value, 0) + " dropped here";
+    case IncidentKind::Outage:
+        return silenceOf(session, listed) + (incident.cause ? causeOf(incident) : std::string());
+    case IncidentKind::Reordered:
+        return count + " out of order";
+    case IncidentKind::Duplicates:
+        return count + " came twice";
+    case IncidentKind::Malformed:
+        return count + " malformed";
+    case IncidentKind::Foreign:
+        return count + " not MXTP";
+    case IncidentKind::Restart:
+        return "restarted";
+    case IncidentKind::Conflict:
+        return "also from " + incident.detail;
+    default:
+        return std::string(nameOf(incident.kind));
+    }
+}
+
+std::string whenOf(const SessionView& session, const ListedIncident& listed) {
+    const std::string from = clockText(session.wallOf(listed.incident.firstStamp));
+    return listed.state == State::Over
+               ? ", " + from + " to " + clockText(session.wallOf(listed.incident.lastStamp))
+               : ", since " + from;
+}
+
+} // namespace posewire::model

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/session/session_view.h"
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+/// What happened, with what is not settled yet, in the words that all views use.
+namespace posewire::model {
+
+/// An incident as it is listed: with what is not settled yet.
+struct ListedIncident {
+    enum class State : std::uint8_t { Provisional, Ongoing, Over };
+    Incident incident;
+    State state = State::Ongoing;
+};
+/// "provisional", "ongoing", "over".
+[[nodiscard]] std::string_view nameOf(ListedIncident::State state);
+
+/// All incidents of a session that are no notes, that began up to `to` and lasted into `from`, by growing
+/// number; for each sender one more with what has not come yet and may. Of all time, their samples sum up to
+/// what the streams lost, by cause.
+[[nodiscard]] std::vector<ListedIncident> listedIncidents(const SessionView& session,
+                                                          log::Stamp from = log::Stamp::min(),
+                                                          log::Stamp to = log::Stamp::max());
+
+/// Those of them that the session's own list does not have, oldest first: what is not settled yet, without
+/// what is only just coming, and sums of what is not listed any more, which have no number.
+[[nodiscard]] std::vector<ListedIncident> unsettledIncidents(const SessionView& session);
+/// Of an incident of the session's list; a note is over unless it lasts.
+[[nodiscard]] ListedIncident::State stateOf(const SessionView& session, const Incident& incident);
+/// Whether it is a note: something to know, and no fault.
+[[nodiscard]] bool isNote(const Incident& incident);
+
+/// Whether it is of a sample of which the rest is just coming.
+[[nodiscard]] bool isOnlyComing(const ListedIncident& one);
+
+/// "37 samples lost on Jonas, network": what an incident is in a few words, and whose.
+[[nodiscard]] std::string headlineOf(const SessionView& session, const ListedIncident& listed);
+
+/// The same without whose: "37 lost, network".
+[[nodiscard]] std::string briefOf(const SessionView& session, const ListedIncident& listed);
+/// ", since 03:28:07", or ", 03:28:07 to 03:28:09" of what is over.
+[[nodiscard]] std::string whenOf(const SessionView& session, const ListedIncident& listed);
+
+} // namespace posewire::model
