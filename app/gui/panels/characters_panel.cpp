@@ -203,11 +203,13 @@ void CharactersPanel::refresh() {
     m_isFollowing = true;
     m_model.refresh();
     showEmptyState();
-    constexpr qsizetype kMostKept = 36;                  // characters
-    for (int row = 0; row < m_model.rowCount(); ++row) { // once wider, it stays: words shift nothing
+    constexpr qsizetype kMostKept = 36; // characters
+    QString longest;
+    for (int row = 0; row < m_model.rowCount(); ++row) {
         const QString verdict = m_model.index(row, CharacterModel::kVerdict).data().toString();
-        m_table->columns().keepOpenFor(verdict.left(kMostKept));
+        longest = verdict.size() > longest.size() ? verdict : longest;
     }
+    m_table->columns().keepOpenFor(longest.left(kMostKept)); // once wider, it stays: words shift nothing
     followSelection();
     m_isFollowing = false;
     const model::Unproven unproven = m_view.unproven();

@@ -9,7 +9,7 @@
 #include <QActionGroup>
 #include <QMenu>
 
-#include <type_traits>
+#include <optional>
 
 namespace posewire::gui {
 
@@ -36,28 +36,19 @@ QString check(const QActionGroup& group, const std::optional<Value>& declared) {
     return text;
 }
 
-/// As it was detected, where nothing is declared.
-constexpr int kAutomatic = -1;
+/// As it was detected.
+constexpr std::nullopt_t kAutomatic = std::nullopt;
 
 template <auto member, auto value>
 void declare(MetadataPanel& panel) {
     SenderOverride overrides = panel.detection().declared();
-    if constexpr (std::is_same_v<decltype(value), int>) {
-        (overrides.*member).reset();
-    } else {
-        overrides.*member = value;
-    }
+    overrides.*member = value;
     panel.detection().declare(overrides);
 }
 
 template <auto member, auto value>
 bool isDeclared(const MetadataPanel& panel) {
-    const SenderOverride overrides = panel.detection().declared();
-    if constexpr (std::is_same_v<decltype(value), int>) {
-        return !(overrides.*member);
-    } else {
-        return overrides.*member == value;
-    }
+    return panel.detection().declared().*member == value;
 }
 
 template <auto member, auto value>
