@@ -32,11 +32,11 @@ constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
 /// past.
 constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
 
-/// Of what is free in a folder, the most that something of ours takes.
 std::uint64_t freeBytes(const QString& folder) {
     return static_cast<std::uint64_t>(std::max<qint64>(QStorageInfo(folder).bytesAvailable(), 0));
 }
 
+/// The most that something of ours takes in a folder.
 std::uint64_t tenthOfFree(const QString& folder) {
     return freeBytes(folder) / 10;
 }
@@ -161,7 +161,7 @@ QString SessionDriver::keepHistory(std::uint64_t most) {
     const log::DiskHistoryChoice choice{QFile::encodeName(m_cacheFolder).toStdString(),
                                         std::min(most, tenthOfFree(m_cacheFolder))};
     if (freeBytes(m_cacheFolder) < choice.leaveFree) {
-        return tr("Less than 1 GB is free in %1: only what is in memory can be looked back at.")
+        return tr("Less than 1 GB is free on the disk of %1: only what is in memory can be looked back at.")
             .arg(m_cacheFolder);
     }
     auto history = log::DiskHistory::start(m_log, choice, {{}, {}, application.toStdString()});
