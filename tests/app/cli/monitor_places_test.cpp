@@ -10,6 +10,8 @@
 
 #include <gmock/gmock.h>
 
+#include <thread>
+
 namespace posewire::cli::test {
 namespace {
 
@@ -112,10 +114,11 @@ protected:
             m_process.waitForFinished(20);
         }
     }
-    void send(const QHostAddress& from, std::uint32_t first, std::uint32_t end) {
+    void send(const QHostAddress& from, std::uint32_t first, std::uint32_t end,
+              const std::stop_token& stop = {}) {
         QUdpSocket socket;
         ASSERT_TRUE(socket.bind(from, 0));
-        for (std::uint32_t sample = first; sample < end; ++sample) {
+        for (std::uint32_t sample = first; sample < end && !stop.stop_requested(); ++sample) {
             const auto pose = RecordingFile::pose(sample);
             socket.writeDatagram(reinterpret_cast<const char*>(pose.data()), static_cast<qint64>(pose.size()),
                                  QHostAddress::LocalHost, m_port);
@@ -155,10 +158,13 @@ TEST_F(MonitorUdp, ASenderThatDiesExceedsTheGapWhileAnotherGoesOn) {
 }
 
 TEST_F(MonitorUdp, AStreamThatLastsToTheEndExceedsNothing) {
-    start({"--max-gap", "500"});
-    send(QHostAddress::LocalHost, 0, 100);
+    start({"--max-gap", "2000"});
+    const std::jthread sender([this](const std::stop_token& stop) {
+        send(QHostAddress::LocalHost, 0, UINT32_MAX, stop); // however long the program takes to end
+    });
+    QThread::msleep(400);
     const ProgramRun run = end();
-    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.status, 0) << run.err << run.out;
 }
 
 TEST_F(MonitorUdp, ListensToThoseThatWereNamedAndCountsOthers) {
