@@ -49,6 +49,7 @@ std::optional<Packet> PastReader::packet(std::uint64_t number) {
     const std::byte* bytes = bytesOf(place, number == m_last + 1);
     m_last = number;
     if (bytes == nullptr && place.size != 0) {
+        m_past->noteDamage();
         return std::nullopt;
     }
     const Arrival& arrival = place.arrival;

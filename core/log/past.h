@@ -60,11 +60,16 @@ public:
 
     [[nodiscard]] const std::shared_ptr<Scratch>& scratch() const { return m_scratch; }
 
+    /// Whether a reader did not find in a file what lay there: somebody else has cut it, or the disk fails.
+    [[nodiscard]] bool isDamaged() const { return m_isDamaged.load(std::memory_order_relaxed); }
+    void noteDamage() const { m_isDamaged.store(true, std::memory_order_relaxed); }
+
 private:
     const std::shared_ptr<Scratch> m_scratch;
     mutable std::mutex m_mutex; ///< guards the parts
     std::deque<std::shared_ptr<const Part>> m_parts;
     std::atomic<std::uint64_t> m_begin = UINT64_MAX;
+    mutable std::atomic<bool> m_isDamaged = false;
 };
 
 /// Reads packets of a Past: one at a time where they are far from each other, many at once where they follow

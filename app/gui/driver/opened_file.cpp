@@ -81,6 +81,10 @@ const model::TakeVerdict& OpenedFile::verdict() {
 
 QStringList OpenedFile::notes() const {
     QStringList notes;
+    if (m_log.past().isDamaged()) {
+        notes += tr("The file was changed since it was opened: some of its packets cannot be read any more. "
+                    "Open it again.");
+    }
     if (!m_ending.isEmpty()) {
         notes += m_ending;
     }

@@ -166,6 +166,10 @@ QString PacketsPanel::goTo(const QString& text) {
     if (!target) {
         return target.error();
     }
+    if (!m_view.packet(*target)) {
+        return tr("Packet %1 cannot be read any more: the file that it lies in was changed.")
+            .arg(grouped(*target));
+    }
     showPacket(*target);
     return {};
 }

@@ -24,6 +24,9 @@ QString historyText(SessionDriver& driver) {
     QString onDisk = disk != nullptr ? HistoryDialog::tr("On disk: %1.").arg(megabytes(disk->figures().bytes))
                                      : HistoryDialog::tr("On disk: nothing.");
     onDisk = failure ? QString::fromStdString(failure->text) : onDisk;
+    if (live.log().past().isDamaged()) {
+        onDisk += u' ' + HistoryDialog::tr("Another program has changed its files: some of it is lost.");
+    }
     const QString since =
         first ? HistoryDialog::tr("The oldest packet is from %1.").arg(timeOfDay(live.wallOf(first->stamp)))
               : HistoryDialog::tr("Nothing was received yet.");

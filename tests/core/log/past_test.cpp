@@ -174,7 +174,9 @@ TEST_F(PastTest, AFileThatWasCutShortLosesItsPacketsAndNothingElse) {
     append(20'000);
     m_file->all.resize(m_file->all.size() / 4);
     EXPECT_TRUE(isAsItWas(10));
+    EXPECT_FALSE(m_log.past().isDamaged()) << "nobody has looked";
     EXPECT_FALSE(m_reader.packet(12'000));
+    EXPECT_TRUE(m_log.past().isDamaged());
     EXPECT_TRUE(isAsItWas(m_next - 1)) << "that one is in memory";
 }
 
