@@ -14,6 +14,10 @@ void addEntries(QMenu& menu, std::span<const ActionInfo> table, const char* from
         if (std::string_view(info.menu) != from) {
             continue;
         }
+        if (info.list != nullptr) {
+            info.list(owner, menu);
+            continue;
+        }
         if (info.run == nullptr) {
             menu.addSeparator();
             continue;

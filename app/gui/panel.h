@@ -21,13 +21,19 @@ struct ActionInfo {
     const char* menu;     ///< "&File", "&View/&Theme"; translated in context "Action", as `text`
     const char* text;     ///< with the letter to press after &
     const char* shortcut; ///< portable text, empty for none
-    void (*run)(QWidget& owner) = nullptr;        ///< null for a line
-    bool (*isOn)(const QWidget& owner) = nullptr; ///< only where the entry can be checked
+    void (*run)(QWidget& owner) = nullptr;               ///< null for a line
+    bool (*isOn)(const QWidget& owner) = nullptr;        ///< only where the entry can be checked
+    void (*list)(QWidget& owner, QMenu& menu) = nullptr; ///< instead: fills the menu each time that it opens
 };
 
 /// A line between the entries of a menu.
 constexpr ActionInfo lineIn(const char* menu) {
     return {"", menu, "", ""};
+}
+
+/// Entries that are listed when the menu opens.
+constexpr ActionInfo listIn(const char* menu, void (*list)(QWidget& owner, QMenu& menu)) {
+    return {"", menu, "", "", nullptr, nullptr, list};
 }
 
 /// Makes functions for a table from members of its owner, with fixed arguments. A member that Owner does not
@@ -43,6 +49,16 @@ struct ActionsOf {
     template <auto part, auto function, auto... arguments>
     static void callIn(QWidget& owner) {
         std::invoke(function, std::invoke(part, static_cast<Owner&>(owner)), arguments...);
+    }
+    /// Calls a member function that takes the menu to fill.
+    template <auto function>
+    static void list(QWidget& owner, QMenu& menu) {
+        std::invoke(function, static_cast<Owner&>(owner), menu);
+    }
+    /// The same with a part of the owner.
+    template <auto part, auto function>
+    static void listOf(QWidget& owner, QMenu& menu) {
+        std::invoke(function, std::invoke(part, static_cast<Owner&>(owner)), menu);
     }
     /// Whether a member function without arguments returns `value`.
     template <auto function, auto value = true>

@@ -248,10 +248,7 @@ void FilterBar::showSaved() {
     m_buttons->clear();
     for (std::size_t i = 0; i < m_saved.size(); ++i) {
         QAction* action = m_buttons->addCommand({}, m_saved[i].name, m_saved[i].text);
-        connect(action, &QAction::triggered, this, [this, i] {
-            m_line->setText(m_saved[i].text);
-            apply();
-        });
+        connect(action, &QAction::triggered, this, [this, i] { applySaved(i); });
         QWidget* button = m_buttons->widgetForAction(action);
         button->setAccessibleName(tr("Filter packets: %1").arg(m_saved[i].name));
         button->setAccessibleDescription(m_saved[i].text);
@@ -261,6 +258,17 @@ void FilterBar::showSaved() {
     }
     connect(m_buttons->addCommand({}, QStringLiteral("+"), tr("Save this filter as a button")),
             &QAction::triggered, this, &FilterBar::saveCurrent);
+}
+
+void FilterBar::listSaved(QMenu& menu) {
+    for (std::size_t i = 0; i < m_saved.size(); ++i) {
+        menu.addAction(m_saved[i].name, this, [this, i] { applySaved(i); });
+    }
+}
+
+void FilterBar::applySaved(std::size_t index) {
+    m_line->setText(m_saved[index].text);
+    apply();
 }
 
 void FilterBar::saveCurrent() {

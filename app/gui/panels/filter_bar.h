@@ -13,6 +13,7 @@
 class QCompleter;
 class QLabel;
 class QLineEdit;
+class QMenu;
 class QProgressBar;
 class QPushButton;
 class QStandardItemModel;
@@ -53,6 +54,8 @@ public:
     };
     [[nodiscard]] const std::vector<Saved>& saved() const { return m_saved; }
     void setSaved(std::vector<Saved> saved);
+    /// With what applies them.
+    void listSaved(QMenu& menu);
     /// As a button, under a name that is asked for.
     void saveCurrent();
     [[nodiscard]] const QStringList& history() const { return m_history; }
@@ -92,6 +95,7 @@ private:
     void hideOffers();
     bool offersTake(int key);
     void showSaved();
+    void applySaved(std::size_t index);
     void askAbout(std::size_t index, const QPoint& place);
     void rename(std::size_t index);
     [[nodiscard]] QString askForName(const QString& title, const QString& accept, QString before);

@@ -37,6 +37,8 @@ void readFlags(const QJsonValue& value, std::span<bool> flags) {
 }
 
 using Severity = model::IncidentSeverity;
+using Group = model::IncidentGroup;
+constexpr const char* kGroups = QT_TRANSLATE_NOOP("Action", "&View/&Incidents/&Groups");
 
 bool listsCurrent(const IncidentsPanel& panel) {
     return panel.filter().onlyCurrent;
@@ -60,6 +62,25 @@ void toggleSeverity(IncidentsPanel& panel) {
     bool& isListed = filter.severities[static_cast<std::size_t>(severity)];
     isListed = !isListed;
     panel.setFilter(filter);
+}
+
+template <Group group>
+bool listsGroup(const IncidentsPanel& panel) {
+    return panel.filter().groups[static_cast<std::size_t>(group)];
+}
+
+template <Group group>
+void toggleGroup(IncidentsPanel& panel) {
+    IncidentModel::Filter filter = panel.filter();
+    bool& isListed = filter.groups[static_cast<std::size_t>(group)];
+    isListed = !isListed;
+    panel.setFilter(filter);
+}
+
+template <Group group>
+constexpr ActionInfo groupEntry(const char* id, const char* text) {
+    using Do = ActionsOf<IncidentsPanel>;
+    return {id, kGroups, text, "", Do::call<toggleGroup<group>>, Do::is<listsGroup<group>>};
 }
 
 constexpr const char* kList = QT_TRANSLATE_NOOP("Action", "&View/&Incidents");
@@ -123,6 +144,10 @@ std::span<const ActionInfo> IncidentsPanel::actionTable() {
         {"listNotes", kList, QT_TRANSLATE_NOOP("Action", "&Notes"), "",
          Do::call<toggleSeverity<Severity::Info>>, Do::is<listsSeverity<Severity::Info>>},
         lineIn(kList),
+        groupEntry<Group::Sender>("listSenderIncidents", QT_TRANSLATE_NOOP("Action", "&Sender")),
+        groupEntry<Group::Loss>("listLossIncidents", QT_TRANSLATE_NOOP("Action", "&Loss")),
+        groupEntry<Group::Content>("listContentIncidents", QT_TRANSLATE_NOOP("Action", "&Content")),
+        groupEntry<Group::Limit>("listLimitIncidents", QT_TRANSLATE_NOOP("Action", "L&imit")),
         {"markIncidentsSeen", kList, QT_TRANSLATE_NOOP("Action", "&Mark all as seen"), "",
          Do::call<&IncidentsPanel::markSeen>},
         {"exportEvents", QT_TRANSLATE_NOOP("Action", "&File"),

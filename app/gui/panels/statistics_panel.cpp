@@ -63,7 +63,7 @@ void StatisticsPanel::setUpStreams() {
     for (int column = 0; column < kStatisticsColumns; ++column) {
         samples.push_back(statisticsSample(column));
     }
-    m_table->setColumnSamples(std::move(samples), QStringLiteral("    02 Pose, qu"));
+    m_table->setColumnSamples(std::move(samples), QStringLiteral("    02 Pose, quaternion"));
     // Whose fault it was stays longest; other docks have the rate and what was dropped here, too.
     std::vector<int> givingWay;
     for (int column = kStatisticsColumns - 1; column >= kUsualStatistics; --column) {

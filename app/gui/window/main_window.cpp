@@ -113,8 +113,6 @@ void MainWindow::makeBars() {
     });
 
     m_health = m_liveHealth = new HealthBar(m_driver.live(), m_driver, this);
-    connect(menuAt(*menuBar(), QStringLiteral("&File/Open &recent")), &QMenu::aboutToShow, this,
-            &MainWindow::listRecentFiles);
     statusBar()->setSizeGripEnabled(false);
     statusBar()->addWidget(m_health, 1);
     m_stopOpening =
@@ -362,22 +360,16 @@ void MainWindow::openPath(const QString& path) {
     m_driver.openFile(path);
 }
 
-void MainWindow::listRecentFiles() {
-    QMenu* menu = menuAt(*menuBar(), QStringLiteral("&File/Open &recent"));
-    QAction* clear = m_menus.action("clearRecentFiles");
-    clear->setEnabled(!m_settings.recentFiles.isEmpty());
-    for (QAction* old : menu->actions()) {
-        if (old != clear) {
-            delete old;
-        }
-    }
+void MainWindow::listRecentFiles(QMenu& menu) {
     for (const QString& path : m_settings.recentFiles) {
         const QString name = QDir::toNativeSeparators(path).replace(u'&', QStringLiteral("&&"));
-        auto* action = new QAction(fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestPath), menu);
-        connect(action, &QAction::triggered, this, [this, path] { openPath(path); });
-        menu->insertAction(clear, action);
+        menu.addAction(fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestPath), this,
+                       [this, path] { openPath(path); });
     }
-    menu->insertSeparator(clear);
+    menu.addSeparator();
+    QAction* clear = m_menus.action("clearRecentFiles");
+    clear->setEnabled(!m_settings.recentFiles.isEmpty());
+    menu.addAction(clear);
 }
 
 void MainWindow::openInputs(InputsDialog::Page page) {
@@ -487,6 +479,14 @@ void MainWindow::carryOut(const MenuEntry& entry) {
         showDock(QLatin1String(entry.panel->id));
     }
     entry.action->run(const_cast<QWidget&>(ownerOf(entry)));
+}
+
+void MainWindow::list(const MenuEntry& entry, QMenu& menu) {
+    entry.action->list(const_cast<QWidget&>(ownerOf(entry)), menu);
+    for (QAction* action : entry.panel != nullptr ? menu.actions() : QList<QAction*>()) {
+        connect(action, &QAction::triggered, this,
+                [this, entry] { showDock(QLatin1String(entry.panel->id)); });
+    }
 }
 
 bool MainWindow::isOn(const MenuEntry& entry) const {

@@ -36,11 +36,14 @@ public:
 
     /// Does what an entry of the menus says; where a panel does it, its dock is brought to the front first.
     void carryOut(const MenuEntry& entry);
+    /// Fills a menu with what an entry lists there.
+    void list(const MenuEntry& entry, QMenu& menu);
     [[nodiscard]] bool isOn(const MenuEntry& entry) const;
 
     // What the actions do.
     void openFile();
     void openPath(const QString& path);
+    void listRecentFiles(QMenu& menu);
     void clearRecentFiles() { m_settings.recentFiles.clear(); }
     void closeFile() { m_driver.closeFile(); }
     void editThresholds();
@@ -96,7 +99,6 @@ private:
     void showSession();
     void forgetFile();
     void showVerdict();
-    void listRecentFiles();
     void makeBars();
     void connectDriver();
     void restore();

@@ -136,8 +136,9 @@ constexpr const char* kFigures = QT_TRANSLATE_NOOP("Action", "&Time/&Figures of"
 const ActionInfo kActions[] = {
     {"open", QT_TRANSLATE_NOOP("Action", "&File"), QT_TRANSLATE_NOOP("Action", "&Open…"), "Ctrl+O",
      Do::call<&Window::openFile>},
-    {"clearRecentFiles", QT_TRANSLATE_NOOP("Action", "&File/Open &recent"),
-     QT_TRANSLATE_NOOP("Action", "&Clear list"), "", Do::call<&Window::clearRecentFiles>},
+    listIn(QT_TRANSLATE_NOOP("Action", "&File/Open &recent"), Do::list<&Window::listRecentFiles>),
+    {"clearRecentFiles", "&File/Open &recent", QT_TRANSLATE_NOOP("Action", "&Clear list"), "",
+     Do::call<&Window::clearRecentFiles>},
     {"closeFile", "&File", QT_TRANSLATE_NOOP("Action", "&Close recording"), "Ctrl+W",
      Do::call<&Window::closeFile>},
     {"stopOpening", "&File", QT_TRANSLATE_NOOP("Action", "S&top opening"), "Esc",
@@ -295,6 +296,13 @@ QMenu* menuAt(QMenuBar& bar, const QString& path) {
 Menus::Menus(MainWindow& window, QMenuBar& bar) : m_window(window), m_entries(menuEntries()) {
     for (const MenuEntry& entry : m_entries) {
         QMenu* menu = menuAt(bar, QString::fromUtf8(entry.action->menu));
+        if (entry.action->list != nullptr) {
+            QObject::connect(menu, &QMenu::aboutToShow, &window, [&window, entry, menu] {
+                menu->clear();
+                window.list(entry, *menu);
+            });
+            continue;
+        }
         if (entry.action->run == nullptr) {
             menu->addSeparator();
             continue;

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/keyboard.h"
 
+#include "app/gui/panels/filter_bar.h"
 #include "app/gui/window/command_palette.h"
 #include "app/gui/window/main_window.h"
 #include "core/log/clock.h"
 
 #include <QAction>
 #include <QCheckBox>
+#include <QDockWidget>
 #include <QLineEdit>
 #include <QMenuBar>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QStandardItemModel>
 #include <QTableView>
 #include <QTemporaryDir>
@@ -96,9 +99,21 @@ TEST_F(KeyboardTest, EveryEntryOfEveryMenuIsACommand) {
         }
     }
     for (const Command& each : commands) {
-        EXPECT_FALSE(each.name.contains(u'&')) << each.name.toStdString();
+        EXPECT_FALSE(each.name.contains(QRegularExpression("&\\S"))) << each.name.toStdString();
         EXPECT_FALSE(each.menu.isEmpty()) << each.name.toStdString();
     }
+}
+
+TEST_F(KeyboardTest, EverySavedFilterIsACommandThatShowsThePackets) {
+    m_window.useLayout("Check");
+    const auto isProblems = [](const Command& each) { return each.name == "Problems"; };
+    const std::vector<Command> commands = commandsOf(*m_window.menuBar());
+    const auto problems = std::ranges::find_if(commands, isProblems);
+    ASSERT_NE(problems, commands.end());
+    EXPECT_EQ(problems->menu, "Edit › Saved filters");
+    problems->action->trigger();
+    EXPECT_FALSE(m_window.findChild<FilterBar*>()->text().isEmpty());
+    EXPECT_FALSE(m_window.findChild<QDockWidget*>("packets")->isHidden());
 }
 
 TEST_F(KeyboardTest, CommandsAreMeantByTheBeginningsOfTheirWordsInAnyOrder) {
