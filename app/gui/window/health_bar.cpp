@@ -113,46 +113,50 @@ void HealthBar::refreshCharacters() {
     while (m_entries.size() < m_shown.size()) {
         addEntry();
     }
-    const QFontMetrics metrics = m_more->fontMetrics();
-    const int width = entryWidth();
-    const int nameWidth = metrics.horizontalAdvance(QStringLiteral("Performer 1"));
-    for (std::size_t i = 0; i < m_shown.size(); ++i) {
-        const PropertyValue state = verdictState(m_session.verdict(m_shown[i]));
-        const QString name = shown(m_session.displayName(m_shown[i]));
-        m_entries[i]->setFixedWidth(width);
-        m_entries[i]->setContent(state.health, metrics.elidedText(name, Qt::ElideRight, nameWidth) +
-                                                   QLatin1Char(' ') + state.text);
-        m_entries[i]->setToolTip(toolTipText(state.toolTip));
-    }
     fitEntries();
     if (m_list != nullptr) {
         m_list->refresh();
     }
 }
 
-/// The same for all, whatever they say, so that no word moves its neighbour.
-int HealthBar::entryWidth() const {
-    return m_more->fontMetrics().horizontalAdvance(QStringLiteral("■ Performer 10 10.0 % lost, network,"));
-}
-
-/// Shows as many entries as have room, and says how many have none.
+/// Shows as many entries as have room, and says how many have none. All are of one width, whatever they say,
+/// so that no word moves its neighbour; names have what is left of the room.
 void HealthBar::fitEntries() {
+    const QFontMetrics metrics = m_more->fontMetrics();
+    const int stateWidth = metrics.horizontalAdvance(QStringLiteral("■  10.0 % lost, network,"));
+    const int leastName = metrics.horizontalAdvance(QStringLiteral("Performer 1"));
+    const int mostName = metrics.horizontalAdvance(QStringLiteral("Performer with a name"));
     const int spacing = m_entriesLayout->spacing();
-    const int each = entryWidth() + spacing;
+    const int least = stateWidth + leastName + spacing;
     const int room = m_entriesArea->width() + spacing;
-    const int reserve = m_more->fontMetrics().horizontalAdvance(QStringLiteral("+ 0 000 more")) + 2 * spacing;
+    const int reserve = metrics.horizontalAdvance(QStringLiteral("+ 0 000 more")) + 2 * spacing;
     const auto all = m_shown.size();
-    const bool isAll = static_cast<int>(all) * each <= room;
-    const std::size_t fitting =
-        isAll ? all : std::min<std::size_t>(all, std::max(0, (room - reserve) / each));
+    const bool isAll = static_cast<int>(all) * least <= room;
+    const int left = isAll ? room : room - reserve;
+    const std::size_t fitting = isAll ? all : std::min<std::size_t>(all, std::max(0, left / least));
+    const int spare = left / std::max(1, static_cast<int>(fitting)) - least;
+    const int nameWidth = std::clamp(leastName + spare, leastName, mostName);
     for (std::size_t i = 0; i < m_entries.size(); ++i) {
         m_entries[i]->setVisible(i < fitting);
+        if (i < fitting) {
+            showEntry(i, nameWidth, stateWidth);
+        }
     }
     m_more->setVisible(fitting < all);
     // The first that has no room is the worst of them.
     const Health worst =
         fitting < all ? healthOf(m_session.verdict(m_shown[fitting]).state) : Health::Unknown;
     m_more->setContent(worst == Health::Good ? Health::Unknown : worst, leftOut(all, fitting));
+}
+
+void HealthBar::showEntry(std::size_t index, int nameWidth, int stateWidth) {
+    const PropertyValue state = verdictState(m_session.verdict(m_shown[index]));
+    const QString name = shown(m_session.displayName(m_shown[index]));
+    ColourText* entry = m_entries[index];
+    entry->setFixedWidth(nameWidth + stateWidth);
+    entry->setContent(state.health, entry->fontMetrics().elidedText(name, Qt::ElideRight, nameWidth) +
+                                        QLatin1Char(' ') + state.text);
+    entry->setToolTip(toolTipText(state.toolTip));
 }
 
 void HealthBar::addEntry() {

@@ -38,9 +38,10 @@ private:
     /// Selects a character, and says in a popup why it is as it is.
     void explain(const model::CharacterKey& key, QWidget& anchor);
     void showList();
-    [[nodiscard]] int entryWidth() const;
     void refreshCharacters();
     void fitEntries();
+    /// Widths in pixels, of the name and of the rest.
+    void showEntry(std::size_t index, int nameWidth, int stateWidth);
     void addEntry();
 
     model::SessionView& m_session;
