@@ -17,15 +17,18 @@ public:
     virtual void select(const model::Selection& selection) = 0;
     /// What time statistics are of.
     virtual void selectRange(const model::RangeChoice& range) = 0;
-    /// Selects a packet with its sender and character. Nothing happens where there is no such packet.
+    /// Selects a packet with its sender and character; a display that is stopped moves there. Nothing happens
+    /// where there is no such packet.
     virtual void selectPacket(std::uint64_t number) = 0;
+    /// Stops the display at a moment.
+    virtual void showMoment(log::Stamp moment) = 0;
     virtual void setMarked(std::uint64_t packet, bool isMarked) = 0;
     virtual void setComment(std::uint64_t packet, const QString& comment) = 0;
     /// What is declared about a sender counts instead of what was detected.
     virtual void setOverride(log::SenderId sender, const model::SenderOverride& overrides) = 0;
     /// What the list of packets shows; empty for all.
     virtual void setDisplayFilter(const QString& filter) = 0;
-    /// Shows a packet with another filter, or the same, so that goBack() brings both back as they were.
+    /// Stops at a packet with another filter, or the same, so that goBack() brings all back as it was.
     /// Nothing is selected where there is no such packet.
     virtual void jump(std::uint64_t packet, const QString& filter) = 0;
     virtual void goBack() = 0;

@@ -30,10 +30,11 @@ bool OpenedFile::follow(log::Duration most) {
     const log::Stamp now = m_log.timeline().now(m_clock);
     const log::Moment begin = m_clock.monotonic();
     const std::uint64_t before = m_session.end();
+    const bool isAtEnd = isShownAtEnd();
     while (m_session.followFile(now, kPacketsAtOnce) && m_clock.monotonic() - begin < most) {
     }
-    if (m_session.end() != before) { // by today's clock all of it would be old
-        m_session.setCursor({model::Cursor::Mode::Paused, m_session.end() - 1});
+    if (isAtEnd) {
+        showEnd();
     }
     if (m_import != nullptr) {
         m_import->follow(m_session.end());
@@ -62,10 +63,24 @@ void OpenedFile::stop() {
 /// All that is in the log: at most what is read at once.
 void OpenedFile::readRest() {
     m_import.reset();
+    const bool isAtEnd = isShownAtEnd();
     while (m_session.followFile(m_log.timeline().now(m_clock))) {
     }
     m_session.endFile();
     m_verdictEnd = 0; // its end settles what was open
+    if (isAtEnd) {
+        showEnd();
+    }
+}
+
+/// Nobody has looked elsewhere while it was read.
+bool OpenedFile::isShownAtEnd() const {
+    const model::Cursor& cursor = m_session.cursor();
+    return cursor.speed == 0 && cursor.packet + 1 >= m_session.end();
+}
+
+/// By today's clock all of it would be old.
+void OpenedFile::showEnd() {
     if (m_session.end() != 0) {
         m_session.setCursor({model::Cursor::Mode::Paused, m_session.end() - 1});
     }

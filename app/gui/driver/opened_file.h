@@ -48,6 +48,8 @@ public:
 private:
     void finish(const ImportResult& result);
     void readRest();
+    [[nodiscard]] bool isShownAtEnd() const;
+    void showEnd();
 
     const log::Clock& m_clock;
     const QString m_path;

@@ -110,6 +110,7 @@ void SessionDriver::tick() {
     const bool hasNew = m_live.end() != endBefore;
     m_meter.addFollow(m_clock.monotonic() - begin, m_live.end() - endBefore);
     m_isChanged = (isOpening() && readFile()) || m_isChanged;
+    playOn();
     const bool isTableTick = now - m_tableTick >= kTableTick;
     if (now - m_retry >= kRetry) {
         m_retry = now;
@@ -221,6 +222,7 @@ void SessionDriver::cancelOpening() {
 
 void SessionDriver::setFileShown(bool isShown) {
     if (m_isFileShown != isShown) {
+        endPlaying();
         m_isFileShown = isShown;
         m_isChanged = true;
         m_tableTick = {};
@@ -236,24 +238,12 @@ void SessionDriver::showLive() {
     setFileShown(false);
 }
 
-void SessionDriver::goLive() {
-    showLive();
-    setPaused(false);
-}
-
 void SessionDriver::closeFile() {
     if (m_file != nullptr) {
         showLive();
         emit fileClosing();
         m_file.reset();
     }
-}
-
-void SessionDriver::seek(double seconds) {
-    const auto after = log::durationOf(seconds);
-    setPaused(true);
-    change(&model::Session::setCursor,
-           model::Cursor{model::Cursor::Mode::Paused, shown().packetAt(shown().firstStamp() + after)});
 }
 
 void SessionDriver::setDemo(int characters) {
@@ -282,32 +272,9 @@ std::optional<model::Selection> SessionDriver::selectionOf(std::uint64_t number)
     return selection;
 }
 
-void SessionDriver::selectPacket(std::uint64_t number) {
-    if (const auto selection = selectionOf(number)) {
-        select(*selection);
-    }
-}
-
-void SessionDriver::jump(std::uint64_t packet, const QString& filter) {
-    change(&model::Session::jump, selectionOf(packet).value_or(shown().selection()), filter.toStdString());
-}
-
 void SessionDriver::setGhostVisible(bool isVisible) {
     change(&model::Session::setGhostShown, isVisible);
     emit ghostChanged(isVisible);
-}
-
-void SessionDriver::setPaused(bool isPaused) {
-    if (m_isFileShown || isPaused == this->isPaused()) {
-        return;
-    }
-    model::Cursor cursor;
-    if (isPaused) {
-        const std::uint64_t end = shown().end();
-        cursor = {model::Cursor::Mode::Paused, end == 0 ? 0 : end - 1};
-    }
-    change(&model::Session::setCursor, cursor);
-    emit pausedChanged(isPaused);
 }
 
 void SessionDriver::showIncident(std::optional<std::uint64_t> number) {

@@ -7,6 +7,7 @@
 #include "app/gui/driver/receiving.h"
 #include "app/gui/program_view.h"
 #include "core/log/disk_history.h"
+#include "core/model/session/playback.h"
 #include "core/model/session/session.h"
 
 #include <QObject>
@@ -61,12 +62,7 @@ public:
     /// Where a file is open, and has something to show.
     void showFile();
     void showLive();
-    /// What is received, as it comes.
-    void goLive();
     void closeFile();
-
-    /// Stops the display this many seconds after the first packet there was.
-    void seek(double seconds);
 
     /// Sends the performer's characters to a port of this computer, through a real socket; 0 ends that.
     void setDemo(int characters);
@@ -80,10 +76,32 @@ public:
         m_mostMeshBytes = most;
     }
 
-    /// Stops the display at the newest packet, or follows the stream again. Receiving is not touched, and a
-    /// file stands still anyway.
+    // The moment that is shown; receiving goes on, whatever it is.
+    /// What is received, as it comes.
+    void goLive();
+    /// Stops the display where it is, or follows the stream again. A file is played instead.
     void setPaused(bool isPaused);
     [[nodiscard]] bool isPaused() const { return shown().cursor().mode == model::Cursor::Mode::Paused; }
+    /// Stops the display this many seconds after the first packet there was.
+    void seek(double seconds);
+    void showMoment(log::Stamp moment) override;
+    /// Stops the display, and moves it by samples of a character, by packets or by time.
+    void stepSamples(const model::CharacterKey& of, int steps);
+    void stepPackets(int steps);
+    void stepTime(log::Duration by);
+    enum class Direction { Backwards = -1, Forwards = 1 };
+    /// Plays from the moment that is shown on, up to what is live or to the end of the file; where it plays
+    /// that way already, it stops there.
+    void play(Direction direction);
+    [[nodiscard]] bool isPlaying(Direction direction) const {
+        return shown().cursor().speed * static_cast<int>(direction) > 0;
+    }
+    /// Times as fast as it was, above 0; also of what plays.
+    void setPlaySpeed(double speed);
+    [[nodiscard]] double playSpeed() const { return m_playSpeed; }
+    /// Plays the range that is selected, or all, again and again.
+    void setLooping(bool isLooping);
+    [[nodiscard]] bool isLooping() const { return m_isLooping; }
 
     /// A new span counts for the take: counts, incidents and verdict from now on.
     void resetForTake() {
@@ -117,7 +135,7 @@ public:
         change(&model::Session::setDisplayFilter, filter.toStdString());
     }
     void jump(std::uint64_t packet, const QString& filter) override;
-    void goBack() override { change(&model::Session::goBack); }
+    void goBack() override;
     void frameCharacter(const model::CharacterKey& key) override { emit frameRequested(key); }
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         change(&model::Session::setHidden, key, !isVisible);
@@ -164,6 +182,15 @@ private:
         m_isChanged = true;
         m_tableTick = {};
     }
+    /// The same with the moment that is shown.
+    void setCursor(const model::Cursor& cursor);
+    void stopAt(std::uint64_t packet);
+    void letGoOfPacket();
+    void beginPlaying(double speed);
+    void endPlaying();
+    /// Moves what plays on.
+    void playOn();
+    [[nodiscard]] std::optional<model::TimeRange> loopRange() const;
     void measureHealth();
     /// A packet with its sender and character; nothing where there is no such packet.
     [[nodiscard]] std::optional<model::Selection> selectionOf(std::uint64_t packet) const;
@@ -182,6 +209,9 @@ private:
     Receiving m_receiving;
     std::unique_ptr<OpenedFile> m_file; ///< null where none is open
     bool m_isFileShown = false;
+    std::optional<model::Playback> m_playback; ///< while something plays
+    double m_playSpeed = 1;
+    bool m_isLooping = false;
     std::jthread m_demo;
     QTimer m_timer;
     HealthMeter m_meter;

@@ -51,18 +51,13 @@ bool mayBe(const PacketsBehind& behind, const model::PacketDigest& digest) {
            (!behind.isTrouble || digest.isProblem());
 }
 
-/// The newest that the cursor lets through.
-std::optional<std::uint64_t> newestOf(model::SessionView& view, const PacketsBehind& behind) {
-    const auto filter = filter::Filter::compile(behind.filter.toStdString());
+/// The newest of those from one packet to before another.
+std::optional<std::uint64_t> newestIn(model::SessionView& view, const PacketsBehind& behind,
+                                      Question& question, std::uint64_t from, std::uint64_t end) {
     const model::PacketDigests& digests = view.digests();
-    if (!filter || digests.end() == digests.begin()) {
-        return std::nullopt;
-    }
-    Question question(view, *filter);
-    const std::uint64_t newest = newestVisiblePacket(view);
-    const std::uint64_t oldest = std::max(digests.begin(), newest - std::min(newest, kMostDigests));
+    const std::uint64_t oldest = std::max({digests.begin(), from, end - std::min(end, kMostDigests)});
     int decoded = 0;
-    for (std::uint64_t number = newest + 1; number-- > oldest && decoded < kMostDecoded;) {
+    for (std::uint64_t number = end; number-- > oldest && decoded < kMostDecoded;) {
         const model::PacketDigest* digest = digests.find(number);
         if (digest != nullptr && mayBe(behind, *digest)) {
             ++decoded;
@@ -72,6 +67,18 @@ std::optional<std::uint64_t> newestOf(model::SessionView& view, const PacketsBeh
         }
     }
     return std::nullopt;
+}
+
+/// The newest up to the cursor; where there is none, the newest there is.
+std::optional<std::uint64_t> newestOf(model::SessionView& view, const PacketsBehind& behind) {
+    const auto filter = filter::Filter::compile(behind.filter.toStdString());
+    if (!filter || view.end() == 0) {
+        return std::nullopt;
+    }
+    Question question(view, *filter);
+    const std::uint64_t visibleEnd = newestVisiblePacket(view) + 1;
+    const auto before = newestIn(view, behind, question, 0, visibleEnd);
+    return before ? before : newestIn(view, behind, question, visibleEnd, view.end());
 }
 
 } // namespace

@@ -123,7 +123,7 @@ void HealthBar::refreshCharacters() {
 /// so that no word moves its neighbour; names have what is left of the room.
 void HealthBar::fitEntries() {
     const QFontMetrics metrics = m_more->fontMetrics();
-    const int stateWidth = metrics.horizontalAdvance(QStringLiteral("■  10.0 % lost, network,"));
+    const int stateWidth = metrics.horizontalAdvance(QStringLiteral("■  10.0 % lost, network, over"));
     const int leastName = metrics.horizontalAdvance(QStringLiteral("Performer 1"));
     const int mostName = metrics.horizontalAdvance(QStringLiteral("Performer with a name"));
     const int spacing = m_entriesLayout->spacing();

@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/keyboard.h"
 
+#include "app/gui/panels/range_bar.h"
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/main_window.h"
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
+#include <QAbstractSlider>
 #include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QKeyEvent>
+#include <QTabBar>
 #include <QToolButton>
+#include <QTreeView>
 
 #include <algorithm>
 
@@ -43,6 +47,19 @@ void toggle(QAbstractItemView& view, const QModelIndex& box) {
     view.model()->setData(box, isOn ? Qt::Unchecked : Qt::Checked, Qt::CheckStateRole);
 }
 
+/// Arrows to the sides step through time where they mean nothing else.
+bool wantsArrows(QObject& watched) {
+    const auto* tree = qobject_cast<QTreeView*>(&watched);
+    return tree != nullptr ? tree->rootIsDecorated()
+                           : qobject_cast<QTabBar*>(&watched) != nullptr ||
+                                 qobject_cast<QAbstractSlider*>(&watched) != nullptr ||
+                                 qobject_cast<RangeStrip*>(&watched) != nullptr;
+}
+
+bool isSideways(const QKeyEvent& event) {
+    return event.key() == Qt::Key_Left || event.key() == Qt::Key_Right;
+}
+
 void press(QAbstractButton& button) {
     auto* tool = qobject_cast<QToolButton*>(&button);
     if (tool != nullptr && tool->menu() != nullptr && tool->popupMode() == QToolButton::InstantPopup) {
@@ -64,6 +81,10 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
         return false;
     }
     auto* key = static_cast<QKeyEvent*>(event);
+    if (isSideways(*key) && event->type() == QEvent::ShortcutOverride && wantsArrows(*watched)) {
+        event->accept();
+        return true;
+    }
     auto* button = qobject_cast<QAbstractButton*>(watched);
     auto* list = qobject_cast<QComboBox*>(watched);
     auto* table = qobject_cast<QAbstractItemView*>(watched);

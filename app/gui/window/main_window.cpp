@@ -16,9 +16,7 @@
 
 #include <QApplication>
 #include <QCloseEvent>
-#include <QDir>
 #include <QDockWidget>
-#include <QFileDialog>
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
@@ -37,8 +35,6 @@ namespace {
 /// Raised when docks or tool bars change so that an old state would not fit.
 constexpr int kStateVersion = 2;
 constexpr QSize kDefaultSize(1600, 1000);
-constexpr int kLongestPath = 480; // logical pixels
-
 /// A tool bar that stays where it is and holds one widget.
 QToolBar* fixedBar(const QString& title, const QString& name, QWidget* content) {
     auto* bar = new QToolBar(title);
@@ -89,10 +85,15 @@ void MainWindow::makeBars() {
     m_layoutButton->setObjectName(QStringLiteral("layoutButton"));
     menuBar()->setCornerWidget(m_layoutButton, Qt::TopRightCorner);
 
-    m_transport = new TransportBar(m_driver.session(),
-                                   TransportBar::Actions{m_menus.action("pause"), m_menus.action("live"),
-                                                         m_menus.action("inputs"), m_menus.action("relay")},
-                                   this);
+    const TimeControls::Actions time{
+        m_menus.action("sampleBack"), m_menus.action("sampleOn"),
+        m_menus.action("playBack"),   m_menus.action("play"),
+        m_menus.action("loop"),       menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))};
+    m_transport =
+        new TransportBar(m_driver.session(),
+                         TransportBar::Actions{m_menus.action("pause"), m_menus.action("live"),
+                                               m_menus.action("inputs"), m_menus.action("relay"), time},
+                         this);
     connect(m_transport, &TransportBar::inputRequested, this, [this](const InputAddress& input) {
         openInputs(InputsDialog::Page::Inputs);
         m_inputs->inputs().select(input);
@@ -313,15 +314,6 @@ void MainWindow::showReceiving() {
     }
 }
 
-void MainWindow::showOpening() {
-    const bool isOpening = m_driver.isOpening();
-    if (isOpening) {
-        say(m_driver.openingText());
-    }
-    m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others
-    m_stopOpening->setVisible(isOpening);
-}
-
 void MainWindow::showVerdict() {
     ShownFile file;
     if (OpenedFile* opened = m_driver.file(); opened != nullptr && opened->session().end() != 0) {
@@ -343,33 +335,6 @@ void MainWindow::keepRelays() {
     if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
         say(problem);
     }
-}
-
-void MainWindow::openFile() {
-    const QString path = QFileDialog::getOpenFileName(this, tr("Open a file of MXTP datagrams"));
-    if (!path.isEmpty()) {
-        openPath(path);
-    }
-}
-
-void MainWindow::openPath(const QString& path) {
-    const QString whole = QDir().absoluteFilePath(path);
-    m_settings.recentFiles.removeAll(whole);
-    m_settings.recentFiles.prepend(whole);
-    m_settings.recentFiles = m_settings.recentFiles.mid(0, Settings::kMostRecentFiles);
-    m_driver.openFile(path);
-}
-
-void MainWindow::listRecentFiles(QMenu& menu) {
-    for (const QString& path : m_settings.recentFiles) {
-        const QString name = QDir::toNativeSeparators(path).replace(u'&', QStringLiteral("&&"));
-        menu.addAction(fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestPath), this,
-                       [this, path] { openPath(path); });
-    }
-    menu.addSeparator();
-    QAction* clear = m_menus.action("clearRecentFiles");
-    clear->setEnabled(!m_settings.recentFiles.isEmpty());
-    menu.addAction(clear);
 }
 
 void MainWindow::openInputs(InputsDialog::Page page) {

@@ -2,6 +2,7 @@
 #include "app/gui/window/menus.h"
 
 #include "app/gui/dock_layout.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/main_window.h"
@@ -22,6 +23,7 @@ namespace {
 
 using Window = MainWindow;
 using Do = ActionsOf<MainWindow>;
+using Direction = SessionDriver::Direction;
 
 constexpr int kDemoCharacters = 2;
 
@@ -90,6 +92,38 @@ void selectCharacter(Window& window) {
     }
 }
 
+template <Direction direction>
+bool isPlaying(const Window& window) {
+    return window.driver().isPlaying(direction);
+}
+
+void toggleLoop(Window& window) {
+    window.driver().setLooping(!window.driver().isLooping());
+}
+
+template <int steps>
+void stepSamples(Window& window) {
+    if (const auto key = shownCharacter(window.driver().session())) {
+        window.driver().stepSamples(*key, steps);
+    } else {
+        window.driver().stepPackets(steps);
+    }
+}
+
+template <int seconds>
+void stepSeconds(Window& window) {
+    window.driver().stepTime(std::chrono::seconds(seconds));
+}
+
+template <int percent>
+void setSpeed(Window& window) {
+    window.driver().setPlaySpeed(percent / 100.0);
+}
+template <int percent>
+bool hasSpeed(const Window& window) {
+    return window.driver().playSpeed() == percent / 100.0;
+}
+
 /// The evidence of the live verdict, as a click on it gives it.
 void showEvidence(Window& window) {
     window.driver().showLive();
@@ -129,6 +163,19 @@ constexpr ActionInfo viewEntry(const char* id, const char* text, const char* sho
 constexpr const char* kPanels = "panels"; ///< an id
 constexpr ActionInfo panelsIn(const char* menu) {
     return {kPanels, menu, "", ""};
+}
+
+constexpr const char* kSpeed = QT_TRANSLATE_NOOP("Action", "&Time/Sp&eed");
+constexpr const char* kStep = QT_TRANSLATE_NOOP("Action", "&Time/&Step");
+
+template <int percent>
+constexpr ActionInfo speed(const char* id, const char* text) {
+    return {id, kSpeed, text, "", Do::call<setSpeed<percent>>, Do::is<hasSpeed<percent>>};
+}
+
+template <int steps>
+constexpr ActionInfo step(const char* id, const char* text, const char* shortcut) {
+    return {id, kStep, text, shortcut, Do::call<stepSamples<steps>>};
 }
 
 constexpr const char* kFigures = QT_TRANSLATE_NOOP("Action", "&Time/&Figures of");
@@ -215,6 +262,35 @@ const ActionInfo kActions[] = {
      Do::call<togglePaused>, Do::isIn<&Window::driver, &SessionDriver::isPaused>},
     {"live", "&Time", QT_TRANSLATE_NOOP("Action", "Back to &live"), "End",
      Do::callIn<&Window::driver, &SessionDriver::goLive>},
+    {"play", "&Time", QT_TRANSLATE_NOOP("Action", "Pl&ay from here"), "Shift+Space",
+     Do::callIn<&Window::driver, &SessionDriver::play, Direction::Forwards>,
+     Do::is<isPlaying<Direction::Forwards>>},
+    {"playBack", "&Time", QT_TRANSLATE_NOOP("Action", "Play bac&kwards"), "Ctrl+Shift+Space",
+     Do::callIn<&Window::driver, &SessionDriver::play, Direction::Backwards>,
+     Do::is<isPlaying<Direction::Backwards>>},
+    speed<5>("speed005", "0.0&5 ×"),
+    speed<10>("speed01", "0.&1 ×"),
+    speed<25>("speed025", "0.&25 ×"),
+    speed<50>("speed05", "&0.5 ×"),
+    speed<100>("speed1", "1 &×"),
+    speed<200>("speed2", "2 ×"),
+    speed<400>("speed4", "&4 ×"),
+    speed<800>("speed8", "&8 ×"),
+    speed<1600>("speed16", "1&6 ×"),
+    {"loop", "&Time", QT_TRANSLATE_NOOP("Action", "L&oop"), "Ctrl+Alt+L", Do::call<toggleLoop>,
+     Do::isIn<&Window::driver, &SessionDriver::isLooping>},
+    step<-1>("sampleBack", QT_TRANSLATE_NOOP("Action", "Previous sa&mple"), "Left"),
+    step<1>("sampleOn", QT_TRANSLATE_NOOP("Action", "&Next sample"), "Right"),
+    step<-10>("tenBack", QT_TRANSLATE_NOOP("Action", "Ten samples bac&k"), "Shift+Left"),
+    step<10>("tenOn", QT_TRANSLATE_NOOP("Action", "&Ten samples on"), "Shift+Right"),
+    {"secondBack", kStep, QT_TRANSLATE_NOOP("Action", "One second &back"), "Ctrl+Left",
+     Do::call<stepSeconds<-1>>},
+    {"secondOn", kStep, QT_TRANSLATE_NOOP("Action", "One &second on"), "Ctrl+Right",
+     Do::call<stepSeconds<1>>},
+    {"packetBack", kStep, QT_TRANSLATE_NOOP("Action", "Previous pac&ket"), ",",
+     Do::callIn<&Window::driver, &SessionDriver::stepPackets, -1>},
+    {"packetOn", kStep, QT_TRANSLATE_NOOP("Action", "Next &packet"), ".",
+     Do::callIn<&Window::driver, &SessionDriver::stepPackets, 1>},
     {"showFile", "&Time", QT_TRANSLATE_NOOP("Action", "Show the &recording"), "Shift+End",
      Do::callIn<&Window::driver, &SessionDriver::showFile>},
     {"resetForTake", "&Time", QT_TRANSLATE_NOOP("Action", "Reset &before take"), "Ctrl+Shift+R",

@@ -45,6 +45,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
       m_actions(actions),
       m_pause(framedButton(actions.pause, this)),
       m_live(framedButton(actions.live, this)),
+      m_past(new TimeControls(actions.time, this)),
       m_add(framedButton(actions.inputs, this)),
       m_relay(new ColourText(ColourText::Look::Pill, this)),
       m_time(plainLabel(this)),
@@ -60,6 +61,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     row->setSpacing(10);
     row->addWidget(m_pause);
     row->addWidget(m_live);
+    row->addWidget(m_past);
     row->addSpacing(6);
     row->addWidget(m_time);
     row->addWidget(m_detail, 1);
@@ -97,7 +99,7 @@ void TransportBar::showSession(model::SessionView& session, bool isLive) {
 
 TransportBar::Mode TransportBar::modeNow() const {
     if (m_session->cursor().mode == model::Cursor::Mode::Paused) {
-        return Mode::Paused;
+        return m_session->cursor().speed == 0 ? Mode::Paused : Mode::Playing;
     }
     const bool isAnyLive =
         std::ranges::any_of(m_session->characters(), [this](const model::Character& character) {
@@ -108,13 +110,14 @@ TransportBar::Mode TransportBar::modeNow() const {
 
 void TransportBar::showMode(Mode mode) {
     m_mode = mode;
-    const bool isPaused = mode == Mode::Paused;
+    const bool isPaused = mode == Mode::Paused || mode == Mode::Playing;
     m_pause->setIcon(themedIcon(isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
     m_pause->setText(isPaused ? tr("Go live   Space") : tr("Pause   Space"));
-    const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("▮▮ PAUSED")};
+    const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("▮▮ PAUSED"), tr("▶ PLAYING")};
     const std::array helps{tr("The display follows the stream."),
                            tr("The display follows the stream, but nothing is arriving."),
-                           tr("The display is paused; receiving continues. Click to follow again (End).")};
+                           tr("The display is paused; receiving continues. Click to follow again (End)."),
+                           tr("The past is played; receiving continues. Click to follow again (End).")};
     m_live->setText(texts[static_cast<std::size_t>(mode)]);
     m_live->setToolTip(toolTipText(helps[static_cast<std::size_t>(mode)]));
     m_live->setProperty("live", mode == Mode::Live);
@@ -126,6 +129,8 @@ void TransportBar::refresh() {
     if (const Mode mode = modeNow(); mode != m_mode) {
         showMode(mode);
     }
+    m_past->setVisible(m_session->cursor().mode == model::Cursor::Mode::Paused);
+    m_past->refresh(m_session->cursor());
     const auto key = shownCharacter(*m_session);
     const model::CharacterPose* pose = key ? m_session->pose(*key) : nullptr;
     if (pose == nullptr) {

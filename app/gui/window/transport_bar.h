@@ -3,6 +3,7 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/program_view.h"
+#include "app/gui/window/time_controls.h"
 #include "core/model/session/session_view.h"
 
 #include <QWidget>
@@ -24,16 +25,17 @@ class TransportBar final : public QWidget {
 
 public:
     /// `pause` stops and continues, `live` goes to the end, `inputs` is for the list of inputs, `relay` is
-    /// for forwarding.
+    /// for forwarding, `time` is for the past.
     struct Actions {
         QAction* pause;
         QAction* live;
         QAction* inputs;
         QAction* relay;
+        TimeControls::Actions time;
     };
     TransportBar(model::SessionView& session, const Actions& actions, QWidget* parent = nullptr);
 
-    /// Shows another session from now on. One that is not live stands still: nothing starts or stops it.
+    /// Shows another session from now on. One that is not live is all past.
     void showSession(model::SessionView& session, bool isLive);
 
     void refresh();
@@ -48,7 +50,7 @@ protected:
 
 private:
     /// Waiting: it would follow, but nothing arrives.
-    enum class Mode { Live, Waiting, Paused };
+    enum class Mode { Live, Waiting, Paused, Playing };
 
     [[nodiscard]] Mode modeNow() const;
     void restyle();
@@ -61,6 +63,7 @@ private:
     const Actions m_actions;
     QToolButton* m_pause;
     QToolButton* m_live;
+    TimeControls* m_past; ///< only while it is what is shown
     QToolButton* m_add;
     ColourText* m_relay; ///< only while something is forwarded, or should be
     QLabel* m_time;

@@ -215,7 +215,9 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
         m_what->setText(tr("Recording %1").arg(file.name),
                         QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
     } else if (isPaused) {
-        m_what->setText(tr("▮▮ Display paused at %1").arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))),
+        const double speed = m_live.cursor().speed;
+        m_what->setText((speed == 0 ? tr("▮▮ Display paused at %1") : tr("▶ The past is played, now %1"))
+                            .arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))),
                         tr(" · receiving goes on, and so does the verdict above"));
     }
     m_what->setToolTip(toolTipText(m_what->text()));

@@ -20,19 +20,23 @@ void Choices::jump(const Selection& to, std::string filter) {
     if (filterJump() != nullptr) {
         jumps.back().filter = filter;
     } else {
-        jumps.push_back({displayFilter, selection, filter});
+        jumps.push_back({displayFilter, selection, cursor, filter});
     }
     if (jumps.size() > kMostJumps) {
         jumps.erase(jumps.begin());
     }
     displayFilter = std::move(filter);
     selection = to;
+    if (to.packet) {
+        cursor = {Cursor::Mode::Paused, *to.packet};
+    }
 }
 
 void Choices::goBack() {
     if (!jumps.empty()) {
         displayFilter = std::move(jumps.back().filterBefore);
         selection = jumps.back().selectionBefore;
+        cursor = jumps.back().cursorBefore;
         jumps.pop_back();
     }
 }

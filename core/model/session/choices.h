@@ -29,6 +29,8 @@ struct Cursor {
     enum class Mode : std::uint8_t { Following, Paused };
     Mode mode = Mode::Following;
     std::uint64_t packet = 0; ///< paused: the newest packet that counts
+    double speed = 0;         ///< paused: how fast it is moved, as Playback says; 0: it stands still
+    friend bool operator==(const Cursor&, const Cursor&) = default;
 };
 
 /// Bytes of a packet that were looked for, from `begin` to before `end`.
@@ -62,6 +64,7 @@ struct Annotations {
 struct Jump {
     std::string filterBefore;
     Selection selectionBefore;
+    Cursor cursorBefore;
     std::string filter; ///< that it put instead; the same where it kept the one before
 };
 
@@ -84,9 +87,11 @@ struct Choices {
     [[nodiscard]] const Jump* filterJump() const;
     /// What the operator filters by, also while a jump put another filter in its place.
     [[nodiscard]] const std::string& ownFilter() const;
-    /// Shows packets from elsewhere. From a filter that a jump put there one goes back to the operator's own.
+    /// Shows packets from elsewhere, and stops at the one that is selected. From a filter that a jump put
+    /// there one goes back to the operator's own.
     void jump(const Selection& to, std::string filter);
-    /// To the filter and the selection before the newest jump. Nothing happens where there was none.
+    /// To the filter, the selection and the moment before the newest jump. Nothing happens where there was
+    /// none.
     void goBack();
 };
 

@@ -154,6 +154,35 @@ std::uint64_t SessionView::packetAt(log::Stamp stamp) const {
     return after == begin() ? after : after - 1;
 }
 
+std::optional<std::uint64_t> SessionView::packetOfSample(const log::StreamKey& key, int steps) const {
+    const log::StreamEntries* entries = m_ingest.index().find(key);
+    if (entries == nullptr || entries->empty()) {
+        return std::nullopt;
+    }
+    const auto isSameSample = [&](std::size_t one, std::size_t other) {
+        return (*entries)[one].sample == (*entries)[other].sample;
+    };
+    std::size_t place = visibleCount(*entries);
+    if (place == 0) { // before all of them: the first is one step on
+        place = 1;
+        steps -= steps > 0 ? 1 : 0;
+    }
+    --place;
+    for (; steps < 0; ++steps) {
+        const std::size_t from = place;
+        while (place > 0 && isSameSample(place, from)) {
+            --place;
+        }
+    }
+    for (; steps >= 0; --steps) { // up to the end of this sample, then to the end of the next
+        while (place + 1 < entries->size() && isSameSample(place + 1, place)) {
+            ++place;
+        }
+        place += steps > 0 && place + 1 < entries->size() ? 1 : 0;
+    }
+    return (*entries)[place].packet;
+}
+
 std::optional<TimeRange> SessionView::range() const {
     if (rangeChoice().isSinceReset) {
         return TimeRange{reset(), std::max(reset(), cursorStamp() + log::Duration(1))};

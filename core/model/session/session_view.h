@@ -108,6 +108,10 @@ public:
     /// The newest packet that had been received by then; the oldest there is where all came later.
     [[nodiscard]] std::uint64_t packetAt(log::Stamp stamp) const;
 
+    /// Where a stream is `steps` samples after the one at the cursor, or before it: the newest datagram of
+    /// that sample; where there are not as many, of the last or the first one. Nothing where it has none.
+    [[nodiscard]] std::optional<std::uint64_t> packetOfSample(const log::StreamKey& key, int steps) const;
+
     // What the operator chose.
     [[nodiscard]] const Cursor& cursor() const { return m_choices.cursor; }
     [[nodiscard]] const Selection& selection() const { return m_choices.selection; }

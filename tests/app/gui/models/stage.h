@@ -33,6 +33,9 @@ public:
         selection.packet = number;
         select(selection);
     }
+    void showMoment(log::Stamp moment) override {
+        m_session.setCursor({model::Cursor::Mode::Paused, m_session.packetAt(moment)});
+    }
     void setMarked(std::uint64_t packet, bool isMarked) override { m_session.setMarked(packet, isMarked); }
     void setComment(std::uint64_t packet, const QString& comment) override {
         m_session.setComment(packet, comment.toStdString());

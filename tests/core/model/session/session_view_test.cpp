@@ -356,6 +356,35 @@ TEST_F(ViewTest, AJumpIsUndoneWithTheFilterAndTheSelectionThereWere) {
     EXPECT_EQ(m_session.selection(), own);
 }
 
+TEST_F(ViewTest, AJumpStopsAtItsPacketAndIsUndoneWithTheMomentThereWas) {
+    Selection there;
+    there.packet = 99;
+    m_session.jump(there, "");
+    EXPECT_EQ(m_session.cursor(), (Cursor{Cursor::Mode::Paused, 99}));
+    m_session.goBack();
+    EXPECT_EQ(m_session.cursor(), Cursor());
+}
+
+/// A sample may come in several datagrams.
+TEST_F(ViewTest, StepsFromSampleToSample) {
+    for (std::uint32_t sample = 1; sample <= 4; ++sample) { // packets 0 to 7
+        send(standingAt(0), sample, at(sample * 1s), 0);
+        send(standingAt(0), sample, at(sample * 1s), 0x81);
+    }
+    follow();
+    const log::StreamKey stream{sender(), 0, wire::PoseQuaternion::kType};
+    m_session.setCursor({Cursor::Mode::Paused, 3});
+    EXPECT_EQ(m_session.packetOfSample(stream, 0), 3U);
+    EXPECT_EQ(m_session.packetOfSample(stream, 1), 5U);
+    EXPECT_EQ(m_session.packetOfSample(stream, 2), 7U);
+    EXPECT_EQ(m_session.packetOfSample(stream, 10), 7U);
+    EXPECT_EQ(m_session.packetOfSample(stream, -1), 1U);
+    EXPECT_EQ(m_session.packetOfSample(stream, -10), 1U);
+    m_session.setCursor({Cursor::Mode::Paused, 2}); // amidst a sample
+    EXPECT_EQ(m_session.packetOfSample(stream, -1), 1U);
+    EXPECT_EQ(m_session.packetOfSample({sender(), 7, 2}, 1), std::nullopt);
+}
+
 TEST_F(ViewTest, AFilterThatIsWrittenAfterAJumpIsTheOperatorsOwn) {
     m_session.jump({}, "gap > 0");
     m_session.setDisplayFilter("gap > 1");

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which files the window opens.
+#include "app/gui/window/main_window.h"
+
+#include <QDir>
+#include <QFileDialog>
+#include <QMenu>
+#include <QToolButton>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kLongestPath = 480; // logical pixels
+
+} // namespace
+
+void MainWindow::openFile() {
+    const QString path = QFileDialog::getOpenFileName(this, tr("Open a file of MXTP datagrams"));
+    if (!path.isEmpty()) {
+        openPath(path);
+    }
+}
+
+void MainWindow::openPath(const QString& path) {
+    const QString whole = QDir().absoluteFilePath(path);
+    m_settings.recentFiles.removeAll(whole);
+    m_settings.recentFiles.prepend(whole);
+    m_settings.recentFiles = m_settings.recentFiles.mid(0, Settings::kMostRecentFiles);
+    m_driver.openFile(path);
+}
+
+void MainWindow::listRecentFiles(QMenu& menu) {
+    for (const QString& path : m_settings.recentFiles) {
+        const QString name = QDir::toNativeSeparators(path).replace(u'&', QStringLiteral("&&"));
+        menu.addAction(fontMetrics().elidedText(name, Qt::ElideMiddle, kLongestPath), this,
+                       [this, path] { openPath(path); });
+    }
+    menu.addSeparator();
+    QAction* clear = m_menus.action("clearRecentFiles");
+    clear->setEnabled(!m_settings.recentFiles.isEmpty());
+    menu.addAction(clear);
+}
+
+void MainWindow::showOpening() {
+    const bool isOpening = m_driver.isOpening();
+    if (isOpening) {
+        say(m_driver.openingText());
+    }
+    m_menus.action("stopOpening")->setEnabled(isOpening); // else Escape is for others
+    m_stopOpening->setVisible(isOpening);
+}
+
+} // namespace posewire::gui

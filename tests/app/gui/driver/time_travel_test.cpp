@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/session_driver.h"
+#include "core/log/output_file.h"
+#include "core/log/pcapng_writer.h"
+#include "tests/app/gui/models/stage.h"
+#include "tests/support/manual_clock.h"
+
+#include <QSignalSpy>
+#include <QTemporaryDir>
+
+#include <gtest/gtest.h>
+
+#include <thread>
+
+namespace posewire::gui {
+namespace {
+
+constexpr std::uint64_t kPackets = 600; ///< a sample each, 60 a second
+
+class TimeTravelTest : public testing::Test {
+protected:
+    void SetUp() override {
+        const std::string path = m_folder.filePath("take.pcapng").toStdString();
+        auto sink = log::createFile(path).value();
+        log::PcapngWriter writer(*sink);
+        ASSERT_TRUE(writer.begin({}));
+        for (std::uint32_t sample = 0; sample < kPackets; ++sample) {
+            wire::Datagram datagram;
+            datagram.body = smallPose();
+            datagram.header.sampleCounter = sample;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            const auto bytes = wire::encode(datagram).value();
+            ASSERT_TRUE(writer.add({0, momentOf(sample), {}, 0, {}, bytes},
+                                   {"10.0.0.2:4000", log::Transport::Udp, 9763}));
+        }
+        ASSERT_TRUE(writer.finish());
+        ASSERT_TRUE(sink->flush());
+        m_driver.openFile(QString::fromStdString(path));
+        for (int i = 0; i < 5000 && m_driver.isOpening(); ++i) {
+            m_driver.tick();
+            std::this_thread::sleep_for(1ms);
+        }
+        ASSERT_EQ(m_driver.session().end(), kPackets);
+    }
+
+    static log::Stamp momentOf(std::uint64_t packet) {
+        return Stage::kStart + packet * log::Duration(1s) / 60;
+    }
+    [[nodiscard]] std::uint64_t packet() { return m_driver.session().cursor().packet; }
+    [[nodiscard]] model::CharacterKey key() { return m_driver.session().characters()[0].key; }
+    void pass(log::Duration time) {
+        m_clock.advance(time);
+        m_driver.tick();
+    }
+
+    QTemporaryDir m_folder;
+    log::ManualClock m_clock{log::asWallTime(Stage::kStart + 1h)};
+    SessionDriver m_driver{m_clock};
+};
+
+TEST_F(TimeTravelTest, StepsSamplesPacketsAndTime) {
+    m_driver.showMoment(momentOf(300));
+    EXPECT_EQ(packet(), 300U);
+    m_driver.stepSamples(key(), 1);
+    EXPECT_EQ(packet(), 301U);
+    m_driver.stepSamples(key(), -10);
+    EXPECT_EQ(packet(), 291U);
+    m_driver.stepTime(1s);
+    EXPECT_EQ(packet(), 351U);
+    m_driver.stepPackets(-1);
+    EXPECT_EQ(packet(), 350U);
+    EXPECT_EQ(m_driver.session().selection().packet, 350U) << "that packet is what is looked at";
+    m_driver.stepTime(-1h);
+    EXPECT_EQ(packet(), 0U);
+    m_driver.stepSamples(key(), -1);
+    EXPECT_EQ(packet(), 0U);
+    m_driver.stepTime(1h);
+    EXPECT_EQ(packet(), kPackets - 1);
+    m_driver.stepPackets(1);
+    EXPECT_EQ(packet(), kPackets - 1);
+}
+
+TEST_F(TimeTravelTest, PlaysAtASpeedAndStopsAtTheEnd) {
+    using Direction = SessionDriver::Direction;
+    m_driver.showMoment(momentOf(300));
+    m_driver.setPlaySpeed(2);
+    m_driver.play(Direction::Forwards);
+    EXPECT_TRUE(m_driver.isPlaying(Direction::Forwards));
+    pass(1s);
+    EXPECT_EQ(packet(), 420U);
+    m_driver.setPlaySpeed(0.5);
+    pass(1s);
+    EXPECT_EQ(packet(), 450U) << "on from where it was";
+    pass(1min);
+    EXPECT_EQ(packet(), kPackets - 1);
+    EXPECT_FALSE(m_driver.isPlaying(Direction::Forwards));
+    m_driver.play(Direction::Forwards); // once more
+    pass(2s);
+    EXPECT_EQ(packet(), 60U);
+    m_driver.play(Direction::Forwards);
+    pass(2s);
+    EXPECT_EQ(packet(), 60U) << "stopped";
+}
+
+TEST_F(TimeTravelTest, PlaysBackwardsToTheBeginning) {
+    using Direction = SessionDriver::Direction;
+    m_driver.showMoment(momentOf(300));
+    m_driver.play(Direction::Backwards);
+    pass(1s);
+    EXPECT_EQ(packet(), 240U);
+    pass(1min);
+    EXPECT_EQ(packet(), 0U);
+    EXPECT_FALSE(m_driver.isPlaying(Direction::Backwards));
+}
+
+TEST_F(TimeTravelTest, LoopsTheRangeThatIsSelected) {
+    m_driver.selectRange({.fixed = model::TimeRange{momentOf(60), momentOf(120)}});
+    m_driver.setLooping(true);
+    m_driver.play(SessionDriver::Direction::Forwards);
+    pass(500ms);
+    EXPECT_EQ(packet(), 90U);
+    pass(1s);
+    EXPECT_EQ(packet(), 90U) << "once around";
+    m_driver.setPlaySpeed(16);
+    for (int i = 0; i < 50; ++i) {
+        pass(33ms);
+        EXPECT_GE(packet(), 60U);
+        EXPECT_LE(packet(), 120U);
+    }
+}
+
+TEST_F(TimeTravelTest, AJumpStopsThereAndOneComesBackToTheMomentBefore) {
+    m_driver.showMoment(momentOf(300));
+    m_driver.jump(100, "type == 02");
+    EXPECT_EQ(packet(), 100U);
+    m_driver.goBack();
+    EXPECT_EQ(packet(), 300U);
+    m_driver.selectPacket(42);
+    EXPECT_EQ(packet(), 42U) << "what is looked at is what is shown";
+}
+
+TEST_F(TimeTravelTest, AStepLetsGoOfThePacketThatWasHeld) {
+    m_driver.selectPacket(42);
+    m_driver.stepSamples(key(), 1);
+    EXPECT_EQ(packet(), 43U);
+    EXPECT_FALSE(m_driver.session().selection().packet);
+}
+
+} // namespace
+} // namespace posewire::gui
