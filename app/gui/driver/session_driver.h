@@ -78,7 +78,7 @@ public:
 
     // The moment that is shown; receiving goes on, whatever it is.
     /// What is received, as it comes.
-    void goLive();
+    void goLive() override;
     /// Stops the display where it is, or follows the stream again. A file is played instead.
     void setPaused(bool isPaused);
     [[nodiscard]] bool isPaused() const { return shown().cursor().mode == model::Cursor::Mode::Paused; }

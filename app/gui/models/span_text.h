@@ -5,7 +5,13 @@
 
 #include <QString>
 
+#include <optional>
+
 namespace posewire::gui {
+
+/// From the first packet to now, whatever the cursor; of a recording to its last packet. Nothing before
+/// anything came.
+[[nodiscard]] std::optional<model::TimeRange> wholeSpan(const model::SessionView& view);
 
 /// What time figures are of, in the words that every dock has for it: "last 10 s", "since reset, 3.2 s",
 /// "selection 10:42:17.5 + 2.1 s", "all, 12 min"; empty before anything came.

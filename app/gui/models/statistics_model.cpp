@@ -2,6 +2,7 @@
 #include "app/gui/models/statistics_model.h"
 
 #include "app/gui/models/shown_character.h"
+#include "app/gui/models/span_text.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "core/export/sheets.h"
@@ -324,14 +325,14 @@ QString StatisticsModel::csv() const {
 }
 
 void RangeOverview::refresh() {
-    const log::Stamp end = m_view.cursorStamp();
-    if (m_view.streams().empty() || m_view.firstStamp() == log::Stamp() || end <= m_view.firstStamp()) {
+    const auto whole = wholeSpan(m_view);
+    if (m_view.streams().empty() || !whole) {
         return;
     }
     using std::chrono::seconds;
     using std::chrono::time_point_cast;
-    const bool isSameSecond = time_point_cast<seconds>(end) == time_point_cast<seconds>(m_span.to);
-    m_span = {m_view.firstStamp(), end};
+    const bool isSameSecond = time_point_cast<seconds>(whole->to) == time_point_cast<seconds>(m_span.to);
+    m_span = *whole;
     if (isSameSecond && !empty()) {
         return;
     }

@@ -99,7 +99,7 @@ public:
 
     void refresh();
 
-    /// From the first packet to the cursor.
+    /// All there is, whatever the cursor.
     [[nodiscard]] const model::TimeRange& span() const { return m_span; }
     [[nodiscard]] const model::RangeParts& parts() const { return m_parts; }
     [[nodiscard]] const std::vector<model::RangePart>& counted() const { return m_counted; }

@@ -10,6 +10,7 @@
 #include "app/gui/panels/packets_panel.h"
 #include "app/gui/panels/statistics_panel.h"
 #include "app/gui/panels/timecode_panel.h"
+#include "app/gui/panels/timeline_panel.h"
 #include "app/gui/panels/trackers_panel.h"
 
 #include <type_traits>
@@ -47,6 +48,7 @@ constexpr PanelInfo kPanels[] = {
     dock<NullPosePanel>("nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), kRight),
     dock<IncidentsPanel>("events", QT_TRANSLATE_NOOP("Panel", "Incidents"), kBottom),
     dock<FaultsPanel>("faults", QT_TRANSLATE_NOOP("Panel", "Faults"), kBottom),
+    dock<TimelinePanel>("timeline", QT_TRANSLATE_NOOP("Panel", "Timeline"), kBottom),
 };
 
 } // namespace

@@ -66,6 +66,7 @@ void RangeStrip::paintEvent(QPaintEvent*) {
         paintRate(painter);
         paintLosses(painter);
         paintRange(painter);
+        paintCursor(painter);
     }
     if (hasFocus()) {
         painter.setPen(theme().accent);
@@ -126,6 +127,15 @@ void RangeStrip::paintRange(QPainter& painter) const {
     painter.setPen(QPen(theme().accent, 2));
     painter.setBrush(Qt::NoBrush);
     painter.drawRect(QRectF(from, 0, to - from, height()).adjusted(1, 1, -1, -1));
+}
+
+/// Only where it is not at the end.
+void RangeStrip::paintCursor(QPainter& painter) const {
+    if (m_view.cursor().mode == model::Cursor::Mode::Paused) {
+        const double x = std::clamp(placeOf(m_view.cursorStamp()), 0.0, width() - 1.0);
+        painter.setPen(QPen(theme().text, 1.5));
+        painter.drawLine(QPointF(x, 0), QPointF(x, height()));
+    }
 }
 
 void RangeStrip::choose(log::Stamp from, log::Stamp to) {

@@ -46,6 +46,7 @@ private:
     void paintRate(QPainter& painter) const;
     void paintLosses(QPainter& painter) const;
     void paintRange(QPainter& painter) const;
+    void paintCursor(QPainter& painter) const;
     void choose(log::Stamp from, log::Stamp to);
     /// The end of the range that stays where the other one, which is at `place`, is dragged; nothing
     /// elsewhere.

@@ -2,6 +2,7 @@
 #include "core/model/session/session_view.h"
 
 #include "core/model/accounting/attribution.h"
+#include "core/model/accounting/range_figures.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/body/null_pose_measures.h"
@@ -390,6 +391,30 @@ SessionView::visitHeaders(const log::StreamKey& key, log::Stamp fromStamp, std::
         }
         return header.has_value();
     });
+}
+
+void SessionView::addArrivals(const log::StreamKey& key, const RangeParts& parts, std::size_t most,
+                              std::span<RangePart> into) const {
+    const log::StreamEntries* entries = m_ingest.index().find(key);
+    const auto last = entries != nullptr && parts.count != 0
+                          ? entries->atOrBeforeStamp(parts.beginOf(parts.count) - log::Duration(1))
+                          : std::nullopt;
+    if (!last) {
+        return;
+    }
+    const auto before = entries->atOrBeforeStamp(parts.first - log::Duration(1));
+    const std::size_t first = before ? *before + 1 : 0;
+    if (*last + 1 - first > most) {
+        return;
+    }
+    for (std::size_t i = first; i <= *last; ++i) {
+        const log::StreamEntry& entry = (*entries)[i];
+        RangePart& part = into[static_cast<std::size_t>((entry.stamp - parts.first) / parts.width)];
+        ++part.datagrams;
+        part.samples += entry.isLast ? 1 : 0;
+        const PacketDigest* digest = digests().find(entry.packet);
+        part.lost += digest != nullptr ? digest->gap : 0;
+    }
 }
 
 log::Stamp SessionView::newestStamp(const log::StreamKey& key) const {

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ struct CharacterPose;
 struct Gap;
 struct NullPose;
 struct NullPoseEvidence;
+struct RangePart;
+struct RangeParts;
 struct TakeVerdict;
 struct TakeVerdicts;
 struct Thresholds;
@@ -206,6 +209,11 @@ public:
     /// datagrams.
     std::size_t visitHeaders(const log::StreamKey& key, log::Stamp fromStamp, std::size_t most,
                              const std::function<void(log::Stamp, const wire::Header&)>& visitor) const;
+    /// Adds what arrived of a stream in each part, datagram by datagram: finer than its accounting's buckets.
+    /// A gap is in the part of the datagram after it. Nothing is added where more than `most` datagrams would
+    /// have to be looked at. The cursor plays no part.
+    void addArrivals(const log::StreamKey& key, const RangeParts& parts, std::size_t most,
+                     std::span<RangePart> into) const;
     /// Of the newest datagram of a stream; 0 where there is none.
     [[nodiscard]] log::Stamp newestStamp(const log::StreamKey& key) const;
     /// The newest pose, of type 02, 01 or 05: the first of these that is not more than 0.25 s older than the

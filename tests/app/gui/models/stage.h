@@ -33,6 +33,7 @@ public:
         selection.packet = number;
         select(selection);
     }
+    void goLive() override { m_session.setCursor({}); }
     void showMoment(log::Stamp moment) override {
         m_session.setCursor({model::Cursor::Mode::Paused, m_session.packetAt(moment)});
     }

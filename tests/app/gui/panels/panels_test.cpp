@@ -57,8 +57,9 @@ TEST_F(PanelsTest, TableHasTheDocksThatScriptsKnowAndMakesEachOfThem) {
         panel->refresh();
     }
     // Names of docks are for good; a new dock need not be here.
-    EXPECT_THAT(ids, testing::IsSupersetOf({"characters", "metadata", "timecode", "statistics", "inspector",
-                                            "trackers", "packets", "nullpose", "events", "faults"}));
+    EXPECT_THAT(ids,
+                testing::IsSupersetOf({"characters", "metadata", "timecode", "statistics", "inspector",
+                                       "trackers", "packets", "nullpose", "events", "faults", "timeline"}));
 }
 
 TEST_F(PanelsTest, EmptyPanelsSayWhatToDo) {

@@ -352,7 +352,9 @@ TEST_F(MainWindowTest, EveryButtonOfADockIsInAMenu) {
                                              {"● 0", "listNotes"},
                                              {"Mark seen", "markIncidentsSeen"},
                                              {"Export…", "exportEvents"},
-                                             {"+", "saveFilter"}};
+                                             {"+", "saveFilter"},
+                                             {"Live", "live"},
+                                             {"−", "timelineZoomOut"}};
     // Selection ends a range, which All does; saved filters and groups are lists of their own.
     const QStringList others{
         "",      "»", "Selection", "Groups ▾", "Problems", "Pose", "Meta && scale", "×", "Clear the filter",

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/timeline_model.h"
+
+#include "app/gui/models/character_model.h"
+#include "app/gui/models/shown_character.h"
+#include "core/wire/type_table.h"
+
+#include <algorithm>
+#include <map>
+
+namespace posewire::gui {
+
+namespace {
+
+/// Datagrams of one stream that are looked at one by one.
+constexpr std::size_t kMostArrivals = 20'000;
+
+model::RangeParts fineParts(const model::TimeRange& window, std::size_t most) {
+    const log::Duration length = window.to - window.from;
+    const log::Duration width = std::max(log::Duration(1), length / static_cast<std::int64_t>(most));
+    return {window.from, width, most};
+}
+
+} // namespace
+
+void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
+    log::Duration resolution(1);
+    for (const model::Stream& stream : m_view.streams()) {
+        resolution = std::max(resolution, stream.accounting.resolution());
+    }
+    constexpr std::int64_t kLeastBuckets = 2; // per part, or its edges would show
+    m_isFine = (window.to - window.from) / static_cast<std::int64_t>(most) < kLeastBuckets * resolution;
+    m_parts = m_isFine ? fineParts(window, most)
+                       : model::partsOf(window, most, kLeastBuckets * resolution, resolution);
+    m_rows.clear();
+    for (const model::CharacterKey& key : boardOf(m_view, BoardOrder::Appearance)) {
+        addRows(key);
+    }
+}
+
+void TimelineModel::addRows(const model::CharacterKey& key) {
+    Row whole{
+        key, std::nullopt, characterName(m_view, key), characterColour(m_view, key), {}, m_open.contains(key),
+        {}};
+    std::map<std::uint8_t, std::vector<log::StreamKey>> byType;
+    for (const model::Character* one : m_view.lineage(key)) {
+        for (const model::Stream* stream : one->streams) {
+            whole.streams.push_back(stream->key);
+            byType[stream->key.type].push_back(stream->key);
+        }
+    }
+    m_rows.push_back(whole);
+    if (!whole.isOpen) {
+        return;
+    }
+    for (auto& [type, streams] : byType) {
+        m_rows.push_back({key,
+                          type,
+                          QString::fromStdString(wire::typeTitle(type)),
+                          whole.colour,
+                          std::move(streams),
+                          false,
+                          {}});
+    }
+}
+
+const TimelineModel::Row& TimelineModel::shown(std::size_t row) {
+    Row& read = m_rows[row];
+    if (!read.parts.empty() || m_parts.count == 0) {
+        return read;
+    }
+    read.parts.resize(m_parts.count);
+    for (const log::StreamKey& key : read.streams) {
+        if (m_isFine) {
+            m_view.addArrivals(key, m_parts, kMostArrivals, read.parts);
+        } else if (const model::Stream* stream = m_view.find(key)) {
+            model::addParts(stream->accounting, m_parts, read.parts);
+        }
+    }
+    return read;
+}
+
+void TimelineModel::toggle(const model::CharacterKey& key) {
+    if (m_open.erase(key) == 0) {
+        m_open.insert(key);
+    }
+}
+
+} // namespace posewire::gui

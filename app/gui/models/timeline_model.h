@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/models/span_text.h"
+#include "core/model/accounting/range_figures.h"
+#include "core/model/session/session_view.h"
+
+#include <QColor>
+#include <QString>
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <vector>
+
+namespace posewire::gui {
+
+/// The rows of the timeline: characters and, where they are opened, their streams, each with what came in the
+/// parts of a window of time.
+class TimelineModel {
+public:
+    struct Row {
+        model::CharacterKey character;
+        std::optional<std::uint8_t> type; ///< of a stream; nothing for all of the character
+        QString name;
+        QColor colour;
+        std::vector<log::StreamKey> streams; ///< under all ports that the sender had
+        bool isOpen = false;
+        std::vector<model::RangePart> parts; ///< empty until shown() asked for it
+    };
+
+    explicit TimelineModel(model::SessionView& view) : m_view(view) {}
+
+    [[nodiscard]] std::optional<model::TimeRange> span() const { return wholeSpan(m_view); }
+
+    /// Reads the rows again, and nothing of the parts yet. At most `most` parts.
+    void refresh(const model::TimeRange& window, std::size_t most);
+    [[nodiscard]] const std::vector<Row>& rows() const { return m_rows; }
+    /// One row with its parts.
+    [[nodiscard]] const Row& shown(std::size_t row);
+    [[nodiscard]] const model::RangeParts& parts() const { return m_parts; }
+
+    /// Shows or hides the streams of a character.
+    void toggle(const model::CharacterKey& key);
+
+private:
+    void addRows(const model::CharacterKey& key);
+
+    model::SessionView& m_view;
+    model::RangeParts m_parts;
+    bool m_isFine = false; ///< parts are finer than the accounting's buckets
+    std::vector<Row> m_rows;
+    std::set<model::CharacterKey> m_open;
+};
+
+} // namespace posewire::gui

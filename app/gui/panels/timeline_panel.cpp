@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/timeline_panel.h"
+
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+#include "app/gui/panels/cell_delegate.h"
+#include "app/gui/theme/widgets.h"
+#include "core/model/body/character_pose.h"
+
+#include <QHBoxLayout>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+namespace posewire::gui {
+
+TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidget* parent)
+    : Panel(view, commands, parent),
+      m_timeline(new TimelineView(view, commands, this)),
+      m_moment(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)) {
+    const int margin = CellDelegate::margin(fontMetrics());
+    auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2);
+    auto* column = tightColumn(this);
+    column->addLayout(head);
+    column->addWidget(new Line(this));
+    column->addWidget(m_timeline, 1);
+    m_live = add(QStringLiteral("timelineLive"), tr("Live"), tr("Follow the stream again (End)"));
+    auto* all = add(QStringLiteral("timelineAll"), tr("All"), tr("Show all there is (0)"));
+    m_range = add(QStringLiteral("timelineRange"), tr("Selection"), tr("Show the selected range"));
+    auto* out = add(QStringLiteral("timelineOut"), QStringLiteral("−"), tr("Zoom out (−)"));
+    auto* in = add(QStringLiteral("timelineIn"), QStringLiteral("+"), tr("Zoom in (+)"));
+    for (QToolButton* button : {m_live, all, m_range, out, in}) {
+        head->addWidget(button);
+    }
+    head->addWidget(m_moment, 1);
+    in->setAccessibleName(tr("Zoom in"));
+    out->setAccessibleName(tr("Zoom out"));
+    m_moment->setToolTip(
+        tr("The moment that is shown: by this computer's clock, since the first packet, and by the "
+           "time code of the selected character"));
+    m_moment->setObjectName(QStringLiteral("moment"));
+    m_timeline->setObjectName(QStringLiteral("timelineView"));
+    connect(m_live, &QToolButton::clicked, this, [this] { m_commands.goLive(); });
+    connect(all, &QToolButton::clicked, this, &TimelinePanel::showAll);
+    connect(m_range, &QToolButton::clicked, this, &TimelinePanel::showRange);
+    connect(out, &QToolButton::clicked, this, &TimelinePanel::zoomOut);
+    connect(in, &QToolButton::clicked, this, &TimelinePanel::zoomIn);
+}
+
+std::span<const ActionInfo> TimelinePanel::actionTable() {
+    using Do = ActionsOf<TimelinePanel>;
+    static constexpr const char* kMenu = QT_TRANSLATE_NOOP("Action", "&View/&Timeline");
+    static constexpr ActionInfo kActions[] = {
+        {"timelineZoomIn", kMenu, QT_TRANSLATE_NOOP("Action", "Zoom &in"), "Ctrl++",
+         Do::call<&TimelinePanel::zoomIn>},
+        {"timelineZoomOut", kMenu, QT_TRANSLATE_NOOP("Action", "Zoom &out"), "Ctrl+-",
+         Do::call<&TimelinePanel::zoomOut>},
+        {"timelineShowAll", kMenu, QT_TRANSLATE_NOOP("Action", "&All there is"), "",
+         Do::call<&TimelinePanel::showAll>},
+        {"timelineShowRange", kMenu, QT_TRANSLATE_NOOP("Action", "The &selected range"), "",
+         Do::call<&TimelinePanel::showRange>},
+    };
+    return kActions;
+}
+
+QToolButton* TimelinePanel::add(const QString& name, const QString& text, const QString& toolTip) {
+    QToolButton* button = framedButton(text, toolTip, this);
+    button->setObjectName(name);
+    button->setFocusPolicy(Qt::StrongFocus);
+    return button;
+}
+
+void TimelinePanel::refresh() {
+    m_timeline->refresh();
+    m_live->setVisible(!m_view.isRecording());
+    m_live->setEnabled(m_view.cursor().mode == model::Cursor::Mode::Paused);
+    m_range->setEnabled(m_view.rangeChoice().fixed.has_value());
+    m_moment->setText(momentText());
+}
+
+QString TimelinePanel::momentText() const {
+    if (m_view.end() == 0) {
+        return {};
+    }
+    const log::Stamp moment = m_view.cursorStamp();
+    QString text =
+        tr("%1 · +%2 s")
+            .arg(timeOfDay(m_view.wallOf(moment)), fixed(log::secondsOf(moment - m_view.firstStamp()), 3));
+    const auto key = shownCharacter(m_view);
+    if (const model::CharacterPose* pose = key ? m_view.pose(*key) : nullptr) {
+        text += tr(" · TC %1").arg(milliClock(pose->timeCode));
+    }
+    return text;
+}
+
+QString TimelinePanel::summary() const {
+    const auto span = m_timeline->model().span();
+    return span ? duration(log::secondsOf(span->to - span->from)) : QString();
+}
+
+} // namespace posewire::gui

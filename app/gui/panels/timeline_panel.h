@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/panel.h"
+#include "app/gui/panels/timeline_view.h"
+
+class QToolButton;
+
+namespace posewire::gui {
+
+class ElidedLabel;
+
+/// Dock `timeline`: the whole history, in which the display is moved through time and ranges are selected.
+class TimelinePanel : public Panel {
+    Q_OBJECT
+
+public:
+    TimelinePanel(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+
+    void refresh() override;
+    [[nodiscard]] QString summary() const override;
+
+    void zoomIn() { m_timeline->zoom(0.5); }
+    void zoomOut() { m_timeline->zoom(2); }
+    void showAll() { m_timeline->fit(); }
+    void showRange() { m_timeline->fitRange(); }
+
+private:
+    QToolButton* add(const QString& name, const QString& text, const QString& toolTip);
+    /// Time of day, since the first packet, and by the sender's time code.
+    [[nodiscard]] QString momentText() const;
+
+    TimelineView* m_timeline;
+    ElidedLabel* m_moment;
+    QToolButton* m_live;
+    QToolButton* m_range;
+};
+
+} // namespace posewire::gui

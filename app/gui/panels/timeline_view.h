@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/commands.h"
+#include "app/gui/models/timeline_model.h"
+
+#include <QAbstractScrollArea>
+
+#include <optional>
+
+namespace posewire::gui {
+
+/// The history as a strip for each character and stream: when it sent, how much, and what was lost. Dragging
+/// in the ruler moves the display through time, dragging in the rows selects a range; the wheel zooms, with
+/// Shift it moves.
+class TimelineView final : public QAbstractScrollArea {
+    Q_OBJECT
+
+public:
+    TimelineView(model::SessionView& view, Commands& commands, QWidget* parent);
+
+    void refresh();
+
+    /// What is in sight, and how long that may be.
+    [[nodiscard]] const model::TimeRange& window() const { return m_window; }
+    static constexpr log::Duration kShortest = std::chrono::milliseconds(1);
+    /// Makes the window this many times as long; `about` stays where it is.
+    void zoom(double factor, std::optional<log::Stamp> about = {});
+    /// All there is.
+    void fit();
+    /// The range that figures are of.
+    void fitRange();
+
+    /// Pixels from the left of the viewport for a stamp, and back.
+    [[nodiscard]] double placeOf(log::Stamp stamp) const;
+    [[nodiscard]] log::Stamp stampAt(double place) const;
+    [[nodiscard]] const TimelineModel& model() const { return m_model; }
+    [[nodiscard]] int rulerHeight() const;
+    [[nodiscard]] int rowHeight() const;
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void mousePressEvent(QMouseEvent* event) override;
+    void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
+    void mouseDoubleClickEvent(QMouseEvent* event) override;
+    void wheelEvent(QWheelEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
+    bool viewportEvent(QEvent* event) override;
+
+private:
+    enum class Drag { None, Cursor, Range, Window };
+
+    void setWindow(model::TimeRange window);
+    void followNow(const model::TimeRange& span);
+    void readRows();
+    void fitScrollBar();
+    [[nodiscard]] int namesWidth() const;
+    [[nodiscard]] int stripWidth() const;
+    [[nodiscard]] QRect rowRect(std::size_t row) const;
+    [[nodiscard]] std::optional<std::size_t> rowAt(const QPoint& place) const;
+    [[nodiscard]] const model::Incident* incidentAt(const QPoint& place) const;
+    [[nodiscard]] QString helpAt(const QPoint& place);
+    void drag(const QPoint& place);
+    void chooseRange(log::Stamp to);
+
+    void paintRuler(QPainter& painter) const;
+    void paintIncidents(QPainter& painter) const;
+    void paintRow(QPainter& painter, std::size_t row);
+    void paintStrip(QPainter& painter, const TimelineModel::Row& row, const QRect& strip) const;
+    void paintRange(QPainter& painter) const;
+    void paintCursor(QPainter& painter) const;
+
+    model::SessionView& m_view;
+    Commands& m_commands;
+    TimelineModel m_model;
+    model::TimeRange m_window{};
+    bool m_isAll = true;   ///< the window is all there is, and grows
+    bool m_isAtNow = true; ///< its end moves with what comes
+    Drag m_drag = Drag::None;
+    QPoint m_pressed;
+    log::Stamp m_anchor{}; ///< where the drag began
+    bool m_isMoved = false;
+};
+
+} // namespace posewire::gui

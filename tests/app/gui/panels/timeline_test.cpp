@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/timeline_view.h"
+#include "tests/app/gui/models/stage.h"
+
+#include <QTest>
+#include <QWheelEvent>
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace posewire::gui {
+namespace {
+
+/// Two characters for ten seconds, 60 a second; nothing between 4 and 5 s.
+class TimelineTest : public testing::Test {
+protected:
+    void SetUp() override {
+        performer::Performer performer(sending(2, {2, 25}, 60.0));
+        m_stage.perform(performer, 0, 600, [](std::uint64_t frame) { return frame < 240 || frame >= 300; });
+        m_stage.follow();
+        m_timeline.resize(900, 260);
+        m_timeline.show();
+        m_timeline.refresh();
+    }
+
+    static log::Stamp at(log::Duration time) { return Stage::kStart + time; }
+    /// In the strip of a row, at a moment.
+    [[nodiscard]] QPoint place(log::Duration time, int row = 0) const {
+        const int y = m_timeline.rulerHeight() + m_timeline.rowHeight() * row + m_timeline.rowHeight() / 2;
+        return {static_cast<int>(m_timeline.placeOf(at(time))), y};
+    }
+    [[nodiscard]] QPoint inRuler(log::Duration time) const { return {place(time).x(), 3}; }
+    [[nodiscard]] double cursorSeconds() const {
+        return log::secondsOf(m_stage.session.cursorStamp() - Stage::kStart);
+    }
+
+    Stage m_stage;
+    TimelineView m_timeline{m_stage.session, m_stage.commands, nullptr};
+};
+
+TEST_F(TimelineTest, HasAStripForEachCharacterWithItsGaps) {
+    TimelineModel model(m_stage.session);
+    model.refresh({at(0s), at(10s)}, 200);
+    ASSERT_EQ(model.rows().size(), 2U);
+    const TimelineModel::Row& row = model.shown(0);
+    const model::RangeParts& parts = model.parts();
+    std::uint32_t datagrams = 0;
+    for (std::size_t i = 0; i < parts.count; ++i) {
+        datagrams += row.parts[i].datagrams;
+        const bool isInGap = parts.beginOf(i) >= at(4s) && parts.beginOf(i + 1) <= at(4900ms);
+        const bool isSent = parts.beginOf(i) >= at(0s) && parts.beginOf(i + 1) <= at(3900ms);
+        EXPECT_FALSE(isInGap && row.parts[i].datagrams != 0) << i;
+        EXPECT_FALSE(isSent && row.parts[i].datagrams == 0) << i;
+    }
+    EXPECT_EQ(datagrams, 2U * 540U);
+}
+
+TEST_F(TimelineTest, LooksAtSingleDatagramsWhereItIsZoomedIn) {
+    TimelineModel model(m_stage.session);
+    model.refresh({at(1s), at(1s + 50ms)}, 500);
+    model.toggle(model.rows()[0].character);
+    model.refresh({at(1s), at(1s + 50ms)}, 500);
+    ASSERT_EQ(model.rows().size(), 4U) << "its two streams";
+    EXPECT_EQ(model.rows()[1].type, 2);
+    const auto count = [&](std::size_t row) {
+        const auto& parts = model.shown(row).parts;
+        return std::ranges::count_if(parts, [](const model::RangePart& part) { return part.datagrams != 0; });
+    };
+    EXPECT_EQ(count(1), 3) << "one each 16.7 ms";
+    EXPECT_EQ(count(0), 3) << "both types at the same moment";
+}
+
+/// What is counted coarsely and finely is the same.
+TEST_F(TimelineTest, BothWaysOfCountingFindTheSame) {
+    const auto sums = [this](std::size_t most) {
+        TimelineModel model(m_stage.session);
+        model.refresh({at(0s), at(11s)}, most);
+        const auto& parts = model.shown(0).parts;
+        return std::accumulate(
+            parts.begin(), parts.end(), model::RangePart(),
+            [](model::RangePart sum, const model::RangePart& part) { return sum += part; });
+    };
+    const model::RangePart coarse = sums(10);
+    const model::RangePart fine = sums(5'000);
+    EXPECT_EQ(coarse.datagrams, fine.datagrams);
+    EXPECT_EQ(coarse.lost, fine.lost);
+    EXPECT_EQ(coarse.lost, 2U * 60U);
+}
+
+TEST_F(TimelineTest, AClickShowsThatMomentAndADragInTheRulerMovesThroughTime) {
+    QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, place(2s));
+    EXPECT_NEAR(cursorSeconds(), 2, 0.05);
+    EXPECT_EQ(m_stage.session.cursor().mode, model::Cursor::Mode::Paused);
+    QTest::mousePress(m_timeline.viewport(), Qt::LeftButton, {}, inRuler(6s));
+    EXPECT_NEAR(cursorSeconds(), 6, 0.05);
+    QTest::mouseMove(m_timeline.viewport(), inRuler(7s));
+    EXPECT_NEAR(cursorSeconds(), 7, 0.05);
+    QTest::mouseRelease(m_timeline.viewport(), Qt::LeftButton, {}, inRuler(7s));
+    EXPECT_FALSE(m_stage.session.rangeChoice().fixed);
+}
+
+TEST_F(TimelineTest, ADragInTheRowsSelectsARange) {
+    QTest::mousePress(m_timeline.viewport(), Qt::LeftButton, {}, place(3s));
+    QTest::mouseMove(m_timeline.viewport(), place(1s));
+    QTest::mouseRelease(m_timeline.viewport(), Qt::LeftButton, {}, place(1s));
+    const auto range = m_stage.session.range();
+    ASSERT_TRUE(range);
+    EXPECT_NEAR(log::secondsOf(range->from - at(0s)), 1, 0.05);
+    EXPECT_NEAR(log::secondsOf(range->to - at(0s)), 3, 0.05);
+    QTest::keyClick(&m_timeline, Qt::Key_Escape);
+    EXPECT_FALSE(m_stage.session.range());
+}
+
+TEST_F(TimelineTest, TheWheelZoomsAboutThePointerBetweenAMillisecondAndAll) {
+    const auto turn = [this](int angle) {
+        const QPointF where = place(6s);
+        QWheelEvent event(where, m_timeline.viewport()->mapToGlobal(where), {}, {0, angle}, {}, {},
+                          Qt::NoScrollPhase, false);
+        QCoreApplication::sendEvent(m_timeline.viewport(), &event);
+    };
+    const int before = place(6s).x();
+    turn(240);
+    EXPECT_NEAR(m_timeline.placeOf(at(6s)), before, 1.5);
+    EXPECT_LT(m_timeline.window().to - m_timeline.window().from, 7s);
+    for (int i = 0; i < 100; ++i) {
+        turn(120);
+    }
+    EXPECT_EQ(m_timeline.window().to - m_timeline.window().from, TimelineView::kShortest);
+    for (int i = 0; i < 100; ++i) {
+        turn(-120);
+    }
+    EXPECT_EQ(m_timeline.window().from, at(0s));
+    EXPECT_EQ(m_timeline.window().to, m_stage.session.now() + 1ns);
+}
+
+TEST_F(TimelineTest, KeysZoomAndMove) {
+    const auto length = [this] { return m_timeline.window().to - m_timeline.window().from; };
+    const log::Duration all = length();
+    QTest::keyClick(&m_timeline, Qt::Key_Plus);
+    EXPECT_NEAR(log::secondsOf(length()), log::secondsOf(all) / 2, 0.01);
+    const log::Stamp from = m_timeline.window().from;
+    QTest::keyClick(&m_timeline, Qt::Key_PageUp);
+    EXPECT_LT(m_timeline.window().from, from);
+    QTest::keyClick(&m_timeline, Qt::Key_0);
+    EXPECT_EQ(length(), all);
+}
+
+TEST_F(TimelineTest, AnIncidentIsShownWhereItsMarkIsClicked) {
+    const model::Incident* outage = nullptr;
+    for (const model::Incident& incident : m_stage.session.incidents().all()) {
+        outage = incident.kind == model::IncidentKind::Outage ? &incident : outage;
+    }
+    ASSERT_NE(outage, nullptr);
+    const QPoint mark(static_cast<int>(m_timeline.placeOf(outage->firstStamp)),
+                      m_timeline.rulerHeight() - m_timeline.fontMetrics().height() / 2);
+    QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, mark);
+    EXPECT_EQ(m_stage.session.selection().incident, outage->number);
+}
+
+} // namespace
+} // namespace posewire::gui
