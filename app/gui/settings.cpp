@@ -68,6 +68,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.alerts = alertChoicesOf(object["alerts"].toObject());
     settings.inputs = inputChoicesOf(object["sources"].toObject());
     settings.history = historyOf(object["history"].toObject());
+    settings.recording = recordingChoiceOf(object["recording"].toObject());
     for (const auto& path : object["recentFiles"].toArray()) {
         if (path.isString() && settings.recentFiles.size() < Settings::kMostRecentFiles) {
             settings.recentFiles += path.toString();
@@ -106,6 +107,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"panels", settings.panels},
                              {"sources", jsonOf(settings.inputs)},
                              {"history", jsonOf(settings.history)},
+                             {"recording", jsonOf(settings.recording)},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
     return QJsonDocument(object).toJson();
 }

@@ -3,6 +3,7 @@
 
 #include "app/gui/alert_choices.h"
 #include "app/gui/input_choices.h"
+#include "app/gui/recording_choice.h"
 #include "app/gui/theme/theme.h"
 
 #include <QByteArray>
@@ -34,6 +35,7 @@ struct Settings {
     AlertChoices alerts;
     InputChoices inputs;
     HistoryChoice history;
+    RecordingChoice recording;
     QStringList recentFiles; ///< paths, the newest first, at most kMostRecentFiles
     static constexpr int kMostRecentFiles = 8;
     friend bool operator==(const Settings&, const Settings&) = default;

@@ -294,13 +294,16 @@ PcapngWriter::Result PcapngWriter::add(const Packet& packet, const SenderInfo& s
     return write();
 }
 
-PcapngWriter::Result PcapngWriter::finish() {
+PcapngWriter::Result PcapngWriter::finish(std::span<const std::string> notes) {
     const auto last = static_cast<std::uint64_t>(nanosecondsOf(m_lastTime));
     const auto first =
         m_firstTime <= m_lastTime ? static_cast<std::uint64_t>(nanosecondsOf(m_firstTime)) : last;
     PcapngBlock block(m_block, PcapngBlockType::InterfaceStatistics);
     block.number(0, 4);
     block.halves(last);
+    for (const std::string& note : notes) {
+        block.option(PcapngOption::Comment, clipped(note));
+    }
     block.halvesOption(PcapngOption::StartTime, first);
     block.halvesOption(PcapngOption::EndTime, last);
     block.option(PcapngOption::Received, m_packets + m_kernelDrops);

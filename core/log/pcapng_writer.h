@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -87,8 +89,8 @@ public:
     Result add(const Packet& packet, const SenderInfo& sender, std::span<const std::string> comments = {},
                Duration setBy = {});
 
-    /// Last of all.
-    Result finish();
+    /// Last of all. `notes` are about the whole recording: UTF-8, cut as comments are.
+    Result finish(std::span<const std::string> notes = {});
 
     /// Where the bytes of the packet added last begin in the file.
     [[nodiscard]] std::uint64_t packetOffset() const { return m_packetOffset; }

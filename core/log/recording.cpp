@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace posewire::log {
@@ -33,11 +35,11 @@ Recorder::Result Recorder::follow() {
     return written && m_writer.packets() != before ? m_sink.flush() : written;
 }
 
-Recorder::Result Recorder::finish() {
+Recorder::Result Recorder::finish(std::span<const std::string> notes) {
     if (auto written = writeNew(); !written) {
         return written;
     }
-    const auto ended = m_writer.finish();
+    const auto ended = m_writer.finish(notes);
     return ended ? m_sink.finish() : ended;
 }
 
@@ -61,22 +63,43 @@ Recorder::Result Recorder::writeNew() {
     return {};
 }
 
+std::string partPath(const std::string& path, unsigned part) {
+    if (part <= 1) {
+        return path;
+    }
+    const std::filesystem::path whole(path);
+    const std::string name =
+        whole.stem().string() + " part " + std::to_string(part) + whole.extension().string();
+    return (whole.parent_path() / name).string();
+}
+
 tl::expected<std::unique_ptr<Recording>, FileError>
 Recording::start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
-                 const OutputRules& rules, std::uint64_t from) {
+                 const OutputRules& rules, std::uint64_t from, const RecordingLimits& limits) {
     auto sink = createFile(path, rules);
     if (!sink) {
         return tl::unexpected(sink.error());
     }
-    return start(log, std::move(*sink), info, from);
+    std::unique_ptr<Recording> recording(new Recording(log, std::move(*sink), from));
+    recording->m_path = path;
+    recording->m_limits = limits;
+    if (auto room = recording->checkRoom(); !room) {
+        return tl::unexpected(room.error());
+    }
+    return begin(std::move(recording), info);
 }
 
 tl::expected<std::unique_ptr<Recording>, FileError> Recording::start(const PacketLog& log,
                                                                      std::unique_ptr<ByteSink> sink,
                                                                      const RecordingInfo& info,
                                                                      std::uint64_t from) {
-    std::unique_ptr<Recording> recording(new Recording(log, std::move(sink), from));
-    if (const auto begun = recording->m_recorder.begin(info); !begun) {
+    return begin(std::unique_ptr<Recording>(new Recording(log, std::move(sink), from)), info);
+}
+
+tl::expected<std::unique_ptr<Recording>, FileError> Recording::begin(std::unique_ptr<Recording> recording,
+                                                                     const RecordingInfo& info) {
+    recording->m_info = info;
+    if (const auto begun = recording->m_recorder->begin(info); !begun) {
         return tl::unexpected(begun.error());
     }
     recording->m_thread = std::thread([raw = recording.get()] { raw->run(); });
@@ -84,19 +107,24 @@ tl::expected<std::unique_ptr<Recording>, FileError> Recording::start(const Packe
 }
 
 Recording::Recording(const PacketLog& log, std::unique_ptr<ByteSink> sink, std::uint64_t from)
-    : m_sink(std::move(sink)), m_recorder(log, *m_sink, from) {}
+    : m_log(log), m_sink(std::move(sink)) {
+    m_recorder.emplace(log, *m_sink, from);
+}
 
 Recording::~Recording() {
     static_cast<void>(stop());
 }
 
-tl::expected<void, FileError> Recording::stop() {
+tl::expected<void, FileError> Recording::stop(std::vector<std::string> notes) {
     {
         const std::lock_guard lock(m_mutex);
+        if (!m_isStopping) {
+            m_notes = std::move(notes);
+        }
         m_isStopping = true;
+        m_sink->hurry();
     }
     m_changed.notify_all();
-    m_sink->hurry();
     if (m_thread.joinable()) {
         m_thread.join();
     }
@@ -124,23 +152,90 @@ void Recording::run() {
             std::unique_lock lock(m_mutex);
             isStopping = m_changed.wait_for(lock, kPause, [this] { return m_isStopping; });
         }
-        if (!note(isStopping ? m_recorder.finish() : m_recorder.follow())) {
+        if (!note(isStopping ? finish() : m_recorder->follow())) {
             return;
         }
         const auto now = std::chrono::steady_clock::now();
         if (!isStopping && now - synced >= kSync) {
             synced = now;
-            if (!note(m_recorder.sync())) {
+            if (!note(m_recorder->sync())) {
                 return;
             }
+            if (const auto room = checkRoom(); !room) {
+                static_cast<void>(finish()); // while that still has room
+                note(room);
+                return;
+            }
+        }
+        if (!isStopping && isFileFull() && !note(goOn())) {
+            return;
         }
     }
 }
 
-/// False where nothing more can be written.
-bool Recording::note(const Recorder::Result& result) {
+bool Recording::isFileFull() const {
+    const auto figures = m_recorder->figures();
+    return (m_limits.fileBytes != 0 && figures.bytes >= m_limits.fileBytes) ||
+           (m_limits.fileTime != Duration() &&
+            std::chrono::steady_clock::now() - m_fileBegin >= m_limits.fileTime);
+}
+
+/// In another file.
+Recording::Result Recording::goOn() {
+    auto next = createFile(partPath(m_path, m_before.files + 2));
+    if (!next) {
+        return tl::unexpected(next.error());
+    }
+    if (auto ended = m_recorder->finish(); !ended) {
+        return ended;
+    }
+    const std::uint64_t from = m_recorder->position();
+    m_before = figuresNow();
+    {
+        const std::lock_guard lock(m_mutex);
+        m_recorder.reset(); // it writes to the sink
+        m_sink = std::move(*next);
+        if (m_isStopping) {
+            m_sink->hurry();
+        }
+    }
+    m_recorder.emplace(m_log, *m_sink, from);
+    m_fileBegin = std::chrono::steady_clock::now();
+    return m_recorder->begin(m_info);
+}
+
+Recording::Result Recording::checkRoom() const {
+    std::error_code failed;
+    const auto folder = std::filesystem::path(m_path).parent_path();
+    const auto space = m_limits.leaveFree == 0
+                           ? std::filesystem::space_info{}
+                           : std::filesystem::space(folder.empty() ? "." : folder, failed);
+    if (m_limits.leaveFree == 0 || failed || space.available >= m_limits.leaveFree) {
+        return {};
+    }
+    return tl::unexpected(FileError{m_path + ": less than " + std::to_string(m_limits.leaveFree / 1'000'000) +
+                                    " MB are free on its disk; free some, or record to another one"});
+}
+
+Recording::Result Recording::finish() {
+    std::vector<std::string> notes;
+    {
+        const std::lock_guard lock(m_mutex);
+        notes = m_notes;
+    }
+    return m_recorder->finish(notes);
+}
+
+RecordingFigures Recording::figuresNow() const {
+    const RecordingFigures file = m_recorder->figures();
+    return {m_before.packets + file.packets, m_before.bytes + file.bytes, m_before.files + 1,
+            m_before.missed + file.missed};
+}
+
+/// False where nothing more is written. What was written until then is ended as well as that can be.
+bool Recording::note(const Result& result) {
     const std::lock_guard lock(m_mutex);
-    m_figures = m_recorder.figures();
+    m_figures = figuresNow();
     if (!result) {
         m_failure = result.error();
     }

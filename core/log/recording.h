@@ -5,20 +5,35 @@
 #include "core/log/output_file.h"
 #include "core/log/pcapng_writer.h"
 
+#include <chrono>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace posewire::log {
 
 class PacketLog;
 class Timeline;
 
+/// When a recording goes on in another file, and when it ends by itself.
+struct RecordingLimits {
+    std::uint64_t fileBytes = 0; ///< of one file, about; 0 for any
+    Duration fileTime{};         ///< of one file; 0 for any
+    std::uint64_t leaveFree = 0; ///< bytes: it ends before its disk is as full
+};
+
+/// Where a recording goes on: "take 3.pcapng", "take 3 part 2.pcapng" and so on.
+[[nodiscard]] std::string partPath(const std::string& path, unsigned part);
+
 struct RecordingFigures {
     std::uint64_t packets = 0;
-    std::uint64_t bytes = 0; ///< of the file so far
+    std::uint64_t bytes = 0; ///< of all its files so far
+    unsigned files = 1;
     /// Packets that the log had dropped before they could be written: the disk was too slow. The recording
     /// shows them as dropped by this computer.
     std::uint64_t missed = 0;
@@ -42,11 +57,13 @@ public:
     Result sync();
 
     /// Writes what is new and the statistics that a recording ends with; all of it is on the disk then.
-    Result finish();
+    Result finish(std::span<const std::string> notes = {});
 
     [[nodiscard]] RecordingFigures figures() const {
-        return {m_writer.packets(), m_writer.bytes(), m_follower.overtaken()};
+        return {m_writer.packets(), m_writer.bytes(), 1, m_follower.overtaken()};
     }
+    /// One past the packet written last.
+    [[nodiscard]] std::uint64_t position() const { return m_follower.position(); }
 
 private:
     Result writeNew();
@@ -67,8 +84,8 @@ public:
     /// Records from packet `from` on. Fails where the file cannot be made. `log` must outlive the recording.
     static tl::expected<std::unique_ptr<Recording>, FileError>
     start(const PacketLog& log, const std::string& path, const RecordingInfo& info,
-          const OutputRules& rules = {}, std::uint64_t from = 0);
-    /// The same to a sink that is there already.
+          const OutputRules& rules = {}, std::uint64_t from = 0, const RecordingLimits& limits = {});
+    /// The same to a sink that is there already, without limits.
     static tl::expected<std::unique_ptr<Recording>, FileError> start(const PacketLog& log,
                                                                      std::unique_ptr<ByteSink> sink,
                                                                      const RecordingInfo& info,
@@ -77,9 +94,9 @@ public:
     /// Stops as stop() does.
     ~Recording();
 
-    /// Writes what the log holds and ends the file. Fails with what went wrong since the start; again and
-    /// again with the same.
-    tl::expected<void, FileError> stop();
+    /// Writes what the log holds and ends the file with notes on it. Fails with what went wrong since the
+    /// start; again and again with the same.
+    tl::expected<void, FileError> stop(std::vector<std::string> notes = {});
 
     // From any thread.
     [[nodiscard]] RecordingFigures figures() const;
@@ -87,13 +104,31 @@ public:
     [[nodiscard]] std::optional<FileError> failure() const;
 
 private:
-    Recording(const PacketLog& log, std::unique_ptr<ByteSink> sink, std::uint64_t from);
-    void run();
-    bool note(const Recorder::Result& result);
+    using Result = Recorder::Result;
 
-    std::unique_ptr<ByteSink> m_sink;
-    Recorder m_recorder; ///< the thread's own
+    Recording(const PacketLog& log, std::unique_ptr<ByteSink> sink, std::uint64_t from);
+    static tl::expected<std::unique_ptr<Recording>, FileError> begin(std::unique_ptr<Recording> recording,
+                                                                     const RecordingInfo& info);
+    void run();
+    [[nodiscard]] RecordingFigures figuresNow() const;
+    bool note(const Result& result);
+    [[nodiscard]] bool isFileFull() const;
+    Result goOn();
+    [[nodiscard]] Result checkRoom() const;
+    Result finish();
+
+    const PacketLog& m_log;
+    std::string m_path; ///< of the first file; empty where a sink was given
+    RecordingInfo m_info;
+    RecordingLimits m_limits;
+    std::unique_ptr<ByteSink> m_sink; ///< exchanged under the mutex
+    // The thread's own:
+    std::optional<Recorder> m_recorder;
+    RecordingFigures m_before{0, 0, 0, 0}; ///< of the files that have ended
+    std::chrono::steady_clock::time_point m_fileBegin = std::chrono::steady_clock::now();
+
     mutable std::mutex m_mutex;
+    std::vector<std::string> m_notes;
     std::condition_variable m_changed;
     bool m_isStopping = false;
     RecordingFigures m_figures;

@@ -133,9 +133,34 @@ void SessionDriver::tick() {
             emit relayStopped();
         }
         m_receiving.examine(m_live, now);
+        watchTakes(now);
         measureHealth();
         emit tableTick();
     }
+}
+
+QString SessionDriver::toggleRecording(const RecordingChoice& choice) {
+    QString problem;
+    if (isRecording()) {
+        m_takes.stop(m_live);
+    } else {
+        problem = m_takes.start(choice, m_live);
+    }
+    emit recordingChanged({});
+    return problem;
+}
+
+/// One that ends by itself is an incident of this computer.
+void SessionDriver::watchTakes(log::Stamp now) {
+    const std::string problem = m_takes.takeProblem();
+    if (problem.empty()) {
+        return;
+    }
+    model::Occurrence one = model::Occurrence::at(model::IncidentKind::RecordingEnded, log::kNoSender, now,
+                                                  m_live.end() == 0 ? 0 : m_live.end() - 1);
+    one.detail = "The recording has ended: " + problem + '.';
+    m_live.report(one);
+    emit recordingChanged(QString::fromStdString(one.detail));
 }
 
 void SessionDriver::measureHealth() {

@@ -5,6 +5,7 @@
 #include "app/gui/driver/opened_file.h"
 #include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
+#include "app/gui/driver/takes.h"
 #include "app/gui/program_view.h"
 #include "core/log/disk_history.h"
 #include "core/model/session/playback.h"
@@ -48,6 +49,12 @@ public:
     [[nodiscard]] const QString& cacheFolder() const { return m_cacheFolder; }
     /// Null where nothing is kept.
     [[nodiscard]] const log::DiskHistory* diskHistory() const { return m_history.get(); }
+
+    /// Begins a take of what is received, or ends it; whatever is shown. The answer is why it cannot begin,
+    /// empty where it does.
+    QString toggleRecording(const RecordingChoice& choice);
+    [[nodiscard]] bool isRecording() const { return m_takes.isRecording(); }
+    [[nodiscard]] std::optional<TakeState> take() const { return m_takes.state(m_live); }
 
     /// Begins to read a file of datagrams, instead of one that is open; fileOpened() says how it went. It is
     /// shown as soon as there is something of it.
@@ -170,6 +177,8 @@ signals:
     /// A file was read, or could not be. `text` is what is to be said about it, empty for nothing.
     void fileOpened(bool isRead, const QString& text);
     void demoChanged(bool isRunning);
+    /// A take began or ended; `problem` is why it ended by itself, empty where it did not.
+    void recordingChanged(const QString& problem);
     void frameRequested(const model::CharacterKey& key);
     void ghostChanged(bool isVisible);
     void dockRequested(const QString& dock);
@@ -192,6 +201,7 @@ private:
     void playOn();
     [[nodiscard]] std::optional<model::TimeRange> loopRange() const;
     void measureHealth();
+    void watchTakes(log::Stamp now);
     /// A packet with its sender and character; nothing where there is no such packet.
     [[nodiscard]] std::optional<model::Selection> selectionOf(std::uint64_t packet) const;
     /// True if there was anything new of the file.
@@ -206,6 +216,7 @@ private:
     log::PacketLog m_log;
     std::unique_ptr<log::DiskHistory> m_history; ///< null where nothing is kept
     model::Session m_live;
+    Takes m_takes{m_log};
     Receiving m_receiving;
     std::unique_ptr<OpenedFile> m_file; ///< null where none is open
     bool m_isFileShown = false;

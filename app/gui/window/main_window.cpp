@@ -89,11 +89,11 @@ void MainWindow::makeBars() {
         m_menus.action("sampleBack"), m_menus.action("sampleOn"),
         m_menus.action("playBack"),   m_menus.action("play"),
         m_menus.action("loop"),       menuAt(*menuBar(), QStringLiteral("&Time/Sp&eed"))};
-    m_transport =
-        new TransportBar(m_driver.session(),
-                         TransportBar::Actions{m_menus.action("pause"), m_menus.action("live"),
-                                               m_menus.action("inputs"), m_menus.action("relay"), time},
-                         this);
+    m_transport = new TransportBar(m_driver.session(),
+                                   TransportBar::Actions{m_menus.action("record"), m_menus.action("pause"),
+                                                         m_menus.action("live"), m_menus.action("inputs"),
+                                                         m_menus.action("relay"), time},
+                                   this);
     connect(m_transport, &TransportBar::inputRequested, this, [this](const InputAddress& input) {
         openInputs(InputsDialog::Page::Inputs);
         m_inputs->inputs().select(input);
@@ -208,6 +208,13 @@ void MainWindow::connectDriver() {
     });
     connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
     connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
+    connect(&m_driver, &SessionDriver::recordingChanged, this, [this](const QString& problem) {
+        m_menus.showStates();
+        m_transport->showTake(m_driver.take());
+        say(problem);
+    });
+    connect(&m_driver, &SessionDriver::tableTick, m_transport,
+            [this] { m_transport->showTake(m_driver.take()); });
     connect(m_viewport, &ViewportWidget::optionsChanged, this, showStates);
     showReceiving();
 }

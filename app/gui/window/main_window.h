@@ -44,6 +44,8 @@ public:
     void openFile();
     void openPath(const QString& path);
     void listRecentFiles(QMenu& menu);
+    void toggleRecording();
+    void editRecording();
     void clearRecentFiles() { m_settings.recentFiles.clear(); }
     void closeFile() { m_driver.closeFile(); }
     void editThresholds();

@@ -195,6 +195,10 @@ const ActionInfo kActions[] = {
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", Do::call<saveReport>},
     panelsIn("&File"),
     lineIn("&File"),
+    {"record", "&File", QT_TRANSLATE_NOOP("Action", "Reco&rd"), "R", Do::call<&Window::toggleRecording>,
+     Do::isIn<&Window::driver, &SessionDriver::isRecording>},
+    {"recordingOptions", "&File", QT_TRANSLATE_NOOP("Action", "Recor&ding options…"), "",
+     Do::call<&Window::editRecording>},
     {"history", "&File", QT_TRANSLATE_NOOP("Action", "&History…"), "", Do::call<&Window::editHistory>},
     {"quit", "&File", QT_TRANSLATE_NOOP("Action", "&Quit"), "Ctrl+Q", Do::call<&Window::close>},
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which files the window opens.
+// Which files the window opens and records.
+#include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
+#include "app/gui/window/recording_dialog.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -40,6 +42,19 @@ void MainWindow::listRecentFiles(QMenu& menu) {
     QAction* clear = m_menus.action("clearRecentFiles");
     clear->setEnabled(!m_settings.recentFiles.isEmpty());
     menu.addAction(clear);
+}
+
+void MainWindow::toggleRecording() {
+    if (const QString problem = m_driver.toggleRecording(m_settings.recording); !problem.isEmpty()) {
+        MessageBox(tr("Record"), problem, QMessageBox::Ok, this).exec();
+    }
+}
+
+void MainWindow::editRecording() {
+    RecordingDialog dialog(m_settings.recording, this);
+    if (dialog.exec() == QDialog::Accepted) {
+        m_settings.recording = dialog.choice();
+    }
 }
 
 void MainWindow::showOpening() {

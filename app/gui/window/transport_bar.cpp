@@ -43,6 +43,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     : QWidget(parent),
       m_session(&session),
       m_actions(actions),
+      m_record(framedButton(actions.record, this)),
       m_pause(framedButton(actions.pause, this)),
       m_live(framedButton(actions.live, this)),
       m_past(new TimeControls(actions.time, this)),
@@ -59,6 +60,7 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     auto* row = new QHBoxLayout(this);
     row->setContentsMargins(12, 6, 12, 7);
     row->setSpacing(10);
+    row->addWidget(m_record);
     row->addWidget(m_pause);
     row->addWidget(m_live);
     row->addWidget(m_past);
@@ -76,7 +78,10 @@ TransportBar::TransportBar(model::SessionView& session, const Actions& actions, 
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
     new EventWatch(this, QEvent::Resize,
                    [this] { m_detail->setVisible(width() > 100 * fontMetrics().averageCharWidth()); });
+    m_record->setCheckable(true);
+    m_record->setObjectName(QStringLiteral("recordButton"));
     restyle();
+    showTake({});
     refresh();
 }
 
@@ -87,7 +92,30 @@ void TransportBar::restyle() {
     m_time->setFont(font);
     m_detail->setFont(tabularFont());
     m_time->setMinimumWidth(QFontMetrics(font).horizontalAdvance(QStringLiteral("00:00:00.000")));
+    m_record->setIcon(themedIcon(QStringLiteral("record"), theme().error));
     showMode(modeNow());
+}
+
+void TransportBar::showTake(const std::optional<TakeState>& take) {
+    m_record->setChecked(take.has_value());
+    if (!take) {
+        m_record->setText(tr("Record   R"));
+        m_record->setToolTip(tr("Record what is received to a file (R)"));
+        m_record->setAccessibleName(tr("Record"));
+        return;
+    }
+    const auto seconds = static_cast<std::int64_t>(take->seconds);
+    m_record->setText(tr("REC %1:%2 · %3 MB")
+                          .arg(seconds / 60)
+                          .arg(seconds % 60, 2, 10, QLatin1Char('0'))
+                          .arg(grouped(take->figures.bytes / 1'000'000)));
+    const QString missed =
+        take->figures.missed == 0
+            ? tr("nothing missed")
+            : tr("%1 packets missed: the disk is too slow").arg(grouped(take->figures.missed));
+    m_record->setToolTip(toolTipText(tr("Recording to %1: %2 packets, %3. Press to stop (R).")
+                                         .arg(take->path, grouped(take->figures.packets), missed)));
+    m_record->setAccessibleName(tr("Recording, %1").arg(m_record->text()));
 }
 
 void TransportBar::showSession(model::SessionView& session, bool isLive) {

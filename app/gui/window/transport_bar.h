@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "app/gui/driver/takes.h"
 #include "app/gui/program_view.h"
 #include "app/gui/window/time_controls.h"
 #include "core/model/session/session_view.h"
@@ -24,9 +25,10 @@ class TransportBar final : public QWidget {
     Q_OBJECT
 
 public:
-    /// `pause` stops and continues, `live` goes to the end, `inputs` is for the list of inputs, `relay` is
-    /// for forwarding, `time` is for the past.
+    /// `record` begins and ends a take, `pause` stops and continues, `live` goes to the end, `inputs` is for
+    /// the list of inputs, `relay` is for forwarding, `time` is for the past.
     struct Actions {
+        QAction* record;
         QAction* pause;
         QAction* live;
         QAction* inputs;
@@ -39,6 +41,8 @@ public:
     void showSession(model::SessionView& session, bool isLive);
 
     void refresh();
+    /// Of the recording that runs, if any.
+    void showTake(const std::optional<TakeState>& take);
     void setReceiving(const ReceivingState& receiving);
 
 signals:
@@ -61,6 +65,7 @@ private:
 
     model::SessionView* m_session;
     const Actions m_actions;
+    QToolButton* m_record;
     QToolButton* m_pause;
     QToolButton* m_live;
     TimeControls* m_past; ///< only while it is what is shown

@@ -184,6 +184,7 @@ std::string Incident::text() const {
     case IncidentKind::Scale:
     case IncidentKind::MetadataChange:
     case IncidentKind::RelayLoop:
+    case IncidentKind::RecordingEnded:
         return detail;
     case IncidentKind::ScaleChange:
         return "The null pose changed.";

@@ -32,6 +32,7 @@ enum class IncidentKind : std::uint8_t {
     ScaleChange,
     Overtaken,
     RelayLoop,
+    RecordingEnded, ///< by itself: its disk is full, say
     ClockSet,
     LossLimit,
     JitterLimit,
@@ -39,7 +40,7 @@ enum class IncidentKind : std::uint8_t {
     AgeLimit,
     RateLimit,
 };
-inline constexpr std::size_t kIncidentKinds = 23;
+inline constexpr std::size_t kIncidentKinds = 24;
 
 enum class IncidentSeverity : std::uint8_t { Info, Warning, Error };
 /// What an operator filters by.

@@ -42,6 +42,7 @@ inline constexpr std::array<IncidentKindFacts, kIncidentKinds> kIncidentKindTabl
         {K::ScaleChange, "scale change", "", S::Info, G::Content, false, true},
         {K::Overtaken, "overtaken", "local", S::Error, G::Loss, false, false, true},
         {K::RelayLoop, "relay loop", "local", S::Error, G::Sender},
+        {K::RecordingEnded, "recording", "local", S::Error, G::Sender},
         {K::ClockSet, "clock set", "clock", S::Warning, G::Sender},
         {K::LossLimit, "loss limit", "limit", S::Warning, G::Limit, true},
         {K::JitterLimit, "jitter limit", "limit", S::Warning, G::Limit, true},

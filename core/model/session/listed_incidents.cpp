@@ -236,6 +236,7 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed)
                incident.detail;
     case IncidentKind::Overtaken:
     case IncidentKind::RelayLoop:
+    case IncidentKind::RecordingEnded:
     case IncidentKind::ClockSet: {
         std::string text = incident.text();
         text.erase(text.find_last_not_of('.') + 1);

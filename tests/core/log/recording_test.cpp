@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <random>
+#include <thread>
 
 #include <csignal>
 #include <sys/resource.h>
@@ -56,6 +57,64 @@ TEST(Recording, EndsItsFileWhenItIsDestroyed) {
     const std::string path = newFile();
     { ASSERT_TRUE(Recording::start(log, path, {})); }
     EXPECT_GT(std::filesystem::file_size(path), 0U);
+}
+
+TEST(Recording, GoesOnInAnotherFileWithoutLosingAPacket) {
+    constexpr std::uint32_t count = 5'000;
+    PacketLog log;
+    const std::string path = newFile();
+    auto recording = Recording::start(log, path, {}, {}, 0, {.fileBytes = 100'000});
+    ASSERT_TRUE(recording) << recording.error().text;
+    const SenderId sender = log.senders().intern({"10.0.0.2:40001", Transport::Udp, 9763});
+    const auto hasFiles = [&](unsigned files) { return (*recording)->figures().files >= files; };
+    std::uint32_t sample = 0;
+    for (unsigned files = 2; files <= 3; ++files) { // until that many have begun
+        for (; !hasFiles(files); ++sample) {
+            log.writer().append(poseDatagram(sample), {Stamp(Duration(sample)), sender, 0, {}});
+            log.writer().publish();
+            if (sample >= count) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+        }
+    }
+    ASSERT_TRUE((*recording)->stop());
+    std::uint32_t next = 0;
+    std::uint64_t bytes = 0;
+    for (unsigned part = 1; part <= (*recording)->figures().files; ++part) {
+        bytes += std::filesystem::file_size(partPath(path, part));
+        for (const Recorded& each : recordedInFile(partPath(path, part))) {
+            ASSERT_EQ(each.stamp, Stamp(Duration(next++)));
+        }
+    }
+    EXPECT_EQ(next, sample);
+    EXPECT_EQ((*recording)->figures().packets, sample);
+    EXPECT_EQ((*recording)->figures().bytes, bytes);
+}
+
+TEST(Recording, BeginsNothingOnADiskThatIsTooFull) {
+    PacketLog log;
+    const auto recording = Recording::start(log, newFile(), {}, {}, 0, {.leaveFree = UINT64_MAX});
+    ASSERT_FALSE(recording);
+    EXPECT_THAT(recording.error().text, testing::HasSubstr("MB are free on its disk"));
+}
+
+TEST(Recording, EndsWithNotesOnAllOfIt) {
+    PacketLog log;
+    const std::string path = newFile();
+    auto recording = Recording::start(log, path, {});
+    ASSERT_TRUE(recording);
+    ASSERT_TRUE((*recording)->stop({"3 samples lost on Mira, network", "Mark on packet 7: here"}));
+    std::ifstream file(path, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_THAT(text, testing::HasSubstr("3 samples lost on Mira, network"));
+    EXPECT_THAT(text, testing::HasSubstr("Mark on packet 7: here"));
+    EXPECT_TRUE(recordedInFile(path).empty()) << "and it can be read";
+}
+
+TEST(Recording, PartsHaveNamesOfTheirOwn) {
+    EXPECT_EQ(partPath("/a/take 3.pcapng", 1), "/a/take 3.pcapng");
+    EXPECT_EQ(partPath("/a/take 3.pcapng", 2), "/a/take 3 part 2.pcapng");
+    EXPECT_EQ(partPath("take", 12), "take part 12");
 }
 
 TEST(Recording, FailsWhereTheFileCannotBeMade) {

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <climits>
 #include <optional>
 #include <thread>
 
@@ -102,6 +103,37 @@ TEST_F(SessionDriverTest, PausingFreezesTheDisplayWhileTheLogGoesOn) {
     EXPECT_EQ(driver.session().pose(key)->sample, sample);
     driver.setPaused(false);
     EXPECT_GT(driver.session().pose(key)->sample, sample);
+}
+
+TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
+    const QTemporaryDir folder;
+    const RecordingChoice choice{
+        .folder = folder.path(), .pattern = "take", .preRollSeconds = 60, .freeMegabytes = 0};
+    listenAndSend(50);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.live().end() == 50; }));
+    driver.setMarked(20, true);
+    driver.setPaused(true);
+    ASSERT_EQ(driver.toggleRecording(choice), "");
+    ASSERT_TRUE(driver.isRecording());
+    listenAndSend(50);
+    ASSERT_TRUE(tickUntil(driver, [&] { return driver.take()->figures.packets == 100; }));
+    EXPECT_EQ(driver.take()->path, folder.filePath("take.pcapng"));
+    EXPECT_EQ(driver.toggleRecording(choice), "");
+    EXPECT_FALSE(driver.isRecording());
+    ASSERT_TRUE(tickUntil(driver, [&] {
+        QFile file(folder.filePath("take.pcapng"));
+        return file.open(QIODevice::ReadOnly) && file.readAll().contains("Mark on packet 20 at ");
+    }));
+    ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
+    EXPECT_EQ(driver.session().end(), 100U);
+}
+
+TEST_F(SessionDriverTest, ATakeThatCannotBeginSaysWhy) {
+    const QTemporaryDir folder;
+    const RecordingChoice full{.folder = folder.path(), .freeMegabytes = INT_MAX};
+    EXPECT_TRUE(driver.toggleRecording(full).contains("MB are free"));
+    EXPECT_FALSE(driver.isRecording());
+    EXPECT_TRUE(driver.toggleRecording({.folder = "/proc/none"}).contains("/proc/none"));
 }
 
 TEST_F(SessionDriverTest, AnnouncesAPauseOnce) {

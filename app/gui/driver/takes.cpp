@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/takes.h"
+
+#include "core/model/session/listed_incidents.h"
+
+#include <QCoreApplication>
+#include <QDateTime>
+#include <QDir>
+#include <QFile>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::size_t kMostNotes = 1'000;
+
+QDateTime localTime(log::WallTime time) {
+    return QDateTime::fromMSecsSinceEpoch(log::nanosecondsOf(time) / 1'000'000);
+}
+
+std::string noteOn(const model::SessionView& live, std::uint64_t packet, const std::string& comment) {
+    const auto found = live.packet(packet);
+    const QString when =
+        found ? QStringLiteral(" at ") +
+                    localTime(live.wallOf(found->stamp)).toString(QStringLiteral("HH:mm:ss.zzz"))
+              : QString();
+    return "Mark on packet " + std::to_string(packet) + when.toStdString() +
+           (comment.empty() ? "" : ": " + comment);
+}
+
+} // namespace
+
+Takes::~Takes() {
+    m_recording.reset();
+    m_ending.clear(); // waits for each
+}
+
+QString Takes::start(const RecordingChoice& choice, const model::SessionView& live) {
+    const QString folder = recordingFolder(choice);
+    if (!QDir().mkpath(folder)) {
+        return tr("%1 cannot be made: choose another folder under Recording options.").arg(folder);
+    }
+    m_begin = live.now();
+    const log::Duration preRoll = std::chrono::seconds(choice.preRollSeconds);
+    m_from = choice.preRollSeconds == 0 ? live.end() : live.packetFrom(m_begin - preRoll);
+    const auto first = live.packet(m_from);
+    m_fromStamp = first ? first->stamp : m_begin;
+    m_path = nextTakePath(choice, QDateTime::currentDateTime());
+    const log::RecordingLimits limits{static_cast<std::uint64_t>(choice.fileMegabytes) * 1'000'000,
+                                      std::chrono::minutes(choice.fileMinutes),
+                                      static_cast<std::uint64_t>(choice.freeMegabytes) * 1'000'000};
+    const QString application =
+        QCoreApplication::applicationName() + u' ' + QCoreApplication::applicationVersion();
+    auto recording = log::Recording::start(m_log, QFile::encodeName(m_path).toStdString(),
+                                           {{}, {}, application.toStdString()}, {}, m_from, limits);
+    if (!recording) {
+        return QString::fromStdString(recording.error().text);
+    }
+    m_recording = std::move(*recording);
+    return {};
+}
+
+void Takes::stop(const model::SessionView& live) {
+    if (m_recording == nullptr) {
+        return;
+    }
+    m_ending.push_back(std::async(std::launch::async, [recording = std::shared_ptr(std::move(m_recording)),
+                                                       notes = notes(live)]() mutable {
+        const auto stopped = recording->stop(std::move(notes));
+        return stopped ? std::string() : stopped.error().text;
+    }));
+}
+
+std::optional<TakeState> Takes::state(const model::SessionView& live) const {
+    if (m_recording == nullptr) {
+        return std::nullopt;
+    }
+    return TakeState{m_path, log::secondsOf(live.now() - m_fromStamp), m_recording->figures()};
+}
+
+std::string Takes::takeProblem() {
+    std::string problem;
+    if (m_recording != nullptr) {
+        if (const auto why = m_recording->failure()) {
+            problem = why->text;
+            m_recording.reset();
+        }
+    }
+    std::erase_if(m_ending, [&](std::future<std::string>& ending) {
+        const bool isOver = ending.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+        if (const std::string text = isOver ? ending.get() : std::string(); !text.empty()) {
+            problem = text;
+        }
+        return isOver;
+    });
+    return problem;
+}
+
+std::vector<std::string> Takes::notes(const model::SessionView& live) const {
+    std::vector<std::string> notes;
+    const model::Annotations& annotations = live.annotations();
+    for (auto mark = annotations.marks.lower_bound(m_from); mark != annotations.marks.end(); ++mark) {
+        if (!annotations.comments.contains(*mark)) {
+            notes.push_back(noteOn(live, *mark, {}));
+        }
+    }
+    for (auto comment = annotations.comments.lower_bound(m_from); comment != annotations.comments.end();
+         ++comment) {
+        notes.push_back(noteOn(live, comment->first, comment->second));
+    }
+    for (const model::ListedIncident& listed : model::listedIncidents(live, m_fromStamp)) {
+        if (listed.incident.lastStamp >= m_fromStamp && !model::isOnlyComing(listed)) {
+            notes.push_back(headlineOf(live, listed) + whenOf(live, listed));
+        }
+    }
+    notes.resize(std::min(notes.size(), kMostNotes));
+    return notes;
+}
+
+} // namespace posewire::gui
