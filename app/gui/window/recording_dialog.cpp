@@ -25,10 +25,13 @@ RecordingDialog::RecordingDialog(const RecordingChoice& choice, QWidget* parent)
       m_next(dimText({}, this)) {
     setWindowTitle(tr("Recording options"));
     auto* form = new QFormLayout;
-    auto* folder = new QHBoxLayout;
+    auto* folder = new QWidget(this);
+    auto* row = new QHBoxLayout(folder);
+    row->setContentsMargins({});
+    folder->setFocusProxy(m_folder);
     auto* choose = new QPushButton(tr("Choose…"), this);
-    folder->addWidget(m_folder, 1);
-    folder->addWidget(choose);
+    row->addWidget(m_folder, 1);
+    row->addWidget(choose);
     form->addRow(tr("&Folder"), folder);
     form->addRow(tr("&Name"), m_pattern);
     form->addRow({}, m_next);
@@ -50,11 +53,10 @@ RecordingDialog::RecordingDialog(const RecordingChoice& choice, QWidget* parent)
     connect(m_folder, &QLineEdit::textChanged, this, &RecordingDialog::check);
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
-    column->addWidget(
-        dimText(tr("A take has everything that is received while it runs, as pcapng: Posewire and "
-                   "Wireshark open it. In its name {take} is a number, {date} and {time} are when it "
-                   "begins. They hold from the next take on."),
-                this));
+    column->addWidget(dimText(tr("A take has everything that is received while it runs, as pcapng: Posewire "
+                                 "and Wireshark open it. In its name {take} is a number, {date} and {time} "
+                                 "are when it begins. What is chosen here counts from the next take on."),
+                              this));
     column->addLayout(form);
     column->addWidget(buttons);
     setMinimumWidth(fontMetrics().averageCharWidth() * 66);
