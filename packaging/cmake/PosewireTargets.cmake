@@ -113,7 +113,7 @@ function(posewire_test name)
   endforeach()
   if(POSEWIRE_SANITIZER) # starting a program costs more than most cases, so one ctest case runs them all
     add_test(NAME ${name} COMMAND ${name})
-    set_tests_properties(${name} PROPERTIES ${properties})
+    set_tests_properties(${name} PROPERTIES ${properties} TIMEOUT 900)
   else()
     gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST PROPERTIES ${properties})
   endif()

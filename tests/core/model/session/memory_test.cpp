@@ -77,7 +77,7 @@ TEST_F(MemoryTest, OfTinyDatagramsIsThatOfTheLog) {
 }
 
 TEST_F(MemoryTest, OfMetadataThatAlwaysChangesIsBounded) {
-    for (std::uint32_t i = 0; i < 3'000; ++i, m_at += 1ms) {
+    for (std::uint32_t i = 0; i < 800; ++i, m_at += 1ms) { // six times the budget
         wire::MetaData metadata;
         for (int tag = 0; tag < 64; ++tag) {
             metadata.text += std::to_string(tag) + ":" + std::to_string(i) + std::string(900, 'x') + "\n";
@@ -92,10 +92,10 @@ TEST_F(MemoryTest, OfMetadataThatAlwaysChangesIsBounded) {
 }
 
 TEST_F(MemoryTest, OfNullPosesInPartsThatAlwaysChangeIsBounded) {
-    for (std::uint32_t i = 0; i < 4'000; ++i, m_at += 1ms) {
+    for (std::uint32_t i = 0; i < 1'200; ++i, m_at += 1ms) { // four times the budget
         wire::NullPose part;
         part.segments.assign(200, {std::string(250, 'x'), {0, 0, static_cast<float>(i)}});
-        send(part, 0, static_cast<std::uint8_t>(i / 4 % 256),
+        send(part, 0, static_cast<std::uint8_t>(i / 4 % 64),
              static_cast<std::uint8_t>(i % 4 == 3 ? 0x83 : i % 4));
     }
     follow();
@@ -109,7 +109,7 @@ TEST_F(MemoryTest, OfTheNewestMessagesIsBoundedHoweverLargeTheyAre) {
     nullPose.segments.assign(200, {std::string(250, 'x'), {0, 0, 1}});
     wire::MetaData metadata;
     metadata.text = "name:" + std::string(60'000, 'x');
-    for (int sender = 0; sender < 4; ++sender) {
+    for (int sender = 0; sender < 2; ++sender) {
         for (int character = 0; character < 256; ++character, m_at += 1ms) {
             const auto id = static_cast<std::uint8_t>(character);
             const std::string address = "10.0.0.2:" + std::to_string(sender);

@@ -161,7 +161,7 @@ TEST_F(SplitMessages, AreGatheredNoFurtherThanAnyoneNeeds) {
 }
 
 TEST_F(SplitMessages, KeepMetadataAndNullPosesWithinTheirBudgets) {
-    for (std::uint32_t i = 0; i < 6'000; ++i) {
+    for (std::uint32_t i = 0; i < 2'000; ++i) {
         const std::string name = std::to_string(i) + std::string(2'000, 'x');
         wire::MetaData metadata;
         metadata.text = "name:" + name + "\n" + std::to_string(i % 64) + name + ":" + name + "\n";
@@ -176,7 +176,7 @@ TEST_F(SplitMessages, KeepMetadataAndNullPosesWithinTheirBudgets) {
     follow();
     EXPECT_LE(m_session.metadataBytes(), Ingest::kMetadataBudget);
     EXPECT_LE(m_session.nullPoseBytes(), Ingest::kNullPoseBudget);
-    EXPECT_TRUE(m_session.displayName(key()).shown().starts_with("5999x"));
+    EXPECT_TRUE(m_session.displayName(key()).shown().starts_with("1999x"));
 }
 
 } // namespace
