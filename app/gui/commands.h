@@ -41,8 +41,10 @@ public:
     virtual void forgetSender(log::SenderId sender) = 0;
     /// Shows the null pose of the shown character as a ghost over its figure.
     virtual void setGhostVisible(bool isVisible) = 0;
-    /// Brings the list of incidents to the front, with one selected where there is a number.
-    virtual void showIncident(std::optional<std::uint64_t> number) = 0;
+    /// Brings the list of incidents to the front: with one selected where there is a number, with those of a
+    /// character alone where there is one.
+    virtual void showIncident(std::optional<std::uint64_t> number,
+                              std::optional<model::CharacterKey> of = {}) = 0;
     virtual void copyText(const QString& text) = 0;
     /// Brings a dock before the others, by its object name.
     virtual void showDock(const QString& dock) = 0;

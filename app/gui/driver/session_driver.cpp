@@ -302,10 +302,8 @@ void SessionDriver::setGhostVisible(bool isVisible) {
     emit ghostChanged(isVisible);
 }
 
-void SessionDriver::showIncident(std::optional<std::uint64_t> number) {
-    model::Selection selection = shown().selection();
-    selection.incident = number;
-    select(selection);
+void SessionDriver::showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) {
+    change(&model::Session::askForIncident, number, of);
     showDock(QStringLiteral("events"));
 }
 

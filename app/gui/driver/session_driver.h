@@ -149,7 +149,7 @@ public:
     }
     void forgetSender(log::SenderId sender) override { change(&model::Session::forget, sender); }
     void setGhostVisible(bool isVisible) override;
-    void showIncident(std::optional<std::uint64_t> number) override;
+    void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) override;
     void copyText(const QString& text) override;
     void showDock(const QString& dock) override { emit dockRequested(dock); }
 
@@ -182,6 +182,8 @@ signals:
     void frameRequested(const model::CharacterKey& key);
     void ghostChanged(bool isVisible);
     void dockRequested(const QString& dock);
+    /// What was seen before the newest jump is shown again.
+    void wentBack();
 
 private:
     /// Calls a setter of the session, and shows what came of it.

@@ -143,6 +143,7 @@ void SessionDriver::goBack() {
     if (isPaused() != wasPaused) {
         emit pausedChanged(!wasPaused);
     }
+    emit wentBack();
 }
 
 void SessionDriver::play(Direction direction) {

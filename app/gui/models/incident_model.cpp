@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/incident_model.h"
 
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/wire/type_table.h"
@@ -184,9 +185,13 @@ bool IncidentModel::matches(const IncidentLine& line) const {
     if (m_filter.text.isEmpty()) {
         return true;
     }
-    return std::ranges::any_of(std::array{kText, kWho, kKind}, [&](int column) {
+    const bool isInCells = std::ranges::any_of(std::array{kText, kWho, kKind}, [&](int column) {
         return cell(line, column, Qt::DisplayRole).toString().contains(m_filter.text, Qt::CaseInsensitive);
     });
+    return isInCells || std::ranges::any_of(incident.characters(), [&](std::uint8_t character) {
+               return characterName(m_view, {incident.sender, character})
+                   .contains(m_filter.text, Qt::CaseInsensitive);
+           });
 }
 
 std::optional<IncidentModel::Key> IncidentModel::hostOf(const model::Incident& pending) const {

@@ -56,7 +56,7 @@ public:
         bool onlyCurrent = false;
         std::array<bool, 3> severities{true, true, true};   ///< by IncidentSeverity
         std::array<bool, 4> groups{true, true, true, true}; ///< by IncidentGroup
-        QString text;                                       ///< in whose or text, whatever the case
+        QString text; ///< in whose, also of one among several, or text, whatever the case
         friend bool operator==(const Filter&, const Filter&) = default;
     };
 

@@ -381,7 +381,7 @@ void CharactersPanel::showPacketsOfSelected() {
 
 void CharactersPanel::showIncidentsOfSelected() {
     if (const auto key = selected()) {
-        m_commands.showIncident(m_view.verdict(*key).incident);
+        m_commands.showIncident(m_view.verdict(*key).incident, *key);
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/incidents_panel.h"
 
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/saving.h"
@@ -203,12 +204,20 @@ void IncidentsPanel::refresh() {
 
 /// What somebody elsewhere asked for, once.
 void IncidentsPanel::showAskedFor() {
-    const std::optional<std::uint64_t> incident = m_view.selection().incident;
-    if (std::exchange(m_askedFor, incident) == incident || !incident) {
+    const model::IncidentRequest& request = m_view.incidentRequest();
+    if (std::exchange(m_requests, request.count) == request.count) {
         return;
     }
-    if (const QModelIndex row = m_incidents.indexOf(*incident); row.isValid()) {
-        m_current = incident;
+    if (request.of) {
+        IncidentModel::Filter filter;
+        filter.text = characterName(m_view, *request.of);
+        setFilter(filter);
+    }
+    if (!request.number) {
+        return;
+    }
+    if (const QModelIndex row = m_incidents.indexOf(*request.number); row.isValid()) {
+        m_current = request.number;
         setFollowing(false);
         m_table->setCurrentIndex(row);
         m_table->scrollTo(m_table->currentIndex(), QAbstractItemView::PositionAtCenter);

@@ -103,9 +103,9 @@ private:
     TableView* m_table;
     QPushButton* m_chip;
     PassingMessage* m_message;
-    std::optional<std::uint64_t> m_askedFor; ///< of what was selected when it was last looked at
-    std::optional<std::uint64_t> m_current;  ///< of the current row, kept while rows come and go
-    int m_missed = 0;                        ///< came since following ended
+    std::uint64_t m_requests = 0;           ///< that were carried out
+    std::optional<std::uint64_t> m_current; ///< of the current row, kept while rows come and go
+    int m_missed = 0;                       ///< came since following ended
     bool m_isFollowing = true;
     bool m_isRefreshing = false;
 };

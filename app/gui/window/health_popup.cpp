@@ -202,7 +202,7 @@ private:
             m_commands.frameCharacter(m_key);
         });
         add(QStringLiteral("allEvents"), tr("Show incidents"),
-            [this] { m_commands.showIncident(m_session.verdict(m_key).incident); });
+            [this] { m_commands.showIncident(m_session.verdict(m_key).incident, m_key); });
         column.addLayout(row);
     }
 

@@ -2,21 +2,16 @@
 #include "app/gui/window/keyboard.h"
 
 #include "app/gui/panels/range_bar.h"
-#include "app/gui/window/health_bar.h"
-#include "app/gui/window/main_window.h"
 
 #include <QAbstractButton>
 #include <QAbstractItemView>
 #include <QAbstractSlider>
 #include <QApplication>
 #include <QComboBox>
-#include <QDockWidget>
 #include <QKeyEvent>
 #include <QTabBar>
 #include <QToolButton>
 #include <QTreeView>
-
-#include <algorithm>
 
 namespace posewire::gui {
 
@@ -106,35 +101,6 @@ bool PressingKeys::eventFilter(QObject* watched, QEvent* event) {
         }
     }
     return true;
-}
-
-void MainWindow::moveFocus(int direction) {
-    std::vector<QWidget*> stops{m_viewport};
-    std::size_t current = 0;
-    for (const Dock& dock : m_docks) {
-        if (!dock.panel->isVisible()) {
-            continue;
-        }
-        if (dock.dock->isAncestorOf(QApplication::focusWidget())) {
-            current = stops.size();
-        }
-        stops.push_back(dock.panel);
-    }
-    if (m_health->firstEntry() != nullptr) {
-        current = m_health->isAncestorOf(QApplication::focusWidget()) ? stops.size() : current;
-        stops.push_back(m_health);
-    }
-    const std::size_t step = direction < 0 ? stops.size() - 1 : 1;
-    QWidget* next = stops[(current + step) % stops.size()];
-    const auto reached = std::ranges::find(m_docks, next, &Dock::panel);
-    if (reached != m_docks.end()) {
-        reached->dock->raise();
-    }
-    const QList<QWidget*> children = next->findChildren<QWidget*>();
-    const auto focusable = std::ranges::find_if(children, [](const QWidget* child) {
-        return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;
-    });
-    (focusable == children.end() || next == m_viewport ? next : *focusable)->setFocus(Qt::TabFocusReason);
 }
 
 } // namespace posewire::gui

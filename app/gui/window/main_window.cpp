@@ -110,7 +110,7 @@ void MainWindow::makeBars() {
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Verdict"), QStringLiteral("verdict"), m_verdict));
     connect(m_verdict, &VerdictBar::evidenceRequested, this, [this](std::optional<std::uint64_t> incident) {
         m_driver.showLive();
-        m_driver.showIncident(incident);
+        m_driver.showIncident(incident, {});
     });
 
     m_health = m_liveHealth = new HealthBar(m_driver.live(), m_driver, this);
@@ -196,7 +196,11 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showReceiving);
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::alert);
     connect(&m_driver, &SessionDriver::frameRequested, m_viewport, &ViewportWidget::frameCharacter);
-    connect(&m_driver, &SessionDriver::dockRequested, this, &MainWindow::showDock);
+    connect(&m_driver, &SessionDriver::dockRequested, this, [this](const QString& dock) {
+        m_covered = dockBefore(dock);
+        showDock(dock);
+    });
+    connect(&m_driver, &SessionDriver::wentBack, this, &MainWindow::uncover);
     const auto showStates = [this] { m_menus.showStates(); };
     connect(&m_driver, &SessionDriver::ghostChanged, this, showStates);
     connect(&m_driver, &SessionDriver::pausedChanged, this, showStates);
@@ -287,13 +291,6 @@ void MainWindow::closeEvent(QCloseEvent* event) {
         qWarning("Settings were not saved: %s", qUtf8Printable(problem));
     }
     event->accept();
-}
-
-bool MainWindow::Dock::isInSight() const {
-    // A dock behind another as a tab is not hidden but beside its window. What it covers with its own
-    // children says nothing: visibleRegion() is empty also where those are opaque.
-    return panel->isVisible() &&
-           (dock->isWindow() || dock->parentWidget()->rect().intersects(dock->geometry()));
 }
 
 void MainWindow::refreshPanels() {
@@ -398,15 +395,6 @@ void MainWindow::showLayoutName(const QString& name) {
     m_layoutButton->setText(tr("Layout: %1 ▾").arg(metrics.elidedText(name, Qt::ElideMiddle, most)));
 }
 
-void MainWindow::dockAll() {
-    for (const Dock& dock : m_docks) {
-        dock.dock->setFloating(false);
-    }
-    if (onScreen(geometry()).isEmpty()) {
-        move(screen()->availableGeometry().topLeft());
-    }
-}
-
 void MainWindow::findCommand() {
     CommandPalette palette(*menuBar(), this);
     palette.exec();
@@ -429,15 +417,6 @@ void MainWindow::keepHistory() {
     const std::uint64_t most = static_cast<std::uint64_t>(choice.gigabytes) * gigabyte;
     if (const QString problem = m_driver.keepHistory(choice.isOnDisk ? most : 0); !problem.isEmpty()) {
         say(problem);
-    }
-}
-
-void MainWindow::showDock(const QString& dock) {
-    const auto found =
-        std::ranges::find(m_docks, dock, [](const Dock& each) { return each.dock->objectName(); });
-    if (found != m_docks.end()) {
-        found->dock->show();
-        found->dock->raise();
     }
 }
 

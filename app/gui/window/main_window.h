@@ -93,6 +93,9 @@ private:
         [[nodiscard]] bool isInSight() const;
     };
 
+    [[nodiscard]] const Dock* findDock(const QString& name) const;
+    [[nodiscard]] QString dockBefore(const QString& name) const;
+    void uncover();
     /// Who carries an entry out: the panel, or the window itself.
     [[nodiscard]] const QWidget& ownerOf(const MenuEntry& entry) const;
     void makeDocks();
@@ -128,6 +131,7 @@ private:
     AlertSounds m_sounds;
     VerdictNotifier m_notifier{this};
     std::vector<Dock> m_docks;
+    QString m_covered; ///< dock that the newest request for another one hid; empty for none
     bool m_isRestored = false;
 };
 

@@ -41,4 +41,8 @@ void Choices::goBack() {
     }
 }
 
+void Choices::askForIncident(std::optional<std::uint64_t> number, std::optional<CharacterKey> of) {
+    incidentRequest = {number, of, incidentRequest.count + 1};
+}
+
 } // namespace posewire::model

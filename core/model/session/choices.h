@@ -45,11 +45,17 @@ struct FoundBytes {
 struct Selection {
     std::optional<log::SenderId> sender{};
     std::optional<CharacterKey> character{};
-    int segment = -1;                        ///< position in the pose datagram, -1 for none
-    std::optional<std::uint64_t> packet{};   ///< its number in the log; nothing: the newest one
-    std::optional<FoundBytes> found{};       ///< by the newest search
-    std::optional<std::uint64_t> incident{}; ///< its number, where one was asked for
+    int segment = -1;                      ///< position in the pose datagram, -1 for none
+    std::optional<std::uint64_t> packet{}; ///< its number in the log; nothing: the newest one
+    std::optional<FoundBytes> found{};     ///< by the newest search
     friend bool operator==(const Selection&, const Selection&) = default;
+};
+
+/// Which incident is to be looked at in their list.
+struct IncidentRequest {
+    std::optional<std::uint64_t> number{}; ///< of the incident; nothing: none of them
+    std::optional<CharacterKey> of{};      ///< whose are listed; nothing: the list stays as it is
+    std::uint64_t count = 0;               ///< of requests so far
 };
 
 /// What the operator wrote on packets; kept by packet number, also where the log has dropped the packet.
@@ -76,9 +82,10 @@ struct Choices {
     std::string displayFilter; ///< which packets are listed, in the filter language; empty for all
     std::vector<Jump> jumps;   ///< that can be undone, the newest last
     Annotations annotations;
-    std::set<CharacterKey> hidden; ///< characters that are not drawn
-    bool isGhostShown = false;     ///< the null pose of the shown character over its figure
-    log::Stamp reset{};            ///< what was before does not count for the take; 0: all counts
+    IncidentRequest incidentRequest; ///< the newest
+    std::set<CharacterKey> hidden;   ///< characters that are not drawn
+    bool isGhostShown = false;       ///< the null pose of the shown character over its figure
+    log::Stamp reset{};              ///< what was before does not count for the take; 0: all counts
 
     /// Jumps that can be undone; the oldest are forgotten.
     static constexpr std::size_t kMostJumps = 50;
@@ -93,6 +100,7 @@ struct Choices {
     /// To the filter, the selection and the moment before the newest jump. Nothing happens where there was
     /// none.
     void goBack();
+    void askForIncident(std::optional<std::uint64_t> number, std::optional<CharacterKey> of);
 };
 
 } // namespace posewire::model

@@ -67,6 +67,9 @@ public:
         m_choices.reset = now();
         m_choices.range = {.isSinceReset = true};
     }
+    void askForIncident(std::optional<std::uint64_t> number, std::optional<CharacterKey> of) {
+        m_choices.askForIncident(number, of);
+    }
     void setGhostShown(bool isShown) { m_choices.isGhostShown = isShown; }
 
 private:

@@ -130,6 +130,7 @@ public:
     [[nodiscard]] const Annotations& annotations() const { return m_choices.annotations; }
     /// Also where it was hidden before its sender was restarted.
     [[nodiscard]] bool isHidden(const CharacterKey& key) const;
+    [[nodiscard]] const IncidentRequest& incidentRequest() const { return m_choices.incidentRequest; }
     [[nodiscard]] bool isGhostShown() const { return m_choices.isGhostShown; }
     /// When the span that counts for the take began; 0: with the session.
     [[nodiscard]] log::Stamp reset() const { return m_choices.reset; }

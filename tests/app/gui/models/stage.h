@@ -60,10 +60,8 @@ public:
     void forgetSender(log::SenderId sender) override { m_session.forget(sender); }
     void setGhostVisible(bool isVisible) override { m_session.setGhostShown(isVisible); }
     void showDock(const QString&) override {}
-    void showIncident(std::optional<std::uint64_t> number) override {
-        model::Selection selection = m_session.selection();
-        selection.incident = number;
-        select(selection);
+    void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) override {
+        m_session.askForIncident(number, of);
     }
     void copyText(const QString& text) override { copied = text; }
 

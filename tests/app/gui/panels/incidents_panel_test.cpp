@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/incidents_panel.h"
 
+#include "app/gui/models/shown_character.h"
 #include "app/gui/panels/table_view.h"
 #include "tests/app/gui/models/stage.h"
 
@@ -134,6 +135,27 @@ TEST_F(IncidentsPanelTest, AStreamOfAnIncidentLeadsToItsOwnPackets) {
         }
     }
     EXPECT_GE(seen, 4);
+}
+
+TEST_F(IncidentsPanelTest, ListsTheIncidentsOfACharacterEachTimeTheyAreAskedFor) {
+    sendForeign(1);
+    ASSERT_GT(m_table->model()->rowCount(), 1);
+    const model::Incident* loss = nullptr;
+    for (const model::Incident& one : m_stage.session.incidents().all()) {
+        loss = one.kind == model::IncidentKind::Loss ? &one : loss;
+    }
+    ASSERT_NE(loss, nullptr);
+    const model::CharacterKey key{loss->sender, *loss->character()};
+    for (int time = 0; time < 2; ++time) {
+        m_commands.showIncident(loss->number, key);
+        m_panel.refresh();
+        EXPECT_TRUE(rowWith("lost").isValid()) << "its loss stays listed";
+        EXPECT_FALSE(rowWith("MXTP").isValid()) << "foreign datagrams are of no character";
+        EXPECT_EQ(m_table->currentIndex().row(), rowWith("lost").row());
+        EXPECT_EQ(m_panel.filter().text, characterName(m_stage.session, key));
+        m_panel.setFilter({});
+        EXPECT_TRUE(rowWith("MXTP").isValid()) << "the operator took the filter off";
+    }
 }
 
 TEST_F(IncidentsPanelTest, SummaryTellsWhatGoesOnAndWhatIsNew) {

@@ -155,7 +155,7 @@ TEST_F(TimelineTest, AnIncidentIsShownWhereItsMarkIsClicked) {
     const QPoint mark(static_cast<int>(m_timeline.placeOf(outage->firstStamp)),
                       m_timeline.rulerHeight() - m_timeline.fontMetrics().height() / 2);
     QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, mark);
-    EXPECT_EQ(m_stage.session.selection().incident, outage->number);
+    EXPECT_EQ(m_stage.session.incidentRequest().number, outage->number);
 }
 
 } // namespace

@@ -444,6 +444,27 @@ TEST_F(MainWindowTest, F6BringsADockBehindATabToTheFront) {
     }
 }
 
+TEST_F(MainWindowTest, GoingBackFromPacketsBringsTheDockBeforeThemToTheFront) {
+    const auto window = makeWindow();
+    QDockWidget* packets = dock(*window, "packets");
+    QDockWidget* events = dock(*window, "events");
+    packets->show();
+    events->show();
+    window->tabifyDockWidget(packets, events);
+    events->raise();
+    QTest::qWait(1);
+    const auto isInFront = [&](QDockWidget* one) { return window->rect().intersects(one->geometry()); };
+    ASSERT_TRUE(isInFront(events) && !isInFront(packets));
+    driver.jump(0, "type == 02");
+    driver.showDock("packets");
+    QTest::qWait(1);
+    ASSERT_TRUE(isInFront(packets) && !isInFront(events));
+    driver.goBack();
+    QTest::qWait(1);
+    EXPECT_TRUE(isInFront(events) && !isInFront(packets));
+    EXPECT_TRUE(events->isAncestorOf(QApplication::focusWidget()));
+}
+
 TEST_F(MainWindowTest, RefreshesDocksInSightAlsoWhereTheirContentCoversThem) {
     const auto window = makeWindow();
     window->useLayout("Debug");

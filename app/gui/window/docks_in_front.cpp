@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/health_bar.h"
+#include "app/gui/window/main_window.h"
+
+#include <QApplication>
+#include <QDockWidget>
+#include <QScreen>
+
+#include <algorithm>
+#include <utility>
+
+/// Which dock lies in front, and where the keyboard is.
+namespace posewire::gui {
+
+namespace {
+
+/// What takes the keyboard first within a part of the window; the part itself where nothing does.
+QWidget* firstStop(QWidget* part) {
+    const QList<QWidget*> children = part->findChildren<QWidget*>();
+    const auto found = std::ranges::find_if(children, [](const QWidget* child) {
+        return child->isVisible() && (child->focusPolicy() & Qt::TabFocus) != 0;
+    });
+    return found == children.end() ? part : *found;
+}
+
+} // namespace
+
+bool MainWindow::Dock::isInSight() const {
+    // A dock behind another as a tab is not hidden but beside its window. What it covers with its own
+    // children says nothing: visibleRegion() is empty also where those are opaque.
+    return panel->isVisible() &&
+           (dock->isWindow() || dock->parentWidget()->rect().intersects(dock->geometry()));
+}
+
+const MainWindow::Dock* MainWindow::findDock(const QString& name) const {
+    const auto found =
+        std::ranges::find(m_docks, name, [](const Dock& each) { return each.dock->objectName(); });
+    return found == m_docks.end() ? nullptr : &*found;
+}
+
+void MainWindow::showDock(const QString& dock) {
+    if (const Dock* found = findDock(dock)) {
+        found->dock->show();
+        found->dock->raise();
+    }
+}
+
+/// Whose tab hides a dock; empty for none.
+QString MainWindow::dockBefore(const QString& name) const {
+    const Dock* dock = findDock(name);
+    if (dock == nullptr || dock->isInSight()) {
+        return {};
+    }
+    for (const QDockWidget* neighbour : tabifiedDockWidgets(dock->dock)) {
+        if (const Dock* other = findDock(neighbour->objectName()); other != nullptr && other->isInSight()) {
+            return neighbour->objectName();
+        }
+    }
+    return {};
+}
+
+/// Brings back what a jump to packets has covered, and the keyboard with it.
+void MainWindow::uncover() {
+    if (const Dock* dock = findDock(std::exchange(m_covered, {}))) {
+        dock->dock->raise();
+        firstStop(dock->panel)->setFocus();
+    }
+}
+
+void MainWindow::dockAll() {
+    for (const Dock& dock : m_docks) {
+        dock.dock->setFloating(false);
+    }
+    if (onScreen(geometry()).isEmpty()) {
+        move(screen()->availableGeometry().topLeft());
+    }
+}
+
+void MainWindow::moveFocus(int direction) {
+    std::vector<QWidget*> stops{m_viewport};
+    std::size_t current = 0;
+    for (const Dock& dock : m_docks) {
+        if (!dock.panel->isVisible()) {
+            continue;
+        }
+        if (dock.dock->isAncestorOf(QApplication::focusWidget())) {
+            current = stops.size();
+        }
+        stops.push_back(dock.panel);
+    }
+    if (m_health->firstEntry() != nullptr) {
+        current = m_health->isAncestorOf(QApplication::focusWidget()) ? stops.size() : current;
+        stops.push_back(m_health);
+    }
+    const std::size_t step = direction < 0 ? stops.size() - 1 : 1;
+    QWidget* next = stops[(current + step) % stops.size()];
+    const auto reached = std::ranges::find(m_docks, next, &Dock::panel);
+    if (reached != m_docks.end()) {
+        reached->dock->raise();
+    }
+    (next == m_viewport ? next : firstStop(next))->setFocus(Qt::TabFocusReason);
+}
+
+} // namespace posewire::gui
