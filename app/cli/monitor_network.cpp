@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <future>
 #include <iterator>
 #include <map>
 
@@ -84,8 +86,7 @@ public:
     [[nodiscard]] bool hasFailed() const { return m_status != ExitStatus::Fine; }
     ExitStatus stop() {
         if (m_recording && m_status == ExitStatus::Fine) {
-            const auto stopped = m_recording->stop();
-            note(stopped ? std::nullopt : std::optional(stopped.error()));
+            note(finish());
         }
         if (m_recording) {
             const log::RecordingFigures recorded = m_recording->figures();
@@ -96,6 +97,16 @@ public:
     }
 
 private:
+    /// A slow disk may take its time for what it has still to get. Why the file is not whole, if it is not.
+    std::optional<log::FileError> finish() {
+        constexpr std::chrono::seconds kPatience(1);
+        auto stopped = std::async(std::launch::async, [this] { return m_recording->stop(); });
+        if (stopped.wait_for(kPatience) != std::future_status::ready) {
+            m_console.complain("the recording is still being written; Ctrl+C again gives up the rest of it");
+        }
+        const auto result = stopped.get();
+        return result ? std::nullopt : std::optional(result.error());
+    }
     void note(const std::optional<log::FileError>& failure) {
         if (failure) {
             m_console.complain(failure->text);

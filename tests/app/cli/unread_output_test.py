@@ -151,10 +151,34 @@ def check_cancelled_output(cli: str, folder: Path) -> None:
     assert not target.exists() and not list(folder.glob(".posewire*"))
 
 
+def check_slow_recording(cli: str, folder: Path) -> None:
+    """What takes its time to be written is waited for, and that is said."""
+    pipe = folder / "slow.pcapng"
+    os.mkfifo(pipe)
+    reader = os.open(pipe, os.O_RDONLY | os.O_NONBLOCK)
+    monitor = Monitor(cli, "--json", "--record", str(pipe))
+    monitor.send(6000)
+    time.sleep(0.5)
+    monitor.process.send_signal(signal.SIGINT)
+    written = bytearray()
+    ended = time.monotonic() + 2.5
+    while time.monotonic() < ended:
+        time.sleep(0.25)
+        written += os.read(reader, 1 << 16)
+    os.set_blocking(reader, True)
+    while piece := os.read(reader, 1 << 20):
+        written += piece
+    os.close(reader)
+    _, err = monitor.process.communicate(timeout=20)
+    assert monitor.process.returncode == 0, (monitor.process.returncode, err)
+    assert "still being written" in err and "recorded 6000 packets" in err, err
+    assert written.count(b"MXTP02") == 6000
+
+
 def main() -> int:
     cli = sys.argv[1]
     checks = [check_blocked_table, check_nobody_ever_reads, check_reader_gone, check_every_end, check_file_size,
-              check_files_without_end, check_cancelled_output]
+              check_files_without_end, check_cancelled_output, check_slow_recording]
     for check in checks:
         with tempfile.TemporaryDirectory() as name:
             check(cli, Path(name))
