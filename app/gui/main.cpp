@@ -96,7 +96,9 @@ void begin(MainWindow& window, const Options& options) {
     openInputs(window, options);
     window.viewport().start();
     window.driver().start();
-    if (!options.screenshotFile.isEmpty()) {
+    if (options.screenshotFile.isEmpty()) {
+        window.offerRecovered();
+    } else {
         constexpr int kAttempts = 100;
         QTimer::singleShot(static_cast<int>(options.screenshotAfterSeconds * 1000), &window,
                            [&window, options] { takeScreenshot(window, options.screenshotFile, kAttempts); });

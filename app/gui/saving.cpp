@@ -64,6 +64,16 @@ QString saveFile(const QString& path, QByteArrayView content) {
     return written ? QString() : tr("Not saved: %1").arg(QString::fromStdString(written.error().text));
 }
 
+std::future<QString> saveCopy(const QString& from, const QString& to) {
+    log::OutputRules rules{.mayReplace = true, .inUse = filesInUse()};
+    rules.inUse.push_back(QFile::encodeName(from).toStdString());
+    return std::async(std::launch::async, [from, to, rules] {
+        const auto copied =
+            log::copyFile(QFile::encodeName(from).toStdString(), QFile::encodeName(to).toStdString(), rules);
+        return copied ? QString() : tr("Not saved: %1").arg(QString::fromStdString(copied.error().text));
+    });
+}
+
 QString savePicture(const QPixmap& picture, const QString& path) {
     QByteArray content;
     QBuffer buffer(&content);

@@ -9,6 +9,8 @@
 
 #include <tl/expected.hpp>
 
+#include <future>
+
 class QPixmap;
 class QWidget;
 
@@ -28,6 +30,9 @@ namespace posewire::gui {
 /// chose in askWhereToSave(), or that is the program's own. Returns what went wrong as a sentence for the
 /// operator, empty for nothing.
 [[nodiscard]] QString saveFile(const QString& path, QByteArrayView content);
+
+/// The same with what another file holds, on a thread of its own.
+[[nodiscard]] std::future<QString> saveCopy(const QString& from, const QString& to);
 
 /// The same for a picture, in the format that its ending says.
 [[nodiscard]] QString savePicture(const QPixmap& picture, const QString& path);

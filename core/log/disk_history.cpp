@@ -2,6 +2,7 @@
 #include "core/log/disk_history.h"
 
 #include "core/log/output_file.h"
+#include "core/log/recording_file.h"
 
 #include <algorithm>
 #include <chrono>
@@ -66,7 +67,7 @@ std::optional<FileError> DiskHistory::failure() const {
 
 void DiskHistory::run(const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-        const Result followed = follow().or_else([this](const FileError& why) { return makeRoom(why); });
+        const Result followed = follow(stop).or_else([this](const FileError& why) { return makeRoom(why); });
         note(followed);
         if (!followed) {
             return;
@@ -76,9 +77,10 @@ void DiskHistory::run(const std::stop_token& stop) {
     }
 }
 
-DiskHistory::Result DiskHistory::follow() {
+/// At the end all of it goes anyway: nobody waits for a slow disk then.
+DiskHistory::Result DiskHistory::follow(const std::stop_token& stop) {
     m_follower.refresh();
-    while (const auto packet = m_follower.next()) {
+    while (const auto packet = stop.stop_requested() ? std::nullopt : m_follower.next()) {
         if (const auto written = write(*packet); !written) {
             return written;
         }
@@ -186,33 +188,45 @@ void DiskHistory::note(const Result& result) {
     }
 }
 
-std::vector<std::string> lostHistories(const std::string& folder) {
-    std::vector<fs::directory_entry> files;
+std::vector<LostHistory> lostHistories(const std::string& folder) {
+    std::vector<LostHistory> lost;
     std::error_code failed;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
         // An empty one may be about to be locked.
         if (isHistory(entry) && entry.file_size(failed) > 0 && FileLock::take(entry.path())) {
-            files.push_back(entry);
+            const auto end = std::chrono::file_clock::to_sys(entry.last_write_time(failed));
+            lost.push_back(
+                {entry.path(), entry.file_size(failed), std::chrono::time_point_cast<Duration>(end)});
         }
     }
-    std::ranges::sort(files, {},
-                      [&](const fs::directory_entry& entry) { return entry.last_write_time(failed); });
-    std::vector<std::string> paths;
-    for (const fs::directory_entry& entry : files) {
-        paths.push_back(entry.path());
+    std::ranges::sort(lost, {}, &LostHistory::end);
+    return lost;
+}
+
+std::optional<WallTime> beginOf(const std::string& path) {
+    std::optional<WallTime> begin;
+    if (const auto source = openFile(path, [&begin] { return begin.has_value(); })) {
+        static_cast<void>(
+            readFile(**source, [&begin](const FileRecord& record) { begin = begin ? begin : record.time; }));
     }
-    return paths;
+    return begin;
 }
 
 void discardHistories(const std::string& folder, std::uint64_t most) {
+    constexpr std::chrono::minutes kUnused(1);
     std::error_code failed;
     std::uint64_t bytes = 0;
-    const std::vector<std::string> files = lostHistories(folder);
-    for (auto file = files.rbegin(); file != files.rend(); ++file) { // the newest first
-        const std::uintmax_t size = fs::file_size(*file, failed);
-        bytes += failed ? 0 : size;
+    const std::vector<LostHistory> lost = lostHistories(folder);
+    for (auto file = lost.rbegin(); file != lost.rend(); ++file) { // the newest first
+        bytes += file->bytes;
         if (bytes > most) {
-            fs::remove(*file, failed);
+            fs::remove(file->path, failed);
+        }
+    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        const bool isOld = fs::file_time_type::clock::now() - entry.last_write_time(failed) > kUnused;
+        if (isHistory(entry) && entry.file_size(failed) == 0 && isOld && FileLock::take(entry.path())) {
+            fs::remove(entry.path(), failed);
         }
     }
 }

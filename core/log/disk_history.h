@@ -66,7 +66,7 @@ private:
 
     DiskHistory(PacketLog& log, const DiskHistoryChoice& choice, const RecordingInfo& info);
     void run(const std::stop_token& stop);
-    Result follow();
+    Result follow(const std::stop_token& stop);
     Result write(const Packet& packet);
     /// What was written is in the file, and can be read from there.
     Result handOver();
@@ -97,10 +97,18 @@ private:
     std::jthread m_thread; ///< last: it uses all of the above
 };
 
-/// Files of histories in a folder whose processes are gone, the oldest first: they died with packets that
-/// nobody has saved.
-[[nodiscard]] std::vector<std::string> lostHistories(const std::string& folder);
-/// Removes the oldest of them, until they are not more than so many bytes.
+/// A file of a history whose process is gone: it died with packets that nobody has saved.
+struct LostHistory {
+    std::string path;
+    std::uint64_t bytes = 0;
+    WallTime end{}; ///< when it was written last
+};
+
+/// Those in a folder, the oldest first.
+[[nodiscard]] std::vector<LostHistory> lostHistories(const std::string& folder);
+/// When the first packet of a recording was received; nothing where it has none that can be read.
+[[nodiscard]] std::optional<WallTime> beginOf(const std::string& path);
+/// Removes the oldest of them, until they are not more than so many bytes, and files that were never written.
 void discardHistories(const std::string& folder, std::uint64_t most);
 
 } // namespace posewire::log

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -264,6 +265,32 @@ tl::expected<void, FileError> writeWholeFile(const std::string& path, std::span<
         return written;
     }
     return (*sink)->finish();
+}
+
+tl::expected<void, FileError> copyFile(const std::string& from, const std::string& to,
+                                       const OutputRules& rules) {
+    constexpr std::size_t kPiece = std::size_t{1} << 20;
+    const auto source = openFile(from);
+    if (!source) {
+        return tl::unexpected(source.error());
+    }
+    const auto sink = createWholeFile(to, rules);
+    if (!sink) {
+        return tl::unexpected(sink.error());
+    }
+    std::vector<std::byte> piece(kPiece);
+    while (true) {
+        const auto read = (*source)->read(piece);
+        if (!read) {
+            return tl::unexpected(read.error());
+        }
+        if (*read == 0) {
+            return (*sink)->finish();
+        }
+        if (auto written = (*sink)->write(std::span(piece).first(*read)); !written) {
+            return written;
+        }
+    }
 }
 
 } // namespace posewire::log

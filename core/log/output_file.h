@@ -34,4 +34,8 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createWholeFile(const std::st
 tl::expected<void, FileError> writeWholeFile(const std::string& path, std::span<const std::byte> bytes,
                                              const OutputRules& rules = {});
 
+/// The same with the bytes of another file.
+tl::expected<void, FileError> copyFile(const std::string& from, const std::string& to,
+                                       const OutputRules& rules = {});
+
 } // namespace posewire::log

@@ -172,6 +172,15 @@ void SessionDriver::measureHealth() {
     }
 }
 
+std::vector<log::LostHistory> SessionDriver::lostHistories() const {
+    return m_cacheFolder.isEmpty() ? std::vector<log::LostHistory>()
+                                   : log::lostHistories(QFile::encodeName(m_cacheFolder).toStdString());
+}
+
+void SessionDriver::discardLostHistories() {
+    log::discardHistories(QFile::encodeName(m_cacheFolder).toStdString(), 0);
+}
+
 QString SessionDriver::keepHistory(std::uint64_t most) {
     m_history.reset();
     log::discardHistories(QFile::encodeName(m_cacheFolder).toStdString(), most);

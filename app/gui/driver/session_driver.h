@@ -50,6 +50,10 @@ public:
     /// Null where nothing is kept.
     [[nodiscard]] const log::DiskHistory* diskHistory() const { return m_history.get(); }
 
+    /// What earlier runs that did not end well have left of theirs, the oldest first.
+    [[nodiscard]] std::vector<log::LostHistory> lostHistories() const;
+    void discardLostHistories();
+
     /// Begins a take of what is received, or ends it; whatever is shown. The answer is why it cannot begin,
     /// empty where it does.
     QString toggleRecording(const RecordingChoice& choice);

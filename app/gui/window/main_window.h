@@ -62,6 +62,10 @@ public:
     /// Lists all commands of the menus, to be found by their words.
     void findCommand();
     void editHistory();
+    /// What was received by a run that did not end well, to be opened or saved.
+    void showRecovered();
+    /// The same where there is any.
+    void offerRecovered();
     /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
     void toggleFullScreen() { setWindowState(windowState() ^ Qt::WindowFullScreen); }

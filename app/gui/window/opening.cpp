@@ -3,6 +3,7 @@
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/recording_dialog.h"
+#include "app/gui/window/recovery_dialog.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -54,6 +55,20 @@ void MainWindow::editRecording() {
     RecordingDialog dialog(m_settings.recording, this);
     if (dialog.exec() == QDialog::Accepted) {
         m_settings.recording = dialog.choice();
+    }
+}
+
+void MainWindow::showRecovered() {
+    auto* dialog = new RecoveryDialog(m_driver, this);
+    dialog->setAttribute(Qt::WA_DeleteOnClose);
+    connect(dialog, &RecoveryDialog::openRequested, this,
+            [this](const QString& path) { m_driver.openFile(path); }); // it goes: no recent file
+    dialog->show();
+}
+
+void MainWindow::offerRecovered() {
+    if (!m_driver.lostHistories().empty()) {
+        showRecovered();
     }
 }
 

@@ -129,6 +129,8 @@ TEST_F(DiskHistoryTest, ItsFilesAreRecordingsThatSurviveTheProcess) {
     });
     EXPECT_TRUE(result) << result.error().text;
     EXPECT_EQ(read, m_next);
+    EXPECT_EQ(beginOf(files().front()), WallTime(Duration(0)));
+    EXPECT_FALSE(beginOf(m_folder / "none"));
 }
 
 /// Whatever number its process has: another process may have it by now, and containers number their own.
@@ -145,10 +147,10 @@ TEST_F(DiskHistoryTest, FilesThatNobodyUsesAreFoundAndNoOthers) {
     ASSERT_NE(history, nullptr);
     appendInStep(*history, 750);
     EXPECT_TRUE(fs::exists(m_folder / (own + "3.pcapng"))) << "a name of its own";
-    const std::vector<std::string> lost = lostHistories(m_folder);
+    const std::vector<LostHistory> lost = lostHistories(m_folder);
     ASSERT_EQ(lost.size(), 2U);
-    EXPECT_EQ(lost[0], m_folder / (own + "2.pcapng")) << "the oldest first";
-    EXPECT_EQ(lost[1], m_folder / (own + "1.pcapng"));
+    EXPECT_EQ(lost[0].path, m_folder / (own + "2.pcapng")) << "the oldest first";
+    EXPECT_EQ(lost[1].path, m_folder / (own + "1.pcapng"));
     EXPECT_TRUE(lostHistories(m_folder / "none").empty());
 }
 
@@ -159,7 +161,16 @@ TEST_F(DiskHistoryTest, OfDeadProcessesTheNewestFilesStay) {
         std::ofstream(file) << std::string(1'000, 'x');
         fs::last_write_time(file, now - std::chrono::hours(3 - i));
     }
+    const auto empty = [&](const char* name, std::chrono::minutes age) {
+        std::ofstream(m_folder / name).flush();
+        fs::last_write_time(m_folder / name, now - age);
+    };
+    empty("history-1-1.pcapng", std::chrono::minutes(0));
+    empty("history-1-2.pcapng", std::chrono::minutes(2));
     discardHistories(m_folder, 2'500);
+    EXPECT_TRUE(fs::exists(m_folder / "history-1-1.pcapng")) << "it may be about to be used";
+    EXPECT_FALSE(fs::exists(m_folder / "history-1-2.pcapng"));
+    fs::remove(m_folder / "history-1-1.pcapng");
     EXPECT_EQ(lostHistories(m_folder).size(), 2U);
     EXPECT_FALSE(fs::exists(m_folder / "history-999999999-1.pcapng"));
     discardHistories(m_folder, 0);
