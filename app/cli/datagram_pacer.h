@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -17,19 +18,32 @@ namespace posewire::cli {
 /// where those freeze or jump, one period per sample.
 class DatagramPacer {
 public:
-    DatagramPacer(double periodSeconds, double speed)
-        : m_period(std::chrono::duration<double>(periodSeconds)), m_speed(speed) {}
+    /// Only what lies from `fromSeconds` to before `untilSeconds` after the first datagram is ever due.
+    DatagramPacer(double periodSeconds, double speed, double fromSeconds = 0,
+                  double untilSeconds = std::numeric_limits<double>::infinity())
+        : m_period(std::chrono::duration<double>(periodSeconds)),
+          m_speed(speed),
+          m_from(std::chrono::duration<double>(fromSeconds)),
+          m_until(std::chrono::duration<double>(untilSeconds)) {}
 
-    /// How long after the start this datagram, the next of the recording, is due.
-    log::Duration due(const log::FileRecord& record) {
+    /// How long after the start this datagram, the next of the recording, is due; nothing where it never is.
+    std::optional<log::Duration> due(const log::FileRecord& record) {
         constexpr Nanoseconds longest{1e18}; // 31 years: more may not fit into a duration
-        m_now = std::min(m_now + step(record) / m_speed, longest);
+        m_place = std::min(m_place + step(record), longest);
+        if (m_place < m_from || isPast()) {
+            return std::nullopt;
+        }
+        m_now = std::min(m_roundBegin + (m_place - m_from) / m_speed, longest);
         return std::chrono::duration_cast<log::Duration>(m_now);
     }
 
-    /// The recording begins again, one period after its last datagram.
+    /// Nothing more of this recording is due.
+    [[nodiscard]] bool isPast() const { return m_place >= m_until; }
+
+    /// The recording begins again, one period after what was due last.
     void beginAgain() {
-        m_now += m_period / m_speed;
+        m_roundBegin = m_now + m_period / m_speed;
+        m_place = {};
         m_clock = log::RecordedClock(m_timeline);
         m_stamp.reset();
         m_previous.reset();
@@ -62,7 +76,11 @@ private:
 
     Nanoseconds m_period;
     double m_speed;
-    Nanoseconds m_now{};
+    Nanoseconds m_from;
+    Nanoseconds m_until;
+    Nanoseconds m_roundBegin{}; ///< since the start
+    Nanoseconds m_place{};      ///< since the first datagram, as fast as it was recorded
+    Nanoseconds m_now{};        ///< since the start
     log::Timeline m_timeline;
     log::RecordedClock m_clock{m_timeline};
     std::optional<log::Stamp> m_stamp;

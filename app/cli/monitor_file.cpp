@@ -26,7 +26,7 @@ public:
             return;
         }
         const log::Stamp stamp =
-            record.time ? m_clock.stampOf(*record.time, record.setBy) : log::Stamp(m_pacer.due(record));
+            record.time ? m_clock.stampOf(*record.time, record.setBy) : log::Stamp(*m_pacer.due(record));
         m_first = m_first.value_or(stamp);
         m_isDone = stamp - *m_first > m_longest || m_run.isOver() || !m_recorded;
         if (m_isDone) {

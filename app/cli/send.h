@@ -11,6 +11,7 @@
 #include <tl/expected.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -97,6 +98,8 @@ struct SendOptions {
     std::string file; ///< empty: the performer
     double speed = 1.0;
     bool loops = false;
+    double fromSeconds = 0.0;           ///< after its first datagram
+    std::optional<double> untilSeconds; ///< likewise; nothing: to its end
 };
 
 /// The rest is what was meant by it, or one line about what is wrong with it.

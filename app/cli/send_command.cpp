@@ -119,6 +119,9 @@ ExitStatus send(const SendOptions& options, Console& console) {
     if (!settings) {
         return console.unusable(settings.error());
     }
+    if (options.untilSeconds && options.fromSeconds >= *options.untilSeconds) {
+        return console.unusable("--from must be before --until");
+    }
     if (!options.truth.empty() && options.truth != "-") {
         if (const auto checked = log::checkOutput(options.truth, {options.replaces}); !checked) {
             return console.unusable(checked.error().text);
@@ -229,6 +232,14 @@ Option addFile(Arguments arguments, SendOptions& options) {
         .needs(file)
         .showDefault();
     arguments.flag("--loop", options.loops, "begin a recording again at its end").needs(file);
+    arguments.add("--from", options.fromSeconds, "begin this many seconds after its first datagram")
+        .form("SECONDS")
+        .seconds()
+        .needs(file);
+    arguments.add("--until", options.untilSeconds, "end this many seconds after its first datagram")
+        .form("SECONDS")
+        .seconds()
+        .needs(file);
     return file;
 }
 

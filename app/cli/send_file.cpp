@@ -3,6 +3,8 @@
 #include "app/cli/send.h"
 #include "core/log/recording_file.h"
 
+#include <limits>
+
 namespace posewire::cli {
 namespace {
 
@@ -13,29 +15,30 @@ public:
         : m_lines(lines),
           m_schedule(m_clock),
           m_round(lines, m_schedule),
-          m_pacer(1.0 / options.performer.rateHz, options.speed),
+          m_pacer(1.0 / options.performer.rateHz, options.speed, options.fromSeconds,
+                  options.untilSeconds.value_or(std::numeric_limits<double>::infinity())),
           m_end(options.durationSeconds > 0.0 ? log::durationOf(options.durationSeconds)
                                               : log::Duration::max()) {}
 
     void operator()(const log::FileRecord& record) {
-        if (m_isDone) {
+        if (isRoundOver()) {
             return;
         }
         if (record.flags.skipped) {
             m_skipped += record.bytes.size();
             return;
         }
-        const log::Duration due = m_pacer.due(record);
-        m_isDone = due >= m_end;
-        if (m_isDone) {
+        const auto due = m_pacer.due(record);
+        m_isDone = due && *due >= m_end;
+        if (!due || m_isDone) {
             return;
         }
         ++m_datagrams;
-        note(m_round.sendUntil(due));
+        note(m_round.sendUntil(*due));
         for (SendLine& line : m_lines) {
-            line.faults().offer({record.bytes.begin(), record.bytes.end()}, due);
+            line.faults().offer({record.bytes.begin(), record.bytes.end()}, *due);
         }
-        note(m_round.sendUntil(due + log::Duration(1)));
+        note(m_round.sendUntil(*due + log::Duration(1)));
     }
 
     /// The recording will not be repeated.
@@ -47,6 +50,8 @@ public:
 
     void beginAgain() { m_pacer.beginAgain(); }
     [[nodiscard]] bool isDone() const { return m_isDone; }
+    /// Nothing more of the recording is wanted, at least until it begins again.
+    [[nodiscard]] bool isRoundOver() const { return m_isDone || m_pacer.isPast(); }
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
     [[nodiscard]] std::uint64_t skipped() const { return m_skipped; }
     [[nodiscard]] const std::string& failure() const { return m_failure; }
@@ -72,7 +77,7 @@ private:
 };
 
 tl::expected<void, log::FileError> sendOnce(const std::string& path, RecordSender& sender) {
-    const auto file = openInput(path, [&] { return sender.isDone(); });
+    const auto file = openInput(path, [&] { return sender.isRoundOver(); });
     if (!file) {
         return tl::unexpected(file.error());
     }

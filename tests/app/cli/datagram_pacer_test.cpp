@@ -18,8 +18,8 @@ std::vector<std::byte> datagram(std::uint8_t type, std::uint32_t sample, std::ui
     return *wire::encode(datagram);
 }
 
-log::Duration due(DatagramPacer& pacer, const std::vector<std::byte>& bytes,
-                  std::optional<log::WallTime> time = {}, log::Duration setBy = {}) {
+std::optional<log::Duration> due(DatagramPacer& pacer, const std::vector<std::byte>& bytes,
+                                 std::optional<log::WallTime> time = {}, log::Duration setBy = {}) {
     log::FileRecord record;
     record.bytes = bytes;
     record.time = time;
@@ -63,6 +63,23 @@ TEST(DatagramPacer, PlaysFasterAndAgain) {
     EXPECT_EQ(due(pacer, datagram(2, 2, 5010)), 5ms);
     pacer.beginAgain();
     EXPECT_EQ(due(pacer, datagram(2, 1, 5000)), 55ms);
+}
+
+TEST(DatagramPacer, OnlyARangeIsDue) {
+    DatagramPacer pacer(0.1, 2.0, 0.010, 0.030);
+    const auto dueAt = [&](std::uint32_t sample, std::chrono::milliseconds time) {
+        return due(pacer, datagram(2, sample, 0), log::WallTime(1000ms + time));
+    };
+    EXPECT_EQ(dueAt(1, 0ms), std::nullopt);
+    EXPECT_EQ(dueAt(2, 10ms), 0ms);
+    EXPECT_EQ(dueAt(3, 20ms), 5ms);
+    EXPECT_FALSE(pacer.isPast());
+    EXPECT_EQ(dueAt(4, 30ms), std::nullopt);
+    EXPECT_TRUE(pacer.isPast());
+    pacer.beginAgain();
+    EXPECT_FALSE(pacer.isPast());
+    EXPECT_EQ(dueAt(1, 0ms), std::nullopt);
+    EXPECT_EQ(dueAt(2, 10ms), 55ms) << "a period after what was due last";
 }
 
 } // namespace

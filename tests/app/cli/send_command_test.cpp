@@ -92,6 +92,24 @@ TEST(SendCommand, LoopsUntilItsTimeIsOver) {
     EXPECT_EQ(listener.datagrams().size(), 20U);
 }
 
+TEST(SendCommand, SendsARangeOfARecording) {
+    Listener listener;
+    std::string file;
+    for (int i = 0; i < 10; ++i) { // without stamps a period each
+        file += asText(posewire::test::golden("02_quaternion_counted").bytes);
+        file[file.size() - posewire::test::golden("02_quaternion_counted").bytes.size() + 9] =
+            static_cast<char>(i);
+    }
+    const ProgramRun run = runProgram({"send", "--to", listener.place(), "--file", fileWith(file), "--rate",
+                                       "100", "--from", "0.02", "--until", "0.05"});
+    EXPECT_EQ(run.out, "sent 3 datagrams\n") << run.err;
+    EXPECT_EQ(listener.datagrams().size(), 3U);
+    EXPECT_NE(runProgram({"send", "--from", "1"}).status, 0) << "of a recording only";
+    EXPECT_NE(runProgram({"send", "--file", fileWith(file), "--from", "2", "--until", "1"})
+                  .err.find("--from must be before --until"),
+              std::string::npos);
+}
+
 TEST(SendCommand, SendsToSeveralPlaces) {
     Listener first;
     Listener second;
