@@ -276,6 +276,7 @@ void SessionDriver::closeFile() {
     if (m_file != nullptr) {
         showLive();
         emit fileClosing();
+        m_replaying.end();
         m_file.reset();
     }
 }

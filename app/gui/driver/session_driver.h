@@ -5,6 +5,7 @@
 #include "app/gui/driver/opened_file.h"
 #include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
+#include "app/gui/driver/replaying.h"
 #include "app/gui/driver/takes.h"
 #include "app/gui/program_view.h"
 #include "core/log/disk_history.h"
@@ -59,6 +60,11 @@ public:
     QString toggleRecording(const RecordingChoice& choice);
     [[nodiscard]] bool isRecording() const { return m_takes.isRecording(); }
     [[nodiscard]] std::optional<TakeState> take() const { return m_takes.state(m_live); }
+
+    /// Sends what is shown to the network again; see Replaying.
+    QString startReplay(const ReplayRequest& request) { return m_replaying.start(request, shown()); }
+    void stopReplay() { m_replaying.stop(); }
+    [[nodiscard]] const net::Replay* replay() const { return m_replaying.current(); }
 
     /// Begins to read a file of datagrams, instead of one that is open; fileOpened() says how it went. It is
     /// shown as soon as there is something of it.
@@ -225,6 +231,7 @@ private:
     Takes m_takes{m_log};
     Receiving m_receiving;
     std::unique_ptr<OpenedFile> m_file; ///< null where none is open
+    Replaying m_replaying{m_clock};     ///< of one of the two
     bool m_isFileShown = false;
     std::optional<model::Playback> m_playback; ///< while something plays
     double m_playSpeed = 1;

@@ -62,6 +62,7 @@ public:
     /// Lists all commands of the menus, to be found by their words.
     void findCommand();
     void editHistory();
+    void showReplay();
     /// What was received by a run that did not end well, to be opened or saved.
     void showRecovered();
     /// The same where there is any.

@@ -199,6 +199,8 @@ const ActionInfo kActions[] = {
      Do::isIn<&Window::driver, &SessionDriver::isRecording>},
     {"recordingOptions", "&File", QT_TRANSLATE_NOOP("Action", "Recor&ding options…"), "",
      Do::call<&Window::editRecording>},
+    {"replay", "&File", QT_TRANSLATE_NOOP("Action", "Repla&y to the network…"), "",
+     Do::call<&Window::showReplay>},
     {"recovered", "&File", QT_TRANSLATE_NOOP("Action", "Reco&vered packets…"), "",
      Do::call<&Window::showRecovered>},
     {"history", "&File", QT_TRANSLATE_NOOP("Action", "&History…"), "", Do::call<&Window::editHistory>},

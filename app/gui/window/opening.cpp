@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which files the window opens and records.
+// Which files the window opens, records and sends.
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/recording_dialog.h"
 #include "app/gui/window/recovery_dialog.h"
+#include "app/gui/window/replay_dialog.h"
 
 #include <QDir>
 #include <QFileDialog>
@@ -56,6 +57,17 @@ void MainWindow::editRecording() {
     if (dialog.exec() == QDialog::Accepted) {
         m_settings.recording = dialog.choice();
     }
+}
+
+void MainWindow::showReplay() {
+    auto* dialog = findChild<ReplayDialog*>();
+    if (dialog == nullptr) {
+        dialog = new ReplayDialog(m_driver, this);
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+    }
+    dialog->show();
+    dialog->raise();
+    dialog->activateWindow();
 }
 
 void MainWindow::showRecovered() {

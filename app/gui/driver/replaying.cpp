@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/replaying.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace posewire::gui {
+
+QString Replaying::start(const ReplayRequest& request, const model::SessionView& view) {
+    net::ReplayChoice choice;
+    choice.target = request.target;
+    choice.speed = std::clamp(request.speed, net::ReplayChoice::kSlowest, net::ReplayChoice::kFastest);
+    choice.isLooping = request.isLooping;
+    choice.begin = view.begin();
+    choice.end = view.end();
+    if (const auto range = request.isRangeOnly ? view.range() : std::nullopt) {
+        choice.begin = view.packetFrom(range->from);
+        choice.end = view.packetFrom(range->to);
+    }
+    if (choice.begin >= choice.end) {
+        return tr("There is no packet to send.");
+    }
+    stop();
+    m_replay = std::make_unique<net::Replay>(view.log(), m_clock, std::move(choice));
+    return {};
+}
+
+void Replaying::stop() {
+    std::erase_if(m_ending, [](const std::future<void>& one) {
+        return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
+    if (m_replay != nullptr) { // a connection may take seconds to be given up
+        m_ending.push_back(
+            std::async(std::launch::async, [last = std::move(m_replay)]() mutable { last.reset(); }));
+    }
+}
+
+void Replaying::end() {
+    stop();
+    m_ending.clear();
+}
+
+} // namespace posewire::gui

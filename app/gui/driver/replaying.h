@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/net/replay.h"
+#include "core/model/session/session_view.h"
+
+#include <QCoreApplication>
+#include <QString>
+
+#include <future>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace posewire::gui {
+
+/// What the operator wants to be sent again.
+struct ReplayRequest {
+    net::SendTarget target;
+    double speed = 1;
+    bool isLooping = false;
+    bool isRangeOnly = false; ///< what figures are of; else all there is
+};
+
+/// Sends what a session shows to the network again, one replay at a time. The window waits for none that
+/// ends.
+class Replaying {
+    Q_DECLARE_TR_FUNCTIONS(Replaying)
+
+public:
+    explicit Replaying(const log::Clock& clock) : m_clock(clock) {}
+
+    /// Ends the one before. The answer is why it cannot begin, empty where it does.
+    QString start(const ReplayRequest& request, const model::SessionView& view);
+    void stop();
+    /// Waits until no log is read any more, for one is about to go.
+    void end();
+
+    /// Null before the first, and after one was stopped.
+    [[nodiscard]] const net::Replay* current() const { return m_replay.get(); }
+
+private:
+    const log::Clock& m_clock;
+    std::unique_ptr<net::Replay> m_replay;
+    std::vector<std::future<void>> m_ending;
+};
+
+} // namespace posewire::gui

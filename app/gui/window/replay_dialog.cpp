@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/replay_dialog.h"
+
+#include "app/gui/inputs/relay_page.h"
+#include "app/gui/models/text.h"
+#include "app/gui/theme/widgets.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <chrono>
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLook{200};
+constexpr int kOverTcp = 1;   // of the transports
+constexpr int kRangeOnly = 1; // of what is sent
+
+bool isRunning(const SessionDriver& driver) {
+    return driver.replay() != nullptr && !driver.replay()->figures().isOver;
+}
+
+} // namespace
+
+QString replayText(const net::Replay& replay) {
+    const net::ReplayFigures figures = replay.figures();
+    const net::ReplayChoice& choice = replay.choice();
+    const QString place = QString::fromStdString(net::textOf(choice.target.endpoint));
+    if (!figures.problem.empty()) {
+        return QString::fromStdString(figures.problem);
+    }
+    const double share =
+        static_cast<double>(figures.position - choice.begin) / static_cast<double>(choice.end - choice.begin);
+    QStringList parts{figures.isOver
+                          ? ReplayDialog::tr("Sent to %1").arg(place)
+                          : ReplayDialog::tr("Sending to %1: %2 %").arg(place).arg(std::floor(100 * share))};
+    parts += ReplayDialog::tr("%1 datagrams").arg(grouped(figures.sent));
+    if (choice.isLooping) {
+        parts += ReplayDialog::tr("round %1").arg(grouped(figures.rounds + 1));
+    }
+    if (figures.refused != 0) {
+        parts += ReplayDialog::tr("%1 refused by this system").arg(grouped(figures.refused));
+    }
+    if (figures.missing != 0) {
+        parts += ReplayDialog::tr("%1 no longer in memory").arg(grouped(figures.missing));
+    }
+    return parts.join(QStringLiteral(" · "));
+}
+
+ReplayDialog::ReplayDialog(SessionDriver& driver, QWidget* parent)
+    : QDialog(parent),
+      m_driver(driver),
+      m_target(new QLineEdit(QStringLiteral("127.0.0.1:9763"), this)),
+      m_transport(new ComboBox(this)),
+      m_range(new ComboBox(this)),
+      m_speed(new QDoubleSpinBox(this)),
+      m_loop(new QCheckBox(tr("&Again and again"), this)),
+      m_state(dimText({}, this)),
+      m_button(new QPushButton(this)) {
+    setWindowTitle(tr("Replay to the network"));
+    m_transport->addItems({tr("UDP, a datagram each"), tr("TCP, connecting as MVN does")});
+    m_range->addItems({tr("All there is"), tr("What the figures are of")});
+    m_speed->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    m_speed->setRange(net::ReplayChoice::kSlowest, net::ReplayChoice::kFastest);
+    m_speed->setDecimals(2);
+    m_speed->setValue(1);
+    m_speed->setSuffix(tr(" ×"));
+    m_loop->setObjectName(QStringLiteral("loop"));
+    auto* form = new QFormLayout;
+    form->addRow(tr("&To"), m_target);
+    form->addRow(tr("&By"), m_transport);
+    form->addRow(tr("&What"), m_range);
+    form->addRow(tr("&Speed"), m_speed);
+    form->addRow({}, m_loop);
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+    buttons->addButton(m_button, QDialogButtonBox::ActionRole);
+    m_button->setDefault(true);
+    auto* column = new QVBoxLayout(this);
+    column->setSpacing(fontMetrics().height());
+    column->addWidget(
+        dimText(tr("Sends the datagrams that are shown, live or of the recording, unchanged and "
+                   "as far apart as they came. It goes on when this window is closed."),
+                this));
+    column->addLayout(form);
+    column->addWidget(m_state);
+    column->addWidget(buttons);
+    setMinimumWidth(fontMetrics().averageCharWidth() * 62);
+    connect(m_button, &QPushButton::clicked, this, &ReplayDialog::toggle);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    auto* look = new QTimer(this);
+    connect(look, &QTimer::timeout, this, &ReplayDialog::refresh);
+    look->start(kLook);
+    refresh();
+}
+
+void ReplayDialog::toggle() {
+    if (isRunning(m_driver)) {
+        m_driver.stopReplay();
+    } else {
+        begin();
+    }
+    refresh();
+}
+
+void ReplayDialog::begin() {
+    const auto place = readRelay(m_target->text());
+    if (!place) {
+        m_problem = place.error();
+        return;
+    }
+    ReplayRequest request;
+    request.target.endpoint = {place->host.toStdString(), place->port};
+    request.target.transport = m_transport->currentIndex() == kOverTcp ? net::SendTarget::Transport::Tcp
+                                                                       : net::SendTarget::Transport::Udp;
+    request.speed = m_speed->value();
+    request.isLooping = m_loop->isChecked();
+    request.isRangeOnly = m_range->currentIndex() == kRangeOnly;
+    m_problem = m_driver.startReplay(request);
+}
+
+void ReplayDialog::refresh() {
+    const net::Replay* replay = m_driver.replay();
+    m_button->setText(isRunning(m_driver) ? tr("&Stop sending") : tr("&Send"));
+    m_state->setText(!m_problem.isEmpty() ? m_problem
+                     : replay != nullptr  ? replayText(*replay)
+                                          : tr("Nothing is being sent."));
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/driver/session_driver.h"
+
+#include <QDialog>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+
+namespace posewire::gui {
+
+/// Sends what is shown to the network again: where to, what of it and how fast; and how that goes.
+class ReplayDialog final : public QDialog {
+    Q_OBJECT
+
+public:
+    ReplayDialog(SessionDriver& driver, QWidget* parent);
+
+    /// What the button does: begins, or ends what runs.
+    void toggle();
+
+private:
+    void begin();
+    void refresh();
+
+    SessionDriver& m_driver;
+    QLineEdit* m_target;
+    QComboBox* m_transport;
+    QComboBox* m_range;
+    QDoubleSpinBox* m_speed;
+    QCheckBox* m_loop;
+    QLabel* m_state;
+    QPushButton* m_button;
+    QString m_problem; ///< why it did not begin
+};
+
+/// "Sending to 10.0.0.7:9763: 43 %, 5 883 datagrams", and what went wrong.
+[[nodiscard]] QString replayText(const net::Replay& replay);
+
+} // namespace posewire::gui
