@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/formats.h"
+#include "core/export/motion/motion_export.h"
+#include "core/export/motion/tables.h"
+#include "core/wire/text.h"
+
+#include <algorithm>
+
+namespace posewire::exporting {
+namespace {
+
+constexpr MotionFormat kFormats[] = {
+    {"CSV", "Comma-separated values", "csv", "a row for each sample: position and quaternion of each segment",
+     "a row without values", true, false, makeMotionCsv},
+    {"JSON Lines", "JSON Lines", "jsonl", "an object for each sample, one on a line",
+     "an object whose segments are null", true, false, makeMotionJsonLines},
+};
+
+} // namespace
+
+std::span<const MotionFormat> motionFormats() {
+    return kFormats;
+}
+
+const MotionFormat* findMotionFormat(std::string_view suffix) {
+    const auto found = std::ranges::find(kFormats, wire::lowered(suffix),
+                                         [](const MotionFormat& format) { return format.suffix; });
+    return found == std::end(kFormats) ? nullptr : found;
+}
+
+const MotionFormat* motionFormatOf(std::string_view fileName) {
+    const auto found = std::ranges::find_if(
+        kFormats, [&](const MotionFormat& format) { return hasSuffix(fileName, format.suffix); });
+    return found == std::end(kFormats) ? nullptr : found;
+}
+
+} // namespace posewire::exporting
