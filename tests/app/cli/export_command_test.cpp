@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/performer/performer.h"
+#include "tests/app/cli/monitor_fixture.h"
+
+#include <gmock/gmock.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace posewire::cli::test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two performers at 60 Hz, each of whose datagrams is kept that `keeps` says.
+std::string performance(std::uint64_t frames, const std::function<bool(const wire::Datagram&)>& keeps = {}) {
+    performer::PerformerSettings settings;
+    settings.rateHz = 60;
+    settings.types = {2, 12, 13};
+    performer::Performer performer(settings);
+    RecordingFile file;
+    for (std::uint64_t frame = 0; frame < frames; ++frame) {
+        for (const wire::Datagram& datagram : performer.frame(frame)) {
+            if (!keeps || keeps(datagram)) {
+                file.add(wire::encode(datagram).value(),
+                         RecordingFile::kStart + log::durationOf(static_cast<double>(frame) / 60));
+            }
+        }
+    }
+    return file.finish();
+}
+
+class ExportCommand : public testing::Test {
+protected:
+    ExportCommand() { fs::create_directory(m_folder); }
+
+    /// The path of a file that is not there yet.
+    [[nodiscard]] std::string output(const std::string& name) const { return m_folder + "/" + name; }
+    [[nodiscard]] std::size_t fileCount() const {
+        return static_cast<std::size_t>(std::distance(fs::directory_iterator(m_folder), {}));
+    }
+    static ProgramRun exported(const std::string& file, const std::string& to,
+                               const std::vector<std::string>& more = {}) {
+        std::vector<std::string> arguments{"export", file, "--to", to};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return runProgram(arguments);
+    }
+    static std::ptrdiff_t lines(const std::string& text) {
+        return std::count(text.begin(), text.end(), '\n');
+    }
+
+    const std::string m_folder = newPath();
+};
+
+TEST_F(ExportCommand, WritesEverySampleOfEachCharacter) {
+    const std::string to = output("take.csv");
+    const ProgramRun run = exported(performance(90), to);
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(run.out, "");
+    EXPECT_EQ(lines(textOfFile(to)), 181);
+    EXPECT_THAT(run.err, HasSubstr(": 90 samples to " + to + "\n"));
+    EXPECT_EQ(lines(run.err), 2);
+}
+
+TEST_F(ExportCommand, TakesTheFormatOfItsOptionOrOfTheName) {
+    const std::string file = performance(5);
+    const std::string json = output("take.txt");
+    EXPECT_EQ(exported(file, json, {"--format", "jsonl"}).status, 0);
+    EXPECT_EQ(textOfFile(json).front(), '{');
+    const ProgramRun unnamed = exported(file, output("take"));
+    EXPECT_EQ(unnamed.status, 2);
+    EXPECT_THAT(unnamed.err, HasSubstr("its name says no format; end it with one of csv, jsonl"));
+    const ProgramRun unknown = exported(file, output("take.csv"), {"--format", "fbx"});
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_THAT(unknown.err, HasSubstr("\"fbx\" is no format; there are csv"));
+    EXPECT_EQ(fileCount(), 1U);
+}
+
+TEST_F(ExportCommand, TakesARangeAndTheCharactersNamed) {
+    const std::string file = performance(120);
+    const std::string names = exported(file, output("all.csv")).err;
+    const std::size_t begin = names.find("export: ") + 8;
+    const std::string name = names.substr(begin, names.find(": ", begin) - begin);
+    const std::string to = output("part.jsonl");
+    const ProgramRun run = exported(file, to, {"--characters", name, "--from", "0.5", "--until", "1"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(lines(textOfFile(to)), 30);
+    EXPECT_EQ(exported(file, to, {"--characters", "1", "--force"}).status, 0);
+    EXPECT_EQ(Json::parse(textOfFile(to).substr(0, textOfFile(to).find('\n')))["id"], 1);
+    EXPECT_EQ(exported(file, to, {"--characters", name + ",1", "--force"}).status, 0);
+    EXPECT_EQ(lines(textOfFile(to)), 240);
+    const ProgramRun nobody = exported(file, output("x.csv"), {"--characters", "Nobody"});
+    EXPECT_EQ(nobody.status, 2);
+    EXPECT_THAT(nobody.err,
+                HasSubstr("\"Nobody\" is no character of " + file + "; there is " + name + " (0)"));
+    EXPECT_EQ(exported(file, output("x.csv"), {"--from", "2", "--until", "1"}).status, 2);
+}
+
+TEST_F(ExportCommand, SaysWhatIsMissing) {
+    const std::string file = performance(60, [](const wire::Datagram& datagram) {
+        return datagram.header.sampleCounter < 20 || datagram.header.sampleCounter > 22;
+    });
+    const ProgramRun run = exported(file, output("take.csv"));
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.err,
+                HasSubstr(": 57 samples to " + output("take.csv") + "; 3 are missing: a row without"));
+}
+
+TEST_F(ExportCommand, SaysWhyThereIsNothing) {
+    const auto isNoPose = [](const wire::Datagram& datagram) { return datagram.header.type() != 2; };
+    const ProgramRun poses = exported(performance(20, isNoPose), output("take.csv"));
+    EXPECT_EQ(poses.status, 2);
+    EXPECT_THAT(poses.err, HasSubstr("no poses (types 01, 02, 05)"));
+    const ProgramRun time = exported(performance(20), output("take.csv"), {"--from", "100"});
+    EXPECT_EQ(time.status, 2);
+    EXPECT_THAT(time.err, HasSubstr("between these times; try without --from and --until"));
+    const ProgramRun nothing = exported(fileWith("no datagrams here"), output("take.csv"));
+    EXPECT_EQ(nothing.status, 2);
+    EXPECT_THAT(nothing.err, HasSubstr("is it a recording of MXTP?"));
+    EXPECT_EQ(exported(output("missing.pcapng"), output("take.csv")).status, 2);
+    EXPECT_EQ(fileCount(), 0U);
+}
+
+TEST_F(ExportCommand, WritesToStandardOutput) {
+    const ProgramRun run = exported(performance(4), "-", {"--format", "jsonl"});
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(lines(run.out), 8);
+}
+
+TEST_F(ExportCommand, ReadsDatagramsBackToBackAndStandardInput) {
+    const ProgramRun decoded = runProgram({"decode", performance(10), "--json"});
+    const std::string raw = runProgram({"encode", "-"}, decoded.out).out;
+    EXPECT_EQ(exported(fileWith(raw), output("raw.csv")).status, 0);
+    EXPECT_EQ(runProgram({"export", "-", "--to", output("piped.csv")}, raw).status, 0);
+    EXPECT_EQ(lines(textOfFile(output("raw.csv"))), 21);
+    EXPECT_EQ(lines(textOfFile(output("piped.csv"))), 21);
+}
+
+TEST_F(ExportCommand, ExportsWhatIsWholeOfACutFile) {
+    const std::string whole = textOfFile(performance(60));
+    const ProgramRun run = exported(fileWith(whole.substr(0, whole.size() / 2)), output("take.csv"));
+    EXPECT_EQ(run.status, 1);
+    EXPECT_THAT(run.err, HasSubstr("is cut off"));
+    EXPECT_GT(lines(textOfFile(output("take.csv"))), 50);
+}
+
+TEST_F(ExportCommand, LeavesNothingWhenItIsInterrupted) {
+    const std::string endless = newPath(); // nobody writes into it, and nobody closes it
+    ASSERT_EQ(::mkfifo(endless.c_str(), 0600), 0);
+    const int held = ::open(endless.c_str(), O_RDWR);
+    const std::string command = "timeout --preserve-status -s INT 0.5 " POSEWIRE_CLI " export " + endless +
+                                " --to " + output("take.csv") + " 2> " + output("said");
+    const int status = std::system(command.c_str());
+    ::close(held);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << status;
+    EXPECT_THAT(textOfFile(output("said")),
+                HasSubstr("interrupted; " + output("take.csv") + " was not written"));
+    EXPECT_EQ(fileCount(), 1U);
+}
+
+TEST_F(ExportCommand, ShowsNoProgressWhereNobodyLooks) {
+    EXPECT_THAT(exported(performance(3'000), output("take.csv")).err, Not(HasSubstr("\r")));
+}
+
+} // namespace
+} // namespace posewire::cli::test
