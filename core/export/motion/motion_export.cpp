@@ -86,10 +86,10 @@ tl::expected<std::vector<OpenFile*>, FileError> opened(const MotionRequest& requ
             if (!sink) {
                 return tl::unexpected(sink.error());
             }
-            files.push_back(
-                std::make_unique<OpenFile>(OpenFile{{share.source, share.survey, {}, request.application},
-                                                    MotionOutput(std::move(*sink)),
-                                                    nullptr}));
+            files.push_back(std::make_unique<OpenFile>(
+                OpenFile{{share.source, share.survey, {}, request.application, request.makeBody},
+                         MotionOutput(std::move(*sink)),
+                         nullptr}));
             common = files.back().get();
         }
         common->task.characters.push_back(i);
@@ -128,11 +128,11 @@ tl::expected<void, FileError> write(const MotionRequest& request, const Share& s
             return !isLost && progress(done);
         });
     for (const auto& file : ours) {
-        if (file->out.hasFailed()) {
-            return file->out.finish();
-        }
         if (read) {
             file->writer->finish(file->out);
+        }
+        if (file->out.hasFailed()) {
+            return file->out.finish();
         }
     }
     return read;

@@ -38,6 +38,7 @@ struct MotionRequest {
     std::string path;
     log::OutputRules rules{};
     std::string application{}; ///< name and version of who writes it
+    MakeBodyMesh makeBody{};   ///< for formats with figures; empty: they have joints alone
 };
 
 /// Where each character of the source goes: all to the path, or, where a file holds one and there are

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/formats.h"
+#include "core/export/motion/bvh.h"
+#include "core/export/motion/gltf.h"
 #include "core/export/motion/motion_export.h"
 #include "core/export/motion/tables.h"
 #include "core/wire/text.h"
@@ -14,6 +16,10 @@ constexpr MotionFormat kFormats[] = {
      "a row without values", true, false, makeMotionCsv},
     {"JSON Lines", "JSON Lines", "jsonl", "an object for each sample, one on a line",
      "an object whose segments are null", true, false, makeMotionJsonLines},
+    {"BVH", "Biovision hierarchy", "bvh", "body and fingers as a skeleton of constant bones, in centimetres",
+     "the pose before it once more", false, false, makeBvh},
+    {"glTF", "Binary glTF 2.0", "glb", "animated figures, with props", "bridged evenly", true, false,
+     makeGlb},
 };
 
 } // namespace

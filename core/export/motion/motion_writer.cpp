@@ -25,6 +25,12 @@ void MotionOutput::flush() {
     m_buffer.clear();
 }
 
+void MotionOutput::fail(std::string text) {
+    if (m_result) {
+        m_result = tl::unexpected(log::FileError{std::move(text)});
+    }
+}
+
 tl::expected<void, log::FileError> MotionOutput::finish() {
     flush();
     if (m_result) {

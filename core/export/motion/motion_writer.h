@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "core/export/motion/body_mesh.h"
 #include "core/export/motion/motion_reader.h"
 
 #include <memory>
@@ -18,6 +19,8 @@ public:
     void write(std::string_view bytes);
     /// Last of all: without it the file does not come to be. Says what failed first.
     [[nodiscard]] tl::expected<void, log::FileError> finish();
+    /// The writer cannot go on: what is wrong and what to do.
+    void fail(std::string text);
     [[nodiscard]] bool hasFailed() const { return !m_result; }
 
 private:
@@ -34,6 +37,7 @@ struct MotionTask {
     const MotionSurvey& survey;
     std::vector<std::size_t> characters; ///< of this file, places in the source: each has frames
     std::string application;             ///< name and version of who writes it
+    MakeBodyMesh makeBody;               ///< empty: figures have no body, only joints
 
     [[nodiscard]] const MotionCharacter& characterAt(std::size_t place) const {
         return source.characters[place];

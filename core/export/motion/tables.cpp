@@ -2,6 +2,7 @@
 #include "core/export/motion/tables.h"
 
 #include "core/export/json_value.h"
+#include "core/export/motion/skeleton.h"
 #include "core/export/sheets.h"
 
 #include <algorithm>
@@ -41,22 +42,6 @@ SegmentLayout widest(const MotionTask& task) {
                std::max(all.fingers, layout.fingers)};
     }
     return all;
-}
-
-/// Position of a segment in another layout; -1 where it has none.
-int positionIn(const SegmentLayout& layout, const model::SegmentPlace& place) {
-    switch (place.kind) {
-    case model::SegmentKind::Body:
-        return place.index < layout.body ? place.index : -1;
-    case model::SegmentKind::Prop:
-        return place.index < layout.props ? layout.body + place.index : -1;
-    case model::SegmentKind::LeftFinger:
-    case model::SegmentKind::RightFinger:
-        const int finger =
-            place.index + (place.kind == model::SegmentKind::RightFinger ? model::kHandSegmentCount : 0);
-        return finger < layout.fingers ? layout.body + layout.props + finger : -1;
-    }
-    return -1;
 }
 
 class CsvWriter final : public MotionWriter {
