@@ -3,6 +3,7 @@
 #include "app/cli/interruption.h"
 #include "app/cli/progress_line.h"
 #include "app/cli/recorded_session.h"
+#include "app/figure/mannequin_body.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/accounting/stream_figures.h"
 
@@ -181,12 +182,16 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
                                 " has one for each character; choose one with --characters");
     }
     const std::string path = options.output == "-" ? "/dev/stdout" : options.output;
-    const auto exported = exporting::exportMotion(
-        {source, format, path, {options.replaces, {options.input}}, "Posewire " POSEWIRE_VERSION},
-        [&](double share) {
-            line.show("writing", share);
-            return !Interruption::hasCome();
-        });
+    const auto exported = exporting::exportMotion({source,
+                                                   format,
+                                                   path,
+                                                   {options.replaces, {options.input}},
+                                                   "Posewire " POSEWIRE_VERSION,
+                                                   figure::mannequinBody},
+                                                  [&](double share) {
+                                                      line.show("writing", share);
+                                                      return !Interruption::hasCome();
+                                                  });
     line.clear();
     if (!exported) {
         const bool isCancelled = exported.error().kind == log::FileError::Kind::Cancelled;

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include <fcntl.h>
@@ -101,6 +102,33 @@ TEST_F(ExportCommand, TakesARangeAndTheCharactersNamed) {
     EXPECT_THAT(nobody.err,
                 HasSubstr("\"Nobody\" is no character of " + file + "; there is " + name + " (0)"));
     EXPECT_EQ(exported(file, output("x.csv"), {"--from", "2", "--until", "1"}).status, 2);
+}
+
+TEST_F(ExportCommand, GivesFiguresInGltfABody) {
+    const std::string to = output("take.glb");
+    EXPECT_EQ(exported(performance(10), to).status, 0);
+    const std::string file = textOfFile(to);
+    std::uint32_t size = 0;
+    ASSERT_GT(file.size(), 20U);
+    std::memcpy(&size, file.data() + 12, sizeof(size));
+    const Json document = Json::parse(file.substr(20, size));
+    EXPECT_EQ(document["meshes"].size(), 2U);
+    EXPECT_EQ(document["skins"][1]["joints"].size(), 23U);
+    EXPECT_GT(document["accessors"]
+                      [document["meshes"][0]["primitives"][0]["attributes"]["POSITION"].get<int>()]["count"],
+              1'000);
+}
+
+TEST_F(ExportCommand, GivesEachCharacterAFileWhereOneHoldsOne) {
+    const ProgramRun run = exported(performance(10), output("take.bvh"));
+    EXPECT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(fileCount(), 2U);
+    EXPECT_FALSE(fs::exists(output("take.bvh")));
+    const ProgramRun piped = exported(performance(10), "-", {"--format", "bvh"});
+    EXPECT_EQ(piped.status, 2);
+    EXPECT_THAT(piped.err, HasSubstr("choose one with --characters"));
+    EXPECT_EQ(exported(performance(10), output("one.bvh"), {"--characters", "1"}).status, 0);
+    EXPECT_TRUE(fs::exists(output("one.bvh")));
 }
 
 TEST_F(ExportCommand, SaysWhatIsMissing) {
