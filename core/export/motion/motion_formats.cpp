@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/formats.h"
 #include "core/export/motion/bvh.h"
+#include "core/export/motion/c3d.h"
 #include "core/export/motion/gltf.h"
 #include "core/export/motion/motion_export.h"
+#include "core/export/motion/mvnx.h"
 #include "core/export/motion/tables.h"
 #include "core/wire/text.h"
 
@@ -20,6 +22,10 @@ constexpr MotionFormat kFormats[] = {
      "the pose before it once more", false, false, makeBvh},
     {"glTF", "Binary glTF 2.0", "glb", "animated figures, with props", "bridged evenly", true, false,
      makeGlb},
+    {"C3D", "C3D", "c3d", "markers where they were sent, else segment origins, in millimetres",
+     "points without a measurement", false, true, makeC3d},
+    {"MVNX", "MVN XML", "mvnx", "body, null pose and joint angles as XML of version 4", "a frame left out",
+     false, false, makeMvnx},
 };
 
 } // namespace
