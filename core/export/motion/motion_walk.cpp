@@ -54,7 +54,7 @@ public:
             return;
         }
         if (part != m_part) {
-            m_order.beginRun();
+            m_order.flush();
             m_joiner.forget();
             m_part = part;
             m_newest = {};
@@ -68,11 +68,11 @@ public:
         if (!wire::decodeInto(packet.bytes, m_datagram)) {
             return;
         }
-        if (const wire::Datagram* whole = m_joiner.add(m_datagram)) {
+        if (const wire::Datagram* whole = m_joiner.add(m_datagram, packet.stamp)) {
             add(*whole, packet, *rank);
         }
     }
-    void finish() { m_order.finish(); }
+    void finish() { m_order.flush(); }
 
 private:
     void add(const wire::Datagram& whole, const log::Packet& packet, std::size_t rank) {

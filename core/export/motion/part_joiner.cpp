@@ -5,26 +5,26 @@
 
 namespace posewire::exporting {
 
-PartJoiner::Open& PartJoiner::openFor(const wire::Header& header) {
-    const auto found = std::ranges::find_if(m_open, [&](const Open& one) {
+PartJoiner::Open& PartJoiner::openFor(const wire::Header& header, log::Stamp stamp) {
+    const auto found = std::find_if(m_open.rbegin(), m_open.rend(), [&](const Open& one) {
         return one.sample == header.sampleCounter && one.type == header.type();
     });
-    if (found != m_open.end()) {
+    if (found != m_open.rend()) {
         return *found;
     }
-    if (m_open.size() == kMostOpen) {
+    while (!m_open.empty() && (stamp - m_open.front().stamp > kWait || m_open.size() == kMostOpen)) {
         m_open.pop_front();
     }
-    m_open.push_back({header.sampleCounter, header.type(), 0, {}});
+    m_open.push_back({header.sampleCounter, header.type(), stamp, 0, {}});
     return m_open.back();
 }
 
-const wire::Datagram* PartJoiner::add(const wire::Datagram& part) {
+const wire::Datagram* PartJoiner::add(const wire::Datagram& part, log::Stamp stamp) {
     const wire::Header& header = part.header;
     if (header.isLast() && header.datagramIndex() == 0) {
         return &part;
     }
-    Open& open = openFor(header);
+    Open& open = openFor(header, stamp);
     open.parts.try_emplace(header.datagramIndex(), part);
     if (header.isLast()) {
         open.expected = header.datagramIndex() + std::size_t{1};

@@ -26,34 +26,50 @@ struct MotionSample {
     std::size_t rank = 0;        ///< of its type: of two with one counter the lower one counts
 };
 
-/// Puts the samples of one character into the order of their counters, each once. What comes late waits for
-/// no longer than kWait, so memory does not grow with the range. A counter that jumps is believed where the
-/// next sample agrees: then a new run begins.
+/// Puts the samples of one character into the order of their counters, each once. Each waits for kWait, so
+/// that what is late has its place, also from before a restart; memory does not grow with the range. A
+/// counter that is far from the others is believed where the next ones agree with it: what is lost in between
+/// is lost, or a new run begins. By the same rules as model::Probation, which counts, so that what is
+/// exported is what was counted.
 class SampleOrder {
 public:
-    static constexpr log::Duration kWait = std::chrono::seconds(1);
-    static constexpr std::size_t kMost = 512; ///< that wait
+    static constexpr log::Duration kWait = std::chrono::seconds(4);
+    static constexpr std::size_t kMost = 2048; ///< that wait
 
     using Take = std::function<void(const MotionSample& sample, bool beginsRun)>;
     explicit SampleOrder(Take take) : m_take(std::move(take)) {}
 
     void add(MotionSample sample);
-    /// What comes next has nothing to do with the counters before: another sender.
-    void beginRun();
-    /// Nothing more comes.
-    void finish() { beginRun(); }
+    /// All that waits goes; what comes next has nothing to do with the counters before: another sender.
+    void flush();
 
 private:
+    /// Samples between two restarts.
+    struct Run {
+        std::deque<MotionSample> waiting;   ///< by counter
+        std::uint32_t highest = 0;          ///< counter, taken or not
+        std::optional<std::uint32_t> taken; ///< the newest that has gone
+
+        [[nodiscard]] bool lacks(std::uint32_t sample) const;
+        void insert(MotionSample sample);
+    };
+    struct Doubted {
+        MotionSample sample;
+        bool isFresh = true; ///< the run has not advanced since
+    };
+
     [[nodiscard]] bool isExpected(std::uint32_t sample) const;
-    void insert(MotionSample sample);
+    [[nodiscard]] bool mayStraggle(std::uint32_t sample) const;
+    void advance();
     void doubt(MotionSample sample);
+    [[nodiscard]] std::size_t agreeing(std::uint32_t sample) const;
+    void believe(std::uint32_t sample);
     void release(log::Stamp now);
     void takeFirst();
 
     Take m_take;
-    std::deque<MotionSample> m_waiting;   ///< by counter
-    std::vector<MotionSample> m_doubted;  ///< agree with each other on another place
-    std::optional<std::uint32_t> m_taken; ///< the newest of this run that has gone
+    std::deque<Run> m_runs; ///< the newest last; those before it may still get what is late
+    std::vector<Doubted> m_doubted;
 };
 
 } // namespace posewire::exporting
