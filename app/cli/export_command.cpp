@@ -158,7 +158,8 @@ void tell(const std::vector<ExportedMotion>& exported, const MotionSource& sourc
             line += "; " + countText(one.gaps, "is missing", "are missing") + ": " + format.gaps;
         }
         if (one.restarts != 0) {
-            line += "; its sender was restarted " + countText(one.restarts, "time", "times");
+            line += "; its sender was restarted " + countText(one.restarts, "time", "times") +
+                    (format.hasTimes ? "" : ": the pause is left out");
         }
         console.complain(line);
     }

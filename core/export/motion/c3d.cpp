@@ -6,6 +6,9 @@
 #include "core/model/body/points.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <span>
 #include <unordered_map>
 #include <unordered_set>
 

@@ -5,6 +5,7 @@
 #include "core/export/motion/key_columns.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstring>
 #include <functional>

@@ -15,13 +15,14 @@
 namespace posewire::exporting {
 
 struct MotionFormat {
-    const char* title;  ///< "CSV", for menus
-    const char* kind;   ///< "Comma-separated values", for file dialogs
-    const char* suffix; ///< without the dot, in small letters; names the format in commands
-    const char* holds;  ///< what is in it, half a sentence
-    const char* gaps;   ///< what stands for a sample that did not come whole, half a sentence
-    bool holdsSeveral;  ///< characters in one file; else each has a file of its own
-    bool takesMarkers;  ///< instead of segments, where they were sent
+    const char* title;         ///< "CSV", for menus
+    const char* kind;          ///< "Comma-separated values", for file dialogs
+    const char* suffix;        ///< without the dot, in small letters; names the format in commands
+    const char* holds;         ///< what is in it, half a sentence
+    const char* gaps;          ///< what stands for a sample that did not come whole, half a sentence
+    bool holdsSeveral = false; ///< characters in one file; else each has a file of its own
+    bool takesMarkers = false; ///< instead of segments, where they were sent
+    bool hasTimes = false;     ///< of samples; else a pause at a restart is left out
     std::unique_ptr<MotionWriter> (*make)(const MotionTask& task);
 };
 

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <span>
+#include <utility>
 
 namespace posewire::exporting {
 namespace {

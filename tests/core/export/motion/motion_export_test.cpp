@@ -27,7 +27,12 @@ std::unique_ptr<MotionWriter> makeNames(const MotionTask& task) {
     };
     return std::make_unique<Names>(task);
 }
-constexpr MotionFormat kAlone{"Names", "Names", "txt", "names", "nothing", false, false, makeNames};
+constexpr MotionFormat kAlone{.title = "Names",
+                              .kind = "Names",
+                              .suffix = "txt",
+                              .holds = "names",
+                              .gaps = "nothing",
+                              .make = makeNames};
 
 TEST_F(MotionExportTest, FindsFormatsByTheirSuffix) {
     for (const MotionFormat& format : motionFormats()) {
