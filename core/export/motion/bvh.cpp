@@ -57,14 +57,6 @@ public:
             makeLine();
         }
         out.write(m_line);
-        ++m_written;
-    }
-
-    /// The log may have dropped packets since it was surveyed: the file has as many frames as it says.
-    void finish(MotionOutput& out) override {
-        for (; m_written < m_survey.frames; ++m_written) {
-            out.write(m_line);
-        }
     }
 
 private:
@@ -108,7 +100,6 @@ private:
     Skeleton m_skeleton;
     JointMotion m_motion;
     std::string m_line;
-    std::uint64_t m_written = 0;
 };
 
 } // namespace

@@ -82,14 +82,6 @@ public:
         write(out);
     }
 
-    /// The log may have dropped packets since it was surveyed: the file has as many frames as it says.
-    void finish(MotionOutput& out) override {
-        m_points.assign(m_labels.size(), std::nullopt);
-        while (m_written < m_survey.frames) {
-            write(out);
-        }
-    }
-
 private:
     void takeSegments(const model::CharacterPose& pose) {
         for (std::size_t i = 0; i < m_labels.size(); ++i) {
@@ -113,7 +105,6 @@ private:
             appendC3d(point ? 0.0F : kUnmeasured, m_bytes);
         }
         out.write(m_bytes);
-        ++m_written;
     }
 
     [[nodiscard]] std::string header(std::size_t parameterBlocks) const {
@@ -174,7 +165,6 @@ private:
     std::unordered_map<std::uint32_t, std::size_t> m_placeOfMarker;
     std::vector<std::optional<Eigen::Vector3d>> m_points; ///< of a frame
     std::string m_bytes;
-    std::uint64_t m_written = 0;
 };
 
 } // namespace

@@ -27,6 +27,7 @@ struct OpenFile {
     MotionTask task;
     MotionOutput out;
     std::unique_ptr<MotionWriter> writer;
+    std::uint64_t samples = 0; ///< that are still to come
 };
 
 Share shareOf(const MotionSource& source, MotionContent content, const std::vector<std::size_t>& places) {
@@ -95,6 +96,7 @@ tl::expected<std::vector<OpenFile*>, FileError> opened(const MotionRequest& requ
             common = files.back().get();
         }
         common->task.characters.push_back(i);
+        common->samples += share.survey.characters[i].frames - share.survey.characters[i].gaps;
         fileOf[i] = common;
     }
     return fileOf;
@@ -119,9 +121,9 @@ tl::expected<void, FileError> write(const MotionRequest& request, const Share& s
     const auto read = readMotion(
         share.source, share.content, share.survey,
         [&](const MotionFrame& frame) {
-            OpenFile* file = (*fileOf)[frame.character];
-            if (file != nullptr) {
+            if (OpenFile* file = (*fileOf)[frame.character]) {
                 file->writer->add(frame, file->out);
+                file->samples -= frame.isGap() ? 0 : 1;
             }
         },
         [&](double done) {
@@ -130,7 +132,10 @@ tl::expected<void, FileError> write(const MotionRequest& request, const Share& s
             return !isLost && progress(done);
         });
     for (const auto& file : ours) {
-        if (read) {
+        if (read && file->samples != 0) {
+            file->out.fail(
+                "the log dropped part of the range while it was written; choose a later beginning");
+        } else if (read) {
             file->writer->finish(file->out);
         }
         if (file->out.hasFailed()) {

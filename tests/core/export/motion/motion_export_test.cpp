@@ -94,6 +94,73 @@ TEST_F(MotionExportTest, LeavesNothingWhereItIsCancelled) {
     }
 }
 
+TEST_F(MotionExportTest, WritesEveryFormatTheSameEachTime) {
+    auto all = settings(2);
+    all.types = {2, 3, 12, 13};
+    all.fingers = true;
+    all.props = 1;
+    perform(all, 300, without({50, 51, 200}));
+    const MotionSource two = source();
+    for (const MotionFormat& format : motionFormats()) {
+        const auto first = write(format.suffix, two);
+        ASSERT_TRUE(first) << first.error().text;
+        std::vector<std::string> texts;
+        for (const ExportedMotion& one : *first) {
+            texts.push_back(textOf(one.path));
+            EXPECT_GT(texts.back().size(), 10'000U) << format.suffix;
+            EXPECT_EQ(one.frames - one.gaps, 297U) << format.suffix;
+            EXPECT_EQ(one.content == MotionContent::Markers, format.takesMarkers);
+        }
+        EXPECT_EQ(texts.size(), 2U);
+        EXPECT_EQ(filesLeft().size(), format.holdsSeveral ? 1U : 2U);
+        for (const ExportedMotion& one : *first) {
+            std::filesystem::remove(one.path);
+        }
+        EXPECT_FALSE(write(format.suffix, two, [](double share) { return share < 0.5; }));
+        EXPECT_THAT(filesLeft(), IsEmpty()) << format.suffix;
+        const auto second = write(format.suffix, two);
+        ASSERT_TRUE(second);
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            EXPECT_TRUE(textOf((*second)[i].path) == texts[i]) << format.suffix; // too long to be shown
+        }
+        for (const ExportedMotion& one : *second) {
+            std::filesystem::remove(one.path);
+        }
+    }
+}
+
+TEST_F(MotionExportTest, WritesNothingWhereTheLogDropsWhatItReads) {
+    log::PacketLog small({.memoryCap = std::size_t{4} << 20, .chunkSize = std::size_t{256} << 10});
+    model::Session session(small);
+    const auto receive = [&](std::uint64_t frames) {
+        performer::Performer performer(settings());
+        for (std::uint64_t frame = 0; frame < frames; ++frame) {
+            for (const wire::Datagram& datagram : performer.frame(frame)) {
+                log::Arrival arrival;
+                arrival.stamp = kStart + frame * 16ms;
+                arrival.sender = small.senders().intern({"127.0.0.1:40001", log::Transport::Udp, 9763});
+                small.writer().append(wire::encode(datagram).value(), arrival);
+            }
+        }
+        small.writer().publish();
+    };
+    receive(3'000);
+    while (session.follow(kStart + 48s)) {
+    }
+    const MotionSource all =
+        motionSourceOf(session, model::kAllTime, std::vector{session.charactersNow()[0]->key});
+    bool hasDropped = false;
+    const auto exported = write("bvh", all, [&](double share) {
+        if (share >= 0.5 && !std::exchange(hasDropped, true)) {
+            receive(9'000);
+        }
+        return true;
+    });
+    ASSERT_FALSE(exported);
+    EXPECT_THAT(exported.error().text, HasSubstr("choose a later beginning"));
+    EXPECT_THAT(filesLeft(), IsEmpty());
+}
+
 TEST_F(MotionExportTest, GrowsFromNothingToAll) {
     perform(settings(1), 9'000);
     double last = 0;
