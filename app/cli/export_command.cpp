@@ -40,8 +40,8 @@ std::string formatHelp() {
     std::string text = "otherwise by the name of PATH.";
     std::string alone;
     for (const MotionFormat& format : exporting::motionFormats()) {
-        text += std::string(" ") + format.suffix + ": " + format.holds + "; a sample that is missing is " +
-                format.gaps + '.';
+        text += std::string(" ") + format.suffix + ": " + format.holds + "; missing samples: " + format.gaps +
+                '.';
         if (!format.holdsSeveral) {
             alone += (alone.empty() ? "" : ", ") + std::string(format.suffix);
         }

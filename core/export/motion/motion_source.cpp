@@ -55,7 +55,8 @@ MotionSource motionSourceOf(const model::SessionView& session, const model::Time
         MotionCharacter& character = source.characters.emplace_back();
         character.key = key;
         character.name = session.displayName(key);
-        character.sender = session.addressOf(key.sender);
+        const model::Sender* sender = session.find(key.sender);
+        character.hasReceipt = sender == nullptr || sender->info.transport != log::Transport::File;
         character.colour = session.colour(key);
         for (const model::Character* one : session.lineage(key)) {
             character.parts.push_back(partOf(session, one->key));

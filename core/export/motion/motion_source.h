@@ -30,7 +30,7 @@ struct MotionCharacter {
 
     model::CharacterKey key;
     model::ForeignText name;
-    model::ForeignText sender; ///< its address
+    bool hasReceipt = true; ///< stamps are when it was received; a file of datagrams alone does not know
     model::Colour colour;
     std::vector<Part> parts;   ///< the oldest first
     model::BodyOrigins body{}; ///< in the null pose, metres; the reference body's where none came

@@ -107,7 +107,8 @@ public:
         std::string text =
             "<frame time=\"" + std::to_string(static_cast<std::int64_t>(frame.seconds * 1000 + 0.5)) +
             "\" index=\"" + std::to_string(index) + "\" tc=\"\" ms=\"" +
-            std::to_string(millisecondsOf(wallOf(frame.pose->stamp))) + "\" type=\"normal\">\n";
+            (m_character.hasReceipt ? std::to_string(millisecondsOf(wallOf(frame.pose->stamp))) : "") +
+            "\" type=\"normal\">\n";
         std::array<Eigen::Quaterniond, kBody> turns;
         text += "<orientation>";
         for (std::size_t i = 0; i < kBody; ++i) {
@@ -143,14 +144,20 @@ private:
                            [](bool isPresent) { return isPresent; });
     }
 
+    /// With a blank before them; none where nothing tells the date.
+    [[nodiscard]] std::string dateAttributes() const {
+        const log::WallTime start = wallOf(m_survey.first);
+        return m_character.hasReceipt ? " recDate=\"" + dateText(start) + "\" recDateMSecsSinceEpoch=\"" +
+                                            std::to_string(millisecondsOf(start)) + '"'
+                                      : std::string();
+    }
+
     void addSubject(std::string& text) const {
         std::string rate;
         appendNumber(m_survey.rateHz, rate);
-        const log::WallTime start = wallOf(m_survey.first);
         text += "<subject label=\"" + xmlText(m_character.name) + "\" torsoColor=\"" +
                 colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
-                std::to_string(kBody) + "\" recDate=\"" + dateText(start) + "\" recDateMSecsSinceEpoch=\"" +
-                std::to_string(millisecondsOf(start)) + "\" configuration=\"FullBody\">\n<comment/>\n";
+                std::to_string(kBody) + '"' + dateAttributes() + " configuration=\"FullBody\">\n<comment/>\n";
     }
 
     void addSegments(std::string& text) const {

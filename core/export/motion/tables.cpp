@@ -17,9 +17,11 @@ std::string typeText(std::uint8_t type) {
     return {static_cast<char>('0' + type / 10 % 10), static_cast<char>('0' + type % 10)};
 }
 
-/// Where the receiver's clock stood.
-std::int64_t wallNanoseconds(const MotionTask& task, log::Stamp stamp) {
-    return log::nanosecondsOf(task.source.log->timeline().wallOf(stamp));
+/// Where the receiver's clock stood, in nanoseconds; empty where nothing tells.
+std::string receiptText(const MotionTask& task, const MotionFrame& frame) {
+    return task.characterAt(frame.character).hasReceipt
+               ? std::to_string(log::nanosecondsOf(task.source.log->timeline().wallOf(frame.pose->stamp)))
+               : std::string();
 }
 
 /// Counts the runs of each character.
@@ -76,8 +78,8 @@ public:
         if (frame.isGap()) {
             m_line.append(2 + kCells * static_cast<std::size_t>(m_layout.count()), ',');
         } else {
-            m_line += std::to_string(wallNanoseconds(m_task, frame.pose->stamp)) + ',' +
-                      std::to_string(frame.pose->timeCode) + ',' + typeText(frame.pose->type);
+            m_line += receiptText(m_task, frame) + ',' + std::to_string(frame.pose->timeCode) + ',' +
+                      typeText(frame.pose->type);
             for (int position = 0; position < m_layout.count(); ++position) {
                 addSegment(*frame.pose, position);
             }
@@ -130,7 +132,8 @@ public:
         if (frame.isGap()) {
             m_line += ",\"segments\":null}\n";
         } else {
-            m_line += ",\"receivedNs\":" + std::to_string(wallNanoseconds(m_task, frame.pose->stamp)) +
+            const std::string receipt = receiptText(m_task, frame);
+            m_line += (receipt.empty() ? "" : ",\"receivedNs\":" + receipt) +
                       ",\"timeCode\":" + std::to_string(frame.pose->timeCode) + ",\"type\":\"" +
                       typeText(frame.pose->type) + "\",\"segments\":[";
             addSegments(*frame.pose);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/performer/performer.h"
 #include "tests/app/cli/monitor_fixture.h"
+#include "tests/support/paths.h"
 
 #include <gmock/gmock.h>
 
@@ -169,6 +170,42 @@ TEST_F(ExportCommand, ReadsDatagramsBackToBackAndStandardInput) {
     EXPECT_EQ(runProgram({"export", "-", "--to", output("piped.csv")}, raw).status, 0);
     EXPECT_EQ(lines(textOfFile(output("raw.csv"))), 21);
     EXPECT_EQ(lines(textOfFile(output("piped.csv"))), 21);
+}
+
+TEST_F(ExportCommand, SaysNothingAboutReceiptWhereAFileHasNoStamps) {
+    const ProgramRun decoded = runProgram({"decode", performance(3), "--json"});
+    const std::string raw = fileWith(runProgram({"encode", "-"}, decoded.out).out);
+    EXPECT_EQ(exported(raw, output("raw.csv")).status, 0);
+    const std::string csv = textOfFile(output("raw.csv"));
+    EXPECT_THAT(csv.substr(csv.find('\n') + 1), HasSubstr(",0,1,1,0.000000,,36000000,02,"));
+    EXPECT_EQ(exported(raw, output("raw.jsonl")).status, 0);
+    EXPECT_THAT(textOfFile(output("raw.jsonl")), Not(HasSubstr("receivedNs")));
+    EXPECT_EQ(exported(raw, output("raw.mvnx"), {"--characters", "0"}).status, 0);
+    EXPECT_THAT(textOfFile(output("raw.mvnx")), Not(HasSubstr("recDate")));
+    EXPECT_THAT(textOfFile(output("raw.mvnx")), HasSubstr("ms=\"\" type=\"normal\""));
+}
+
+TEST_F(ExportCommand, AgreesOnRealPosesOfBothTypes) {
+    const fs::path folder = posewire::test::capturesFolder();
+    if (!fs::exists(folder / "mxtp01.bin") || !fs::exists(folder / "mxtp02.bin")) {
+        GTEST_SKIP() << "no recorded datagrams beside the source tree";
+    }
+    std::vector<Json> samples;
+    for (const char* file : {"mxtp01.bin", "mxtp02.bin"}) { // the same sample in both
+        const ProgramRun run = exported(folder / file, "-", {"--format", "jsonl"});
+        ASSERT_EQ(run.status, 0) << run.err;
+        samples.push_back(Json::parse(run.out)["segments"]);
+    }
+    ASSERT_EQ(samples[0].size(), 23U);
+    for (std::size_t i = 0; i < samples[0].size(); ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            EXPECT_NEAR(samples[0][i]["position"][axis].get<double>(), samples[1][i]["position"][axis], 1e-6);
+        }
+        for (std::size_t part = 0; part < 4; ++part) {
+            EXPECT_NEAR(samples[0][i]["orientation"][part].get<double>(), samples[1][i]["orientation"][part],
+                        1e-5);
+        }
+    }
 }
 
 TEST_F(ExportCommand, ExportsWhatIsWholeOfACutFile) {
