@@ -68,7 +68,7 @@ public:
         if (!wire::decodeInto(packet.bytes, m_datagram)) {
             return;
         }
-        if (const wire::Datagram* whole = m_joiner.add(m_datagram, packet.stamp)) {
+        if (const wire::Datagram* whole = m_joiner.add(m_datagram, packet)) {
             add(*whole, packet, *rank);
         }
     }

@@ -15,16 +15,20 @@ PartJoiner::Open& PartJoiner::openFor(const wire::Header& header, log::Stamp sta
     while (!m_open.empty() && (stamp - m_open.front().stamp > kWait || m_open.size() == kMostOpen)) {
         m_open.pop_front();
     }
-    m_open.push_back({header.sampleCounter, header.type(), stamp, 0, {}});
+    m_open.push_back({header.sampleCounter, header.type(), stamp, 0, 0, {}});
     return m_open.back();
 }
 
-const wire::Datagram* PartJoiner::add(const wire::Datagram& part, log::Stamp stamp) {
+const wire::Datagram* PartJoiner::add(const wire::Datagram& part, const log::Packet& packet) {
     const wire::Header& header = part.header;
     if (header.isLast() && header.datagramIndex() == 0) {
         return &part;
     }
-    Open& open = openFor(header, stamp);
+    Open& open = openFor(header, packet.stamp);
+    open.bytes += packet.bytes.size();
+    if (open.bytes > kMostBytes) {
+        return nullptr;
+    }
     open.parts.try_emplace(header.datagramIndex(), part);
     if (header.isLast()) {
         open.expected = header.datagramIndex() + std::size_t{1};

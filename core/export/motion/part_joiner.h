@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/time.h"
+#include "core/log/packet.h"
+#include "core/model/session/session_view.h"
 #include "core/wire/codec.h"
 
 #include <cstddef>
@@ -17,9 +18,11 @@ public:
     // Samples that lack a part: older ones are given up.
     static constexpr log::Duration kWait = std::chrono::seconds(4);
     static constexpr std::size_t kMostOpen = 1024;
+    /// Of one sample, all parts together: what is more makes it no sample.
+    static constexpr std::size_t kMostBytes = model::SessionView::kMostMessageBytes;
 
     /// Null while something of the sample is missing. Valid until the next call.
-    [[nodiscard]] const wire::Datagram* add(const wire::Datagram& part, log::Stamp stamp);
+    [[nodiscard]] const wire::Datagram* add(const wire::Datagram& part, const log::Packet& packet);
     void forget() { m_open.clear(); }
 
 private:
@@ -28,6 +31,7 @@ private:
         std::uint8_t type = 0;
         log::Stamp stamp{};       ///< of the part that came first
         std::size_t expected = 0; ///< 0 before the last part has come
+        std::size_t bytes = 0;
         std::map<std::uint8_t, wire::Datagram> parts;
     };
     Open& openFor(const wire::Header& header, log::Stamp stamp);

@@ -103,6 +103,9 @@ void SampleOrder::doubt(MotionSample sample) {
     const auto same = std::find_if(m_doubted.begin(), m_doubted.end(),
                                    [&](const Doubted& one) { return one.sample.pose.sample == number; });
     if (same == m_doubted.end()) {
+        if (m_doubted.size() == model::Probation::kMost) {
+            m_doubted.erase(m_doubted.begin());
+        }
         m_doubted.push_back({std::move(sample)});
     } else if (sample.rank < same->sample.rank) {
         same->sample = std::move(sample);

@@ -119,7 +119,10 @@ class JsonLinesWriter final : public MotionWriter {
 public:
     explicit JsonLinesWriter(const MotionTask& task) : m_task(task), m_runs(task.source.characters.size()) {
         for (const MotionCharacter& character : task.source.characters) {
-            m_begins.push_back("{\"character\":" + JsonValue(character.name.exact()).text() +
+            // The bytes that were sent; not where they are so many that each sample would be drowned in them.
+            const bool isShort = character.name.exact().size() <= model::ForeignText::kMostBytes;
+            const std::string name(isShort ? character.name.exact() : character.name.shown());
+            m_begins.push_back("{\"character\":" + JsonValue(name).text() +
                                ",\"id\":" + std::to_string(character.key.character) + ",\"run\":");
         }
     }

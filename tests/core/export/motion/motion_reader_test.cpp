@@ -176,6 +176,40 @@ TEST_F(MotionReaderTest, JoinsSamplesThatComeInSeveralDatagrams) {
     EXPECT_LT(differenceOf(frames[8].pose.segments, whole[8]), kPrecision);
 }
 
+TEST_F(MotionReaderTest, TakesNoSampleOfMorePartsThanAMessageHas) {
+    auto fingers = settings();
+    fingers.fingers = true;
+    performer::Performer performer(fingers);
+    for (std::uint64_t frame = 0; frame < 20; ++frame) {
+        for (wire::Datagram datagram : performer.frame(frame)) {
+            if (datagram.header.type() == 2) {
+                for (const int part : {0, 1, 2, 3, 0x84}) { // 10 KB
+                    datagram.header.datagramCounter = static_cast<std::uint8_t>(part);
+                    send(datagram, kStart + frame * 16ms);
+                }
+            }
+        }
+    }
+    follow();
+    EXPECT_THAT(framesOf(source()), IsEmpty());
+}
+
+TEST_F(MotionReaderTest, KeepsItsSamplesAmongCountersThatMeanNothing) {
+    perform(settings(), 60);
+    wire::Datagram datagram = performer::Performer(settings()).frame(1).front();
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+        datagram.header.sampleCounter = i * 2'654'435'761U;
+        send(datagram, kStart + 1s);
+    }
+    follow();
+    const auto frames = framesOf(source());
+    for (std::uint32_t sample = 1; sample <= 60; ++sample) {
+        EXPECT_TRUE(std::ranges::any_of(frames, [&](const Frame& frame) {
+            return frame.frame.sample == sample && !frame.frame.isGap();
+        })) << sample;
+    }
+}
+
 TEST_F(MotionReaderTest, PrefersTypesAsTheViewportDoes) {
     auto all = settings();
     all.types = {1, 2, 5, 12, 13};

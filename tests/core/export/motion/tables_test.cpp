@@ -141,7 +141,9 @@ TEST_P(HostileMotionTest, NamesAreTextInJson) {
     std::istringstream lines(written("jsonl", source()));
     std::size_t count = 0;
     for (std::string line; std::getline(lines, line); ++count) {
-        EXPECT_TRUE(Json::parse(line, nullptr, false).is_object());
+        const Json object = Json::parse(line, nullptr, false);
+        EXPECT_TRUE(object.is_object());
+        EXPECT_LT(object["character"].get<std::string>().size(), 300U);
     }
     EXPECT_EQ(count, 6U);
 }
