@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <set>
+#include <system_error>
 #include <utility>
 
 namespace posewire::exporting {
@@ -157,6 +158,15 @@ void tell(const Share& share, const std::vector<std::string>& paths, std::vector
 }
 
 tl::expected<void, FileError> checkAll(const MotionRequest& request, const std::vector<std::string>& paths) {
+    std::error_code error;
+    const auto kind = std::filesystem::status(request.path, error).type();
+    const bool isOrdinary =
+        kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found;
+    if (!isOrdinary && !paths.empty() && paths.front() != request.path) {
+        return tl::unexpected(
+            FileError{request.path + ": is a folder or a device, and " + request.format.suffix +
+                      " has a file for each character; name a file, or choose one character"});
+    }
     for (const std::string& path : paths) {
         if (const auto checked = log::checkOutput(path, request.rules); !checked) {
             return tl::unexpected(checked.error());

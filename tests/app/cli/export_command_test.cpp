@@ -128,6 +128,11 @@ TEST_F(ExportCommand, GivesEachCharacterAFileWhereOneHoldsOne) {
     const ProgramRun piped = exported(performance(10), "-", {"--format", "bvh"});
     EXPECT_EQ(piped.status, 2);
     EXPECT_THAT(piped.err, HasSubstr("choose one with --characters"));
+    const ProgramRun device = exported(performance(10), "/dev/null", {"--format", "bvh"});
+    EXPECT_EQ(device.status, 2);
+    EXPECT_THAT(device.err, HasSubstr("/dev/null: is a folder or a device"));
+    EXPECT_EQ(exported(performance(10), m_folder, {"--format", "bvh"}).status, 2);
+    EXPECT_EQ(fileCount(), 2U);
     EXPECT_EQ(exported(performance(10), output("one.bvh"), {"--characters", "1"}).status, 0);
     EXPECT_TRUE(fs::exists(output("one.bvh")));
 }
