@@ -134,8 +134,9 @@ tl::expected<void, FileError> write(const MotionRequest& request, const Share& s
         });
     for (const auto& file : ours) {
         if (read && file->samples != 0) {
-            file->out.fail(
-                "the log dropped part of the range while it was written; choose a later beginning");
+            file->out.fail(request.path +
+                           ": the log dropped part of the range while it was written; choose a later "
+                           "beginning");
         } else if (read) {
             file->writer->finish(file->out);
         }
