@@ -126,6 +126,7 @@ struct Command {
 
 Command addDecodeCommand(CommandLine& program);
 Command addEncodeCommand(CommandLine& program);
+Command addExportCommand(CommandLine& program);
 Command addMonitorCommand(CommandLine& program);
 Command addReferenceCommand(CommandLine& program);
 Command addReportCommand(CommandLine& program);

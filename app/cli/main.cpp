@@ -41,13 +41,14 @@ int main(int argumentCount, char** arguments) {
     openStandardStreams();
     std::ios::sync_with_stdio(false);
     CommandLine program(
-        "posewire-cli", "Decodes, encodes, sends and watches MXTP motion-capture datagrams.",
+        "posewire-cli", "Decodes, encodes, sends, watches and exports MXTP motion-capture datagrams.",
         "posewire-cli " POSEWIRE_VERSION,
         "Exit status: 0 fine; 1 the input had faults, or a limit was exceeded; 2 wrong usage, or "
         "a file or port that cannot be opened.");
-    const std::vector<Command> commands{addDecodeCommand(program), addEncodeCommand(program),
-                                        addSendCommand(program),   addMonitorCommand(program),
-                                        addReportCommand(program), addReferenceCommand(program)};
+    const std::vector<Command> commands{addDecodeCommand(program),   addEncodeCommand(program),
+                                        addSendCommand(program),     addMonitorCommand(program),
+                                        addReportCommand(program),   addExportCommand(program),
+                                        addReferenceCommand(program)};
     const CommandLine::Parsed parsed = program.parse(argumentCount, arguments);
     if (parsed.kind == CommandLine::Parsed::Kind::Answer) {
         std::cout << parsed.text;

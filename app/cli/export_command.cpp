@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/cli/command.h"
+#include "app/cli/interruption.h"
+#include "app/cli/progress_line.h"
+#include "app/cli/recorded_session.h"
+#include "app/figure/mannequin_body.h"
+#include "core/export/motion/motion_export.h"
+#include "core/model/accounting/stream_figures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::cli {
+namespace {
+
+using exporting::ExportedMotion;
+using exporting::MotionFormat;
+using exporting::MotionSource;
+
+struct ExportOptions {
+    std::string input;
+    std::string output;
+    std::string format;
+    std::optional<double> fromSeconds;
+    std::optional<double> untilSeconds;
+    std::vector<std::string> characters; ///< none: all
+    bool replaces = false;
+};
+
+std::string formatNames() {
+    std::string names;
+    for (const MotionFormat& format : exporting::motionFormats()) {
+        names += (names.empty() ? "" : ", ") + std::string(format.suffix);
+    }
+    return names;
+}
+
+/// For the help, from the table of formats.
+std::string formatHelp() {
+    std::string text = "otherwise by the name of PATH.";
+    std::string alone;
+    for (const MotionFormat& format : exporting::motionFormats()) {
+        text += std::string(" ") + format.suffix + ": " + format.holds + "; missing samples: " + format.gaps +
+                '.';
+        if (!format.holdsSeveral) {
+            alone += (alone.empty() ? "" : ", ") + std::string(format.suffix);
+        }
+    }
+    return alone.empty()
+               ? text
+               : text + " Of several characters " + alone + " get a file each, named after them: take-NAME." +
+                     alone.substr(0, alone.find(','));
+}
+
+tl::expected<const MotionFormat*, std::string> formatOf(const ExportOptions& options) {
+    if (!options.format.empty()) {
+        const MotionFormat* format = exporting::findMotionFormat(options.format);
+        return format != nullptr
+                   ? tl::expected<const MotionFormat*, std::string>(format)
+                   : tl::unexpected("\"" + options.format + "\" is no format; there are " + formatNames());
+    }
+    const MotionFormat* format = exporting::motionFormatOf(options.output);
+    return format != nullptr
+               ? tl::expected<const MotionFormat*, std::string>(format)
+               : tl::unexpected(options.output + ": its name says no format; end it with one of " +
+                                formatNames() + ", or add --format");
+}
+
+/// From the first datagram on.
+model::TimeRange rangeOf(const ExportOptions& options, const model::SessionView& session) {
+    const auto stampAt = [&](double seconds) {
+        return session.firstStamp() + log::Duration(std::llround(seconds * 1e9));
+    };
+    model::TimeRange range = model::kAllTime;
+    range.from = options.fromSeconds ? stampAt(*options.fromSeconds) : range.from;
+    range.to = options.untilSeconds ? stampAt(*options.untilSeconds) : range.to;
+    return range;
+}
+
+/// A whole text may be a name, with commas in it.
+std::vector<std::string> wordsOf(const std::string& text, const auto& isKnown) {
+    if (isKnown(text)) {
+        return {text};
+    }
+    std::vector<std::string> words;
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t comma = std::min(text.find(',', begin), text.size());
+        if (comma != begin) {
+            words.push_back(text.substr(begin, comma - begin));
+        }
+        begin = comma + 1;
+    }
+    return words;
+}
+
+/// Those whose name or ID is asked for, or one line about what is wrong.
+tl::expected<std::vector<model::CharacterKey>, std::string> chosen(const ExportOptions& options,
+                                                                   const model::SessionView& session) {
+    const std::vector<const model::Character*> all = session.charactersNow();
+    std::vector<model::CharacterKey> keys;
+    std::string known;
+    for (const model::Character* one : all) {
+        keys.push_back(one->key);
+        known += (known.empty() ? "" : ", ") + session.displayName(one->key).shown() + " (" +
+                 std::to_string(one->key.character) + ")";
+    }
+    if (options.characters.empty()) {
+        return keys;
+    }
+    const auto is = [&](const model::CharacterKey& key, const std::string& word) {
+        const model::ForeignText name = session.displayName(key);
+        return name == word || name.shown() == word || std::to_string(key.character) == word;
+    };
+    std::vector<model::CharacterKey> wanted;
+    const auto isKnown = [&](const std::string& word) {
+        return std::ranges::any_of(keys, [&](const auto& key) { return is(key, word); });
+    };
+    for (const std::string& text : options.characters) {
+        for (const std::string& word : wordsOf(text, isKnown)) {
+            if (!isKnown(word)) {
+                return tl::unexpected("\"" + model::shownText(word) + "\" is no character of " +
+                                      options.input + "; there " +
+                                      (known.empty() ? "are none" : "is " + known));
+            }
+            std::ranges::copy_if(keys, std::back_inserter(wanted), [&](const auto& key) {
+                return is(key, word) && std::ranges::find(wanted, key) == wanted.end();
+            });
+        }
+    }
+    return wanted;
+}
+
+std::string nothingText(const ExportOptions& options, const MotionSource& source) {
+    if (source.characters.empty()) {
+        return options.input +
+               ": has no characters, so there is nothing to export; is it a recording of MXTP?";
+    }
+    const bool isPart = options.fromSeconds || options.untilSeconds;
+    return options.input + ": no poses (types 01, 02, 05) of " +
+           (source.characters.size() == 1 ? source.characters[0].name.shown() : "these characters") +
+           (isPart ? " between these times; try without --from and --until"
+                   : ", so there is nothing to export; was Position + Orientation streamed?");
+}
+
+std::string countText(std::uint64_t count, const char* one, const char* several) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : several);
+}
+
+void tell(const std::vector<ExportedMotion>& exported, const MotionSource& source, const MotionFormat& format,
+          const Console& console) {
+    for (const ExportedMotion& one : exported) {
+        std::string line = source.characters[one.character].name.shown() + ": " +
+                           countText(one.frames - one.gaps, "sample", "samples") +
+                           (one.content == exporting::MotionContent::Markers ? " of markers" : "") + " to " +
+                           one.path;
+        if (one.gaps != 0) {
+            line += "; " + countText(one.gaps, "is missing", "are missing") + ": " + format.gaps;
+        }
+        if (one.restarts != 0) {
+            line += "; its sender was restarted " + countText(one.restarts, "time", "times") +
+                    (format.hasTimes ? "" : ": the pause is left out");
+        }
+        console.complain(line);
+    }
+    for (std::size_t i = 0; i < source.characters.size(); ++i) {
+        if (std::ranges::find(exported, i, &ExportedMotion::character) == exported.end()) {
+            console.complain(source.characters[i].name.shown() + ": no poses, left out");
+        }
+    }
+}
+
+ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format, RecordedSession& recorded,
+                       ProgressLine& line, const Console& console) {
+    const model::SessionView& session = recorded.session();
+    const auto keys = chosen(options, session);
+    if (!keys) {
+        return console.unusable(keys.error());
+    }
+    const MotionSource source = exporting::motionSourceOf(session, rangeOf(options, session), *keys);
+    if (options.output == "-" && !format.holdsSeveral && source.characters.size() > 1) {
+        return console.unusable(std::string("standard output holds one file, and ") + format.suffix +
+                                " has one for each character; choose one with --characters");
+    }
+    const std::string path = options.output == "-" ? "/dev/stdout" : options.output;
+    const auto exported = exporting::exportMotion({source,
+                                                   format,
+                                                   path,
+                                                   {options.replaces, {options.input}},
+                                                   "Posewire " POSEWIRE_VERSION,
+                                                   figure::mannequinBody},
+                                                  [&](double share) {
+                                                      line.show("writing", share);
+                                                      return !Interruption::hasCome();
+                                                  });
+    line.clear();
+    if (!exported) {
+        const bool isCancelled = exported.error().kind == log::FileError::Kind::Cancelled;
+        return console.unusable(isCancelled ? "interrupted; " + options.output + " was not written"
+                                            : exported.error().text);
+    }
+    if (exported->empty()) {
+        return console.unusable(nothingText(options, source));
+    }
+    tell(*exported, source, format, console);
+    return ExitStatus::Fine;
+}
+
+ExitStatus exportRecording(const ExportOptions& options, const Console& console) {
+    const Interruption interruption; // so that no half file is left
+    const auto format = formatOf(options);
+    if (!format) {
+        return console.unusable(format.error());
+    }
+    const auto file = openInput(options.input, Interruption::hasCome);
+    if (!file) {
+        return console.unusable(file.error().text);
+    }
+    if (const auto checked = log::checkOutput(options.output == "-" ? "/dev/stdout" : options.output,
+                                              {options.replaces, {options.input}});
+        !checked) {
+        return console.unusable(checked.error().text);
+    }
+    ProgressLine line("posewire-cli export");
+    RecordedSession recorded(options.input);
+    const auto read = recorded.read(**file, [&](double share) { line.show("reading", share); });
+    line.clear();
+    if (Interruption::hasCome()) {
+        return console.unusable("interrupted; " + options.output + " was not written");
+    }
+    const ExitStatus status = readingStatus(read, console);
+    if (status == ExitStatus::Unusable) {
+        return status;
+    }
+    if (recorded.session().begin() != 0) {
+        console.complain(options.input + ": does not fit into memory and cannot be read twice: the first " +
+                         std::to_string(recorded.session().begin()) +
+                         " packets are left out; save it to a file first");
+    }
+    return worse(status, writeMotion(options, **format, recorded, line, console));
+}
+
+} // namespace
+
+Command addExportCommand(CommandLine& program) {
+    auto options = std::make_shared<ExportOptions>();
+    Arguments arguments =
+        program.addCommand("export", "Write the motion of a recording for other programs: " + formatNames());
+    arguments.add("FILE", options->input, "pcap, pcapng, or datagrams back to back; - for standard input")
+        .required();
+    arguments.add("--to", options->output, "the file to write; - for standard output")
+        .form("PATH")
+        .required();
+    arguments.add("--format", options->format, formatHelp()).form("FORMAT");
+    arguments.add("--from", options->fromSeconds, "begin this many seconds after the first datagram")
+        .form("SECONDS")
+        .seconds();
+    arguments.add("--until", options->untilSeconds, "end this many seconds after the first datagram")
+        .form("SECONDS")
+        .seconds();
+    arguments
+        .add("--characters", options->characters,
+             "names or IDs, with commas between them (default: all); may be given several times")
+        .form("LIST")
+        .repeatable();
+    arguments.force(options->replaces);
+    return {"export", [options](Console& console) {
+                if (options->fromSeconds && options->untilSeconds &&
+                    *options->fromSeconds >= *options->untilSeconds) {
+                    return console.unusable("--from must be before --until");
+                }
+                return exportRecording(*options, console);
+            }};
+}
+
+} // namespace posewire::cli

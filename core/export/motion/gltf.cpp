@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/motion/gltf.h"
+
+#include "core/export/json_value.h"
+#include "core/export/motion/key_columns.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <functional>
+#include <map>
+
+namespace posewire::exporting {
+namespace {
+
+using Eigen::Vector3d;
+using Object = JsonValue::Object;
+using List = JsonValue::List;
+
+static_assert(std::endian::native == std::endian::little, "the file is, and memory is written as it is");
+
+// Numbers of the glTF 2.0 specification.
+constexpr int kUnsignedByte = 5121;
+constexpr int kUnsignedInt = 5125;
+constexpr int kFloat = 5126;
+constexpr int kArrayBuffer = 34962;
+constexpr int kElementArrayBuffer = 34963;
+
+JsonValue listOf(const Vector3d& vector) {
+    return List{static_cast<float>(vector.x()), static_cast<float>(vector.y()),
+                static_cast<float>(vector.z())};
+}
+
+template <class Element>
+std::string_view bytesOf(const std::vector<Element>& elements) {
+    return {reinterpret_cast<const char*>(elements.data()), elements.size() * sizeof(Element)};
+}
+
+void appendWord(std::uint64_t value, std::string& bytes) {
+    const auto word = static_cast<std::uint32_t>(value);
+    bytes.append(reinterpret_cast<const char*>(&word), sizeof(word));
+}
+
+/// Axes as the file has them.
+void turnToYUp(std::vector<std::array<float, 3>>& vectors) {
+    for (std::array<float, 3>& one : vectors) {
+        one = model::toFloats(model::yUpFromZUp(model::toVector(one)));
+    }
+}
+
+/// What is in the file: the document, and the pieces of its binary part in their order.
+class Document {
+public:
+    using Visit = std::function<void(std::string_view)>;
+    using Piece = std::function<void(const Visit&)>;
+
+    /// Adds a view with its accessor; `accessor` lacks nothing but the view. Returns the accessor's number.
+    std::size_t add(std::uint64_t bytes, Piece piece, JsonValue accessor, int target = 0) {
+        JsonValue view{{"buffer", 0}, {"byteOffset", m_bytes}, {"byteLength", bytes}};
+        if (target != 0) {
+            view["target"] = target;
+        }
+        m_views.push_back(std::move(view));
+        accessor["bufferView"] = m_accessors.size();
+        m_accessors.push_back(std::move(accessor));
+        m_pieces.push_back(std::move(piece));
+        m_bytes += bytes; // all of them multiples of four
+        return m_accessors.size() - 1;
+    }
+    std::size_t addNode(JsonValue node) {
+        nodes.push_back(std::move(node));
+        return nodes.size() - 1;
+    }
+    [[nodiscard]] std::uint64_t bytes() const { return m_bytes; }
+    [[nodiscard]] const List& views() const { return m_views; }
+    [[nodiscard]] const List& accessors() const { return m_accessors; }
+    void visit(const Visit& visit) const {
+        for (const Piece& piece : m_pieces) {
+            piece(visit);
+        }
+    }
+
+    List nodes;
+    List roots; ///< nodes of the scene
+    List meshes;
+    List skins;
+    List materials;
+    List samplers; ///< of the animation
+    List channels;
+
+private:
+    List m_views;
+    List m_accessors;
+    std::vector<Piece> m_pieces;
+    std::uint64_t m_bytes = 0;
+};
+
+/// One character in the file.
+struct Animated {
+    Animated(const MotionTask& task, std::size_t place)
+        : character(task.characterAt(place)),
+          skeleton(skeletonOf(character, task.surveyAt(place), true)),
+          motion(skeleton),
+          keys(skeleton, task.source.log->scratch()) {}
+
+    const MotionCharacter& character;
+    Skeleton skeleton;
+    JointMotion motion;
+    KeyColumns keys;
+    BodyMesh mesh;
+    std::vector<std::array<float, 16>> inverseBinds;
+};
+
+/// The null pose that the joints make, also where none was sent.
+model::BodyOrigins bodyOf(const Animated& one) {
+    model::BodyOrigins body = one.character.body;
+    for (const SkeletonJoint& joint : one.skeleton.joints) {
+        const auto position = static_cast<std::size_t>(joint.position);
+        if (joint.parent >= 0 && position < body.places.size()) {
+            const auto parent = static_cast<std::size_t>(
+                one.skeleton.joints[static_cast<std::size_t>(joint.parent)].position);
+            body.places[position] = body.places[parent] + joint.offset;
+        }
+    }
+    return body;
+}
+
+void addJoints(const Animated& one, std::size_t firstNode, Document& document, List& roots) {
+    for (const SkeletonJoint& joint : one.skeleton.joints) {
+        JsonValue node{{"name", joint.name}, {"translation", listOf(model::yUpFromZUp(joint.offset))}};
+        if (!joint.children.empty()) {
+            List children;
+            for (const std::size_t child : joint.children) {
+                children.emplace_back(firstNode + child);
+            }
+            node["children"] = children;
+        }
+        const std::size_t number = document.addNode(node);
+        if (joint.parent < 0) {
+            roots.emplace_back(number);
+        }
+    }
+}
+
+void addKeys(const Animated& one, std::size_t firstNode, Document& document) {
+    const auto column = [&](const FloatColumn& floats, JsonValue accessor) {
+        return document.add(
+            floats.size() * sizeof(float), [&floats](const Document::Visit& visit) { floats.visit(visit); },
+            std::move(accessor));
+    };
+    const std::uint64_t count = one.keys.count();
+    const std::size_t times = column(one.keys.times(), {{"componentType", kFloat},
+                                                        {"type", "SCALAR"},
+                                                        {"count", count},
+                                                        {"min", List{one.keys.firstTime()}},
+                                                        {"max", List{one.keys.lastTime()}}});
+    for (std::size_t joint = 0; joint < one.skeleton.joints.size(); ++joint) {
+        const auto channel = [&](const char* path, const FloatColumn& floats, const char* type) {
+            const std::size_t output =
+                column(floats, {{"componentType", kFloat}, {"type", type}, {"count", count}});
+            document.channels.push_back({{"sampler", document.samplers.size()},
+                                         {"target", JsonValue{{"node", firstNode + joint}, {"path", path}}}});
+            document.samplers.push_back({{"input", times}, {"interpolation", "LINEAR"}, {"output", output}});
+        };
+        channel("translation", one.keys.positions(joint), "VEC3");
+        channel("rotation", one.keys.rotations(joint), "VEC4");
+    }
+}
+
+JsonValue boundsOf(const std::vector<std::array<float, 3>>& positions, bool isLeast) {
+    std::array<float, 3> bound = positions.front();
+    for (const auto& position : positions) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            bound[axis] =
+                isLeast ? std::min(bound[axis], position[axis]) : std::max(bound[axis], position[axis]);
+        }
+    }
+    return List{bound[0], bound[1], bound[2]};
+}
+
+/// Adds the mesh with its skin; the node that shows it.
+std::size_t addBody(Animated& one, std::size_t firstNode, Document& document) {
+    BodyMesh& mesh = one.mesh;
+    turnToYUp(mesh.positions);
+    turnToYUp(mesh.normals);
+    const auto array = [&](const auto& elements, int component, const char* type, int target) {
+        const std::string_view bytes = bytesOf(elements);
+        JsonValue accessor{{"componentType", component}, {"type", type}, {"count", elements.size()}};
+        if constexpr (std::is_same_v<decltype(elements), const std::vector<std::array<float, 3>>&>) {
+            if (&elements == &mesh.positions) {
+                accessor["min"] = boundsOf(elements, true);
+                accessor["max"] = boundsOf(elements, false);
+            }
+        }
+        return document.add(
+            bytes.size(), [bytes](const Document::Visit& visit) { visit(bytes); }, std::move(accessor),
+            target);
+    };
+    const std::size_t positions = array(mesh.positions, kFloat, "VEC3", kArrayBuffer);
+    const std::size_t normals = array(mesh.normals, kFloat, "VEC3", kArrayBuffer);
+    const std::size_t joints = array(mesh.segments, kUnsignedByte, "VEC4", kArrayBuffer);
+    const std::size_t weights = array(mesh.weights, kFloat, "VEC4", kArrayBuffer);
+    const std::size_t indices = array(mesh.indices, kUnsignedInt, "SCALAR", kElementArrayBuffer);
+    for (const Vector3d& origin : mesh.origins) {
+        const Vector3d at = model::yUpFromZUp(origin);
+        one.inverseBinds.push_back({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, static_cast<float>(-at.x()),
+                                    static_cast<float>(-at.y()), static_cast<float>(-at.z()), 1});
+    }
+    const std::size_t binds = array(one.inverseBinds, kFloat, "MAT4", 0);
+    List joined(model::kBodySegmentCount);
+    for (std::size_t i = 0; i < one.skeleton.joints.size(); ++i) {
+        const auto position = static_cast<std::size_t>(one.skeleton.joints[i].position);
+        if (position < joined.size()) {
+            joined[position] = firstNode + i;
+        }
+    }
+    const model::Colour& colour = one.character.colour;
+    document.materials.push_back(
+        {{"pbrMetallicRoughness",
+          JsonValue{{"baseColorFactor", List{colour.red, colour.green, colour.blue, 1}},
+                    {"metallicFactor", 0},
+                    {"roughnessFactor", 0.6}}}});
+    const JsonValue attributes{
+        {"POSITION", positions}, {"NORMAL", normals}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}};
+    document.meshes.push_back({{"primitives", List{{{"attributes", attributes},
+                                                    {"indices", indices},
+                                                    {"material", document.materials.size() - 1}}}}});
+    document.skins.push_back({{"inverseBindMatrices", binds}, {"skeleton", firstNode}, {"joints", joined}});
+    return document.addNode(
+        {{"name", "Body"}, {"mesh", document.meshes.size() - 1}, {"skin", document.skins.size() - 1}});
+}
+
+class GlbWriter final : public MotionWriter {
+public:
+    explicit GlbWriter(const MotionTask& task) : m_task(task) {
+        for (const std::size_t place : task.characters) {
+            m_characters.emplace(place, std::make_unique<Animated>(task, place));
+        }
+    }
+
+    void add(const MotionFrame& frame, MotionOutput&) override {
+        if (!frame.isGap()) {
+            Animated& one = *m_characters.at(frame.character);
+            one.motion.set(*frame.pose);
+            one.keys.add(frame.seconds, one.motion.local());
+        }
+    }
+
+    void finish(MotionOutput& out) override {
+        Document document;
+        for (const auto& [place, one] : m_characters) {
+            if (one->keys.count() != 0) {
+                addCharacter(*one, document);
+            }
+        }
+        std::string text = textOf(document);
+        text.resize((text.size() + 3) / 4 * 4, ' ');
+        const std::uint64_t size = kHeaders + text.size() + document.bytes();
+        if (size > UINT32_MAX) {
+            out.fail("a glb file cannot be larger than 4 GiB; choose a shorter range or fewer characters");
+            return;
+        }
+        std::string head = "glTF";
+        for (const std::uint64_t word : {std::uint64_t{2}, size, std::uint64_t{text.size()}}) {
+            appendWord(word, head);
+        }
+        head += "JSON" + text;
+        appendWord(document.bytes(), head);
+        out.write(head + std::string("BIN\0", 4));
+        document.visit([&out](std::string_view bytes) { out.write(bytes); });
+    }
+
+private:
+    static constexpr std::uint64_t kHeaders = 12 + 8 + 8;
+
+    void addCharacter(Animated& one, Document& document) {
+        const std::size_t firstNode = document.nodes.size();
+        List children;
+        addJoints(one, firstNode, document, children);
+        addKeys(one, firstNode, document);
+        const bool isWholeBody = one.skeleton.layout.body == model::kBodySegmentCount;
+        if (m_task.makeBody && isWholeBody) {
+            one.mesh = m_task.makeBody(bodyOf(one));
+        }
+        if (!one.mesh.positions.empty()) {
+            document.roots.emplace_back(addBody(one, firstNode, document));
+        }
+        document.roots.emplace_back(
+            document.addNode({{"name", one.character.name.shown()}, {"children", children}}));
+    }
+
+    [[nodiscard]] std::string textOf(const Document& document) const {
+        JsonValue file{
+            {"asset", JsonValue{{"version", "2.0"}, {"generator", m_task.application}}},
+            {"scene", 0},
+            {"scenes", List{{{"nodes", document.roots}}}},
+            {"nodes", document.nodes},
+            {"animations",
+             List{{{"name", "Motion"}, {"samplers", document.samplers}, {"channels", document.channels}}}}};
+        for (const auto& [key, list] :
+             {std::pair{"meshes", &document.meshes}, std::pair{"skins", &document.skins},
+              std::pair{"materials", &document.materials}}) {
+            if (!list->empty()) { // an empty list is not allowed
+                file[key] = *list;
+            }
+        }
+        file["accessors"] = document.accessors();
+        file["bufferViews"] = document.views();
+        file["buffers"] = List{{{"byteLength", document.bytes()}}};
+        return file.text();
+    }
+
+    const MotionTask& m_task;
+    std::map<std::size_t, std::unique_ptr<Animated>> m_characters; ///< by place in the source
+};
+
+} // namespace
+
+std::unique_ptr<MotionWriter> makeGlb(const MotionTask& task) {
+    return std::make_unique<GlbWriter>(task);
+}
+
+} // namespace posewire::exporting

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/export/motion/motion_walk.h"
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+/// The motion of a range of a log, sample by sample. Memory does not grow with the range.
+namespace posewire::exporting {
+
+/// One sample of one character, or the place of one that did not come whole.
+struct MotionFrame {
+    std::size_t character = 0; ///< its place in the source
+    std::uint32_t sample = 0;
+    double seconds = 0; ///< since the first sample of all characters: by counters, through restarts by stamps
+    const model::CharacterPose* pose = nullptr; ///< null in a gap; without segments where markers are read
+    std::span<const Marker> markers{};
+    bool beginsRun = false; ///< the first one, or the first after a restart
+
+    [[nodiscard]] bool isGap() const { return pose == nullptr; }
+};
+
+/// What a range holds of one character.
+struct CharacterSurvey {
+    std::uint64_t frames = 0; ///< with gaps
+    std::uint64_t gaps = 0;
+    std::uint64_t restarts = 0;
+    std::uint32_t step = 0; ///< of its sample counters; 0 where there is none: no gaps are known then
+    double rateHz = 0;      ///< frames a second; a whole number where it is within 0.5 % of one
+    log::Stamp first{};
+    log::Stamp last{};
+    model::SegmentLayout layout{0, 0, 0}; ///< all that any of its samples has
+    model::CharacterPose firstPose;
+    std::vector<std::uint32_t> markerIds; ///< in the order in which they were first seen
+
+    static constexpr std::size_t kMostMarkers = 1024;
+};
+
+struct MotionSurvey {
+    std::vector<CharacterSurvey> characters; ///< as in the source
+    log::Stamp first{};                      ///< of all
+};
+
+/// Looks through a range once: what writers must know before the first sample. Fails as cancelled only.
+[[nodiscard]] tl::expected<MotionSurvey, log::FileError>
+surveyMotion(const MotionSource& source, MotionContent content, const ExportProgress& progress);
+
+/// Hands out all samples that were surveyed with the gaps between them, those of each character in the order
+/// of their counters; of several characters about as they came. A frame is valid during the call. Fails as
+/// cancelled only.
+[[nodiscard]] tl::expected<void, log::FileError>
+readMotion(const MotionSource& source, MotionContent content, const MotionSurvey& survey,
+           const std::function<void(const MotionFrame&)>& visit, const ExportProgress& progress);
+
+} // namespace posewire::exporting

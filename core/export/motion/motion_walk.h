@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/export/motion/motion_source.h"
+#include "core/export/motion/sample_order.h"
+#include "core/log/byte_io.h"
+
+#include <cstddef>
+#include <functional>
+
+namespace posewire::exporting {
+
+/// What is read of a character.
+enum class MotionContent : std::uint8_t {
+    Segments, ///< the poses that the viewport would show
+    Markers,  ///< the points of type 03
+};
+
+/// How far long work is, from 0 to 1. It goes on where the answer is true.
+using ExportProgress = std::function<bool(double share)>;
+
+/// A sample of the character at a place of the source.
+using TakeSample = std::function<void(std::size_t character, const MotionSample& sample, bool beginsRun)>;
+
+/// Hands out all whole samples of a range, those of each character in the order of their counters. Fails as
+/// cancelled only.
+[[nodiscard]] tl::expected<void, log::FileError> walkMotion(const MotionSource& source, MotionContent content,
+                                                            const TakeSample& take,
+                                                            const ExportProgress& progress);
+
+} // namespace posewire::exporting

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/motion/mvnx.h"
+
+#include "core/model/body/joint_angles.h"
+#include "core/model/body/points.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <span>
+#include <utility>
+
+namespace posewire::exporting {
+namespace {
+
+constexpr std::size_t kBody = model::kBodySegmentCount;
+/// Without the ergonomic angles: what their vertical is, is not published.
+constexpr std::size_t kJoints = 22;
+
+/// For text and for attributes.
+std::string xmlText(const model::ForeignText& text) {
+    std::string safe = text.html();
+    for (const std::string_view forbidden : {"\xef\xbf\xbe", "\xef\xbf\xbf"}) { // U+FFFE and U+FFFF
+        for (auto at = safe.find(forbidden); at != std::string::npos; at = safe.find(forbidden, at)) {
+            safe.replace(at, forbidden.size(), "\xef\xbf\xbd");
+        }
+    }
+    return safe;
+}
+
+std::string colourText(const model::Colour& colour) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text = "#";
+    for (const float part : {colour.red, colour.green, colour.blue}) {
+        const auto level = static_cast<std::size_t>(std::clamp(part, 0.0F, 1.0F) * 255 + 0.5F);
+        text += digits[level / 16];
+        text += digits[level % 16];
+    }
+    return text;
+}
+
+/// "Thu Nov 27 12:13:17.238 2025", UTC.
+std::string dateText(log::WallTime time) {
+    using namespace std::chrono;
+    constexpr std::array<const char*, 7> weekdays{"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
+    constexpr std::array<const char*, 12> months{"Jan", "Feb", "Mar", "Apr", "May", "Jun",
+                                                 "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
+    const auto day = floor<days>(time);
+    const year_month_day date(day);
+    const hh_mm_ss clock(floor<milliseconds>(time - day));
+    const auto padded = [](std::int64_t number, std::size_t width) {
+        const std::string text = std::to_string(number);
+        return std::string(width - std::min(width, text.size()), '0') + text;
+    };
+    return std::string(weekdays[weekday(day).c_encoding()]) + ' ' +
+           months[static_cast<unsigned>(date.month()) - 1] + ' ' +
+           padded(static_cast<unsigned>(date.day()), 2) + ' ' + padded(clock.hours().count(), 2) + ':' +
+           padded(clock.minutes().count(), 2) + ':' + padded(clock.seconds().count(), 2) + '.' +
+           padded(clock.subseconds().count(), 3) + ' ' + std::to_string(static_cast<int>(date.year()));
+}
+
+std::int64_t millisecondsOf(log::WallTime time) {
+    return std::chrono::floor<std::chrono::milliseconds>(time).time_since_epoch().count();
+}
+
+void appendAll(std::initializer_list<double> values, std::string& text) {
+    for (const double value : values) {
+        text += text.ends_with('>') ? "" : " ";
+        appendFixed(value, 6, text);
+    }
+}
+
+void appendVector(const Eigen::Vector3d& vector, std::string& text) {
+    appendAll({vector.x(), vector.y(), vector.z()}, text);
+}
+
+class MvnxWriter final : public MotionWriter {
+public:
+    explicit MvnxWriter(const MotionTask& task)
+        : m_task(task),
+          m_character(task.characterAt(task.characters.front())),
+          m_survey(task.surveyAt(task.characters.front())) {}
+
+    void begin(MotionOutput& out) override {
+        const model::ForeignText application(m_task.application);
+        std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                           "<mvnx version=\"4\" xmlns=\"http://www.xsens.com/mvn/mvnx\">\n<mvn version=\"" +
+                           xmlText(application) + "\" build=\"" + xmlText(application) + "\"/>\n" +
+                           "<comment>Recorded from a network stream by " + xmlText(application) +
+                           ": without sensors, velocities, contacts, props and fingers</comment>\n";
+        addSubject(text);
+        addSegments(text);
+        text += "<sensors/>\n";
+        addJoints(text);
+        text += "<ergonomicJointAngles/>\n<footContactDefinition/>\n<frames segmentCount=\"" +
+                std::to_string(kBody) + "\" sensorCount=\"0\" jointCount=\"" + std::to_string(kJoints) +
+                "\">\n";
+        addTPose(text);
+        out.write(text);
+    }
+
+    void add(const MotionFrame& frame, MotionOutput& out) override {
+        const std::uint64_t index = m_index++;
+        if (frame.isGap() || !hasBody(*frame.pose)) {
+            return;
+        }
+        std::string text =
+            "<frame time=\"" + std::to_string(static_cast<std::int64_t>(frame.seconds * 1000 + 0.5)) +
+            "\" index=\"" + std::to_string(index) + "\" tc=\"\" ms=\"" +
+            (m_character.hasReceipt ? std::to_string(millisecondsOf(wallOf(frame.pose->stamp))) : "") +
+            "\" type=\"normal\">\n";
+        std::array<Eigen::Quaterniond, kBody> turns;
+        text += "<orientation>";
+        for (std::size_t i = 0; i < kBody; ++i) {
+            turns[i] = frame.pose->segments[i].orientation;
+            appendAll({turns[i].w(), turns[i].x(), turns[i].y(), turns[i].z()}, text);
+        }
+        text += "</orientation>\n<position>";
+        for (std::size_t i = 0; i < kBody; ++i) {
+            appendVector(frame.pose->segments[i].position, text);
+        }
+        std::array<Eigen::Vector3d, kJoints> angles;
+        model::jointAngles(turns, angles);
+        text += "</position>\n<jointAngle>";
+        for (const Eigen::Vector3d& angle : angles) {
+            appendVector(angle * model::kDegreesPerRadian, text);
+        }
+        out.write(text + "</jointAngle>\n</frame>\n");
+    }
+
+    void finish(MotionOutput& out) override {
+        // The code by which MVN knows its own files is not ours to make.
+        out.write("</frames>\n</subject>\n<securityCode code=\"\"/>\n</mvnx>\n");
+    }
+
+private:
+    [[nodiscard]] log::WallTime wallOf(log::Stamp stamp) const {
+        return m_task.source.log->timeline().wallOf(stamp);
+    }
+
+    static bool hasBody(const model::CharacterPose& pose) {
+        return pose.layout.body >= model::kBodySegmentCount && pose.segments.size() >= kBody &&
+               std::all_of(pose.isPresent.begin(), pose.isPresent.begin() + model::kBodySegmentCount,
+                           [](bool isPresent) { return isPresent; });
+    }
+
+    /// With a blank before them; none where nothing tells the date.
+    [[nodiscard]] std::string dateAttributes() const {
+        const log::WallTime start = wallOf(m_survey.first);
+        return m_character.hasReceipt ? " recDate=\"" + dateText(start) + "\" recDateMSecsSinceEpoch=\"" +
+                                            std::to_string(millisecondsOf(start)) + '"'
+                                      : std::string();
+    }
+
+    void addSubject(std::string& text) const {
+        std::string rate;
+        appendNumber(m_survey.rateHz, rate);
+        text += "<subject label=\"" + xmlText(m_character.name) + "\" torsoColor=\"" +
+                colourText(m_character.colour) + "\" frameRate=\"" + rate + "\" segmentCount=\"" +
+                std::to_string(kBody) + '"' + dateAttributes() + " configuration=\"FullBody\">\n<comment/>\n";
+    }
+
+    void addSegments(std::string& text) const {
+        text += "<segments>\n";
+        for (const model::Segment& segment : model::bodySegments()) {
+            text += "<segment label=\"" + std::string(segment.name) + "\" id=\"" +
+                    std::to_string(segment.id) + "\">\n<points>\n";
+            if (m_character.nullPose) {
+                addPoints(segment.id, text);
+            }
+            text += "</points>\n</segment>\n";
+        }
+        text += "</segments>\n";
+    }
+
+    void addPoints(int segment, std::string& text) const {
+        for (const model::NullPose::Point& point : m_character.nullPose->points) {
+            if (point.segment == segment && point.position.allFinite()) {
+                text += "<point label=\"" + xmlText(point.name) + "\"><pos_b>";
+                appendVector(point.position, text);
+                text += "</pos_b></point>\n";
+            }
+        }
+    }
+
+    static void addJoints(std::string& text) {
+        const auto connector = [](const model::PointReference& reference) {
+            const auto segment = static_cast<std::size_t>(reference.segmentId - 1);
+            const model::AnatomicalPoint* point =
+                model::findPoint(reference.segmentId - 1, reference.localId);
+            return std::string(model::bodySegments()[segment].name) + '/' +
+                   std::string(point != nullptr ? point->name : "");
+        };
+        text += "<joints>\n";
+        for (const model::JointDefinition& joint : std::span(model::jointDefinitions()).first<kJoints>()) {
+            text += "<joint label=\"" + std::string(joint.name) + "\"><connector1>" +
+                    connector(joint.parent) + "</connector1><connector2>" + connector(joint.child) +
+                    "</connector2></joint>\n";
+        }
+        text += "</joints>\n";
+    }
+
+    /// In the null pose no segment is turned.
+    void addTPose(std::string& text) const {
+        if (!m_character.nullPose) {
+            return;
+        }
+        text += "<frame time=\"0\" index=\"\" tc=\"\" ms=\"0\" type=\"tpose\">\n<orientation>";
+        for (std::size_t i = 0; i < kBody; ++i) {
+            appendAll({1, 0, 0, 0}, text);
+        }
+        text += "</orientation>\n<position>";
+        for (const Eigen::Vector3d& place : m_character.body.places) {
+            appendVector(place, text);
+        }
+        text += "</position>\n</frame>\n";
+    }
+
+    const MotionTask& m_task;
+    const MotionCharacter& m_character;
+    const CharacterSurvey& m_survey;
+    std::uint64_t m_index = 0;
+};
+
+} // namespace
+
+std::unique_ptr<MotionWriter> makeMvnx(const MotionTask& task) {
+    return std::make_unique<MvnxWriter>(task);
+}
+
+} // namespace posewire::exporting

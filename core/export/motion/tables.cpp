@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/motion/tables.h"
+
+#include "core/export/json_value.h"
+#include "core/export/motion/skeleton.h"
+#include "core/export/sheets.h"
+
+#include <algorithm>
+
+namespace posewire::exporting {
+namespace {
+
+using model::SegmentLayout;
+using model::SegmentPose;
+
+std::string typeText(std::uint8_t type) {
+    return {static_cast<char>('0' + type / 10 % 10), static_cast<char>('0' + type % 10)};
+}
+
+/// Where the receiver's clock stood, in nanoseconds; empty where nothing tells.
+std::string receiptText(const MotionTask& task, const MotionFrame& frame) {
+    return task.characterAt(frame.character).hasReceipt
+               ? std::to_string(log::nanosecondsOf(task.source.log->timeline().wallOf(frame.pose->stamp)))
+               : std::string();
+}
+
+/// Counts the runs of each character.
+class Runs {
+public:
+    explicit Runs(std::size_t characters) : m_counts(characters) {}
+    std::uint64_t of(const MotionFrame& frame) {
+        return m_counts[frame.character] += frame.beginsRun ? 1 : 0;
+    }
+
+private:
+    std::vector<std::uint64_t> m_counts;
+};
+
+SegmentLayout widest(const MotionTask& task) {
+    SegmentLayout all{0, 0, 0};
+    for (const std::size_t place : task.characters) {
+        const SegmentLayout& layout = task.surveyAt(place).layout;
+        all = {std::max(all.body, layout.body), std::max(all.props, layout.props),
+               std::max(all.fingers, layout.fingers)};
+    }
+    return all;
+}
+
+class CsvWriter final : public MotionWriter {
+public:
+    explicit CsvWriter(const MotionTask& task)
+        : m_task(task), m_layout(widest(task)), m_runs(task.source.characters.size()) {
+        for (const MotionCharacter& character : task.source.characters) {
+            std::string cell = csvLine(std::vector{character.name.csv()});
+            cell.resize(cell.size() - 2); // the end of the line
+            m_begins.push_back(cell + ',' + std::to_string(character.key.character) + ',');
+        }
+    }
+
+    void begin(MotionOutput& out) override {
+        std::vector<std::string> cells{"character",      "id",       "run",
+                                       "sample",         "time (s)", "received (ns since 1970 UTC)",
+                                       "time code (ms)", "type"};
+        for (int position = 0; position < m_layout.count(); ++position) {
+            const std::string name(model::segmentName(m_layout, position));
+            for (const char* part : {" x (m)", " y (m)", " z (m)", " qw", " qx", " qy", " qz"}) {
+                cells.push_back(name + part);
+            }
+        }
+        out.write(csvLine(cells));
+    }
+
+    void add(const MotionFrame& frame, MotionOutput& out) override {
+        m_line = m_begins[frame.character];
+        m_line += std::to_string(m_runs.of(frame)) + ',' + std::to_string(frame.sample) + ',';
+        appendFixed(frame.seconds, 6, m_line);
+        m_line += ',';
+        if (frame.isGap()) {
+            m_line.append(2 + kCells * static_cast<std::size_t>(m_layout.count()), ',');
+        } else {
+            m_line += receiptText(m_task, frame) + ',' + std::to_string(frame.pose->timeCode) + ',' +
+                      typeText(frame.pose->type);
+            for (int position = 0; position < m_layout.count(); ++position) {
+                addSegment(*frame.pose, position);
+            }
+        }
+        m_line += "\r\n";
+        out.write(m_line);
+    }
+
+private:
+    static constexpr std::size_t kCells = 7; ///< of a segment
+
+    void addSegment(const model::CharacterPose& pose, int column) {
+        const auto place = model::placeOf(m_layout, column);
+        const int position = place ? positionIn(pose.layout, *place) : -1;
+        const auto index = static_cast<std::size_t>(std::max(position, 0));
+        if (position < 0 || index >= pose.segments.size() || !pose.isPresent[index]) {
+            m_line.append(kCells, ',');
+            return;
+        }
+        const SegmentPose& segment = pose.segments[index];
+        const Eigen::Quaterniond& turn = segment.orientation;
+        for (const double value : {segment.position.x(), segment.position.y(), segment.position.z(), turn.w(),
+                                   turn.x(), turn.y(), turn.z()}) {
+            m_line += ',';
+            appendNumber(value, m_line);
+        }
+    }
+
+    const MotionTask& m_task;
+    SegmentLayout m_layout;
+    std::vector<std::string> m_begins; ///< of the lines of each character
+    Runs m_runs;
+    std::string m_line;
+};
+
+class JsonLinesWriter final : public MotionWriter {
+public:
+    explicit JsonLinesWriter(const MotionTask& task) : m_task(task), m_runs(task.source.characters.size()) {
+        for (const MotionCharacter& character : task.source.characters) {
+            // The bytes that were sent; not where they are so many that each sample would be drowned in them.
+            const bool isShort = character.name.exact().size() <= model::ForeignText::kMostBytes;
+            const std::string name(isShort ? character.name.exact() : character.name.shown());
+            m_begins.push_back("{\"character\":" + JsonValue(name).text() +
+                               ",\"id\":" + std::to_string(character.key.character) + ",\"run\":");
+        }
+    }
+
+    void add(const MotionFrame& frame, MotionOutput& out) override {
+        m_line = m_begins[frame.character];
+        m_line +=
+            std::to_string(m_runs.of(frame)) + ",\"sample\":" + std::to_string(frame.sample) + ",\"time\":";
+        appendFixed(frame.seconds, 6, m_line);
+        if (frame.isGap()) {
+            m_line += ",\"segments\":null}\n";
+        } else {
+            const std::string receipt = receiptText(m_task, frame);
+            m_line += (receipt.empty() ? "" : ",\"receivedNs\":" + receipt) +
+                      ",\"timeCode\":" + std::to_string(frame.pose->timeCode) + ",\"type\":\"" +
+                      typeText(frame.pose->type) + "\",\"segments\":[";
+            addSegments(*frame.pose);
+            m_line += "]}\n";
+        }
+        out.write(m_line);
+    }
+
+private:
+    void addSegments(const model::CharacterPose& pose) {
+        bool isFirst = true;
+        for (std::size_t i = 0; i < pose.segments.size(); ++i) {
+            const std::string_view name = model::segmentName(pose.layout, static_cast<int>(i));
+            if (!pose.isPresent[i] || name.empty()) {
+                continue;
+            }
+            m_line += isFirst ? "{\"id\":" : ",{\"id\":";
+            m_line += std::to_string(i + 1);
+            m_line.append(",\"name\":\"").append(name).append("\",\"position\":");
+            const SegmentPose& segment = pose.segments[i];
+            addList({segment.position.x(), segment.position.y(), segment.position.z()});
+            m_line += ",\"orientation\":";
+            const Eigen::Quaterniond& turn = segment.orientation;
+            addList({turn.w(), turn.x(), turn.y(), turn.z()});
+            m_line += '}';
+            isFirst = false;
+        }
+    }
+
+    void addList(std::initializer_list<double> values) {
+        char before = '[';
+        for (const double value : values) {
+            m_line += before;
+            appendNumber(value, m_line);
+            before = ',';
+        }
+        m_line += ']';
+    }
+
+    const MotionTask& m_task;
+    std::vector<std::string> m_begins;
+    Runs m_runs;
+    std::string m_line;
+};
+
+} // namespace
+
+std::unique_ptr<MotionWriter> makeMotionCsv(const MotionTask& task) {
+    return std::make_unique<CsvWriter>(task);
+}
+
+std::unique_ptr<MotionWriter> makeMotionJsonLines(const MotionTask& task) {
+    return std::make_unique<JsonLinesWriter>(task);
+}
+
+} // namespace posewire::exporting
