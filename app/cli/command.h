@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/input_output.h"
+#include "app/usage/usage.h"
 
 #include <cstdint>
 #include <functional>
@@ -73,6 +74,9 @@ public:
     ~CommandLine();
 
     Arguments addCommand(const std::string& name, const std::string& text);
+
+    /// What was declared, for manual pages and completions.
+    [[nodiscard]] usage::Program usage() const;
 
     /// What came of parsing.
     struct Parsed {

@@ -141,20 +141,22 @@ ExitStatus send(const SendOptions& options, Console& console) {
 std::string motionList() {
     std::string list;
     for (const std::string_view name : performer::motionNames()) {
-        list.append(list.empty() ? "" : ", ").append(name);
+        list.append(list.empty() ? "" : "|").append(name);
     }
     return list;
 }
 
 void addPlaces(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("Target and duration");
-    arguments.add("--to", options.to, "target, HOST:PORT; may be given several times")
+    arguments.add("--to", options.to, "target; may be given several times")
+        .form("HOST:PORT")
         .repeatable()
         .showDefault();
     const Option udp = arguments.flag("--udp", "one datagram per packet (default)");
     arguments.flag("--tcp", options.overTcp, "connect, as MVN does, and send datagrams back to back")
         .excludes(udp);
     arguments.add("--duration", options.durationSeconds, "stop after this many seconds; 0: when interrupted")
+        .form("SECONDS")
         .seconds()
         .showDefault();
 }
@@ -168,11 +170,11 @@ void addPerformer(Arguments arguments, SendOptions& options) {
     arguments.add("--rate", settings.rateHz, "samples per second").within(1.0, 1000.0).showDefault();
     arguments.add("--types", options.types, "message types, such as 02,12,13, or all of the revision")
         .showDefault();
-    arguments.add("--revision", options.revision, "of the specification: E, J, K or N").showDefault();
+    arguments.add("--revision", options.revision, "of the specification").form("E|J|K|N").showDefault();
     arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
         .wholeUpTo(UINT64_MAX)
         .showDefault();
-    arguments.add("--motion", settings.motion, "one of " + motionList()).showDefault();
+    arguments.add("--motion", settings.motion, "what they do").form(motionList()).showDefault();
     arguments.add("--props", settings.props, "props of each character").wholeUpTo(4).showDefault();
     arguments.flag("--fingers", settings.fingers, "with both hands (revision N)");
     arguments
@@ -222,8 +224,10 @@ void addFaults(Arguments arguments, SendOptions& options) {
 
 Option addFile(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("A recording");
-    const Option file = arguments.add("--file", options.file,
-                                      "send this recording instead of a performance; - for standard input");
+    const Option file =
+        arguments
+            .add("--file", options.file, "send this recording instead of a performance; - for standard input")
+            .form("FILE");
     arguments.add("--speed", options.speed, "how fast a recording plays")
         .within(0.001, 1000.0)
         .needs(file)

@@ -6,6 +6,7 @@
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/window/main_window.h"
+#include "app/usage/version.h"
 
 #include <QApplication>
 #include <QStandardPaths>
@@ -108,7 +109,7 @@ void begin(MainWindow& window, const Options& options) {
 int main(int argc, char** argv) {
     QCoreApplication::setOrganizationName(QStringLiteral("Posewire"));
     QCoreApplication::setApplicationName(QStringLiteral("posewire"));
-    QCoreApplication::setApplicationVersion(QStringLiteral(POSEWIRE_VERSION));
+    QCoreApplication::setApplicationVersion(QString::fromUtf8(posewire::usage::version()));
     const auto options = readOptions(argc, argv);
     if (!options) {
         std::fputs(qUtf8Printable(options.error().text), options.error().status == 0 ? stdout : stderr);

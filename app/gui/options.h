@@ -13,6 +13,10 @@
 #include <optional>
 #include <vector>
 
+namespace posewire::usage {
+struct Program;
+} // namespace posewire::usage
+
 namespace posewire::gui {
 
 /// What the command line asks for.
@@ -43,6 +47,9 @@ struct EarlyExit {
 
 /// `arguments` with the program's name first. Needs a QCoreApplication, no display.
 [[nodiscard]] tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments);
+
+/// The command line as it is declared, for the manual page and completions.
+[[nodiscard]] usage::Program programUsage();
 
 /// What to open at the start: what was asked for on the command line; where nothing was, what was open last,
 /// else the port that MVN sends to.
