@@ -5,6 +5,7 @@
 #include "app/gui/saving.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
+#include "app/gui/viewport/presenter.h"
 #include "app/gui/window/main_window.h"
 #include "app/usage/version.h"
 
@@ -24,7 +25,11 @@ using namespace posewire::gui;
 /// Help, version and errors need no display: they are dealt with before a window system is asked for.
 tl::expected<Options, EarlyExit> readOptions(int& argc, char** argv) {
     const QCoreApplication application(argc, argv);
-    return parseOptions(QCoreApplication::arguments());
+    auto options = parseOptions(QCoreApplication::arguments());
+    if (!options && options.error().isVersion) {
+        options.error().text += QStringLiteral("OpenGL %1\n").arg(windowlessOpenGlName());
+    }
+    return options;
 }
 
 Settings startSettings(SettingsFile& file, const Options& options, QString* problem) {

@@ -35,8 +35,8 @@ constexpr std::array kThemes{std::pair{ThemeChoice::Dark, "dark"}, std::pair{The
                              std::pair{ThemeChoice::System, "system"}};
 
 tl::unexpected<EarlyExit> wrong(const QString& text) {
-    return tl::unexpected(EarlyExit{2, QStringLiteral("posewire: ") + text +
-                                           tr("\nTry 'posewire --help' for what there is.\n")});
+    return tl::unexpected(EarlyExit{
+        2, QStringLiteral("posewire: ") + text + tr("\nTry 'posewire --help' for what there is.\n"), false});
 }
 
 QString themeForms() {
@@ -295,11 +295,14 @@ tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {
         return wrong(parser.errorText());
     }
     if (parser.isSet(QStringLiteral("help"))) {
-        return tl::unexpected(EarlyExit{0, parser.helpText()});
+        return tl::unexpected(EarlyExit{0, parser.helpText(), false});
     }
     if (parser.isSet(QStringLiteral("version"))) {
         return tl::unexpected(
-            EarlyExit{0, QStringLiteral("posewire %1\n").arg(QCoreApplication::applicationVersion())});
+            EarlyExit{0,
+                      QStringLiteral("posewire %1\nQt %2\n")
+                          .arg(QCoreApplication::applicationVersion(), QLatin1String(qVersion())),
+                      true});
     }
     Reader reader{parser};
     reader.readAllInputs();

@@ -43,6 +43,7 @@ struct Options {
 struct EarlyExit {
     int status = 0;
     QString text;
+    bool isVersion = false;
 };
 
 /// `arguments` with the program's name first. Needs a QCoreApplication, no display.

@@ -16,13 +16,23 @@
 #include <QStandardPaths>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace posewire::gui {
 
 namespace {
 
-/// Raised when the meaning of something in the file changes.
-constexpr int kSchema = 1;
+/// Raised when the meaning of something in the file changes, with a step for files of the version before.
+constexpr int kSchema = 2;
+
+/// Version 1 called what we receive by the word for senders.
+void renameSources(QJsonObject& object) {
+    object["receiving"] = object.take("sources");
+}
+
+/// From each version to the next, from version 1 on.
+constexpr std::array<void (*)(QJsonObject&), kSchema - 1> kMigrations{renameSources};
 
 /// Of a window, in logical pixels: a rectangle of these has edges that can be calculated with.
 constexpr int kFarthest = 100'000;
@@ -66,7 +76,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.docks = docksOf(object);
     settings.panels = object["panels"].toObject();
     settings.alerts = alertChoicesOf(object["alerts"].toObject());
-    settings.inputs = inputChoicesOf(object["sources"].toObject());
+    settings.inputs = inputChoicesOf(object["receiving"].toObject());
     settings.history = historyOf(object["history"].toObject());
     settings.recording = recordingChoiceOf(object["recording"].toObject());
     for (const auto& path : object["recentFiles"].toArray()) {
@@ -80,13 +90,17 @@ Settings settingsOf(const QJsonObject& object) {
 } // namespace
 
 tl::expected<Settings, QString> parseSettings(const QByteArray& json) {
-    const auto object = parseSmallObject(json);
+    auto object = parseSmallObject(json);
     if (!object) {
         return tl::unexpected(object.error());
     }
-    if (const int schema = (*object)["schema"].toInt(); schema != kSchema) {
+    const int schema = (*object)["schema"].toInt();
+    if (schema < 1 || schema > kSchema) {
         return tl::unexpected(
-            tr("their version is %1, this program reads version %2").arg(schema).arg(kSchema));
+            tr("their version is %1, this program reads up to version %2").arg(schema).arg(kSchema));
+    }
+    for (int version = schema; version < kSchema; ++version) {
+        kMigrations.at(static_cast<std::size_t>(version - 1))(*object);
     }
     return settingsOf(*object);
 }
@@ -105,7 +119,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"docksSum", sumOf(settings.docks)},
                              {"alerts", jsonOf(settings.alerts)},
                              {"panels", settings.panels},
-                             {"sources", jsonOf(settings.inputs)},
+                             {"receiving", jsonOf(settings.inputs)},
                              {"history", jsonOf(settings.history)},
                              {"recording", jsonOf(settings.recording)},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};

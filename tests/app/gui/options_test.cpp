@@ -111,7 +111,12 @@ INSTANTIATE_TEST_SUITE_P(All, WrongOption,
 TEST(Options, HelpAndVersionEndWithStatusZero) {
     EXPECT_EQ(parse({"--help"}).error().status, 0);
     EXPECT_TRUE(parse({"--help"}).error().text.contains("--screenshot"));
-    EXPECT_EQ(parse({"--version"}).error().status, 0);
+    const EarlyExit version = parse({"--version"}).error();
+    EXPECT_EQ(version.status, 0);
+    EXPECT_TRUE(version.isVersion);
+    EXPECT_TRUE(version.text.startsWith("posewire ")) << "scripts read the first line";
+    EXPECT_TRUE(version.text.contains(QStringLiteral("\nQt %1\n").arg(qVersion())));
+    EXPECT_FALSE(parse({"--help"}).error().isVersion);
 }
 
 } // namespace
