@@ -209,6 +209,10 @@ Option Arguments::force(bool& isOn) {
     return flag("--force", isOn, "replace output files that exist; an input file never is");
 }
 
+Option Arguments::verbose(bool& isOn, const std::string& text) {
+    return flag("--verbose", isOn, "tell on standard error " + text);
+}
+
 Option Arguments::option(const std::string& name) const {
     return Option(*m_parser->get_option(name));
 }

@@ -56,6 +56,8 @@ public:
     Option flag(const std::string& name, const std::string& text);
     /// `--force`: an output file that exists is replaced.
     Option force(bool& isOn);
+    /// `--verbose`: standard error tells more than what is wrong.
+    Option verbose(bool& isOn, const std::string& text);
     /// One that was added before.
     [[nodiscard]] Option option(const std::string& name) const;
     /// Options that are added from now on come under this heading of the help.

@@ -112,6 +112,20 @@ bool MonitorRun::isOver() const {
 void MonitorRun::follow(log::Stamp now) {
     while (m_session.follow(now)) {
     }
+    if (m_options.isVerbose) {
+        tellSenders();
+    }
+}
+
+void MonitorRun::tellSenders() {
+    std::set<log::SenderId> listed;
+    for (const model::Sender& sender : m_session.senders()) {
+        listed.insert(sender.id);
+        if (!m_toldSenders.contains(sender.id)) {
+            m_console.complain("heard " + sender.address().shown());
+        }
+    }
+    m_toldSenders = std::move(listed);
 }
 
 void MonitorRun::showLine(log::Stamp now) {

@@ -97,6 +97,7 @@ struct SendOptions {
     std::string file; ///< empty: the performer
     double speed = 1.0;
     bool loops = false;
+    bool isVerbose = false; ///< tells from where to where
 };
 
 /// The rest is what was meant by it, or one line about what is wrong with it.

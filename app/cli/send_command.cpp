@@ -110,6 +110,17 @@ ExitStatus sendPerformance(const SendOptions& options, const performer::Performe
     return ExitStatus::Fine;
 }
 
+void tellLines(const std::vector<SendLine>& lines, const std::vector<net::SendTarget>& targets,
+               Console& console) {
+    for (const SendLine& line : lines) {
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const SendLine::Sender& sender = line.senders()[i];
+            console.complain("sending from " + sender.address + " to " + net::textOf(targets[i].endpoint) +
+                             (sender.isTcp ? " (TCP)" : " (UDP)"));
+        }
+    }
+}
+
 ExitStatus send(const SendOptions& options, Console& console) {
     const auto targets = targetsOf(options);
     if (!targets) {
@@ -132,6 +143,9 @@ ExitStatus send(const SendOptions& options, Console& console) {
     auto lines = linesOf(options, *targets);
     if (!lines) {
         return console.unusable(lines.error());
+    }
+    if (options.isVerbose) {
+        tellLines(*lines, *targets, console);
     }
     const ExitStatus status = options.file.empty() ? sendPerformance(options, *settings, *lines, console)
                                                    : sendFile(options, *lines, console);
@@ -257,6 +271,7 @@ Command addSendCommand(CommandLine& program) {
     addPerformer(arguments, *options);
     addFaults(arguments, *options);
     addTruth(arguments, *options, addFile(arguments, *options));
+    arguments.verbose(options->isVerbose, "from where to where it sends");
     return {"send", [options](Console& console) { return send(*options, console); }};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/program_health.h"
 #include "app/gui/ending_signals.h"
+#include "app/gui/logging.h"
 #include "app/gui/options.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/event_watch.h"
@@ -123,6 +124,9 @@ int main(int argc, char** argv) {
     // Where a file may not grow, or nobody reads a pipe, the failed write says so.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    if (options->isVerbose) {
+        tellVerbosely();
+    }
     QApplication application(argc, argv);
     SettingsFile file(options->settingsFile);
     QString problem;

@@ -82,6 +82,7 @@ QList<QCommandLineOption> optionTable() {
         {"force", tr("Replace the file of --screenshot also where it is no picture.")},
         {"after", tr("Seconds to wait before the screenshot; 3 by default."), "SECONDS"},
         {"size", tr("Size of the window."), "WxH"},
+        {"verbose", tr("Tell on standard error what is done with inputs, files, settings and OpenGL.")},
         {"startup-time", tr("Print how long it took until the window was on screen.")},
         {{"h", "help"}, tr("Show this text.")},
         {{"v", "version"}, tr("Show the version.")},
@@ -219,6 +220,7 @@ struct Reader {
         options.replaces = parser.isSet(QStringLiteral("force"));
         checkOutputs();
         options.printsStartupTime = parser.isSet(QStringLiteral("startup-time"));
+        options.isVerbose = parser.isSet(QStringLiteral("verbose"));
     }
 };
 

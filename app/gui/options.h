@@ -36,6 +36,7 @@ struct Options {
     QSize size;
     std::optional<ThemeChoice> theme;
     bool printsStartupTime = false;
+    bool isVerbose = false;
 };
 
 /// The program ends at once: help and version on standard output with status 0, a wrong option on standard

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/settings.h"
 
+#include "app/gui/logging.h"
 #include "app/gui/options.h"
 #include "app/gui/saving.h"
 #include "app/gui/small_json.h"
@@ -100,6 +101,7 @@ tl::expected<Settings, QString> parseSettings(const QByteArray& json) {
             tr("their version is %1, this program reads up to version %2").arg(schema).arg(kSchema));
     }
     for (int version = schema; version < kSchema; ++version) {
+        qCInfo(settingsLog) << "migrated from version" << version;
         kMigrations.at(static_cast<std::size_t>(version - 1))(*object);
     }
     return settingsOf(*object);
@@ -136,6 +138,7 @@ SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
 Settings SettingsFile::read(QString* problem) {
     problem->clear();
     if (!QFile::exists(m_path)) {
+        qCInfo(settingsLog).noquote() << "none in" << m_path;
         return {};
     }
     const auto content = readSmallFile(m_path);
@@ -150,6 +153,7 @@ Settings SettingsFile::read(QString* problem) {
         *problem = setAside(settings.error());
         return {};
     }
+    qCInfo(settingsLog).noquote() << "read from" << m_path;
     return *std::move(settings);
 }
 
@@ -161,6 +165,7 @@ QString SettingsFile::setAside(const QString& reason) const {
     if (!QFile::rename(m_path, aside)) {
         return tr("Settings in %1 cannot be used (%2).").arg(m_path, reason);
     }
+    qCInfo(settingsLog).noquote() << "set aside as" << aside;
     return tr("Settings could not be used (%1); they were set aside as %2.").arg(reason, aside);
 }
 
@@ -168,7 +173,9 @@ QString SettingsFile::write(const Settings& settings) const {
     if (!QDir().mkpath(QFileInfo(m_path).absolutePath())) {
         return tr("The folder of %1 cannot be created.").arg(m_path);
     }
-    return saveFile(m_path, jsonOf(settings));
+    const QString problem = saveFile(m_path, jsonOf(settings));
+    qCInfo(settingsLog).noquote() << (problem.isEmpty() ? "written to " + m_path : problem);
+    return problem;
 }
 
 } // namespace posewire::gui

@@ -90,7 +90,7 @@ std::string entry(const Option& option) {
 
 /// Arguments first; then options under their headings, in the order in which they were declared.
 std::string entries(std::vector<Option> options) {
-    std::ranges::stable_partition(options, isArgument);
+    std::stable_partition(options.begin(), options.end(), isArgument);
     std::string text;
     std::string group;
     for (const Option& option : options) {

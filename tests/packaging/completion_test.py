@@ -14,7 +14,6 @@ import sys
 import tempfile
 
 SKIPPED = 77
-COMMANDS = ["decode", "encode", "send", "monitor", "report", "reference"]
 OPTION = re.compile(r"(?<![\w-])--?[a-z][a-z-]*")
 
 BASH = """
@@ -79,16 +78,24 @@ def options_in_help(command):
     return found
 
 
+def commands_in_help(cli):
+    text = subprocess.run([cli, "--help"], check=True, capture_output=True, text=True).stdout
+    found = re.findall(r"^  ([a-z]+) ", text[text.index("Subcommands:"):], re.M)
+    assert "decode" in found and len(found) > 1, text
+    return found
+
+
 def check(shell, scripts, folder, programs):
     checked = 0
+    commands = commands_in_help(programs["posewire-cli"])
     for name, path in programs.items():
-        contexts = [[]] + [[command] for command in COMMANDS if name == "posewire-cli"]
+        contexts = [[]] + [[command] for command in commands if name == "posewire-cli"]
         for context in contexts:
             wanted = {o for o in options_in_help([path, *context]) if o.startswith("--")}
             offered = shell(scripts, " ".join([name, *context, "--"]), folder)
             assert offered == wanted, (name, context, offered ^ wanted)
             checked += 1
-    cases = {"posewire-cli ": set(COMMANDS), "posewire-cli send --revision ": {"E", "J", "K", "N"},
+    cases = {"posewire-cli ": set(commands), "posewire-cli send --revision ": {"E", "J", "K", "N"},
              "posewire --theme ": {"dark", "light", "system"}, "posewire-cli send --rate ": set(),
              "posewire-cli decode ta": {"take.pcapng"}, "posewire-cli monitor --record ta": {"take.pcapng"},
              "posewire ta": {"take.pcapng"}, "posewire --layout Ch": {"Check"}, "posewire-cli reference ta": set()}

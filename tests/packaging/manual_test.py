@@ -10,7 +10,7 @@ import shutil
 import subprocess
 import sys
 
-from completion_test import COMMANDS, SKIPPED, options_in_help
+from completion_test import SKIPPED, commands_in_help, options_in_help
 
 
 def page(path):
@@ -48,7 +48,7 @@ def main(folder, posewire, cli):
     check_options(section(text, "OPTIONS"), [posewire])
     text = page(folder / "posewire-cli.1")
     check_options(section(text, "OPTIONS"), [cli])
-    for command in COMMANDS:
+    for command in commands_in_help(cli):
         check_options(section(text, command), [cli, command])
         assert f"posewire-cli {command} [OPTION]..." in text, command
     return 0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
 
+#include "app/gui/logging.h"
 #include "app/gui/saving.h"
 #include "app/net/datagram_sender.h"
 #include "core/performer/performer.h"
@@ -195,11 +196,13 @@ QString SessionDriver::keepHistory(std::uint64_t most) {
         return QString::fromStdString(history.error().text);
     }
     m_history = std::move(*history);
+    qCInfo(filesLog).noquote() << "history in" << m_cacheFolder << "of at most" << choice.most << "bytes";
     return {};
 }
 
 void SessionDriver::openFile(const QString& path) {
     closeFile();
+    qCInfo(filesLog).noquote() << "opening" << path;
     keepFromSaving(path);
     m_file = std::make_unique<OpenedFile>(m_clock, path, newScratch(m_cacheFolder));
     m_file->session().setThresholds(m_live.thresholds());
@@ -219,10 +222,12 @@ bool SessionDriver::readFile() {
 
 void SessionDriver::tellOpened() {
     if (const QString failure = m_file->failure(); !failure.isEmpty()) {
+        qCInfo(filesLog).noquote() << "not opened:" << failure;
         closeFile();
         emit fileOpened(false, failure);
         return;
     }
+    qCInfo(filesLog) << "read," << m_file->session().end() << "packets";
     emit fileOpened(true, m_file->notes().join(QLatin1Char(' ')));
 }
 

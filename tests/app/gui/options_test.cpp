@@ -76,7 +76,7 @@ TEST(Options, DemoHasTwoCharactersUnlessTold) {
 TEST(Options, ReadEverythingElse) {
     const auto options = parse({"take.bin", "--layout", "check", "--reset-layout", "--settings", "s.json",
                                 "--theme", "light", "--screenshot", "p.png", "--force", "--after", "1.5",
-                                "--size", "1600x1000", "--startup-time"});
+                                "--size", "1600x1000", "--startup-time", "--verbose"});
     ASSERT_TRUE(options);
     EXPECT_EQ(options->file, "take.bin");
     EXPECT_EQ(options->layout, "check");
@@ -88,6 +88,7 @@ TEST(Options, ReadEverythingElse) {
     EXPECT_DOUBLE_EQ(options->screenshotAfterSeconds, 1.5);
     EXPECT_EQ(options->size, QSize(1600, 1000));
     EXPECT_TRUE(options->printsStartupTime);
+    EXPECT_TRUE(options->isVerbose);
 }
 
 class WrongOption : public testing::TestWithParam<QStringList> {};
