@@ -11,10 +11,11 @@
 #include <QDir>
 #include <QFile>
 #include <QGuiApplication>
-#include <QStorageInfo>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 namespace posewire::gui {
@@ -34,7 +35,10 @@ constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
 constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
 
 std::uint64_t freeBytes(const QString& folder) {
-    return static_cast<std::uint64_t>(std::max<qint64>(QStorageInfo(folder).bytesAvailable(), 0));
+    // QStorageInfo knows nothing where the table of mounts lacks the root, as in a chroot.
+    std::error_code failed;
+    const auto space = std::filesystem::space(QFile::encodeName(folder).toStdString(), failed);
+    return failed ? 0 : space.available;
 }
 
 /// The most that something of ours takes in a folder.
