@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <iomanip>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -89,9 +90,8 @@ std::string nameOf(const CLI::Option& option) {
 
 std::vector<std::string> namesOf(const std::set<CLI::Option*>& options) {
     std::vector<std::string> names;
-    for (const CLI::Option* option : options) {
-        names.push_back(nameOf(*option));
-    }
+    std::ranges::transform(options, std::back_inserter(names),
+                           [](const CLI::Option* option) { return nameOf(*option); });
     std::ranges::sort(names); // a set of addresses is in another order each time
     return names;
 }

@@ -2,6 +2,7 @@
 #include "app/usage/completion.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace posewire::usage {
 namespace {
@@ -35,9 +36,11 @@ std::string valueCases(const std::string& command, const std::vector<Option>& op
             continue;
         }
         std::vector<std::string> patterns;
-        for (const std::string& name : option.names) {
-            patterns.push_back(command + ':' + name);
-        }
+        std::ranges::transform(option.names, std::back_inserter(patterns), [&](const std::string& name) {
+            std::string pattern = command;
+            pattern.append(":").append(name);
+            return pattern;
+        });
         text += "        " + joined(patterns, "|") + ") " + valueAction(option) + "return ;;\n";
     }
     return text;
@@ -62,9 +65,7 @@ std::string argumentCase(const std::string& command, const std::vector<Option>& 
 
 std::vector<std::string> namesOf(const std::vector<Command>& commands) {
     std::vector<std::string> names;
-    for (const Command& command : commands) {
-        names.push_back(command.name);
-    }
+    std::ranges::transform(commands, std::back_inserter(names), &Command::name);
     return names;
 }
 

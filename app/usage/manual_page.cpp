@@ -2,6 +2,7 @@
 #include "app/usage/manual_page.h"
 
 #include <algorithm>
+#include <iterator>
 
 namespace posewire::usage {
 namespace {
@@ -50,9 +51,9 @@ std::string formText(const Option& option) {
 
 std::string nameList(const std::vector<std::string>& names) {
     std::vector<std::string> parts;
-    for (const std::string& name : names) {
-        parts.push_back(name.starts_with('-') ? bold(name) : italic(name));
-    }
+    std::ranges::transform(names, std::back_inserter(parts), [](const std::string& name) {
+        return name.starts_with('-') ? bold(name) : italic(name);
+    });
     return joined(parts, ", ");
 }
 
