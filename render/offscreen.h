@@ -26,6 +26,9 @@ public:
     bool makeCurrent();
     void doneCurrent();
 
+    /// Version and name of the OpenGL driver. To be asked where the context is current.
+    [[nodiscard]] std::string driverName() const;
+
 private:
     struct Impl;
     explicit OffscreenContext(std::unique_ptr<Impl> impl);

@@ -3,9 +3,12 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <iomanip>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <sstream>
 #include <type_traits>
 #include <vector>
@@ -48,6 +51,8 @@ std::string plain(double number) {
     return text.str();
 }
 
+constexpr const char* kRange = "range";
+
 /// In words that name what was typed and what is wanted, and in the help.
 CLI::Validator between(double least, double most) {
     const std::string range = plain(least) + " to " + plain(most);
@@ -59,7 +64,7 @@ CLI::Validator between(double least, double most) {
                        ? std::string()
                        : "\"" + text + "\" is not a number from " + range;
         },
-        range);
+        range, kRange);
 }
 
 /// An empty text is a variable of a script that was never set.
@@ -67,6 +72,66 @@ CLI::Validator notEmpty() {
     return CLI::Validator(
         [](const std::string& text) { return text.empty() ? std::string("needs a value") : std::string(); },
         "");
+}
+
+/// What numbers it takes; empty where it is none.
+std::string rangeOf(CLI::Option& option) {
+    try {
+        return option.get_validator(kRange)->get_description();
+    } catch (const CLI::OptionNotFound&) {
+        return {};
+    }
+}
+
+std::string nameOf(const CLI::Option& option) {
+    return (option.nonpositional() ? option.get_lnames().empty() ? "-" : "--" : "") +
+           option.get_single_name();
+}
+
+std::vector<std::string> namesOf(const std::set<CLI::Option*>& options) {
+    std::vector<std::string> names;
+    std::ranges::transform(options, std::back_inserter(names),
+                           [](const CLI::Option* option) { return nameOf(*option); });
+    std::ranges::sort(names); // a set of addresses is in another order each time
+    return names;
+}
+
+/// The parser writes a list of one as "[x]".
+std::string withoutBrackets(const std::string& text) {
+    const bool isList = text.starts_with('[') && text.ends_with(']');
+    return isList ? text.substr(1, text.size() - 2) : text;
+}
+
+usage::Option usageOf(CLI::Option& option) {
+    usage::Option usage;
+    usage.text = option.get_description();
+    usage.usual = withoutBrackets(option.get_default_str());
+    usage.isRequired = option.get_required();
+    usage.needs = namesOf(option.get_needs());
+    usage.excludes = namesOf(option.get_excludes());
+    for (const std::string& name : option.get_snames()) {
+        usage.names.push_back('-' + name);
+    }
+    for (const std::string& name : option.get_lnames()) {
+        usage.names.push_back("--" + name);
+    }
+    usage.range = rangeOf(option);
+    usage.form = option.nonpositional() ? option.get_type_name() : option.get_single_name();
+    if (!usage.range.empty()) {
+        usage.form.resize(usage.form.size() - usage.range.size() - 1); // ":0 to 1"
+    }
+    usage.group = option.get_group() == "Options" ? std::string() : option.get_group();
+    usage.isRepeatable =
+        option.get_expected_max() > 1 || option.get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll;
+    return usage;
+}
+
+std::vector<usage::Option> usageOf(CLI::App& parser) {
+    std::vector<usage::Option> options;
+    for (CLI::Option* option : parser.get_options([](const CLI::Option*) { return true; })) {
+        options.push_back(usageOf(*option));
+    }
+    return options;
 }
 
 } // namespace
@@ -99,7 +164,7 @@ Option Option::wholeUpTo(std::uint64_t most) {
             const bool isGood = read.ec == std::errc{} && read.ptr == end && value <= most;
             return isGood ? std::string() : "\"" + text + "\" is not a whole number from " + range;
         },
-        range)));
+        range, kRange)));
 }
 Option Option::seconds() {
     constexpr double year = 365.0 * 86'400.0;
@@ -119,6 +184,9 @@ Option Option::excludes(Option other) {
 template <class T>
 Option Arguments::add(const std::string& name, T& value, const std::string& text) {
     CLI::Option* option = m_parser->add_option(name, value, text);
+    if (option->nonpositional()) {
+        option->type_name(std::is_arithmetic_v<T> ? "NUMBER" : "TEXT");
+    }
     return Option(std::is_arithmetic_v<T> ? *option : *option->check(notEmpty()));
 }
 template Option Arguments::add(const std::string&, std::string&, const std::string&);
@@ -141,6 +209,10 @@ Option Arguments::force(bool& isOn) {
     return flag("--force", isOn, "replace output files that exist; an input file never is");
 }
 
+Option Arguments::verbose(bool& isOn, const std::string& text) {
+    return flag("--verbose", isOn, "tell on standard error " + text);
+}
+
 Option Arguments::option(const std::string& name) const {
     return Option(*m_parser->get_option(name));
 }
@@ -159,6 +231,14 @@ CommandLine::~CommandLine() = default;
 
 Arguments CommandLine::addCommand(const std::string& name, const std::string& text) {
     return Arguments(*m_parser->add_subcommand(name, text));
+}
+
+usage::Program CommandLine::usage() const {
+    usage::Program program{m_parser->get_name(), m_parser->get_description(), usageOf(*m_parser), {}};
+    for (CLI::App* command : m_parser->get_subcommands([](const CLI::App*) { return true; })) {
+        program.commands.push_back({command->get_name(), command->get_description(), usageOf(*command)});
+    }
+    return program;
 }
 
 CommandLine::Parsed CommandLine::parse(int argumentCount, const char* const* arguments) {

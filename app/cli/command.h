@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/input_output.h"
+#include "app/usage/usage.h"
 
 #include <cstdint>
 #include <functional>
@@ -55,6 +56,8 @@ public:
     Option flag(const std::string& name, const std::string& text);
     /// `--force`: an output file that exists is replaced.
     Option force(bool& isOn);
+    /// `--verbose`: standard error tells more than what is wrong.
+    Option verbose(bool& isOn, const std::string& text);
     /// One that was added before.
     [[nodiscard]] Option option(const std::string& name) const;
     /// Options that are added from now on come under this heading of the help.
@@ -73,6 +76,9 @@ public:
     ~CommandLine();
 
     Arguments addCommand(const std::string& name, const std::string& text);
+
+    /// What was declared, for manual pages and completions.
+    [[nodiscard]] usage::Program usage() const;
 
     /// What came of parsing.
     struct Parsed {

@@ -89,6 +89,7 @@ Command addEncodeCommand(CommandLine& program) {
     arguments.add("FILE", options->input, "JSON Lines; - for standard input").required();
     arguments
         .add("-o,--output", options->output, "where the datagrams go, back to back; - for standard output")
+        .form("FILE")
         .showDefault();
     arguments.force(options->replaces);
     return {"encode", [options](Console& console) { return encode(*options, console); }};

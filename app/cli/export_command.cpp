@@ -4,6 +4,7 @@
 #include "app/cli/progress_line.h"
 #include "app/cli/recorded_session.h"
 #include "app/figure/mannequin_body.h"
+#include "app/usage/version.h"
 #include "core/export/motion/motion_export.h"
 #include "core/model/accounting/stream_figures.h"
 
@@ -187,7 +188,7 @@ ExitStatus writeMotion(const ExportOptions& options, const MotionFormat& format,
                                                    format,
                                                    path,
                                                    {options.replaces, {options.input}},
-                                                   "Posewire " POSEWIRE_VERSION,
+                                                   "Posewire " + std::string(usage::version()),
                                                    figure::mannequinBody},
                                                   [&](double share) {
                                                       line.show("writing", share);

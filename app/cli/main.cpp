@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "app/cli/command.h"
+#include "app/cli/program.h"
 
 #include <algorithm>
 #include <csignal>
@@ -40,22 +40,14 @@ int main(int argumentCount, char** arguments) {
     std::signal(SIGXFSZ, SIG_IGN);
     openStandardStreams();
     std::ios::sync_with_stdio(false);
-    CommandLine program(
-        "posewire-cli", "Decodes, encodes, sends, watches and exports MXTP motion-capture datagrams.",
-        "posewire-cli " POSEWIRE_VERSION,
-        "Exit status: 0 fine; 1 the input had faults, or a limit was exceeded; 2 wrong usage, or "
-        "a file or port that cannot be opened.");
-    const std::vector<Command> commands{addDecodeCommand(program),   addEncodeCommand(program),
-                                        addSendCommand(program),     addMonitorCommand(program),
-                                        addReportCommand(program),   addExportCommand(program),
-                                        addReferenceCommand(program)};
-    const CommandLine::Parsed parsed = program.parse(argumentCount, arguments);
+    Program program;
+    const CommandLine::Parsed parsed = program.line.parse(argumentCount, arguments);
     if (parsed.kind == CommandLine::Parsed::Kind::Answer) {
         std::cout << parsed.text;
         return static_cast<int>(ExitStatus::Fine);
     }
-    const auto chosen = std::ranges::find(commands, parsed.text, &Command::name);
-    if (parsed.kind == CommandLine::Parsed::Kind::Command && chosen != commands.end()) {
+    const auto chosen = std::ranges::find(program.commands, parsed.text, &Command::name);
+    if (parsed.kind == CommandLine::Parsed::Kind::Command && chosen != program.commands.end()) {
         return static_cast<int>(run(*chosen));
     }
     std::cerr << parsed.text << '\n';

@@ -16,6 +16,7 @@
 #include <array>
 #include <chrono>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,7 @@ struct MonitorOptions {
     bool replaces = false;
     bool asJson = false;
     bool asJsonLines = false;
+    bool isVerbose = false;            ///< tells where it listens and who sends
     bool isQuiet = false;              ///< neither tables nor JSON, only the report
     std::optional<double> fromSeconds; ///< what the report is about, from the first datagram on
     std::optional<double> toSeconds;
@@ -107,6 +109,7 @@ public:
                                       std::optional<log::Stamp> end);
 
 private:
+    void tellSenders();
     ExitStatus writeReport(const exporting::MonitorFacts& facts);
     void showLine(log::Stamp now);
     [[nodiscard]] bool isReaderGone() const { return m_table && !m_table->isWanted(); }
@@ -122,6 +125,7 @@ private:
     exporting::VerdictLines m_lines;
     bool m_isConcluding = false;
     bool m_isReaderTold = false;
+    std::set<log::SenderId> m_toldSenders; ///< those that the session lists
     std::chrono::steady_clock::time_point m_nextShow;
 };
 

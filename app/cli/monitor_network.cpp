@@ -72,6 +72,16 @@ void tellChosenPorts(const net::Receiver& receiver, const Places& places, Consol
     }
 }
 
+void tellInputs(const net::Receiver& receiver, Console& console) {
+    for (const net::InputStatus& input : receiver.inputs()) {
+        const bool isConnection = input.kind == net::InputKind::TcpConnection;
+        const std::string place = input.endpoint.host.empty() ? "port " + std::to_string(input.endpoint.port)
+                                                              : net::textOf(input.endpoint);
+        console.complain((isConnection ? "connecting to " : "listening on ") + place +
+                         (input.kind == net::InputKind::Udp ? " (UDP)" : " (TCP)"));
+    }
+}
+
 /// Reports the failure of a recording at once, and only once.
 class RecordingWatch {
 public:
@@ -266,6 +276,9 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
         return console.unusable(opened.error().text);
     }
     tellChosenPorts(*receiver, *places, console);
+    if (options.isVerbose) {
+        tellInputs(*receiver, console);
+    }
     std::unique_ptr<log::Recording> recording;
     if (!options.record.empty()) { // now that there is something to record
         auto started = createRecording(options).and_then([&](std::unique_ptr<log::ByteSink>&& sink) {

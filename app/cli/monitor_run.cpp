@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/cli/monitor.h"
 
+#include "app/usage/version.h"
 #include "core/export/html.h"
 #include "core/export/reports.h"
 #include "core/export/session_reading.h"
@@ -20,7 +21,9 @@
 namespace posewire::cli {
 namespace {
 
-constexpr std::string_view kApplication = "Posewire " POSEWIRE_VERSION;
+std::string applicationName() {
+    return "Posewire " + std::string(usage::version());
+}
 
 std::optional<model::TimeRange> rangeOf(const MonitorOptions& options, log::Stamp first) {
     const auto stampAt = [&](double seconds) { return first + log::Duration(std::llround(seconds * 1e9)); };
@@ -109,6 +112,20 @@ bool MonitorRun::isOver() const {
 void MonitorRun::follow(log::Stamp now) {
     while (m_session.follow(now)) {
     }
+    if (m_options.isVerbose) {
+        tellSenders();
+    }
+}
+
+void MonitorRun::tellSenders() {
+    std::set<log::SenderId> listed;
+    for (const model::Sender& sender : m_session.senders()) {
+        listed.insert(sender.id);
+        if (!m_toldSenders.contains(sender.id)) {
+            m_console.complain("heard " + sender.address().shown());
+        }
+    }
+    m_toldSenders = std::move(listed);
 }
 
 void MonitorRun::showLine(log::Stamp now) {
@@ -186,7 +203,7 @@ ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status
 
 ExitStatus MonitorRun::writeReport(const exporting::MonitorFacts& facts) {
     exporting::StreamReportOptions options;
-    options.application = kApplication;
+    options.application = applicationName();
     options.exceeded = facts.exceeded;
     options.range = rangeOf(m_options, m_session.firstStamp());
     for (std::size_t i = 0; i < kLimits.size(); ++i) {
@@ -243,7 +260,7 @@ log::RecordingInfo recordingInfo() {
     return {QSysInfo::currentCpuArchitecture().toStdString(),
             (QSysInfo::prettyProductName() + ", " + QSysInfo::kernelType() + ' ' + QSysInfo::kernelVersion())
                 .toStdString(),
-            std::string(kApplication)};
+            applicationName()};
 }
 
 } // namespace posewire::cli

@@ -110,6 +110,17 @@ ExitStatus sendPerformance(const SendOptions& options, const performer::Performe
     return ExitStatus::Fine;
 }
 
+void tellLines(const std::vector<SendLine>& lines, const std::vector<net::SendTarget>& targets,
+               Console& console) {
+    for (const SendLine& line : lines) {
+        for (std::size_t i = 0; i < targets.size(); ++i) {
+            const SendLine::Sender& sender = line.senders()[i];
+            console.complain("sending from " + sender.address + " to " + net::textOf(targets[i].endpoint) +
+                             (sender.isTcp ? " (TCP)" : " (UDP)"));
+        }
+    }
+}
+
 ExitStatus send(const SendOptions& options, Console& console) {
     const auto targets = targetsOf(options);
     if (!targets) {
@@ -136,6 +147,9 @@ ExitStatus send(const SendOptions& options, Console& console) {
     if (!lines) {
         return console.unusable(lines.error());
     }
+    if (options.isVerbose) {
+        tellLines(*lines, *targets, console);
+    }
     const ExitStatus status = options.file.empty() ? sendPerformance(options, *settings, *lines, console)
                                                    : sendFile(options, *lines, console);
     return status == ExitStatus::Unusable ? status : worse(status, conclude(options, *lines, console));
@@ -144,20 +158,22 @@ ExitStatus send(const SendOptions& options, Console& console) {
 std::string motionList() {
     std::string list;
     for (const std::string_view name : performer::motionNames()) {
-        list.append(list.empty() ? "" : ", ").append(name);
+        list.append(list.empty() ? "" : "|").append(name);
     }
     return list;
 }
 
 void addPlaces(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("Target and duration");
-    arguments.add("--to", options.to, "target, HOST:PORT; may be given several times")
+    arguments.add("--to", options.to, "target; may be given several times")
+        .form("HOST:PORT")
         .repeatable()
         .showDefault();
     const Option udp = arguments.flag("--udp", "one datagram per packet (default)");
     arguments.flag("--tcp", options.overTcp, "connect, as MVN does, and send datagrams back to back")
         .excludes(udp);
     arguments.add("--duration", options.durationSeconds, "stop after this many seconds; 0: when interrupted")
+        .form("SECONDS")
         .seconds()
         .showDefault();
 }
@@ -171,11 +187,11 @@ void addPerformer(Arguments arguments, SendOptions& options) {
     arguments.add("--rate", settings.rateHz, "samples per second").within(1.0, 1000.0).showDefault();
     arguments.add("--types", options.types, "message types, such as 02,12,13, or all of the revision")
         .showDefault();
-    arguments.add("--revision", options.revision, "of the specification: E, J, K or N").showDefault();
+    arguments.add("--revision", options.revision, "of the specification").form("E|J|K|N").showDefault();
     arguments.add("--seed", settings.seed, "the same seed gives the same bytes and faults")
         .wholeUpTo(UINT64_MAX)
         .showDefault();
-    arguments.add("--motion", settings.motion, "one of " + motionList()).showDefault();
+    arguments.add("--motion", settings.motion, "what they do").form(motionList()).showDefault();
     arguments.add("--props", settings.props, "props of each character").wholeUpTo(4).showDefault();
     arguments.flag("--fingers", settings.fingers, "with both hands (revision N)");
     arguments
@@ -225,8 +241,10 @@ void addFaults(Arguments arguments, SendOptions& options) {
 
 Option addFile(Arguments arguments, SendOptions& options) {
     arguments.beginGroup("A recording");
-    const Option file = arguments.add("--file", options.file,
-                                      "send this recording instead of a performance; - for standard input");
+    const Option file =
+        arguments
+            .add("--file", options.file, "send this recording instead of a performance; - for standard input")
+            .form("FILE");
     arguments.add("--speed", options.speed, "how fast a recording plays")
         .within(0.001, 1000.0)
         .needs(file)
@@ -264,6 +282,7 @@ Command addSendCommand(CommandLine& program) {
     addPerformer(arguments, *options);
     addFaults(arguments, *options);
     addTruth(arguments, *options, addFile(arguments, *options));
+    arguments.verbose(options->isVerbose, "from where to where it sends");
     return {"send", [options](Console& console) { return send(*options, console); }};
 }
 

@@ -20,6 +20,8 @@ namespace posewire::gui {
 
 namespace {
 
+/// Of the files, raised when the meaning of something in them changes.
+constexpr int kSchema = 1;
 constexpr int kLeastCharacters = 54;
 constexpr int kLeastLines = 13; ///< a title, tabs, a bar, column titles and some rows
 constexpr double kDefaultExtent = 0.22;
@@ -129,6 +131,11 @@ tl::expected<DockLayout, QString> parseLayout(const QByteArray& json) {
     const auto document = parseSmallObject(json);
     if (!document) {
         return tl::unexpected(tr("not a layout: %1").arg(document.error()));
+    }
+    // The first ones had no version.
+    if (const int schema = (*document)["schema"].toInt(1); schema < 1 || schema > kSchema) {
+        return tl::unexpected(
+            tr("its version is %1, this program reads version %2").arg(schema).arg(kSchema));
     }
     DockLayout layout;
     layout.name = (*document)["name"].toString().left(kLongestName);

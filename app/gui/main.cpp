@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/program_health.h"
 #include "app/gui/ending_signals.h"
+#include "app/gui/logging.h"
 #include "app/gui/options.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
+#include "app/gui/viewport/presenter.h"
 #include "app/gui/window/main_window.h"
+#include "app/usage/version.h"
 
 #include <QApplication>
 #include <QStandardPaths>
@@ -23,7 +26,11 @@ using namespace posewire::gui;
 /// Help, version and errors need no display: they are dealt with before a window system is asked for.
 tl::expected<Options, EarlyExit> readOptions(int& argc, char** argv) {
     const QCoreApplication application(argc, argv);
-    return parseOptions(QCoreApplication::arguments());
+    auto options = parseOptions(QCoreApplication::arguments());
+    if (!options && options.error().isVersion) {
+        options.error().text += QStringLiteral("OpenGL %1\n").arg(windowlessOpenGlName());
+    }
+    return options;
 }
 
 Settings startSettings(SettingsFile& file, const Options& options, QString* problem) {
@@ -110,7 +117,7 @@ void begin(MainWindow& window, const Options& options) {
 int main(int argc, char** argv) {
     QCoreApplication::setOrganizationName(QStringLiteral("Posewire"));
     QCoreApplication::setApplicationName(QStringLiteral("posewire"));
-    QCoreApplication::setApplicationVersion(QStringLiteral(POSEWIRE_VERSION));
+    QCoreApplication::setApplicationVersion(QString::fromUtf8(posewire::usage::version()));
     const auto options = readOptions(argc, argv);
     if (!options) {
         std::fputs(qUtf8Printable(options.error().text), options.error().status == 0 ? stdout : stderr);
@@ -119,6 +126,9 @@ int main(int argc, char** argv) {
     // Where a file may not grow, or nobody reads a pipe, the failed write says so.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    if (options->isVerbose) {
+        tellVerbosely();
+    }
     QApplication application(argc, argv);
     SettingsFile file(options->settingsFile);
     QString problem;

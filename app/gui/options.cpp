@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/options.h"
 
+#include "app/gui/dock_layout.h"
 #include "app/gui/theme/words.h"
+#include "app/usage/usage.h"
 #include "core/log/output_file.h"
 
 #include <QCommandLineParser>
@@ -26,21 +28,36 @@ bool isPicture(const QString& path) {
 
 constexpr int kMaxDemoCharacters = 20;
 
+/// These may be given several times.
+const QStringList kRepeatable{"udp", "from", "multicast", "tcp-listen", "tcp"};
+
 constexpr std::array kThemes{std::pair{ThemeChoice::Dark, "dark"}, std::pair{ThemeChoice::Light, "light"},
                              std::pair{ThemeChoice::System, "system"}};
 
 tl::unexpected<EarlyExit> wrong(const QString& text) {
-    return tl::unexpected(EarlyExit{2, QStringLiteral("posewire: ") + text +
-                                           tr("\nTry 'posewire --help' for what there is.\n")});
+    return tl::unexpected(EarlyExit{
+        2, QStringLiteral("posewire: ") + text + tr("\nTry 'posewire --help' for what there is.\n"), false});
 }
 
-void describe(QCommandLineParser& parser) {
-    parser.setApplicationDescription(tr("Network monitor for MVN motion-capture streams."));
-    parser.setOptionsAfterPositionalArgumentsMode(QCommandLineParser::ParseAsOptions);
-    parser.addPositionalArgument(QStringLiteral("file"),
-                                 tr("Recording to look at: pcap, pcapng, or datagrams back to back."),
-                                 QStringLiteral("[FILE]"));
-    parser.addOptions({
+QString themeForms() {
+    QStringList names;
+    for (const auto& [choice, name] : kThemes) {
+        names += QLatin1String(name);
+    }
+    return names.join(QLatin1Char('|'));
+}
+
+QString descriptionText() {
+    return tr("Network monitor for MVN motion-capture streams.");
+}
+
+QString fileText() {
+    return tr("Recording to look at: pcap, pcapng, or datagrams back to back.");
+}
+
+/// The forms of values are those of usage::Option.
+QList<QCommandLineOption> optionTable() {
+    return {
         {"udp",
          tr("Listen on a UDP port (repeatable; 9763 if nothing else is asked for). ADDRESS is one of this "
             "computer's, where it has several networks and only one is meant: broadcasts and multicast may "
@@ -54,20 +71,29 @@ void describe(QCommandLineParser& parser) {
         {"tcp-listen", tr("Let senders connect by TCP, as MVN does (repeatable)."), "[ADDRESS:]PORT"},
         {"tcp", tr("Connect to a sender that listens (repeatable)."), "HOST:PORT"},
         {"demo", tr("Send walking characters to the listening port, by UDP on this computer; 2 by default."),
-         "CHARACTERS"},
+         "[CHARACTERS]"},
         {"seek", tr("Stop this many seconds after the beginning of FILE instead of at its end."), "SECONDS"},
-        {"layout", tr("Begin with a layout: Check, Debug, Inspect, or a file."), "NAME|FILE"},
+        {"layout", tr("Begin with a layout that ships, or with one from a file."),
+         layoutNames().join(QLatin1Char('|')) + QStringLiteral("|FILE")},
         {"reset-layout", tr("Forget where windows and docks were.")},
         {"settings", tr("Keep settings in this file."), "FILE"},
-        {"theme", tr("Colours: dark, light or system."), "THEME"},
+        {"theme", tr("Colours; those of the system by default."), themeForms()},
         {"screenshot", tr("Save a picture of the window and end."), "FILE.png"},
         {"force", tr("Replace the file of --screenshot also where it is no picture.")},
         {"after", tr("Seconds to wait before the screenshot; 3 by default."), "SECONDS"},
         {"size", tr("Size of the window."), "WxH"},
+        {"verbose", tr("Tell on standard error what is done with inputs, files, settings and OpenGL.")},
         {"startup-time", tr("Print how long it took until the window was on screen.")},
         {{"h", "help"}, tr("Show this text.")},
         {{"v", "version"}, tr("Show the version.")},
-    });
+    };
+}
+
+void describe(QCommandLineParser& parser) {
+    parser.setApplicationDescription(descriptionText());
+    parser.setOptionsAfterPositionalArgumentsMode(QCommandLineParser::ParseAsOptions);
+    parser.addPositionalArgument(QStringLiteral("file"), fileText(), QStringLiteral("[FILE]"));
+    parser.addOptions(optionTable());
 }
 
 /// Reads options into their places. What is wrong with the first bad one is kept.
@@ -194,10 +220,30 @@ struct Reader {
         options.replaces = parser.isSet(QStringLiteral("force"));
         checkOutputs();
         options.printsStartupTime = parser.isSet(QStringLiteral("startup-time"));
+        options.isVerbose = parser.isSet(QStringLiteral("verbose"));
     }
 };
 
 } // namespace
+
+usage::Program programUsage() {
+    usage::Program program{"posewire", descriptionText().toStdString(), {}, {}};
+    usage::Option file;
+    file.form = "FILE";
+    file.text = fileText().toStdString();
+    program.options.push_back(file);
+    for (const QCommandLineOption& declared : optionTable()) {
+        usage::Option option;
+        for (const QString& name : declared.names()) {
+            option.names.push_back((name.size() == 1 ? "-" : "--") + name.toStdString());
+        }
+        option.form = declared.valueName().toStdString();
+        option.text = declared.description().toStdString();
+        option.isRepeatable = kRepeatable.contains(declared.names().front());
+        program.options.push_back(option);
+    }
+    return program;
+}
 
 QString themeName(ThemeChoice choice) {
     return QLatin1String(
@@ -251,11 +297,14 @@ tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments) {
         return wrong(parser.errorText());
     }
     if (parser.isSet(QStringLiteral("help"))) {
-        return tl::unexpected(EarlyExit{0, parser.helpText()});
+        return tl::unexpected(EarlyExit{0, parser.helpText(), false});
     }
     if (parser.isSet(QStringLiteral("version"))) {
         return tl::unexpected(
-            EarlyExit{0, QStringLiteral("posewire %1\n").arg(QCoreApplication::applicationVersion())});
+            EarlyExit{0,
+                      QStringLiteral("posewire %1\nQt %2\n")
+                          .arg(QCoreApplication::applicationVersion(), QLatin1String(qVersion())),
+                      true});
     }
     Reader reader{parser};
     reader.readAllInputs();

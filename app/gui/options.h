@@ -13,6 +13,10 @@
 #include <optional>
 #include <vector>
 
+namespace posewire::usage {
+struct Program;
+} // namespace posewire::usage
+
 namespace posewire::gui {
 
 /// What the command line asks for.
@@ -32,6 +36,7 @@ struct Options {
     QSize size;
     std::optional<ThemeChoice> theme;
     bool printsStartupTime = false;
+    bool isVerbose = false;
 };
 
 /// The program ends at once: help and version on standard output with status 0, a wrong option on standard
@@ -39,10 +44,14 @@ struct Options {
 struct EarlyExit {
     int status = 0;
     QString text;
+    bool isVersion = false;
 };
 
 /// `arguments` with the program's name first. Needs a QCoreApplication, no display.
 [[nodiscard]] tl::expected<Options, EarlyExit> parseOptions(const QStringList& arguments);
+
+/// The command line as it is declared, for the manual page and completions.
+[[nodiscard]] usage::Program programUsage();
 
 /// What to open at the start: what was asked for on the command line; where nothing was, what was open last,
 /// else the port that MVN sends to.

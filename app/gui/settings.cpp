@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/settings.h"
 
+#include "app/gui/logging.h"
 #include "app/gui/options.h"
 #include "app/gui/saving.h"
 #include "app/gui/small_json.h"
@@ -16,13 +17,23 @@
 #include <QStandardPaths>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 
 namespace posewire::gui {
 
 namespace {
 
-/// Raised when the meaning of something in the file changes.
-constexpr int kSchema = 1;
+/// Raised when the meaning of something in the file changes, with a step for files of the version before.
+constexpr int kSchema = 2;
+
+/// Version 1 called what we receive by the word for senders.
+void renameSources(QJsonObject& object) {
+    object["receiving"] = object.take("sources");
+}
+
+/// From each version to the next, from version 1 on.
+constexpr std::array<void (*)(QJsonObject&), kSchema - 1> kMigrations{renameSources};
 
 /// Of a window, in logical pixels: a rectangle of these has edges that can be calculated with.
 constexpr int kFarthest = 100'000;
@@ -66,7 +77,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.docks = docksOf(object);
     settings.panels = object["panels"].toObject();
     settings.alerts = alertChoicesOf(object["alerts"].toObject());
-    settings.inputs = inputChoicesOf(object["sources"].toObject());
+    settings.inputs = inputChoicesOf(object["receiving"].toObject());
     settings.history = historyOf(object["history"].toObject());
     settings.recording = recordingChoiceOf(object["recording"].toObject());
     for (const auto& path : object["recentFiles"].toArray()) {
@@ -80,13 +91,18 @@ Settings settingsOf(const QJsonObject& object) {
 } // namespace
 
 tl::expected<Settings, QString> parseSettings(const QByteArray& json) {
-    const auto object = parseSmallObject(json);
+    auto object = parseSmallObject(json);
     if (!object) {
         return tl::unexpected(object.error());
     }
-    if (const int schema = (*object)["schema"].toInt(); schema != kSchema) {
+    const int schema = (*object)["schema"].toInt();
+    if (schema < 1 || schema > kSchema) {
         return tl::unexpected(
-            tr("their version is %1, this program reads version %2").arg(schema).arg(kSchema));
+            tr("their version is %1, this program reads up to version %2").arg(schema).arg(kSchema));
+    }
+    for (int version = schema; version < kSchema; ++version) {
+        qCInfo(settingsLog) << "migrated from version" << version;
+        kMigrations.at(static_cast<std::size_t>(version - 1))(*object);
     }
     return settingsOf(*object);
 }
@@ -105,7 +121,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"docksSum", sumOf(settings.docks)},
                              {"alerts", jsonOf(settings.alerts)},
                              {"panels", settings.panels},
-                             {"sources", jsonOf(settings.inputs)},
+                             {"receiving", jsonOf(settings.inputs)},
                              {"history", jsonOf(settings.history)},
                              {"recording", jsonOf(settings.recording)},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
@@ -122,6 +138,7 @@ SettingsFile::SettingsFile(QString path) : m_path(std::move(path)) {
 Settings SettingsFile::read(QString* problem) {
     problem->clear();
     if (!QFile::exists(m_path)) {
+        qCInfo(settingsLog).noquote() << "none in" << m_path;
         return {};
     }
     const auto content = readSmallFile(m_path);
@@ -136,6 +153,7 @@ Settings SettingsFile::read(QString* problem) {
         *problem = setAside(settings.error());
         return {};
     }
+    qCInfo(settingsLog).noquote() << "read from" << m_path;
     return *std::move(settings);
 }
 
@@ -147,6 +165,7 @@ QString SettingsFile::setAside(const QString& reason) const {
     if (!QFile::rename(m_path, aside)) {
         return tr("Settings in %1 cannot be used (%2).").arg(m_path, reason);
     }
+    qCInfo(settingsLog).noquote() << "set aside as" << aside;
     return tr("Settings could not be used (%1); they were set aside as %2.").arg(reason, aside);
 }
 
@@ -154,7 +173,9 @@ QString SettingsFile::write(const Settings& settings) const {
     if (!QDir().mkpath(QFileInfo(m_path).absolutePath())) {
         return tr("The folder of %1 cannot be created.").arg(m_path);
     }
-    return saveFile(m_path, jsonOf(settings));
+    const QString problem = saveFile(m_path, jsonOf(settings));
+    qCInfo(settingsLog).noquote() << (problem.isEmpty() ? "written to " + m_path : problem);
+    return problem;
 }
 
 } // namespace posewire::gui

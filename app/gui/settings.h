@@ -41,8 +41,8 @@ struct Settings {
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 
-/// What is missing, larger than it can be or of the wrong kind is as shipped. The error says why nothing
-/// could be read.
+/// Also those that earlier versions wrote. What is missing, larger than it can be or of the wrong kind is as
+/// shipped. The error says why nothing could be read.
 [[nodiscard]] tl::expected<Settings, QString> parseSettings(const QByteArray& json);
 [[nodiscard]] QByteArray jsonOf(const Settings& settings);
 

@@ -15,6 +15,9 @@
 namespace posewire::net {
 namespace {
 
+/// Who holds a port, where that is not known.
+constexpr std::string_view kByAnother = "by another program";
+
 using Kind = NetError::Kind;
 namespace fs = std::filesystem;
 
@@ -161,8 +164,8 @@ NetError listenError(const std::string& protocol, const Endpoint& endpoint,
                              (endpoint.host.empty() ? std::string() : " of " + endpoint.host);
     switch (error) {
     case QAbstractSocket::AddressInUseError:
-        return {Kind::PortInUse,
-                port + " is in use by another program; close that program or choose another port"};
+        return {Kind::PortInUse, port + " is in use " + std::string(kByAnother) +
+                                     "; close that program or choose another port"};
     case QAbstractSocket::SocketAccessError:
         return {Kind::NoPermission, port + " needs administrator rights; choose a port from 1024 up"};
     case QAbstractSocket::SocketAddressNotAvailableError:
@@ -201,13 +204,19 @@ std::optional<Process> holderOfPort(std::uint16_t port, bool isTcp) {
 }
 
 NetError withHolder(NetError error, std::uint16_t port, bool isTcp) {
-    constexpr std::string_view unknown = "by another program";
-    const std::size_t place = error.text.find(unknown);
-    if (error.kind == Kind::PortInUse && place != std::string::npos) {
-        if (const auto holder = holderOfPort(port, isTcp)) {
-            error.text.replace(place, unknown.size(),
-                               "by " + holder->name + " (process " + std::to_string(holder->id) + ")");
-        }
+    const std::size_t place = error.text.find(kByAnother);
+    if (error.kind != Kind::PortInUse || place == std::string::npos) {
+        return error;
+    }
+    if (const auto holder = holderOfPort(port, isTcp)) {
+        const std::string process = " (process " + std::to_string(holder->id) + ")";
+        // Closing it is not what its operator wants.
+        const bool isOurs = holder->name == "posewire";
+        error.text.replace(place, isOurs ? std::string::npos : kByAnother.size(),
+                           isOurs
+                               ? "by another Posewire" + process +
+                                     "; look there, or choose another port here and let the other relay to it"
+                               : "by " + holder->name + process);
     }
     return error;
 }

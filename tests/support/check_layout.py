@@ -23,9 +23,10 @@ MAY_INCLUDE = [
     ("core/filter", ["core/wire", "core/log", "core/model"]),
     ("render", []),
     ("packaging/mannequin", ["render/mesh"]),
+    ("app/usage", []),
     ("app/net", ["core"]),
     ("app/figure", ["core", "render/mesh"]),
-    ("app/cli", ["core", "app/net", "app/figure"]),
+    ("app/cli", ["core", "app/net", "app/figure", "app/usage"]),
     ("app/gui/theme", []),
     ("app/gui/models", ["core", "app/gui/*", "app/gui/theme"]),
     ("app/gui/plots", ["app/gui/theme"]),
@@ -33,7 +34,7 @@ MAY_INCLUDE = [
     ("app/gui/driver", ["core", "app/net", "app/gui/*"]),
     ("app/gui/viewport", ["core", "render", "app/net", "app/gui/*", "app/gui/theme", "app/gui/models"]),
     ("app/gui/inputs", ["core", "app/net", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/panels", "app/gui/driver"]),
-    ("app/gui", ["core", "app/net"]),
+    ("app/gui", ["core", "app/net", "app/usage"]),
 ]
 # What a folder must not include, although the table above would let it, or although it is no file of ours.
 FORBIDDEN = [

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/receiving.h"
 
+#include "app/gui/logging.h"
 #include "app/gui/saving.h"
 #include "core/wire/header.h"
 
@@ -9,6 +10,7 @@
 #include <QFileInfo>
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 
@@ -102,6 +104,7 @@ bool Receiving::removePort(const InputAddress& port) {
     if (known == m_state.ports.end()) {
         return false;
     }
+    qCInfo(inputsLog).noquote() << displayText(port) << "is closed";
     if (known->id) {
         m_receiver.remove(*known->id);
         m_portTotals.erase(*known->id);
@@ -123,11 +126,16 @@ void Receiving::open(PortState& state) {
         id = m_receiver.addTcpConnection(endpointOf(state.port));
         break;
     }
-    state.problem = id ? QString() : QString::fromStdString(id.error().text);
+    const QString before =
+        std::exchange(state.problem, id ? QString() : QString::fromStdString(id.error().text));
+    if (!id && state.problem != before) { // it is tried again and again
+        qCInfo(inputsLog).noquote() << state.problem;
+    }
     if (id) {
         state.id = *id;
         readStatus();
         state.port.port = state.status.endpoint.port; // where the system was to choose one
+        qCInfo(inputsLog).noquote() << displayText(state.port) << "is open";
     }
 }
 
@@ -187,6 +195,8 @@ void Receiving::retry() {
 
 void Receiving::listenTo(const QStringList& allowed) {
     m_allowed = allowed;
+    qCInfo(inputsLog).noquote() << "listening to"
+                                << (allowed.isEmpty() ? QStringLiteral("everyone") : allowed.join(u' '));
     std::vector<std::string> entries;
     for (const QString& entry : allowed) {
         entries.push_back(entry.toStdString());

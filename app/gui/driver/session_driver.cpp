@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/session_driver.h"
 
+#include "app/gui/logging.h"
 #include "app/gui/saving.h"
 #include "app/net/datagram_sender.h"
 #include "core/performer/performer.h"
@@ -10,10 +11,11 @@
 #include <QDir>
 #include <QFile>
 #include <QGuiApplication>
-#include <QStorageInfo>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <system_error>
 #include <vector>
 
 namespace posewire::gui {
@@ -33,7 +35,10 @@ constexpr log::Duration kFollowTime = std::chrono::milliseconds(12);
 constexpr log::Duration kGreatestLag = std::chrono::milliseconds(250);
 
 std::uint64_t freeBytes(const QString& folder) {
-    return static_cast<std::uint64_t>(std::max<qint64>(QStorageInfo(folder).bytesAvailable(), 0));
+    // QStorageInfo knows nothing where the table of mounts lacks the root, as in a chroot.
+    std::error_code failed;
+    const auto space = std::filesystem::space(QFile::encodeName(folder).toStdString(), failed);
+    return failed ? 0 : space.available;
 }
 
 /// The most that something of ours takes in a folder.
@@ -204,11 +209,13 @@ QString SessionDriver::keepHistory(std::uint64_t most) {
         return QString::fromStdString(history.error().text);
     }
     m_history = std::move(*history);
+    qCInfo(filesLog).noquote() << "history in" << m_cacheFolder << "of at most" << choice.most << "bytes";
     return {};
 }
 
 void SessionDriver::openFile(const QString& path) {
     closeFile();
+    qCInfo(filesLog).noquote() << "opening" << path;
     keepFromSaving(path);
     m_file = std::make_unique<OpenedFile>(m_clock, path, newScratch(m_cacheFolder));
     m_file->session().setThresholds(m_live.thresholds());
@@ -228,10 +235,12 @@ bool SessionDriver::readFile() {
 
 void SessionDriver::tellOpened() {
     if (const QString failure = m_file->failure(); !failure.isEmpty()) {
+        qCInfo(filesLog).noquote() << "not opened:" << failure;
         closeFile();
         emit fileOpened(false, failure);
         return;
     }
+    qCInfo(filesLog) << "read," << m_file->session().end() << "packets";
     emit fileOpened(true, m_file->notes().join(QLatin1Char(' ')));
 }
 

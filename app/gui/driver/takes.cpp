@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/driver/takes.h"
 
+#include "app/gui/logging.h"
 #include "core/model/session/listed_incidents.h"
 
 #include <QCoreApplication>
@@ -59,6 +60,7 @@ QString Takes::start(const RecordingChoice& choice, const model::SessionView& li
         return QString::fromStdString(recording.error().text);
     }
     m_recording = std::move(*recording);
+    qCInfo(filesLog).noquote() << "recording to" << m_path << "from packet" << m_from;
     return {};
 }
 
@@ -66,6 +68,7 @@ void Takes::stop(const model::SessionView& live) {
     if (m_recording == nullptr) {
         return;
     }
+    qCInfo(filesLog).noquote() << "recorded" << m_path;
     m_ending.push_back(std::async(std::launch::async, [recording = std::shared_ptr(std::move(m_recording)),
                                                        notes = notes(live)]() mutable {
         const auto stopped = recording->stop(std::move(notes));

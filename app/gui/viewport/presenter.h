@@ -38,4 +38,7 @@ signals:
 /// any.
 [[nodiscard]] Presenter* makeSoftwarePresenter(QWidget* parent);
 
+/// The OpenGL that there is without a window, or why there is none: for --version, which opens none.
+[[nodiscard]] QString windowlessOpenGlName();
+
 } // namespace posewire::gui

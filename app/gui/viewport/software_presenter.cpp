@@ -175,4 +175,9 @@ Presenter* makeSoftwarePresenter(QWidget* parent) {
     return new SoftwarePresenter(parent);
 }
 
+QString windowlessOpenGlName() {
+    const auto context = render::OffscreenContext::create();
+    return QString::fromStdString(context ? context->driverName() : context.error());
+}
+
 } // namespace posewire::gui

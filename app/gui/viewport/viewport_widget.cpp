@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_widget.h"
 
+#include "app/gui/logging.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/viewport_overlay.h"
@@ -59,6 +60,8 @@ void ViewportWidget::start() {
     if (!m_isHardware) {
         m_presenter = makeSoftwarePresenter(this);
     }
+    qCInfo(drawingLog) << (m_isHardware ? "into the window, by graphics hardware"
+                                        : "on a thread, by the processor or without the window's OpenGL");
     m_builder = makeBuilder();
     m_presenter->setAttribute(Qt::WA_TransparentForMouseEvents);
     m_presenter->setGeometry(rect());
@@ -115,7 +118,9 @@ void ViewportWidget::drawNext() {
 }
 
 void ViewportWidget::onPresented() {
-    ++m_picturesShown;
+    if (m_picturesShown++ == 0) {
+        qCInfo(drawingLog).noquote() << "first picture by" << m_presenter->rendererName();
+    }
     if (m_drawing != nullptr) {
         m_shown = std::exchange(m_drawing, nullptr);
     }

@@ -79,6 +79,28 @@ TEST(MonitorNetwork, CountsEveryDatagramThatWasSentAndRecordsIt) {
     EXPECT_EQ(reportOf(recording)["sources"], report["sources"]);
 }
 
+TEST(MonitorNetwork, TellsWhereItListensAndWhoSendsOnlyWhereAskedTo) {
+    for (const bool isVerbose : {false, true}) {
+        Monitor monitor(isVerbose ? QStringList{"--verbose"} : QStringList());
+        std::vector<std::string> arguments{"send", "--to", monitor.place(), "--duration", "0.2"};
+        if (isVerbose) {
+            arguments.emplace_back("--verbose");
+        }
+        const ProgramRun sender = runProgram(arguments);
+        ASSERT_EQ(sender.status, 0) << sender.err;
+        const ProgramRun run = monitor.end();
+        const Json report = Json::parse(run.out, nullptr, false);
+        ASSERT_TRUE(report.is_object()) << run.out;
+        const std::string address = report["sources"][0]["address"];
+        EXPECT_EQ(run.err, isVerbose ? "posewire-cli monitor: listening on " + monitor.place() +
+                                           " (UDP)\nposewire-cli monitor: heard " + address + "\n"
+                                     : "");
+        EXPECT_EQ(sender.err, isVerbose ? "posewire-cli send: sending from " + address + " to " +
+                                              monitor.place() + " (UDP)\n"
+                                        : "");
+    }
+}
+
 TEST(MonitorNetwork, WaitsForASenderToConnectByTcp) {
     Monitor monitor({}, true);
     const ProgramRun sender =

@@ -31,7 +31,8 @@ TEST(Program, ShowsHelpWithoutADisplay) {
 TEST(Program, ShowsItsVersionWithoutADisplay) {
     const ProgramRun run = runProgram({"--version"});
     EXPECT_EQ(run.status, 0);
-    EXPECT_THAT(run.out, ContainsRegex("^posewire-cli [0-9]+\\.[0-9]+\\.[0-9]+\n$"));
+    EXPECT_THAT(run.out,
+                ContainsRegex("^posewire-cli [0-9]+\\.[0-9]+\\.[0-9]+\nQt [0-9]+\\.[0-9]+\\.[0-9]+\n$"));
 }
 
 TEST(Program, EndsWithStatusTwoOnWrongUsage) {

@@ -76,7 +76,7 @@ TEST(Options, DemoHasTwoCharactersUnlessTold) {
 TEST(Options, ReadEverythingElse) {
     const auto options = parse({"take.bin", "--layout", "check", "--reset-layout", "--settings", "s.json",
                                 "--theme", "light", "--screenshot", "p.png", "--force", "--after", "1.5",
-                                "--size", "1600x1000", "--startup-time"});
+                                "--size", "1600x1000", "--startup-time", "--verbose"});
     ASSERT_TRUE(options);
     EXPECT_EQ(options->file, "take.bin");
     EXPECT_EQ(options->layout, "check");
@@ -88,6 +88,7 @@ TEST(Options, ReadEverythingElse) {
     EXPECT_DOUBLE_EQ(options->screenshotAfterSeconds, 1.5);
     EXPECT_EQ(options->size, QSize(1600, 1000));
     EXPECT_TRUE(options->printsStartupTime);
+    EXPECT_TRUE(options->isVerbose);
 }
 
 class WrongOption : public testing::TestWithParam<QStringList> {};
@@ -111,7 +112,12 @@ INSTANTIATE_TEST_SUITE_P(All, WrongOption,
 TEST(Options, HelpAndVersionEndWithStatusZero) {
     EXPECT_EQ(parse({"--help"}).error().status, 0);
     EXPECT_TRUE(parse({"--help"}).error().text.contains("--screenshot"));
-    EXPECT_EQ(parse({"--version"}).error().status, 0);
+    const EarlyExit version = parse({"--version"}).error();
+    EXPECT_EQ(version.status, 0);
+    EXPECT_TRUE(version.isVersion);
+    EXPECT_TRUE(version.text.startsWith("posewire ")) << "scripts read the first line";
+    EXPECT_TRUE(version.text.contains(QStringLiteral("\nQt %1\n").arg(qVersion())));
+    EXPECT_FALSE(parse({"--help"}).error().isVersion);
 }
 
 } // namespace

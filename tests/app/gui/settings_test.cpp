@@ -86,6 +86,26 @@ TEST_F(SettingsFileTest, SetsSettingsOfANewerProgramAside) {
     EXPECT_TRUE(QFile::exists(path + ".aside-1"));
 }
 
+TEST(Settings, AreReadAsVersionOneWroteThem) {
+    const auto settings = parseSettings(R"({"schema": 1, "theme": "light", "layout": "Check",
+        "sources": {"inputs": [{"protocol": "udp", "host": "", "port": 9800}], "from": ["10.0.0.7"]}})");
+    ASSERT_TRUE(settings);
+    EXPECT_EQ(settings->theme, ThemeChoice::Light);
+    EXPECT_EQ(settings->layout, "Check");
+    ASSERT_TRUE(settings->inputs.inputs);
+    ASSERT_EQ(settings->inputs.inputs->size(), 1U);
+    EXPECT_EQ(settings->inputs.inputs->front().port, 9800);
+    EXPECT_EQ(settings->inputs.allowed, QStringList{"10.0.0.7"});
+    EXPECT_EQ(*parseSettings(jsonOf(*settings)), *settings) << "nothing is lost by the next writing";
+}
+
+TEST(Settings, WithoutAVersionAreNotGuessedAt) {
+    EXPECT_FALSE(parseSettings(R"({"theme": "light"})"));
+    EXPECT_FALSE(parseSettings(R"({"schema": 0})"));
+    EXPECT_FALSE(parseSettings(R"({"schema": -1})"));
+    EXPECT_FALSE(parseSettings(R"({"schema": "2"})"));
+}
+
 TEST(Settings, KeepTheWindowWhereItsEdgesCanBeCalculated) {
     const auto settings = parseSettings(R"({"schema": 1, "window":
         {"x": 2147483647, "y": -2147483648, "width": 2147483647, "height": -1}})");
@@ -111,9 +131,9 @@ TEST(Settings, TakeNoMoreInputsAndRelaysThanAnyoneChooses) {
         inputs.append(QJsonObject{{"protocol", "udp"}, {"host", ""}, {"port", port}});
         relays.append(QJsonObject{{"host", "10.0.0.9"}, {"port", port}, {"on", true}});
     }
-    const QJsonObject sources{{"inputs", inputs}, {"relays", relays}};
+    const QJsonObject receiving{{"inputs", inputs}, {"relays", relays}};
     const auto settings =
-        parseSettings(QJsonDocument(QJsonObject{{"schema", 1}, {"sources", sources}}).toJson());
+        parseSettings(QJsonDocument(QJsonObject{{"schema", 2}, {"receiving", receiving}}).toJson());
     ASSERT_TRUE(settings);
     EXPECT_EQ(settings->inputs.inputs->size(), 256U);
     EXPECT_EQ(settings->inputs.relays.size(), 256U);
@@ -121,8 +141,8 @@ TEST(Settings, TakeNoMoreInputsAndRelaysThanAnyoneChooses) {
 
 TEST(Settings, AreAsShippedWhereTheyAreOfTheWrongKind) {
     const auto settings =
-        parseSettings(R"({"schema": 1, "theme": 7, "layout": [], "window": "wide", "docks": {},
-        "panels": 3, "alerts": true, "sources": {"inputs": 5, "relays": "all", "from": {}}})");
+        parseSettings(R"({"schema": 2, "theme": 7, "layout": [], "window": "wide", "docks": {},
+        "panels": 3, "alerts": true, "receiving": {"inputs": 5, "relays": "all", "from": {}}})");
     ASSERT_TRUE(settings);
     EXPECT_EQ(*settings, Settings());
 }

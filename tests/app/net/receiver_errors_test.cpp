@@ -6,7 +6,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+
 #ifdef __linux__
+#include <sys/prctl.h>
 #include <unistd.h>
 #endif
 
@@ -104,6 +107,22 @@ TEST(PortHolder, NothingForAPortThatNobodyHolds) {
     }
     EXPECT_FALSE(holderOfPort(port, false).has_value());
 }
+
+#ifdef __linux__
+TEST(PortHolder, ThatIsAnotherPosewireIsNotToBeClosed) {
+    std::array<char, 16> name{};
+    ::prctl(PR_GET_NAME, name.data());
+    ::prctl(PR_SET_NAME, "posewire");
+    const Receiving first;
+    const auto second = first.receiver->addUdp({first.endpoint(), {}});
+    ::prctl(PR_SET_NAME, name.data());
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().text,
+              "UDP port " + std::to_string(first.endpoint().port) +
+                  " of 127.0.0.1 is in use by another Posewire (process " + std::to_string(::getpid()) +
+                  "); look there, or choose another port here and let the other relay to it");
+}
+#endif
 
 TEST(PortHolder, TellsWhoListensByTcp) {
     const Receiving receiving({}, 0);

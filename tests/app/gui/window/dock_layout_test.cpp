@@ -52,6 +52,16 @@ TEST(DockLayout, RejectsWhatIsNoLayout) {
     EXPECT_FALSE(parseLayout("{\"name\": \"Empty\", \"areas\": {}}"));
 }
 
+TEST(DockLayout, OfANewerProgramIsRejectedAndOneWithoutAVersionIsTheFirst) {
+    const QByteArray areas = R"("areas": {"left": {"places": [{"docks": ["packets"]}]}}})";
+    EXPECT_TRUE(parseLayout("{" + areas));
+    EXPECT_TRUE(parseLayout("{\"schema\": 1, " + areas));
+    const auto newer = parseLayout("{\"schema\": 2, " + areas);
+    ASSERT_FALSE(newer);
+    EXPECT_TRUE(newer.error().contains("version is 2"));
+    EXPECT_FALSE(parseLayout("{\"schema\": 0, " + areas));
+}
+
 TEST(DockLayout, ReadsPlacesTabsSharesAndExtents) {
     const auto layout = parseLayout(R"({"name": "Mine", "areas": {"right": {"extent": 0.3,
         "places": [{"docks": ["a", "b"], "share": 4}, {"docks": ["c"]}]}}})");

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/usage/usage.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace posewire::usage {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+Option withForm(const std::string& form) {
+    Option option;
+    option.names = {"--option"};
+    option.form = form;
+    return option;
+}
+
+TEST(Usage, OnlyAnOptionWithoutANameIsAnArgument) {
+    Option option = withForm("FILE");
+    EXPECT_FALSE(isArgument(option));
+    option.names.clear();
+    EXPECT_TRUE(isArgument(option));
+}
+
+TEST(Usage, ASwitchAndAValueInBracketsNeedNoValue) {
+    EXPECT_FALSE(needsValue(withForm("")));
+    EXPECT_FALSE(needsValue(withForm("[NUMBER]")));
+    EXPECT_TRUE(needsValue(withForm("NUMBER")));
+    EXPECT_TRUE(needsValue(withForm("[ADDRESS:]PORT")));
+    EXPECT_TRUE(needsValue(withForm("S[:SAMPLE]")));
+    EXPECT_TRUE(needsValue(withForm("[A]B[C]")));
+}
+
+TEST(Usage, ChoicesAreAlternativesThatStandForThemselves) {
+    EXPECT_THAT(choicesOf(withForm("dark|light")), ElementsAre("dark", "light"));
+    EXPECT_THAT(choicesOf(withForm("E|J")), ElementsAre("E", "J"));
+    EXPECT_THAT(choicesOf(withForm("Check|FILE")), ElementsAre("Check"));
+    EXPECT_THAT(choicesOf(withForm("HOST|NET")), IsEmpty());
+    EXPECT_THAT(choicesOf(withForm("P")), IsEmpty()) << "one word is no choice";
+    EXPECT_THAT(choicesOf(withForm("WxH")), IsEmpty());
+}
+
+TEST(Usage, AFileIsCalledFileWithOrWithoutASuffix) {
+    EXPECT_TRUE(takesFile(withForm("FILE")));
+    EXPECT_TRUE(takesFile(withForm("FILE.png")));
+    EXPECT_TRUE(takesFile(withForm("Check|FILE")));
+    EXPECT_FALSE(takesFile(withForm("PROFILE")));
+    EXPECT_FALSE(takesFile(withForm("")));
+}
+
+TEST(Usage, AShortTextEndsBeforeItsFirstAside) {
+    EXPECT_EQ(shortText("Colours; those of the system by default."), "Colours");
+    EXPECT_EQ(shortText("Show this text."), "Show this text");
+    EXPECT_EQ(shortText("Listen (repeatable). Others are counted."), "Listen");
+    EXPECT_EQ(shortText("write a report: what was received"), "write a report");
+    EXPECT_EQ(shortText("see example.org"), "see example.org");
+    EXPECT_EQ(shortText(""), "");
+}
+
+} // namespace
+} // namespace posewire::usage
