@@ -144,25 +144,10 @@ std::string nothingText(const ExportOptions& options, const MotionSource& source
                    : ", so there is nothing to export; was Position + Orientation streamed?");
 }
 
-std::string countText(std::uint64_t count, const char* one, const char* several) {
-    return std::to_string(count) + ' ' + (count == 1 ? one : several);
-}
-
 void tell(const std::vector<ExportedMotion>& exported, const MotionSource& source, const MotionFormat& format,
           const Console& console) {
     for (const ExportedMotion& one : exported) {
-        std::string line = source.characters[one.character].name.shown() + ": " +
-                           countText(one.frames - one.gaps, "sample", "samples") +
-                           (one.content == exporting::MotionContent::Markers ? " of markers" : "") + " to " +
-                           one.path;
-        if (one.gaps != 0) {
-            line += "; " + countText(one.gaps, "is missing", "are missing") + ": " + format.gaps;
-        }
-        if (one.restarts != 0) {
-            line += "; its sender was restarted " + countText(one.restarts, "time", "times") +
-                    (format.hasTimes ? "" : ": the pause is left out");
-        }
-        console.complain(line);
+        console.complain(exporting::describe(one, source, format));
     }
     for (std::size_t i = 0; i < source.characters.size(); ++i) {
         if (std::ranges::find(exported, i, &ExportedMotion::character) == exported.end()) {

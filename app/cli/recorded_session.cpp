@@ -63,7 +63,7 @@ tl::expected<void, log::FileError> RecordedSession::read(log::ByteSource& source
 
 void RecordedSession::take(const log::FileRecord& record) {
     const log::Stamp stamp =
-        record.time ? m_clock.stampOf(*record.time, record.setBy) : log::Stamp(m_pacer.due(record));
+        record.time ? m_clock.stampOf(*record.time, record.setBy) : log::Stamp(*m_pacer.due(record));
     m_newest = std::max(m_newest, stamp);
     const log::SenderId sender =
         m_log.senders().intern(record.sender.value_or(log::SenderInfo{m_name, log::Transport::File, 0}));

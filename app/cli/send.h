@@ -100,7 +100,7 @@ struct SendOptions {
     bool loops = false;
     double fromSeconds = 0.0;           ///< after its first datagram
     std::optional<double> untilSeconds; ///< likewise; nothing: to its end
-    bool isVerbose = false; ///< tells from where to where
+    bool isVerbose = false;             ///< tells from where to where
 };
 
 /// The rest is what was meant by it, or one line about what is wrong with it.

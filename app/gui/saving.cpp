@@ -30,6 +30,8 @@ QString noFile(const QString& path) {
     return info.exists() && !info.isFile() ? tr("it is a folder, a pipe or a device, not a file") : QString();
 }
 
+} // namespace
+
 bool wantsToReplace(QWidget* parent, const QString& title, const QString& path) {
     MessageBox question(title, tr("%1 exists already. Replace it?").arg(QFileInfo(path).fileName()),
                         QMessageBox::Yes | QMessageBox::No, parent);
@@ -38,7 +40,9 @@ bool wantsToReplace(QWidget* parent, const QString& title, const QString& path) 
     return question.exec() == QMessageBox::Yes;
 }
 
-} // namespace
+log::OutputRules replacing() {
+    return {.mayReplace = true, .inUse = filesInUse()};
+}
 
 QString withSuffix(const QString& path, const QString& filter) {
     static const QRegularExpression pattern(QStringLiteral("\\*(\\.\\w+)\\)"));
@@ -59,13 +63,12 @@ QString saveFile(const QString& path, QByteArrayView content) {
         return tr("Not saved: %1: %2").arg(path, problem);
     }
     const auto bytes = std::as_bytes(std::span(content.data(), static_cast<std::size_t>(content.size())));
-    const auto written = log::writeWholeFile(QFile::encodeName(path).toStdString(), bytes,
-                                             {.mayReplace = true, .inUse = filesInUse()});
+    const auto written = log::writeWholeFile(QFile::encodeName(path).toStdString(), bytes, replacing());
     return written ? QString() : tr("Not saved: %1").arg(QString::fromStdString(written.error().text));
 }
 
 std::future<QString> saveCopy(const QString& from, const QString& to) {
-    log::OutputRules rules{.mayReplace = true, .inUse = filesInUse()};
+    log::OutputRules rules = replacing();
     rules.inUse.push_back(QFile::encodeName(from).toStdString());
     return std::async(std::launch::async, [from, to, rules] {
         const auto copied =

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/export/formats.h"
+#include "core/log/output_file.h"
 
 #include <QByteArrayView>
 #include <QCoreApplication>
@@ -23,6 +24,10 @@ namespace posewire::gui {
 /// is asked about too. Empty where it was cancelled.
 [[nodiscard]] QString askWhereToSave(QWidget* parent, const QString& title, const QString& name,
                                      const QString& filters);
+/// Asks whether a file that is there is to be replaced.
+[[nodiscard]] bool wantsToReplace(QWidget* parent, const QString& title, const QString& path);
+/// For what the operator was asked about: files may be replaced, but none that is open as an input.
+[[nodiscard]] log::OutputRules replacing();
 /// The path with the suffix of a filter such as "JSON (*.json)", where it has none of its own.
 [[nodiscard]] QString withSuffix(const QString& path, const QString& filter);
 

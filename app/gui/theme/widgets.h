@@ -56,7 +56,7 @@ protected:
 };
 
 /// A combo box with the same ▾ as buttons that open a menu.
-class ComboBox final : public QComboBox {
+class ComboBox : public QComboBox {
     Q_OBJECT
 
 public:

@@ -63,6 +63,7 @@ public:
     void findCommand();
     void editHistory();
     void showReplay();
+    void exportMotion();
     /// What was received by a run that did not end well, to be opened or saved.
     void showRecovered();
     /// The same where there is any.

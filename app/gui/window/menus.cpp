@@ -193,6 +193,8 @@ const ActionInfo kActions[] = {
     {"saveScreenshot", "&File", QT_TRANSLATE_NOOP("Action", "&Save screenshot…"), "Ctrl+Shift+S",
      Do::call<saveScreenshot>},
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", Do::call<saveReport>},
+    {"exportMotion", "&File", QT_TRANSLATE_NOOP("Action", "Export &motion…"), "",
+     Do::call<&Window::exportMotion>},
     panelsIn("&File"),
     lineIn("&File"),
     {"record", "&File", QT_TRANSLATE_NOOP("Action", "Reco&rd"), "R", Do::call<&Window::toggleRecording>,

@@ -2,6 +2,7 @@
 // Which files the window opens, records and sends.
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
+#include "app/gui/window/motion_export_dialog.h"
 #include "app/gui/window/recording_dialog.h"
 #include "app/gui/window/recovery_dialog.h"
 #include "app/gui/window/replay_dialog.h"
@@ -68,6 +69,14 @@ void MainWindow::showReplay() {
     dialog->show();
     dialog->raise();
     dialog->activateWindow();
+}
+
+void MainWindow::exportMotion() {
+    if (m_driver.session().charactersNow().empty()) {
+        say(tr("There is no motion to export: no character has arrived yet."));
+        return;
+    }
+    MotionExportDialog(m_driver.session(), this).exec(); // the file stays open meanwhile
 }
 
 void MainWindow::showRecovered() {

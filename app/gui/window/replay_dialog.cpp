@@ -3,7 +3,7 @@
 
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme/widgets.h"
+#include "app/gui/window/range_box.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -24,8 +24,7 @@ namespace posewire::gui {
 namespace {
 
 constexpr std::chrono::milliseconds kLook{200};
-constexpr int kOverTcp = 1;   // of the transports
-constexpr int kRangeOnly = 1; // of what is sent
+constexpr int kOverTcp = 1; // of the transports
 
 bool isRunning(const SessionDriver& driver) {
     return driver.replay() != nullptr && !driver.replay()->figures().isOver;
@@ -63,14 +62,13 @@ ReplayDialog::ReplayDialog(SessionDriver& driver, QWidget* parent)
       m_driver(driver),
       m_target(new QLineEdit(QStringLiteral("127.0.0.1:9763"), this)),
       m_transport(new ComboBox(this)),
-      m_range(new ComboBox(this)),
+      m_range(new RangeBox(this)),
       m_speed(new QDoubleSpinBox(this)),
       m_loop(new QCheckBox(tr("&Again and again"), this)),
       m_state(dimText({}, this)),
       m_button(new QPushButton(this)) {
     setWindowTitle(tr("Replay to the network"));
     m_transport->addItems({tr("UDP, a datagram each"), tr("TCP, connecting as MVN does")});
-    m_range->addItems({tr("All there is"), tr("What the figures are of")});
     m_speed->setButtonSymbols(QAbstractSpinBox::NoButtons);
     m_speed->setRange(net::ReplayChoice::kSlowest, net::ReplayChoice::kFastest);
     m_speed->setDecimals(2);
@@ -125,7 +123,7 @@ void ReplayDialog::begin() {
                                                                        : net::SendTarget::Transport::Udp;
     request.speed = m_speed->value();
     request.isLooping = m_loop->isChecked();
-    request.isRangeOnly = m_range->currentIndex() == kRangeOnly;
+    request.isRangeOnly = m_range->isRangeOnly();
     m_problem = m_driver.startReplay(request);
 }
 

@@ -14,6 +14,8 @@ class QPushButton;
 
 namespace posewire::gui {
 
+class RangeBox;
+
 /// Sends what is shown to the network again: where to, what of it and how fast; and how that goes.
 class ReplayDialog final : public QDialog {
     Q_OBJECT
@@ -31,7 +33,7 @@ private:
     SessionDriver& m_driver;
     QLineEdit* m_target;
     QComboBox* m_transport;
-    QComboBox* m_range;
+    RangeBox* m_range;
     QDoubleSpinBox* m_speed;
     QCheckBox* m_loop;
     QLabel* m_state;

@@ -158,6 +158,10 @@ void tell(const Share& share, const std::vector<std::string>& paths, std::vector
     }
 }
 
+std::string countText(std::uint64_t count, const char* one, const char* several) {
+    return std::to_string(count) + ' ' + (count == 1 ? one : several);
+}
+
 tl::expected<void, FileError> checkAll(const MotionRequest& request, const std::vector<std::string>& paths) {
     std::error_code error;
     const auto kind = std::filesystem::status(request.path, error).type();
@@ -177,6 +181,21 @@ tl::expected<void, FileError> checkAll(const MotionRequest& request, const std::
 }
 
 } // namespace
+
+std::string describe(const ExportedMotion& exported, const MotionSource& source, const MotionFormat& format) {
+    std::string line = source.characters[exported.character].name.shown() + ": " +
+                       countText(exported.frames - exported.gaps, "sample", "samples") +
+                       (exported.content == MotionContent::Markers ? " of markers" : "") + " to " +
+                       exported.path;
+    if (exported.gaps != 0) {
+        line += "; " + countText(exported.gaps, "is missing", "are missing") + ": " + format.gaps;
+    }
+    if (exported.restarts != 0) {
+        line += "; its sender was restarted " + countText(exported.restarts, "time", "times") +
+                (format.hasTimes ? "" : ": the pause is left out");
+    }
+    return line;
+}
 
 std::vector<std::string> motionPaths(const MotionRequest& request) {
     const std::vector<MotionCharacter>& characters = request.source.characters;

@@ -56,6 +56,10 @@ struct ExportedMotion {
     std::uint64_t restarts = 0;
 };
 
+/// What was written of it, in a line: "Mira: 1200 samples to take.csv; 3 are missing: a row without values".
+[[nodiscard]] std::string describe(const ExportedMotion& exported, const MotionSource& source,
+                                   const MotionFormat& format);
+
 /// Writes the motion of a source; each file is there whole or not at all. What was written, those without a
 /// sample left out. Fails with FileError::Kind::Cancelled where `progress` says so; nothing is left then.
 [[nodiscard]] tl::expected<std::vector<ExportedMotion>, log::FileError>

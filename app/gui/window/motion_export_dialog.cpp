@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/motion_export_dialog.h"
+
+#include "app/figure/mannequin_body.h"
+#include "app/gui/models/shown_character.h"
+#include "app/gui/saving.h"
+#include "app/gui/theme/words.h"
+#include "app/gui/window/range_box.h"
+#include "core/model/accounting/stream_figures.h"
+
+#include <QCoreApplication>
+#include <QDialogButtonBox>
+#include <QFile>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QPushButton>
+#include <QTimer>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr std::chrono::milliseconds kLook{100};
+constexpr int kMostRows = 8; // of characters, before the list scrolls
+
+} // namespace
+
+/// What a thread writes, by value, and how far it is.
+struct MotionExportDialog::Work {
+    exporting::MotionSource source;
+    exporting::MotionRequest request;
+    std::atomic<double> share{0};
+    std::atomic<bool> isCancelled{false};
+
+    Work(exporting::MotionSource from, const exporting::MotionFormat& format, std::string path)
+        : source(std::move(from)), request{source, format, std::move(path)} {}
+};
+
+MotionExportDialog::MotionExportDialog(model::SessionView& view, QWidget* parent)
+    : QDialog(parent),
+      m_view(view),
+      m_format(new ComboBox(this)),
+      m_about(dimText({}, this)),
+      m_range(new RangeBox(this)),
+      m_characters(new QListWidget(this)),
+      m_state(dimText({}, this)),
+      m_button(new QPushButton(this)),
+      m_watch(new QTimer(this)) {
+    setWindowTitle(tr("Export motion"));
+    for (const exporting::MotionFormat& one : exporting::motionFormats()) {
+        m_format->addItem(QStringLiteral("%1 (.%2)").arg(QLatin1String(one.kind), QLatin1String(one.suffix)));
+    }
+    auto* form = new QFormLayout;
+    form->addRow(tr("&Format"), m_format);
+    form->addRow({}, m_about);
+    form->addRow(tr("&What"), m_range);
+    form->addRow(tr("&Characters"), m_characters);
+    m_characters->setAccessibleName(tr("Characters"));
+    listCharacters();
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
+    buttons->addButton(m_button, QDialogButtonBox::ActionRole);
+    m_button->setDefault(true);
+    auto* column = new QVBoxLayout(this);
+    column->setSpacing(fontMetrics().height());
+    column->addLayout(form);
+    column->addWidget(m_state);
+    column->addWidget(buttons);
+    setMinimumWidth(fontMetrics().averageCharWidth() * 66);
+    connect(m_format, &QComboBox::currentIndexChanged, this, &MotionExportDialog::describe);
+    connect(m_characters, &QListWidget::itemChanged, this, &MotionExportDialog::describe);
+    connect(m_button, &QPushButton::clicked, this, &MotionExportDialog::toggle);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    m_watch->setInterval(kLook);
+    connect(m_watch, &QTimer::timeout, this, &MotionExportDialog::watch);
+    describe();
+    showState({});
+}
+
+MotionExportDialog::~MotionExportDialog() {
+    if (m_work != nullptr) {
+        m_work->isCancelled = true;
+    }
+}
+
+void MotionExportDialog::listCharacters() {
+    for (const model::Character* one : m_view.charactersNow()) {
+        auto* item = new QListWidgetItem(characterName(m_view, one->key), m_characters);
+        item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+        item->setCheckState(m_view.isHidden(one->key) ? Qt::Unchecked : Qt::Checked);
+        item->setData(Qt::UserRole, QVariant::fromValue(static_cast<quint32>(one->key.sender)));
+        item->setData(Qt::UserRole + 1, one->key.character);
+    }
+    const int rows = std::clamp(m_characters->count(), 1, kMostRows);
+    m_characters->setFixedHeight(rows * m_characters->sizeHintForRow(0) + 2 * m_characters->frameWidth());
+}
+
+const exporting::MotionFormat& MotionExportDialog::format() const {
+    return exporting::motionFormats()[static_cast<std::size_t>(m_format->currentIndex())];
+}
+
+std::vector<model::CharacterKey> MotionExportDialog::chosen() const {
+    std::vector<model::CharacterKey> keys;
+    for (int row = 0; row < m_characters->count(); ++row) {
+        const QListWidgetItem* item = m_characters->item(row);
+        if (item->checkState() == Qt::Checked) {
+            keys.push_back({static_cast<log::SenderId>(item->data(Qt::UserRole).toUInt()),
+                            static_cast<std::uint8_t>(item->data(Qt::UserRole + 1).toUInt())});
+        }
+    }
+    return keys;
+}
+
+/// What the format holds, and in how many files.
+void MotionExportDialog::describe() {
+    QString text = tr("Holds %1. A sample that is missing: %2.")
+                       .arg(QLatin1String(format().holds), QLatin1String(format().gaps));
+    if (!format().holdsSeveral && chosen().size() > 1) {
+        text += u' ' + tr("Each character has a file of its own, with its name behind yours.");
+    }
+    m_about->setText(text);
+    m_button->setEnabled(!chosen().empty());
+}
+
+void MotionExportDialog::toggle() {
+    if (m_watch->isActive()) {
+        m_work->isCancelled = true;
+    } else {
+        askWhereToSave();
+    }
+}
+
+void MotionExportDialog::askWhereToSave() {
+    const QString suffix = QLatin1String(format().suffix);
+    const QString path =
+        gui::askWhereToSave(this, windowTitle(), QStringLiteral("motion.") + suffix,
+                            QStringLiteral("%1 (*.%2)").arg(QLatin1String(format().kind), suffix));
+    if (path.isEmpty()) {
+        return;
+    }
+    std::shared_ptr<Work> work = workFor(path);
+    for (const std::string& each : exporting::motionPaths(work->request)) {
+        const QString other = QFile::decodeName(each.c_str());
+        if (other != path && QFileInfo::exists(other) && !wantsToReplace(this, windowTitle(), other)) {
+            return;
+        }
+    }
+    begin(std::move(work));
+}
+
+void MotionExportDialog::save(const QString& path) {
+    begin(workFor(path));
+}
+
+std::shared_ptr<MotionExportDialog::Work> MotionExportDialog::workFor(const QString& path) const {
+    const auto range = m_range->isRangeOnly() ? m_view.range() : std::nullopt;
+    auto work =
+        std::make_shared<Work>(exporting::motionSourceOf(m_view, range.value_or(model::kAllTime), chosen()),
+                               format(), QFile::encodeName(path).toStdString());
+    work->request.rules = replacing();
+    work->request.application = ("Posewire " + QCoreApplication::applicationVersion()).toStdString();
+    work->request.makeBody = figure::mannequinBody;
+    return work;
+}
+
+void MotionExportDialog::begin(std::shared_ptr<Work> work) {
+    m_work = std::move(work);
+    m_result = std::async(std::launch::async, [work = m_work] {
+        return exporting::exportMotion(work->request, [work](double share) {
+            work->share = share;
+            return !work->isCancelled;
+        });
+    });
+    m_watch->start();
+    watch();
+}
+
+void MotionExportDialog::watch() {
+    if (m_result.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+        showState(tr("Writing: %1 %").arg(std::floor(100 * m_work->share)));
+        return;
+    }
+    m_watch->stop();
+    const Result result = m_result.get();
+    if (!result) {
+        showState(result.error().kind == log::FileError::Kind::Cancelled
+                      ? tr("Cancelled: nothing was written.")
+                      : QString::fromStdString(result.error().text));
+        return;
+    }
+    QStringList lines;
+    for (const exporting::ExportedMotion& one : *result) {
+        lines += QString::fromStdString(exporting::describe(one, m_work->source, m_work->request.format));
+    }
+    showState(lines.isEmpty()
+                  ? tr("Nothing was written: no poses (types 01, 02, 05) of these characters came "
+                       "in that time.")
+                  : lines.join(u'\n'));
+}
+
+void MotionExportDialog::showState(const QString& text) {
+    m_state->setText(text);
+    m_button->setText(m_watch->isActive() ? tr("Ca&ncel") : tr("&Save as…"));
+}
+
+} // namespace posewire::gui
