@@ -22,7 +22,8 @@ def expected():
     files = {f"share/icons/hicolor/{size}x{size}/apps/posewire.png" for size in ICON_SIZES}
     files |= {"share/icons/hicolor/scalable/apps/posewire.svg", "share/applications/posewire.desktop",
               "share/metainfo/org.posewire.posewire.metainfo.xml", "share/mime/packages/posewire.xml",
-              "share/licenses/posewire/MIT.txt", "share/licenses/posewire/GPL-3.0-or-later.txt"}
+              "share/licenses/posewire/MIT.txt", "share/licenses/posewire/GPL-3.0-or-later.txt",
+              "share/doc/posewire-cli/formats.md"}
     for name in PROGRAMS:
         files |= {f"bin/{name}", f"share/man/man1/{name}.1.gz", f"share/bash-completion/completions/{name}",
                   f"share/fish/vendor_completions.d/{name}.fish", f"share/zsh/vendor-completions/_{name}"}
