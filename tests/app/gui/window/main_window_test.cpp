@@ -31,6 +31,8 @@
 #include <map>
 #include <set>
 
+#include <sys/stat.h>
+
 namespace posewire::gui {
 namespace {
 
@@ -80,6 +82,24 @@ TEST_F(MainWindowTest, RestoresDocksAsTheyWereInANewWindow) {
     EXPECT_EQ(window->dockWidgetArea(dock(*window, "characters")), Qt::RightDockWidgetArea);
 }
 
+TEST_F(MainWindowTest, RestoresFilterCameraAndAxes) {
+    Settings kept;
+    {
+        const auto window = makeWindow();
+        driver.setDisplayFilter("type == 02");
+        window->viewport().setAxes(AxesMode::Selected);
+        window->viewport().toggleProjection();
+        kept = window->settings();
+        EXPECT_TRUE(kept.file.isEmpty()) << "what is live was shown";
+    }
+    driver.setDisplayFilter({});
+    const auto window = makeWindow(kept);
+    EXPECT_EQ(driver.live().displayFilter(), "type == 02");
+    EXPECT_EQ(window->viewport().axes(), AxesMode::Selected);
+    EXPECT_EQ(window->viewport().projection(), render::Projection::Orthographic);
+    EXPECT_EQ(window->settings().viewport, kept.viewport);
+}
+
 TEST_F(MainWindowTest, FallsBackToItsLayoutWhereTheKeptDocksMakeNoSense) {
     Settings settings;
     settings.docks = "no state of docks";
@@ -112,11 +132,9 @@ TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
     auto* stop = window->findChild<QToolButton*>("stopOpeningButton");
     EXPECT_TRUE(stop->isHidden());
     EXPECT_FALSE(action(*window, "stopOpening")->isEnabled());
-    QFile recording(folder.filePath("long.bin"));
-    ASSERT_TRUE(recording.open(QIODevice::WriteOnly));
-    recording.write(QByteArray(64 << 20, 'x'));
-    recording.close();
-    driver.openFile(recording.fileName());
+    const QString endless = folder.filePath("endless");
+    ASSERT_EQ(::mkfifo(QFile::encodeName(endless).constData(), 0600), 0);
+    driver.openFile(endless);
     emit driver.tableTick();
     EXPECT_FALSE(stop->isHidden());
     QTest::keyClick(window.get(), Qt::Key_Escape);
@@ -125,7 +143,7 @@ TEST_F(MainWindowTest, EscapeStopsOpeningAFileAndIsForOthersElse) {
     EXPECT_TRUE(window->findChild<HealthBar*>("healthBar")
                     ->findChild<QLabel*>("message")
                     ->text()
-                    .startsWith("Opening long.bin was stopped"));
+                    .startsWith("Opening endless was stopped"));
 }
 
 TEST_F(MainWindowTest, ShowsInTheSizeThatItWasGiven) {
