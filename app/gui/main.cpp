@@ -11,6 +11,7 @@
 #include "app/usage/version.h"
 
 #include <QApplication>
+#include <QFileInfo>
 #include <QStandardPaths>
 #include <QTimer>
 
@@ -48,6 +49,14 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
     return settings;
 }
 
+/// What is asked for; where nothing is, what was shown when the program ended, if it is still there.
+QString fileToOpen(const Options& options, const Settings& settings) {
+    const bool asksForInputs =
+        !options.udpPorts.empty() || !options.tcpInputs.empty() || options.demoCharacters > 0;
+    const bool isToRestore = options.file.isEmpty() && !asksForInputs && QFileInfo(settings.file).isFile();
+    return isToRestore ? settings.file : options.file;
+}
+
 /// What takes its time waits until the window can be seen.
 void openInputs(MainWindow& window, const Options& options) {
     SessionDriver& driver = window.driver();
@@ -62,8 +71,9 @@ void openInputs(MainWindow& window, const Options& options) {
     if (options.demoCharacters > 0) {
         driver.setDemo(options.demoCharacters);
     }
-    if (!options.file.isEmpty()) {
-        window.openPath(options.file);
+    const QString file = fileToOpen(options, window.settings());
+    if (!file.isEmpty()) {
+        window.openPath(file);
         if (options.seekSeconds) {
             QObject::connect(
                 &driver, &SessionDriver::fileOpened, &window,

@@ -80,6 +80,9 @@ Settings settingsOf(const QJsonObject& object) {
     settings.inputs = inputChoicesOf(object["receiving"].toObject());
     settings.history = historyOf(object["history"].toObject());
     settings.recording = recordingChoiceOf(object["recording"].toObject());
+    settings.viewport = object["viewport"].toObject();
+    settings.filter = object["filter"].toString().left(Settings::kLongestFilter);
+    settings.file = object["file"].toString();
     for (const auto& path : object["recentFiles"].toArray()) {
         if (path.isString() && settings.recentFiles.size() < Settings::kMostRecentFiles) {
             settings.recentFiles += path.toString();
@@ -124,6 +127,9 @@ QByteArray jsonOf(const Settings& settings) {
                              {"receiving", jsonOf(settings.inputs)},
                              {"history", jsonOf(settings.history)},
                              {"recording", jsonOf(settings.recording)},
+                             {"viewport", settings.viewport},
+                             {"filter", settings.filter},
+                             {"file", settings.file},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
     return QJsonDocument(object).toJson();
 }

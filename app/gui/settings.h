@@ -36,8 +36,12 @@ struct Settings {
     InputChoices inputs;
     HistoryChoice history;
     RecordingChoice recording;
+    QJsonObject viewport;    ///< ViewportWidget::state()
+    QString filter;          ///< the display filter that the operator chose; empty for none
+    QString file;            ///< the recording that was shown at the end; empty for none
     QStringList recentFiles; ///< paths, the newest first, at most kMostRecentFiles
     static constexpr int kMostRecentFiles = 8;
+    static constexpr qsizetype kLongestFilter = 10'000;
     friend bool operator==(const Settings&, const Settings&) = default;
 };
 

@@ -26,6 +26,7 @@ public:
     OpenedFile(const log::Clock& clock, QString path, const std::shared_ptr<log::Scratch>& scratch);
 
     [[nodiscard]] model::Session& session() { return m_session; }
+    [[nodiscard]] const QString& path() const { return m_path; }
     /// Its name without folders.
     [[nodiscard]] QString name() const;
 

@@ -15,6 +15,13 @@ namespace posewire::gui {
 class CameraMotion {
 public:
     [[nodiscard]] const render::Camera& camera() const { return m_camera; }
+    /// Whether follow() moves it.
+    [[nodiscard]] bool isFollowing() const { return m_isFollowing; }
+    /// Looks from there; one that follows moves to the first characters it is given, and looks the same way.
+    void restore(const render::Camera& camera, bool isFollowing) {
+        m_camera = camera;
+        m_isFollowing = isFollowing;
+    }
 
     /// Pointer movements and positions in logical pixels of a view of the given size.
     void orbit(const QPointF& movement);

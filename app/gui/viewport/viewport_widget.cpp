@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_widget.h"
 
+#include "app/gui/viewport/camera_state.h"
+
 #include "app/gui/logging.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
@@ -181,6 +183,18 @@ void ViewportWidget::toggleProjection() {
 void ViewportWidget::face(render::StandardView view) {
     m_motion.face(view);
     refresh();
+}
+
+QJsonObject ViewportWidget::state() const {
+    return {{"camera", stateOf(m_motion)}, {"axes", static_cast<int>(m_axes)}};
+}
+
+void ViewportWidget::restoreState(const QJsonObject& state) {
+    gui::restore(m_motion, state["camera"].toObject());
+    const int axes = state["axes"].toInt(static_cast<int>(m_axes));
+    m_axes = static_cast<AxesMode>(std::clamp(axes, 0, static_cast<int>(AxesMode::None)));
+    refresh();
+    emit optionsChanged();
 }
 
 void ViewportWidget::frameAll() {

@@ -8,6 +8,8 @@
 #include "app/gui/viewport/scene.h"
 #include "core/log/time.h"
 
+#include <QJsonObject>
+
 #include <memory>
 #include <optional>
 
@@ -40,6 +42,9 @@ public:
     void toggleProjection();
     [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
     void face(render::StandardView view);
+    /// Camera and axes, as they are kept from one run to the next.
+    [[nodiscard]] QJsonObject state() const;
+    void restoreState(const QJsonObject& state);
     void frameAll();
     void frameCharacter(const model::CharacterKey& key);
 

@@ -16,6 +16,7 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QDir>
 #include <QDockWidget>
 #include <QLabel>
 #include <QMenu>
@@ -66,6 +67,8 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     makeDocks();
     connectDriver();
     m_driver.setThresholds(m_settings.alerts.thresholds);
+    m_driver.setDisplayFilter(m_settings.filter);
+    m_viewport->restoreState(m_settings.viewport);
     new PressingKeys(this);
     keepHistory();
     restore();
@@ -283,6 +286,9 @@ Settings MainWindow::settings() const {
             settings.panels.remove(dock.dock->objectName());
         }
     }
+    settings.viewport = m_viewport->state();
+    settings.filter = QString::fromStdString(m_driver.live().ownFilter());
+    settings.file = m_driver.isFileShown() ? QDir().absoluteFilePath(m_driver.file()->path()) : QString();
     return settings;
 }
 

@@ -46,6 +46,9 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     written.panels["statistics"] = QJsonObject{{"columns", QJsonArray{0, 3}}};
     written.inputs.inputs = {{"", 9763, InputAddress::Kind::TcpListener}};
     written.inputs.relays = {{"10.0.0.9", 9763, false}};
+    written.viewport = QJsonObject{{"axes", 1}};
+    written.filter = "type == 02 && gap > 0";
+    written.file = "/takes/take 3.pcapng";
     ASSERT_EQ(file.write(written), "");
     const Settings read = file.read(&problem);
     EXPECT_TRUE(problem.isEmpty()) << problem.toStdString();
@@ -56,6 +59,9 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.docks, written.docks);
     EXPECT_EQ(read.panels, written.panels);
     EXPECT_EQ(read.inputs, written.inputs);
+    EXPECT_EQ(read.viewport, written.viewport);
+    EXPECT_EQ(read.filter, written.filter);
+    EXPECT_EQ(read.file, written.file);
 }
 
 TEST_F(SettingsFileTest, DoesNotWaitForAPipe) {

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/camera_motion.h"
 
+#include "app/gui/viewport/camera_state.h"
+
+#include <QJsonArray>
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -79,6 +83,36 @@ TEST(CameraMotion, OrbitKeepsFollowing) {
     motion.orbit({30, 10});
     motion.follow(there, kAspect, 1);
     EXPECT_NEAR(motion.camera().target.x, 5, 0.5);
+}
+
+TEST(CameraState, IsReadBackAsItWas) {
+    CameraMotion motion;
+    motion.orbit({120, -40});
+    motion.zoom(3, {100, 100}, kView);
+    motion.setProjection(render::Projection::Orthographic);
+    CameraMotion other;
+    restore(other, stateOf(motion));
+    EXPECT_LT(glm::distance(other.camera().eye(), motion.camera().eye()), 1e-4F);
+    EXPECT_EQ(other.camera().projection, render::Projection::Orthographic);
+    EXPECT_FALSE(other.isFollowing()) << "the operator has zoomed";
+    other.follow(std::array{personAt(20, 20)}, kAspect, 1);
+    EXPECT_LT(glm::distance(other.camera().eye(), motion.camera().eye()), 1e-4F);
+}
+
+TEST(CameraState, ThatMakesNoSenseIsHeldToWhatAnOperatorCanReach) {
+    CameraMotion motion;
+    restore(motion, QJsonObject{{"target", QJsonArray{1e30, "x"}},
+                                {"yaw", 1e300},
+                                {"pitch", -9.0},
+                                {"distance", -3.0},
+                                {"following", 7}});
+    const render::Camera& camera = motion.camera();
+    EXPECT_FLOAT_EQ(camera.target.x, 1'000.0F);
+    EXPECT_FLOAT_EQ(camera.target.y, render::Camera().target.y);
+    EXPECT_LE(std::abs(camera.yaw), 3.15F);
+    EXPECT_GT(camera.pitch, -1.6F);
+    EXPECT_GT(camera.distance, 0.1F);
+    EXPECT_TRUE(motion.isFollowing());
 }
 
 } // namespace
