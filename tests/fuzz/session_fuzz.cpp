@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/formats.h"
+#include "core/export/motion/motion_export.h"
 #include "core/export/reports.h"
 #include "core/log/packet_log.h"
 #include "core/log/recording_file.h"
 #include "core/model/accounting/attribution.h"
+#include "core/model/accounting/stream_figures.h"
 #include "core/model/body/null_pose_findings.h"
 #include "core/model/incidents/incident_follower.h"
 #include "core/model/session/session.h"
@@ -15,8 +17,8 @@
 #include <sstream>
 
 // Whatever bytes a file has: it is read as a capture, followed by a session, looked at from several cursors,
-// and written as every report there is. No packet is lost on the way, every loss has one cause, and what is
-// read again from the file is what memory has.
+// and written as every report and motion in every format there is. No packet is lost on the way, every loss
+// has one cause, and what is read again from the file is what memory has.
 namespace {
 
 using namespace posewire;
@@ -146,6 +148,29 @@ void write(const model::Session& session) {
     }
 }
 
+/// In every format; those that hold one character get them one after the other.
+void exportMotion(const model::Session& session) {
+    std::vector<std::vector<model::CharacterKey>> groups(1);
+    for (const model::Character* character : session.charactersNow()) {
+        groups.front().push_back(character->key);
+        groups.push_back({character->key});
+    }
+    for (const exporting::MotionFormat& format : exporting::motionFormats()) {
+        for (const auto& group : groups) {
+            if (group.size() > 1 && !format.holdsSeveral) {
+                continue;
+            }
+            const auto source = exporting::motionSourceOf(session, model::kAllTime, group);
+            const auto exported = exporting::exportMotion({source, format, "/dev/null"});
+            require(exported.has_value() || !exported.error().text.empty());
+            for (const exporting::ExportedMotion& one :
+                 exported.value_or(std::vector<exporting::ExportedMotion>())) {
+                require(one.frames > one.gaps && one.frames - one.gaps <= session.end());
+            }
+        }
+    }
+}
+
 } // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -161,5 +186,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     checkCounts(session, records);
     lookAround(session, records);
     write(session);
+    exportMotion(session);
     return 0;
 }
