@@ -21,13 +21,15 @@ QDateTime localTime(log::WallTime time) {
     return QDateTime::fromMSecsSinceEpoch(log::nanosecondsOf(time) / 1'000'000);
 }
 
-std::string noteOn(const model::SessionView& live, std::uint64_t packet, const std::string& comment) {
+/// `first`: of the take, which counts its packets from 0.
+std::string noteOn(const model::SessionView& live, std::uint64_t first, std::uint64_t packet,
+                   const std::string& comment) {
     const auto found = live.packet(packet);
     const QString when =
         found ? QStringLiteral(" at ") +
                     localTime(live.wallOf(found->stamp)).toString(QStringLiteral("HH:mm:ss.zzz"))
               : QString();
-    return "Mark on packet " + std::to_string(packet) + when.toStdString() +
+    return "Mark on packet " + std::to_string(packet - first) + when.toStdString() +
            (comment.empty() ? "" : ": " + comment);
 }
 
@@ -106,12 +108,12 @@ std::vector<std::string> Takes::notes(const model::SessionView& live) const {
     const model::Annotations& annotations = live.annotations();
     for (auto mark = annotations.marks.lower_bound(m_from); mark != annotations.marks.end(); ++mark) {
         if (!annotations.comments.contains(*mark)) {
-            notes.push_back(noteOn(live, *mark, {}));
+            notes.push_back(noteOn(live, m_from, *mark, {}));
         }
     }
     for (auto comment = annotations.comments.lower_bound(m_from); comment != annotations.comments.end();
          ++comment) {
-        notes.push_back(noteOn(live, comment->first, comment->second));
+        notes.push_back(noteOn(live, m_from, comment->first, comment->second));
     }
     for (const model::ListedIncident& listed : model::listedIncidents(live, m_fromStamp)) {
         if (listed.incident.lastStamp >= m_fromStamp && !model::isOnlyComing(listed)) {
