@@ -10,6 +10,7 @@
 #include <QFileInfo>
 
 #include <algorithm>
+#include <utility>
 
 namespace posewire::gui {
 namespace {
@@ -63,18 +64,20 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
                 "FileImport", "%1 is a pipe or a device, which may have no end; posewire-cli reads it")
                 .arg(path));
     }
-    // Twice over: how long a raw file lasts is known at its end, and it may be larger than memory.
+    // A raw file is read twice over: how long it lasts is known at its end, and it may be larger than memory.
     TimeCodeStamps measuring;
     log::Duration length{};
     std::uint64_t count = 0;
+    bool hasTimes = false;
     const auto measured = visitFile(
         path,
         [&](const log::FileRecord& record) {
+            hasTimes = hasTimes || record.time;
             length = measuring.next(record);
             ++count;
         },
-        isCancelled);
-    if (!measured) {
+        [&] { return hasTimes || (isCancelled && isCancelled()); });
+    if (!measured && !hasTimes) {
         return measured;
     }
     if (count == 0) {
@@ -85,12 +88,13 @@ ImportResult importRawFile(const QString& path, const PacketTaker& take, log::St
     const log::SenderInfo file{QFileInfo(path).fileName().toStdString(), log::Transport::File, 0};
     TimeCodeStamps stamps;
     log::RecordedClock clock(timeline);
+    std::optional<log::Stamp> last; // of those that say their time: the others came with them
     ImportResult result = visitFile(
         path,
         [&](const log::FileRecord& record) {
             const log::Duration place = stamps.next(record);
-            const log::Stamp stamp =
-                record.time ? clock.stampOf(*record.time, record.setBy) : end - length + place;
+            last = record.time ? clock.stampOf(*record.time, record.setBy) : last;
+            const log::Stamp stamp = last.value_or(end - length + place);
             take(record, record.sender.value_or(file), log::arrivalOf(record, {}, stamp));
         },
         isCancelled);
@@ -133,6 +137,7 @@ void FileImport::run(const std::stop_token& stop, log::Stamp end) {
 
 void FileImport::take(const log::FileRecord& record, log::Arrival arrival) {
     m_log.writer().append(record.bytes, arrival);
+    keepComments(record);
     if (m_past && !m_log.scratch()->hasFile()) { // full: from here on memory has to do
         m_past.reset();
         m_log.past().dropBefore(UINT64_MAX);
@@ -147,6 +152,25 @@ void FileImport::take(const log::FileRecord& record, log::Arrival arrival) {
     }
     ++m_packetsRead;
     m_bytesRead += record.bytes.size();
+}
+
+void FileImport::keepComments(const log::FileRecord& record) {
+    if (record.comments.empty() || m_commentCount == kMostComments) {
+        return;
+    }
+    std::string text;
+    for (const std::string& comment : record.comments) {
+        text += (text.empty() ? "" : "\n") + comment;
+    }
+    text.resize(std::min(text.size(), kLongestComment));
+    ++m_commentCount;
+    const std::lock_guard lock(m_mutex);
+    m_comments.emplace_back(m_packetsRead, std::move(text));
+}
+
+std::vector<FileImport::Comment> FileImport::takeComments() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_comments, {});
 }
 
 void FileImport::keepStep(const std::stop_token& stop) {

@@ -16,7 +16,10 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 namespace posewire::log {
 class PacketLog;
@@ -43,6 +46,9 @@ using PacketTaker = std::function<void(const log::FileRecord& record, const log:
 /// itself from then on.
 class FileImport {
 public:
+    static constexpr std::size_t kMostComments = 10'000;
+    static constexpr std::size_t kLongestComment = 1'024; ///< bytes
+
     /// The log outlives this.
     FileImport(log::PacketLog& log, QString path, log::Stamp end);
     /// Reads no further.
@@ -55,12 +61,17 @@ public:
     void follow(std::uint64_t position);
     /// How much of it is in the log, from 0 to 1.
     [[nodiscard]] double share() const;
+    /// What the file says of a packet, by its number; bytes as they are there, clipped.
+    using Comment = std::pair<std::uint64_t, std::string>;
+    /// Those that were read since this was asked last; of a file that has too many the first ones.
+    [[nodiscard]] std::vector<Comment> takeComments();
     /// Once everything is in the log, or nothing more comes.
     [[nodiscard]] std::optional<ImportResult> result() const;
 
 private:
     void run(const std::stop_token& stop, log::Stamp end);
     void take(const log::FileRecord& record, log::Arrival arrival);
+    void keepComments(const log::FileRecord& record);
     /// Waits until all that was read was looked at.
     void keepStep(const std::stop_token& stop);
 
@@ -69,10 +80,12 @@ private:
     const std::int64_t m_size; ///< bytes
     std::atomic<std::uint64_t> m_bytesRead = 0;
     std::uint64_t m_packetsRead = 0;       ///< the thread's own
+    std::size_t m_commentCount = 0;        ///< likewise
     std::optional<log::PastWriter> m_past; ///< likewise
     mutable std::mutex m_mutex;            ///< guards the members below
     std::condition_variable_any m_moved;
     std::uint64_t m_followed = 0;
+    std::vector<Comment> m_comments; ///< that nobody has taken
     std::optional<ImportResult> m_result;
     std::jthread m_thread; ///< last: it uses all of the above
 };

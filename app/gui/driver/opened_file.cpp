@@ -36,6 +36,7 @@ bool OpenedFile::follow(log::Duration most) {
     if (isAtEnd) {
         showEnd();
     }
+    takeComments();
     if (m_import != nullptr) {
         m_import->follow(m_session.end());
         if (const auto result = m_import->result()) {
@@ -60,8 +61,17 @@ void OpenedFile::stop() {
     }
 }
 
+void OpenedFile::takeComments() {
+    if (m_import != nullptr) {
+        for (auto& [packet, text] : m_import->takeComments()) {
+            m_session.setComment(packet, std::move(text));
+        }
+    }
+}
+
 /// All that is in the log: at most what is read at once.
 void OpenedFile::readRest() {
+    takeComments();
     m_import.reset();
     const bool isAtEnd = isShownAtEnd();
     while (m_session.followFile(m_log.timeline().now(m_clock))) {

@@ -48,6 +48,7 @@ public:
 
 private:
     void finish(const ImportResult& result);
+    void takeComments();
     void readRest();
     [[nodiscard]] bool isShownAtEnd() const;
     void showEnd();

@@ -3,6 +3,8 @@
 
 #include "app/net/datagram_sender.h"
 #include "app/net/listening.h"
+#include "core/log/output_file.h"
+#include "core/log/pcapng_writer.h"
 #include "tests/app/gui/models/stage.h"
 #include "tests/support/manual_clock.h"
 
@@ -126,6 +128,32 @@ TEST_F(SessionDriverTest, ATakeHasThePreRollAndWhatComesWhateverIsShown) {
     }));
     ASSERT_EQ(openFile(driver, folder.filePath("take.pcapng")), "");
     EXPECT_EQ(driver.session().end(), 100U);
+}
+
+TEST_F(SessionDriverTest, CommentsOfACaptureAreThoseOfItsPackets) {
+    const QTemporaryDir folder;
+    const QString path = folder.filePath("commented.pcapng");
+    {
+        const auto sink = log::createFile(path.toStdString());
+        ASSERT_TRUE(sink);
+        log::PcapngWriter writer(**sink);
+        ASSERT_TRUE(writer.begin({}));
+        const std::vector<std::byte> bytes(40, std::byte{7});
+        for (int i = 0; i < 20; ++i) {
+            log::Packet packet;
+            packet.stamp = log::Stamp(1'700'000'000s + i * 10ms);
+            packet.bytes = bytes;
+            const std::vector<std::string> comments{"a stumble", "ask Mira"};
+            ASSERT_TRUE(writer.add(packet, {"10.0.0.5:50000", log::Transport::Udp, 9763},
+                                   i == 7 ? comments : std::vector<std::string>()));
+        }
+        ASSERT_TRUE(writer.finish());
+    }
+    ASSERT_EQ(openFile(driver, path), "");
+    const auto& comments = driver.session().annotations().comments;
+    ASSERT_EQ(comments.size(), 1U);
+    EXPECT_EQ(comments.begin()->first, 7U);
+    EXPECT_EQ(comments.begin()->second, "a stumble\nask Mira");
 }
 
 TEST_F(SessionDriverTest, ATakeThatCannotBeginSaysWhy) {
