@@ -2,6 +2,7 @@
 #include "app/gui/window/health_bar.h"
 #include "app/gui/window/main_window.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QDockWidget>
 #include <QScreen>
@@ -64,6 +65,29 @@ void MainWindow::uncover() {
     if (const Dock* dock = findDock(std::exchange(m_covered, {}))) {
         dock->dock->raise();
         firstStop(dock->panel)->setFocus();
+    }
+}
+
+/// Opens and closes a dock; one that lies behind another is brought to the front instead, for it was not
+/// seen.
+QAction* MainWindow::dockAction(QDockWidget* dock) {
+    auto* action = new QAction(dock->windowTitle(), dock);
+    action->setCheckable(true);
+    const auto showState = [dock, action] { action->setChecked(dock->toggleViewAction()->isChecked()); };
+    connect(dock->toggleViewAction(), &QAction::toggled, action, showState);
+    connect(action, &QAction::triggered, this, [this, dock, showState] {
+        toggleDock(dock->objectName());
+        showState();
+    });
+    return action;
+}
+
+void MainWindow::toggleDock(const QString& name) {
+    const Dock* dock = findDock(name);
+    if (dock != nullptr && dock->isInSight()) {
+        dock->dock->close();
+    } else {
+        showDock(name);
     }
 }
 

@@ -140,7 +140,7 @@ void MainWindow::makeDocks() {
         dock->setTitleBarWidget(title);
         addDockWidget(info.area, dock);
         dock->hide(); // the layout says which ones show: all of them would make the window too wide
-        menu->insertAction(before, dock->toggleViewAction());
+        menu->insertAction(before, dockAction(dock));
         m_docks.push_back({&info, dock, title, page, {}, page.panel});
         connect(dock, &QDockWidget::visibilityChanged, this, [this, i = m_docks.size() - 1](bool isVisible) {
             if (isVisible) {

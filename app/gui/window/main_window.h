@@ -102,6 +102,8 @@ private:
     [[nodiscard]] const Dock* findDock(const QString& name) const;
     [[nodiscard]] QString dockBefore(const QString& name) const;
     void uncover();
+    [[nodiscard]] QAction* dockAction(QDockWidget* dock);
+    void toggleDock(const QString& name);
     /// Who carries an entry out: the panel, or the window itself.
     [[nodiscard]] const QWidget& ownerOf(const MenuEntry& entry) const;
     void makeDocks();

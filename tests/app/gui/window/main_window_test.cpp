@@ -462,6 +462,33 @@ TEST_F(MainWindowTest, F6BringsADockBehindATabToTheFront) {
     }
 }
 
+TEST_F(MainWindowTest, TheMenuBringsADockBehindATabToTheFrontAndClosesOneThatIsSeen) {
+    const auto window = makeWindow();
+    QDockWidget* packets = dock(*window, "packets");
+    QDockWidget* events = dock(*window, "events");
+    packets->show();
+    events->show();
+    window->tabifyDockWidget(packets, events);
+    events->raise();
+    QTest::qWait(1);
+    QAction* entry = nullptr;
+    for (QAction* one : menuAt(*window->menuBar(), QStringLiteral("&View"))->actions()) {
+        entry = one->text() == packets->windowTitle() ? one : entry;
+    }
+    ASSERT_NE(entry, nullptr);
+    EXPECT_TRUE(entry->isChecked());
+    entry->trigger();
+    QTest::qWait(1);
+    EXPECT_TRUE(window->rect().intersects(packets->geometry())) << "it was not seen";
+    EXPECT_TRUE(entry->isChecked());
+    entry->trigger();
+    EXPECT_TRUE(packets->isHidden());
+    EXPECT_FALSE(entry->isChecked());
+    entry->trigger();
+    EXPECT_FALSE(packets->isHidden());
+    EXPECT_TRUE(entry->isChecked());
+}
+
 TEST_F(MainWindowTest, GoingBackFromPacketsBringsTheDockBeforeThemToTheFront) {
     const auto window = makeWindow();
     QDockWidget* packets = dock(*window, "packets");
