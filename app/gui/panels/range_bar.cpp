@@ -3,6 +3,7 @@
 
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
+#include "app/gui/panels/overview_painting.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
@@ -63,8 +64,7 @@ void RangeStrip::paintEvent(QPaintEvent*) {
         painter.setPen(theme().dim);
         painter.drawText(rect(), Qt::AlignCenter, tr("no history yet"));
     } else {
-        paintRate(painter);
-        paintLosses(painter);
+        paintOverview(painter, m_overview, rect());
         paintRange(painter);
         paintCursor(painter);
     }
@@ -72,45 +72,6 @@ void RangeStrip::paintEvent(QPaintEvent*) {
         painter.setPen(theme().accent);
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5));
-    }
-}
-
-void RangeStrip::paintRate(QPainter& painter) const {
-    const model::RangeParts& parts = m_overview.parts();
-    const auto& counted = m_overview.counted();
-    // The last part is still being filled: it would always look like a loss.
-    const std::size_t count =
-        parts.beginOf(parts.count) > m_overview.span().to && parts.count > 1 ? parts.count - 1 : parts.count;
-    std::uint32_t most = 1;
-    for (std::size_t i = 0; i < count; ++i) {
-        most = std::max(most, counted[i].datagrams);
-    }
-    const double bottom = height();
-    const double scale = (height() - 4.0) / most;
-    QPolygonF area{{std::max(0.0, placeOf(parts.first)), bottom}};
-    double right = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        const double y = bottom - counted[i].datagrams * scale;
-        right = i + 1 == count ? width() : placeOf(parts.beginOf(i + 1));
-        area << QPointF(std::max(0.0, placeOf(parts.beginOf(i))), y) << QPointF(right, y);
-    }
-    area << QPointF(right, bottom);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(withAlpha(theme().accent, 0.35));
-    painter.drawPolygon(area);
-}
-
-void RangeStrip::paintLosses(QPainter& painter) const {
-    const model::RangeParts& parts = m_overview.parts();
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(theme().warning);
-    for (std::size_t i = 0; i < parts.count; ++i) {
-        if (m_overview.counted()[i].lost != 0) {
-            const double left = std::max(0.0, placeOf(parts.beginOf(i)));
-            const double wide =
-                std::max(2.0, std::min<double>(placeOf(parts.beginOf(i + 1)), width()) - left);
-            painter.drawRect(QRectF(left, height() - height() / 3.0, wide, height() / 3.0));
-        }
     }
 }
 

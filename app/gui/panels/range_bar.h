@@ -43,8 +43,6 @@ protected:
     bool event(QEvent* event) override;
 
 private:
-    void paintRate(QPainter& painter) const;
-    void paintLosses(QPainter& painter) const;
     void paintRange(QPainter& painter) const;
     void paintCursor(QPainter& painter) const;
     void choose(log::Stamp from, log::Stamp to);

@@ -16,6 +16,7 @@ namespace posewire::gui {
 TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidget* parent)
     : Panel(view, commands, parent),
       m_timeline(new TimelineView(view, commands, this)),
+      m_thumbnail(new TimelineThumbnail(view, *m_timeline, this)),
       m_moment(new ElidedLabel(Qt::AlignRight | Qt::AlignVCenter, this)) {
     const int margin = CellDelegate::margin(fontMetrics());
     auto* head = spacedRow({margin, margin / 2, margin, margin / 2}, margin / 2);
@@ -23,6 +24,7 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidg
     column->addLayout(head);
     column->addWidget(new Line(this));
     column->addWidget(m_timeline, 1);
+    column->addWidget(m_thumbnail);
     m_live = add(QStringLiteral("timelineLive"), tr("Live"), tr("Follow the stream again (End)"));
     auto* all = add(QStringLiteral("timelineAll"), tr("All"), tr("Show all there is (0)"));
     m_range = add(QStringLiteral("timelineRange"), tr("Selection"), tr("Show the selected range"));
@@ -42,6 +44,9 @@ TimelinePanel::TimelinePanel(model::SessionView& view, Commands& commands, QWidg
     connect(m_live, &QToolButton::clicked, this, [this] { m_commands.goLive(); });
     connect(all, &QToolButton::clicked, this, &TimelinePanel::showAll);
     connect(m_range, &QToolButton::clicked, this, &TimelinePanel::showRange);
+    m_thumbnail->hide();
+    connect(m_timeline, &TimelineView::windowChanged, m_thumbnail,
+            [this] { m_thumbnail->setVisible(!m_timeline->isAllShown()); });
     connect(out, &QToolButton::clicked, this, &TimelinePanel::zoomOut);
     connect(in, &QToolButton::clicked, this, &TimelinePanel::zoomIn);
 }
@@ -71,6 +76,7 @@ QToolButton* TimelinePanel::add(const QString& name, const QString& text, const 
 
 void TimelinePanel::refresh() {
     m_timeline->refresh();
+    m_thumbnail->refresh();
     m_live->setVisible(!m_view.isRecording());
     m_live->setEnabled(m_view.cursor().mode == model::Cursor::Mode::Paused);
     m_range->setEnabled(m_view.rangeChoice().fixed.has_value());

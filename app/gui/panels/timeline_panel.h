@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/panel.h"
+#include "app/gui/panels/timeline_thumbnail.h"
 #include "app/gui/panels/timeline_view.h"
 
 class QToolButton;
@@ -33,6 +34,7 @@ private:
     [[nodiscard]] QString momentText() const;
 
     TimelineView* m_timeline;
+    TimelineThumbnail* m_thumbnail;
     ElidedLabel* m_moment;
     QToolButton* m_live;
     QToolButton* m_range;

@@ -95,6 +95,7 @@ void TimelineView::readRows() {
     m_model.refresh(m_window, most);
     fitScrollBar();
     viewport()->update();
+    emit windowChanged();
 }
 
 void TimelineView::setWindow(model::TimeRange window) {

@@ -30,6 +30,9 @@ public:
     void fit();
     /// The range that figures are of.
     void fitRange();
+    [[nodiscard]] bool isAllShown() const { return m_isAll; }
+    /// As much of it as there is; at least the shortest that can be looked at.
+    void setWindow(model::TimeRange window);
 
     /// Pixels from the left of the viewport for a stamp, and back.
     [[nodiscard]] double placeOf(log::Stamp stamp) const;
@@ -37,6 +40,11 @@ public:
     [[nodiscard]] const TimelineModel& model() const { return m_model; }
     [[nodiscard]] int rulerHeight() const;
     [[nodiscard]] int rowHeight() const;
+    /// Of the column of names at the left.
+    [[nodiscard]] int namesWidth() const;
+
+signals:
+    void windowChanged();
 
 protected:
     void paintEvent(QPaintEvent* event) override;
@@ -52,11 +60,9 @@ protected:
 private:
     enum class Drag { None, Cursor, Range, Window };
 
-    void setWindow(model::TimeRange window);
     void followNow(const model::TimeRange& span);
     void readRows();
     void fitScrollBar();
-    [[nodiscard]] int namesWidth() const;
     [[nodiscard]] int stripWidth() const;
     [[nodiscard]] QRect rowRect(std::size_t row) const;
     [[nodiscard]] std::optional<std::size_t> rowAt(const QPoint& place) const;

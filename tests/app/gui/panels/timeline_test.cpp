@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/panels/timeline_thumbnail.h"
 #include "app/gui/panels/timeline_view.h"
+#include "app/gui/theme/theme.h"
 #include "tests/app/gui/models/stage.h"
 
 #include <QTest>
@@ -156,6 +158,49 @@ TEST_F(TimelineTest, AnIncidentIsShownWhereItsMarkIsClicked) {
                       m_timeline.rulerHeight() - m_timeline.fontMetrics().height() / 2);
     QTest::mouseClick(m_timeline.viewport(), Qt::LeftButton, {}, mark);
     EXPECT_EQ(m_stage.session.incidentRequest().number, outage->number);
+}
+
+TEST_F(TimelineTest, TheThumbnailShowsWhereTheWindowIsAndMovesIt) {
+    TimelineThumbnail thumbnail(m_stage.session, m_timeline, nullptr);
+    thumbnail.resize(900, thumbnail.sizeHint().height());
+    thumbnail.show();
+    thumbnail.refresh();
+    EXPECT_NEAR(thumbnail.lens().width(), thumbnail.strip().width(), 1) << "all is in sight";
+    m_timeline.setWindow({at(1s), at(2s)});
+    EXPECT_NEAR(thumbnail.lens().width() / thumbnail.strip().width(), 0.1, 0.005);
+    EXPECT_NEAR((thumbnail.lens().center().x() - thumbnail.strip().left()) / thumbnail.strip().width(), 0.15,
+                0.005);
+    const auto inStrip = [&](double share) {
+        return QPoint(static_cast<int>(thumbnail.strip().left() + share * thumbnail.strip().width()), 5);
+    };
+    QTest::mouseClick(&thumbnail, Qt::LeftButton, {}, inStrip(0.7));
+    EXPECT_NEAR(log::secondsOf(m_timeline.window().from - Stage::kStart), 6.5, 0.05);
+    EXPECT_NEAR(log::secondsOf(m_timeline.window().to - m_timeline.window().from), 1, 1e-6);
+    QTest::mouseClick(&thumbnail, Qt::LeftButton, {}, inStrip(0.999));
+    EXPECT_LE(m_timeline.window().to, m_timeline.model().span()->to) << "no further than there is";
+    m_timeline.setWindow({at(3s), at(3s + 1ms)});
+    EXPECT_GE(thumbnail.lens().width(), 5) << "it can still be seen";
+}
+
+TEST_F(TimelineTest, TheThumbnailMarksLosses) {
+    TimelineThumbnail thumbnail(m_stage.session, m_timeline, nullptr);
+    thumbnail.resize(900, thumbnail.sizeHint().height());
+    thumbnail.refresh();
+    const QImage picture = thumbnail.grab().toImage();
+    const auto hasLoss = [&](double from, double to) {
+        const auto placeOf = [&](double share) {
+            return static_cast<int>(thumbnail.strip().left() + share * thumbnail.strip().width());
+        };
+        for (int x = placeOf(from); x < placeOf(to); ++x) {
+            if (picture.pixelColor(x, picture.height() - 3) == theme().warning) {
+                return true;
+            }
+        }
+        return false;
+    };
+    EXPECT_TRUE(hasLoss(0.39, 0.62)) << "as exact as the accounting's buckets";
+    EXPECT_FALSE(hasLoss(0, 0.39));
+    EXPECT_FALSE(hasLoss(0.62, 1));
 }
 
 } // namespace
