@@ -12,9 +12,6 @@ namespace posewire::gui {
 
 namespace {
 
-/// Datagrams of one stream that are looked at one by one.
-constexpr std::size_t kMostArrivals = 20'000;
-
 model::RangeParts fineParts(const model::TimeRange& window, std::size_t most) {
     const log::Duration length = window.to - window.from;
     const log::Duration width = std::max(log::Duration(1), length / static_cast<std::int64_t>(most));
@@ -29,13 +26,23 @@ void TimelineModel::refresh(const model::TimeRange& window, std::size_t most) {
         resolution = std::max(resolution, stream.accounting.resolution());
     }
     constexpr std::int64_t kLeastBuckets = 2; // per part, or its edges would show
-    m_isFine = (window.to - window.from) / static_cast<std::int64_t>(most) < kLeastBuckets * resolution;
+    m_isFine = (window.to - window.from) / static_cast<std::int64_t>(most) < kLeastBuckets * resolution &&
+               datagramsIn(window) <= kMostArrivals;
     m_parts = m_isFine ? fineParts(window, most)
                        : model::partsOf(window, most, kLeastBuckets * resolution, resolution);
     m_rows.clear();
     for (const model::CharacterKey& key : boardOf(m_view, BoardOrder::Appearance)) {
         addRows(key);
     }
+}
+
+/// To the accounting's buckets.
+std::uint64_t TimelineModel::datagramsIn(const model::TimeRange& window) const {
+    std::uint64_t datagrams = 0;
+    for (const model::Stream& stream : m_view.streams()) {
+        datagrams += stream.accounting.countsBetween(window.from, window.to).datagrams;
+    }
+    return datagrams;
 }
 
 void TimelineModel::addRows(const model::CharacterKey& key) {
@@ -72,7 +79,7 @@ const TimelineModel::Row& TimelineModel::shown(std::size_t row) {
     read.parts.resize(m_parts.count);
     for (const log::StreamKey& key : read.streams) {
         if (m_isFine) {
-            m_view.addArrivals(key, m_parts, kMostArrivals, read.parts);
+            m_view.addArrivals(key, m_parts, 2 * kMostArrivals, read.parts); // edges of buckets
         } else if (const model::Stream* stream = m_view.find(key)) {
             model::addParts(stream->accounting, m_parts, read.parts);
         }

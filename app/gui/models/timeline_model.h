@@ -29,6 +29,9 @@ public:
         std::vector<model::RangePart> parts; ///< empty until shown() asked for it
     };
 
+    /// Datagrams that are looked at one by one; where a window has more, the accounting's buckets have to do.
+    static constexpr std::size_t kMostArrivals = 400'000;
+
     explicit TimelineModel(model::SessionView& view) : m_view(view) {}
 
     [[nodiscard]] std::optional<model::TimeRange> span() const { return wholeSpan(m_view); }
@@ -44,6 +47,7 @@ public:
     void toggle(const model::CharacterKey& key);
 
 private:
+    [[nodiscard]] std::uint64_t datagramsIn(const model::TimeRange& window) const;
     void addRows(const model::CharacterKey& key);
 
     model::SessionView& m_view;

@@ -73,6 +73,38 @@ TEST_F(TimelineTest, LooksAtSingleDatagramsWhereItIsZoomedIn) {
     EXPECT_EQ(count(0), 3) << "both types at the same moment";
 }
 
+TEST(TimelineModel, LeavesNothingOutWhereThereIsTooMuchToLookAtOneByOne) {
+    constexpr std::uint32_t kSamples = TimelineModel::kMostArrivals / 2 + 10'000;
+    Stage stage;
+    wire::Datagram datagram;
+    datagram.body = wire::CentreOfMass{};
+    for (std::uint32_t sample = 0; sample < kSamples; ++sample) {
+        for (std::uint8_t character = 0; character < 2; ++character) {
+            datagram.header.sampleCounter = sample;
+            datagram.header.character = character;
+            wire::completeHeader(datagram, wire::HeaderEra::Counted);
+            stage.sendBytes(*wire::encode(datagram), Stage::kStart + sample * 200us);
+        }
+        if (sample % 50'000 == 0) {
+            stage.follow();
+        }
+    }
+    stage.follow();
+    TimelineModel model(stage.session);
+    const model::TimeRange window{Stage::kStart, Stage::kStart + kSamples * 200us};
+    for (const std::size_t most : {std::size_t{20}, std::size_t{226}, std::size_t{2'000}}) {
+        model.refresh(window, most);
+        ASSERT_EQ(model.rows().size(), 2U);
+        std::uint64_t datagrams = 0;
+        for (const model::RangePart& part : model.shown(1).parts) {
+            datagrams += part.datagrams;
+        }
+        EXPECT_EQ(datagrams, kSamples) << most;
+    }
+    model.refresh({Stage::kStart + 1s, Stage::kStart + 1100ms}, 226);
+    EXPECT_LE(model.parts().width, 1ms) << "a short window is looked at closely";
+}
+
 /// What is counted coarsely and finely is the same.
 TEST_F(TimelineTest, BothWaysOfCountingFindTheSame) {
     const auto sums = [this](std::size_t most) {
