@@ -343,9 +343,11 @@ void Relay::sendTo(Target& target, const log::Packet& packet) {
             break;
         }
     }
-    increase(target.refused, 1);
-    const std::lock_guard lock(m_mutex);
-    target.problem = std::move(problem);
+    {
+        const std::lock_guard lock(m_mutex);
+        target.problem = std::move(problem);
+    }
+    increase(target.refused, 1); // last: whoever sees it counted sees why
 }
 
 /// Counts a datagram that was sent, and that the other computer has sent back as undeliverable.
