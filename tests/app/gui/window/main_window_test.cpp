@@ -30,6 +30,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include <sys/stat.h>
 
@@ -47,6 +48,18 @@ protected:
     }
     static QDockWidget* dock(MainWindow& window, const QString& name) {
         return window.findChild<QDockWidget*>(name);
+    }
+
+    /// Both of them, the second before the first.
+    static std::pair<QDockWidget*, QDockWidget*> tabbed(MainWindow& window, const QString& behind,
+                                                        const QString& front) {
+        const std::pair docks{dock(window, behind), dock(window, front)};
+        docks.first->show();
+        docks.second->show();
+        window.tabifyDockWidget(docks.first, docks.second);
+        docks.second->raise();
+        QTest::qWait(1);
+        return docks;
     }
 
     static QAction* action(MainWindow& window, const QString& id) { return window.findChild<QAction*>(id); }
@@ -464,13 +477,7 @@ TEST_F(MainWindowTest, F6BringsADockBehindATabToTheFront) {
 
 TEST_F(MainWindowTest, TheMenuBringsADockBehindATabToTheFrontAndClosesOneThatIsSeen) {
     const auto window = makeWindow();
-    QDockWidget* packets = dock(*window, "packets");
-    QDockWidget* events = dock(*window, "events");
-    packets->show();
-    events->show();
-    window->tabifyDockWidget(packets, events);
-    events->raise();
-    QTest::qWait(1);
+    const auto [packets, events] = tabbed(*window, "packets", "events");
     QAction* entry = nullptr;
     for (QAction* one : menuAt(*window->menuBar(), QStringLiteral("&View"))->actions()) {
         entry = one->text() == packets->windowTitle() ? one : entry;
@@ -491,13 +498,7 @@ TEST_F(MainWindowTest, TheMenuBringsADockBehindATabToTheFrontAndClosesOneThatIsS
 
 TEST_F(MainWindowTest, GoingBackFromPacketsBringsTheDockBeforeThemToTheFront) {
     const auto window = makeWindow();
-    QDockWidget* packets = dock(*window, "packets");
-    QDockWidget* events = dock(*window, "events");
-    packets->show();
-    events->show();
-    window->tabifyDockWidget(packets, events);
-    events->raise();
-    QTest::qWait(1);
+    const auto [packets, events] = tabbed(*window, "packets", "events");
     const auto isInFront = [&](QDockWidget* one) { return window->rect().intersects(one->geometry()); };
     ASSERT_TRUE(isInFront(events) && !isInFront(packets));
     driver.jump(0, "type == 02");
