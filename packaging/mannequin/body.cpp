@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "packaging/mannequin/body.h"
 
+#include "render/mesh/joints.h"
+
 #include <algorithm>
 
 #include <glm/geometric.hpp>
@@ -11,6 +13,7 @@ namespace {
 /// Beyond this distance from its bounds a part can neither be the surface nor blend with it.
 constexpr double kReach = 0.12;
 constexpr double kNowhere = 1e3;
+constexpr double kFingerJointBlend = 0.002;
 
 double shapeDistance(const EllipsoidField& shape, const glm::dvec3& point) {
     return shape.distance(point);
@@ -38,12 +41,15 @@ Cone fieldOf(const Cone& shape) {
 Body::Body() {
     m_parts.push_back(makePart(0.050, &kTorso, kTrunkBlends));
     m_parts.push_back(makePart(0.050, nullptr, kNeckBlends));
+    m_parts.push_back(makePart(0.005, &kCollar, {}));
     m_parts.push_back(makePart(0.026, nullptr, kHeadBlends));
     m_parts.push_back(makePart(0.055, &kArm, kArmBlends));
     m_parts.push_back(makePart(0.022, &kPalm, {}));
     addHand(m_parts.back());
     m_parts.push_back(makePart(0.030, &kLeg, kLegBlends));
     m_parts.push_back(makePart(0.035, &kFoot, kFootBlends));
+    m_parts.back().hasSole = true;
+    m_parts.push_back(makePart(0.006, &kSole, {}));
     m_parts.back().hasSole = true;
 }
 
@@ -67,22 +73,17 @@ Body::Part Body::makePart(double blend, const LoftShape* loft, std::span<const B
 }
 
 void Body::addHand(Part& part) {
-    for (const Finger& finger : kFingers) {
-        const glm::dvec3 root(finger.x, finger.y - 0.012, kShoulderHeight - 0.003);
-        const glm::dvec3 proximal = glm::normalize(glm::dvec3(finger.slope, 1.0, -0.10));
-        const glm::dvec3 distal = glm::normalize(glm::dvec3(finger.slope * 0.8, 1.0, -0.30));
-        const glm::dvec3 knuckle = root + proximal * (0.012 + finger.length * 0.45);
-        const glm::dvec3 tip = knuckle + distal * (finger.length * 0.55 - finger.tipRadius);
-        const double middleRadius = (finger.rootRadius + finger.tipRadius) / 2.0;
-        part.digits.push_back({{root, knuckle, finger.rootRadius, middleRadius},
-                               {knuckle, tip, middleRadius, finger.tipRadius},
-                               kFingerJointBlend,
-                               kFingerBlend});
-    }
-    part.digits.push_back({kThumb[0], kThumb[1], kThumbJointBlend, kThumbBlend});
-    for (const Digit& digit : part.digits) {
-        extend(part.bounds, digit.lower);
-        extend(part.bounds, digit.upper);
+    for (std::size_t digit = 0; digit < kDigits.size(); ++digit) {
+        const auto& [first, radii, blend] = kDigits[digit];
+        std::array<glm::dvec3, 4> places{kReferenceHand[first], kReferenceHand[first + 1],
+                                         kReferenceHand[first + 2], kReferenceFingertips[digit]};
+        places[3] -= radii[3] * glm::normalize(places[3] - places[2]);
+        Finger finger{{}, blend};
+        for (std::size_t bone = 0; bone < finger.bones.size(); ++bone) {
+            finger.bones[bone] = {places[bone], places[bone + 1], radii[bone], radii[bone + 1]};
+            extend(part.bounds, finger.bones[bone]);
+        }
+        part.fingers.push_back(finger);
     }
 }
 
@@ -94,10 +95,12 @@ double Body::partDistance(const Part& part, const glm::dvec3& point) {
         d = addition.kind == Blend::Kind::Add ? smoothUnion(d, shape, addition.radius)
                                               : smoothIntersection(d, -shape, addition.radius);
     }
-    for (const Digit& digit : part.digits) {
-        const double finger = smoothUnion(mannequin::distance(digit.lower, point),
-                                          mannequin::distance(digit.upper, point), digit.jointBlend);
-        d = smoothUnion(d, finger, digit.blend);
+    for (const Finger& finger : part.fingers) {
+        double bones = kNowhere;
+        for (const Cone& bone : finger.bones) {
+            bones = smoothUnion(bones, mannequin::distance(bone, point), kFingerJointBlend);
+        }
+        d = smoothUnion(d, bones, finger.blend);
     }
     return part.hasSole ? smoothIntersection(d, kSoleHeight - point.z, kFootSoleFillet) : d;
 }

@@ -25,18 +25,16 @@ private:
         Blend::Kind kind;
     };
 
-    /// Two cones that meet at a knuckle.
-    struct Digit {
-        Cone lower;
-        Cone upper;
-        double jointBlend;
+    struct Finger {
+        std::array<Cone, 3> bones;
+        /// Blend with the hand.
         double blend;
     };
 
     struct Part {
         std::optional<LoftField> loft;
         std::vector<Addition> additions;
-        std::vector<Digit> digits;
+        std::vector<Finger> fingers;
         /// Blend with the parts before.
         double blend = 0.0;
         bool hasSole = false;

@@ -23,16 +23,6 @@ struct Blend {
     Kind kind = Kind::Add;
 };
 
-/// A finger: root place, length, sideways slope, radius at root and tip.
-struct Finger {
-    double x;
-    double y;
-    double length;
-    double slope;
-    double rootRadius;
-    double tipRadius;
-};
-
 // place z, then centre x and y, radius x and y
 inline constexpr std::array<LoftStation, 15> kTorsoStations{{
     {0.826, -0.016, 0.0, 0.036, 0.048},
@@ -119,11 +109,35 @@ inline constexpr std::array<LoftStation, 12> kFootStations{{
     {0.215, 0.0760, 0.0150, 0.0100, 0.0060},
 }};
 
+// place x, then centre y and z, radius y and z; a slab as wide as the shoe and a little more
+inline constexpr std::array<LoftStation, 10> kSoleStations{{
+    {-0.069, 0.0840, 0.0100, 0.0120, 0.0110},
+    {-0.058, 0.0840, 0.0105, 0.0245, 0.0125},
+    {-0.035, 0.0840, 0.0110, 0.0325, 0.0140},
+    {0.000, 0.0840, 0.0110, 0.0350, 0.0140},
+    {0.050, 0.0830, 0.0105, 0.0375, 0.0130},
+    {0.100, 0.0825, 0.0100, 0.0445, 0.0120},
+    {0.145, 0.0825, 0.0105, 0.0475, 0.0115},
+    {0.180, 0.0810, 0.0115, 0.0430, 0.0110},
+    {0.206, 0.0780, 0.0125, 0.0290, 0.0105},
+    {0.219, 0.0760, 0.0130, 0.0120, 0.0090},
+}};
+
+// place z, then centre x and y, radius x and y: a standing collar, wide where it sinks into the shoulders
+inline constexpr std::array<LoftStation, 4> kCollarStations{{
+    {1.4400, -0.0150, 0.0, 0.0560, 0.0660},
+    {1.4700, -0.0105, 0.0, 0.0620, 0.0655},
+    {1.4950, -0.0065, 0.0, 0.0610, 0.0615},
+    {1.5230, -0.0025, 0.0, 0.0605, 0.0605},
+}};
+
 inline constexpr LoftShape kTorso{Axis::Z, kTorsoStations, 2.3, 0.020};
 inline constexpr LoftShape kLeg{Axis::Z, kLegStations, 2.0, 0.020};
 inline constexpr LoftShape kArm{Axis::Y, kArmStations, 2.0, 0.012};
 inline constexpr LoftShape kPalm{Axis::Y, kPalmStations, 2.5, 0.008};
 inline constexpr LoftShape kFoot{Axis::X, kFootStations, 2.2, 0.004};
+inline constexpr LoftShape kSole{Axis::X, kSoleStations, 4.0, 0.004};
+inline constexpr LoftShape kCollar{Axis::Z, kCollarStations, 2.0, 0.002};
 
 inline constexpr std::array<Blend, 7> kTrunkBlends{{
     {Ellipsoid{{0.070, 0.066, 1.352}, {0.038, 0.085, 0.058}, {0.0, 0.0, -0.22}}, 0.050}, // pectoral sheet
@@ -140,17 +154,12 @@ inline constexpr std::array<Blend, 1> kNeckBlends{{
     {Cone{{-0.014, 0.0, 1.430}, {0.006, 0.0, 1.600}, 0.0580, 0.0535}, 0.050},
 }};
 
-inline constexpr std::array<Blend, 10> kHeadBlends{{
-    {Ellipsoid{{-0.004, 0.0, 1.663}, {0.0975, 0.0770, 0.0870}}, 0.050},                          // cranium
-    {Ellipsoid{{0.020, 0.0, 1.613}, {0.0660, 0.0590, 0.0800}}, 0.050},                           // face
-    {Ellipsoid{{0.042, 0.0, 1.566}, {0.042, 0.040, 0.030}}, 0.045},                              // jaw
-    {Ellipsoid{{0.074, 0.0, 1.554}, {0.014, 0.020, 0.014}}, 0.030},                              // chin
-    {Ellipsoid{{0.066, 0.024, 1.673}, {0.018, 0.034, 0.012}}, 0.035},                            // brow
-    {Ellipsoid{{0.107, 0.033, 1.649}, {0.018, 0.017, 0.013}}, 0.034, Blend::Kind::Carve},        // eye socket
-    {Cone{{0.080, 0.0, 1.664}, {0.0985, 0.0, 1.625}, 0.0062, 0.0098}, 0.017},                    // nose
-    {Ellipsoid{{0.0795, 0.0, 1.590}, {0.010, 0.022, 0.009}}, 0.022},                             // mouth
-    {Ellipsoid{{0.060, 0.044, 1.622}, {0.022, 0.018, 0.022}}, 0.035},                            // cheek
-    {Ellipsoid{{-0.002, 0.0735, 1.636}, {0.0150, 0.0070, 0.0265}, {0.08, -0.18, -0.22}}, 0.012}, // ear
+// A smooth helmet without a face; its visor is paint (suit.glsl).
+inline constexpr std::array<Blend, 4> kHeadBlends{{
+    {Ellipsoid{{-0.004, 0.0, 1.6635}, {0.0965, 0.0765, 0.0865}}, 0.050}, // cranium
+    {Ellipsoid{{0.021, 0.0, 1.6280}, {0.0745, 0.0640, 0.0760}}, 0.040},  // visor
+    {Ellipsoid{{0.030, 0.0, 1.5850}, {0.0580, 0.0500, 0.0420}}, 0.050},  // jaw
+    {Ellipsoid{{0.060, 0.0, 1.5640}, {0.0230, 0.0260, 0.0190}}, 0.040},  // chin
 }};
 
 inline constexpr std::array<Blend, 1> kArmBlends{{
@@ -165,23 +174,21 @@ inline constexpr std::array<Blend, 1> kFootBlends{{
     {Ellipsoid{{-0.006, 0.084, 0.082}, {0.036, 0.041, 0.016}}, 0.025}, // malleoli
 }};
 
-inline constexpr std::array<Finger, 4> kFingers{{
-    {0.0325, 0.783, 0.072, 0.130, 0.0093, 0.0075},   // index
-    {0.0112, 0.788, 0.081, 0.035, 0.0096, 0.0077},   // middle
-    {-0.0105, 0.785, 0.075, -0.055, 0.0092, 0.0073}, // ring
-    {-0.0305, 0.776, 0.060, -0.165, 0.0082, 0.0065}, // little
+/// A digit of the left hand: its first joint of three in kReferenceHand, the radii at these and at the tip,
+/// and the blend with what the hand has so far.
+struct Digit {
+    std::size_t firstJoint;
+    std::array<double, 4> radii;
+    double blend;
+};
+
+inline constexpr std::array<Digit, 5> kDigits{{
+    {1, {0.0140, 0.0114, 0.0098, 0.0080}, 0.014},  // thumb
+    {5, {0.0096, 0.0090, 0.0083, 0.0072}, 0.007},  // index
+    {9, {0.0099, 0.0092, 0.0085, 0.0074}, 0.007},  // middle
+    {13, {0.0094, 0.0088, 0.0081, 0.0070}, 0.007}, // ring
+    {17, {0.0084, 0.0078, 0.0072, 0.0063}, 0.007}, // little
 }};
-
-inline constexpr double kFingerBlend = 0.007;
-inline constexpr double kFingerJointBlend = 0.004;
-
-inline constexpr std::array<Cone, 2> kThumb{{
-    {{0.020, 0.706, kShoulderHeight - 0.006}, {0.052, 0.742, kShoulderHeight - 0.012}, 0.0135, 0.0105},
-    {{0.052, 0.742, kShoulderHeight - 0.012}, {0.068, 0.782, kShoulderHeight - 0.017}, 0.0102, 0.0078},
-}};
-
-inline constexpr double kThumbBlend = 0.014;
-inline constexpr double kThumbJointBlend = 0.006;
 
 /// The sole is cut flat at this height, with these fillets for the foot alone and for the whole body.
 inline constexpr double kSoleHeight = 0.0015;

@@ -13,9 +13,48 @@
 namespace posewire::render::mannequin {
 namespace {
 
-/// Step of the lattice in metres, so fine that no two sheets of the surface share a cell's edge.
+/// Triangles of half the body in the low detail, and how far its surface may move, metres.
+constexpr std::size_t kLowTriangles = 2000;
+constexpr float kLowError = 0.02F;
+
+/// Step of the lattice in metres, so fine that no two sheets of the surface share a cell's edge. The low
+/// detail is made out of the medium one, since a coarser lattice would fuse fingers.
 double latticeStep(Detail detail) {
-    return detail == Detail::High ? 0.013 : 0.022;
+    return detail == Detail::High ? 0.0135 : 0.0219;
+}
+
+/// The same surface in fewer triangles between some of its points. Its rim stays as it is, so that the halves
+/// still close.
+TriangleSurface simplified(const TriangleSurface& half) {
+    const std::vector<glm::vec3> points(half.points.begin(), half.points.end());
+    std::vector<unsigned> indices;
+    for (const auto& face : half.faces) {
+        indices.insert(indices.end(), face.begin(), face.end());
+    }
+    const float scale = meshopt_simplifyScale(&points[0].x, points.size(), sizeof(glm::vec3));
+    indices.resize(meshopt_simplify(indices.data(), indices.data(), indices.size(), &points[0].x,
+                                    points.size(), sizeof(glm::vec3), 3 * kLowTriangles, kLowError / scale,
+                                    meshopt_SimplifyLockBorder));
+    TriangleSurface low;
+    constexpr auto kUnused = static_cast<std::uint32_t>(-1);
+    std::vector<std::uint32_t> place(points.size(), kUnused);
+    for (std::size_t i = 0; i < indices.size(); i += 3) {
+        // A face within the mirror plane and its image would lie on each other: without them the rim is
+        // shorter by a point, and the same on both sides.
+        if (isOnMirrorPlane(half.points[indices[i]]) && isOnMirrorPlane(half.points[indices[i + 1]]) &&
+            isOnMirrorPlane(half.points[indices[i + 2]])) {
+            continue;
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            std::uint32_t& index = place[indices[i + k]];
+            if (index == kUnused) {
+                index = static_cast<std::uint32_t>(low.points.size());
+                low.points.push_back(half.points[indices[i + k]]);
+            }
+        }
+        low.faces.push_back({place[indices[i]], place[indices[i + 1]], place[indices[i + 2]]});
+    }
+    return low;
 }
 
 /// Ambient light by probing the field along the normal; in steps of 1/255, as it is stored.
@@ -102,7 +141,8 @@ SkinnedMesh generate(Detail detail) {
     const Body body;
     QuadSurface quads = extractSurface(body, latticeStep(detail));
     relaxOntoSurface(body, quads);
-    SkinnedMesh mesh = Assembly(body, triangulated(quads)).take();
+    const TriangleSurface half = triangulated(quads);
+    SkinnedMesh mesh = Assembly(body, detail == Detail::Low ? simplified(half) : half).take();
     orderForDrawing(mesh);
     return mesh;
 }

@@ -40,14 +40,6 @@ void pad(std::string& bytes, char filler) {
     bytes.resize((bytes.size() + 3) / 4 * 4, filler);
 }
 
-glm::vec3 jointOrigin(std::size_t joint) {
-    return kReferenceNullPose[jointSegment(joint)];
-}
-
-int jointParent(std::size_t joint) {
-    return kSegmentParents[jointSegment(joint)];
-}
-
 std::string binaryOf(const SkinnedMesh& mesh) {
     std::string bytes;
     putWord(bytes, kMannequinMagic);

@@ -12,7 +12,7 @@ double handScale(double y) {
     return 1.0 - 0.66 * smoothstep(0.50, 0.69, y);
 }
 double headScale(double z) {
-    return 1.0 - 0.50 * smoothstep(1.50, 1.60, z);
+    return 1.0 - 0.50 * smoothstep(1.45, 1.56, z);
 }
 double footScale(double z) {
     return 1.0 - 0.25 * (1.0 - smoothstep(0.06, 0.16, z));
@@ -50,7 +50,8 @@ glm::dvec3 Lattice::node(std::size_t i, std::size_t j, std::size_t k) const {
     const double y = m_y[j];
     const double z = m_z[k];
     const double hand = handScale(std::abs(y));
-    const double head = headScale(z);
+    // The arms, as high as the neck, keep their width.
+    const double head = headScale(z) + (1.0 - headScale(z)) * smoothstep(0.16, 0.40, std::abs(y));
     return {m_x[i] * hand * head, y * head, kShoulderHeight + (z - kShoulderHeight) * hand};
 }
 

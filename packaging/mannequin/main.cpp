@@ -17,7 +17,8 @@ struct Output {
     const char* name;
 };
 
-constexpr std::array<Output, 2> kOutputs{{
+constexpr std::array<Output, 3> kOutputs{{
+    {Detail::Low, "mannequin_low.glb"},
     {Detail::Medium, "mannequin_medium.glb"},
     {Detail::High, "mannequin.glb"},
 }};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "packaging/mannequin/weights.h"
 
+#include "packaging/mannequin/hand_weights.h"
 #include "packaging/mannequin/primitives.h"
 
 #include <algorithm>
@@ -42,6 +43,38 @@ void shareWithTwist(Weights& weights, Segment right, Side side, double twistShar
     }
 }
 
+/// A limb's claim as shares of the limb and of the half joint between it and the trunk; what is left to 1 is
+/// the trunk's.
+struct LimbClaim {
+    double limb;
+    double half;
+
+    explicit LimbClaim(double claim) : limb(claim * claim), half(2.0 * claim * (1.0 - claim)) {}
+    double whole() const { return limb + half; }
+};
+
+void giveHalf(Weights& weights, Segment right, Side side, double share) {
+    const std::size_t segment = onSide(right, side);
+    for (std::size_t i = 0; i < kHalfJointCount; ++i) {
+        if (kHalfJoints[i] == segment) {
+            weights[kFirstHalfJoint + i] = share;
+        }
+    }
+}
+
+/// Shares what the hand has with its fingers.
+void shareWithFingers(Weights& weights, Side side, const glm::dvec3& left) {
+    double& hand = weights[onSide(RightHand, side)];
+    const std::size_t first = kFirstFingerJoint + (side == Side::Left ? 0U : kHandSegmentCount);
+    const auto shares = handShares(left);
+    double rest = 1.0;
+    for (std::size_t i = 0; i < shares.size(); ++i) {
+        weights[first + i] = hand * shares[i];
+        rest -= shares[i];
+    }
+    hand *= std::max(rest, 0.0);
+}
+
 /// Returns what the arm took.
 double claimArm(Weights& weights, const glm::dvec3& p, Side side) {
     const double y = std::abs(p.y);
@@ -49,44 +82,53 @@ double claimArm(Weights& weights, const glm::dvec3& p, Side side) {
     if (!isMine) {
         return 0.0;
     }
-    const double claim = smoothstep(-0.075, 0.065, 0.95 * (y - 0.168) + 0.31 * (p.z - kShoulderJointHeight)) *
+    const double claim = smoothstep(-0.075, 0.065, 0.95 * (y - 0.168) + 0.40 * (p.z - kShoulderJointHeight)) *
                          smoothstep(0.07, 0.13, y) * smoothstep(1.20, 1.30, p.z) *
                          (1.0 - smoothstep(1.49, 1.53, p.z));
+    const LimbClaim shares(claim);
     const double fore = ramp(0.048, y - 0.450);
-    const double hand = ramp(0.028, y - 0.685);
-    weights[onSide(RightUpperArm, side)] = claim * (1.0 - fore);
-    weights[onSide(RightForeArm, side)] = claim * fore * (1.0 - hand);
-    weights[onSide(RightHand, side)] = claim * fore * hand;
+    const double hand = ramp(0.024, y - 0.685);
+    weights[onSide(RightUpperArm, side)] = shares.limb * (1.0 - fore);
+    weights[onSide(RightForeArm, side)] = shares.limb * fore * (1.0 - hand);
+    weights[onSide(RightHand, side)] = shares.limb * fore * hand;
+    shareWithFingers(weights, side, {p.x, y, p.z});
+    giveHalf(weights, RightUpperArm, side, shares.half);
     shareWithTwist(weights, RightUpperArm, side, smoothstep(0.165, 0.42, y));
     shareWithTwist(weights, RightForeArm, side, smoothstep(0.45, 0.66, y));
-    return claim;
+    return shares.whole();
 }
 
 /// Returns what the leg took.
 double claimLeg(Weights& weights, const glm::dvec3& p, Side side) {
     const double towards = side == Side::Left ? p.y : -p.y;
-    const double slant = (0.25 * p.x + 0.60 * (std::abs(p.y) - 0.060) - 0.80 * (p.z - 0.920)) / 1.03;
-    const double claim = ramp(0.065, slant) * ramp(0.012, towards) * (1.0 - smoothstep(1.0, 1.1, p.z));
+    // Higher at the side than between the legs, where the skin must reach from one to the other.
+    const double aside = std::abs(p.y) - 0.084;
+    const double inwards = smoothstep(0.04, -0.06, aside);
+    const double slant = 0.25 * p.x + (0.30 + 0.35 * inwards) * aside - 0.90 * (p.z - 0.905);
+    const double claim =
+        ramp(0.065 + 0.030 * inwards, slant) * ramp(0.020, towards) * (1.0 - smoothstep(1.0, 1.1, p.z));
     const double shank = ramp(0.055, 0.499 - p.z);
     const double foot = ramp(0.026, 0.9 * (0.085 - p.z) + 0.35 * p.x);
     const double toe = ramp(0.024, p.x - 0.148);
-    weights[onSide(RightUpperLeg, side)] = claim * (1.0 - shank);
-    weights[onSide(RightLowerLeg, side)] = claim * shank * (1.0 - foot);
-    weights[onSide(RightFoot, side)] = claim * shank * foot * (1.0 - toe);
-    weights[onSide(RightToe, side)] = claim * shank * foot * toe;
+    const LimbClaim shares(claim);
+    weights[onSide(RightUpperLeg, side)] = shares.limb * (1.0 - shank);
+    weights[onSide(RightLowerLeg, side)] = shares.limb * shank * (1.0 - foot);
+    weights[onSide(RightFoot, side)] = shares.limb * shank * foot * (1.0 - toe);
+    weights[onSide(RightToe, side)] = shares.limb * shank * foot * toe;
+    giveHalf(weights, RightUpperLeg, side, shares.half);
     shareWithTwist(weights, RightUpperLeg, side, smoothstep(0.06, 0.36, 0.9275 - p.z));
-    return claim;
+    return shares.whole();
 }
 
 void shareTrunk(Weights& weights, const glm::dvec3& p, double rest) {
     const double y = std::abs(p.y);
     const double neck = ramp(0.042, (p.z - 1.4817) + 0.25 * p.x) *
-                        (1.0 - smoothstep(0.055, 0.105, y) * (1.0 - smoothstep(1.53, 1.56, p.z)));
+                        (1.0 - smoothstep(0.045, 0.095, y) * (1.0 - smoothstep(1.53, 1.56, p.z)));
     // Tilted, so that chin and occiput stay with the head.
     const double head = ramp(0.022, (p.z - 1.585) + 0.75 * std::max(p.x, 0.0));
     weights[Head] = rest * neck * head;
     weights[Neck] = rest * neck * (1.0 - head);
-    const double shoulder = smoothstep(0.030, 0.130, y) *
+    const double shoulder = smoothstep(0.010, 0.120, y) *
                             smoothstep(kShoulderJointHeight - 0.085, kShoulderJointHeight + 0.010, p.z) *
                             (1.0 - neck);
     weights[p.y < 0.0 ? RightShoulder : LeftShoulder] = rest * shoulder;
@@ -131,9 +173,17 @@ Influences largest(const Weights& weights, bool isSymmetric) {
 }
 
 std::uint8_t mirroredJoint(std::uint8_t joint) {
+    if (joint >= kFirstFingerJoint) {
+        const std::size_t finger = joint - kFirstFingerJoint;
+        return static_cast<std::uint8_t>(kFirstFingerJoint +
+                                         (finger + kHandSegmentCount) % kFingerJointCount);
+    }
     if (joint >= kSegmentCount) {
-        const std::size_t twist = joint - kSegmentCount;
-        return static_cast<std::uint8_t>(kSegmentCount + (twist ^ 1U));
+        // Twist and half joints come in pairs, the right one first.
+        const std::size_t pair = joint - kSegmentCount;
+        return static_cast<std::uint8_t>(pair < kTwistJointCount
+                                             ? kSegmentCount + (pair ^ 1U)
+                                             : kFirstHalfJoint + ((pair - kTwistJointCount) ^ 1U));
     }
     if (joint < RightShoulder) {
         return joint;

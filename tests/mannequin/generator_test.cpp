@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <string>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -43,8 +44,13 @@ protected:
     const SkinnedMesh m_mesh = loadMannequin(GetParam());
 };
 
-INSTANTIATE_TEST_SUITE_P(EveryDetail, Generator, testing::Values(Detail::Medium, Detail::High),
-                         [](const auto& detail) { return detail.param == Detail::High ? "High" : "Medium"; });
+std::string detailName(const testing::TestParamInfo<Detail>& detail) {
+    constexpr std::array<const char*, 3> kNames{"Low", "Medium", "High"};
+    return kNames[static_cast<std::size_t>(detail.param)];
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryDetail, Generator, testing::Values(Detail::Low, Detail::Medium, Detail::High),
+                         detailName);
 
 TEST_P(Generator, BuildsWhatIsCommitted) {
     const SkinnedMesh built = mannequin::generate(GetParam());
