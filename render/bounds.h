@@ -14,6 +14,8 @@ struct Bounds {
     glm::vec3 min{std::numeric_limits<float>::max()};
     glm::vec3 max{std::numeric_limits<float>::lowest()};
 
+    bool operator==(const Bounds&) const = default;
+
     bool isEmpty() const { return min.x > max.x; }
     glm::vec3 centre() const { return 0.5F * (min + max); }
     /// Radius of the sphere around the box.

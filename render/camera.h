@@ -29,6 +29,8 @@ struct Camera {
     float verticalFov = 0.49F;
     Projection projection = Projection::Perspective;
 
+    bool operator==(const Camera&) const = default;
+
     glm::vec3 eye() const;
     /// Unit vectors of the picture: where it looks, its right, its up.
     glm::vec3 forward() const;

@@ -28,6 +28,7 @@ struct OffscreenRenderer::Impl {
     Renderer renderer;
     gl::Framebuffer framebuffer;
     Image image;
+    Image spare;
     bool canInvertRows = false;
 
     Impl(OffscreenContext ownContext, Renderer ownRenderer)
@@ -95,7 +96,11 @@ const Image& OffscreenRenderer::render(const Scene& scene, int width, int height
 }
 
 Image OffscreenRenderer::takeImage() {
-    return std::exchange(m_impl->image, Image());
+    return std::exchange(m_impl->image, std::exchange(m_impl->spare, Image()));
+}
+
+void OffscreenRenderer::giveBack(Image image) {
+    (m_impl->image.pixels.empty() ? m_impl->image : m_impl->spare) = std::move(image);
 }
 
 } // namespace posewire::render

@@ -58,6 +58,9 @@ public:
     const Image& render(const Scene& scene, int width, int height, float pixelRatio = 1.0F);
     /// Moves the last picture out.
     Image takeImage();
+    /// For the next picture, so that its room is not made anew each time: one that was taken and is no longer
+    /// needed.
+    void giveBack(Image image);
 
 private:
     struct Impl;

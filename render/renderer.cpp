@@ -3,8 +3,10 @@
 
 #include "render/gl/framebuffer.h"
 #include "render/passes/edges.h"
+#include "render/passes/floor_shadows.h"
 #include "render/passes/frame.h"
 #include "render/passes/marks.h"
+#include "render/passes/outline.h"
 #include "render/passes/palettes.h"
 #include "render/passes/shader_sources.h"
 #include "render/passes/shadow.h"
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include <epoxy/gl.h>
 
@@ -56,15 +59,30 @@ struct Renderer::Impl {
     std::optional<ShadowPass> shadow;
     std::optional<SkinnedPass> skinned;
     std::optional<SurroundingsPass> surroundings;
+    std::optional<OutlinePass> outline;
+    std::optional<FloorShadows> floorShadows;
     std::optional<EdgePass> edges;
     std::optional<MarksPass> marks;
     /// Only where the quality asks for samples and the target has none.
     gl::Framebuffer multisampled;
+    Frame frame;
+    std::function<void(std::string_view)> passed;
 
+    /// Says so where somebody measures.
+    void pass(std::string_view what) const;
     /// The framebuffer to draw into for a viewport.
     unsigned target(const Viewport& viewport, bool& isMultisampled);
-    void drawPasses(const Frame& frame, bool isMultisampled);
+    /// Whether what is behind the characters comes from a copy: the floor must be opaque for that.
+    bool isBackdropKept(bool isMultisampled) const;
+    void drawPasses(unsigned target, bool isMultisampled);
 };
+
+void Renderer::Impl::pass(std::string_view what) const {
+    if (passed) {
+        glFinish();
+        passed(what);
+    }
+}
 
 unsigned Renderer::Impl::target(const Viewport& viewport, bool& isMultisampled) {
     glBindFramebuffer(GL_FRAMEBUFFER, viewport.framebuffer);
@@ -86,15 +104,37 @@ unsigned Renderer::Impl::target(const Viewport& viewport, bool& isMultisampled) 
     return multisampled.name();
 }
 
-void Renderer::Impl::drawPasses(const Frame& frame, bool isMultisampled) {
+bool Renderer::Impl::isBackdropKept(bool isMultisampled) const {
+    const bool isSeenThrough = frame.scene->showFloor && frame.block.style.w < 1.0F;
+    return quality.keepsBackdrop && !isMultisampled && !isSeenThrough;
+}
+
+void Renderer::Impl::drawPasses(unsigned target, bool isMultisampled) {
+    const bool isKept = isBackdropKept(isMultisampled);
+    if (isKept) {
+        surroundings->drawKept(frame, quality.plainFloor, target);
+        pass("backdrop");
+    }
+    glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
-    skinned->drawSolid(frame);
-    surroundings->draw(frame);
+    skinned->drawSolid(frame, quality, isKept && frame.scene->showFloor);
+    pass("bodies");
+    if (!isKept) {
+        surroundings->draw(frame);
+        pass("surroundings");
+    } else if (frame.scene->showFloor) {
+        floorShadows->draw(frame);
+        pass("shadows on the floor");
+    }
+    outline->draw(frame, isKept && frame.scene->showFloor);
+    pass("outlines");
     skinned->drawGhosts(frame);
     if (quality.edgeSmoothing && !isMultisampled) {
         edges->draw(frame);
+        pass("edges");
     }
     marks->draw(frame);
+    pass("marks");
 }
 
 Renderer::Renderer(std::unique_ptr<Impl> impl) : m_impl(std::move(impl)) {}
@@ -115,8 +155,10 @@ tl::expected<Renderer, std::string> Renderer::create(std::optional<RenderQuality
     impl->palettes = Palettes::create();
     std::string error;
     const bool isComplete = take(ShadowPass::create(impl->quality), impl->shadow, error) &&
-                            take(SkinnedPass::create(impl->quality), impl->skinned, error) &&
+                            take(SkinnedPass::create(), impl->skinned, error) &&
                             take(SurroundingsPass::create(), impl->surroundings, error) &&
+                            take(OutlinePass::create(), impl->outline, error) &&
+                            take(FloorShadows::create(), impl->floorShadows, error) &&
                             take(EdgePass::create(), impl->edges, error) &&
                             take(MarksPass::create(), impl->marks, error);
     if (!isComplete) {
@@ -133,6 +175,17 @@ const RenderQuality& Renderer::quality() const {
     return m_impl->quality;
 }
 
+void Renderer::setQuality(const RenderQuality& quality) {
+    const RenderQuality before = std::exchange(m_impl->quality, quality);
+    if (quality.samples < 2) {
+        m_impl->multisampled = {};
+    }
+    if (!m_impl->shadow->resize(quality)) {
+        m_impl->quality.shadowMapSize = before.shadowMapSize;
+        m_impl->quality.floorShadowSize = before.floorShadowSize;
+    }
+}
+
 MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions) {
     return m_impl->meshes.add(mesh, templatePositions);
 }
@@ -141,27 +194,43 @@ void Renderer::releaseMesh(MeshId id) {
     m_impl->meshes.remove(id);
 }
 
+bool Renderer::isContextLost() const {
+    if (epoxy_gl_version() >= 45) {
+        return glGetGraphicsResetStatus() != GL_NO_ERROR;
+    }
+    if (epoxy_has_gl_extension("GL_KHR_robustness")) {
+        return glGetGraphicsResetStatusKHR() != GL_NO_ERROR;
+    }
+    return epoxy_has_gl_extension("GL_ARB_robustness") && glGetGraphicsResetStatusARB() != GL_NO_ERROR;
+}
+
 void Renderer::draw(const Scene& scene, const Viewport& viewport) {
     if (viewport.width < 1 || viewport.height < 1) {
         return;
     }
-    const Frame frame = planFrame(scene, viewport, m_impl->meshes, m_impl->quality.shadowMapSize);
+    Frame& frame = m_impl->frame;
+    planFrame(scene, viewport, m_impl->meshes, m_impl->quality, frame);
     m_impl->frameBuffer.upload(std::span<const FrameBlock>(&frame.block, 1), gl::Buffer::Usage::Stream);
     m_impl->frameBuffer.bindUniform(kFrameBinding);
     m_impl->palettes.upload(frame);
     m_impl->palettes.bind();
     m_impl->marks->upload(scene);
+    m_impl->pass("planning");
     glDisable(GL_SCISSOR_TEST);
     glDisable(GL_STENCIL_TEST);
     glFrontFace(GL_CCW);
     glCullFace(GL_BACK);
-    m_impl->shadow->draw(frame);
+    m_impl->shadow->drawDepth(frame);
+    m_impl->pass("light's picture");
+    m_impl->shadow->drawFloorShadow(frame);
+    m_impl->pass("floor shadow");
+    m_impl->shadow->bind();
 
     bool isMultisampled = false;
     const unsigned target = m_impl->target(viewport, isMultisampled);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glViewport(0, 0, viewport.width, viewport.height);
-    m_impl->drawPasses(frame, isMultisampled);
+    m_impl->drawPasses(target, isMultisampled);
     if (target != viewport.framebuffer) {
         m_impl->multisampled.resolveTo(viewport.framebuffer);
         glBindFramebuffer(GL_FRAMEBUFFER, viewport.framebuffer);
@@ -169,6 +238,10 @@ void Renderer::draw(const Scene& scene, const Viewport& viewport) {
     glBindVertexArray(0);
     glUseProgram(0);
     glActiveTexture(GL_TEXTURE0);
+}
+
+void Renderer::observePasses(std::function<void(std::string_view)> passed) {
+    m_impl->passed = std::move(passed);
 }
 
 std::vector<glm::vec3> Renderer::skinnedPositions(MeshId id, std::span<const DualQuaternion> palette) {

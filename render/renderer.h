@@ -4,6 +4,7 @@
 #include "render/mesh/mesh.h"
 #include "render/scene.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -27,6 +28,18 @@ struct RenderQuality {
     /// Characters drawn before waiting for the driver, 0 to never wait. One that draws with the processor
     /// keeps about 2 MB of triangles for each character it was given and has not drawn.
     int charactersAtOnce = 0;
+    /// Background and floor are drawn once and copied while camera, size and colours hold: for renderers on
+    /// the processor. Without multisampling only.
+    bool keepsBackdrop = false;
+    /// The floor is one flat colour with its lines over it, for the pictures of a camera that moves; with
+    /// keepsBackdrop only.
+    bool plainFloor = false;
+    /// Shadows are those of the low meshes.
+    bool lowShadows = false;
+    /// Bodies that are less tall than this in the picture are drawn by their low meshes; device pixels.
+    float lowBodiesBelow = 0.0F;
+    /// Where a body shades itself, the edge of the shadow is not softened.
+    bool hardSelfShadow = false;
 
     bool operator==(const RenderQuality&) const = default;
 };
@@ -35,6 +48,8 @@ struct RenderQuality {
 bool isSoftwareRenderer(std::string_view rendererName);
 /// What suits a renderer when pictures follow one another: `rendererName` is GL_RENDERER.
 RenderQuality interactiveQuality(std::string_view rendererName);
+/// For a picture that stays, on a renderer of which others are asked `interactive`.
+RenderQuality stillQuality(const RenderQuality& interactive, int width, int height);
 
 /// Where to draw: an existing framebuffer object with colour and depth, 0 for the default one.
 struct Viewport {
@@ -61,6 +76,8 @@ public:
     /// GL_RENDERER.
     const std::string& rendererName() const;
     const RenderQuality& quality() const;
+    /// For the pictures from here on. Sizes of shadows that the driver refuses stay as they were.
+    void setQuality(const RenderQuality& quality);
 
     /// `templatePositions` says where each vertex sits on the mannequin in its reference null pose: the suit
     /// is painted there, so that a fitted mesh keeps its seams. Empty paints without a suit, as for imported
@@ -68,8 +85,16 @@ public:
     MeshId uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
     void releaseMesh(MeshId id);
 
+    /// Whether the driver was reset and all that this holds is lost, as far as the context tells: it must
+    /// have been made with notification of resets.
+    bool isContextLost() const;
+
     /// Leaves out characters whose mesh is unknown or whose palette is too short.
     void draw(const Scene& scene, const Viewport& viewport);
+
+    /// For measuring: from now on the driver finishes each pass before the next begins, and `passed` is
+    /// called with its name. Drawing takes longer so. Empty ends it.
+    void observePasses(std::function<void(std::string_view)> passed);
 
     /// Positions as the vertex shader skins them, in the order of the mesh's own vertices: the tests compare
     /// SkinJob with them. Empty where the mesh is unknown or the palette short.

@@ -4,6 +4,7 @@
 #include "render/camera.h"
 #include "render/skinning.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 
@@ -37,6 +38,8 @@ struct SceneColours {
     /// The thin seam around axes, lines and points that keeps them apart from what is behind; alpha is its
     /// strength.
     glm::vec4 outline{0.0F};
+
+    bool operator==(const SceneColours&) const = default;
 };
 
 SceneColours darkSceneColours();
@@ -51,6 +54,13 @@ struct Light {
 /// left from wherever one looks.
 Light keyLight(const Camera& camera);
 
+/// Where the pose of a segment comes from, as far as it can be seen.
+enum class Provenance : std::uint8_t {
+    Sent,   ///< as the sender gave it: in the suit
+    Solved, ///< worked out from other data: the suit's pattern fades to plain cloth
+    Assumed ///< nothing tells where it is: hatched, in the colour of the surroundings
+};
+
 /// How a character is painted.
 struct CharacterLook {
     glm::vec3 colour{0.20F, 0.45F, 0.75F};
@@ -60,13 +70,22 @@ struct CharacterLook {
     float opacity = 1.0F;
     /// Striped, for a character whose data have stopped.
     bool isHatched = false;
+    /// Outlined as a whole.
+    bool isSelected = false;
     /// Index of the segment to mark (MVN's ID − 1), or −1.
     int selectedSegment = -1;
+    /// By segment (MVN's ID − 1); fingers count for their hand.
+    std::array<Provenance, kSegmentCount> provenance{};
+
+    bool operator==(const CharacterLook&) const = default;
 };
 
 /// One character.
 struct SkinnedInstance {
     MeshId mesh = MeshId::None;
+    /// The same body in fewer triangles, for its shadow and for where it is small in the picture; None where
+    /// there is only one.
+    MeshId lowMesh = MeshId::None;
     /// kJointCount rigid motions from the mesh's null pose to the world, as PaletteJob makes them.
     std::span<const DualQuaternion> palette;
     CharacterLook look;
@@ -79,6 +98,8 @@ struct AxesInstance {
     glm::quat orientation{1.0F, 0.0F, 0.0F, 0.0F};
     float length = 0.1F;
     float alpha = 1.0F;
+
+    bool operator==(const AxesInstance&) const = default;
 };
 
 /// A straight line of constant width on the screen.
@@ -90,6 +111,8 @@ struct LineInstance {
     float width = 1.5F;
     /// Share of the alpha that remains behind other things: 0 hides, 1 shows through.
     float behind = 0.35F;
+
+    bool operator==(const LineInstance&) const = default;
 };
 
 /// A round point of constant size on the screen.
@@ -99,6 +122,8 @@ struct PointInstance {
     /// Logical pixels.
     float diameter = 7.0F;
     float behind = 0.35F;
+
+    bool operator==(const PointInstance&) const = default;
 };
 
 struct Scene {

@@ -16,16 +16,28 @@ namespace posewire::render {
 struct DualQuaternion {
     glm::vec4 real{0.0F, 0.0F, 0.0F, 1.0F};
     glm::vec4 dual{0.0F};
+
+    bool operator==(const DualQuaternion&) const = default;
 };
 static_assert(sizeof(DualQuaternion) == 2 * sizeof(glm::vec4));
 
 /// Where a rigid motion takes a point.
 glm::vec3 transformPoint(const DualQuaternion& motion, const glm::vec3& point);
 
+/// The segments of one hand, world frame, metres; empty where nothing is known about the fingers.
+struct FingerPose {
+    /// None, or kHandSegmentCount of each.
+    std::span<const glm::vec3> positions{};
+    std::span<const glm::quat> orientations{};
+
+    bool isPresent() const { return !positions.empty(); }
+};
+
 /// Makes the palette of one character from its pose: joint i maps v to Rᵢ (v − oᵢ) + pᵢ.
-/// Twist joints follow their segment without its twist against the parent. Signs are consistent along the
-/// hierarchy. An orientation without length or not finite counts as its parent's, a position not finite as at
-/// its null-pose offset from the parent.
+/// Twist joints follow their segment without its twist against the parent, half joints by half of that,
+/// shifted so that the flesh keeps its form. Signs are consistent along the hierarchy. An orientation without
+/// length or not finite counts as its parent's, a position not finite as at its null-pose offset from the
+/// parent. Fingers that are not known rest relaxed.
 struct PaletteJob {
     /// kSegmentCount of each, world frame, metres.
     std::span<const glm::vec3> positions;
@@ -34,6 +46,11 @@ struct PaletteJob {
     std::span<const glm::vec3> origins;
     /// kJointCount.
     std::span<DualQuaternion> palette;
+    FingerPose leftHand{};
+    FingerPose rightHand{};
+    /// Null-pose origins of the fingers of the mesh that is drawn, kFingerJointCount; none is as
+    /// fittedFingers has them.
+    std::span<const glm::vec3> fingerOrigins{};
 
     tl::expected<void, std::string> validate() const;
     void run() const;

@@ -9,7 +9,15 @@ namespace posewire::render {
 namespace {
 
 std::string_view bytesOf(Detail detail) {
-    return detail == Detail::High ? embedded::mannequinGlb() : embedded::mannequinMediumGlb();
+    switch (detail) {
+    case Detail::Low:
+        return embedded::mannequinLowGlb();
+    case Detail::Medium:
+        return embedded::mannequinMediumGlb();
+    case Detail::High:
+        break;
+    }
+    return embedded::mannequinGlb();
 }
 
 } // namespace

@@ -7,6 +7,7 @@ namespace posewire::render {
 
 /// How fine the built-in mannequin is.
 enum class Detail {
+    Low,    ///< For shadows, and for bodies that are small in the picture.
     Medium, ///< For software OpenGL.
     High    ///< For graphics processors.
 };

@@ -18,7 +18,7 @@ struct MannequinFileHeader {
 };
 
 inline constexpr std::uint32_t kMannequinMagic = 0x4E4D5750; // "PWMN"
-inline constexpr std::uint32_t kMannequinVersion = 1;
+inline constexpr std::uint32_t kMannequinVersion = 2;
 
 /// Arrays in file order: float vec3 positions and normals, float vec4 weights, byte joints, byte colours
 /// (red, green and blue are the occlusion), 16-bit indices.

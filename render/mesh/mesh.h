@@ -24,7 +24,7 @@ struct SkinnedMesh {
     std::vector<glm::vec3> normals;
     /// Baked ambient light: 1 is open, 0 is closed.
     std::vector<float> occlusion;
-    /// 0..22 are segments (MVN's ID − 1), 23..28 twist joints: see joints.h.
+    /// 0..22 are segments (MVN's ID − 1), the others follow them: see joints.h.
     std::vector<JointIndices> joints;
     /// Not negative, sum 1, falling from x to w.
     std::vector<glm::vec4> weights;

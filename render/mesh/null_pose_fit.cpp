@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -56,22 +57,31 @@ using Stretches = std::array<Stretch, kJointCount>;
 
 class Fit {
 public:
-    Fit(std::span<const glm::vec3> reference, std::span<const glm::vec3> performer)
+    Fit(std::span<const glm::vec3> reference, std::span<const glm::vec3> performer,
+        std::span<const glm::vec3> performerFingers)
         : m_reference(reference), m_girth(girthOf(statureRatio(reference, performer))) {
         for (std::size_t i = 0; i < kSegmentCount; ++i) {
             m_origins[i] = usableOrigin(i, performer);
         }
+        for (std::size_t i = 0; i < kFingerJointCount; ++i) {
+            const glm::vec3 unknown(std::numeric_limits<float>::quiet_NaN());
+            m_fingers[i] = usableFinger(i, performerFingers.empty() ? unknown : performerFingers[i]);
+        }
     }
 
     const NullPose& origins() const { return m_origins; }
+    const FingerOrigins& fingers() const { return m_fingers; }
 
     Stretches stretches() const {
         Stretches all;
         for (std::size_t i = 0; i < kSegmentCount; ++i) {
             all[i] = {m_reference[i], m_origins[i], scaleOf(static_cast<Segment>(i))};
         }
-        for (std::size_t i = 0; i < kTwistJointCount; ++i) {
-            all[kSegmentCount + i] = all[kTwistJoints[i].segment];
+        for (std::size_t i = kSegmentCount; i < kJointCount; ++i) {
+            all[i] = all[jointSegment(i)];
+        }
+        for (std::size_t i = 0; i < kFingerJointCount; ++i) {
+            all[kFirstFingerJoint + i] = {restOf(i), m_fingers[i], fingerScale(i)};
         }
         return all;
     }
@@ -89,6 +99,36 @@ private:
         const glm::vec3 sent = performer[i] - performer[parent];
         const bool isSane = isFinite(sent) && isUsable(glm::length(sent) / glm::length(bone));
         return m_origins[parent] + (isSane ? sent : m_girth * bone);
+    }
+
+    /// Where the mesh was made with a finger, for the reference it was made for.
+    glm::vec3 restOf(std::size_t finger) const {
+        const std::size_t joint = kFirstFingerJoint + finger;
+        const Segment hand = jointSegment(joint);
+        return m_reference[hand] + (jointOrigin(joint) - kReferenceNullPose[hand]);
+    }
+
+    /// The finger's origin as sent where it is about as far from the wrist as it should be, else as the
+    /// hand's size has it.
+    glm::vec3 usableFinger(std::size_t finger, const glm::vec3& sent) const {
+        const Segment hand = jointSegment(kFirstFingerJoint + finger);
+        const glm::vec3 reach = restOf(finger) - m_reference[hand];
+        const glm::vec3 found = sent - m_origins[hand];
+        constexpr float kNear = 0.03F;
+        const bool isSane = isFinite(found) && glm::length(found - m_girth * reach) <=
+                                                   kNear + 0.5F * m_girth * glm::length(reach);
+        return m_origins[hand] + (isSane ? found : m_girth * reach);
+    }
+
+    /// Along the finger as the bone's length says, across it as the girth does.
+    glm::vec3 fingerScale(std::size_t finger) const {
+        const std::size_t index = finger % kHandSegmentCount;
+        const bool hasBone = index > 0 && index + 1 < kHandSegmentCount &&
+                             kFingerParents[index + 1] == static_cast<int>(index);
+        const float along = hasBone ? ratio(glm::distance(m_fingers[finger + 1], m_fingers[finger]),
+                                            glm::distance(restOf(finger + 1), restOf(finger)))
+                                    : m_girth;
+        return {m_girth, along, m_girth};
     }
 
     float ratio(float performer, float reference) const {
@@ -141,6 +181,7 @@ private:
     std::span<const glm::vec3> m_reference;
     float m_girth;
     NullPose m_origins{};
+    FingerOrigins m_fingers{};
 };
 
 } // namespace
@@ -153,6 +194,10 @@ tl::expected<void, std::string> NullPoseFitJob::validate() const {
         origins.size() != kSegmentCount) {
         return tl::make_unexpected("a null pose has the origins of 23 segments");
     }
+    if ((!performerFingers.empty() && performerFingers.size() != kFingerJointCount) ||
+        (!fingerOrigins.empty() && fingerOrigins.size() != kFingerJointCount)) {
+        return tl::make_unexpected("both hands have 40 segments");
+    }
     if (positions.size() != mesh->vertexCount() || normals.size() != mesh->vertexCount()) {
         return tl::make_unexpected("the output differs in size from the mesh");
     }
@@ -160,8 +205,9 @@ tl::expected<void, std::string> NullPoseFitJob::validate() const {
 }
 
 void NullPoseFitJob::run() const {
-    const Fit fit(reference, performer);
-    std::copy(fit.origins().begin(), fit.origins().end(), origins.begin());
+    const Fit fit(reference, performer, performerFingers);
+    std::ranges::copy(fit.origins(), origins.begin());
+    std::copy_n(fit.fingers().begin(), fingerOrigins.size(), fingerOrigins.begin());
     const Stretches stretches = fit.stretches();
     for (std::size_t i = 0; i < positions.size(); ++i) {
         glm::vec3 place(0.0F);
@@ -175,6 +221,20 @@ void NullPoseFitJob::run() const {
         positions[i] = place;
         normals[i] = glm::normalize(mesh->normals[i] / scale);
     }
+}
+
+FingerOrigins fittedFingers(std::span<const glm::vec3> origins) {
+    return Fit(kReferenceNullPose, origins, {}).fingers();
+}
+
+SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer,
+                          const FingerOrigins& performerFingers, NullPose& usedOrigins,
+                          FingerOrigins& usedFingers) {
+    SkinnedMesh fitted = mesh;
+    const NullPoseFitJob job{&mesh,          kReferenceNullPose, performer,        fitted.positions,
+                             fitted.normals, usedOrigins,        performerFingers, usedFingers};
+    job.run();
+    return fitted;
 }
 
 SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer, NullPose& usedOrigins) {

@@ -10,9 +10,9 @@
 namespace posewire::render {
 
 /// Stretches a mesh from one null pose to a performer's: v' = Σ wᵢ (o'ᵢ + Sᵢ (v − oᵢ)), with the weights of
-/// twist joints counted for their segments. Null poses have identity orientations, so that a diagonal Sᵢ is
-/// exact: along the bone it is the ratio of the lengths, across it the girth that follows from the stature.
-/// Where a length is zero, not finite or absurd, the reference's is used.
+/// twist and half joints counted for their segments. Null poses have identity orientations, so that a
+/// diagonal Sᵢ is exact: along the bone it is the ratio of the lengths, across it the girth that follows from
+/// the stature. Where a length is zero, not finite or absurd, the reference's is used.
 struct NullPoseFitJob {
     const SkinnedMesh* mesh = nullptr;
     /// Segment origins that the mesh was made for, metres.
@@ -26,13 +26,25 @@ struct NullPoseFitJob {
     std::span<glm::vec3> normals;
     /// The performer's origins as used, with unusable ones replaced: the palette must be made with these.
     std::span<glm::vec3> origins;
+    /// The origins of both hands' segments, kFingerJointCount or none; fingers that are not finite, or none,
+    /// fit the hands.
+    std::span<const glm::vec3> performerFingers{};
+    /// None, or kFingerJointCount as used.
+    std::span<glm::vec3> fingerOrigins{};
 
     tl::expected<void, std::string> validate() const;
     void run() const;
 };
 
+/// Where the fit puts the fingers of a body with these segment origins where none are sent.
+FingerOrigins fittedFingers(std::span<const glm::vec3> origins);
+
 /// The mesh fitted to the performer, by NullPoseFitJob from kReferenceNullPose. `usedOrigins` receives its
 /// `origins`.
 SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer, NullPose& usedOrigins);
+/// With fingers, which may be anything but finite.
+SkinnedMesh fitToNullPose(const SkinnedMesh& mesh, const NullPose& performer,
+                          const FingerOrigins& performerFingers, NullPose& usedOrigins,
+                          FingerOrigins& usedFingers);
 
 } // namespace posewire::render

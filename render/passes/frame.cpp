@@ -39,18 +39,20 @@ void forEachCorner(const DrawnCharacter& character, Visit visit) {
     }
 }
 
-std::vector<DrawnCharacter> drawable(const Scene& scene, const MeshStore& meshes) {
-    std::vector<DrawnCharacter> characters;
+void findDrawable(const Scene& scene, const MeshStore& meshes, const RenderQuality& quality,
+                  std::vector<DrawnCharacter>& characters) {
+    characters.clear();
     int paletteBase = 0;
     for (const SkinnedInstance& instance : scene.characters) {
         const GpuMesh* mesh = meshes.find(instance.mesh);
         if (mesh == nullptr || instance.palette.size() < kJointCount || !(instance.look.opacity > 0.0F)) {
             continue;
         }
-        characters.push_back({&instance, mesh, paletteBase, Bounds{}, Bounds{}});
+        const GpuMesh* low = meshes.find(instance.lowMesh);
+        const GpuMesh* caster = quality.lowShadows && low != nullptr ? low : mesh;
+        characters.push_back({&instance, mesh, mesh, caster, paletteBase, Bounds{}, Bounds{}});
         paletteBase += kTexelsPerJoint * static_cast<int>(kJointCount);
     }
-    return characters;
 }
 
 glm::vec3 lightDirection(const Light& light) {
@@ -103,7 +105,8 @@ void fitLight(Frame& frame, int shadowMapSize) {
     }
 }
 
-void placeOnScreen(Frame& frame) {
+/// Where each is in the picture, and by what mesh it is drawn there.
+void placeOnScreen(Frame& frame, const MeshStore& meshes, float lowBodiesBelow) {
     const glm::mat4& viewProjection = frame.block.viewProjection;
     for (DrawnCharacter& character : frame.characters) {
         bool isBehindEye = false;
@@ -122,6 +125,11 @@ void placeOnScreen(Frame& frame) {
         if (isVisible) {
             character.onScreen = {glm::max(box.min, -1.0F), glm::min(box.max, 1.0F)};
         }
+        const float height = 0.5F * (box.max.y - box.min.y) * frame.block.viewport.y;
+        const GpuMesh* low = meshes.find(character.instance->lowMesh);
+        if (isVisible && low != nullptr && height < lowBodiesBelow) {
+            character.drawn = low;
+        }
     }
 }
 
@@ -139,11 +147,18 @@ void fillColours(FrameBlock& block, const SceneColours& colours) {
 
 } // namespace
 
-Frame planFrame(const Scene& scene, const Viewport& viewport, const MeshStore& meshes, int shadowMapSize) {
-    Frame frame;
+int selectedBit(const CharacterLook& look) {
+    const bool isSegment =
+        look.selectedSegment >= 0 && look.selectedSegment < static_cast<int>(kSegmentCount);
+    return isSegment ? 1 << look.selectedSegment : 0;
+}
+
+void planFrame(const Scene& scene, const Viewport& viewport, const MeshStore& meshes,
+               const RenderQuality& quality, Frame& frame) {
     frame.scene = &scene;
     frame.viewport = viewport;
-    frame.characters = drawable(scene, meshes);
+    findDrawable(scene, meshes, quality, frame.characters);
+    frame.block = {};
     FrameBlock& block = frame.block;
     const Camera& camera = scene.camera;
     const auto width = static_cast<float>(viewport.width);
@@ -161,9 +176,8 @@ Frame planFrame(const Scene& scene, const Viewport& viewport, const MeshStore& m
                    isAboveFloor(camera) ? 1.0F : kFloorOpacityFromBelow};
     block.shadowRange = {1.0F, 1.0F, 1.0F, 0.0F};
     fillColours(block, scene.colours);
-    fitLight(frame, shadowMapSize);
-    placeOnScreen(frame);
-    return frame;
+    fitLight(frame, quality.shadowMapSize);
+    placeOnScreen(frame, meshes, quality.lowBodiesBelow);
 }
 
 } // namespace posewire::render

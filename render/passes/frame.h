@@ -37,7 +37,10 @@ struct FrameBlock {
 /// A character that can be drawn, and where it appears.
 struct DrawnCharacter {
     const SkinnedInstance* instance = nullptr;
+    /// Its own, and what its picture and its shadow are drawn by: the same or the low one.
     const GpuMesh* mesh = nullptr;
+    const GpuMesh* drawn = nullptr;
+    const GpuMesh* caster = nullptr;
     /// Its first texel in the palette.
     int paletteBase = 0;
     /// Device coordinates of the light's picture, z unused.
@@ -48,6 +51,9 @@ struct DrawnCharacter {
     bool isGhost() const { return instance->look.opacity < 1.0F; }
 };
 
+/// The selected segment as a bit; 0 where there is none.
+int selectedBit(const CharacterLook& look);
+
 /// Everything the passes share for one picture, worked out once.
 struct Frame {
     const Scene* scene = nullptr;
@@ -56,6 +62,8 @@ struct Frame {
     FrameBlock block;
 };
 
-Frame planFrame(const Scene& scene, const Viewport& viewport, const MeshStore& meshes, int shadowMapSize);
+/// Fills a frame, which keeps the room that it had.
+void planFrame(const Scene& scene, const Viewport& viewport, const MeshStore& meshes,
+               const RenderQuality& quality, Frame& frame);
 
 } // namespace posewire::render

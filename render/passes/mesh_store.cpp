@@ -35,8 +35,11 @@ void attachAttributes(GpuMesh& gpu) {
 void measure(const SkinnedMesh& mesh, GpuMesh& gpu) {
     for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
         for (int k = 0; k < 4; ++k) {
+            const std::size_t joint = mesh.joints[i][static_cast<std::size_t>(k)];
             if (mesh.weights[i][k] >= kNoticeableWeight) {
-                gpu.jointBoxes[mesh.joints[i][static_cast<std::size_t>(k)]].add(mesh.positions[i]);
+                // Fingers reach about as far as the flat hand, however they bend.
+                const std::size_t box = joint < kFirstFingerJoint ? joint : std::size_t{jointSegment(joint)};
+                gpu.jointBoxes[box].add(mesh.positions[i]);
             }
         }
     }

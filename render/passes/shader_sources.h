@@ -23,9 +23,13 @@ struct ProgramParts {
     std::string_view fragment;
     /// The vertex shader skins.
     bool skins = false;
+    /// One of them draws the floor.
+    bool isFloor = false;
     /// The fragment shader paints the suit.
     bool paints = false;
     std::span<const char* const> recorded = {};
+    /// Preprocessor lines before all else, for variants of one text.
+    std::string_view defines = {};
 };
 
 /// Joins the shared texts with the pass's own, and binds the uniform block and the samplers.

@@ -54,25 +54,35 @@ tl::expected<ShadowPass, std::string> ShadowPass::create(const RenderQuality& qu
     }
     pass.m_depthProgram = std::move(*depth);
     pass.m_floorProgram = std::move(*floor);
-    pass.m_depth =
-        gl::Texture::create2D(gl::Texture::Format::Depth24, quality.shadowMapSize, quality.shadowMapSize);
-    pass.m_floor =
-        gl::Texture::create2D(gl::Texture::Format::Rg8, quality.floorShadowSize, quality.floorShadowSize);
-    auto depthTarget = gl::Framebuffer::over(pass.m_depth, true);
-    auto floorTarget = gl::Framebuffer::over(pass.m_floor, false);
-    if (!depthTarget || !floorTarget) {
-        return tl::unexpected(!depthTarget ? depthTarget.error() : floorTarget.error());
-    }
-    pass.m_depthTarget = std::move(*depthTarget);
-    pass.m_floorTarget = std::move(*floorTarget);
     pass.m_depthSampler = gl::DepthSampler::create();
     pass.m_noVertices = gl::VertexArray::create();
+    if (const auto sized = pass.resize(quality); !sized) {
+        return tl::unexpected(sized.error());
+    }
     return pass;
 }
 
-void ShadowPass::draw(const Frame& frame) {
-    drawDepth(frame);
-    drawFloorShadow(frame);
+tl::expected<void, std::string> ShadowPass::resize(const RenderQuality& quality) {
+    if (m_depth.width() == quality.shadowMapSize && m_floor.width() == quality.floorShadowSize) {
+        return {};
+    }
+    gl::Texture depth =
+        gl::Texture::create2D(gl::Texture::Format::Depth24, quality.shadowMapSize, quality.shadowMapSize);
+    gl::Texture floor =
+        gl::Texture::create2D(gl::Texture::Format::Rg8, quality.floorShadowSize, quality.floorShadowSize);
+    auto depthTarget = gl::Framebuffer::over(depth, true);
+    auto floorTarget = gl::Framebuffer::over(floor, false);
+    if (!depthTarget || !floorTarget) {
+        return tl::unexpected(!depthTarget ? depthTarget.error() : floorTarget.error());
+    }
+    m_depth = std::move(depth);
+    m_floor = std::move(floor);
+    m_depthTarget = std::move(*depthTarget);
+    m_floorTarget = std::move(*floorTarget);
+    return {};
+}
+
+void ShadowPass::bind() const {
     m_depth.bind(kShadowMapUnit);
     m_floor.bind(kFloorShadowUnit);
 }
@@ -88,7 +98,7 @@ void ShadowPass::drawDepth(const Frame& frame) {
     for (const DrawnCharacter& character : frame.characters) {
         if (castsShadow(character)) {
             m_depthProgram.set("paletteBase", character.paletteBase);
-            character.mesh->draw();
+            character.caster->draw();
         }
     }
 }

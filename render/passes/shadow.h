@@ -12,18 +12,23 @@
 namespace posewire::render {
 
 /// The scene's depth seen from the key light, and from it the softened shadow on the floor together with the
-/// darkening where a body nearly touches it. Both stay bound for the passes that follow.
+/// darkening where a body nearly touches it.
 class ShadowPass {
 public:
     static tl::expected<ShadowPass, std::string> create(const RenderQuality& quality);
 
-    /// Leaves another framebuffer bound.
-    void draw(const Frame& frame);
+    /// Takes the sizes of its pictures from the quality; where the driver refuses them, they stay.
+    tl::expected<void, std::string> resize(const RenderQuality& quality);
+    /// Texels a side of the light's picture.
+    int mapSize() const { return m_depth.width(); }
 
-private:
+    /// The depth first, then the shadow. Both leave another framebuffer bound.
     void drawDepth(const Frame& frame);
     void drawFloorShadow(const Frame& frame);
+    /// For the passes that follow.
+    void bind() const;
 
+private:
     gl::Program m_depthProgram;
     gl::Program m_floorProgram;
     gl::Texture m_depth;

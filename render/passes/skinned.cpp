@@ -6,39 +6,90 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include <epoxy/gl.h>
 
 namespace posewire::render {
+namespace {
 
-tl::expected<SkinnedPass, std::string> SkinnedPass::create(const RenderQuality& quality) {
-    static constexpr std::array<const char*, 1> kRecorded{"recordedPosition"};
-    auto program = createProgram({"skinned", shaders::skinnedVert(), shaders::skinnedFrag(), true, true});
-    auto record = createProgram({"record", shaders::recordVert(), {}, true, false, kRecorded});
-    if (!program || !record) {
-        return tl::unexpected(!program ? program.error() : record.error());
+/// The texels of a larger picture of the light are so small that more of them make a soft edge.
+constexpr int kFineShadowMap = 1024;
+
+/// In the order of Shade.
+constexpr std::array<std::string_view, 3> kShadeDefines{"#define HARD_SELF_SHADOW\n", "",
+                                                        "#define WIDE_SELF_SHADOW\n"};
+
+/// A bit for each segment of that provenance.
+int segmentsOf(const CharacterLook& look, Provenance provenance) {
+    unsigned bits = 0;
+    for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
+        bits |= look.provenance[segment] == provenance ? 1U << segment : 0U;
     }
+    return static_cast<int>(bits);
+}
+
+} // namespace
+
+tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
+    static constexpr std::array<const char*, 1> kRecorded{"recordedPosition"};
+    ProgramParts parts{.name = "skinned",
+                       .vertex = shaders::skinnedVert(),
+                       .fragment = shaders::skinnedFrag(),
+                       .skins = true,
+                       .paints = true};
     SkinnedPass pass;
-    pass.m_program = std::move(*program);
+    for (std::size_t shade = 0; shade < kShadeCount; ++shade) {
+        for (const bool marks : {false, true}) {
+            const std::string defines =
+                std::string(kShadeDefines[shade]) + (marks ? "#define MARKS_SEGMENTS\n" : "");
+            parts.defines = defines;
+            auto program = createProgram(parts);
+            if (!program) {
+                return tl::unexpected(program.error());
+            }
+            pass.m_programs[shade][marks ? 1 : 0] = std::move(*program);
+        }
+    }
+    auto record = createProgram({.name = "record",
+                                 .vertex = shaders::recordVert(),
+                                 .fragment = {},
+                                 .skins = true,
+                                 .recorded = kRecorded});
+    if (!record) {
+        return tl::unexpected(record.error());
+    }
     pass.m_recordProgram = std::move(*record);
-    pass.m_charactersAtOnce = quality.charactersAtOnce;
     return pass;
 }
 
-void SkinnedPass::drawCharacter(const DrawnCharacter& character) {
+void SkinnedPass::drawCharacter(Shade shade, const DrawnCharacter& character) {
     const CharacterLook& look = character.instance->look;
-    m_program.set("paletteBase", character.paletteBase);
-    m_program.set("colour", look.colour);
-    m_program.set("hasSuit", character.mesh->hasSuit ? 1.0F : 0.0F);
-    m_program.set("dim", std::clamp(look.dim, 0.0F, 1.0F));
-    m_program.set("opacity", std::clamp(look.opacity, 0.0F, 1.0F));
-    m_program.set("hatched", look.isHatched ? 1.0F : 0.0F);
-    m_program.set("selectedSegment", look.selectedSegment);
-    character.mesh->draw();
+    const int selected = selectedBit(look);
+    const int solved = segmentsOf(look, Provenance::Solved);
+    const int assumed = segmentsOf(look, Provenance::Assumed);
+    const bool marks = (selected | solved | assumed) != 0;
+    gl::Program& program = m_programs[static_cast<std::size_t>(shade)][marks ? 1 : 0];
+    program.use();
+    program.set("paletteBase", character.paletteBase);
+    program.set("colour", look.colour);
+    program.set("hasSuit", character.drawn->hasSuit ? 1.0F : 0.0F);
+    program.set("dim", std::clamp(look.dim, 0.0F, 1.0F));
+    program.set("opacity", std::clamp(look.opacity, 0.0F, 1.0F));
+    program.set("hatched", look.isHatched ? 1.0F : 0.0F);
+    if (marks) {
+        program.set("selectedSegments", selected);
+        program.set("solvedSegments", solved);
+        program.set("assumedSegments", assumed);
+    }
+    character.drawn->draw();
 }
 
-void SkinnedPass::drawSolid(const Frame& frame) {
-    m_program.use();
+void SkinnedPass::drawSolid(const Frame& frame, const RenderQuality& quality, bool isFloorThere) {
+    const Shade shade = quality.hardSelfShadow                   ? Shade::Hard
+                        : quality.shadowMapSize > kFineShadowMap ? Shade::Wide
+                                                                 : Shade::Soft;
+    (isFloorThere ? glEnable : glDisable)(GL_CLIP_DISTANCE0);
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
@@ -49,15 +100,15 @@ void SkinnedPass::drawSolid(const Frame& frame) {
         if (character.isGhost() || character.onScreen.isEmpty()) {
             continue;
         }
-        drawCharacter(character);
-        if (m_charactersAtOnce > 0 && ++drawn % m_charactersAtOnce == 0) {
+        drawCharacter(shade, character);
+        if (quality.charactersAtOnce > 0 && ++drawn % quality.charactersAtOnce == 0) {
             glFinish();
         }
     }
+    glDisable(GL_CLIP_DISTANCE0);
 }
 
 void SkinnedPass::drawGhosts(const Frame& frame) {
-    m_program.use();
     glEnable(GL_DEPTH_TEST);
     glEnable(GL_CULL_FACE);
     for (const DrawnCharacter& character : frame.characters) {
@@ -69,13 +120,13 @@ void SkinnedPass::drawGhosts(const Frame& frame) {
         glDepthMask(GL_TRUE);
         glDepthFunc(GL_LESS);
         glDisable(GL_BLEND);
-        drawCharacter(character);
+        drawCharacter(Shade::Soft, character);
         glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
         glDepthMask(GL_FALSE);
         glDepthFunc(GL_LEQUAL);
         glEnable(GL_BLEND);
         glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-        drawCharacter(character);
+        drawCharacter(Shade::Soft, character);
         glDisable(GL_BLEND);
         glDepthMask(GL_TRUE);
     }

@@ -4,6 +4,8 @@
 #include "render/gl/program.h"
 #include "render/passes/frame.h"
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -13,20 +15,26 @@ namespace posewire::render {
 /// The characters: skinned, lit, in their suits.
 class SkinnedPass {
 public:
-    static tl::expected<SkinnedPass, std::string> create(const RenderQuality& quality);
+    static tl::expected<SkinnedPass, std::string> create();
 
-    void drawSolid(const Frame& frame);
+    /// `isFloorThere`: the floor is in the picture already, and what is below it is left out.
+    void drawSolid(const Frame& frame, const RenderQuality& quality, bool isFloorThere);
     /// After the floor, since they let it through.
     void drawGhosts(const Frame& frame);
     /// Positions as the shaders see them, in the order of GpuMesh::vertices, by transform feedback.
     std::vector<glm::vec3> record(const GpuMesh& mesh);
 
 private:
-    void drawCharacter(const DrawnCharacter& character);
+    /// How soft the edge of a body's shadow on itself is.
+    enum class Shade : std::uint8_t { Hard, Soft, Wide };
+    static constexpr std::size_t kShadeCount = 3;
 
-    gl::Program m_program;
+    void drawCharacter(Shade shade, const DrawnCharacter& character);
+
+    /// The second of each pair also shows selected, solved and assumed segments, which costs time for every
+    /// vertex and pixel.
+    std::array<std::array<gl::Program, 2>, kShadeCount> m_programs;
     gl::Program m_recordProgram;
-    int m_charactersAtOnce = 0;
 };
 
 } // namespace posewire::render

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "render/gl/program.h"
-#include "render/passes/frame.h"
+#include "render/passes/backdrop.h"
+#include "render/passes/plain_floor.h"
 
+#include <optional>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -11,17 +13,28 @@
 namespace posewire::render {
 
 /// The surroundings of the characters: the background, and the floor with its grid, its shadows and the
-/// triangle at the origin. Drawn after the characters, so that nothing they hide is painted.
+/// triangle at the origin. Drawn after the characters, so that nothing they hide is painted; or before them,
+/// from a copy that is kept.
 class SurroundingsPass {
 public:
     static tl::expected<SurroundingsPass, std::string> create();
 
+    /// After the characters.
     void draw(const Frame& frame);
+    /// Before them and without shadows, into the framebuffer `target`.
+    void drawKept(const Frame& frame, bool isPlain, unsigned target);
 
 private:
+    void drawBackground();
+    void drawBareFloor();
+
     gl::Program m_background;
     gl::Program m_floor;
+    gl::Program m_bareFloor;
     gl::VertexArray m_noVertices;
+    std::optional<PlainFloor> m_plainFloor;
+    Backdrop m_keptBackground;
+    Backdrop m_keptFloor;
 };
 
 } // namespace posewire::render

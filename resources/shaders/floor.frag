@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+// With BARE_FLOOR its shadow is left to shaded_floor.frag.
 in vec2 floorPosition;
 
 uniform sampler2D floorShadow;
@@ -24,8 +25,7 @@ void main() {
     vec2 across = dFdx(floorPosition);
     vec2 down = dFdy(floorPosition);
     vec2 pixelsPerMetre = inversesqrt(max(across * across + down * down, vec2(1e-12)));
-    float away = distance(floorPosition, floorFade.xy);
-    float fade = 1.0 - smoothstep(floorFade.z, floorFade.w, away);
+    float fade = floorStrength(floorPosition);
 
     float minor = gridLines(floorPosition, pixelsPerMetre, 0.25, style.x);
     float major = gridLines(floorPosition, pixelsPerMetre, 1.0, 1.25 * style.x);
@@ -36,10 +36,12 @@ void main() {
     float triangle = clamp(originTriangle(floorPosition) * sharpness + 0.5, 0.0, 1.0) * style.z;
     colour = mix(colour, originColour.rgb, triangle);
 
+#ifndef BARE_FLOOR
     vec4 inLight = lightViewProjection * vec4(floorPosition, 0.0, 1.0);
     vec2 hidden = texture(floorShadow, 0.5 * inLight.xy + 0.5).rg * shadowRange.w;
-    float dark = 1.0 - (1.0 - 0.82 * hidden.x) * (1.0 - 0.90 * hidden.y);
-    colour = mix(colour, shadowColour.rgb * (0.55 + 0.45 * colour / max(floorColour.rgb, vec3(0.01))), dark);
+    colour = mix(colour, shadowColour.rgb * (0.55 + 0.45 * colour / max(floorColour.rgb, vec3(0.01))),
+                 shadowDarkness(hidden));
+#endif
 
     // The fade is into the background that belongs there, so that nothing has to be blended. From below the floor
     // must not hide the characters.

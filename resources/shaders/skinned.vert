@@ -5,31 +5,38 @@ layout(location = 2) in vec3 templatePosition;
 layout(location = 3) in uvec4 joints;
 layout(location = 4) in vec4 weights;
 
-uniform int selectedSegment;
+#ifdef MARKS_SEGMENTS
+// A bit for each segment.
+uniform int selectedSegments;
+uniform int solvedSegments;
+uniform int assumedSegments;
+
+// How much of the vertex belongs to selected, solved and assumed segments.
+out vec3 shares;
+
+vec3 sharesOf(uint joint, float weight) {
+    int segment = kJointSegments[min(int(joint), kJointCount - 1)];
+    return weight * vec3((ivec3(selectedSegments, solvedSegments, assumedSegments) >> segment) & 1);
+}
+
+#endif
 
 out vec3 worldPosition;
 out vec3 worldNormal;
 out vec3 suitPosition;
-out vec2 occlusionAndSelection;
-
-// The segment that each twist joint (23 and up) belongs to.
-const int kTwistSegments[6] = int[6](8, 12, 9, 13, 15, 19);
-
-float share(uint joint, float weight) {
-    int segment = joint < 23u ? int(joint) : kTwistSegments[min(int(joint) - 23, 5)];
-    return segment == selectedSegment ? weight : 0.0;
-}
+out float occlusion;
 
 void main() {
     Motion motion = blendMotion(joints, weights);
     worldPosition = transform(motion, positionAndOcclusion.xyz);
     worldNormal = rotate(motion, normal);
     suitPosition = templatePosition;
-    float selection = 0.0;
-    if (selectedSegment >= 0) {
-        selection = share(joints.x, weights.x) + share(joints.y, weights.y) + share(joints.z, weights.z) +
-                    share(joints.w, weights.w);
-    }
-    occlusionAndSelection = vec2(positionAndOcclusion.w, selection);
+    occlusion = positionAndOcclusion.w;
+#ifdef MARKS_SEGMENTS
+    shares = sharesOf(joints.x, weights.x) + sharesOf(joints.y, weights.y) + sharesOf(joints.z, weights.z) +
+             sharesOf(joints.w, weights.w);
+#endif
+    // Above the floor, for where it hides what is below and is not drawn after it.
+    gl_ClipDistance[0] = worldPosition.z;
     gl_Position = viewProjection * vec4(worldPosition, 1.0);
 }

@@ -79,6 +79,85 @@ TEST_F(Picture, MarksTheSelectedSegment) {
     expectMatchesBaseline(shoot(), "selected_dark");
 }
 
+TEST_F(Picture, OutlinesTheSelectedCharacter) {
+    addPair();
+    characters[0].look.isSelected = true;
+    characters[0].look.selectedSegment = LeftForeArm;
+    expectMatchesBaseline(shoot(), "selected");
+}
+
+TEST_F(Picture, ShowsTheHeadAndTheCollarFromNear) {
+    add(tPose());
+    look(0.6F, {0.0F, 0.0F, 1.56F}, 1.1F);
+    expectMatchesBaseline(shoot(), "head");
+}
+
+TEST_F(Picture, ShowsTheHeadFromBehind) {
+    add(tPose());
+    look(2.5F, {0.0F, 0.0F, 1.56F}, 1.1F);
+    expectMatchesBaseline(shoot(), "head_behind");
+}
+
+TEST_F(Picture, RelaxesHandsWhoseFingersAreNotKnown) {
+    add(standingPose());
+    look(0.5F, {0.0F, 0.33F, 0.80F}, 0.7F);
+    expectMatchesBaseline(shoot(), "hand_relaxed");
+}
+
+TEST_F(Picture, PosesFingersAsTheyAreSent) {
+    add(tPose()).palette = addPalette(fist(tPose()));
+    look(1.2F, {0.0F, 0.76F, 1.40F}, 0.6F);
+    scene.camera.pitch = 0.5F;
+    expectMatchesBaseline(shoot(), "hand_fist");
+}
+
+TEST_F(Picture, ShowsShoesOnTheFloorOfBothThemes) {
+    add(grounded(standingPose(), mesh()));
+    look(0.7F, {0.08F, 0.0F, 0.08F}, 1.2F);
+    scene.camera.pitch = 0.25F;
+    expectMatchesBaseline(shoot(), "shoes");
+    scene.colours = darkSceneColours();
+    expectMatchesBaseline(shoot(), "shoes_dark");
+}
+
+TEST_F(Picture, KeepsTheFormOfShoulders) {
+    add(shrugPose());
+    look(0.4F, {0.0F, 0.0F, 1.42F}, 1.5F);
+    expectMatchesBaseline(shoot(), "shrug");
+}
+
+TEST_F(Picture, KeepsTheFormOfRaisedArms) {
+    add(raisedArmsPose());
+    look(0.3F, {0.0F, 0.0F, 1.45F}, 2.0F);
+    expectMatchesBaseline(shoot(), "raised_arms");
+}
+
+TEST_F(Picture, KeepsTheFormOfHipsInASplit) {
+    add(grounded(spreadLegsPose(), mesh()));
+    look(0.2F, {0.0F, 0.0F, 0.5F}, 1.9F);
+    expectMatchesBaseline(shoot(), "spread_legs");
+}
+
+TEST_F(Picture, KeepsTheCollarOfANoddingHead) {
+    add(nodPose());
+    look(1.3F, {0.0F, 0.0F, 1.5F}, 1.2F);
+    expectMatchesBaseline(shoot(), "nod");
+}
+
+TEST_F(Picture, FadesSolvedSegmentsAndHatchesAssumedOnes) {
+    addPair();
+    for (const Segment segment : {RightForeArm, RightHand, LeftUpperLeg}) {
+        characters[0].look.provenance[segment] = Provenance::Solved;
+    }
+    for (const Segment segment : {LeftUpperArm, LeftForeArm, LeftHand, RightLowerLeg, RightFoot, RightToe}) {
+        characters[0].look.provenance[segment] = Provenance::Assumed;
+    }
+    characters[1].look.provenance.fill(Provenance::Assumed);
+    characters[1].look.dim = 0.6F;
+    characters[1].look.isHatched = true;
+    expectMatchesBaseline(shoot(), "provenance");
+}
+
 TEST_F(Picture, ShowsAGhostBesideALiveCharacter) {
     addPair();
     characters[0].look.opacity = 0.35F;
@@ -120,10 +199,9 @@ TEST_F(Picture, KeepsTheSuitOnAFittedPerformer) {
     const SkinnedMesh fitted = fitToNullPose(mesh(), child, used);
     const MeshId id = renderer().uploadMesh(fitted, mesh().positions);
     const Pose pose = poseFrom({}, used);
-    const std::vector<DualQuaternion> palette = paletteOf(pose, used);
     SkinnedInstance& instance = add(tPose(), {0.70F, 0.30F, 0.55F});
     instance.mesh = id;
-    instance.palette = palette;
+    instance.palette = addPalette(paletteOf(pose, used));
     look(0.30F, {0.0F, 0.0F, 0.6F}, 3.4F);
     expectMatchesBaseline(shoot(), "fitted_child");
 }

@@ -106,6 +106,34 @@ Pose elbowPose() {
                      {RightFoot, turned(kY, -15)}});
 }
 
+Pose shrugPose() {
+    return poseFrom({{LeftShoulder, turned(kX, 25)},
+                     {LeftUpperArm, turned(kX, -95)},
+                     {RightShoulder, turned(kX, -25)},
+                     {RightUpperArm, turned(kX, 95)}});
+}
+
+Pose raisedArmsPose() {
+    return poseFrom({{LeftShoulder, turned(kX, 20)},
+                     {LeftUpperArm, turned(kX, 62)},
+                     {RightShoulder, turned(kX, -20)},
+                     {RightUpperArm, turned(kX, -62)}});
+}
+
+Pose spreadLegsPose() {
+    return poseFrom({{LeftUpperArm, turned(kX, -40)},
+                     {RightUpperArm, turned(kX, 40)},
+                     {LeftUpperLeg, turned(kX, 70)},
+                     {RightUpperLeg, turned(kX, -70)}});
+}
+
+Pose nodPose() {
+    return poseFrom({{LeftUpperArm, turned(kX, -70)},
+                     {RightUpperArm, turned(kX, 70)},
+                     {Neck, turned(kY, 20)},
+                     {Head, turned(kY, 35)}});
+}
+
 Pose placed(const Pose& pose, const glm::vec3& offset, float turn) {
     const glm::quat rotation = glm::angleAxis(turn, kZ);
     Pose result;
@@ -119,6 +147,35 @@ Pose placed(const Pose& pose, const glm::vec3& offset, float turn) {
 std::vector<DualQuaternion> paletteOf(const Pose& pose, const NullPose& nullPose) {
     std::vector<DualQuaternion> palette(kJointCount);
     PaletteJob{pose.positions, pose.orientations, nullPose, palette}.run();
+    return palette;
+}
+
+std::vector<DualQuaternion> fist(const Pose& pose) {
+    std::array<glm::vec3, kFingerJointCount> positions;
+    std::array<glm::quat, kFingerJointCount> orientations;
+    for (std::size_t finger = 0; finger < kFingerJointCount; ++finger) {
+        const std::size_t joint = kFirstFingerJoint + finger;
+        const auto parent = static_cast<std::size_t>(jointParent(joint));
+        const bool isOfBody = parent < kSegmentCount;
+        const std::size_t index = finger % kHandSegmentCount;
+        const float side = finger < kHandSegmentCount ? 1.0F : -1.0F;
+        // Metacarpals stay, the thumb closes across the palm.
+        const bool isMetacarpal = index == 0 || (index > 3 && index % 4 == 0);
+        const glm::quat bend = index > 0 && index < 4
+                                   ? turned(kY, 12) * turned(kZ, side * 22) * turned(kX, side * -12)
+                                   : turned(kX, isMetacarpal ? 0.0F : side * -78);
+        const glm::quat turn =
+            isOfBody ? pose.orientations[parent] : orientations[parent - kFirstFingerJoint];
+        const glm::vec3 place = isOfBody ? pose.positions[parent] : positions[parent - kFirstFingerJoint];
+        positions[finger] = place + turn * (jointOrigin(joint) - jointOrigin(parent));
+        orientations[finger] = turn * bend;
+    }
+    constexpr std::size_t kCount = kHandSegmentCount;
+    std::vector<DualQuaternion> palette(kJointCount);
+    PaletteJob job{pose.positions, pose.orientations, kReferenceNullPose, palette};
+    job.leftHand = {std::span(positions).first(kCount), std::span(orientations).first(kCount)};
+    job.rightHand = {std::span(positions).last(kCount), std::span(orientations).last(kCount)};
+    job.run();
     return palette;
 }
 

@@ -28,11 +28,20 @@ Pose lungePose();
 Pose squatPose();
 /// Elbows bent at right angles, one arm up, the trunk turned, knees bent.
 Pose elbowPose();
+/// Shoulders drawn up, arms down.
+Pose shrugPose();
+Pose raisedArmsPose();
+/// Each leg 70° to its side.
+Pose spreadLegsPose();
+Pose nodPose();
 
 /// Moves the pose by `offset` and turns it about the vertical (radians).
 Pose placed(const Pose& pose, const glm::vec3& offset, float turn = 0.0F);
 
 std::vector<DualQuaternion> paletteOf(const Pose& pose, const NullPose& nullPose = kReferenceNullPose);
+
+/// The palette of a pose whose hands are closed.
+std::vector<DualQuaternion> fist(const Pose& pose);
 
 /// Puts the lowest vertex of the skinned mesh on the floor.
 Pose grounded(const Pose& pose, const SkinnedMesh& mesh, const NullPose& nullPose = kReferenceNullPose);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <random>
 #include <thread>
 
 namespace posewire::render::testing {
@@ -35,6 +36,81 @@ TEST_F(RendererTest, SkinsAsTheReferenceOnTheProcessorDoes) {
         ASSERT_EQ(drawn.size(), positions.size());
         EXPECT_LT(largestDistance(drawn, positions), 1e-5F);
     }
+}
+
+TEST_F(RendererTest, SkinsClosedHandsAsTheReferenceOnTheProcessorDoes) {
+    const std::vector<DualQuaternion> palette = fist(placed(lungePose(), {2.0F, -1.0F, 0.3F}, 2.5F));
+    std::vector<glm::vec3> positions(mesh().vertexCount());
+    std::vector<glm::vec3> normals(mesh().vertexCount());
+    SkinJob{&mesh(), palette, positions, normals}.run();
+    const std::vector<glm::vec3> drawn = renderer().skinnedPositions(meshId(), palette);
+    ASSERT_EQ(drawn.size(), positions.size());
+    EXPECT_LT(largestDistance(drawn, positions), 1e-5F);
+}
+
+/// Every segment and finger turned and shifted anyhow.
+std::vector<DualQuaternion> randomPalette(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    const auto turn = [&] {
+        return glm::normalize(glm::quat(normal(random), normal(random), normal(random), normal(random)));
+    };
+    const auto place = [&](const glm::vec3& about) {
+        return about + 0.1F * glm::vec3(normal(random), normal(random), normal(random));
+    };
+    Pose pose;
+    for (std::size_t i = 0; i < kSegmentCount; ++i) {
+        pose.orientations[i] = turn();
+        pose.positions[i] = place(kReferenceNullPose[i]);
+    }
+    std::array<glm::vec3, kFingerJointCount> places;
+    std::array<glm::quat, kFingerJointCount> turns;
+    for (std::size_t i = 0; i < kFingerJointCount; ++i) {
+        turns[i] = turn();
+        places[i] = place(jointOrigin(kFirstFingerJoint + i));
+    }
+    std::vector<DualQuaternion> palette(kJointCount);
+    PaletteJob job{pose.positions, pose.orientations, kReferenceNullPose, palette};
+    job.leftHand = {std::span(places).first(kHandSegmentCount), std::span(turns).first(kHandSegmentCount)};
+    job.rightHand = {std::span(places).last(kHandSegmentCount), std::span(turns).last(kHandSegmentCount)};
+    job.run();
+    return palette;
+}
+
+TEST_F(RendererTest, SkinsRandomPosesAsTheReferenceOnTheProcessorDoes) {
+    std::mt19937 random(7);
+    std::vector<glm::vec3> positions(mesh().vertexCount());
+    std::vector<glm::vec3> normals(mesh().vertexCount());
+    for (int pose = 0; pose < 500; ++pose) {
+        const std::vector<DualQuaternion> palette = randomPalette(random);
+        SkinJob{&mesh(), palette, positions, normals}.run();
+        const std::vector<glm::vec3> drawn = renderer().skinnedPositions(meshId(), palette);
+        ASSERT_EQ(drawn.size(), positions.size());
+        ASSERT_LT(largestDistance(drawn, positions), 1e-4F) << "pose " << pose;
+    }
+}
+
+TEST_F(RendererTest, OutlinesWhatIsSelectedAndNothingElse) {
+    CharacterLook& look = add(grounded(tPose(), mesh())).look;
+    scene.colours.selection = {1.0F, 0.0F, 1.0F};
+    const auto magenta = [](const Image& image) {
+        int count = 0;
+        for (int y = 0; y < image.height; ++y) {
+            for (int x = 0; x < image.width; ++x) {
+                const glm::ivec3 colour = pixel(image, x, y);
+                count += colour.x > 200 && colour.y < 60 && colour.z > 200 ? 1 : 0;
+            }
+        }
+        return count;
+    };
+    EXPECT_EQ(magenta(shoot()), 0);
+    look.isSelected = true;
+    const int around = magenta(shoot());
+    EXPECT_GT(around, 800);
+    look.isSelected = false;
+    look.selectedSegment = LeftUpperArm;
+    const int arm = magenta(shoot());
+    EXPECT_GT(arm, 60);
+    EXPECT_LT(arm, around / 2);
 }
 
 TEST_F(RendererTest, DrawsOnSoftwareOpenGlWithoutMultisampling) {
@@ -139,6 +215,40 @@ TEST_F(RendererTest, HidesLinesBehindABodyUnlessTheyShowThrough) {
     EXPECT_EQ(pixelAt(shoot(), scene.camera, chest), pixelAt(without, scene.camera, chest));
     line[0] = {{-0.2F, -0.4F, 1.2F}, {-0.2F, 0.4F, 1.2F}, glm::vec4(1, 0, 1, 1), 6.0F, 1.0F};
     EXPECT_GT(pixelAt(shoot(), scene.camera, {-0.2F, 0.0F, 1.2F}).x, 200);
+}
+
+TEST_F(RendererTest, ShowsProvenanceOnItsSegmentsOnly) {
+    CharacterLook& look = add(grounded(tPose(), mesh())).look;
+    const Image sent = shoot();
+    const glm::vec3 thigh = kReferenceNullPose[LeftUpperLeg] + glm::vec3(0.08F, 0.0F, -0.15F);
+    const glm::vec3 otherThigh(thigh.x, -thigh.y, thigh.z);
+    // Of a line along the thigh, since stripes may be as strong as the suit.
+    const auto saturation = [&](const Image& image) {
+        int sum = 0;
+        for (int step = 0; step < 20; ++step) {
+            const glm::vec3 down(0.0F, 0.0F, -0.008F * static_cast<float>(step));
+            const glm::ivec3 colour = pixelAt(image, scene.camera, thigh + down);
+            sum += std::max({colour.x, colour.y, colour.z}) - std::min({colour.x, colour.y, colour.z});
+        }
+        return sum / 20;
+    };
+    for (const Provenance provenance : {Provenance::Solved, Provenance::Assumed}) {
+        look.provenance[LeftUpperLeg] = provenance;
+        const Image& shown = shoot();
+        EXPECT_LT(saturation(shown) + 30, saturation(sent));
+        EXPECT_EQ(pixelAt(shown, scene.camera, otherThigh), pixelAt(sent, scene.camera, otherThigh));
+    }
+    look.provenance[LeftUpperLeg] = Provenance::Sent;
+    EXPECT_EQ(shoot().pixels, sent.pixels);
+}
+
+TEST_F(RendererTest, IgnoresASelectionThatIsNoSegment) {
+    CharacterLook& look = add(tPose()).look;
+    const Image plain = shoot();
+    for (const int segment : {23, 31, 32, 1000, -7}) {
+        look.selectedSegment = segment;
+        EXPECT_EQ(shoot().pixels, plain.pixels) << segment;
+    }
 }
 
 TEST_F(RendererTest, DrawsPicturesOfAnySize) {

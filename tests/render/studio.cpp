@@ -29,6 +29,10 @@ SkinnedInstance& Studio::add(const Pose& pose, const glm::vec3& colour) {
     return characters.emplace_back(instance);
 }
 
+std::span<const DualQuaternion> Studio::addPalette(std::vector<DualQuaternion> palette) {
+    return m_palettes.emplace_back(std::move(palette));
+}
+
 void Studio::addAxes(const Pose& pose, float length) {
     for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
         axes.push_back({pose.positions[segment], pose.orientations[segment], length});

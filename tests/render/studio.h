@@ -29,6 +29,8 @@ protected:
 
     /// Adds a character to the scene; the reference stays good until the test ends.
     SkinnedInstance& add(const Pose& pose, const glm::vec3& colour = kBlue);
+    /// Keeps a palette for as long as the test runs.
+    std::span<const DualQuaternion> addPalette(std::vector<DualQuaternion> palette);
     void addAxes(const Pose& pose, float length = 0.12F);
     /// The characters' camera of the sketches, with the light over the right shoulder.
     void look(float yaw, const glm::vec3& target, float distance);

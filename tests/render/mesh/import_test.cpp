@@ -58,9 +58,9 @@ TEST(Import, ReadsTheHierarchyOfOurOwnMannequin) {
     for (const ImportedBone& bone : imported->bones) {
         const auto joint = std::find(kJointNames.begin(), kJointNames.end(), bone.name) - kJointNames.begin();
         ASSERT_LT(joint, static_cast<long>(kJointCount)) << bone.name;
-        const Segment segment = jointSegment(static_cast<std::size_t>(joint));
-        EXPECT_LT(glm::distance(bone.position, kReferenceNullPose[segment]), 1e-5F) << bone.name;
-        const int parent = kSegmentParents[segment];
+        const auto index = static_cast<std::size_t>(joint);
+        EXPECT_LT(glm::distance(bone.position, jointOrigin(index)), 1e-5F) << bone.name;
+        const int parent = jointParent(index);
         if (parent < 0) {
             EXPECT_EQ(bone.parent, -1);
         } else {

@@ -94,12 +94,12 @@ protected:
 };
 
 std::string detailName(const testing::TestParamInfo<Detail>& detail) {
-    constexpr std::array<const char*, 2> kNames{"Medium", "High"};
+    constexpr std::array<const char*, 3> kNames{"Low", "Medium", "High"};
     return kNames[static_cast<std::size_t>(detail.param)];
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryDetail, MannequinTest, testing::Values(Detail::Medium, Detail::High),
-                         detailName);
+INSTANTIATE_TEST_SUITE_P(EveryDetail, MannequinTest,
+                         testing::Values(Detail::Low, Detail::Medium, Detail::High), detailName);
 
 TEST_P(MannequinTest, IsFitToDraw) {
     EXPECT_TRUE(m_mesh.validate(kJointCount));
@@ -212,8 +212,11 @@ TEST_P(MannequinTest, HasItsSegmentsWhereTheReferenceNullPosePutsThem) {
 }
 
 TEST(MannequinDetails, HaveTheSizesTheyWereMadeFor) {
+    const std::size_t low = loadMannequin(Detail::Low).triangleCount();
     const std::size_t medium = loadMannequin(Detail::Medium).triangleCount();
     const std::size_t high = loadMannequin(Detail::High).triangleCount();
+    EXPECT_GE(low, 2000U);
+    EXPECT_LE(low, 5000U);
     EXPECT_NEAR(static_cast<double>(medium), 19600.0, 2000.0);
     EXPECT_GE(high, 46000U);
 }
@@ -222,6 +225,7 @@ TEST(MannequinDetails, DifferByLessThanAStepOfTheLattice) {
     // Volumes agree when no limb is lost or fused in a coarser one.
     const double high = volumeOf(loadMannequin(Detail::High));
     EXPECT_NEAR(volumeOf(loadMannequin(Detail::Medium)), high, 0.01 * high);
+    EXPECT_NEAR(volumeOf(loadMannequin(Detail::Low)), high, 0.02 * high);
 }
 
 } // namespace

@@ -56,6 +56,48 @@ TEST_F(NullPoseFitTest, LeavesTheMeshUnchangedForTheReference) {
     EXPECT_EQ(fitted.indices, m_template.indices);
 }
 
+TEST_F(NullPoseFitTest, FitsFingersToTheHandWhereNoneAreSent) {
+    FingerOrigins fingers;
+    fingers.fill(glm::vec3(kNan));
+    FingerOrigins used{};
+    const float factor = 1.2F;
+    const SkinnedMesh fitted = fitToNullPose(m_template, scaled(factor), fingers, m_origins, used);
+    EXPECT_EQ(fitted.positions, fit(scaled(factor)).positions);
+    for (std::size_t i = 0; i < kFingerJointCount; ++i) {
+        EXPECT_LT(glm::distance(used[i], factor * jointOrigin(kFirstFingerJoint + i)), 1e-4F);
+    }
+    EXPECT_EQ(fittedFingers(m_origins), used);
+}
+
+TEST_F(NullPoseFitTest, FitsFingersToTheirSegmentsInTheScaleMessage) {
+    FingerOrigins fingers;
+    for (std::size_t i = 0; i < kFingerJointCount; ++i) {
+        const std::size_t joint = kFirstFingerJoint + i;
+        const glm::vec3& hand = kReferenceNullPose[jointSegment(joint)];
+        fingers[i] = hand + 1.25F * (jointOrigin(joint) - hand);
+    }
+    FingerOrigins used{};
+    const SkinnedMesh fitted = fitToNullPose(m_template, kReferenceNullPose, fingers, m_origins, used);
+    EXPECT_EQ(used, fingers);
+    // A quarter longer from the wrist to the last joint of the middle finger, which is 162 mm; the rest of
+    // the body stays.
+    EXPECT_NEAR(extentOf(fitted).high.y - extentOf(m_template).high.y, 0.25F * 0.162F, 0.004F);
+    EXPECT_NEAR(heightOf(fitted), heightOf(m_template), 1e-6F);
+}
+
+TEST_F(NullPoseFitTest, IgnoresFingersThatAreFarFromTheirHand) {
+    FingerOrigins fingers;
+    fingers.fill(glm::vec3(0.0F, 0.0F, 1.0F));
+    fingers[7] = glm::vec3(0.0F, 50.0F, 1.4F);
+    fingers[8].x = kNan;
+    FingerOrigins used{};
+    const SkinnedMesh fitted = fitToNullPose(m_template, kReferenceNullPose, fingers, m_origins, used);
+    EXPECT_TRUE(fitted.validate(kJointCount));
+    for (std::size_t i = 0; i < kFingerJointCount; ++i) {
+        EXPECT_LT(glm::distance(used[i], jointOrigin(kFirstFingerJoint + i)), 1e-6F);
+    }
+}
+
 TEST_F(NullPoseFitTest, ScalesAdultsEvenly) {
     const float factor = 1.95F / kReferenceStature;
     const SkinnedMesh fitted = fit(scaled(factor));

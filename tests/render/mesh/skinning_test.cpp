@@ -44,13 +44,33 @@ struct Pose {
         }
     }
 
+    /// With straight fingers.
     std::array<DualQuaternion, kJointCount> palette() const {
         std::array<DualQuaternion, kJointCount> result;
-        const PaletteJob job{positions, orientations, kReferenceNullPose, result};
+        PaletteJob job{positions, orientations, kReferenceNullPose, result};
+        const Hand left(*this, LeftHand);
+        const Hand right(*this, RightHand);
+        job.leftHand = {left.positions, left.orientations};
+        job.rightHand = {right.positions, right.orientations};
         EXPECT_TRUE(job.validate());
         job.run();
         return result;
     }
+
+    /// The fingers as the hand has them in the null pose.
+    struct Hand {
+        std::array<glm::vec3, kHandSegmentCount> positions;
+        std::array<glm::quat, kHandSegmentCount> orientations;
+
+        Hand(const Pose& pose, Segment hand) {
+            const std::size_t first = kFirstFingerJoint + (hand == LeftHand ? 0U : kHandSegmentCount);
+            for (std::size_t i = 0; i < kHandSegmentCount; ++i) {
+                orientations[i] = pose.orientations[hand];
+                positions[i] = pose.positions[hand] +
+                               orientations[i] * (jointOrigin(first + i) - kReferenceNullPose[hand]);
+            }
+        }
+    };
 };
 
 Pose bentPose() {
@@ -94,7 +114,7 @@ TEST(Palette, KeepsUnitLengthAndSignsAlongTheHierarchy) {
     for (std::size_t i = 0; i < kJointCount; ++i) {
         EXPECT_NEAR(glm::length(palette[i].real), 1.0F, 1e-6F);
         EXPECT_NEAR(glm::dot(palette[i].real, palette[i].dual), 0.0F, 1e-5F);
-        const int parent = kSegmentParents[jointSegment(i)];
+        const int parent = jointParent(i);
         if (parent >= 0) {
             EXPECT_GE(glm::dot(palette[i].real, palette[static_cast<std::size_t>(parent)].real), 0.0F);
         }
@@ -137,6 +157,53 @@ TEST(Palette, KeepsTwistJointsAtTheEndOfTheBone) {
     }
 }
 
+TEST(Palette, GivesHalfOfTheSwingToHalfJoints) {
+    Pose pose;
+    pose.local[LeftUpperLeg] = turn(-80.0F, kY) * turn(30.0F, kZ);
+    pose.update();
+    const auto palette = pose.palette();
+    const DualQuaternion& half = palette[kFirstHalfJoint + 3];
+    ASSERT_EQ(jointSegment(kFirstHalfJoint + 3), LeftUpperLeg);
+    const glm::quat rotation(half.real.w, half.real.x, half.real.y, half.real.z);
+    expectNear(rotation * kX, turn(-40.0F, kY) * kX, 1e-6F);
+}
+
+TEST(Palette, MovesFingersAsTheyAreSent) {
+    const Pose pose = bentPose();
+    Pose::Hand hand(pose, LeftHand);
+    const std::size_t finger = 6; // SecondMP
+    hand.orientations[finger] = turn(-50.0F, kX) * hand.orientations[finger];
+    hand.positions[finger] += glm::vec3(0.01F, 0.02F, 0.03F);
+    hand.orientations[finger + 1] = glm::quat(kNan, kNan, kNan, kNan);
+    hand.positions[finger + 1] = glm::vec3(kNan);
+    std::array<DualQuaternion, kJointCount> palette;
+    PaletteJob job{pose.positions, pose.orientations, kReferenceNullPose, palette};
+    job.leftHand = {hand.positions, hand.orientations};
+    ASSERT_TRUE(job.validate());
+    job.run();
+    const std::size_t joint = kFirstFingerJoint + finger;
+    const glm::vec3 point = jointOrigin(joint) + glm::vec3(0.004F, 0.01F, -0.003F);
+    expectNear(transformPoint(palette[joint], point),
+               hand.positions[finger] + hand.orientations[finger] * (point - jointOrigin(joint)), 2e-6F);
+    // What is missing hangs on its parent as in the null pose.
+    expectNear(transformPoint(palette[joint + 1], point), transformPoint(palette[joint], point), 2e-6F);
+}
+
+TEST(Palette, RelaxesFingersThatAreNotKnownAlikeOnBothSides) {
+    Pose pose;
+    std::array<DualQuaternion, kJointCount> palette;
+    PaletteJob{pose.positions, pose.orientations, kReferenceNullPose, palette}.run();
+    for (std::size_t finger = 0; finger < kHandSegmentCount; ++finger) {
+        const std::size_t left = kFirstFingerJoint + finger;
+        const glm::vec3 point = jointOrigin(left) + glm::vec3(0.004F, 0.01F, -0.003F);
+        const glm::vec3 mirror(1.0F, -1.0F, 1.0F);
+        expectNear(mirror * transformPoint(palette[left + kHandSegmentCount], mirror * point),
+                   transformPoint(palette[left], point), 2e-6F);
+    }
+    const glm::vec3 tip = kReferenceFingertips[2];
+    EXPECT_LT(transformPoint(palette[kFirstFingerJoint + 11], tip).z, tip.z - 0.03F) << "towards the palm";
+}
+
 TEST(Palette, StaysFiniteForNonsense) {
     Pose pose = bentPose();
     pose.orientations[LeftForeArm] = glm::quat(0.0F, 0.0F, 0.0F, 0.0F);
@@ -166,6 +233,15 @@ TEST(Palette, RefusesSpansOfTheWrongSize) {
     EXPECT_FALSE(job.validate());
     job.palette = palette;
     job.positions = job.positions.first(22);
+    EXPECT_FALSE(job.validate());
+    job.positions = pose.positions;
+    const Pose::Hand hand(pose, RightHand);
+    job.rightHand = {hand.positions, hand.orientations};
+    EXPECT_TRUE(job.validate());
+    job.rightHand.orientations = job.rightHand.orientations.first(19);
+    EXPECT_FALSE(job.validate());
+    job.rightHand = {};
+    job.fingerOrigins = hand.positions;
     EXPECT_FALSE(job.validate());
 }
 

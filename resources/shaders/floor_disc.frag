@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT
+in vec4 paint;
+
+out vec4 fragment;
+
+void main() {
+    fragment = paint;
+}
