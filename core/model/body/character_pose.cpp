@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/character_pose.h"
 
+#include "core/model/body/points.h"
+#include "core/model/body/pose_solver.h"
+
 #include <algorithm>
 
 namespace posewire::model {
@@ -8,37 +11,93 @@ namespace {
 
 constexpr std::size_t kBody = kBodySegmentCount;
 
-void place(CharacterPose& pose, std::size_t index, const SegmentPose& segment) {
-    if (index < pose.segments.size() && segment.position.allFinite() &&
-        segment.orientation.coeffs().allFinite()) {
-        pose.segments[index] = segment;
-        pose.isPresent[index] = true;
-    }
+/// A quaternion of no length tells nothing.
+bool isRotation(const std::array<float, 4>& wire) {
+    const double length = toQuaternion(wire).norm();
+    return std::isfinite(length) && length > 1e-6;
 }
 
-void prepare(CharacterPose& pose, const wire::Header& header, std::size_t items) {
-    pose.layout = segmentLayout(header, items);
-    pose.segments.assign(static_cast<std::size_t>(pose.layout.count()), {});
-    pose.isPresent.assign(static_cast<std::size_t>(pose.layout.count()), false);
+/// Type 01 has angles, which always tell an orientation.
+bool isTurned(const wire::SegmentEuler&) {
+    return true;
+}
+bool isTurned(const wire::SegmentQuaternion& item) {
+    return isRotation(item.orientation);
+}
+
+void prepare(CharacterPose& pose, const wire::Header& header, const SegmentLayout& layout) {
+    pose.layout = layout;
+    pose.segments.assign(static_cast<std::size_t>(layout.count()), {});
+    pose.sources.assign(static_cast<std::size_t>(layout.count()), {});
     pose.type = header.type();
+    pose.types.assign(1, pose.type);
     pose.sample = header.sampleCounter;
     pose.timeCode = header.timeCode;
+    pose.isObjects = false;
+    pose.isPlaceAssumed = false;
+    pose.isLifted = false;
+    pose.moved.setZero();
 }
 
-/// Items in their order, each placed by `toPose(item)`.
+template <class Items>
+std::vector<std::uint32_t> idsOf(const Items& items) {
+    std::vector<std::uint32_t> ids;
+    ids.reserve(items.size());
+    for (const auto& item : items) {
+        ids.push_back(item.id);
+    }
+    return ids;
+}
+
+/// Where the items of a whole message are in the pose.
+struct Placement {
+    SegmentLayout layout;
+    std::vector<int> positions; ///< of each item
+    bool isObjects = false;
+};
+
+template <class Items>
+Placement placementOf(const wire::Header& header, const Items& items) {
+    const std::vector<std::uint32_t> ids = idsOf(items);
+    const ItemPlaces places = itemPlaces(header, items.size(), {});
+    Placement placement{places.layout, {}, isOfObjects(header, ids)};
+    // A body lacks segments: what follows it keeps its place behind the others.
+    const int missing =
+        placement.isObjects ? 0 : kBodySegmentCount - std::min(places.layout.body, kBodySegmentCount);
+    placement.layout.body += missing;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+        const bool isOfBody = static_cast<int>(i) < places.layout.body;
+        placement.positions.push_back(isOfBody ? places.positionOf(i, ids[i])
+                                               : static_cast<int>(i) + missing);
+    }
+    return placement;
+}
+
+/// Items by their IDs, each placed by `toPose(item)`; the first of those with one ID.
 template <class Items, class ToPose>
 bool read(const Items& items, const wire::Header& header, CharacterPose& pose, ToPose toPose) {
-    prepare(pose, header, items.size());
+    const Placement placement = placementOf(header, items);
+    prepare(pose, header, placement.layout);
+    pose.isObjects = placement.isObjects;
     for (std::size_t i = 0; i < items.size(); ++i) {
-        place(pose, i, toPose(items[i]));
+        const SegmentPose segment = toPose(items[i]);
+        const auto position = static_cast<std::size_t>(placement.positions[i]);
+        if (position >= pose.segments.size() || pose.isPresent(position) || !segment.position.allFinite() ||
+            !segment.orientation.coeffs().allFinite()) {
+            continue;
+        }
+        pose.segments[position] = segment;
+        pose.sources[position] = {Provenance::Sent, isTurned(items[i]) ? Provenance::Sent : Provenance::None};
     }
     return true;
 }
 
-/// Chains the local rotations from the pelvis outward over the null pose, parents before children.
+/// Chains the local rotations from the pelvis outward over the null pose, parents before children. Positions
+/// count as sent where the wire's own agree.
 bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
                std::span<const Eigen::Vector3d> origins, LengthUnit unit, CharacterPose& pose) {
-    prepare(pose, header, kBody);
+    constexpr double kAgreement = 0.03; // metres: more than joints open
+    prepare(pose, header, segmentLayout(header, kBody));
     if (message.segments.size() < kBody || origins.size() < kBody) {
         return false;
     }
@@ -47,14 +106,168 @@ bool readUnity(const wire::PoseUnity& message, const wire::Header& header,
         const auto& item = message.segments[static_cast<std::size_t>(places[i])];
         const SegmentPose local = poseFromUnity(item, unit);
         const int parent = bodySegments()[i].parent;
-        if (parent < 0) {
-            place(pose, i, local);
+        const auto from = static_cast<std::size_t>(std::max(parent, 0));
+        const SegmentPose bone{origins[i] - origins[from], local.orientation};
+        const bool isFinite = local.orientation.coeffs().allFinite() &&
+                              (parent >= 0 ? pose.isPresent(from) : local.position.allFinite());
+        if (isFinite) {
+            const bool isSent = parent < 0 || (local.position - bone.position).norm() < kAgreement;
+            pose.segments[i] = parent < 0 ? local : composed(pose.segments[from], bone);
+            pose.sources[i] = {isSent ? Provenance::Sent : Provenance::Solved,
+                               isRotation(item.orientation) ? Provenance::Sent : Provenance::None};
+        }
+    }
+    return true;
+}
+
+/// What messages of types 21 and 22 tell of one sample.
+struct SentItems {
+    SegmentLayout layout;
+    bool isObjects = false;
+    std::array<std::optional<Eigen::Vector3d>, kMaxSegmentCount> positions;
+    std::array<std::optional<Eigen::Quaterniond>, kMaxSegmentCount> orientations;
+
+    template <class Items, class Take>
+    void add(const Items& items, const wire::Header& header, Take take) {
+        const Placement placement = placementOf(header, items);
+        layout = placement.layout;
+        isObjects = placement.isObjects;
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const auto position = static_cast<std::size_t>(placement.positions[i]);
+            if (position < positions.size()) {
+                take(items[i], position);
+            }
+        }
+    }
+
+    void add(const wire::LinearKinematics& message, const wire::Header& header, LengthUnit unit) {
+        add(message.segments, header, [&](const wire::LinearSegment& item, std::size_t position) {
+            const Eigen::Vector3d place = toVector(item.position) * metresPer(unit);
+            if (!positions[position] && place.allFinite()) {
+                positions[position] = place;
+            }
+        });
+    }
+
+    void add(const wire::AngularKinematics& message, const wire::Header& header) {
+        add(message.segments, header, [&](const wire::AngularSegment& item, std::size_t position) {
+            if (!orientations[position] && isRotation(item.orientation)) {
+                orientations[position] = normalizedOrIdentity(toQuaternion(item.orientation));
+            }
+        });
+    }
+};
+
+/// A marker that was lost is not finite, or lies exactly at the origin.
+void addMarkers(const wire::PointPositions& message, LengthUnit unit, const BodyOrigins& body,
+                PoseEvidence& evidence) {
+    constexpr double kOwnTolerance = 0.015;
+    constexpr double kReferenceTolerance = 0.06;
+    evidence.markerTolerance = body.points.empty() ? kReferenceTolerance : kOwnTolerance;
+    const PointIdCoding coding = detectPointIdCoding(idsOf(message.points));
+    for (const wire::Point& point : message.points) {
+        const auto reference = decodePointId(coding, point.id);
+        const Eigen::Vector3d place = pointFromYUp(point.position, unit);
+        if (!reference || reference->segmentId < 1 || reference->segmentId > kBodySegmentCount ||
+            !place.allFinite() || place.isZero(0)) {
             continue;
         }
-        const auto from = static_cast<std::size_t>(parent);
-        const SegmentPose bone{origins[i] - origins[from], local.orientation};
-        place(pose, i, composed(pose.segments[from], bone));
+        const int segment = reference->segmentId - 1;
+        if (const auto local = body.pointOf(segment, reference->localId)) {
+            evidence.markers[static_cast<std::size_t>(segment)].push_back({*local, place});
+        }
     }
+}
+
+/// What was sent of a pose for the solver.
+PoseEvidence evidenceOf(const CharacterPose& pose) {
+    PoseEvidence evidence;
+    for (std::size_t i = 0; i < std::min(pose.segments.size(), kBody); ++i) {
+        if (pose.sources[i].position != Provenance::None) {
+            evidence.positions[i] = pose.segments[i].position;
+        }
+        if (pose.sources[i].orientation != Provenance::None) {
+            evidence.orientations[i] = pose.segments[i].orientation;
+        }
+    }
+    return evidence;
+}
+
+bool holdsAnything(const PoseEvidence& evidence) {
+    const auto isThere = [](const auto& one) { return one.has_value(); };
+    return std::ranges::any_of(evidence.positions, isThere) ||
+           std::ranges::any_of(evidence.orientations, isThere) ||
+           std::ranges::any_of(evidence.markers, [](const auto& list) { return !list.empty(); });
+}
+
+/// Where something is missing of the body; false where all is.
+bool complete(const BodyOrigins& body, CharacterPose& pose) {
+    const auto isWhole = [](const SegmentSource& source) { return source.weaker() != Provenance::None; };
+    if (pose.isObjects || pose.sources.size() < kBody ||
+        std::all_of(pose.sources.begin(), pose.sources.begin() + kBody, isWhole)) {
+        return true;
+    }
+    const PoseEvidence evidence = evidenceOf(pose);
+    if (!holdsAnything(evidence)) {
+        return false;
+    }
+    const SolvedBody solved = solveBody(evidence, body);
+    pose.isPlaceAssumed = solved.isPlaceAssumed;
+    for (std::size_t i = 0; i < kBody; ++i) {
+        if (!isWhole(pose.sources[i])) {
+            pose.segments[i] = solved.segments[i];
+            pose.sources[i] = solved.sources[i];
+        }
+    }
+    return true;
+}
+
+/// Props, fingers and objects need both messages.
+void takeOthers(const SentItems& sent, std::size_t first, CharacterPose& pose) {
+    for (std::size_t i = first; i < pose.segments.size(); ++i) {
+        if (sent.positions[i] && sent.orientations[i]) {
+            pose.segments[i] = {*sent.positions[i], *sent.orientations[i]};
+            pose.sources[i] = {Provenance::Sent, Provenance::Sent};
+        }
+    }
+}
+
+/// Of types 21, 22 and 03.
+bool solve(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPose& pose) {
+    SentItems sent;
+    PoseEvidence evidence;
+    for (const PosePart& part : parts) {
+        const wire::Datagram& datagram = *part.datagram;
+        if (const auto* linear = std::get_if<wire::LinearKinematics>(&datagram.body)) {
+            sent.add(*linear, datagram.header, part.unit);
+        } else if (const auto* angular = std::get_if<wire::AngularKinematics>(&datagram.body)) {
+            sent.add(*angular, datagram.header);
+        } else if (const auto* points = std::get_if<wire::PointPositions>(&datagram.body)) {
+            addMarkers(*points, part.unit, body, evidence);
+        } else {
+            return false;
+        }
+    }
+    prepare(pose, parts.front().datagram->header, sent.layout);
+    pose.isObjects = sent.isObjects;
+    pose.types.clear();
+    for (const PosePart& part : parts) {
+        pose.types.push_back(part.datagram->header.type());
+    }
+    if (pose.isObjects) {
+        takeOthers(sent, 0, pose);
+        return true;
+    }
+    std::copy_n(sent.positions.begin(), kBody, evidence.positions.begin());
+    std::copy_n(sent.orientations.begin(), kBody, evidence.orientations.begin());
+    if (!holdsAnything(evidence)) {
+        return false;
+    }
+    const SolvedBody solved = solveBody(evidence, body);
+    std::ranges::copy(solved.segments, pose.segments.begin());
+    std::ranges::copy(solved.sources, pose.sources.begin());
+    pose.isPlaceAssumed = solved.isPlaceAssumed;
+    takeOthers(sent, kBody, pose);
     return true;
 }
 
@@ -94,6 +307,27 @@ ItemPlaces itemPlaces(const wire::Header& header, std::size_t items, std::option
             header.countedSegments() != 0};
 }
 
+bool isOfObjects(const wire::Header& header, std::span<const std::uint32_t> ids) {
+    constexpr std::size_t kMostUncounted = 8;
+    const bool isCounted = header.countedSegments() == ids.size() && header.bodySegments != 0;
+    const std::size_t count = isCounted ? header.bodySegments : ids.size();
+    if (count == 0 || count >= kBody || (!isCounted && count > kMostUncounted)) {
+        return false;
+    }
+    return std::all_of(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count),
+                       [count](std::uint32_t id) { return id <= count; });
+}
+
+bool hasWholePoses(std::uint8_t type) {
+    return type == wire::PoseQuaternion::kType || type == wire::PoseEuler::kType ||
+           type == wire::PoseUnity::kType;
+}
+
+bool hasPoses(std::uint8_t type) {
+    return hasWholePoses(type) || type == wire::LinearKinematics::kType ||
+           type == wire::AngularKinematics::kType || type == wire::PointPositions::kType;
+}
+
 bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
                      LengthUnit unit, CharacterPose& pose) {
     if (const auto* euler = std::get_if<wire::PoseEuler>(&datagram.body)) {
@@ -108,6 +342,17 @@ bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vect
         return readUnity(*unity, datagram.header, nullPose, unit, pose);
     }
     return false;
+}
+
+bool poseFromParts(std::span<const PosePart> parts, const BodyOrigins& body, CharacterPose& pose) {
+    if (parts.empty()) {
+        return false;
+    }
+    const wire::Datagram& first = *parts.front().datagram;
+    if (!hasWholePoses(first.header.type())) {
+        return solve(parts, body, pose);
+    }
+    return poseFromMessage(first, body.places, parts.front().unit, pose) && complete(body, pose);
 }
 
 } // namespace posewire::model

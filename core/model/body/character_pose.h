@@ -2,6 +2,8 @@
 #pragma once
 
 #include "core/log/time.h"
+#include "core/model/body/provenance.h"
+#include "core/model/body/reference_body.h"
 #include "core/model/body/segments.h"
 #include "core/model/body/spaces.h"
 #include "core/wire/codec.h"
@@ -14,13 +16,27 @@ namespace posewire::model {
 /// Where a character's segments are at one sample, in the one frame above the wire (core/model/spaces.h).
 struct CharacterPose {
     SegmentLayout layout;
-    std::vector<SegmentPose> segments; ///< by position in the datagram: body, props, left hand, right hand
-    std::vector<bool> isPresent;       ///< false where the datagram had no item, or one that is not finite
-    std::uint8_t type = 0;             ///< the message type it was taken from
+    std::vector<SegmentPose> segments;  ///< by position in the datagram: body, props, left hand, right hand
+    std::vector<SegmentSource> sources; ///< where each comes from
+    std::uint8_t type = 0;              ///< the message type it was taken from, the most telling of several
+    std::vector<std::uint8_t> types;    ///< all of them
+    /// Tracked objects, each free in space: no body.
+    bool isObjects = false;
+    /// Nothing that was sent says where in the world it is.
+    bool isPlaceAssumed = false;
+    /// The operator has put it on the floor: it was sent below.
+    bool isLifted = false;
+    /// How far all of it was moved from where it was sent, or solved.
+    Eigen::Vector3d moved = Eigen::Vector3d::Zero();
     std::uint32_t sample = 0;
     std::uint32_t timeCode = 0;
     log::Stamp stamp{};
     std::uint64_t packet = 0;
+
+    /// False where there is no item at a position, or one that is not finite.
+    [[nodiscard]] bool isPresent(std::size_t position) const {
+        return position < sources.size() && sources[position].position != Provenance::None;
+    }
 };
 
 /// Body, props and fingers of a pose datagram: from the header's counts where they add up to the items, else
@@ -43,11 +59,32 @@ struct ItemPlaces {
 [[nodiscard]] ItemPlaces itemPlaces(const wire::Header& header, std::size_t items,
                                     std::optional<std::uint32_t> firstId);
 
-/// Pose from a message of type 01, 02 or 05; false for any other body. Items are placed by their position in
-/// the datagram; for type 05 by the Unity3D order, chained from the pelvis over `nullPose` (23 segment
-/// origins, metres), since wire positions of that type are relative and not always filled in.
-/// `unit` is what the sender's positions of this type are in.
+/// What a pose datagram is about: MVN sends tracked objects as a character of its own with fewer segments
+/// than a body, numbered without a gap, and up to 8 of them where its header has no counts.
+[[nodiscard]] bool isOfObjects(const wire::Header& header, std::span<const std::uint32_t> ids);
+
+/// Pose from a message of type 01, 02 or 05, as sent; false for any other body. Items of the body are placed
+/// by their IDs, the first of those that have the same; for type 05 by the Unity3D order, chained from the
+/// pelvis over `nullPose` (23 segment origins, metres), since wire positions of that type are relative and
+/// not always filled in. `unit` is what the sender's positions of this type are in.
 [[nodiscard]] bool poseFromMessage(const wire::Datagram& datagram, std::span<const Eigen::Vector3d> nullPose,
                                    LengthUnit unit, CharacterPose& pose);
+
+/// A message that a pose is taken from, with what its positions are in.
+struct PosePart {
+    const wire::Datagram* datagram = nullptr;
+    LengthUnit unit = LengthUnit::Metre;
+};
+
+/// Whether poses can be taken from messages of a type: 01, 02, 05; 21, 22, 03.
+[[nodiscard]] bool hasPoses(std::uint8_t type);
+/// Whether messages of a type hold positions and orientations of all segments: 01, 02, 05.
+[[nodiscard]] bool hasWholePoses(std::uint8_t type);
+
+/// A whole pose from what was sent for one sample: one message of type 01, 02 or 05, or any of 21
+/// (positions), 22 (orientations) and 03 (markers). What is missing of a body is solved (solveBody) with the
+/// performer's own body. False where the messages hold no pose, or nothing of one.
+[[nodiscard]] bool poseFromParts(std::span<const PosePart> parts, const BodyOrigins& body,
+                                 CharacterPose& pose);
 
 } // namespace posewire::model

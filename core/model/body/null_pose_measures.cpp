@@ -182,6 +182,25 @@ bool SegmentLength::isAsymmetric() const {
     return std::abs(difference().value_or(0.0)) >= kAsymmetryThreshold;
 }
 
+BodyOrigins bodyOf(const NullPose& pose) {
+    BodyOrigins origins{referenceOrigins()};
+    if (pose.segments.size() < origins.places.size()) {
+        return origins;
+    }
+    const BodyPlaces places = bodyPlaces(pose);
+    for (std::size_t i = 0; i < origins.places.size(); ++i) {
+        origins.places[i] = originOf(pose, places, static_cast<int>(i)).value_or(origins.places[i]);
+    }
+    for (const NullPose::Point& point : pose.points) {
+        if (point.segment >= 1 && point.segment <= kBodySegmentCount && point.position.allFinite()) {
+            origins.points.push_back({point.segment - 1, point.id, point.position});
+        }
+    }
+    origins.floor = floorOf(pose, kReferenceSoleDrop * scaleOf({pose}).value_or(1.0));
+    origins.source = BodySource::NullPose;
+    return origins;
+}
+
 NullPoseMeasures measure(const NullPose& pose) {
     const Body body{pose};
     NullPoseMeasures measures;

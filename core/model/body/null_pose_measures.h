@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/model/body/null_pose.h"
+#include "core/model/body/reference_body.h"
 #include "core/model/body/segments.h"
 
 #include <Eigen/Core>
@@ -32,6 +33,10 @@ using BodyPlaces = std::array<int, kBodySegmentCount>;
 /// A point by its name, in the frame of the segments; empty where it was not sent.
 [[nodiscard]] std::optional<Eigen::Vector3d> pointOf(const NullPose& pose, const BodyPlaces& places,
                                                      std::string_view name);
+
+/// The body that a scale message describes, with its points; what it lacks is the reference body's, and all
+/// of it where it has fewer segments than a body.
+[[nodiscard]] BodyOrigins bodyOf(const NullPose& pose);
 
 /// A length of the body on both sides, or of the trunk.
 struct SegmentLength {

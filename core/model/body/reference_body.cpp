@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/body/reference_body.h"
 
+#include <algorithm>
+
 namespace posewire::model {
 namespace {
 
@@ -64,6 +66,22 @@ Vector3d ReferenceBody::offset(int segment) const {
 
 double ReferenceBody::legLength() const {
     return offset(kRightLowerLeg).norm() + offset(kRightFoot).norm();
+}
+
+double BodyOrigins::scale() const {
+    const double height = places[kPelvis].z() - floor;
+    return height > 0 ? height / referenceOrigins()[kPelvis].z() : 1.0;
+}
+
+std::optional<Vector3d> BodyOrigins::pointOf(int segment, int localId) const {
+    const auto sent = std::ranges::find_if(
+        points, [=](const Point& one) { return one.segment == segment && one.localId == localId; });
+    if (sent != points.end()) {
+        return sent->position;
+    }
+    const AnatomicalPoint* known = findPoint(segment, localId);
+    return known == nullptr ? std::nullopt
+                            : std::optional<Vector3d>(scale() * Vector3d(known->reference.data()));
 }
 
 ReferenceBody makeReferenceBody(const BodyProportions& proportions) {

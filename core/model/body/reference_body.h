@@ -7,6 +7,9 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
 
 namespace posewire::model {
 
@@ -39,9 +42,30 @@ struct ReferenceBody {
     double legLength() const;
 };
 
-/// Origins of the 23 body segments in the null pose, in metres.
+/// What is known of a performer's body, the least first.
+enum class BodySource : std::uint8_t {
+    Reference, ///< nothing: the reference body
+    Poses,     ///< lengths of bones, measured on poses
+    NullPose,  ///< a scale message
+};
+
+/// A body in the null pose. Metres.
 struct BodyOrigins {
-    std::array<Eigen::Vector3d, kBodySegmentCount> places;
+    struct Point {
+        int segment = 0;                                    ///< body segment index
+        int localId = 0;                                    ///< 1-based within the segment
+        Eigen::Vector3d position = Eigen::Vector3d::Zero(); ///< from the segment's origin
+    };
+    std::array<Eigen::Vector3d, kBodySegmentCount> places; ///< origins of the body segments
+    double floor = 0;                                      ///< z of the soles
+    BodySource source = BodySource::Reference;
+    std::vector<Point> points{}; ///< as sent; see pointOf() for those that were not
+
+    /// The pelvis above the soles, against the reference body.
+    [[nodiscard]] double scale() const;
+    /// From the segment's origin: as sent, else that of the reference body, scaled; empty where there is no
+    /// such point.
+    [[nodiscard]] std::optional<Eigen::Vector3d> pointOf(int segment, int localId) const;
 };
 
 /// Origins of the 1.75 m reference body, floor at z = 0: leg, arm and total lengths from the ratios of

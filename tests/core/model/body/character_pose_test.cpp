@@ -150,7 +150,7 @@ TEST(CharacterPoses, LeaveOutItemsThatAreNotFinite) {
     CharacterPose pose;
     ASSERT_TRUE(poseFromMessage(datagram, referenceOrigins(), LengthUnit::Metre, pose));
     for (std::size_t i = 0; i < 23; ++i) {
-        EXPECT_EQ(pose.isPresent[i], i != 3 && i != 4) << i;
+        EXPECT_EQ(pose.isPresent(i), i != 3 && i != 4) << i;
         EXPECT_TRUE(pose.segments[i].position.allFinite());
     }
     EXPECT_EQ(pose.segments[5].orientation.w(), 1);

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/body/pose_remark.h"
+
+#include "core/model/text.h"
+
+#include <algorithm>
+
+namespace posewire::model {
+namespace {
+
+constexpr std::size_t kBody = kBodySegmentCount;
+
+bool holds(const CharacterPose& pose, std::uint8_t type) {
+    return std::ranges::find(pose.types, type) != pose.types.end();
+}
+
+std::string namesOf(const CharacterPose& pose, const std::vector<int>& segments) {
+    std::vector<std::string> names;
+    for (const int segment : segments) {
+        names.emplace_back(segmentTitle(pose.layout, segment));
+    }
+    return listed(names);
+}
+
+std::vector<int> segmentsWhere(const CharacterPose& pose, const auto& isSo) {
+    std::vector<int> segments;
+    for (std::size_t i = 0; i < std::min(pose.sources.size(), kBody); ++i) {
+        if (isSo(pose.sources[i])) {
+            segments.push_back(static_cast<int>(i));
+        }
+    }
+    return segments;
+}
+
+/// What a message alone does not tell.
+std::string partsLine(const CharacterPose& pose) {
+    const bool hasPositions = holds(pose, wire::LinearKinematics::kType);
+    const bool hasOrientations = holds(pose, wire::AngularKinematics::kType);
+    const bool hasMarkers = holds(pose, wire::PointPositions::kType);
+    if (hasPositions && hasOrientations) {
+        return {};
+    }
+    if (hasMarkers) {
+        return hasOrientations ? "Positions are fitted to the markers of type 03"
+               : hasPositions  ? "Orientations are fitted to the markers of type 03"
+                               : "The body is fitted to the markers of type 03";
+    }
+    return hasOrientations ? "Type 22 alone has no positions: where the body stands is assumed"
+                           : "Type 21 alone has no orientations: they are solved from the joints";
+}
+
+void addMissing(const CharacterPose& pose, PoseRemark& remark) {
+    const auto assumed = segmentsWhere(
+        pose, [](const SegmentSource& source) { return source.weaker() == Provenance::Assumed; });
+    const auto solved = segmentsWhere(
+        pose, [](const SegmentSource& source) { return source.weaker() == Provenance::Solved; });
+    const bool isWhole = hasWholePoses(pose.type);
+    // Type 05 is solved by design, and types in parts have said so.
+    if (isWhole && pose.type != wire::PoseUnity::kType && !solved.empty()) {
+        remark.lines.push_back("Not sent, solved from the others: " + namesOf(pose, solved));
+    }
+    if (!assumed.empty() && !(pose.isPlaceAssumed && assumed.size() == 1)) {
+        remark.lines.push_back((isWhole ? "Not sent, assumed: " : "How these are turned is assumed: ") +
+                               namesOf(pose, assumed));
+        remark.reason = remark.reason.empty() ? remark.lines.back() : remark.reason;
+    }
+    remark.isAssumed = !assumed.empty() || pose.isPlaceAssumed;
+    remark.brief = remark.isAssumed ? "partly assumed" : !solved.empty() ? "partly solved" : "";
+}
+
+void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& remark) {
+    if (body.source == BodySource::NullPose) {
+        return;
+    }
+    const bool isMeasured = body.source == BodySource::Poses;
+    remark.lines.emplace_back(isMeasured ? "No scale message yet: bone lengths are measured on poses"
+                                         : "No scale message yet: the reference body of 1.75 m is drawn");
+    // Where positions are sent, the reference body is only what the skin hangs on.
+    const bool restsOnBones = pose.type == wire::PoseUnity::kType || pose.isPlaceAssumed;
+    if (!isMeasured && restsOnBones) {
+        remark.isAssumed = true;
+        remark.reason = remark.lines.back();
+        remark.brief = "assumed body";
+    }
+}
+
+} // namespace
+
+bool isBelowFloor(const CharacterPose& pose) {
+    constexpr double kDeep = -0.3;
+    return !pose.isObjects && std::ranges::any_of(pose.segments, [](const SegmentPose& segment) {
+        return segment.position.z() < kDeep;
+    });
+}
+
+PoseRemark remarkOn(const CharacterPose& pose, const BodyOrigins& body) {
+    PoseRemark remark;
+    if (pose.isObjects) {
+        remark.brief = counted(pose.segments.size(), "object");
+        remark.lines.push_back("Tracked objects, no body: " + counted(pose.segments.size(), "object"));
+        return remark;
+    }
+    if (!hasWholePoses(pose.type)) {
+        if (std::string line = partsLine(pose); !line.empty()) {
+            remark.lines.push_back(std::move(line));
+            remark.reason = remark.lines.back();
+        }
+    }
+    addMissing(pose, remark);
+    addBody(pose, body, remark);
+    if (!remark.isAssumed) {
+        remark.reason.clear();
+    }
+    if (pose.isLifted) {
+        remark.lines.emplace_back("Placed on the floor, since it was sent below it");
+    } else if (isBelowFloor(pose)) {
+        remark.lines.emplace_back("It was sent below the floor");
+    }
+    return remark;
+}
+
+} // namespace posewire::model

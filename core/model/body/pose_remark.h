@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/body/character_pose.h"
+
+#include <string>
+#include <vector>
+
+namespace posewire::model {
+
+/// What is to be said of a pose that was not sent as it is shown: the one place for these words.
+struct PoseRemark {
+    /// Something of it rests on nothing that was sent: it is not to be called good.
+    bool isAssumed = false;
+    std::string reason; ///< why it is assumed: one of the lines
+    std::string brief;  ///< "assumed", "solved", "2 objects"; empty where there is nothing to say
+    /// What is missing and what is shown instead, in sentences without a stop at the end.
+    std::vector<std::string> lines;
+
+    [[nodiscard]] bool isEmpty() const { return lines.empty(); }
+};
+
+/// Whether a body reaches below the floor, as recordings without one do: there the pelvis is at z = 0.
+[[nodiscard]] bool isBelowFloor(const CharacterPose& pose);
+
+[[nodiscard]] PoseRemark remarkOn(const CharacterPose& pose, const BodyOrigins& body);
+
+} // namespace posewire::model

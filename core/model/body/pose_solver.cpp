@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/body/pose_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace posewire::model {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+/// Shares of the turn from pelvis to T8 that MVN gives to L5, L3 and T12: its joints turn as
+/// 1 : 0.444 : 0.444 : 0.333, measured in recordings.
+constexpr std::array<double, 3> kSpineShares{1.0 / 2.221, 1.444 / 2.221, 1.888 / 2.221};
+
+/// How much of the turn from T8 to the head about its own axis the neck has, in a recording.
+constexpr double kNeckShare = 1.0 / 3.0;
+
+/// A limb of two bones that bends about one axis of both.
+struct Hinge {
+    int upper, lower, end;
+    Vector3d axis; ///< in both segments: upper bone × lower bone where it bends
+};
+
+const std::array<Hinge, 6>& hinges() {
+    using namespace segment;
+    static const std::array<Hinge, 6> all{{
+        {kRightUpperArm, kRightForeArm, kRightHand, Vector3d::UnitZ()},
+        {kLeftUpperArm, kLeftForeArm, kLeftHand, -Vector3d::UnitZ()},
+        {kRightUpperLeg, kRightLowerLeg, kRightFoot, Vector3d::UnitY()},
+        {kLeftUpperLeg, kLeftLowerLeg, kLeftFoot, Vector3d::UnitY()},
+        {kRightLowerLeg, kRightFoot, kRightToe, -Vector3d::UnitY()},
+        {kLeftLowerLeg, kLeftFoot, kLeftToe, -Vector3d::UnitY()},
+    }};
+    return all;
+}
+
+std::size_t parentOf(std::size_t segment) {
+    return static_cast<std::size_t>(bodySegments()[segment].parent);
+}
+
+bool isSpine(std::size_t segment) {
+    return segment >= segment::kL5 && segment <= segment::kT12;
+}
+
+class Solver {
+public:
+    Solver(const PoseEvidence& evidence, const BodyOrigins& body) : m_evidence(evidence), m_body(body) {}
+
+    SolvedBody run() {
+        takeSent();
+        fitAllMarkers();
+        placePelvis();
+        if (!has(segment::kT8, &SegmentSource::orientation)) {
+            turn(segment::kT8, m_solved.segments[segment::kPelvis].orientation);
+        }
+        for (std::size_t i = 1; i < kCount; ++i) {
+            solve(i);
+        }
+        if (m_solved.isPlaceAssumed) {
+            standOnFloor();
+        }
+        return m_solved;
+    }
+
+private:
+    static constexpr std::size_t kCount = kBodySegmentCount;
+
+    [[nodiscard]] bool has(std::size_t i, Provenance SegmentSource::*part) const {
+        return m_solved.sources[i].*part != Provenance::None;
+    }
+    [[nodiscard]] Vector3d bone(std::size_t i) const { return m_body.places[i] - m_body.places[parentOf(i)]; }
+
+    void takeSent() {
+        for (std::size_t i = 0; i < kCount; ++i) {
+            if (m_evidence.positions[i]) {
+                m_solved.segments[i].position = *m_evidence.positions[i];
+                m_solved.sources[i].position = Provenance::Sent;
+            }
+            if (m_evidence.orientations[i]) {
+                m_solved.segments[i].orientation = *m_evidence.orientations[i];
+                m_solved.sources[i].orientation = Provenance::Sent;
+            }
+        }
+    }
+
+    void fitAllMarkers() {
+        for (std::size_t i = 0; i < kCount; ++i) {
+            const bool isTurned = has(i, &SegmentSource::orientation);
+            if (isTurned && !has(i, &SegmentSource::position)) {
+                placeByMarkers(i);
+            } else if (!isTurned) {
+                if (const auto fit = fitMarkers(m_evidence.markers[i], m_evidence.markerTolerance)) {
+                    SegmentSource& source = m_solved.sources[i];
+                    m_solved.segments[i].orientation = fit->rotation;
+                    source.orientation = Provenance::Solved;
+                    if (source.position == Provenance::None) {
+                        m_solved.segments[i].position = fit->position;
+                        source.position = Provenance::Solved;
+                    }
+                }
+            }
+        }
+    }
+
+    /// The origin where its markers, as it is turned, put it: of each coordinate the median.
+    void placeByMarkers(std::size_t i) {
+        const std::vector<MarkerPair>& markers = m_evidence.markers[i];
+        if (markers.empty()) {
+            return;
+        }
+        SegmentPose& pose = m_solved.segments[i];
+        std::vector<double> values(markers.size());
+        for (int axis = 0; axis < 3; ++axis) {
+            for (std::size_t k = 0; k < markers.size(); ++k) {
+                values[k] = (markers[k].world - pose.orientation * markers[k].local)[axis];
+            }
+            const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+            std::nth_element(values.begin(), middle, values.end());
+            pose.position[axis] = *middle;
+        }
+        m_solved.sources[i].position = Provenance::Solved;
+    }
+
+    void placePelvis() {
+        constexpr std::size_t kPelvis = segment::kPelvis;
+        SegmentPose& pelvis = m_solved.segments[kPelvis];
+        SegmentSource& source = m_solved.sources[kPelvis];
+        if (source.orientation == Provenance::None) {
+            if (source.position != Provenance::None) {
+                turn(kPelvis, Quaterniond::Identity());
+            } else if (const auto fit = fitMarkers(joints(kPelvis), std::numeric_limits<double>::max())) {
+                pelvis = {fit->position, fit->rotation};
+                source = {Provenance::Solved, Provenance::Solved};
+            } else {
+                source.orientation = Provenance::Assumed;
+            }
+        }
+        if (source.position == Provenance::None) {
+            placeByChildren(kPelvis);
+        }
+        if (source.position == Provenance::None) {
+            pelvis.position = m_body.places[kPelvis];
+            source.position = Provenance::Assumed;
+            m_solved.isPlaceAssumed = true;
+        }
+    }
+
+    /// The joints with children whose origins are known, and the markers.
+    [[nodiscard]] std::vector<MarkerPair> joints(std::size_t i) const {
+        std::vector<MarkerPair> pairs = m_evidence.markers[i];
+        for (std::size_t child = i + 1; child < kCount; ++child) {
+            if (parentOf(child) == i && has(child, &SegmentSource::position)) {
+                pairs.push_back({bone(child), m_solved.segments[child].position});
+            }
+        }
+        return pairs;
+    }
+
+    void placeByChildren(std::size_t i) {
+        const std::vector<MarkerPair> pairs = joints(i);
+        Vector3d sum = Vector3d::Zero();
+        for (const MarkerPair& pair : pairs) {
+            sum += pair.world - m_solved.segments[i].orientation * pair.local;
+        }
+        if (!pairs.empty()) {
+            m_solved.segments[i].position = sum / static_cast<double>(pairs.size());
+            m_solved.sources[i].position = Provenance::Solved;
+        }
+    }
+
+    void solve(std::size_t i) {
+        SegmentSource& source = m_solved.sources[i];
+        const std::size_t parent = parentOf(i);
+        const SegmentPose& from = m_solved.segments[parent];
+        if (source.position == Provenance::None) {
+            m_solved.segments[i].position = from.position + from.orientation * bone(i);
+            const SegmentSource& basis = m_solved.sources[parent];
+            // That a whole body stands at an assumed place is said of the pelvis alone.
+            const bool isAssumed = basis.orientation == Provenance::Assumed ||
+                                   (basis.position == Provenance::Assumed && parent != segment::kPelvis);
+            source.position = isAssumed ? Provenance::Assumed : Provenance::Solved;
+        }
+        if (source.orientation == Provenance::None) {
+            turn(i, priorOf(i));
+            if (isSpine(i) && isSpineKnown() && !m_evidence.positions[i]) {
+                placeByMarkers(i);
+            }
+        }
+    }
+
+    /// As it would be turned if nothing were known of the segment itself.
+    [[nodiscard]] Quaterniond priorOf(std::size_t i) const {
+        if (isSpine(i)) {
+            return spineTurn(i);
+        }
+        const Quaterniond& parent = m_solved.segments[parentOf(i)].orientation;
+        const bool isNeck = i == segment::kNeck && has(segment::kHead, &SegmentSource::orientation);
+        return isNeck ? parent.slerp(kNeckShare, m_solved.segments[segment::kHead].orientation) : parent;
+    }
+
+    [[nodiscard]] Quaterniond spineTurn(std::size_t i) const {
+        const Quaterniond& pelvis = m_solved.segments[segment::kPelvis].orientation;
+        return pelvis.slerp(kSpineShares[i - segment::kL5], m_solved.segments[segment::kT8].orientation);
+    }
+
+    /// Turns a segment to what is known of its joints, its markers and the plane of its limb, and for the
+    /// rest as `prior`.
+    void turn(std::size_t i, const Quaterniond& prior) {
+        SegmentSource& source = m_solved.sources[i];
+        const bool isSolvedSpine = isSpine(i) && isSpineKnown();
+        std::vector<VectorPair> vectors;
+        // Between pelvis and T8 the rule is better than markers that are this near, and than origins that
+        // rest on it.
+        if (source.position != Provenance::None && (!isSolvedSpine || m_evidence.positions[i])) {
+            for (const MarkerPair& joint : joints(i)) {
+                vectors.push_back({joint.local, joint.world - m_solved.segments[i].position});
+            }
+        }
+        // That knees and elbows are hinges is an assumption: what they tell of the twist is no knowledge.
+        const RotationRank rank = fitRotation(vectors, prior).rank;
+        addHinges(i, vectors);
+        m_solved.segments[i].orientation = fitRotation(vectors, prior).rotation;
+        source.isTwistAssumed = rank == RotationRank::Direction && !isSolvedSpine;
+        source.orientation =
+            rank == RotationRank::Nothing && !isSolvedSpine ? Provenance::Assumed : Provenance::Solved;
+    }
+
+    void addHinges(std::size_t i, std::vector<VectorPair>& vectors) const {
+        for (const Hinge& hinge : hinges()) {
+            if (static_cast<std::size_t>(hinge.upper) == i || static_cast<std::size_t>(hinge.lower) == i) {
+                addHinge(hinge, vectors);
+            }
+        }
+    }
+
+    [[nodiscard]] bool isSpineKnown() const {
+        return m_solved.sources[segment::kPelvis].orientation > Provenance::Assumed &&
+               m_solved.sources[segment::kT8].orientation > Provenance::Assumed;
+    }
+
+    /// The axis that a limb bends about, the surer the more it is bent.
+    void addHinge(const Hinge& hinge, std::vector<VectorPair>& vectors) const {
+        constexpr double kSure = 0.17; // sine of 10°
+        constexpr double kWeight = 0.3;
+        const auto upper = static_cast<std::size_t>(hinge.upper);
+        const auto lower = static_cast<std::size_t>(hinge.lower);
+        const auto end = static_cast<std::size_t>(hinge.end);
+        if (!m_evidence.positions[upper] || !m_evidence.positions[lower] || !m_evidence.positions[end]) {
+            return;
+        }
+        const Vector3d first = (*m_evidence.positions[lower] - *m_evidence.positions[upper]).normalized();
+        const Vector3d second = (*m_evidence.positions[end] - *m_evidence.positions[lower]).normalized();
+        const Vector3d normal = first.cross(second);
+        const double sine = normal.norm();
+        if (sine > 1e-6) {
+            const double bent = std::pow(sine, 4);
+            const double weight = kWeight * bent / (bent + std::pow(kSure, 4));
+            constexpr double kLength = 0.1; // that of a vector with this weight
+            vectors.push_back({kLength * hinge.axis, kLength * normal / sine, weight});
+        }
+    }
+
+    /// Moves the body so that the lowest point of its soles is on the floor.
+    void standOnFloor() {
+        constexpr std::array<std::pair<int, int>, 8> kSoles{{
+            {segment::kRightFoot, 3},
+            {segment::kRightFoot, 4},
+            {segment::kRightFoot, 5},
+            {segment::kRightToe, 2},
+            {segment::kLeftFoot, 3},
+            {segment::kLeftFoot, 4},
+            {segment::kLeftFoot, 5},
+            {segment::kLeftToe, 2},
+        }};
+        double lowest = std::numeric_limits<double>::max();
+        for (const auto& [segment, point] : kSoles) {
+            const SegmentPose& pose = m_solved.segments[static_cast<std::size_t>(segment)];
+            const Vector3d local = m_body.pointOf(segment, point).value_or(Vector3d::Zero());
+            lowest = std::min(lowest, (pose.position + pose.orientation * local).z());
+        }
+        for (SegmentPose& segment : m_solved.segments) {
+            segment.position.z() -= lowest;
+        }
+    }
+
+    const PoseEvidence& m_evidence;
+    const BodyOrigins& m_body;
+    SolvedBody m_solved;
+};
+
+} // namespace
+
+void PoseEvidence::clear() {
+    positions.fill({});
+    orientations.fill({});
+    for (std::vector<MarkerPair>& list : markers) {
+        list.clear();
+    }
+}
+
+SolvedBody solveBody(const PoseEvidence& evidence, const BodyOrigins& body) {
+    return Solver(evidence, body).run();
+}
+
+} // namespace posewire::model
