@@ -39,19 +39,35 @@ std::string limitText(const std::optional<double>& limit, const std::string& uni
 }
 
 std::string placeOf(const model::SessionView& session, const log::StreamKey& key) {
-    const model::Sender* sender = session.find(key.sender);
-    return (sender != nullptr ? sender->address().shown() : std::string("unknown source")) + ", " +
+    return session.addressOf(key.sender).shown() + ", " +
            session.displayName({key.sender, key.character}).shown() + ", type " + wire::typeTitle(key.type);
 }
 
-/// One line for each limit that a stream exceeds; one if nothing was received although there are limits.
+/// Says by how much a stream is above a limit.
+std::string excessOf(const model::SessionView& session, const log::StreamKey& stream, const Limit& limit,
+                     double value, double most, bool lasts = false) {
+    return placeOf(session, stream) + ": " + std::string(limit.name) + ' ' + exporting::fixed(value, 3) +
+           unitOf(limit) + (lasts ? ", which lasted to the end," : "") + " is above the limit of " +
+           exporting::fixed(most, 3) + unitOf(limit);
+}
+
+/// One line for each limit that a stream exceeds; one if nothing was received although there are limits. Of
+/// senders that were retired the worst stream is known.
 std::vector<std::string> exceeded(const model::SessionView& session, const Limits& limits,
                                   std::optional<log::Stamp> end) {
     const bool isAny = std::ranges::any_of(limits, [](const auto& most) { return most.has_value(); });
+    const model::RetiredTotals& retired = session.retired();
     std::vector<std::string> lines;
-    if (isAny && session.streams().empty()) {
+    if (isAny && session.streams().empty() && retired.streams == 0) {
         lines.emplace_back(
             "no datagram was received, so no limit is kept; is the sender on, and does it send here?");
+    }
+    for (std::size_t i = 0; i < kLimits.size(); ++i) {
+        const auto worst =
+            std::ranges::find(retired.worst, kLimits[i].figure, &model::RetiredTotals::Worst::figure);
+        if (limits[i] && worst != retired.worst.end() && worst->value > *limits[i]) {
+            lines.push_back(excessOf(session, worst->stream, kLimits[i], worst->value, *limits[i]));
+        }
     }
     for (const model::Stream& stream : session.streams()) {
         if (!wire::isSampled(stream.key.type)) {
@@ -65,10 +81,7 @@ std::vector<std::string> exceeded(const model::SessionView& session, const Limit
             const bool lasts = lastsMs > figures[kLimits[i].figure];
             const double value = lasts ? lastsMs : figures[kLimits[i].figure];
             if (limits[i] && value > *limits[i]) {
-                lines.push_back(placeOf(session, stream.key) + ": " + std::string(kLimits[i].name) + ' ' +
-                                exporting::fixed(value, 3) + unitOf(kLimits[i]) +
-                                (lasts ? ", which lasted to the end," : "") + " is above the limit of " +
-                                exporting::fixed(*limits[i], 3) + unitOf(kLimits[i]));
+                lines.push_back(excessOf(session, stream.key, kLimits[i], value, *limits[i], lasts));
             }
         }
     }

@@ -105,7 +105,7 @@ std::string secondsText(log::Duration duration) {
 
 /// "12 345", with narrow spaces.
 std::string grouped(std::uint64_t number) {
-    return model::grouped(number, "\u202f");
+    return model::grouped(number);
 }
 
 /// "192.168.1.20 (eth0) or 10.0.0.4 (wlan0)".

@@ -164,7 +164,7 @@ std::string escaped(std::string_view text) {
 }
 
 std::string grouped(std::uint64_t number) {
-    return model::grouped(number, ",");
+    return model::grouped(number);
 }
 
 std::string fixed(double number, int places) {

@@ -125,6 +125,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                            {"retired", JsonValue{{"sources", retired.senders},
                                                  {"streams", retired.streams},
                                                  {"datagrams", retired.wellFormed()},
+                                                 {"malformed", retired.malformed},
                                                  {"samples", retired.samples},
                                                  {"lost", retired.lost}}},
                            {"memory", memoryJson(session.memory())},

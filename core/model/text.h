@@ -43,18 +43,19 @@ inline std::string clippedText(std::string text, std::size_t most) {
     return text;
 }
 
-/// "12,345": a number as people read it.
-inline std::string grouped(std::uint64_t number, std::string_view separator) {
+/// "12 345": a number as people read it, with narrow spaces that end no line.
+inline std::string grouped(std::uint64_t number) {
+    constexpr std::string_view kSpace = "\u202f";
     std::string digits = std::to_string(number);
     for (std::size_t place = digits.size(); place > 3; place -= 3) {
-        digits.insert(place - 3, separator);
+        digits.insert(place - 3, kSpace);
     }
     return digits;
 }
 
 /// "1 sample was", "3 samples were".
 inline std::string counted(std::uint64_t count, std::string_view one, std::string_view many) {
-    return std::to_string(count) + ' ' + std::string(count == 1 ? one : many);
+    return grouped(count) + ' ' + std::string(count == 1 ? one : many);
 }
 
 /// "1 part", "3 parts".

@@ -88,7 +88,7 @@ private:
             const auto place = model::placeOf(m_survey.layout, static_cast<int>(i));
             const int position = place ? positionIn(pose.layout, *place) : -1;
             const auto index = static_cast<std::size_t>(std::max(position, 0));
-            if (position >= 0 && index < pose.segments.size() && pose.isPresent[index]) {
+            if (position >= 0 && index < pose.segments.size() && pose.isPresent(index)) {
                 m_points[i] = pose.segments[index].position;
             }
         }

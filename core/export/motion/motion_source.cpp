@@ -21,17 +21,6 @@ std::optional<model::NullPose> nullPoseOf(const model::SessionView& session, con
     return std::nullopt;
 }
 
-model::BodyOrigins bodyOf(const std::optional<model::NullPose>& pose) {
-    model::BodyOrigins body{model::referenceOrigins()};
-    if (pose && pose->segments.size() >= body.places.size()) {
-        const model::BodyPlaces places = model::bodyPlaces(*pose);
-        for (std::size_t i = 0; i < body.places.size(); ++i) {
-            body.places[i] = model::originOf(*pose, places, static_cast<int>(i)).value_or(body.places[i]);
-        }
-    }
-    return body;
-}
-
 MotionCharacter::Part partOf(const model::SessionView& session, const model::CharacterKey& key) {
     MotionCharacter::Part part{key};
     if (const model::Sender* sender = session.find(key.sender)) {
@@ -62,7 +51,7 @@ MotionSource motionSourceOf(const model::SessionView& session, const model::Time
             character.parts.push_back(partOf(session, one->key));
         }
         character.nullPose = nullPoseOf(session, character, source.endPacket);
-        character.body = bodyOf(character.nullPose);
+        character.body = character.nullPose ? model::bodyOf(*character.nullPose) : session.bodyOrigins(key);
     }
     return source;
 }

@@ -139,9 +139,11 @@ private:
     }
 
     static bool hasBody(const model::CharacterPose& pose) {
-        return pose.layout.body >= model::kBodySegmentCount && pose.segments.size() >= kBody &&
-               std::all_of(pose.isPresent.begin(), pose.isPresent.begin() + model::kBodySegmentCount,
-                           [](bool isPresent) { return isPresent; });
+        const auto isMissing = [](const model::SegmentSource& source) {
+            return source.position == model::Provenance::None;
+        };
+        return pose.layout.body >= model::kBodySegmentCount && pose.sources.size() >= kBody &&
+               std::none_of(pose.sources.begin(), pose.sources.begin() + kBody, isMissing);
     }
 
     /// With a blank before them; none where nothing tells the date.

@@ -21,7 +21,7 @@ const SegmentPose* poseAt(const model::CharacterPose& pose, const model::Segment
     const auto place = model::placeOf(layout, position);
     const int at = place ? positionIn(pose.layout, *place) : -1;
     const auto index = static_cast<std::size_t>(std::max(at, 0));
-    return at >= 0 && index < pose.segments.size() && pose.isPresent[index] ? &pose.segments[index] : nullptr;
+    return at >= 0 && index < pose.segments.size() && pose.isPresent(index) ? &pose.segments[index] : nullptr;
 }
 
 /// Of a segment in the null pose that was sent.

@@ -95,7 +95,7 @@ private:
         const auto place = model::placeOf(m_layout, column);
         const int position = place ? positionIn(pose.layout, *place) : -1;
         const auto index = static_cast<std::size_t>(std::max(position, 0));
-        if (position < 0 || index >= pose.segments.size() || !pose.isPresent[index]) {
+        if (position < 0 || index >= pose.segments.size() || !pose.isPresent(index)) {
             m_line.append(kCells, ',');
             return;
         }
@@ -150,7 +150,7 @@ private:
         bool isFirst = true;
         for (std::size_t i = 0; i < pose.segments.size(); ++i) {
             const std::string_view name = model::segmentName(pose.layout, static_cast<int>(i));
-            if (!pose.isPresent[i] || name.empty()) {
+            if (!pose.isPresent(i) || name.empty()) {
                 continue;
             }
             m_line += isFirst ? "{\"id\":" : ",{\"id\":";

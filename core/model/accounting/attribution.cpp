@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::size_t kMostDrops = 4'096;
 constexpr std::size_t kMostDamages = 1'024;
-// Other streams brought what is missing about when it should have come.
-constexpr log::Duration kNear = std::chrono::milliseconds(150);
 // After samples that came later than that, more is waited for; for as long.
 constexpr log::Duration kMostPatience = std::chrono::seconds(2);
 constexpr log::Duration kForgetLate = std::chrono::seconds(30);
@@ -24,6 +22,12 @@ constexpr std::size_t kMostStreams = 64;
 // than so many gaps of all.
 constexpr std::size_t kMostBack = 1'024;
 constexpr std::size_t kMostLooked = 8'192;
+// Judged partials that are remembered: those of a range of time are looked up among them.
+constexpr std::size_t kMostJudged = 16'384;
+// So many equal gaps in a row may be the spacing of a new rate.
+constexpr std::uint32_t kEven = 3;
+// How often gaps that may be one are looked at.
+constexpr log::Duration kHeldCheck = std::chrono::milliseconds(50);
 
 // Datagrams of a stream after which nothing of it waits to be judged any longer.
 std::uint64_t mostWaiting(const Stream& stream) {
@@ -56,12 +60,15 @@ void Attribution::addStream(Stream& stream, const log::SenderInfo& info) {
 
 void Attribution::retire(log::SenderId sender) {
     m_senders.erase(sender);
-    for (Due& due : m_due) {
-        due.stream = due.stream != nullptr && due.stream->key.sender == sender ? nullptr : due.stream;
-    }
-    for (Rest& rest : m_rests) {
-        rest.stream = rest.stream != nullptr && rest.stream->key.sender == sender ? nullptr : rest.stream;
-    }
+    const auto forget = [sender](auto& waiting) {
+        for (auto& one : waiting) {
+            one.stream = one.stream != nullptr && one.stream->key.sender == sender ? nullptr : one.stream;
+        }
+    };
+    forget(m_due);
+    forget(m_held);
+    forget(m_open);
+    forget(m_rests);
     const auto isOf = [sender](const Partial& partial) { return partial.stream->key.sender == sender; };
     std::erase_if(m_judgedPartials, isOf);
     // Others know these by their place.
@@ -94,7 +101,19 @@ void Attribution::judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll) {
         if (!isAll && gap != nullptr && stamp - gap->toStamp < m_patience) {
             break;
         }
-        judge(due);
+        if (!isAll && mayBeStep(due, stamp)) {
+            m_held.push_back(due);
+        } else {
+            judge(due);
+        }
+    }
+    if (isAll || stamp >= m_nextHeld) {
+        judgeHeld(stamp, isAll);
+    }
+    for (; !m_open.empty() && (isAll || stamp - m_open.front().stamp > MessageRounds::kTogether ||
+                               m_open.size() > kMostPartials);
+         m_open.pop_front()) {
+        judge(m_open.front(), packet);
     }
     for (; !m_partials.empty() &&
            (isAll || m_partials.front().stream == nullptr || stamp - m_partials.front().stamp >= kPatience ||
@@ -137,7 +156,8 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
     if (stream.accounting.datagrams() >= stream.judgeAt) {
         judgeEarly(stream, verdict.packet);
     }
-    takePartial(stream, verdict);
+    noteSpacing(stream, verdict);
+    countsSamples(stream.key.type) ? takePartial(stream, verdict) : takeMessage(stream, verdict);
     if (verdict.gap != 0 || verdict.mayBeGap) {
         m_gaps.push_back({.stream = stream.key,
                           .fromSample = verdict.sampleBefore,
@@ -151,9 +171,11 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
         m_due.push_back({m_firstGap + m_gaps.size() - 1, &stream, stream.accounting.datagrams()});
         expectJudgement(stream);
         if (m_gaps.size() > kMostGaps) {
-            if (!m_due.empty() && m_due.front().gap == m_firstGap) {
-                judge(m_due.front());
-                m_due.pop_front();
+            for (std::deque<Due>* dues : {&m_held, &m_due}) {
+                if (!dues->empty() && dues->front().gap == m_firstGap) {
+                    judge(dues->front());
+                    dues->pop_front();
+                }
             }
             m_gaps.pop_front();
             ++m_firstGap;
@@ -161,6 +183,8 @@ void Attribution::takeVerdict(Stream& stream, const Verdict& verdict) {
     } else if (verdict.isReordered && verdict.isFirstOfSample) {
         if (const Gap* gap = recount(stream, verdict.sample)) { // it came after all
             learnPatience(*gap, verdict.stamp);
+        } else if (!std::exchange(stream.awaitsRest, true)) { // it may be from before the first one
+            m_rests.push_back({&stream, verdict.stamp});
         }
     }
     if (step != stream.judgedStep) {
@@ -182,18 +206,72 @@ void Attribution::learnPatience(const Gap& gap, log::Stamp stamp) {
     }
 }
 
+/// Gaps that are all as large as the one before may be a new spacing of the sender.
+void Attribution::noteSpacing(Stream& stream, const Verdict& verdict) {
+    if (!verdict.isFirstOfSample || verdict.isReordered) {
+        return;
+    }
+    const std::uint32_t spacing = verdict.gap != 0 ? verdict.sample - verdict.sampleBefore : 0;
+    stream.evenGaps = spacing == 0 || spacing != stream.evenSpacing ? 0 : stream.evenGaps;
+    stream.evenGaps += spacing == 0 ? 0 : 1;
+    stream.evenSpacing = spacing;
+}
+
+/// Whether a gap that is due is one of several that are alike, and the stream still goes on like that.
+bool Attribution::mayBeStep(const Due& due, log::Stamp stamp) const {
+    const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
+    const bool isEven = gap != nullptr && gap->lost != 0 && due.stream->evenGaps >= kEven &&
+                        gap->toSample - gap->fromSample == due.stream->evenSpacing;
+    return isEven && stamp - due.stream->accounting.lastStamp() <
+                         std::max(kMostPatience, 3 * (gap->toStamp - gap->fromStamp));
+}
+
+void Attribution::judgeHeld(log::Stamp stamp, bool isAll) {
+    m_nextHeld = stamp + kHeldCheck;
+    std::erase_if(m_held, [&](Due& due) {
+        const bool isOver = isAll || !mayBeStep(due, stamp);
+        if (isOver) {
+            judge(due);
+        }
+        return isOver;
+    });
+}
+
+void Attribution::takeMessage(Stream& stream, const Verdict& verdict) {
+    if (verdict.isAfterPartial && stream.judgedMessage != verdict.packetBefore) {
+        judgeMessage(stream, verdict.stamp, verdict.packetBefore, verdict.packet);
+    }
+    if (stream.accounting.partialMessage() == verdict.packet) {
+        m_open.push_back({&stream, verdict.stamp, verdict.packet});
+    }
+}
+
+/// Nothing more comes of it, whether or not there is a next one.
+void Attribution::judge(OpenMessage& message, std::uint64_t packet) {
+    Stream* const stream = message.stream;
+    if (stream != nullptr && stream->accounting.partialMessage() == message.packet) {
+        stream->judgedMessage = message.packet;
+        judgeMessage(*stream, message.stamp, message.packet, packet);
+    }
+}
+
+void Attribution::judgeMessage(Stream& stream, log::Stamp stamp, std::uint64_t fromPacket,
+                               std::uint64_t toPacket) {
+    Partial partial{&stream, 0, stamp, fromPacket};
+    partial.cause = causeOfPartial(stream.key, fromPacket, toPacket);
+    partial.incident = attribute(stream, {.stream = stream.key,
+                                          .cause = partial.cause,
+                                          .samples = 1,
+                                          .from = stamp,
+                                          .to = stamp,
+                                          .fromPacket = fromPacket,
+                                          .toPacket = toPacket,
+                                          .evidence = "Of a message only a part arrived."});
+    keepNewest(m_judgedPartials, partial, kMostJudged);
+}
+
 /// Notes what lacks a part, and what does not any more.
 void Attribution::takePartial(Stream& stream, const Verdict& verdict) {
-    if (verdict.isAfterPartial) {
-        attribute(stream, {.stream = stream.key,
-                           .cause = causeOfPartial(stream.key, verdict.packetBefore, verdict.packet),
-                           .samples = 1,
-                           .from = verdict.stamp,
-                           .to = verdict.stamp,
-                           .fromPacket = verdict.packetBefore,
-                           .toPacket = verdict.packet,
-                           .evidence = "Of a message only a part arrived."});
-    }
     std::uint64_t& open = stream.openPartial;
     if (verdict.isFirstOfSample && !verdict.isReordered && open > m_firstPartial) {
         m_partials[open - m_firstPartial - 1].nextPacket = verdict.packet;
@@ -226,7 +304,7 @@ void Attribution::judge(Partial& partial, std::uint64_t packet) {
                   .fromPacket = partial.packet,
                   .toPacket = partial.packet,
                   .evidence = "Of sample " + std::to_string(partial.sample) + " only a part arrived."});
-    keepNewest(m_judgedPartials, partial, kMostBack);
+    keepNewest(m_judgedPartials, partial, kMostJudged);
     m_judgedPartials.back().stream = stream;
 }
 
@@ -245,9 +323,11 @@ void Attribution::judgeEarly(Stream& stream, std::uint64_t packet) {
         stream.judgeAt = std::min(stream.judgeAt, isYoung ? since + most : UINT64_MAX);
         return isYoung;
     };
-    for (Due& due : m_due) {
-        if (due.stream == &stream && !isWaiting(due.datagrams)) {
-            judge(due);
+    for (auto* dues : {&m_held, &m_due}) {
+        for (Due& due : *dues) {
+            if (due.stream == &stream && !isWaiting(due.datagrams)) {
+                judge(due);
+            }
         }
     }
     for (Partial& partial : m_partials) {
@@ -259,34 +339,21 @@ void Attribution::judgeEarly(Stream& stream, std::uint64_t packet) {
 
 /// The missing part of a sample came after all.
 void Attribution::complete(Stream& stream, std::uint32_t sample) {
-    const auto found = std::ranges::find_if(m_judgedPartials, [&](const Partial& partial) {
+    const auto newest = m_judgedPartials.end();
+    const auto oldest = newest - static_cast<std::ptrdiff_t>(std::min(kMostBack, m_judgedPartials.size()));
+    const auto found = std::find_if(oldest, newest, [&](const Partial& partial) {
         return partial.stream == &stream && partial.sample == sample;
     });
-    if (found != m_judgedPartials.end()) {
+    if (found != newest) {
         --stream.attributed[static_cast<std::size_t>(found->cause)];
         m_sink->takeBack(found->incident, stream.key, 1, true);
         m_judgedPartials.erase(found);
     }
 }
 
-/// Whose loss the rest of a sample or message is, of which some came from a packet on.
-LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
-                                      std::uint64_t toPacket) const {
-    const auto found = m_senders.find(stream.sender);
-    if (found == m_senders.end()) {
-        return LossCause::Unknown;
-    }
-    // What was dropped just before the first part counts too: it may have been another part.
-    const std::uint64_t before = fromPacket == 0 ? 0 : fromPacket - 1;
-    const LostHere lost = lostHere(before, toPacket, found->second.localPort);
-    if (lost.dropped + lost.overtaken != 0) {
-        return LossCause::ThisComputer;
-    }
-    return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
-}
-
 std::size_t Attribution::memoryBytes() const {
-    std::size_t bytes = m_gaps.size() * sizeof(Gap) + m_due.size() * sizeof(Due) +
+    std::size_t bytes = m_gaps.size() * sizeof(Gap) + (m_due.size() + m_held.size()) * sizeof(Due) +
+                        m_open.size() * sizeof(OpenMessage) +
                         (m_partials.size() + m_judgedPartials.size()) * sizeof(Partial) +
                         m_drops.size() * sizeof(Drop) + m_damages.size() * sizeof(Damage);
     for (const auto& [id, sender] : m_senders) {
@@ -313,24 +380,25 @@ void Attribution::attributeRest(Stream& stream) {
     for (const std::uint64_t samples : stream.attributed) {
         told += samples;
     }
-    for (const Due& due : m_due) {
-        const Gap* gap = due.stream == &stream ? find(due.gap) : nullptr;
-        told += gap != nullptr ? gap->lost : 0;
+    for (const auto* dues : {&m_due, &m_held}) {
+        for (const Due& due : *dues) {
+            const Gap* gap = due.stream == &stream ? find(due.gap) : nullptr;
+            told += gap != nullptr ? gap->lost : 0;
+        }
     }
     for (const Partial& partial : m_partials) {
         told += partial.stream == &stream && stream.accounting.isIncomplete(partial.sample) ? 1 : 0;
     }
     const std::uint64_t missing = counts.lost + counts.incomplete;
     if (missing > told) {
-        stream.restIncident =
-            attribute(stream, {.stream = stream.key,
-                               .samples = missing - told,
-                               .from = stream.accounting.firstStamp(),
-                               .to = stream.accounting.lastStamp(),
-                               .fromPacket = m_lastPacket,
-                               .toPacket = m_lastPacket,
-                               .incident = stream.restIncident,
-                               .evidence = "Lost before the step of the sample counter was known."});
+        stream.restIncident = attribute(stream, {.stream = stream.key,
+                                                 .samples = missing - told,
+                                                 .from = stream.accounting.firstStamp(),
+                                                 .to = stream.accounting.lastStamp(),
+                                                 .fromPacket = m_lastPacket,
+                                                 .toPacket = m_lastPacket,
+                                                 .incident = stream.restIncident,
+                                                 .evidence = "Lost as the stream began."});
         stream.restSamples += missing - told;
     } else if (const std::uint64_t less = std::min(told - missing, stream.restSamples); less != 0) {
         stream.restSamples -= less;
@@ -402,85 +470,6 @@ const Gap* Attribution::recount(Stream& stream, std::optional<std::uint32_t> aro
         }
     }
     return nullptr;
-}
-
-void Attribution::findCause(Gap& gap, const Stream& stream) const {
-    const auto found = m_senders.find(gap.stream.sender);
-    if (gap.lost == 0 || found == m_senders.end()) {
-        return;
-    }
-    const Sender& sender = found->second;
-    const auto decide = [&](LossCause cause, Gap::Evidence evidence, std::uint64_t figure) {
-        gap.cause = cause;
-        gap.evidence = evidence;
-        gap.figure = figure;
-    };
-    const LostHere lost = lostHere(gap.fromPacket, gap.toPacket, sender.localPort);
-    if (lost.dropped != 0) {
-        return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, lost.dropped);
-    }
-    if (lost.overtaken != 0) {
-        return decide(LossCause::ThisComputer, Gap::Evidence::Overtaken, lost.overtaken);
-    }
-    if (sender.transport == log::Transport::Tcp) {
-        return decide(LossCause::Sender, Gap::Evidence::Reliable, 0);
-    }
-    if (const Damage* damage = damageWithin(gap)) {
-        return decide(LossCause::Network, Gap::Evidence::Damaged, damage->sample);
-    }
-    for (const std::uint32_t neighbour : {gap.fromSample, gap.toSample}) {
-        if (stream.accounting.isIncomplete(neighbour)) {
-            return decide(LossCause::Network, Gap::Evidence::Partial, neighbour);
-        }
-    }
-    const TimeRange when{gap.fromStamp - kNear, gap.toStamp + kNear};
-    for (const Stream* other : sender.streams) {
-        if (other->key == gap.stream) {
-            continue;
-        }
-        if (const auto sample = other->accounting.arrivedBetween(gap.fromSample, gap.toSample, when)) {
-            gap.otherType = other->key.type;
-            return decide(LossCause::Network, Gap::Evidence::OtherStream, *sample);
-        }
-    }
-    if (hasPaused(gap, sender)) {
-        decide(LossCause::Sender, Gap::Evidence::Paused, sender.streams.size());
-    }
-}
-
-Attribution::LostHere Attribution::lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
-                                            std::uint16_t localPort) const {
-    LostHere lost;
-    for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > fromPacket; ++drop) {
-        if (drop->packet <= toPacket && drop->localPort.value_or(localPort) == localPort) {
-            (drop->localPort ? lost.dropped : lost.overtaken) += drop->count;
-        }
-    }
-    return lost;
-}
-
-const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {
-    for (auto damage = m_damages.rbegin(); damage != m_damages.rend(); ++damage) {
-        if (damage->packet < gap.fromPacket) {
-            break;
-        }
-        if (damage->stream == gap.stream && isBetween(damage->sample, gap)) {
-            return &*damage;
-        }
-    }
-    return nullptr;
-}
-
-bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
-    const log::Duration lasted = gap.toStamp - gap.fromStamp;
-    const bool isSilent = std::ranges::any_of(sender.silences, [&](const TimeRange& silence) {
-        const log::Duration common =
-            std::min(silence.to, gap.toStamp) - std::max(silence.from, gap.fromStamp);
-        return common >= kPause && 10 * common >= 9 * lasted;
-    });
-    const std::int64_t lastedMs = lasted / std::chrono::milliseconds(1);
-    const std::int64_t moved = static_cast<std::int32_t>(gap.timeCodeMoved);
-    return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
 }
 
 } // namespace posewire::model

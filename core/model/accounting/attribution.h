@@ -85,11 +85,12 @@ public:
     /// which a part is missing though the next one has come.
     template <class Function>
     void forEachPending(Function&& f) const {
-        for (const Due& due : m_due) {
-            const Gap* gap =
-                due.stream != nullptr && due.gap >= m_firstGap ? &m_gaps[due.gap - m_firstGap] : nullptr;
-            if (gap != nullptr && gap->lost != 0) {
-                f(gap->stream, std::uint64_t{gap->lost}, gap->fromStamp, gap->toStamp);
+        for (const auto* dues : {&m_due, &m_held}) {
+            for (const Due& due : *dues) {
+                const Gap* gap = due.stream != nullptr ? find(due.gap) : nullptr;
+                if (gap != nullptr && gap->lost != 0) {
+                    f(gap->stream, std::uint64_t{gap->lost}, gap->fromStamp, gap->toStamp);
+                }
             }
         }
         for (const Partial& partial : m_partials) {
@@ -99,8 +100,18 @@ public:
             }
         }
     }
+    /// How long after a gap it is judged.
+    [[nodiscard]] log::Duration patience() const { return m_patience; }
     /// The newest ones, oldest first.
     [[nodiscard]] const std::deque<Gap>& gaps() const { return m_gaps; }
+    /// Calls f(stream, stamp, cause) for the newest samples and messages of which only a part came, with when
+    /// they should have come and whose loss the rest was.
+    template <class Function>
+    void forEachPartialLoss(Function&& f) const {
+        for (const Partial& partial : m_judgedPartials) {
+            f(partial.stream->key, partial.stamp, partial.cause);
+        }
+    }
     [[nodiscard]] std::size_t memoryBytes() const;
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
     [[nodiscard]] const Gap* endedBy(std::uint64_t packet) const;
@@ -146,6 +157,13 @@ private:
         std::uint64_t datagrams = 0; ///< of the stream until then
     };
 
+    /// A message of types 10 to 13 that lacked something when its first part came.
+    struct OpenMessage {
+        Stream* stream = nullptr; ///< null where it was retired
+        log::Stamp stamp{};
+        std::uint64_t packet = 0;
+    };
+
     /// A stream whose step has changed.
     struct Rest {
         Stream* stream = nullptr; ///< null where it was retired
@@ -154,14 +172,20 @@ private:
 
     void judgeEarly(Stream& stream, std::uint64_t packet);
     void judgeDue(log::Stamp stamp, std::uint64_t packet, bool isAll = false);
+    void judgeHeld(log::Stamp stamp, bool isAll);
     void judge(Due& due);
     void judge(Partial& partial, std::uint64_t packet);
+    void judge(OpenMessage& message, std::uint64_t packet);
+    void judgeMessage(Stream& stream, log::Stamp stamp, std::uint64_t fromPacket, std::uint64_t toPacket);
+    void noteSpacing(Stream& stream, const Verdict& verdict);
+    [[nodiscard]] bool mayBeStep(const Due& due, log::Stamp stamp) const;
     /// Counts it, and tells it. Returns its incident.
     std::uint64_t attribute(Stream& stream, Loss loss);
     void attributeRest(Stream& stream);
     [[nodiscard]] static Loss lossOf(const Gap& gap, std::uint64_t samples);
     void learnPatience(const Gap& gap, log::Stamp stamp);
     void takePartial(Stream& stream, const Verdict& verdict);
+    void takeMessage(Stream& stream, const Verdict& verdict);
     void complete(Stream& stream, std::uint32_t sample);
     [[nodiscard]] LossCause causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
                                            std::uint64_t toPacket) const;
@@ -176,6 +200,9 @@ private:
     [[nodiscard]] Gap* find(std::uint64_t number) {
         return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
     }
+    [[nodiscard]] const Gap* find(std::uint64_t number) const {
+        return number < m_firstGap ? nullptr : &m_gaps[number - m_firstGap];
+    }
 
     LossSink* m_sink;
     log::Duration m_patience = kPatience;
@@ -185,6 +212,9 @@ private:
     std::deque<Gap> m_gaps;
     std::uint64_t m_firstGap = 0;
     std::deque<Due> m_due;          ///< yet to be judged, oldest first
+    std::deque<Due> m_held;         ///< likewise, but they may turn out to be a new step
+    log::Stamp m_nextHeld{};        ///< when these are looked at again
+    std::deque<OpenMessage> m_open; ///< yet to be judged, oldest first
     std::deque<Rest> m_rests;       ///< yet to be looked at, oldest first
     std::deque<Partial> m_partials; ///< yet to be judged, oldest first
     std::uint64_t m_firstPartial = 0;

@@ -10,6 +10,8 @@ namespace {
 
 /// A time code that moves by more than this between two samples jumped.
 constexpr std::int32_t kMostTimeCodeMs = 60'000;
+/// One that is farther than this from where its sample belongs too, or it is corrupt.
+constexpr double kMostOffMs = 500;
 
 constexpr log::Duration kLeastPart = std::chrono::milliseconds(250);
 constexpr std::int64_t kMostParts = 128;
@@ -18,7 +20,14 @@ constexpr std::size_t kLeastParts = 8;
 
 } // namespace
 
+bool SenderClock::isOff(std::int32_t moved, std::int32_t timeCodeMoved) const {
+    const double dueMs = m_sumMoved > 0 ? moved * m_sumSinceMs / m_sumMoved : 0;
+    return isFromTimeCode() && dueMs != 0 &&
+           std::abs(timeCodeMoved - dueMs) > kMostOffMs + std::abs(dueMs) / 4;
+}
+
 void SenderClock::restart() {
+    m_isInDoubt = false;
     m_first.reset();
     m_timeCodeMs = 0;
     m_differenceMs = 0;
@@ -32,9 +41,13 @@ void SenderClock::add(const Sample& sample) {
     }
     const auto moved = static_cast<std::int32_t>(sample.sample - m_previous.sample);
     const auto timeCodeMoved = static_cast<std::int32_t>(sample.timeCode - m_previous.timeCode);
-    if (std::abs(timeCodeMoved) > kMostTimeCodeMs) {
+    if (std::abs(timeCodeMoved) > kMostTimeCodeMs || (isOff(moved, timeCodeMoved) && m_isInDoubt)) {
         restart();
         add(sample);
+        return;
+    }
+    m_isInDoubt = isOff(moved, timeCodeMoved);
+    if (m_isInDoubt) {
         return;
     }
     const double sinceMs = log::millisecondsOf(sample.stamp - m_previous.stamp);

@@ -19,7 +19,8 @@ public:
         std::uint32_t sample = 0;
         std::uint32_t timeCode = 0; ///< ms
     };
-    /// The first datagram of a sample, in the order of arrival.
+    /// The first datagram of a sample, in the order of arrival. A time code that is far from where its sample
+    /// belongs counts once a second one is.
     void add(const Sample& sample);
     /// The counter restarted: nothing from before applies any more, except the jitter.
     void restart();
@@ -33,6 +34,8 @@ public:
     [[nodiscard]] std::uint32_t generation() const { return m_generation; }
 
 private:
+    [[nodiscard]] bool isOff(std::int32_t moved, std::int32_t timeCodeMoved) const;
+
     std::optional<Sample> m_first;
     Sample m_previous;
     double m_jitterMs = 0;
@@ -43,6 +46,7 @@ private:
     std::int64_t m_timeCodeMs = 0; ///< since the first sample, without wrap-around
     double m_differenceMs = 0;
     std::uint32_t m_generation = 0;
+    bool m_isInDoubt = false; ///< the newest time code: the clock has jumped, or it is corrupt
 };
 
 /// Fits a line to how far our clock is ahead of the sender's, by the least delayed sample of each of equal

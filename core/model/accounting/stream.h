@@ -54,9 +54,12 @@ struct Stream {
     std::uint32_t judgedStep = 0;       ///< Attribution: the step by which its gaps were counted
     std::uint64_t openPartial =
         0; ///< Attribution: one past the number of the partial that its next sample ends
-    std::uint64_t restSamples = 0;   ///< Attribution: lost in hindsight, without a gap
-    std::uint64_t restIncident = 0;  ///< Attribution: that these are told in
-    bool awaitsRest = false;         ///< Attribution
+    std::uint64_t restSamples = 0;  ///< Attribution: lost in hindsight, without a gap
+    std::uint64_t restIncident = 0; ///< Attribution: that these are told in
+    bool awaitsRest = false;        ///< Attribution
+    std::uint32_t evenSpacing = 0;  ///< Attribution: between the newest two samples, where there is a gap
+    std::uint32_t evenGaps = 0;     ///< Attribution: so many gaps in a row are as large
+    std::uint64_t judgedMessage = UINT64_MAX; ///< Attribution: its first packet, where the rest is lost
     double usualHz = 0;              ///< ThresholdWatch: its rate before the window; 0 before it is known
     bool isWatched = false;          ///< ThresholdWatch
     log::Stamp excusedUntil{};       ///< ThresholdWatch: an incident says why it is not as it should be

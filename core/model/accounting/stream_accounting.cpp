@@ -86,8 +86,20 @@ void StreamAccounting::takeSample(const Probation::Waiting& datagram) {
         return;
     }
     m_probation.add(datagram);
+    endDoubt(false);
+}
+
+std::span<const Verdict> StreamAccounting::conclude() {
+    m_verdicts.clear();
+    if (!m_probation.empty()) {
+        endDoubt(true);
+    }
+    return m_verdicts;
+}
+
+void StreamAccounting::endDoubt(bool isEnd) {
     Probation::Decision decision;
-    m_probation.decide(m_ledger, false, decision);
+    m_probation.decide(m_ledger, isEnd, decision);
     bool isMoved = false;
     for (std::size_t i = 0; i < decision.decided; ++i) {
         settle(m_probation.waiting()[i], decision.outcomes[i], isMoved);

@@ -83,6 +83,10 @@ public:
     /// next call.
     std::span<const Verdict> add(const log::Packet& packet, const wire::Header& header);
 
+    /// Nothing more comes: what is in doubt is decided now, as figures in hindsight have it already. Returns
+    /// the verdicts, as add() does.
+    std::span<const Verdict> conclude();
+
     /// Packets were passed over or dropped here, some of this stream perhaps: a counter that is as far ahead
     /// has lost those, and did not restart.
     void passOver(std::uint64_t packets) { m_passedOver += packets; }
@@ -127,6 +131,10 @@ public:
     /// is forgotten.
     [[nodiscard]] std::optional<std::uint32_t> missingBetween(std::uint32_t from, std::uint32_t to) const;
 
+    /// The first packet of the newest message of types 10 to 13, where that still lacks something.
+    [[nodiscard]] std::optional<std::uint64_t> partialMessage() const {
+        return m_rounds.isPartial() ? std::optional(m_messagePacket) : std::nullopt;
+    }
     [[nodiscard]] std::uint64_t datagrams() const { return m_datagrams; }
     [[nodiscard]] std::uint32_t step() const { return m_ledger.present().step(); }
     [[nodiscard]] bool isInDoubt() const { return !m_probation.empty(); }
@@ -135,6 +143,7 @@ public:
 
 private:
     void takeSample(const Probation::Waiting& datagram);
+    void endDoubt(bool isEnd);
     void settle(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved);
     static Placement carryOut(const Probation::Waiting& datagram, Probation::Outcome outcome, bool isMoved,
                               SampleLedger& ledger, CountHistory* history);

@@ -84,6 +84,7 @@ struct Choices {
     Annotations annotations;
     IncidentRequest incidentRequest; ///< the newest
     std::set<CharacterKey> hidden;   ///< characters that are not drawn
+    std::set<CharacterKey> lifted;   ///< characters that are put on the floor, where they were sent below it
     bool isGhostShown = false;       ///< the null pose of the shown character over its figure
     log::Stamp reset{};              ///< what was before does not count for the take; 0: all counts
 

@@ -2,6 +2,7 @@
 #include "core/model/session/ingest.h"
 
 #include "core/model/accounting/attribution.h"
+#include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose.h"
 #include "core/model/incidents/incident_follower.h"
 #include "core/model/text.h"
@@ -87,6 +88,13 @@ bool Ingest::followFile(log::Stamp now, std::size_t most) {
 }
 
 void Ingest::settle() {
+    m_streams.forEach([this](Stream& stream) {
+        const Character* character = find(CharacterKey{stream.key.sender, stream.key.character});
+        for (const Verdict& verdict : stream.accounting.conclude()) {
+            m_digests.amend(verdict);
+            takeVerdict(stream, verdict, character->isConfirmed);
+        }
+    });
     m_attribution->settle();
 }
 
@@ -281,10 +289,14 @@ void Ingest::account(Observation& seen) {
         if (verdict.packet != packet.number) {
             m_digests.amend(verdict);
         }
-        m_attribution->takeVerdict(stream, verdict);
-        if (seen.character->isConfirmed) {
-            m_incidents->takeVerdict(stream, verdict);
-        }
+        takeVerdict(stream, verdict, seen.character->isConfirmed);
+    }
+}
+
+void Ingest::takeVerdict(Stream& stream, const Verdict& verdict, bool isConfirmed) {
+    m_attribution->takeVerdict(stream, verdict);
+    if (isConfirmed) {
+        m_incidents->takeVerdict(stream, verdict);
     }
 }
 
@@ -295,6 +307,10 @@ void Ingest::takeContent(const Observation& seen) {
         takeNullPose(*part, seen);
     } else if (seen.header->datagramIndex() == 0) {
         seen.sender->detector.addBody(seen.datagram->body);
+        if (BodyMeasure& body = seen.character->measuredBody;
+            !body.isSettled() && hasPoses(seen.header->type()) && nullPoses(seen.character->key) == nullptr) {
+            body.add(*seen.datagram, seen.sender->positionUnit(seen.header->type()));
+        }
     }
 }
 

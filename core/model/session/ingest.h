@@ -7,6 +7,8 @@
 #include "core/log/time.h"
 #include "core/model/accounting/packet_digest.h"
 #include "core/model/accounting/stream.h"
+#include "core/model/accounting/stream_figures.h"
+#include "core/model/foreign_text.h"
 #include "core/model/keeping.h"
 #include "core/model/message.h"
 #include "core/model/roster.h"
@@ -14,6 +16,7 @@
 #include "core/model/session/sender.h"
 #include "core/model/session/unconfirmed.h"
 
+#include <array>
 #include <deque>
 #include <list>
 #include <map>
@@ -51,8 +54,22 @@ struct RetiredTotals : SenderTotals {
     std::uint64_t streams = 0;
     std::uint64_t samples = 0;
     std::uint64_t lost = 0; ///< without incomplete ones
+    /// The worst of their streams by the figures that limits are set on.
+    struct Worst {
+        Figure figure{};
+        double value = 0;
+        log::StreamKey stream{};
+    };
+    std::array<Worst, 3> worst{{{Figure::LossShare}, {Figure::Jitter}, {Figure::SpacingMost}}};
 
     void retire(const Sender& sender);
+};
+
+/// What a sender that was retired was called.
+struct FormerSender {
+    log::SenderId id{};
+    std::string address;
+    std::vector<std::pair<std::uint8_t, ForeignText>> names; ///< by character, of those that had one
 };
 
 /// Follows a PacketLog: who sends, which streams there are, what is missing of them and why, what happened.
@@ -78,6 +95,9 @@ public:
     static constexpr std::size_t kBucketsOfSender = 256;
     /// Of all characters together: what they hold goes, oldest first, where it would be more.
     static constexpr std::size_t kMetadataBudget = std::size_t{8} << 20;
+    /// Retired senders that incidents can still name, the newest, and characters of each.
+    static constexpr std::size_t kMostFormer = 256;
+    static constexpr std::size_t kMostFormerNames = 32;
     static constexpr log::Duration kForgettable = std::chrono::seconds(1);
     static constexpr std::size_t kNullPoseBudget = std::size_t{16} << 20;
 
@@ -125,6 +145,8 @@ public:
 
     /// Those that made room; grows whenever rows go.
     [[nodiscard]] const RetiredTotals& retired() const { return m_retired; }
+    /// Null where it is not one of the newest.
+    [[nodiscard]] const FormerSender* former(log::SenderId id) const;
     /// Datagrams of streams and characters beyond what is followed: they are in the log, and nowhere else.
     [[nodiscard]] std::uint64_t unfollowed() const { return m_unfollowed; }
     /// Packets that the log had dropped before they were looked at.
@@ -175,6 +197,7 @@ private:
     void countFaulty(const Observation& seen);
     [[nodiscard]] bool takeHeader(Observation& seen);
     void account(Observation& seen);
+    void takeVerdict(Stream& stream, const Verdict& verdict, bool isConfirmed);
     void takeContent(const Observation& seen);
 
     void lookForContradictions();
@@ -196,6 +219,7 @@ private:
     void retire(const std::unordered_set<log::SenderId>& going);
     [[nodiscard]] Character* heirOf(const Character& character);
     void bequeath(const Character& character);
+    void remember(const Sender& sender);
 
     const log::PacketLog& m_log;
     log::LogFollower m_follower;
@@ -218,6 +242,7 @@ private:
     std::size_t m_characterCount = 0; ///< that there ever were
     AccountingDepth m_depth;
     RetiredTotals m_retired;
+    std::deque<FormerSender> m_former; ///< oldest first
     std::uint64_t m_unfollowed = 0;
     Unconfirmed m_unconfirmed;
     Message m_unplaced; ///< what a datagram is decoded into whose stream is not known yet

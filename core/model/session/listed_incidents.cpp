@@ -79,8 +79,10 @@ bool hasCeased(const SessionView& session, const Incident& incident) {
     constexpr log::Duration kLeast = std::chrono::seconds(1);
     const auto repeats = static_cast<std::int64_t>(std::max<std::uint64_t>(2, incident.count) - 1);
     const log::Duration between = (incident.lastStamp - incident.firstStamp) / repeats;
+    const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
+    const log::Stamp known = isLoss ? session.judgedUntil() : session.now();
     return !factsOf(incident.kind).lasts &&
-           session.now() - incident.lastStamp >= std::clamp(2 * between, kLeast, Incidents::kQuiet);
+           known - incident.lastStamp >= std::clamp(2 * between, kLeast, Incidents::kQuiet);
 }
 
 /// Incidents that are not listed any more.
@@ -131,7 +133,7 @@ std::string amountOf(const SessionView& session, const Incident& incident, std::
     if (isShare) {
         return fixedText(percent, percent < 10 ? 1 : 0) + " %";
     }
-    return noun.empty() ? std::to_string(incident.samples) : counted(incident.samples, noun);
+    return noun.empty() ? grouped(incident.samples) : counted(incident.samples, noun);
 }
 
 std::string causeOf(const Incident& incident) {
@@ -252,15 +254,15 @@ std::string headlineOf(const SessionView& session, const ListedIncident& listed)
 
 std::string briefOf(const SessionView& session, const ListedIncident& listed) {
     const Incident& incident = listed.incident;
-    const std::string count = std::to_string(incident.count);
+    const std::string count = grouped(incident.count);
     if (listed.state == State::Provisional) {
-        return std::to_string(incident.samples) + " not yet here";
+        return grouped(incident.samples) + " not yet here";
     }
     switch (incident.kind) {
     case IncidentKind::Loss:
     case IncidentKind::Local:
         return incident.samples != 0 ? amountOf(session, incident, {}) + " lost" + causeOf(incident)
-                                     : fixedText(incident.value, 0) + " dropped here";
+                                     : grouped(static_cast<std::uint64_t>(incident.value)) + " dropped here";
     case IncidentKind::Outage:
         return silenceOf(session, listed) + (incident.cause ? causeOf(incident) : std::string());
     case IncidentKind::Reordered:

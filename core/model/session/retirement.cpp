@@ -38,6 +38,15 @@ void RetiredTotals::retire(const Sender& sender) {
             ++streams;
             samples += counts.samples;
             lost += counts.lost;
+            if (!countsSamples(stream->key.type)) {
+                continue;
+            }
+            const StreamFigures figures = figuresOf(*stream);
+            for (Worst& one : worst) {
+                if (figures[one.figure] > one.value) {
+                    one = {one.figure, figures[one.figure], stream->key};
+                }
+            }
         }
     }
 }
@@ -87,6 +96,7 @@ void Ingest::retireOldest(const Recency& recency, std::size_t count) {
 void Ingest::retire(const std::unordered_set<log::SenderId>& going) {
     for (const log::SenderId id : going) {
         const Sender& sender = *find(id);
+        remember(sender);
         for (const Character* character : sender.characters) {
             bequeath(*character);
         }
@@ -113,6 +123,33 @@ void Ingest::retire(const std::unordered_set<log::SenderId>& going) {
     m_characters.eraseIf([&](const Character& character) { return going.contains(character.key.sender); });
     m_senders.eraseIf([&](const Sender& sender) { return going.contains(sender.id); });
     fitDepth();
+}
+
+/// So that what is told of its past can name it.
+void Ingest::remember(const Sender& sender) {
+    if (!sender.isPerforming()) {
+        return;
+    }
+    FormerSender former{sender.id, sender.info.address, {}};
+    for (const Character* character : sender.characters) {
+        const MetadataTag* name = nullptr;
+        for (const Character* one = character; one != nullptr && name == nullptr;
+             one = one->before ? find(*one->before) : nullptr) {
+            name = one->metadata.find("name");
+        }
+        if (name != nullptr && former.names.size() < kMostFormerNames) {
+            former.names.emplace_back(character->key.character, name->values.back().text);
+        }
+    }
+    m_former.push_back(std::move(former));
+    if (m_former.size() > kMostFormer) {
+        m_former.pop_front();
+    }
+}
+
+const FormerSender* Ingest::former(log::SenderId id) const {
+    const auto found = std::ranges::find(m_former, id, &FormerSender::id);
+    return found == m_former.end() ? nullptr : &*found;
 }
 
 bool Ingest::isForgettable(log::SenderId sender) const {

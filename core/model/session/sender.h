@@ -6,6 +6,7 @@
 #include "core/log/time.h"
 #include "core/model/accounting/count_history.h"
 #include "core/model/accounting/stream.h"
+#include "core/model/body/body_measure.h"
 #include "core/model/keys.h"
 #include "core/model/session/detection.h"
 #include "core/model/session/metadata.h"
@@ -76,6 +77,7 @@ struct Character {
     std::vector<const Stream*> streams{}; ///< in order of first appearance
     std::size_t ordinal = 0;              ///< for default colours alone; that of `before`, where there is one
     Metadata metadata;
+    BodyMeasure measuredBody; ///< for as long as no scale message has come
     log::Stamp lastStamp{};
     bool isConfirmed = true; ///< else its datagrams are counted, and it is on no list of performers
     std::uint64_t firstPacket = 0;

@@ -59,6 +59,13 @@ public:
         }
         setIn(m_choices.hidden, key, isHidden);
     }
+    /// Puts a character on the floor that is sent below it, through restarts of its sender.
+    void setLifted(const CharacterKey& key, bool isLifted) {
+        for (const Character* one : lineage(currentNow(key))) {
+            setIn(m_choices.lifted, one->key, false);
+        }
+        setIn(m_choices.lifted, key, isLifted);
+    }
     /// Takes a sender out of all lists that has ended, or has been silent for a second: its sums stay, and
     /// what its characters were goes to those that took over. False, and nothing happens, where it sends.
     bool forget(log::SenderId sender);

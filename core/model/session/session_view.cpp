@@ -3,11 +3,9 @@
 
 #include "core/model/accounting/attribution.h"
 #include "core/model/accounting/range_figures.h"
-#include "core/model/body/character_pose.h"
 #include "core/model/body/null_pose_findings.h"
-#include "core/model/body/null_pose_measures.h"
-#include "core/model/body/reference_body.h"
 #include "core/model/incidents/incident_follower.h"
+#include "core/model/session/decoded.h"
 #include "core/wire/codec.h"
 
 #include <algorithm>
@@ -16,10 +14,6 @@
 
 namespace posewire::model {
 namespace {
-
-constexpr log::Duration kPoseTie = std::chrono::milliseconds(250);
-constexpr std::array<std::uint8_t, 3> kPoseTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType,
-                                                 wire::PoseUnity::kType};
 
 /// Entries that are looked at for the parts of one sample: 128 indices, each at most twice.
 constexpr std::size_t kPartSearch = 256;
@@ -35,31 +29,6 @@ bool isTooLarge(const log::Packet& packet) {
 }
 
 } // namespace
-
-/// Bounded by the streams and characters of the session; what is asked for again while the cursor is where it
-/// was is not decoded again.
-struct SessionView::Decoded {
-    struct OfStream {
-        std::uint64_t packet = UINT64_MAX; ///< the newest datagram it was made from
-        bool isValid = false;
-        Message message;
-    };
-    struct OfCharacter {
-        std::uint64_t packet = UINT64_MAX; ///< of the pose, and the unit it was read in
-        LengthUnit unit = LengthUnit::Metre;
-        bool isValid = false;
-        CharacterPose pose;
-        std::uint64_t nullPosePacket = UINT64_MAX; ///< of the origins; UINT64_MAX for the reference body
-        std::optional<BodyOrigins> origins;
-    };
-    std::unordered_map<log::StreamKey, OfStream> messages;
-    std::map<CharacterKey, OfCharacter> characters;
-    std::uint64_t retired = 0; ///< senders; where there are more, what is theirs goes
-    std::uint64_t end = 0;     ///< of the session when it was looked at whether there is too much
-    std::size_t bytes = 0;     ///< that were read since nothing was left
-    Message part;
-    Message visited;
-};
 
 SessionView::SessionView(Ingest& ingest, const Choices& choices)
     : m_ingest(ingest), m_choices(choices), m_decoded(std::make_unique<Decoded>()) {}
@@ -83,6 +52,15 @@ void SessionView::forEachPending(
     m_ingest.attribution().forEachPending(f);
 }
 
+void SessionView::forEachPartialLoss(
+    const std::function<void(const log::StreamKey&, log::Stamp, LossCause)>& f) const {
+    m_ingest.attribution().forEachPartialLoss(f);
+}
+
+log::Stamp SessionView::judgedUntil() const {
+    return now() - m_ingest.attribution().patience();
+}
+
 std::uint64_t SessionView::provisionalNumber(log::SenderId sender) const {
     return m_ingest.provisionalNumber(sender);
 }
@@ -97,13 +75,6 @@ SenderTotals SessionView::allSenders() const {
         sums.add(sender);
     }
     return sums;
-}
-
-ForeignText SessionView::addressOf(log::SenderId id) const {
-    if (const Sender* sender = find(id)) {
-        return sender->address();
-    }
-    return id == log::kNoSender ? "this computer" : "a retired sender";
 }
 
 StreamCounts SessionView::countsOf(const CharacterKey& key, const TimeRange& range) const {
@@ -234,11 +205,6 @@ const ForeignText& SessionView::metadataValue(const CharacterKey& key, std::stri
         character != nullptr && end != 0 ? character->metadata.value(tag, end - 1) : none;
     const Character* before = value.isEmpty() ? predecessor(key) : nullptr;
     return before != nullptr ? metadataValue(before->key, tag) : value;
-}
-
-ForeignText SessionView::displayName(const CharacterKey& key) const {
-    const ForeignText& name = metadataValue(key, "name");
-    return name.isEmpty() ? ForeignText("Character " + std::to_string(key.character)) : name;
 }
 
 Colour SessionView::colour(const CharacterKey& key) const {
@@ -424,30 +390,6 @@ log::Stamp SessionView::newestStamp(const log::StreamKey& key) const {
     return newest ? newest->stamp : log::Stamp();
 }
 
-const CharacterPose* SessionView::pose(const CharacterKey& key) const {
-    const Message* best = nullptr;
-    for (const std::uint8_t type : kPoseTypes) {
-        const Message* candidate = message(key, type);
-        if (candidate != nullptr && (best == nullptr || candidate->stamp > best->stamp + kPoseTie)) {
-            best = candidate;
-        }
-    }
-    if (best == nullptr) {
-        return nullptr;
-    }
-    Decoded::OfCharacter& read = decoded().characters[key];
-    const std::uint8_t type = best->datagram.header.type();
-    const Sender* sender = find(best->sender);
-    const LengthUnit unit = sender != nullptr ? sender->positionUnit(type) : LengthUnit::Metre;
-    if (read.packet != best->packet || read.unit != unit) {
-        read.isValid = poseFromMessage(best->datagram, bodyOrigins(key).places, unit, read.pose);
-        read.packet = read.pose.packet = best->packet;
-        read.pose.stamp = best->stamp;
-        read.unit = unit;
-    }
-    return read.isValid ? &read.pose : nullptr;
-}
-
 const NullPose* SessionView::nullPose(const CharacterKey& key) const {
     const NullPoseHistory* history = nullPoses(key);
     const std::uint64_t end = visibleEnd();
@@ -476,25 +418,6 @@ NullPoseEvidence SessionView::nullPoseEvidence(const CharacterKey& key) const {
         }
     }
     return evidence;
-}
-
-const BodyOrigins& SessionView::bodyOrigins(const CharacterKey& key) const {
-    const NullPose* pose = nullPose(key);
-    Decoded::OfCharacter& read = decoded().characters[key];
-    const std::uint64_t packet = pose != nullptr ? pose->packet : UINT64_MAX;
-    if (read.origins && read.nullPosePacket == packet) {
-        return *read.origins;
-    }
-    read.nullPosePacket = packet;
-    read.origins = BodyOrigins{referenceOrigins()};
-    BodyOrigins& origins = *read.origins;
-    if (pose != nullptr && pose->segments.size() >= origins.places.size()) {
-        const BodyPlaces places = bodyPlaces(*pose);
-        for (std::size_t i = 0; i < origins.places.size(); ++i) {
-            origins.places[i] = originOf(*pose, places, static_cast<int>(i)).value_or(origins.places[i]);
-        }
-    }
-    return origins;
 }
 
 } // namespace posewire::model

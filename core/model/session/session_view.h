@@ -5,10 +5,12 @@
 #include "core/model/session/choices.h"
 #include "core/model/session/ingest.h"
 
+#include <array>
 #include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +22,7 @@ struct CharacterPose;
 struct Gap;
 struct NullPose;
 struct NullPoseEvidence;
+struct PoseRemark;
 struct RangePart;
 struct RangeParts;
 struct TakeVerdict;
@@ -64,7 +67,8 @@ public:
     [[nodiscard]] SenderTotals allSenders() const;
     [[nodiscard]] std::uint64_t unfollowed() const { return m_ingest.unfollowed(); }
     [[nodiscard]] std::uint64_t overtaken() const { return m_ingest.overtaken(); }
-    /// "10.0.0.5:40001"; "this computer" for kNoSender, and "a retired sender" for one that is not listed.
+    /// "10.0.0.5:40001"; "this computer" for kNoSender, and "a retired sender" for one that was
+    /// retired long ago.
     [[nodiscard]] ForeignText addressOf(log::SenderId id) const;
 
     /// What came in a range of time in all streams of a character, without what makes no sense of several.
@@ -78,6 +82,11 @@ public:
     /// Those that are yet to be judged: what is not there yet, and not yet lost.
     void forEachPending(
         const std::function<void(const log::StreamKey&, std::uint64_t, log::Stamp, log::Stamp)>& f) const;
+    /// Calls f(stream, stamp, cause) for the newest samples and messages of which only a part came, with when
+    /// they should have come and whose loss the rest was.
+    void forEachPartialLoss(const std::function<void(const log::StreamKey&, log::Stamp, LossCause)>& f) const;
+    /// What was lost before this is known.
+    [[nodiscard]] log::Stamp judgedUntil() const;
     /// What the incident will be called that a sender's pending gaps may become.
     [[nodiscard]] std::uint64_t provisionalNumber(log::SenderId sender) const;
     /// The gap that a packet ended; null where it ended none, or one that is forgotten.
@@ -130,6 +139,8 @@ public:
     [[nodiscard]] const Annotations& annotations() const { return m_choices.annotations; }
     /// Also where it was hidden before its sender was restarted.
     [[nodiscard]] bool isHidden(const CharacterKey& key) const;
+    /// Whether the operator has put it on the floor, likewise.
+    [[nodiscard]] bool isLifted(const CharacterKey& key) const;
     [[nodiscard]] const IncidentRequest& incidentRequest() const { return m_choices.incidentRequest; }
     [[nodiscard]] bool isGhostShown() const { return m_choices.isGhostShown; }
     /// When the span that counts for the take began; 0: with the session.
@@ -218,8 +229,13 @@ public:
     /// Of the newest datagram of a stream; 0 where there is none.
     [[nodiscard]] log::Stamp newestStamp(const log::StreamKey& key) const;
     /// The newest pose, of type 02, 01 or 05: the first of these that is not more than 0.25 s older than the
-    /// newest of them, so that a figure does not jump between types that are sent together.
+    /// newest of them, so that a figure does not jump between types that are sent together. Where none of
+    /// these is on the air, what types 21, 22 and 03 tell of one sample. What is missing of a body is solved.
     [[nodiscard]] const CharacterPose* pose(const CharacterKey& key) const;
+    /// What is to be said of that pose; nothing where there is none.
+    [[nodiscard]] PoseRemark poseRemark(const CharacterKey& key) const;
+    /// The same of what was received last, whatever the cursor; empty where no pose can be drawn of it.
+    [[nodiscard]] std::optional<PoseRemark> poseRemarkNow(const CharacterKey& key) const;
     /// The scale message; null where none was received.
     [[nodiscard]] const NullPose* nullPose(const CharacterKey& key) const;
     /// All scale messages of the character itself; null where none was received.
@@ -229,7 +245,8 @@ public:
     /// What the scale messages of a character are judged by, or those of its predecessor where it has sent
     /// none itself. Valid until the session follows the log again.
     [[nodiscard]] NullPoseEvidence nullPoseEvidence(const CharacterKey& key) const;
-    /// Of the null pose, or of the reference body where none was received. Valid as message() is.
+    /// Of the null pose; where none was received as measured on poses, else of the reference body. Valid as
+    /// message() is.
     [[nodiscard]] const BodyOrigins& bodyOrigins(const CharacterKey& key) const;
 
     /// What "now" means at the cursor: now() when following, the packet's stamp when paused.
@@ -250,6 +267,7 @@ private:
     [[nodiscard]] CharacterKey currentBefore(const CharacterKey& key, std::uint64_t end) const;
     [[nodiscard]] std::vector<const Character*> charactersBefore(std::uint64_t end) const;
     [[nodiscard]] std::uint64_t appearance(const Character& character) const;
+    [[nodiscard]] bool isIn(const std::set<CharacterKey>& keys, const CharacterKey& key) const;
     [[nodiscard]] bool isPaused() const { return m_choices.cursor.mode == Cursor::Mode::Paused; }
     /// One past the newest packet that the cursor lets through.
     [[nodiscard]] std::uint64_t visibleEnd() const;
@@ -262,6 +280,14 @@ private:
                             Visitor&& visitor) const;
     bool readMessage(const log::StreamEntries& entries, std::size_t count, Message& message) const;
     bool readWhole(const log::StreamEntry& entry, Message& message) const;
+    using PoseMessages = std::array<const Message*, 3>;
+    [[nodiscard]] const Message* wholePose(const CharacterKey& key) const;
+    [[nodiscard]] const Message* messageOfSample(const CharacterKey& key, std::size_t part,
+                                                 std::uint32_t sample) const;
+    [[nodiscard]] PoseMessages posePartsOf(const CharacterKey& key) const;
+    [[nodiscard]] LengthUnit unitOf(const Message& message) const;
+    /// False where they hold no pose.
+    bool readPose(const PoseMessages& messages, const BodyOrigins& body, CharacterPose& pose) const;
 
     Ingest& m_ingest;
     const Choices& m_choices;

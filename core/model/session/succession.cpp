@@ -6,6 +6,28 @@
 /// Who is who: a character is the same one through restarts of its sender.
 namespace posewire::model {
 
+ForeignText SessionView::addressOf(log::SenderId id) const {
+    if (const Sender* sender = find(id)) {
+        return sender->address();
+    }
+    const FormerSender* former = m_ingest.former(id);
+    return id == log::kNoSender ? "this computer"
+           : former != nullptr  ? ForeignText(former->address)
+                                : ForeignText("a retired sender");
+}
+
+ForeignText SessionView::displayName(const CharacterKey& key) const {
+    if (const FormerSender* former = find(key) == nullptr ? m_ingest.former(key.sender) : nullptr) {
+        const auto known =
+            std::ranges::find(former->names, key.character, &std::pair<std::uint8_t, ForeignText>::first);
+        if (known != former->names.end()) {
+            return known->second;
+        }
+    }
+    const ForeignText& name = metadataValue(key, "name");
+    return name.isEmpty() ? ForeignText("Character " + std::to_string(key.character)) : name;
+}
+
 const Character* SessionView::predecessor(const CharacterKey& key) const {
     const Character* character = find(key);
     const Character* before = character != nullptr && character->before ? find(*character->before) : nullptr;
@@ -66,11 +88,19 @@ bool SessionView::isSame(const CharacterKey& a, const CharacterKey& b) const {
     return a == b || currentNow(a) == currentNow(b);
 }
 
+/// Itself, or what it was before or after a restart.
+bool SessionView::isIn(const std::set<CharacterKey>& keys, const CharacterKey& key) const {
+    return !keys.empty() && (keys.contains(key) ||
+                             std::ranges::any_of(lineage(currentNow(key)),
+                                                 [&](const auto* one) { return keys.contains(one->key); }));
+}
+
 bool SessionView::isHidden(const CharacterKey& key) const {
-    return !m_choices.hidden.empty() && (m_choices.hidden.contains(key) ||
-                                         std::ranges::any_of(lineage(currentNow(key)), [&](const auto* one) {
-                                             return m_choices.hidden.contains(one->key);
-                                         }));
+    return isIn(m_choices.hidden, key);
+}
+
+bool SessionView::isLifted(const CharacterKey& key) const {
+    return isIn(m_choices.lifted, key);
 }
 
 std::uint64_t SessionView::restartsOf(const CharacterKey& key) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/verdict.h"
 
+#include "core/model/body/character_pose.h"
+#include "core/model/body/pose_remark.h"
 #include "core/model/text.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
@@ -35,14 +37,6 @@ bool concerns(const Incident& incident, const Line& line) {
            std::ranges::any_of(line, [&](const CharacterKey& one) { return concerns(incident, one); });
 }
 
-/// Whether anything of it can be drawn.
-bool hasPose(const Character& character) {
-    constexpr std::array kTypes{wire::PoseQuaternion::kType, wire::PoseEuler::kType, wire::PoseUnity::kType};
-    return std::ranges::any_of(character.streams, [&](const Stream* stream) {
-        return std::ranges::find(kTypes, stream->key.type) != kTypes.end();
-    });
-}
-
 TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst) {
     const bool isBad = worst.state == State::Ongoing && worst.incident.severity() == IncidentSeverity::Error;
     TakeVerdict verdict;
@@ -73,6 +67,30 @@ TakeVerdict lasting(TakeVerdict::State state, const std::string& text, std::stri
     return verdict;
 }
 
+/// What speaks against the body that is drawn of a character; nothing where all of it was sent.
+std::optional<TakeVerdict> onPose(const SessionView& session, const Character& character, log::Stamp since) {
+    const std::optional<PoseRemark> remark = session.poseRemarkNow(character.key);
+    if (remark && !remark->isAssumed) {
+        return std::nullopt;
+    }
+    const std::string name = session.displayName(character.key).shown();
+    std::string text = "Not quite good: ";
+    if (remark) {
+        text += name + ": " + remark->reason;
+    } else {
+        std::vector<std::string> types;
+        for (const Stream* stream : character.streams) {
+            types.push_back(wire::typeDigits(stream->key.type));
+        }
+        text += "no pose to draw of " + name + ", which sends " + (types.size() == 1 ? "type " : "types ") +
+                listed(types);
+    }
+    TakeVerdict verdict =
+        lasting(TakeVerdict::State::Warning, text, remark ? remark->brief : "no pose", since);
+    verdict.character = character.key;
+    return verdict;
+}
+
 TakeVerdict withoutIncident(const SessionView& session, const std::optional<CharacterKey>& only,
                             log::Stamp since) {
     std::vector<const Character*> characters = session.charactersNow();
@@ -80,20 +98,10 @@ TakeVerdict withoutIncident(const SessionView& session, const std::optional<Char
     if (characters.empty()) {
         return lasting(TakeVerdict::State::None, "No data yet", "no data yet", {});
     }
-    const auto poseless =
-        std::ranges::find_if(characters, [](const Character* one) { return !hasPose(*one); });
-    if (poseless != characters.end()) {
-        std::vector<std::string> types;
-        for (const Stream* stream : (*poseless)->streams) {
-            types.push_back(wire::typeDigits(stream->key.type));
+    for (const Character* one : characters) {
+        if (auto verdict = onPose(session, *one, since)) {
+            return *verdict;
         }
-        TakeVerdict verdict =
-            lasting(TakeVerdict::State::Warning,
-                    "Not quite good: no pose to draw of " + session.displayName((*poseless)->key).shown() +
-                        ", which sends " + (types.size() == 1 ? "type " : "types ") + listed(types),
-                    "no pose", since);
-        verdict.character = (*poseless)->key;
-        return verdict;
     }
     const std::string who =
         only ? session.displayName(*only).shown() : counted(characters.size(), "character");

@@ -261,7 +261,7 @@ TEST(ReportCommand, WritesHtmlAboutTheRangeThatWasAskedFor) {
     const std::string whole = newPath();
     EXPECT_EQ(runProgram({"report", path, "-o", whole}).status, 0);
     EXPECT_THAT(textOfFile(whole), StartsWith("<!DOCTYPE html>"));
-    EXPECT_THAT(textOfFile(whole), HasSubstr("10 of 1,000 samples (1.00 %)"));
+    EXPECT_THAT(textOfFile(whole), HasSubstr("10 of 1\u202f000 samples (1.00 %)"));
     const ProgramRun later = runProgram({"report", path, "-o", "-", "--from", "2"});
     EXPECT_EQ(later.status, 0);
     EXPECT_THAT(later.out, HasSubstr("every one of them received"));

@@ -25,8 +25,8 @@ TEST(Html, ShowsWhatIsNoText) {
 TEST(Html, GroupsDigits) {
     EXPECT_EQ(grouped(0), "0");
     EXPECT_EQ(grouped(999), "999");
-    EXPECT_EQ(grouped(1000), "1,000");
-    EXPECT_EQ(grouped(1234567), "1,234,567");
+    EXPECT_EQ(grouped(1000), "1\u202f000");
+    EXPECT_EQ(grouped(1234567), "1\u202f234\u202f567");
 }
 
 TEST(Html, ShowsNoNumberWhereThereIsNone) {

@@ -94,7 +94,7 @@ TEST_F(StreamReportTest, SaysInWordsHowMuchWasLost) {
     const std::string html = report();
     EXPECT_EQ(faultOf(html), "");
     EXPECT_THAT(html, HasSubstr("verdict error"));
-    EXPECT_THAT(html, HasSubstr("40 of 2,000 samples (2.00 %)"));
+    EXPECT_THAT(html, HasSubstr("40 of 2\u202f000 samples (2.00 %)"));
 }
 
 TEST_F(StreamReportTest, SaysOfEveryGapWhoseItWas) {

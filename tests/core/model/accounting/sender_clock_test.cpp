@@ -115,6 +115,27 @@ TEST(SenderClock, KeepsItsJitterThroughAJumpOfTheTimeCode) {
     EXPECT_NEAR(clock.jitterMs(), before * 15 / 16, 1e-9);
 }
 
+TEST(SenderClock, OneCorruptTimeCodeIsNoJitter) {
+    const auto clean = jitteryStream(5'000'000, 400);
+    const double jitter = clockOf(clean).jitterMs();
+    for (const std::uint32_t off : {1U << 10U, 1U << 15U, 1U << 30U}) {
+        auto samples = clean;
+        samples[390].timeCode ^= off;
+        EXPECT_NEAR(clockOf(samples).jitterMs(), jitter, 0.5) << off;
+    }
+}
+
+TEST(SenderClock, FollowsATimeCodeThatHasJumpedOnceASecondSampleSaysSo) {
+    SenderClock clock = clockOf(jitteryStream(5'000'000, 400));
+    const double before = clock.jitterMs();
+    const auto last = jitteryStream(5'000'000, 400).back();
+    for (std::uint32_t i = 1; i <= 3; ++i) {
+        clock.add({last.stamp + i * 10ms, last.sample + i, last.timeCode + 2'000 + 10 * i});
+    }
+    EXPECT_LE(clock.jitterMs(), before + 1);
+    EXPECT_EQ(clock.generation(), 1U);
+}
+
 TEST(SenderClock, ForgetsTheDifferenceAtARestart) {
     SenderClock clock;
     clock.add({at(1s), 1, 0});

@@ -74,6 +74,17 @@ TEST_F(FaultMatrixTest, CountsOnlyWhatIsInTheRange) {
     EXPECT_EQ(half.sum.expected, 400U);
 }
 
+TEST_F(FaultMatrixTest, WhoseLossTheRestOfASampleWasIsKnownInARangeToo) {
+    samples(0, 1, 300);
+    send(standingAt(0), 301, m_at, 0x00); // its second part never comes
+    send(wire::ScaleInformation{}, 0, m_at, 0x00);
+    m_at += 10ms;
+    samples(0, 302, 400);
+    const auto ofAll = matrix().sum.lost;
+    EXPECT_EQ(ofAll[kNetwork], 3U) << "part of a sample, its other type, and a message";
+    EXPECT_EQ(matrix(TimeRange{log::Stamp(0s), m_now + 1s}).sum.lost, ofAll);
+}
+
 TEST_F(FaultMatrixTest, ACharacterIsOneRowThroughARestartOfItsSender) {
     const auto isWhole = [](std::uint32_t number) { return number != 100; };
     samples(0, 1, 200, isWhole);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "tests/core/model/session/session_fixture.h"
 
+#include "core/model/session/verdict.h"
+
 #include "core/model/accounting/attribution.h"
 
 #include <algorithm>
@@ -97,6 +99,27 @@ TEST_F(LifecycleTest, WhatARetiredSenderHadLastsNoLonger) {
     const Incident& first = m_session.incidents().all().front();
     EXPECT_EQ(first.kind, IncidentKind::SourceUp);
     EXPECT_EQ(m_session.addressOf(first.sender), "a retired sender");
+}
+
+TEST_F(LifecycleTest, WhatWasForgottenKeepsItsNameInWhatIsToldOfIt) {
+    wire::MetaData metadata;
+    metadata.text = "name:Jonas\n";
+    send(metadata, 0, m_at);
+    for (std::uint32_t sample = 1; sample <= 200; ++sample, m_at += 10ms) {
+        send(standingAt(0), sample == 100 ? 90 : sample, m_at);
+    }
+    follow();
+    const CharacterKey jonas = key();
+    m_session.follow(m_at + 3s);
+    ASSERT_TRUE(m_session.forget(jonas.sender));
+    EXPECT_EQ(m_session.displayName(jonas), "Jonas");
+    EXPECT_EQ(m_session.addressOf(jonas.sender), "127.0.0.1:40001");
+    EXPECT_EQ(m_session.displayName({jonas.sender, 7}), "Character 7");
+    const TakeVerdict verdict = verdictOf(m_session, recentSpan(m_session));
+    EXPECT_EQ(verdict.text.find("Character"), std::string::npos) << verdict.text;
+    const auto& worst = m_session.retired().worst;
+    const auto gap = std::ranges::find(worst, Figure::SpacingMost, &RetiredTotals::Worst::figure);
+    EXPECT_NEAR(gap->value, 20, 1) << "limits of a run hold for it too";
 }
 
 TEST_F(LifecycleTest, ASenderThatIsHeardKeepsItsPlaceInAFloodOfForgedOnes) {

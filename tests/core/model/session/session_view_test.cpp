@@ -308,7 +308,12 @@ TEST_F(ViewTest, ShowsNoSegmentOfADatagramWithoutSegments) {
     follow();
     EXPECT_NE(m_session.message(key(), 2), nullptr);
     const CharacterPose* pose = m_session.pose(key());
-    EXPECT_EQ(pose == nullptr ? 0 : std::ranges::count(pose->isPresent, true), 0);
+    EXPECT_EQ(pose == nullptr ? 0
+                              : std::ranges::count_if(pose->sources,
+                                                      [](const SegmentSource& source) {
+                                                          return source.weaker() > Provenance::Assumed;
+                                                      }),
+              0);
 }
 
 TEST_F(ViewTest, KeepsWhatTheOperatorChose) {

@@ -62,6 +62,26 @@ TEST_F(VerdictTest, IsNotGoodWithoutAPoseToDraw) {
     EXPECT_EQ(verdict().text, "Not quite good: no pose to draw of Character 0, which sends types 24 and 21");
 }
 
+TEST_F(VerdictTest, CallsNoBodyGoodThatIsPartlyAssumed) {
+    wire::PoseQuaternion pose = standingAt(0);
+    pose.segments[segment::kHead].orientation[1] = std::numeric_limits<float>::quiet_NaN();
+    for (std::uint32_t sample = 1; sample <= 100; ++sample, m_at += 10ms) {
+        send(pose, sample, m_at);
+    }
+    EXPECT_EQ(verdict().state, State::Warning);
+    EXPECT_EQ(verdict().text, "Not quite good: Character 0: Not sent, assumed: Head");
+    EXPECT_EQ(verdict().brief, "partly assumed");
+    m_session.setCursor({Cursor::Mode::Paused, 3});
+    EXPECT_EQ(verdict().state, State::Warning) << "it is of now, whatever the cursor";
+    m_session.setCursor({});
+    for (std::uint32_t sample = 101; sample <= 110; ++sample, m_at += 10ms) {
+        send(standingAt(0), sample, m_at);
+    }
+    EXPECT_EQ(verdict().state, State::Good);
+    m_session.setCursor({Cursor::Mode::Paused, 3});
+    EXPECT_EQ(verdict().state, State::Good);
+}
+
 TEST_F(VerdictTest, SaysAtOnceWhatIsNotHereYetAndThenWhatIsLost) {
     poses(1, 1'000);
     m_at += 120ms;
@@ -79,6 +99,87 @@ TEST_F(VerdictTest, SaysAtOnceWhatIsNotHereYetAndThenWhatIsLost) {
     EXPECT_NE(now.text.find(" lost on Character 0, cause unknown, since "), std::string::npos) << now.text;
     EXPECT_TRUE(now.text.ends_with(", going on")) << now.text;
     EXPECT_EQ(now.incident, number) << "it keeps its number";
+}
+
+TEST_F(VerdictTest, NeverTakesANewRateForLossWhileItIsLearnt) {
+    poses(1, 500);
+    for (std::uint32_t sample = 504; sample <= 1'000; sample += 4, m_at += 40ms) {
+        pose(sample);
+        const TakeVerdict now = verdict();
+        EXPECT_EQ(now.text.find("lost"), std::string::npos) << sample << ": " << now.text;
+        EXPECT_NE(now.state, State::Bad) << sample << ": " << now.text;
+    }
+    EXPECT_EQ(of(IncidentKind::Step).size(), 1U);
+    EXPECT_EQ(told(), lost());
+}
+
+TEST_F(VerdictTest, EvenGapsAreLossOnceTheyAreNotEvenAnyMore) {
+    poses(1, 500);
+    for (std::uint32_t sample = 504; sample <= 540; sample += 4, m_at += 40ms) {
+        pose(sample);
+    }
+    poses(541, 600);
+    EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
+    EXPECT_EQ(told(), lost());
+    const auto sums = told();
+    EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0}), 30U);
+}
+
+TEST_F(VerdictTest, EvenGapsAreLossOfWhoSendsNothingMore) {
+    poses(1, 500);
+    for (std::uint32_t sample = 504; sample <= 540; sample += 4, m_at += 40ms) {
+        pose(sample);
+    }
+    EXPECT_TRUE(of(IncidentKind::Loss).empty());
+    EXPECT_EQ(verdictAfter(5s).state, State::Bad);
+    EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
+}
+
+TEST_F(VerdictTest, AMessageWhoseRestDoesNotComeIsLostBeforeTheNextOne) {
+    poses(1, 300);
+    send(wire::NullPose{}, 0, m_at, 0x00);
+    poses(301, 325);
+    EXPECT_TRUE(of(IncidentKind::Loss).empty()) << "it may still come";
+    poses(326, 400);
+    const auto found = of(IncidentKind::Loss);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].cause, LossCause::Network);
+    EXPECT_EQ(found[0].samples, 1U);
+    EXPECT_TRUE(std::ranges::none_of(listedIncidents(m_session), [](const ListedIncident& one) {
+        return one.state == ListedIncident::State::Provisional;
+    }));
+    send(wire::NullPose{}, 0, m_at, 0x80);
+    EXPECT_EQ(of(IncidentKind::Loss)[0].samples, 1U) << "it is told once";
+    EXPECT_EQ(told(), lost());
+}
+
+TEST_F(VerdictTest, NothingIsInDoubtWhereNothingMoreComes) {
+    poses(1, 199);
+    poses(201, 500);
+    EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
+    pose(200); // from so far back that the counter may have restarted
+    follow();
+    m_session.settle();
+    EXPECT_TRUE(of(IncidentKind::Loss).empty());
+    EXPECT_EQ(told(), lost());
+}
+
+TEST_F(VerdictTest, LossThatIsJudgedLateStillGoesOn) {
+    // What comes more than a second late makes every judgement wait for as long.
+    poses(1, 99);
+    for (std::uint32_t sample = 101; sample <= 1'500; ++sample, m_at += 10ms) {
+        if (sample % 20 != 0) {
+            pose(sample);
+        }
+        if (sample == 280) {
+            pose(220);
+        }
+        if (sample > 700 && sample % 50 == 0) {
+            const TakeVerdict now = verdict();
+            EXPECT_FALSE(now.isOver) << now.text;
+            EXPECT_NE(now.text.find(" lost on "), std::string::npos) << now.text;
+        }
+    }
 }
 
 TEST_F(VerdictTest, WhatIsNotSettledKeepsItsNumberAndItsStreams) {

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+#include "core/model/accounting/attribution.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+/// Whose loss a gap or the rest of a sample was: the evidence.
+namespace posewire::model {
+namespace {
+
+// Other streams brought what is missing about when it should have come.
+constexpr log::Duration kNear = std::chrono::milliseconds(150);
+
+bool isBetween(std::uint32_t sample, const Gap& gap) {
+    return distance(sample, gap.fromSample) > 0 && distance(gap.toSample, sample) > 0;
+}
+
+} // namespace
+
+/// Whose loss the rest of a sample or message is, of which some came from a packet on.
+LossCause Attribution::causeOfPartial(const log::StreamKey& stream, std::uint64_t fromPacket,
+                                      std::uint64_t toPacket) const {
+    const auto found = m_senders.find(stream.sender);
+    if (found == m_senders.end()) {
+        return LossCause::Unknown;
+    }
+    // What was dropped just before the first part counts too: it may have been another part.
+    const std::uint64_t before = fromPacket == 0 ? 0 : fromPacket - 1;
+    const LostHere lost = lostHere(before, toPacket, found->second.localPort);
+    if (lost.dropped + lost.overtaken != 0) {
+        return LossCause::ThisComputer;
+    }
+    return found->second.transport == log::Transport::Tcp ? LossCause::Sender : LossCause::Network;
+}
+
+void Attribution::findCause(Gap& gap, const Stream& stream) const {
+    const auto found = m_senders.find(gap.stream.sender);
+    if (gap.lost == 0 || found == m_senders.end()) {
+        return;
+    }
+    const Sender& sender = found->second;
+    const auto decide = [&](LossCause cause, Gap::Evidence evidence, std::uint64_t figure) {
+        gap.cause = cause;
+        gap.evidence = evidence;
+        gap.figure = figure;
+    };
+    const LostHere lost = lostHere(gap.fromPacket, gap.toPacket, sender.localPort);
+    if (lost.dropped != 0) {
+        return decide(LossCause::ThisComputer, Gap::Evidence::Dropped, lost.dropped);
+    }
+    if (lost.overtaken != 0) {
+        return decide(LossCause::ThisComputer, Gap::Evidence::Overtaken, lost.overtaken);
+    }
+    if (sender.transport == log::Transport::Tcp) {
+        return decide(LossCause::Sender, Gap::Evidence::Reliable, 0);
+    }
+    if (const Damage* damage = damageWithin(gap)) {
+        return decide(LossCause::Network, Gap::Evidence::Damaged, damage->sample);
+    }
+    for (const std::uint32_t neighbour : {gap.fromSample, gap.toSample}) {
+        if (stream.accounting.isIncomplete(neighbour)) {
+            return decide(LossCause::Network, Gap::Evidence::Partial, neighbour);
+        }
+    }
+    const TimeRange when{gap.fromStamp - kNear, gap.toStamp + kNear};
+    for (const Stream* other : sender.streams) {
+        if (other->key == gap.stream) {
+            continue;
+        }
+        if (const auto sample = other->accounting.arrivedBetween(gap.fromSample, gap.toSample, when)) {
+            gap.otherType = other->key.type;
+            return decide(LossCause::Network, Gap::Evidence::OtherStream, *sample);
+        }
+    }
+    if (hasPaused(gap, sender)) {
+        decide(LossCause::Sender, Gap::Evidence::Paused, sender.streams.size());
+    }
+}
+
+Attribution::LostHere Attribution::lostHere(std::uint64_t fromPacket, std::uint64_t toPacket,
+                                            std::uint16_t localPort) const {
+    LostHere lost;
+    for (auto drop = m_drops.rbegin(); drop != m_drops.rend() && drop->packet > fromPacket; ++drop) {
+        if (drop->packet <= toPacket && drop->localPort.value_or(localPort) == localPort) {
+            (drop->localPort ? lost.dropped : lost.overtaken) += drop->count;
+        }
+    }
+    return lost;
+}
+
+const Attribution::Damage* Attribution::damageWithin(const Gap& gap) const {
+    for (auto damage = m_damages.rbegin(); damage != m_damages.rend(); ++damage) {
+        if (damage->packet < gap.fromPacket) {
+            break;
+        }
+        if (damage->stream == gap.stream && isBetween(damage->sample, gap)) {
+            return &*damage;
+        }
+    }
+    return nullptr;
+}
+
+bool Attribution::hasPaused(const Gap& gap, const Sender& sender) const {
+    const log::Duration lasted = gap.toStamp - gap.fromStamp;
+    const bool isSilent = std::ranges::any_of(sender.silences, [&](const TimeRange& silence) {
+        const log::Duration common =
+            std::min(silence.to, gap.toStamp) - std::max(silence.from, gap.fromStamp);
+        return common >= kPause && 10 * common >= 9 * lasted;
+    });
+    const std::int64_t lastedMs = lasted / std::chrono::milliseconds(1);
+    const std::int64_t moved = static_cast<std::int32_t>(gap.timeCodeMoved);
+    return isSilent && std::abs(moved - lastedMs) <= std::max<std::int64_t>(50, lastedMs / 10);
+}
+
+} // namespace posewire::model

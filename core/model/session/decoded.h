@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "core/model/body/character_pose.h"
+#include "core/model/session/session_view.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <unordered_map>
+
+namespace posewire::model {
+
+/// Bounded by the streams and characters of the session; what is asked for again while the cursor is where it
+/// was is not decoded again. For the implementation of SessionView alone.
+struct SessionView::Decoded {
+    struct OfStream {
+        std::uint64_t packet = UINT64_MAX; ///< the newest datagram it was made from
+        bool isValid = false;
+        Message message;
+    };
+    /// What a pose was made of.
+    struct PoseOrigin {
+        std::array<std::uint64_t, 3> packets{UINT64_MAX, UINT64_MAX, UINT64_MAX};
+        std::array<LengthUnit, 3> units{};
+        std::uint64_t body = UINT64_MAX;
+        bool isLifted = false;
+        friend bool operator==(const PoseOrigin&, const PoseOrigin&) = default;
+    };
+    struct OfCharacter {
+        PoseOrigin poseOrigin;
+        bool isValid = false;
+        CharacterPose pose;
+        std::array<OfStream, 3> parts; ///< of samples before the newest
+        /// What the body was made of: the packet of a null pose, else how many poses it was measured on,
+        /// with the highest bit.
+        std::uint64_t bodyOrigin = UINT64_MAX;
+        std::optional<BodyOrigins> origins;
+    };
+    std::unordered_map<log::StreamKey, OfStream> messages;
+    std::map<CharacterKey, OfCharacter> characters;
+    std::uint64_t retired = 0; ///< senders; where there are more, what is theirs goes
+    std::uint64_t end = 0;     ///< of the session when it was looked at whether there is too much
+    std::size_t bytes = 0;     ///< that were read since nothing was left
+    Message part;
+    Message visited;
+};
+
+} // namespace posewire::model
