@@ -37,6 +37,8 @@ public:
     /// Points the camera at a character.
     virtual void frameCharacter(const model::CharacterKey& key) = 0;
     virtual void setCharacterVisible(const model::CharacterKey& key, bool isVisible) = 0;
+    /// Puts a character on the floor that is sent below it.
+    virtual void setLifted(const model::CharacterKey& key, bool isLifted) = 0;
     /// Takes a sender out of all lists from which nothing more is expected. Nothing happens where it sends.
     virtual void forgetSender(log::SenderId sender) = 0;
     /// Shows the null pose of the shown character as a ghost over its figure.

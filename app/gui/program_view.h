@@ -52,6 +52,13 @@ struct ReceivingState {
     std::vector<net::LocalAddress> addresses{}; ///< of this computer, to type into a sender, the best first
 };
 
+/// How the viewport's pictures are drawn, in words.
+struct PictureHealth {
+    QString state{}; ///< empty before there was one
+    QString why{};
+    bool isPoor = false; ///< what is left out may be missed
+};
+
 /// How this program itself is doing, measured a few times a second; nothing where the system does not report
 /// it. Shares of a processor are of one core: 1.5 is one and a half.
 struct MonitorHealth {
@@ -64,6 +71,7 @@ struct MonitorHealth {
     double framesPerSecond = 0;    ///< pictures of the viewport
     std::size_t meshBytes = 0;     ///< of the bodies in the viewport
     std::size_t mostMeshBytes = 0; ///< what that can become
+    PictureHealth picture{};
 };
 
 /// What panels read that is not of the session.

@@ -22,23 +22,26 @@ QString Replaying::start(const ReplayRequest& request, const model::SessionView&
         return tr("There is no packet to send.");
     }
     stop();
+    m_log = &view.log();
     m_replay = std::make_unique<net::Replay>(view.log(), m_clock, std::move(choice));
     return {};
 }
 
 void Replaying::stop() {
-    std::erase_if(m_ending, [](const std::future<void>& one) {
-        return one.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    std::erase_if(m_ending, [](const Ending& one) {
+        return one.end.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
     });
     if (m_replay != nullptr) { // a connection may take seconds to be given up
-        m_ending.push_back(
-            std::async(std::launch::async, [last = std::move(m_replay)]() mutable { last.reset(); }));
+        m_ending.push_back({m_log, std::async(std::launch::async,
+                                              [last = std::move(m_replay)]() mutable { last.reset(); })});
     }
 }
 
-void Replaying::end() {
-    stop();
-    m_ending.clear();
+void Replaying::endOf(const log::PacketLog& log) {
+    if (m_log == &log) {
+        stop();
+    }
+    std::erase_if(m_ending, [&log](const Ending& one) { return one.log == &log; }); // each waits
 }
 
 } // namespace posewire::gui

@@ -33,16 +33,22 @@ public:
     /// Ends the one before. The answer is why it cannot begin, empty where it does.
     QString start(const ReplayRequest& request, const model::SessionView& view);
     void stop();
-    /// Waits until no log is read any more, for one is about to go.
-    void end();
+    /// Ends what is sent of a log that is about to go, and waits until nothing reads it any more.
+    void endOf(const log::PacketLog& log);
 
     /// Null before the first, and after one was stopped.
     [[nodiscard]] const net::Replay* current() const { return m_replay.get(); }
 
 private:
+    struct Ending {
+        const log::PacketLog* log;
+        std::future<void> end;
+    };
+
     const log::Clock& m_clock;
+    const log::PacketLog* m_log = nullptr; ///< that the replay is of
     std::unique_ptr<net::Replay> m_replay;
-    std::vector<std::future<void>> m_ending;
+    std::vector<Ending> m_ending;
 };
 
 } // namespace posewire::gui

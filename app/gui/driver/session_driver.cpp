@@ -285,7 +285,7 @@ void SessionDriver::closeFile() {
     if (m_file != nullptr) {
         showLive();
         emit fileClosing();
-        m_replaying.end();
+        m_replaying.endOf(m_file->session().log());
         m_file.reset();
     }
 }

@@ -87,6 +87,8 @@ public:
 
     /// Pictures shown since the start.
     void setPicturesShown(std::uint64_t pictures) { m_pictures = pictures; }
+    /// How they are drawn now.
+    void setPictureHealth(PictureHealth health) { m_picture = std::move(health); }
     /// What the bodies in the viewport take, and can become.
     void setMeshMemory(std::size_t bytes, std::size_t most) {
         m_meshBytes = bytes;
@@ -157,6 +159,9 @@ public:
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         change(&model::Session::setHidden, key, !isVisible);
     }
+    void setLifted(const model::CharacterKey& key, bool isLifted) override {
+        change(&model::Session::setLifted, key, isLifted);
+    }
     void forgetSender(log::SenderId sender) override { change(&model::Session::forget, sender); }
     void setGhostVisible(bool isVisible) override;
     void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) override;
@@ -168,6 +173,7 @@ public:
         MonitorHealth health = m_meter.health();
         health.meshBytes = m_meshBytes;
         health.mostMeshBytes = m_mostMeshBytes;
+        health.picture = m_picture;
         return health;
     }
     [[nodiscard]] ReceivingState receivingState() const override { return m_receiving.state(); }
@@ -242,6 +248,7 @@ private:
     std::uint64_t m_pictures = 0;
     std::size_t m_meshBytes = 0;
     std::size_t m_mostMeshBytes = 0;
+    PictureHealth m_picture;
     log::Stamp m_tableTick{};
     log::Stamp m_retry{};
     bool m_isChanged = true;

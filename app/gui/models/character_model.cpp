@@ -77,10 +77,11 @@ TableColumn<Row> lostColumn(const QString& title, model::LossCause cause, const 
 template <class Row>
 void addFigureColumns(std::vector<TableColumn<Row>>& columns) {
     using Column = TableColumn<Row>;
-    columns.push_back(Column::numbers(tr("Nominal"),
-                                      tr("Rate in Hz by the sender's own time code and sample counter"),
-                                      [](const Row& row) { return hertz(row.nominalHz, true); })
-                          .dimmed());
+    columns.push_back(
+        Column::numbers(tr("nom."),
+                        tr("Nominal rate in Hz, by the sender's own time code and sample counter"),
+                        [](const Row& row) { return hertz(row.nominalHz, true); })
+            .dimmed());
     columns.push_back(Column::numbers(tr("Hz"), tr("Rate in Hz, measured by arrival at this computer"),
                                       [](const Row& row) { return hertz(row.measuredHz, false); }));
     columns.push_back(lostColumn<Row>(tr("here"), model::LossCause::ThisComputer,
@@ -243,7 +244,7 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
         case kSuffixRole:
             return QVariant(QStringLiteral("· %1").arg(row.key.character));
         case kDotRole:
-            return QVariant(characterColour(view, row.key));
+            return QVariant::fromValue(characterMark(view, row.key));
         default:
             return QVariant();
         }
@@ -256,6 +257,9 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
         valueColumn(Column::words(tr("Verdict"), tr("Whether it is good now on the wire"), {}),
                     [](const BoardRow& row) { return verdictState(row.verdict); })
             .withMore([](const BoardRow& row, int role) {
+                if (role == kShortTextRole) { // whose loss it is stands beside it, in the columns of losses
+                    return QVariant(verdictState(row.verdict).display().section(QLatin1Char(','), 0, 0));
+                }
                 if (row.restarts == 0) {
                     return QVariant();
                 }

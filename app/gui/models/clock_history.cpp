@@ -124,6 +124,11 @@ void ClockHistory::add(const Reading& reading) {
         if (ahead <= 0 && ahead >= -model::Probation::kMostBack) {
             return; // out of order, or again: no evidence of the clock
         }
+        const bool isFar = ahead < 0 || ahead > model::Probation::kMostForward;
+        if (isFar && isStraggler(reading)) {
+            return;
+        }
+        m_doubtful.clear();
         findJump(reading);
     }
     m_rate.add(reading.sample, reading.timeCode);
@@ -131,6 +136,19 @@ void ClockHistory::add(const Reading& reading) {
     while (reading.stamp - m_readings.front().stamp > kWindow || m_readings.size() > kMostReadings) {
         m_readings.pop_front();
     }
+}
+
+/// One from far away is, until so many in a row agree that the counter restarted there.
+bool ClockHistory::isStraggler(const Reading& reading) {
+    constexpr std::size_t kAgreeing = 8;
+    const bool agrees = !m_doubtful.empty() &&
+                        std::abs(static_cast<std::int32_t>(reading.sample - m_doubtful.back().sample)) <=
+                            model::Probation::kMostBack;
+    if (!agrees) {
+        m_doubtful.clear();
+    }
+    m_doubtful.push_back(reading);
+    return m_doubtful.size() < kAgreeing;
 }
 
 void ClockHistory::findJump(const Reading& reading) {

@@ -83,6 +83,7 @@ private:
         std::uint32_t timeCode;
     };
     void add(const Reading& reading);
+    [[nodiscard]] bool isStraggler(const Reading& reading);
     void findJump(const Reading& reading);
     void readType25(const model::Message* message);
     [[nodiscard]] std::optional<Drift> fitDrift() const;
@@ -90,6 +91,7 @@ private:
     std::optional<log::StreamKey> m_stream;
     log::Stamp m_lastStamp{};
     std::deque<Reading> m_readings;
+    std::vector<Reading> m_doubtful; ///< from far away, in a row: late or corrupt, or the counter restarted
     NominalRate m_rate;
     std::optional<Jump> m_jump;
     std::optional<Drift> m_drift;

@@ -103,6 +103,14 @@ PropertyValue computer(const Source& from) {
                "computer lost for want of room, and pictures of the viewport a second")};
 }
 
+PropertyValue picture(const Source& from) {
+    const MonitorHealth health = from.program.monitorHealth();
+    if (health.picture.state.isEmpty()) {
+        return {dash(), Health::Unknown, tr("How the pictures of the viewport are drawn")};
+    }
+    return {health.picture.state, health.picture.isPoor ? Health::Warning : Health::Good, health.picture.why};
+}
+
 PropertyValue processor(const Source& from) {
     const MonitorHealth health = from.program.monitorHealth();
     return {
@@ -231,6 +239,7 @@ std::vector<Property> computerFacts(model::SessionView& view, const ProgramView&
     return {row(tr("Lost by cause"), lostByCause),
             row(tr("Longest gap"), longestGap),
             row(tr("This computer"), computer),
+            row(tr("Picture"), picture),
             row(tr("Processor"), processor),
             row(tr("Accounting"), accounting),
             row(tr("Memory"), memory),

@@ -111,7 +111,7 @@ QVariant FaultModel::marksOf(const FaultRow& row, int role) const {
         return {};
     }
     if (role == kDotRole) {
-        return characterColour(m_view, row.current);
+        return QVariant::fromValue(characterMark(m_view, row.current));
     }
     const bool isTwice = std::ranges::any_of(m_rows, [&](const FaultRow& other) {
         return other.kind == FaultRow::Character && other.first != row.first &&

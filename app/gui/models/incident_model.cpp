@@ -113,7 +113,14 @@ std::vector<IncidentColumn> textColumns(model::SessionView& view) {
             .withToolTip([&view](const IncidentLine& line) { return fromTo(view, line); }),
         IncidentColumn::words(tr("Whose"), tr("Character and stream, or the sender"), whose)
             .withToolTip(whose),
-        IncidentColumn::words(tr("What happened"), {}, words).withToolTip(words),
+        // Whose fault it was stands beside it, in a column of its own.
+        IncidentColumn::words(tr("What happened"), {}, words)
+            .withToolTip(words)
+            .withMore([words](const IncidentLine& line, int role) {
+                const QString all = words(line);
+                const qsizetype end = all.indexOf(QLatin1String(", cause:"));
+                return role == kShortTextRole && end > 0 ? QVariant(all.left(end)) : QVariant();
+            }),
     };
 }
 

@@ -269,7 +269,8 @@ QVariant PacketModel::characterMark(const PacketFacts& facts, int role) const {
     if ((role != kDotRole && role != kSuffixRole) || !facts.header || m_view.find(key) == nullptr) {
         return {};
     }
-    return role == kDotRole ? QVariant(characterColour(m_view, key)) : characterName(m_view, key);
+    return role == kDotRole ? QVariant::fromValue(gui::characterMark(m_view, key))
+                            : characterName(m_view, key);
 }
 
 QVariant PacketModel::data(const QModelIndex& index, int role) const {

@@ -33,10 +33,11 @@ QString characterName(model::SessionView& view, const model::CharacterKey& key) 
     return shown(view.displayName(key));
 }
 
-QColor characterColour(model::SessionView& view, const model::CharacterKey& key) {
+CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key) {
     const model::Colour colour = view.colour(key);
-    return QColor::fromRgbF(std::clamp(colour.red, 0.0F, 1.0F), std::clamp(colour.green, 0.0F, 1.0F),
-                            std::clamp(colour.blue, 0.0F, 1.0F));
+    return {QColor::fromRgbF(std::clamp(colour.red, 0.0F, 1.0F), std::clamp(colour.green, 0.0F, 1.0F),
+                             std::clamp(colour.blue, 0.0F, 1.0F)),
+            key.character};
 }
 
 std::uint64_t newestVisiblePacket(model::SessionView& view) {

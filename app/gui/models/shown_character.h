@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/character_mark.h"
 #include "core/model/session/session_view.h"
 
-#include <QColor>
 #include <QString>
 
 #include <optional>
@@ -18,7 +18,7 @@ namespace posewire::gui {
 [[nodiscard]] model::Selection selectionOf(model::SessionView& view, const model::CharacterKey& key);
 
 [[nodiscard]] QString characterName(model::SessionView& view, const model::CharacterKey& key);
-[[nodiscard]] QColor characterColour(model::SessionView& view, const model::CharacterKey& key);
+[[nodiscard]] CharacterMark characterMark(model::SessionView& view, const model::CharacterKey& key);
 
 /// The newest packet that the cursor lets through; 0 where there is none.
 [[nodiscard]] std::uint64_t newestVisiblePacket(model::SessionView& view);

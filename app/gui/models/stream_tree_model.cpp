@@ -155,7 +155,7 @@ QVariant StreamTreeModel::marksOf(const StreamRow& row, int role) const {
     }
     const model::CharacterKey key = characterOf(row.key);
     return role == kSuffixRole ? QVariant(QStringLiteral("· %1").arg(key.character))
-                               : characterColour(m_view, key);
+                               : QVariant::fromValue(characterMark(m_view, key));
 }
 
 std::optional<model::CharacterKey> StreamTreeModel::character(const QModelIndex& index) const {

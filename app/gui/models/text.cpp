@@ -31,7 +31,7 @@ QString readable(std::span<const std::byte> bytes) {
 }
 
 QString grouped(std::uint64_t value) {
-    return QString::fromStdString(model::grouped(value, "\u202f"));
+    return QString::fromStdString(model::grouped(value));
 }
 
 QString fixed(double value, int decimals) {

@@ -47,7 +47,7 @@ std::uint64_t TimelineModel::datagramsIn(const model::TimeRange& window) const {
 
 void TimelineModel::addRows(const model::CharacterKey& key) {
     Row whole{
-        key, std::nullopt, characterName(m_view, key), characterColour(m_view, key), {}, m_open.contains(key),
+        key, std::nullopt, characterName(m_view, key), characterMark(m_view, key), {}, m_open.contains(key),
         {}};
     std::map<std::uint8_t, std::vector<log::StreamKey>> byType;
     for (const model::Character* one : m_view.lineage(key)) {
@@ -64,7 +64,7 @@ void TimelineModel::addRows(const model::CharacterKey& key) {
         m_rows.push_back({key,
                           type,
                           QString::fromStdString(wire::typeTitle(type)),
-                          whole.colour,
+                          whole.mark,
                           std::move(streams),
                           false,
                           {}});

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "app/gui/models/span_text.h"
+#include "app/gui/theme/character_mark.h"
 #include "core/model/accounting/range_figures.h"
 #include "core/model/session/session_view.h"
 
-#include <QColor>
 #include <QString>
 
 #include <cstdint>
@@ -23,7 +23,7 @@ public:
         model::CharacterKey character;
         std::optional<std::uint8_t> type; ///< of a stream; nothing for all of the character
         QString name;
-        QColor colour;
+        CharacterMark mark;
         std::vector<log::StreamKey> streams; ///< under all ports that the sender had
         bool isOpen = false;
         std::vector<model::RangePart> parts; ///< empty until shown() asked for it

@@ -89,6 +89,11 @@ int paintShare(QPainter& painter, const QRect& rect, const QString& number, cons
     return rect.right() - (isRoom ? reserved : 0);
 }
 
+QRectF squareBefore(const QRect& rect, int side) {
+    return {static_cast<qreal>(rect.left()), rect.center().y() - side / 2.0 + 0.5, static_cast<qreal>(side),
+            static_cast<qreal>(side)};
+}
+
 void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option, const QModelIndex& index) {
     const QVariant dot = index.data(kDotRole);
     const QVariant swatch = index.data(kSwatchRole);
@@ -103,10 +108,11 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
         rect.setLeft(
             std::max(rect.left(), rect.right() - metrics.horizontalAdvance(shown) - side - side * 2 / 3));
     }
-    if (dot.isValid() || swatch.isValid()) {
-        const QVariant& mark = dot.isValid() ? dot : swatch;
+    if (dot.isValid()) {
         rect.setLeft(rect.left() +
-                     CellDelegate::paintMark(painter, rect, side, mark.value<QColor>(), dot.isValid()));
+                     CellDelegate::paintBefore(painter, rect, side, dot.value<CharacterMark>()));
+    } else if (swatch.isValid()) {
+        rect.setLeft(rect.left() + CellDelegate::paintBefore(painter, rect, side, swatch.value<QColor>()));
     }
     painter.setPen(isSelected ? onSelection(colour) : colour);
     if (CellDelegate::isNumber(index)) {
@@ -122,14 +128,16 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
     const auto widthWith = [&metrics](const QString& words) {
         return words.isEmpty() ? 0 : metrics.horizontalAdvance(QLatin1Char(' ') + words);
     };
-    if (widthWith(suffix) > rect.width() - metrics.horizontalAdvance(option.text)) {
+    const QVariant shorter = index.data(kShortTextRole);
+    const bool isWhole = !shorter.isValid() || metrics.horizontalAdvance(option.text) <= rect.width();
+    const QString whole = isWhole ? option.text : shorter.toString();
+    if (widthWith(suffix) > rect.width() - metrics.horizontalAdvance(whole)) {
         const QString brief = index.data(kShortSuffixRole).toString();
         suffix = brief.isEmpty() ? suffix : brief;
     }
     const int suffixWidth = widthWith(suffix);
     const int reserved = suffixWidth <= rect.width() / 3 ? suffixWidth : 0;
-    const QString text =
-        metrics.elidedText(option.text, Qt::ElideRight, std::max(0, rect.width() - reserved));
+    const QString text = metrics.elidedText(whole, Qt::ElideRight, std::max(0, rect.width() - reserved));
     painter.drawText(rect, Qt::AlignLeft | Qt::AlignVCenter, text);
     rect.setLeft(rect.left() + metrics.horizontalAdvance(text + QLatin1Char(' ')));
     const QString added = metrics.elidedText(suffix, Qt::ElideRight, rect.width());
@@ -145,18 +153,17 @@ bool CellDelegate::isNumber(const QModelIndex& index) {
     return (index.data(Qt::TextAlignmentRole).toInt() & Qt::AlignRight) != 0;
 }
 
-int CellDelegate::paintMark(QPainter& painter, const QRect& rect, int side, const QColor& colour,
-                            bool isDot) {
-    const QRectF mark(rect.left(), rect.center().y() - side / 2.0 + 0.5, side, side);
+int CellDelegate::paintBefore(QPainter& painter, const QRect& rect, int side, const CharacterMark& mark) {
+    paintMark(painter, squareBefore(rect, side), mark);
+    return side + side * 2 / 3;
+}
+
+int CellDelegate::paintBefore(QPainter& painter, const QRect& rect, int side, const QColor& swatch) {
     painter.save();
     painter.setRenderHint(QPainter::Antialiasing);
     painter.setPen(Qt::NoPen);
-    painter.setBrush(colour);
-    if (isDot) {
-        painter.drawEllipse(mark);
-    } else {
-        painter.drawRoundedRect(mark, 2, 2);
-    }
+    painter.setBrush(swatch);
+    painter.drawRoundedRect(squareBefore(rect, side), 2, 2);
     painter.restore();
     return side + side * 2 / 3;
 }

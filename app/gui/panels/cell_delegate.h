@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/character_mark.h"
+
 #include <QStyledItemDelegate>
 
 namespace posewire::gui {
 
-/// Paints what models/column.h knows: dots, swatches, dim suffixes, small curves; numbers in tabular figures.
+/// Paints what models/column.h knows: marks, swatches, dim suffixes, small curves; numbers in tabular
+/// figures.
 class CellDelegate : public QStyledItemDelegate {
     Q_OBJECT
 
@@ -19,8 +22,9 @@ public:
     [[nodiscard]] static int margin(const QFontMetrics& metrics);
     [[nodiscard]] static int rowHeight(const QFontMetrics& metrics);
     [[nodiscard]] static bool isNumber(const QModelIndex& index);
-    /// Paints a dot or a square of `side` pixels before a text and returns its width with the space after it.
-    static int paintMark(QPainter& painter, const QRect& rect, int side, const QColor& colour, bool isDot);
+    // Paint a mark or a square of `side` pixels before a text, and return its width with the space after it.
+    static int paintBefore(QPainter& painter, const QRect& rect, int side, const CharacterMark& mark);
+    static int paintBefore(QPainter& painter, const QRect& rect, int side, const QColor& swatch);
 };
 
 } // namespace posewire::gui

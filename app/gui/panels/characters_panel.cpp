@@ -56,8 +56,8 @@ QToolButton* toggle(const QString& name, const QString& text, const QString& too
 }
 
 std::vector<QString> figureSamples() {
-    return {QStringLiteral("1000"),  QStringLiteral("1000.0"), QStringLiteral("9 999"),
-            QStringLiteral("9 999"), QStringLiteral("9 999"),  QStringLiteral("9 999"),
+    return {QStringLiteral("240"),   QStringLiteral("240.0"), QStringLiteral("9 999"),
+            QStringLiteral("9 999"), QStringLiteral("9 999"), QStringLiteral("9 999"),
             QStringLiteral("99.9")};
 }
 
@@ -112,13 +112,14 @@ CharactersPanel::CharactersPanel(model::SessionView& view, Commands& commands, c
     std::vector<QString> samples{QStringLiteral("         Mira Lindqvist · 10"), QString()};
     std::ranges::copy(figureSamples(), std::back_inserter(samples));
     samples.push_back(QStringLiteral("none"));
-    m_table->setColumnSamples(std::move(samples), QStringLiteral("■ 10.0 % lost, network"));
+    m_table->setColumnSamples(std::move(samples), QStringLiteral("■ 10.0 % lost"));
     m_table->columns().setGivingWay({CharacterModel::kPose, CharacterModel::kNominal, CharacterModel::kAge,
                                      CharacterModel::kMeasured, CharacterModel::kLostUnknown,
                                      CharacterModel::kLostHere, CharacterModel::kLostAtSender,
                                      CharacterModel::kLostOnNetwork});
     m_table->columns().addElastic(CharacterModel::kName, QStringLiteral("         Mira Li"),
-                                  QStringLiteral("         Performer with a name · 10"));
+                                  QStringLiteral("         Performer with a name · 10"),
+                                  QStringLiteral("         Mira Li"));
     m_table->viewport()->installEventFilter(this);
     column->addWidget(m_table, 1);
 
@@ -203,10 +204,10 @@ void CharactersPanel::refresh() {
     m_isFollowing = true;
     m_model.refresh();
     showEmptyState();
-    constexpr qsizetype kMostKept = 36; // characters
+    constexpr qsizetype kMostKept = 24; // characters
     QString longest;
     for (int row = 0; row < m_model.rowCount(); ++row) {
-        const QString verdict = m_model.index(row, CharacterModel::kVerdict).data().toString();
+        const QString verdict = m_model.index(row, CharacterModel::kVerdict).data(kShortTextRole).toString();
         longest = verdict.size() > longest.size() ? verdict : longest;
     }
     m_table->columns().keepOpenFor(longest.left(kMostKept)); // once wider, it stays: words shift nothing

@@ -250,7 +250,7 @@ void FilterBar::showSaved() {
         QAction* action = m_buttons->addCommand({}, m_saved[i].name, m_saved[i].text);
         connect(action, &QAction::triggered, this, [this, i] { applySaved(i); });
         QWidget* button = m_buttons->widgetForAction(action);
-        button->setAccessibleName(tr("Filter packets: %1").arg(m_saved[i].name));
+        button->setAccessibleName(tr("Filter packets: %1").arg(button->accessibleName()));
         button->setAccessibleDescription(m_saved[i].text);
         button->setContextMenuPolicy(Qt::CustomContextMenu);
         connect(button, &QWidget::customContextMenuRequested, this,

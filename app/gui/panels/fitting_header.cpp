@@ -55,8 +55,9 @@ void FittingHeader::setGivingWay(std::vector<int> columns) {
     measure();
 }
 
-void FittingHeader::addElastic(int column, const QString& least, const QString& most) {
-    m_elastic.push_back({column, least, most});
+void FittingHeader::addElastic(int column, const QString& least, const QString& most, const QString& soon) {
+    std::erase_if(m_elastic, [column](const Elastic& one) { return one.column == column; });
+    m_elastic.push_back({column, least, most, soon});
     measure();
 }
 
@@ -105,6 +106,12 @@ int FittingHeader::sampleWidth(int column) const {
     return std::max(textWidth(m_samples[static_cast<std::size_t>(column)]), titleWidth);
 }
 
+int FittingHeader::soonWidth(int column) const {
+    const auto elastic = std::ranges::find(m_elastic, column, &Elastic::column);
+    const bool isSoon = elastic != m_elastic.end() && !elastic->soon.isEmpty();
+    return isSoon ? textWidth(elastic->soon) : sampleWidth(column);
+}
+
 int FittingHeader::leastOpenWidth() const {
     return m_leastOpen.isEmpty() ? m_table->fontMetrics().averageCharWidth() * 22 : textWidth(m_leastOpen);
 }
@@ -146,19 +153,23 @@ void FittingHeader::fit() {
     int needed = leastOpenWidth();
     for (int column = 0; column < columns(); ++column) {
         isShown.push_back(isWanted(column));
-        needed += isShown.back() && column != open ? sampleWidth(column) : 0;
+        needed += isShown.back() && column != open ? soonWidth(column) : 0;
     }
     for (const int column : m_givingWay) {
         const auto place = static_cast<std::size_t>(column);
         if (m_chosen.isEmpty() && needed > width && isShown[place] && column != open) {
             isShown[place] = false;
-            needed -= sampleWidth(column);
+            needed -= soonWidth(column);
         }
     }
     for (int column = 0; column < columns(); ++column) {
         if (isSectionHidden(column) == isShown[static_cast<std::size_t>(column)]) {
             setSectionHidden(column, !isSectionHidden(column));
         }
+    }
+    for (const Elastic& one : m_elastic) {
+        const bool isThere = isShown[static_cast<std::size_t>(one.column)];
+        needed += isThere ? sampleWidth(one.column) - soonWidth(one.column) : 0;
     }
     fitElastic(width - needed);
     const int others = length() - sectionSize(open);

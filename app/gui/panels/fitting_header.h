@@ -36,7 +36,8 @@ public:
     void setGivingWay(std::vector<int> columns);
     /// A column that gets narrower, down to what `least` needs, where even the columns that are left do not
     /// fit; and wider, up to what `most` needs, where there is room left. The one added first comes first.
-    void addElastic(int column, const QString& least, const QString& most);
+    /// Down to what `soon` needs it gets before any other column gives way.
+    void addElastic(int column, const QString& least, const QString& most, const QString& soon = {});
     [[nodiscard]] bool isChoosable() const { return !m_givingWay.empty(); }
     /// Without a choice of the operator only these are shown, as they fit.
     void setUsual(std::vector<int> columns);
@@ -61,6 +62,7 @@ private:
         int column;
         QString least;
         QString most;
+        QString soon;
     };
 
     void fitElastic(int spare);
@@ -69,6 +71,8 @@ private:
     [[nodiscard]] bool isWanted(int column) const;
     [[nodiscard]] int textWidth(const QString& text) const;
     [[nodiscard]] int sampleWidth(int column) const;
+    /// Of one that gets narrower soon, when it has.
+    [[nodiscard]] int soonWidth(int column) const;
     [[nodiscard]] int leastOpenWidth() const;
     void choose(int column, bool isShown);
 

@@ -79,7 +79,8 @@ void PacketView::paintCell(QPainter& painter, const QModelIndex& index, QRect re
     const QVariant dot = index.data(kDotRole);
     if (dot.isValid()) {
         const int side = std::max(7, metrics.ascent() * 2 / 3);
-        rect.setLeft(rect.left() + CellDelegate::paintMark(painter, rect, side, dot.value<QColor>(), true));
+        rect.setLeft(rect.left() +
+                     CellDelegate::paintBefore(painter, rect, side, dot.value<CharacterMark>()));
     }
     const QVariant colour = index.data(Qt::ForegroundRole);
     const QColor pen = colour.isValid() ? colour.value<QColor>() : theme().text;

@@ -160,7 +160,7 @@ void TimelineView::paintRow(QPainter& painter, std::size_t row) {
         painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter,
                          shown.isOpen ? QStringLiteral("▾") : QStringLiteral("▸"));
         name.setLeft(name.left() + indent);
-        name.setLeft(name.left() + CellDelegate::paintMark(painter, name, indent / 2, shown.colour, true));
+        name.setLeft(name.left() + CellDelegate::paintBefore(painter, name, indent / 2, shown.mark));
         painter.setPen(theme().text);
     }
     painter.drawText(name, Qt::AlignLeft | Qt::AlignVCenter,
@@ -181,7 +181,7 @@ void TimelineView::paintStrip(QPainter& painter, const TimelineModel::Row& row, 
     }
     const double room = strip.height() - 5.0;
     const double bottom = strip.bottom() - 1.0;
-    const QColor colour = withAlpha(row.colour, row.type ? 0.45 : 0.7);
+    const QColor colour = withAlpha(row.mark.colour, row.type ? 0.45 : 0.7);
     painter.setPen(Qt::NoPen);
     for (std::size_t i = 0; i < row.parts.size(); ++i) {
         const model::RangePart& part = row.parts[i];

@@ -192,7 +192,10 @@ QAction* CommandBar::addCommand(const QString& name, const QString& text, const 
     action->setToolTip(toolTipText(toolTip));
     QWidget* button = widgetForAction(action);
     button->setObjectName(name);
-    button->setAccessibleName(toolTip);
+    const bool isWord = text.size() > 1;
+    button->setAccessibleName(isWord ? QString(text).replace(QLatin1String("&&"), QLatin1String("&"))
+                                     : toolTip);
+    button->setAccessibleDescription(isWord ? toolTip : QString());
     button->setProperty("framed", true);
     button->setFocusPolicy(Qt::StrongFocus);
     return action;

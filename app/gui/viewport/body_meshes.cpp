@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 namespace posewire::gui {
 
@@ -12,10 +13,21 @@ void BodyMeshes::beginPicture() {
     m_isBehind = false;
 }
 
-std::shared_ptr<const FigureMesh> BodyMeshes::of(const render::NullPose& performer) {
+const render::FingerOrigins& BodyMeshes::unknownFingers() {
+    static const render::FingerOrigins kUnknown = [] {
+        render::FingerOrigins fingers;
+        fingers.fill(glm::vec3(std::numeric_limits<float>::quiet_NaN()));
+        return fingers;
+    }();
+    return kUnknown;
+}
+
+std::shared_ptr<const FigureMesh> BodyMeshes::of(const render::NullPose& performer,
+                                                 const render::FingerOrigins& fingers) {
     Body body;
-    static_assert(sizeof(body) == sizeof(performer));
-    std::memcpy(body.data(), performer.data(), sizeof(body));
+    static_assert(sizeof(body) == sizeof(performer) + sizeof(fingers));
+    std::memcpy(body.data(), performer.data(), sizeof(performer));
+    std::memcpy(body.data() + 3 * performer.size(), fingers.data(), sizeof(fingers));
     if (const auto known = m_entries.find(body); known != m_entries.end()) {
         known->second.picture = m_picture;
         return known->second.mesh;
@@ -23,11 +35,11 @@ std::shared_ptr<const FigureMesh> BodyMeshes::of(const render::NullPose& perform
     const bool hasRoom = makeRoom();
     if (hasRoom && m_fits < kFitsAtOnce) {
         ++m_fits;
-        return m_entries.emplace(body, Entry{fitted(performer), m_picture}).first->second.mesh;
+        return m_entries.emplace(body, Entry{fitted(performer, fingers), m_picture}).first->second.mesh;
     }
     m_isBehind = m_isBehind || hasRoom;
     if (m_standIn == nullptr) {
-        m_standIn = fitted(render::kReferenceNullPose);
+        m_standIn = fitted(render::kReferenceNullPose, unknownFingers());
     }
     return m_standIn;
 }
@@ -48,13 +60,20 @@ bool BodyMeshes::makeRoom() {
     return true;
 }
 
-std::shared_ptr<const FigureMesh> BodyMeshes::fitted(const render::NullPose& performer) {
+std::shared_ptr<const FigureMesh> BodyMeshes::fitted(const render::NullPose& performer,
+                                                     const render::FingerOrigins& fingers) {
     if (m_mannequin == nullptr) {
         m_mannequin = std::make_unique<const render::SkinnedMesh>(render::loadMannequin(m_detail));
+        m_lowMannequin =
+            std::make_unique<const render::SkinnedMesh>(render::loadMannequin(render::Detail::Low));
     }
     auto figure = std::make_shared<FigureMesh>();
-    figure->mesh = render::fitToNullPose(*m_mannequin, performer, figure->origins);
+    figure->mesh =
+        render::fitToNullPose(*m_mannequin, performer, fingers, figure->origins, figure->fingerOrigins);
     figure->templatePositions = m_mannequin->positions;
+    figure->lowMesh =
+        render::fitToNullPose(*m_lowMannequin, performer, fingers, figure->origins, figure->fingerOrigins);
+    figure->lowTemplatePositions = m_lowMannequin->positions;
     figure->capsules = render::segmentCapsules(figure->mesh);
     return figure;
 }
@@ -63,10 +82,13 @@ std::size_t BodyMeshes::bytesOfOne() const {
     if (m_mannequin == nullptr) {
         return 0;
     }
-    const render::SkinnedMesh& mesh = *m_mannequin;
-    const std::size_t vertex = 3 * sizeof(glm::vec3) + sizeof(float) + sizeof(render::JointIndices) +
-                               sizeof(glm::vec4); // with its place on the template
-    return 2 * (mesh.vertexCount() * vertex + mesh.indices.size() * sizeof(mesh.indices[0]));
+    constexpr std::size_t vertex = 3 * sizeof(glm::vec3) + sizeof(float) + sizeof(render::JointIndices) +
+                                   sizeof(glm::vec4); // with its place on the template
+    std::size_t bytes = 0;
+    for (const auto* mesh : {m_mannequin.get(), m_lowMannequin.get()}) {
+        bytes += mesh->vertexCount() * vertex + mesh->indices.size() * sizeof(mesh->indices[0]);
+    }
+    return 2 * bytes;
 }
 
 std::size_t BodyMeshes::memoryBytes() const {

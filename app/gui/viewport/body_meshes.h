@@ -18,7 +18,10 @@ namespace posewire::gui {
 struct FigureMesh {
     render::SkinnedMesh mesh;
     std::vector<glm::vec3> templatePositions; ///< of each vertex on the mannequin before the fit
-    render::NullPose origins{};               ///< what palettes of this mesh are made with
+    render::SkinnedMesh lowMesh;              ///< in fewer triangles
+    std::vector<glm::vec3> lowTemplatePositions;
+    render::NullPose origins{};            ///< what palettes of this mesh are made with
+    render::FingerOrigins fingerOrigins{}; ///< likewise
     render::SegmentCapsules capsules{};
 };
 
@@ -34,8 +37,11 @@ public:
 
     /// What of() is asked for from here on is for one picture.
     void beginPicture();
-    /// By the segment origins of a null pose, metres; they may be of any value.
-    [[nodiscard]] std::shared_ptr<const FigureMesh> of(const render::NullPose& performer);
+    /// By the segment origins of a null pose, metres; they may be of any value. Fingers that are not numbers
+    /// fit the hands.
+    [[nodiscard]] std::shared_ptr<const FigureMesh>
+    of(const render::NullPose& performer, const render::FingerOrigins& fingers = unknownFingers());
+    [[nodiscard]] static const render::FingerOrigins& unknownFingers();
     /// Whether something stands in that could be made for the next picture.
     [[nodiscard]] bool isBehind() const { return m_isBehind; }
 
@@ -46,17 +52,19 @@ public:
 
 private:
     /// As they came, so that what is not a number equals itself.
-    using Body = std::array<std::uint32_t, 3 * render::kSegmentCount>;
+    using Body = std::array<std::uint32_t, 3 * (render::kSegmentCount + render::kFingerJointCount)>;
     struct Entry {
         std::shared_ptr<const FigureMesh> mesh;
         std::uint64_t picture = 0; ///< the newest with it
     };
-    [[nodiscard]] std::shared_ptr<const FigureMesh> fitted(const render::NullPose& performer);
+    [[nodiscard]] std::shared_ptr<const FigureMesh> fitted(const render::NullPose& performer,
+                                                           const render::FingerOrigins& fingers);
     [[nodiscard]] bool makeRoom();
     [[nodiscard]] std::size_t bytesOfOne() const;
 
     render::Detail m_detail;
     std::unique_ptr<const render::SkinnedMesh> m_mannequin; ///< loaded for the first figure
+    std::unique_ptr<const render::SkinnedMesh> m_lowMannequin;
     std::shared_ptr<const FigureMesh> m_standIn;
     std::map<Body, Entry> m_entries;
     std::uint64_t m_picture = 0;

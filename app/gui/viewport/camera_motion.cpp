@@ -13,11 +13,15 @@ constexpr double kRadiansPerPixel = 0.007;
 constexpr double kZoomPerStep = 0.88;
 /// Time in which the camera makes good two thirds of what it lags behind.
 constexpr double kFollowSeconds = 0.7;
-/// It comes closer only when the characters have gathered in less than this share of the picture.
-constexpr float kTooFar = 1.12F;
-
 /// Share of the picture's half width and height that is filled.
 constexpr float kFilled = 0.86F;
+/// The camera holds while all stay within this share, and fill no less than the other.
+constexpr float kHeldMost = 0.96F;
+constexpr float kHeldLeast = 0.60F;
+/// Once it moves, it comes closer only where the characters would be this much larger.
+constexpr float kTooFar = 1.12F;
+/// It comes to rest this close to where it wants to be, as a share of its distance.
+constexpr float kNearEnough = 0.01F;
 constexpr int kFitRounds = 8;
 
 struct ScreenBox {
@@ -67,6 +71,14 @@ render::Camera fitted(render::Camera camera, std::span<const render::Bounds> box
         camera.zoom(std::max(half.x, half.y) / kFilled);
     }
     return camera;
+}
+
+bool CameraMotion::isHeld(std::span<const render::Bounds> boxes, float aspect) const {
+    const ScreenBox box = screenBox(m_camera, boxes, aspect);
+    const glm::vec2 farthest = glm::max(glm::abs(box.least), glm::abs(box.most));
+    const glm::vec2 half = 0.5F * (box.most - box.least);
+    return box.isAllInFront && std::max(farthest.x, farthest.y) <= kHeldMost &&
+           std::max(half.x, half.y) >= kHeldLeast;
 }
 
 glm::vec2 screenPoint(const QPointF& pointer, const QSizeF& view) {
@@ -120,12 +132,20 @@ void CameraMotion::follow(std::span<const render::Bounds> boxes, float aspect, d
         frame(boxes, aspect);
         return;
     }
+    m_isGliding = m_isGliding || !isHeld(boxes, aspect);
+    if (!m_isGliding) {
+        return;
+    }
     const render::Camera wanted = fitted(m_camera, boxes, aspect);
     const auto share = static_cast<float>(1 - std::exp(-std::clamp(seconds, 0.0, 1.0) / kFollowSeconds));
     m_camera.target += share * (wanted.target - m_camera.target);
     if (wanted.distance > m_camera.distance || wanted.distance * kTooFar < m_camera.distance) {
         m_camera.distance += share * (wanted.distance - m_camera.distance);
     }
+    const float near = kNearEnough * m_camera.distance;
+    m_isGliding = glm::distance(wanted.target, m_camera.target) > near ||
+                  wanted.distance - m_camera.distance > near ||
+                  m_camera.distance > wanted.distance * kTooFar + near;
 }
 
 } // namespace posewire::gui

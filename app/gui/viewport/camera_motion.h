@@ -36,13 +36,17 @@ public:
     void frame(std::span<const render::Bounds> boxes, float aspect);
     /// Shows a box and stays there.
     void show(const render::Bounds& box, float aspect);
-    /// Moves gently towards showing all boxes; the first ones are shown at once. Nothing after a pan or zoom.
+    /// Shows the first boxes at once. From then on it holds still as long as all are well in the picture, and
+    /// glides to where they are when they are not. Nothing after a pan or zoom.
     void follow(std::span<const render::Bounds> boxes, float aspect, double seconds);
 
 private:
+    [[nodiscard]] bool isHeld(std::span<const render::Bounds> boxes, float aspect) const;
+
     render::Camera m_camera;
     bool m_isFollowing = true;
     bool m_hasFramed = false;
+    bool m_isGliding = false;
 };
 
 /// The camera moved, not turned, so that the boxes fill the picture and are in its middle; unchanged

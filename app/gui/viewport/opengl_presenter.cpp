@@ -24,6 +24,7 @@ QSurfaceFormat surfaceFormat() {
     QSurfaceFormat format;
     format.setVersion(kMajorVersion, kMinorVersion);
     format.setProfile(QSurfaceFormat::CoreProfile);
+    format.setOption(QSurfaceFormat::ResetNotification);
     return format;
 }
 
@@ -74,7 +75,11 @@ public:
     }
 
     [[nodiscard]] bool isWaiting() const { return m_isWaiting; }
+    [[nodiscard]] bool shows(const SceneFrame& frame) const {
+        return m_pictures > 0 && m_frame != nullptr && *m_frame == frame;
+    }
     [[nodiscard]] const QString& failure() const { return m_failure; }
+    [[nodiscard]] std::uint64_t pictures() const { return m_pictures; }
     [[nodiscard]] QString rendererName() const {
         return m_renderer ? QString::fromStdString(m_renderer->rendererName()) : QString();
     }
@@ -98,11 +103,13 @@ protected:
             return;
         }
         const render::Scene scene = m_upload.prepare(*m_frame, *m_renderer);
-        const auto ratio = static_cast<float>(devicePixelRatioF());
-        const render::Viewport viewport{static_cast<int>(static_cast<float>(width()) * ratio),
-                                        static_cast<int>(static_cast<float>(height()) * ratio),
-                                        defaultFramebufferObject(), ratio};
-        m_renderer->draw(scene, viewport);
+        const QSize pixels = size() * devicePixelRatioF(); // rounded as QOpenGLWidget does
+        m_renderer->draw(scene, {pixels.width(), pixels.height(), defaultFramebufferObject(),
+                                 static_cast<float>(devicePixelRatioF())});
+        if (m_renderer->isContextLost()) {
+            m_failure = tr("The graphics driver was reset.");
+        }
+        ++m_pictures;
     }
 
 private:
@@ -119,6 +126,7 @@ private:
     std::shared_ptr<const SceneFrame> m_frame;
     QString m_failure;
     bool m_isWaiting = false;
+    std::uint64_t m_pictures = 0;
 };
 
 class OpenGlPresenter final : public Presenter {
@@ -128,9 +136,17 @@ public:
     }
 
     [[nodiscard]] bool isReady() const override { return !m_view->isWaiting() && failure().isEmpty(); }
-    void present(std::shared_ptr<const SceneFrame> frame) override { m_view->setFrame(std::move(frame)); }
+    void present(std::shared_ptr<const SceneFrame> frame) override {
+        if (m_view->shows(*frame)) {
+            QMetaObject::invokeMethod(this, &Presenter::presented, Qt::QueuedConnection);
+            return;
+        }
+        m_view->setFrame(std::move(frame));
+    }
     [[nodiscard]] QString rendererName() const override { return m_view->rendererName(); }
     [[nodiscard]] QString failure() const override { return m_view->failure(); }
+    [[nodiscard]] PictureLoad load() const override { return {}; }
+    [[nodiscard]] std::uint64_t pictures() const override { return m_view->pictures(); }
 
 protected:
     void resizeEvent(QResizeEvent* event) override { m_view->setGeometry(QRect(QPoint(), event->size())); }

@@ -2,15 +2,26 @@
 #pragma once
 
 #include "app/gui/viewport/scene.h"
+#include "render/quality_ladder.h"
 
 #include <QWidget>
 
+#include <cstdint>
 #include <memory>
 
 namespace posewire::gui {
 
-/// Brings frames to the screen, one at a time: present() is for when isReady() says so, and presented()
-/// reports when the next may come.
+/// How pictures are drawn, and what they cost, where the processor draws.
+struct PictureLoad {
+    render::Simplification step = render::Simplification::None;
+    double typical = 0;   ///< seconds a picture takes; 0 where that is not known
+    double cause = 0;     ///< seconds one took before the last step down; 0 where there was none
+    double budget = 0;    ///< seconds one may take; 0 where nothing is left out
+    bool isStill = false; ///< nothing moves: what is shown was drawn as well as it can be
+};
+
+/// Brings frames to the screen, one at a time: present() is for when isReady() says so, presented() reports
+/// that the frame is shown, and ready() that the next may come where that is later.
 class Presenter : public QWidget {
     Q_OBJECT
 
@@ -25,8 +36,15 @@ public:
     /// Why there is no picture; empty where there is one or there may still be.
     [[nodiscard]] virtual QString failure() const = 0;
 
+    [[nodiscard]] virtual PictureLoad load() const = 0;
+    /// Drawn since the start.
+    [[nodiscard]] virtual std::uint64_t pictures() const = 0;
+
 signals:
     void presented();
+    void ready();
+    /// What is shown is of another size than the view, as after a move to a screen of another scale.
+    void outgrown();
 };
 
 /// Draws straight into the window by graphics hardware. Null where windows cannot be drawn so: on platforms

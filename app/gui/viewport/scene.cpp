@@ -5,12 +5,13 @@
 #include "app/gui/models/stream_state.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
+#include "app/gui/viewport/hands.h"
+#include "app/gui/viewport/overlays/overlays.h"
 #include "core/model/body/null_pose_measures.h"
 #include "core/model/body/reference_body.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace posewire::gui {
 
@@ -18,8 +19,10 @@ namespace {
 
 constexpr float kGreatestDim = 0.55F;
 constexpr float kGhostOpacity = 0.35F;
-constexpr float kBodyAxesLength = 0.12F;
-constexpr float kPropAxesLength = 0.2F;
+constexpr float kBodyAxesLength = 30.0F; ///< logical pixels
+constexpr float kPropAxesLength = 46.0F;
+constexpr float kShortestAxes = 0.03F; ///< metres
+constexpr float kLongestAxes = 0.25F;
 constexpr float kUnselectedAxesAlpha = 0.85F;
 constexpr float kLabelHeight = 0.24F;
 
@@ -37,25 +40,32 @@ glm::vec3 vectorOf(const QColor& colour) {
             static_cast<float>(colour.blueF())};
 }
 
-bool isPresent(const model::CharacterPose& pose, std::size_t position) {
-    return position < pose.segments.size() && position < pose.isPresent.size() && pose.isPresent[position];
+/// That a body's place is assumed is not to be seen on its pelvis.
+render::Provenance provenanceOf(const model::CharacterPose& pose, std::size_t segment) {
+    const model::SegmentSource& source = pose.sources[segment];
+    const bool isPlace = pose.isPlaceAssumed && segment == render::Pelvis;
+    switch (isPlace ? std::min(source.orientation, model::Provenance::Solved) : source.weaker()) {
+    case model::Provenance::Sent:
+        return render::Provenance::Sent;
+    case model::Provenance::Solved:
+        return render::Provenance::Solved;
+    default:
+        return render::Provenance::Assumed;
+    }
 }
 
-/// Absent segments are left to the palette, which puts what is not finite at its null-pose place.
 void makePalette(const model::CharacterPose& pose, Figure& figure) {
-    constexpr float kAbsent = std::numeric_limits<float>::quiet_NaN();
     std::array<glm::vec3, render::kSegmentCount> positions{};
     std::array<glm::quat, render::kSegmentCount> orientations{};
     for (std::size_t i = 0; i < render::kSegmentCount; ++i) {
-        positions[i] = glm::vec3(kAbsent);
-        orientations[i] = glm::quat(kAbsent, kAbsent, kAbsent, kAbsent);
-        if (isPresent(pose, i)) {
-            positions[i] = vectorOf(pose.segments[i].position);
-            orientations[i] = rotationOf(pose.segments[i].orientation);
-            figure.bounds.add(positions[i]);
-        }
+        positions[i] = vectorOf(pose.segments[i].position);
+        orientations[i] = rotationOf(pose.segments[i].orientation);
+        figure.bounds.add(positions[i]);
+        figure.look.provenance[i] = provenanceOf(pose, i);
     }
-    const render::PaletteJob job{positions, orientations, figure.mesh->origins, figure.palette};
+    const PosedHands hands = handsOf(pose);
+    const render::PaletteJob job{positions,    orientations,  figure.mesh->origins,      figure.palette,
+                                 hands.left(), hands.right(), figure.mesh->fingerOrigins};
     if (job.validate()) {
         job.run();
     }
@@ -89,15 +99,21 @@ render::Scene SceneUpload::prepare(const SceneFrame& frame, render::Renderer& re
     scene.characters = m_instances;
     scene.axes = frame.axes;
     scene.lines = frame.lines;
+    scene.points = frame.points;
     return scene;
 }
 
 void SceneUpload::add(const Figure& figure, render::Renderer& renderer) {
-    const auto [entry, isNew] = m_meshes.try_emplace(figure.mesh, render::MeshId::None);
-    if (isNew) {
-        entry->second = renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions);
+    if (figure.mesh == nullptr) {
+        return;
     }
-    m_instances.push_back({entry->second, figure.palette, figure.look});
+    const auto [entry, isNew] = m_meshes.try_emplace(figure.mesh);
+    Meshes& meshes = entry->second;
+    if (isNew) {
+        meshes.mesh = renderer.uploadMesh(figure.mesh->mesh, figure.mesh->templatePositions);
+        meshes.low = renderer.uploadMesh(figure.mesh->lowMesh, figure.mesh->lowTemplatePositions);
+    }
+    m_instances.push_back({meshes.mesh, meshes.low, figure.palette, figure.look});
 }
 
 void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& renderer) {
@@ -106,10 +122,22 @@ void SceneUpload::releaseUnused(const SceneFrame& frame, render::Renderer& rende
         const bool isUsed =
             std::ranges::any_of(frame.figures, isItsOwn) || std::ranges::any_of(frame.ghosts, isItsOwn);
         if (!isUsed) {
-            renderer.releaseMesh(entry.second);
+            renderer.releaseMesh(entry.second.mesh);
+            renderer.releaseMesh(entry.second.low);
         }
         return !isUsed;
     });
+}
+
+void sizeAxes(SceneFrame& frame) {
+    const float height = static_cast<float>(frame.height) / frame.pixelRatio;
+    for (render::AxesInstance& axes : frame.axes) {
+        const bool isFlat = frame.camera.projection == render::Projection::Orthographic;
+        const float depth = isFlat ? frame.camera.distance
+                                   : glm::dot(axes.position - frame.camera.eye(), frame.camera.forward());
+        const float pixel = 2.0F * std::max(depth, 0.0F) * std::tan(0.5F * frame.camera.verticalFov) / height;
+        axes.length = std::clamp(axes.length * pixel, kShortestAxes, kLongestAxes);
+    }
 }
 
 float dimFor(double ageSeconds) {
@@ -124,29 +152,50 @@ std::shared_ptr<const FigureMesh> SceneBuilder::meshOf(const model::CharacterKey
     static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
     std::ranges::transform(origins.places, performer.begin(),
                            [](const Eigen::Vector3d& origin) { return vectorOf(origin); });
-    return m_meshes.of(performer);
+    const model::NullPose* nullPose = m_session.nullPose(key);
+    return nullPose == nullptr ? m_meshes.of(performer)
+                               : m_meshes.of(performer, fingerOriginsOf(*nullPose, origins));
 }
 
-void SceneBuilder::build(AxesMode axes, SceneFrame& frame) {
+void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& frame) {
     frame.colours = themedSceneColours();
     m_meshes.beginPicture();
     const model::Selection& selection = m_session.selection();
-    for (const model::Character* shown : m_session.currentCharacters()) {
+    const std::vector<const model::Character*> characters = m_session.currentCharacters();
+    const bool isOneSelected = std::ranges::any_of(
+        characters, [this](const model::Character* one) { return m_session.isSelected(one->key); });
+    for (const model::Character* shown : characters) {
         const model::Character& character = *shown;
         const model::CharacterPose* pose =
             m_session.isHidden(character.key) ? nullptr : m_session.pose(character.key);
         if (pose == nullptr) {
             continue;
         }
+        if (pose->isObjects) {
+            addObjects(character, *pose, frame);
+            continue;
+        }
         addFigure(character, *pose, frame);
         Figure& figure = frame.figures.back();
         const bool isSelected = m_session.isSelected(character.key);
+        figure.look.isSelected = isSelected;
         figure.look.selectedSegment =
             isSelected && selection.segment < model::kBodySegmentCount ? selection.segment : -1;
         if (axes == AxesMode::All || (axes == AxesMode::Selected && isSelected)) {
+            const std::size_t first = frame.axes.size();
             addAxes(*pose, isSelected ? selection.segment : -1, 1.0F - figure.look.dim, frame);
+            if (isSelected) {
+                frame.selectedAxes = first;
+                frame.selectedAxesCount = frame.axes.size() - first;
+            }
         }
-        addFingers(*pose, figure.look.colour, frame);
+        if (overlays.isAny() && (isSelected || !isOneSelected)) {
+            addOverlays(overlays,
+                        {m_session, character.key, *pose, figure.look.colour,
+                         isSelected ? selection.segment : -1, isSelected || characters.size() == 1,
+                         1.0F - figure.look.dim},
+                        frame);
+        }
         if (m_session.isGhostShown() && shownCharacter(m_session) == character.key) {
             addGhost(figure, *pose, frame);
         }
@@ -158,11 +207,7 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     Figure figure;
     figure.key = character.key;
     figure.mesh = meshOf(character.key);
-    const model::Colour colour = m_session.colour(character.key);
-    figure.look.colour = {colour.red, colour.green, colour.blue};
-    const double age = shownAgeSeconds(m_session, character.key);
-    figure.look.dim = dimFor(age);
-    figure.look.isHatched = age >= kStaleAge;
+    figure.look = lookOf(character.key);
     makePalette(pose, figure);
     const glm::vec3 head = figure.mesh->origins[render::Head];
     figure.labelPosition =
@@ -170,9 +215,42 @@ void SceneBuilder::addFigure(const model::Character& character, const model::Cha
     frame.figures.push_back(std::move(figure));
 }
 
+render::CharacterLook SceneBuilder::lookOf(const model::CharacterKey& key) const {
+    render::CharacterLook look;
+    const model::Colour colour = m_session.colour(key);
+    look.colour = {colour.red, colour.green, colour.blue};
+    const double age = shownAgeSeconds(m_session, key);
+    look.dim = dimFor(age);
+    look.isHatched = age >= kStaleAge;
+    return look;
+}
+
+/// Their axes are all there is of them: they are drawn whatever the choice of axes.
+void SceneBuilder::addObjects(const model::Character& character, const model::CharacterPose& pose,
+                              SceneFrame& frame) {
+    Figure objects;
+    objects.key = character.key;
+    objects.look = lookOf(character.key);
+    for (std::size_t i = 0; i < pose.segments.size(); ++i) {
+        if (!pose.isPresent(i)) {
+            continue;
+        }
+        const glm::vec3 position = vectorOf(pose.segments[i].position);
+        const bool isHighest = objects.bounds.isEmpty() || position.z > objects.labelPosition.z;
+        objects.labelPosition = isHighest ? position : objects.labelPosition;
+        objects.bounds.add(position);
+        frame.axes.push_back(
+            {position, rotationOf(pose.segments[i].orientation), kPropAxesLength, 1.0F - objects.look.dim});
+    }
+    objects.labelPosition.z += kLabelHeight;
+    if (!objects.bounds.isEmpty()) {
+        frame.figures.push_back(std::move(objects));
+    }
+}
+
 void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const {
     const model::NullPose* nullPose = m_session.nullPose(figure.key);
-    if (nullPose == nullptr || !isPresent(pose, render::Pelvis)) {
+    if (nullPose == nullptr || !pose.isPresent(render::Pelvis)) {
         return;
     }
     const model::SegmentPose& pelvis = pose.segments[render::Pelvis];
@@ -190,13 +268,24 @@ void SceneBuilder::addGhost(const Figure& figure, const model::CharacterPose& po
     for (std::size_t i = 0; i < positions.size(); ++i) {
         positions[i] = place + turn * (origins[i] - stand);
     }
+    PosedHands hands{{}, {}, true, true};
+    hands.orientations.fill(turn);
+    for (std::size_t i = 0; i < hands.positions.size(); ++i) {
+        hands.positions[i] = place + turn * (figure.mesh->fingerOrigins[i] - stand);
+    }
     Figure ghost;
     ghost.key = figure.key;
     ghost.mesh = figure.mesh;
     ghost.look.colour = figure.look.colour;
     ghost.look.opacity = kGhostOpacity;
     ghost.look.selectedSegment = figure.look.selectedSegment;
-    const render::PaletteJob job{positions, orientations, origins, ghost.palette};
+    const render::PaletteJob job{positions,
+                                 orientations,
+                                 origins,
+                                 ghost.palette,
+                                 hands.left(),
+                                 hands.right(),
+                                 figure.mesh->fingerOrigins};
     if (job.validate()) {
         job.run();
         frame.ghosts.push_back(std::move(ghost));
@@ -208,7 +297,7 @@ void SceneBuilder::addAxes(const model::CharacterPose& pose, int selectedSegment
     const std::size_t count =
         std::min(pose.segments.size(), static_cast<std::size_t>(pose.layout.body + pose.layout.props));
     for (std::size_t i = 0; i < count; ++i) {
-        if (!isPresent(pose, i)) {
+        if (!pose.isPresent(i)) {
             continue;
         }
         const bool isBody = i < static_cast<std::size_t>(pose.layout.body);
@@ -217,20 +306,6 @@ void SceneBuilder::addAxes(const model::CharacterPose& pose, int selectedSegment
         frame.axes.push_back({vectorOf(pose.segments[i].position), rotationOf(pose.segments[i].orientation),
                               isSelected ? 1.6F * length : length,
                               strength * (isSelected ? 1.0F : kUnselectedAxesAlpha)});
-    }
-}
-
-/// The mannequin has no fingers of its own: their bones are drawn.
-void SceneBuilder::addFingers(const model::CharacterPose& pose, const glm::vec3& colour,
-                              SceneFrame& frame) const {
-    const auto first = static_cast<std::size_t>(pose.layout.body + pose.layout.props);
-    for (std::size_t i = first; i < pose.segments.size(); ++i) {
-        const int parent = model::segmentParent(pose.layout, static_cast<int>(i));
-        if (parent < 0 || !isPresent(pose, i) || !isPresent(pose, static_cast<std::size_t>(parent))) {
-            continue;
-        }
-        frame.lines.push_back({vectorOf(pose.segments[static_cast<std::size_t>(parent)].position),
-                               vectorOf(pose.segments[i].position), glm::vec4(colour, 1.0F), 2.0F});
     }
 }
 

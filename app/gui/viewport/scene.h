@@ -2,11 +2,15 @@
 #pragma once
 
 #include "app/gui/viewport/body_meshes.h"
+#include "app/gui/viewport/overlays/choice.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
 #include "core/model/keys.h"
 #include "core/model/session/session_view.h"
 #include "render/renderer.h"
+
+#include <QColor>
+#include <QString>
 
 #include <array>
 #include <cstdint>
@@ -19,25 +23,42 @@ namespace posewire::gui {
 /// One character in a picture.
 struct Figure {
     model::CharacterKey key;
-    std::shared_ptr<const FigureMesh> mesh;
+    std::shared_ptr<const FigureMesh> mesh; ///< null for tracked objects: they have axes alone
     std::array<render::DualQuaternion, render::kJointCount> palette{};
     render::CharacterLook look;
     glm::vec3 labelPosition{0.0F}; ///< above the head
     render::Bounds bounds;         ///< of the segment origins
+
+    bool operator==(const Figure&) const = default;
+};
+
+/// A few words at a place in space.
+struct SceneText {
+    glm::vec3 position{0.0F};
+    QString text;
+    QColor colour;
+
+    bool operator==(const SceneText&) const = default;
 };
 
 /// Everything that one picture shows, by value: it may be drawn on another thread while the session moves on.
+/// Equal frames give the same picture.
 struct SceneFrame {
     render::Camera camera;
     render::SceneColours colours;
     std::vector<Figure> figures;
-    std::vector<Figure> ghosts; ///< not to be picked, without labels
-    std::vector<render::AxesInstance> axes;
+    std::vector<Figure> ghosts;             ///< not to be picked, without labels
+    std::vector<render::AxesInstance> axes; ///< lengths in logical pixels until sizeAxes()
+    std::size_t selectedAxes = 0;           ///< the first of those of the selected character
+    std::size_t selectedAxesCount = 0;
     std::vector<render::LineInstance> lines;
+    std::vector<render::PointInstance> points;
+    std::vector<SceneText> texts;
     int width = 1; ///< device pixels
     int height = 1;
     float pixelRatio = 1.0F;
-    log::Stamp built{}; ///< the session's time
+
+    bool operator==(const SceneFrame&) const = default;
 };
 
 /// Turns frames into scenes for one renderer: uploads meshes when they are first seen, releases those no
@@ -48,12 +69,21 @@ public:
     [[nodiscard]] render::Scene prepare(const SceneFrame& frame, render::Renderer& renderer);
 
 private:
+    /// As the renderer knows them.
+    struct Meshes {
+        render::MeshId mesh = render::MeshId::None;
+        render::MeshId low = render::MeshId::None;
+    };
     void add(const Figure& figure, render::Renderer& renderer);
     void releaseUnused(const SceneFrame& frame, render::Renderer& renderer);
 
-    std::map<std::shared_ptr<const FigureMesh>, render::MeshId> m_meshes;
+    std::map<std::shared_ptr<const FigureMesh>, Meshes> m_meshes;
     std::vector<render::SkinnedInstance> m_instances;
 };
+
+/// Gives axes their length in space: the same on the screen wherever they are, but never smaller or larger
+/// than makes sense on a body. For when camera and size of a frame are known.
+void sizeAxes(SceneFrame& frame);
 
 enum class AxesMode : std::uint8_t { All, Selected, None };
 
@@ -66,21 +96,22 @@ class SceneBuilder {
 public:
     SceneBuilder(model::SessionView& session, render::Detail detail) : m_session(session), m_meshes(detail) {}
 
-    /// Fills figures, axes, lines and colours; camera and size are the caller's. Hidden characters
-    /// are left out.
-    void build(AxesMode axes, SceneFrame& frame);
+    /// Fills figures, axes, lines, points, texts and colours; camera and size are the caller's. Hidden
+    /// characters are left out. Overlays are drawn of the selected character, of all where none is selected.
+    void build(AxesMode axes, const Overlays& overlays, SceneFrame& frame);
     /// Of the bodies in the scenes.
     [[nodiscard]] const BodyMeshes& meshes() const { return m_meshes; }
 
 private:
     [[nodiscard]] std::shared_ptr<const FigureMesh> meshOf(const model::CharacterKey& key);
+    [[nodiscard]] render::CharacterLook lookOf(const model::CharacterKey& key) const;
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
+    void addObjects(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.
     void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const;
     /// `strength` below 1 for data that have faded.
     void addAxes(const model::CharacterPose& pose, int selectedSegment, float strength,
                  SceneFrame& frame) const;
-    void addFingers(const model::CharacterPose& pose, const glm::vec3& colour, SceneFrame& frame) const;
 
     model::SessionView& m_session;
     BodyMeshes m_meshes;

@@ -1,134 +1,70 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/logging.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/presenter.h"
-#include "render/offscreen.h"
+#include "app/gui/viewport/drawing_thread.h"
+#include "app/gui/viewport/picture_health.h"
 
 #include <QImage>
 #include <QPainter>
 
-#include <condition_variable>
-#include <functional>
-#include <mutex>
-#include <optional>
-#include <thread>
-#include <utility>
+#include <QTimer>
 
-#ifdef __linux__
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-#endif
+#include <memory>
+#include <utility>
 
 namespace posewire::gui {
 
 namespace {
 
-/// Software OpenGL takes all the processor it is given: receiving and the window go first. The threads that
-/// the driver starts inherit this.
-void yieldToOthers() {
-#ifdef __linux__
-    constexpr int kNice = 8;
-    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
-#endif
-}
-
-/// Draws frames in an OpenGL context of its own on a thread of its own. The newest frame handed in is the one
-/// drawn; what it replaces is left out.
-class DrawingThread {
-public:
-    /// What there is to say since the last take().
-    struct Result {
-        std::optional<render::Image> image{}; ///< Bgra
-        std::string rendererName{};
-        std::string failure{}; ///< why there will be no pictures
-    };
-
-    /// `wake` is called on the drawing thread whenever there is something to take.
-    explicit DrawingThread(std::function<void()> wake)
-        : m_wake(std::move(wake)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
-
-    void draw(std::shared_ptr<const SceneFrame> frame) {
-        {
-            const std::lock_guard lock(m_mutex);
-            m_next = std::move(frame);
-        }
-        m_hasWork.notify_one();
-    }
-
-    [[nodiscard]] Result take() {
-        const std::lock_guard lock(m_mutex);
-        return std::exchange(m_result, {});
-    }
-
-private:
-    void run(const std::stop_token& stop) {
-        yieldToOthers();
-        auto renderer = render::OffscreenRenderer::create();
-        if (!renderer) {
-            give({std::nullopt, {}, renderer.error()});
-            return;
-        }
-        SceneUpload upload;
-        while (const auto frame = nextFrame(stop)) {
-            const render::Scene scene = upload.prepare(*frame, renderer->renderer());
-            renderer->render(scene, frame->width, frame->height, frame->pixelRatio);
-            give({renderer->takeImage(), renderer->renderer().rendererName(), {}});
-        }
-    }
-
-    /// Null when it is time to stop.
-    [[nodiscard]] std::shared_ptr<const SceneFrame> nextFrame(const std::stop_token& stop) {
-        std::unique_lock lock(m_mutex);
-        m_hasWork.wait(lock, stop, [this] { return m_next != nullptr; });
-        return stop.stop_requested() ? nullptr : std::exchange(m_next, nullptr);
-    }
-
-    void give(Result result) {
-        {
-            const std::lock_guard lock(m_mutex);
-            m_result = std::move(result);
-        }
-        m_wake();
-    }
-
-    std::function<void()> m_wake;
-    std::mutex m_mutex;
-    std::condition_variable_any m_hasWork;
-    std::shared_ptr<const SceneFrame> m_next;
-    Result m_result;
-    std::jthread m_thread; // last: it uses all the others, and is stopped first
+/// A picture, and the thread that its room goes back to: none for one that is gone by then.
+struct Shown {
+    render::Image image;
+    std::weak_ptr<DrawingThread> from;
 };
 
 /// The image's own bytes, without a copy.
-QImage wrapped(render::Image image) {
-    auto* owner = new render::Image(std::move(image));
-    return {owner->pixels.data(),
-            owner->width,
-            owner->height,
-            static_cast<qsizetype>(owner->stride()),
+QImage wrapped(render::Image image, const std::shared_ptr<DrawingThread>& from) {
+    auto* shown = new Shown{std::move(image), from};
+    return {shown->image.pixels.data(),
+            shown->image.width,
+            shown->image.height,
+            static_cast<qsizetype>(shown->image.stride()),
             QImage::Format_RGB32,
-            [](void* pointer) { delete static_cast<render::Image*>(pointer); },
-            owner};
+            [](void* pointer) {
+                const std::unique_ptr<Shown> gone(static_cast<Shown*>(pointer));
+                if (const auto thread = gone->from.lock()) {
+                    thread->giveBack(std::move(gone->image));
+                }
+            },
+            shown};
 }
 
 class SoftwarePresenter final : public Presenter {
 public:
     explicit SoftwarePresenter(QWidget* parent)
-        : Presenter(parent), m_thread([this] {
+        : Presenter(parent), m_thread(std::make_shared<DrawingThread>([this] {
               // The wake carries no data: what crosses between the threads is behind the thread's own lock.
               QMetaObject::invokeMethod(
                   this, [this] { take(); }, Qt::QueuedConnection);
-          }) {
+          })) {
         setAttribute(Qt::WA_OpaquePaintEvent);
+        m_pause.setSingleShot(true);
+        connect(&m_pause, &QTimer::timeout, this, &Presenter::ready);
     }
 
-    [[nodiscard]] bool isReady() const override { return !m_isDrawing && m_failure.isEmpty(); }
+    ~SoftwarePresenter() override { m_thread.reset(); } // it calls back
+
+    [[nodiscard]] bool isReady() const override {
+        return m_handed == nullptr && !m_pause.isActive() && m_failure.isEmpty();
+    }
     void present(std::shared_ptr<const SceneFrame> frame) override {
-        m_isDrawing = true;
-        m_thread.draw(std::move(frame));
+        m_handed = frame;
+        m_thread->draw(std::move(frame));
     }
     [[nodiscard]] QString rendererName() const override { return m_rendererName; }
     [[nodiscard]] QString failure() const override { return m_failure; }
+    [[nodiscard]] PictureLoad load() const override { return m_load; }
+    [[nodiscard]] std::uint64_t pictures() const override { return m_pictures; }
 
 protected:
     void paintEvent(QPaintEvent* /*event*/) override {
@@ -144,29 +80,52 @@ protected:
         } else {
             // While the window is being resized the picture has another size; stretching it beats a hole.
             painter.drawImage(rect(), m_picture);
+            if (m_handed == nullptr) {
+                QMetaObject::invokeMethod(this, &Presenter::outgrown, Qt::QueuedConnection);
+            }
         }
     }
 
 private:
     void take() {
-        DrawingThread::Result result = m_thread.take();
+        DrawingThread::Result result = m_thread->take();
         if (!result.failure.empty()) {
             m_failure = QString::fromStdString(result.failure);
+            update();
+            emit presented();
+            return;
+        }
+        if (result.rendererName.empty()) {
+            return; // an earlier wake has taken it all
         }
         if (result.image) {
-            m_isDrawing = false;
+            ++m_pictures;
+            m_picture = wrapped(std::move(*result.image), m_thread);
             m_rendererName = QString::fromStdString(result.rendererName);
-            m_picture = wrapped(std::move(*result.image));
+            update();
         }
-        update();
+        if (result.load.step != m_load.step) {
+            qCInfo(drawingLog).noquote() << pictureHealthOf(result.load).state;
+        }
+        m_load = result.load;
+        if (result.frame == nullptr || result.frame != m_handed) {
+            return; // drawn once more, or by a wake that came too late
+        }
+        m_handed.reset();
+        if (result.pause.count() > 0) {
+            m_pause.start(result.pause);
+        }
         emit presented();
     }
 
+    std::shared_ptr<DrawingThread> m_thread;
     QImage m_picture;
     QString m_rendererName;
     QString m_failure;
-    bool m_isDrawing = false;
-    DrawingThread m_thread; // last: it may call back at once
+    PictureLoad m_load;
+    std::uint64_t m_pictures = 0;
+    std::shared_ptr<const SceneFrame> m_handed; ///< not yet drawn
+    QTimer m_pause;
 };
 
 } // namespace

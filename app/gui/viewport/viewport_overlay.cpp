@@ -2,10 +2,13 @@
 #include "app/gui/viewport/viewport_overlay.h"
 
 #include "app/gui/theme/widgets.h"
+#include "app/gui/viewport/overlays/overlays.h"
 #include "app/gui/viewport/viewport_widget.h"
 
+#include <QCoreApplication>
 #include <QMenu>
 #include <QPainter>
+#include <QPainterPath>
 
 #include <algorithm>
 #include <array>
@@ -35,29 +38,37 @@ qreal paintText(QPainter& painter, qreal left, const QRectF& row, const QString&
     return left + width;
 }
 
-/// The first of these that a plate lies on; null for none.
-const QRectF* touched(const QRectF& plate, const std::vector<QRectF>& taken) {
-    const auto found =
-        std::ranges::find_if(taken, [&plate](const QRectF& other) { return other.intersects(plate); });
-    return found == taken.end() ? nullptr : &*found;
+/// What is on one label.
+struct LabelText {
+    QString name;
+    QString status;
+    qreal whole = 0; ///< widths of a plate
+    qreal brief = 0;
+};
+
+qreal markSide(const QFontMetricsF& metrics) {
+    return 0.65 * metrics.height();
 }
 
-/// Up where there is room above, else a little aside, else down.
-void giveWay(QRectF& plate, const std::vector<QRectF>& taken, qreal width) {
-    constexpr qreal kApart = 3;
-    bool isUp = true;
-    while (const QRectF* other = touched(plate, taken)) {
-        const qreal above = other->top() - kApart - plate.height();
-        const qreal aside = other->right() + kApart;
-        if (isUp && above >= 0) {
-            plate.moveTop(above);
-        } else if (aside - plate.left() < plate.width() / 2 && aside + plate.width() <= width) {
-            plate.moveLeft(aside);
-        } else {
-            isUp = false;
-            plate.moveTop(other->bottom() + kApart);
-        }
-    }
+LabelText textOf(const ViewportLabel& label, const QFontMetricsF& metrics, qreal width) {
+    const qreal unit = metrics.height();
+    LabelText text{{}, healthText(label.state.health, label.state.text)};
+    // However long a name is, how its character does is in sight.
+    const qreal frame = 1.6 * unit + markSide(metrics);
+    const qreal rest = frame + 0.6 * unit + metrics.horizontalAdvance(text.status);
+    text.name = metrics.elidedText(label.name, Qt::ElideRight, std::clamp(width - rest, 3 * unit, 16 * unit));
+    text.whole = rest + metrics.horizontalAdvance(text.name);
+    text.brief = frame + 0.4 * unit +
+                 metrics.horizontalAdvance(initialsOf(label.name) + healthSymbol(label.state.health));
+    return text;
+}
+
+/// Who is selected or in trouble keeps all text for longest.
+int weightOf(const ViewportLabel& label) {
+    const int trouble = label.state.health == Health::Error     ? 2
+                        : label.state.health == Health::Warning ? 1
+                                                                : 0;
+    return (label.isSelected ? 4 : 0) + trouble;
 }
 
 class ViewportButtons final : public QWidget {
@@ -65,12 +76,13 @@ public:
     explicit ViewportButtons(ViewportWidget* viewport)
         : QWidget(viewport),
           m_axes(framedButton({}, tr("Local axes of the segments: x red, y green, z blue"), this)),
+          m_overlays(framedButton(tr("Overlays ▾"), tr("What is drawn over the figures"), this)),
           m_frame(
               framedButton(tr("Frame  F"), tr("Show all characters, and keep them in the picture"), this)),
           m_projection(framedButton({}, tr("Perspective or orthographic"), this)) {
         setObjectName(kButtons);
         auto* row = spacedRow({12, 12, 12, 12}, 8, this);
-        for (QToolButton* each : {m_axes, m_frame, m_projection}) {
+        for (QToolButton* each : {m_axes, m_overlays, m_frame, m_projection}) {
             each->setFocusPolicy(Qt::TabFocus);
             row->addWidget(each);
         }
@@ -83,6 +95,21 @@ public:
         }
         m_axes->setMenu(menu);
         m_axes->setPopupMode(QToolButton::InstantPopup);
+        auto* overlayMenu = new QMenu(m_overlays);
+        for (const OverlayEntry& entry : kOverlayTable) {
+            QAction* action =
+                overlayMenu->addAction(QCoreApplication::translate("Action", entry.title), viewport,
+                                       [viewport, one = entry.overlay] { viewport->toggle(one); });
+            action->setCheckable(true);
+        }
+        connect(overlayMenu, &QMenu::aboutToShow, viewport, [viewport, overlayMenu] {
+            for (std::size_t i = 0; i < kOverlayTable.size(); ++i) {
+                overlayMenu->actions()[static_cast<qsizetype>(i)]->setChecked(
+                    viewport->isOn(kOverlayTable[i].overlay));
+            }
+        });
+        m_overlays->setMenu(overlayMenu);
+        m_overlays->setPopupMode(QToolButton::InstantPopup);
         connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
         connect(m_projection, &QToolButton::clicked, viewport, &ViewportWidget::toggleProjection);
         connect(viewport, &ViewportWidget::optionsChanged, this,
@@ -96,10 +123,16 @@ private:
         m_axes->setText(tr("Axes: %1 ▾").arg(names[static_cast<std::size_t>(viewport.axes())]));
         m_projection->setText(viewport.projection() == render::Projection::Perspective ? tr("Persp")
                                                                                        : tr("Ortho"));
+        m_axes->setAccessibleName(tr("Axes: %1").arg(names[static_cast<std::size_t>(viewport.axes())]));
+        m_frame->setAccessibleName(tr("Frame all"));
+        m_projection->setAccessibleName(viewport.projection() == render::Projection::Perspective
+                                            ? tr("Projection: perspective")
+                                            : tr("Projection: orthographic"));
         adjustSize();
     }
 
     QToolButton* m_axes;
+    QToolButton* m_overlays;
     QToolButton* m_frame;
     QToolButton* m_projection;
 };
@@ -120,6 +153,11 @@ void ViewportOverlay::setLabels(std::vector<ViewportLabel> labels) {
     update();
 }
 
+void ViewportOverlay::setTexts(std::vector<ViewportText> texts) {
+    m_texts = std::move(texts);
+    update();
+}
+
 void ViewportOverlay::setCard(const EmptyState& card) {
     if (card.title != m_card.title || card.lines != m_card.lines) {
         m_card = card;
@@ -129,52 +167,101 @@ void ViewportOverlay::setCard(const EmptyState& card) {
     }
 }
 
-void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
-    QPainter painter(this);
-    painter.setRenderHint(QPainter::Antialiasing);
+void ViewportOverlay::placeAll() {
+    const QFontMetricsF metrics(tabularFont());
+    const qreal height = metrics.height() + 8;
+    std::vector<LabelPlace> places;
+    for (const ViewportLabel& label : m_labels) {
+        const LabelText text = textOf(label, metrics, width());
+        const auto before = m_before.find(label.key);
+        places.push_back({label.anchor, label.head, label.depth, weightOf(label), QSizeF(text.whole, height),
+                          QSizeF(text.brief, height),
+                          before == m_before.end() ? std::nullopt : std::optional(before->second)});
+    }
     std::vector<QRectF> taken;
     if (const auto* buttons = parentWidget()->findChild<QWidget*>(kButtons, Qt::FindDirectChildrenOnly)) {
         taken.push_back(buttons->geometry());
     }
-    for (const ViewportLabel& label : m_labels) {
-        paintLabel(painter, label, taken);
+    m_placed = placeLabels(places, rect(), std::move(taken));
+    m_before.clear();
+    for (std::size_t i = 0; i < m_labels.size(); ++i) {
+        m_before[m_labels[i].key] = m_placed[i];
     }
+}
+
+void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setFont(tabularFont());
+    placeAll();
+    for (std::size_t i = 0; i < m_labels.size(); ++i) {
+        const LabelPlace place{m_labels[i].anchor, m_labels[i].head};
+        if (const auto leader = leaderOf(m_placed[i], place)) {
+            painter.setPen(QPen(theme().panel, 3));
+            painter.drawLine(*leader);
+            painter.setPen(QPen(m_labels[i].mark.colour, 1.4));
+            painter.drawLine(*leader);
+        }
+    }
+    for (std::size_t i = 0; i < m_labels.size(); ++i) {
+        paintLabel(painter, m_labels[i], m_placed[i]);
+    }
+    std::vector<QRectF> taken;
+    for (const PlacedLabel& label : m_placed) {
+        if (label.form != LabelForm::None) {
+            taken.push_back(label.plate);
+        }
+    }
+    paintTexts(painter, taken);
     if (!m_card.title.isEmpty()) {
         paintCard(painter);
     }
 }
 
 void ViewportOverlay::paintLabel(QPainter& painter, const ViewportLabel& label,
-                                 std::vector<QRectF>& taken) const {
-    painter.setFont(tabularFont());
+                                 const PlacedLabel& placed) const {
     const QFontMetricsF metrics(painter.font());
     const qreal unit = metrics.height();
-    const qreal dot = 0.6 * unit;
-    const QString status = healthText(label.state.health, label.state.text);
-    // However long a name is, how its character does is in sight.
-    const qreal rest = 2.4 * unit + dot + metrics.horizontalAdvance(status);
-    const qreal room = std::clamp(this->width() - rest, 3 * unit, 16 * unit);
-    const QString name = metrics.elidedText(label.name, Qt::ElideRight, room);
-    const qreal width = rest + metrics.horizontalAdvance(name);
-    const qreal height = unit + 8;
-    QRectF plate(std::round(label.anchor.x() - width / 2), std::round(label.anchor.y() - height),
-                 std::ceil(width), height);
-    // With a head that is out of sight it goes out of sight.
-    if (!QRectF(rect()).contains(label.anchor)) {
+    const qreal side = markSide(metrics);
+    if (placed.form == LabelForm::None) {
         return;
     }
-    constexpr qreal kEdge = 2;
-    plate.moveTop(std::max(kEdge, plate.top()));
-    plate.moveLeft(std::max(kEdge, std::min(plate.left(), this->width() - kEdge - plate.width())));
-    giveWay(plate, taken, this->width());
-    taken.push_back(plate);
+    if (placed.form == LabelForm::Mark) {
+        paintMark(painter, QRectF(label.anchor - QPointF(side / 2, side), QSizeF(side, side)), label.mark);
+        return;
+    }
+    const QRectF& plate = placed.plate;
     paintPlate(painter, plate, label.isSelected ? theme().accent : theme().line, kRadius);
-    painter.setPen(Qt::NoPen);
-    painter.setBrush(label.colour);
-    painter.drawEllipse(QRectF(plate.left() + 0.6 * unit, plate.center().y() - dot / 2, dot, dot));
-    qreal x = plate.left() + 0.6 * unit + dot + 0.4 * unit;
-    x = paintText(painter, x, plate, name, theme().text) + 0.6 * unit;
-    paintText(painter, x, plate, status, healthColour(label.state.health));
+    paintMark(painter, QRectF(plate.left() + 0.6 * unit, plate.center().y() - side / 2, side, side),
+              label.mark);
+    const LabelText text = textOf(label, metrics, width());
+    const bool isWhole = placed.form == LabelForm::Whole;
+    qreal x = plate.left() + unit + side;
+    x = paintText(painter, x, plate, isWhole ? text.name : initialsOf(label.name), theme().text);
+    paintText(painter, x + (isWhole ? 0.6 : 0.4) * unit, plate,
+              isWhole ? text.status : healthSymbol(label.state.health), healthColour(label.state.health));
+}
+
+/// Each with a halo of the background, so that it can be read over anything.
+void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) const {
+    constexpr qreal kAside = 7;
+    QFont small = tabularFont();
+    small.setPointSizeF(0.85 * small.pointSizeF());
+    const QFontMetricsF metrics(small);
+    for (const ViewportText& text : m_texts) {
+        const QRectF room(text.place.x() + kAside, text.place.y() - metrics.height() / 2,
+                          metrics.horizontalAdvance(text.text), metrics.height());
+        if (!QRectF(rect()).contains(room) ||
+            std::ranges::any_of(taken, [&room](const QRectF& other) { return other.intersects(room); })) {
+            continue;
+        }
+        taken.push_back(room);
+        QPainterPath path;
+        path.addText(room.left(), room.bottom() - metrics.descent(), small, text.text);
+        painter.strokePath(path, QPen(withAlpha(theme().window, kBackgroundOpacity), 3, Qt::SolidLine,
+                                      Qt::RoundCap, Qt::RoundJoin));
+        painter.fillPath(path, text.colour);
+    }
 }
 
 void ViewportOverlay::paintCard(QPainter& painter) const {

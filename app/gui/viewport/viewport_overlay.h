@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/theme/character_mark.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/captions.h"
+#include "app/gui/viewport/label_layout.h"
 
 #include <QWidget>
 
+#include <map>
 #include <vector>
 
 namespace posewire::gui {
@@ -17,14 +20,24 @@ void addViewportButtons(ViewportWidget& viewport);
 
 /// The label over one character.
 struct ViewportLabel {
-    QPointF anchor; ///< the label's lower middle
-    QColor colour;
+    model::CharacterKey key;
+    QPointF anchor; ///< just above its head
+    QRectF head;
+    double depth = 0; ///< of the head, metres from the eye
+    CharacterMark mark;
     QString name;
     PropertyValue state; ///< how it does
     bool isSelected = false;
 };
 
-/// Drawn over the picture: labels, and a card of text where there is no picture to see.
+/// A few words of an overlay.
+struct ViewportText {
+    QPointF place; ///< its left end, at half its height
+    QString text;
+    QColor colour;
+};
+
+/// Drawn over the picture: labels, words of overlays, and a card of text where there is no picture to see.
 class ViewportOverlay final : public QWidget {
     Q_OBJECT
 
@@ -32,18 +45,27 @@ public:
     explicit ViewportOverlay(QWidget* parent);
 
     void setLabels(std::vector<ViewportLabel> labels);
+    /// The first are the last to give way where they would lie on each other.
+    void setTexts(std::vector<ViewportText> texts);
     void setCard(const EmptyState& card);
     [[nodiscard]] const EmptyState& card() const { return m_card; }
     [[nodiscard]] const std::vector<ViewportLabel>& labels() const { return m_labels; }
+    /// Where each of them was painted last.
+    [[nodiscard]] const std::vector<PlacedLabel>& placed() const { return m_placed; }
 
 protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
-    void paintLabel(QPainter& painter, const ViewportLabel& label, std::vector<QRectF>& taken) const;
+    void placeAll();
+    void paintLabel(QPainter& painter, const ViewportLabel& label, const PlacedLabel& placed) const;
+    void paintTexts(QPainter& painter, std::vector<QRectF>& taken) const;
     void paintCard(QPainter& painter) const;
 
     std::vector<ViewportLabel> m_labels;
+    std::vector<PlacedLabel> m_placed; ///< by label
+    std::map<model::CharacterKey, PlacedLabel> m_before;
+    std::vector<ViewportText> m_texts;
     EmptyState m_card;
 };
 

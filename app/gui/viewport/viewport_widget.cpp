@@ -6,9 +6,13 @@
 #include "app/gui/logging.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
+#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/viewport/picture_health.h"
+#include "app/gui/viewport/pose_banner.h"
 #include "app/gui/viewport/viewport_overlay.h"
 
 #include <QApplication>
+#include <QJsonArray>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QWheelEvent>
@@ -44,7 +48,11 @@ std::vector<render::Bounds> boxesOf(const SceneFrame& frame) {
 } // namespace
 
 ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, QWidget* parent)
-    : QWidget(parent), m_session(&session), m_commands(commands), m_overlay(new ViewportOverlay(this)) {
+    : QWidget(parent),
+      m_session(&session),
+      m_commands(commands),
+      m_overlay(new ViewportOverlay(this)),
+      m_banner(new PoseBanner(commands, this)) {
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Characters in space"));
     setFocusPolicy(Qt::StrongFocus);
@@ -53,24 +61,40 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
 
 ViewportWidget::~ViewportWidget() = default;
 
-void ViewportWidget::start() {
+void ViewportWidget::start(Presenter* (*makeHardware)(QWidget*)) {
     if (m_presenter != nullptr) {
         return;
     }
-    m_presenter = makeOpenGlPresenter(this);
-    m_isHardware = m_presenter != nullptr;
-    if (!m_isHardware) {
-        m_presenter = makeSoftwarePresenter(this);
-    }
+    Presenter* hardware = makeHardware(this);
+    m_isHardware = hardware != nullptr;
     qCInfo(drawingLog) << (m_isHardware ? "into the window, by graphics hardware"
                                         : "on a thread, by the processor or without the window's OpenGL");
+    use(m_isHardware ? hardware : makeSoftwarePresenter(this));
+}
+
+void ViewportWidget::use(Presenter* presenter) {
+    m_presenter = presenter;
     m_builder = makeBuilder();
     m_presenter->setAttribute(Qt::WA_TransparentForMouseEvents);
     m_presenter->setGeometry(rect());
     m_presenter->lower();
     m_presenter->setVisible(true);
     connect(m_presenter, &Presenter::presented, this, &ViewportWidget::onPresented);
+    connect(m_presenter, &Presenter::ready, this, &ViewportWidget::drawNext);
+    connect(m_presenter, &Presenter::outgrown, this, &ViewportWidget::refresh);
     refresh();
+}
+
+/// Hardware that fails, be it at once or by a reset of its driver, leaves the processor to draw.
+void ViewportWidget::leaveHardware() {
+    m_hardwareFailure = m_presenter->failure();
+    qCWarning(drawingLog).noquote() << "graphics hardware failed, the processor draws:" << m_hardwareFailure;
+    disconnect(m_presenter, nullptr, this, nullptr);
+    m_presenter->setVisible(false);
+    m_presenter->deleteLater();
+    m_isHardware = false;
+    m_drawing.reset();
+    use(makeSoftwarePresenter(this));
 }
 
 std::unique_ptr<SceneBuilder> ViewportWidget::makeBuilder() const {
@@ -84,6 +108,7 @@ void ViewportWidget::showSession(model::SessionView& session, const QString& fil
     m_shown.reset(); // its figures are of the other session
     m_drawing.reset();
     m_followed = {};
+    m_bannerStamp = {};
     if (m_builder != nullptr) {
         m_builder = makeBuilder();
     }
@@ -109,43 +134,72 @@ void ViewportWidget::drawNext() {
     frame->pixelRatio = static_cast<float>(devicePixelRatioF());
     frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
-    m_builder->build(m_axes, *frame);
+    m_builder->build(m_axes, m_overlays, *frame);
     m_motion.follow(boxesOf(*frame), aspect(), log::secondsOf(m_session->now() - m_followed));
     m_followed = m_session->now();
     frame->camera = m_motion.camera();
-    frame->built = m_session->now();
+    sizeAxes(*frame);
+    m_drawingBuilt = m_session->now();
     m_isOutdated = m_builder->meshes().isBehind();
     m_drawing = frame;
     m_presenter->present(std::move(frame));
 }
 
 void ViewportWidget::onPresented() {
-    if (m_picturesShown++ == 0) {
+    if (m_isHardware && !m_presenter->failure().isEmpty()) {
+        leaveHardware();
+        return;
+    }
+    if (!std::exchange(m_hasPicture, true)) {
         qCInfo(drawingLog).noquote() << "first picture by" << m_presenter->rendererName();
     }
     if (m_drawing != nullptr) {
         m_shown = std::exchange(m_drawing, nullptr);
+        m_shownBuilt = m_drawingBuilt;
     }
     updateOverlay();
     drawNext();
+}
+
+/// Nothing where the head is behind the eye.
+std::optional<ViewportLabel> ViewportWidget::labelOf(const Figure& figure) const {
+    constexpr float kAboveHead = 0.05F; // metres, and the head below that
+    constexpr float kHeadHeight = 0.3F;
+    const render::Camera& camera = m_shown->camera;
+    const glm::vec3 top = figure.labelPosition - glm::vec3(0, 0, kAboveHead);
+    const auto anchor = camera.project(figure.labelPosition, aspect());
+    const auto crown = camera.project(top, aspect());
+    const auto chin = camera.project(top - kHeadHeight * camera.up(), aspect());
+    if (!anchor || !crown || !chin) {
+        return std::nullopt;
+    }
+    ViewportLabel label;
+    label.key = figure.key;
+    label.anchor = pointerAt(*anchor, size());
+    const QPointF above = pointerAt(*crown, size());
+    const qreal height = std::abs(pointerAt(*chin, size()).y() - above.y());
+    label.head = QRectF(above.x() - 0.4 * height, above.y(), 0.8 * height, height);
+    label.depth = glm::dot(figure.labelPosition - camera.eye(), camera.forward());
+    label.mark = {QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
+                  figure.key.character};
+    label.name = shown(m_session->displayName(figure.key));
+    label.state = characterHealth(*m_session, figure.key);
+    label.isSelected = m_session->isSelected(figure.key);
+    return label;
 }
 
 void ViewportWidget::updateOverlay() {
     std::vector<ViewportLabel> labels;
     if (m_shown != nullptr) {
         for (const Figure& figure : m_shown->figures) {
-            const auto place = m_shown->camera.project(figure.labelPosition, aspect());
-            if (!place) {
-                continue;
+            if (auto label = labelOf(figure)) {
+                labels.push_back(std::move(*label));
             }
-            labels.push_back(
-                {pointerAt(*place, size()),
-                 QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
-                 shown(m_session->displayName(figure.key)), characterHealth(*m_session, figure.key),
-                 m_session->isSelected(figure.key)});
         }
     }
     m_overlay->setLabels(std::move(labels));
+    m_overlay->setTexts(textsOf(m_shown.get()));
+    updateBanner();
     if (const QString problem = failure(); !problem.isEmpty()) {
         m_overlay->setCard(
             {Health::Error,
@@ -157,10 +211,44 @@ void ViewportWidget::updateOverlay() {
     }
 }
 
+/// Words need not change as often as pictures.
+void ViewportWidget::updateBanner() {
+    constexpr log::Duration kEvery = std::chrono::milliseconds(100);
+    const log::Stamp now = m_session->now();
+    const bool isFollowing = m_session->cursor().mode == model::Cursor::Mode::Following;
+    if (!isFollowing || now >= m_bannerStamp + kEvery || now < m_bannerStamp) {
+        m_bannerStamp = now;
+        m_banner->refresh(*m_session);
+    }
+}
+
+/// The nearest first.
+std::vector<ViewportText> ViewportWidget::textsOf(const SceneFrame* frame) const {
+    std::vector<std::pair<float, ViewportText>> all;
+    if (frame != nullptr) {
+        for (const SceneText& text : frame->texts) {
+            if (const auto place = frame->camera.project(text.position, aspect())) {
+                const float depth = glm::dot(text.position - frame->camera.eye(), frame->camera.forward());
+                all.push_back({depth, {pointerAt(*place, size()), text.text, text.colour}});
+            }
+        }
+    }
+    std::ranges::stable_sort(all, {}, [](const auto& one) { return one.first; });
+    std::vector<ViewportText> texts;
+    for (auto& [depth, text] : all) {
+        texts.push_back(std::move(text));
+    }
+    return texts;
+}
+
+PictureHealth ViewportWidget::pictureHealth() const {
+    return m_hasPicture ? pictureHealthOf(m_presenter->load(), m_hardwareFailure) : PictureHealth{};
+}
+
 bool ViewportWidget::isSettled() const {
     constexpr log::Duration kFresh = std::chrono::milliseconds(250);
     const bool isIdle = !m_isOutdated && m_drawing == nullptr;
-    return m_shown != nullptr && (isIdle || m_session->now() - m_shown->built < kFresh);
+    return m_shown != nullptr && (isIdle || m_session->now() - m_shownBuilt < kFresh);
 }
 
 float ViewportWidget::aspect() const {
@@ -169,6 +257,12 @@ float ViewportWidget::aspect() const {
 
 void ViewportWidget::setAxes(AxesMode mode) {
     m_axes = mode;
+    refresh();
+    emit optionsChanged();
+}
+
+void ViewportWidget::toggle(Overlay overlay) {
+    m_overlays.toggle(overlay);
     refresh();
     emit optionsChanged();
 }
@@ -186,12 +280,24 @@ void ViewportWidget::face(render::StandardView view) {
 }
 
 QJsonObject ViewportWidget::state() const {
-    return {{"camera", stateOf(m_motion)}, {"axes", static_cast<int>(m_axes)}};
+    QJsonArray on;
+    for (const OverlayEntry& entry : kOverlayTable) {
+        if (m_overlays.has(entry.overlay)) {
+            on.append(QLatin1String(entry.key));
+        }
+    }
+    return {{"camera", stateOf(m_motion)}, {"axes", static_cast<int>(m_axes)}, {"overlays", on}};
 }
 
 void ViewportWidget::restoreState(const QJsonObject& state) {
     gui::restore(m_motion, state["camera"].toObject());
     const int axes = state["axes"].toInt(static_cast<int>(m_axes));
+    m_overlays = {};
+    for (const OverlayEntry& entry : kOverlayTable) {
+        if (state["overlays"].toArray().contains(QLatin1String(entry.key))) {
+            m_overlays.toggle(entry.overlay);
+        }
+    }
     m_axes = static_cast<AxesMode>(std::clamp(axes, 0, static_cast<int>(AxesMode::None)));
     refresh();
     emit optionsChanged();
@@ -224,6 +330,7 @@ void ViewportWidget::paintEvent(QPaintEvent* /*event*/) {
 
 void ViewportWidget::resizeEvent(QResizeEvent* /*event*/) {
     m_overlay->setGeometry(rect());
+    m_banner->place(size());
     if (m_presenter != nullptr) {
         m_presenter->setGeometry(rect());
     }
@@ -292,6 +399,9 @@ std::optional<render::Pick> ViewportWidget::pickAt(const QPointF& pointer) const
     std::vector<render::PickTarget> targets;
     for (std::size_t i = 0; i < m_shown->figures.size(); ++i) {
         const Figure& figure = m_shown->figures[i];
+        if (figure.mesh == nullptr) {
+            continue;
+        }
         targets.push_back({static_cast<std::uint32_t>(i), &figure.mesh->capsules, figure.palette});
     }
     return render::pickSegment(m_shown->camera.rayThrough(screenPoint(pointer, size()), aspect()), targets);

@@ -15,7 +15,10 @@
 
 namespace posewire::gui {
 
+class PoseBanner;
 class ViewportOverlay;
+struct ViewportLabel;
+struct ViewportText;
 
 /// The characters in space: builds a picture whenever the session has moved and the presenter is ready for
 /// the next.
@@ -27,8 +30,9 @@ public:
     ~ViewportWidget() override;
 
     /// Makes the presenter; before that the view is empty. For after the window's first painting, since it
-    /// takes time.
-    void start();
+    /// takes time. `makeHardware` gives null where there is none; where what it gives fails, the processor
+    /// draws.
+    void start(Presenter* (*makeHardware)(QWidget*) = makeOpenGlPresenter);
 
     /// Shows another session from now on; `file` is the name of the file that it is of, empty for none.
     void showSession(model::SessionView& session, const QString& file);
@@ -39,10 +43,12 @@ public:
 
     void setAxes(AxesMode mode);
     [[nodiscard]] AxesMode axes() const { return m_axes; }
+    void toggle(Overlay overlay);
+    [[nodiscard]] bool isOn(Overlay overlay) const { return m_overlays.has(overlay); }
     void toggleProjection();
     [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
     void face(render::StandardView view);
-    /// Camera and axes, as they are kept from one run to the next.
+    /// Camera, axes and overlays, as they are kept from one run to the next.
     [[nodiscard]] QJsonObject state() const;
     void restoreState(const QJsonObject& state);
     void frameAll();
@@ -55,7 +61,11 @@ public:
         return m_presenter == nullptr ? QString() : m_presenter->rendererName();
     }
     /// Since the start.
-    [[nodiscard]] std::uint64_t picturesShown() const { return m_picturesShown; }
+    [[nodiscard]] std::uint64_t picturesShown() const {
+        return m_presenter == nullptr ? 0 : m_presenter->pictures();
+    }
+    /// How they are drawn now, for the statistics; nothing before start().
+    [[nodiscard]] PictureHealth pictureHealth() const;
     /// Null before start().
     [[nodiscard]] const BodyMeshes* meshes() const {
         return m_builder == nullptr ? nullptr : &m_builder->meshes();
@@ -66,7 +76,7 @@ public:
     }
 
 signals:
-    /// Axes or projection are not what they were.
+    /// Axes, overlays or projection are not what they were.
     void optionsChanged();
 
 protected:
@@ -81,9 +91,14 @@ protected:
 
 private:
     [[nodiscard]] std::unique_ptr<SceneBuilder> makeBuilder() const;
+    void use(Presenter* presenter);
+    void leaveHardware();
     void drawNext();
     void onPresented();
     void updateOverlay();
+    [[nodiscard]] std::optional<ViewportLabel> labelOf(const Figure& figure) const;
+    void updateBanner();
+    [[nodiscard]] std::vector<ViewportText> textsOf(const SceneFrame* frame) const;
     [[nodiscard]] std::optional<render::Pick> pickAt(const QPointF& pointer) const;
     [[nodiscard]] float aspect() const;
 
@@ -91,17 +106,23 @@ private:
     QString m_file; ///< that the session is of; empty for none
     Commands& m_commands;
     bool m_isHardware = false;
-    AxesMode m_axes = AxesMode::All;
+    QString m_hardwareFailure; ///< why the processor draws after all; empty where it does not
+    AxesMode m_axes = AxesMode::Selected;
+    Overlays m_overlays;
     CameraMotion m_motion;
     std::unique_ptr<SceneBuilder> m_builder;
     Presenter* m_presenter = nullptr;
     ViewportOverlay* m_overlay;
+    PoseBanner* m_banner;
+    log::Stamp m_bannerStamp{}; ///< of what it was made from
     ReceivingState m_receiving;
     std::shared_ptr<const SceneFrame> m_drawing; ///< with the presenter
     std::shared_ptr<const SceneFrame> m_shown;
     bool m_isOutdated = true;
     log::Stamp m_followed{};
-    std::uint64_t m_picturesShown = 0;
+    log::Stamp m_drawingBuilt{}; ///< the session's time of m_drawing
+    log::Stamp m_shownBuilt{};
+    bool m_hasPicture = false;
     QPointF m_pressed;
     QPointF m_pointer;
     bool m_isDragging = false;

@@ -319,6 +319,7 @@ void MainWindow::showReceiving() {
         m_inputs->refresh();
     }
     m_driver.setPicturesShown(m_viewport->picturesShown());
+    m_driver.setPictureHealth(m_viewport->pictureHealth());
     if (const BodyMeshes* meshes = m_viewport->meshes()) {
         m_driver.setMeshMemory(meshes->memoryBytes(), meshes->mostBytes());
     }

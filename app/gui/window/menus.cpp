@@ -5,6 +5,7 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/words.h"
+#include "app/gui/viewport/overlays/overlays.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/texts.h"
@@ -47,6 +48,20 @@ bool isGhostOn(const Window& window) {
 
 void toggleGhost(Window& window) {
     window.driver().setGhostVisible(!isGhostOn(window));
+}
+
+bool isAnyLifted(const Window& window) {
+    const model::SessionView& session = window.driver().session();
+    return std::ranges::any_of(session.currentCharacters(), [&session](const model::Character* character) {
+        return session.isLifted(character->key);
+    });
+}
+
+void toggleLifted(Window& window) {
+    const bool isOn = !isAnyLifted(window);
+    for (const model::Character* character : window.driver().session().currentCharacters()) {
+        window.driver().setLifted(character->key, isOn);
+    }
 }
 
 void saveScreenshot(Window& window) {
@@ -159,6 +174,26 @@ constexpr ActionInfo viewEntry(const char* id, const char* text, const char* sho
             Do::callIn<&Window::viewport, &ViewportWidget::face, view>};
 }
 
+template <Overlay overlay>
+void toggleOverlay(Window& window) {
+    window.viewport().toggle(overlay);
+}
+template <Overlay overlay>
+bool isOverlayOn(const Window& window) {
+    return window.viewport().isOn(overlay);
+}
+template <Overlay overlay>
+constexpr ActionInfo overlayEntry() {
+    constexpr const OverlayEntry& entry = kOverlayTable[static_cast<std::size_t>(overlay)];
+    static_assert(entry.overlay == overlay);
+    return {entry.key,
+            QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),
+            entry.title,
+            "",
+            Do::call<toggleOverlay<overlay>>,
+            Do::is<isOverlayOn<overlay>>};
+}
+
 /// Where the entries of panels go in a menu and in its submenus.
 constexpr const char* kPanels = "panels"; ///< an id
 constexpr ActionInfo panelsIn(const char* menu) {
@@ -250,6 +285,17 @@ const ActionInfo kActions[] = {
     {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
      Do::callIn<&Window::viewport, &ViewportWidget::frameAll>},
     {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
+    overlayEntry<Overlay::SegmentNames>(),
+    overlayEntry<Overlay::JointAngles>(),
+    overlayEntry<Overlay::Markers>(),
+    overlayEntry<Overlay::Trackers>(),
+    overlayEntry<Overlay::CentreOfMass>(),
+    overlayEntry<Overlay::Contacts>(),
+    overlayEntry<Overlay::Velocity>(),
+    overlayEntry<Overlay::Acceleration>(),
+    overlayEntry<Overlay::Trails>(),
+    {"lift", "&View", QT_TRANSLATE_NOOP("Action", "&Place bodies below the floor on it"), "",
+     Do::call<toggleLifted>, Do::is<isAnyLifted>},
     {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", Do::call<toggleGhost>,
      Do::is<isGhostOn>},
     selectEntry<0>("select1", QT_TRANSLATE_NOOP("Action", "First"), "1"),

@@ -141,12 +141,15 @@ void TransportBar::showMode(Mode mode) {
     const bool isPaused = mode == Mode::Paused || mode == Mode::Playing;
     m_pause->setIcon(themedIcon(isPaused ? QStringLiteral("play") : QStringLiteral("pause")));
     m_pause->setText(isPaused ? tr("Go live   Space") : tr("Pause   Space"));
+    m_pause->setAccessibleName(isPaused ? tr("Go live") : tr("Pause"));
     const std::array texts{tr("● LIVE"), tr("○ WAITING"), tr("▮▮ PAUSED"), tr("▶ PLAYING")};
+    const std::array names{tr("Live"), tr("Waiting"), tr("Paused"), tr("Playing")};
     const std::array helps{tr("The display follows the stream."),
                            tr("The display follows the stream, but nothing is arriving."),
                            tr("The display is paused; receiving continues. Click to follow again (End)."),
                            tr("The past is played; receiving continues. Click to follow again (End).")};
     m_live->setText(texts[static_cast<std::size_t>(mode)]);
+    m_live->setAccessibleName(names[static_cast<std::size_t>(mode)]);
     m_live->setToolTip(toolTipText(helps[static_cast<std::size_t>(mode)]));
     m_live->setProperty("live", mode == Mode::Live);
     m_live->style()->unpolish(m_live);

@@ -101,6 +101,37 @@ def check_controls(root):
                               Atspi.Role.RADIO_BUTTON, Atspi.Role.COMBO_BOX, Atspi.Role.ENTRY, Atspi.Role.TEXT,
                               Atspi.Role.SPIN_BUTTON) and one.get_state_set().contains(Atspi.StateType.SHOWING):
             assert len(one.get_name().strip()) > 1, f"a control has no name: {path} ({one.get_role_name()})"
+            assert "&&" not in one.get_name() and "   " not in one.get_name(), f"a name to be looked at: {path}"
+
+
+def control(root, name):
+    """What is called so, and can be used."""
+    found = [one for one, _ in objects(root)
+             if one.get_name() == name and one.get_role() in (Atspi.Role.PUSH_BUTTON, Atspi.Role.TOGGLE_BUTTON,
+                                                              Atspi.Role.CHECK_BOX)]
+    assert found, f"no control is called {name}"
+    return found[0]
+
+
+def has(one, state):
+    one.clear_cache()
+    return one.get_state_set().contains(state)
+
+
+def check_states(root):
+    """What is on, what is off, and what cannot be used now; and that pressing changes it."""
+    toggle = control(root, "Trouble first")
+    assert has(toggle, Atspi.StateType.ENABLED) and not has(toggle, Atspi.StateType.CHECKED)
+    for isOn in (True, False):
+        toggle.get_action_iface().do_action(0)
+        time.sleep(0.5)
+        assert has(toggle, Atspi.StateType.CHECKED) == isOn, f"it was pressed, and is {'off' if isOn else 'on'}"
+    assert has(control(root, "History"), Atspi.StateType.CHECKED)
+    assert not has(control(root, "Current"), Atspi.StateType.CHECKED)
+    assert not has(control(root, "Selection"), Atspi.StateType.ENABLED), "nothing is selected to zoom to"
+    assert has(control(root, "Pause"), Atspi.StateType.ENABLED)
+    shown = tables(root)["Characters"].get_table_iface().get_accessible_at(0, 0)
+    assert has(shown, Atspi.StateType.CHECKED), "a character that is in the picture is not said to be"
 
 
 def check_live(window):
@@ -119,6 +150,7 @@ def check_live(window):
     time.sleep(1)
     assert rows(found["Packets"]) != before, "the packets stand still"
     check_controls(root)
+    check_states(root)
     names = [one.get_name() for one, _ in objects(root)]
     assert any(name.startswith("Good for the take") for name in names), "the verdict has no name"
     assert "Hold this packet" in names and "Filter packets: Problems" in names

@@ -48,7 +48,7 @@ protected:
     const render::Image& shoot(AxesMode axes, float yaw) {
         SceneBuilder builder(m_session, render::Detail::High);
         m_frame = {};
-        builder.build(axes, m_frame);
+        builder.build(axes, {}, m_frame);
         m_frame.colours = render::lightSceneColours();
         if (!m_frame.figures.empty()) {
             m_frame.camera.target = m_frame.figures.front().bounds.centre();
@@ -56,6 +56,9 @@ protected:
         m_frame.camera.yaw = yaw;
         m_frame.camera.pitch = 0.15F;
         m_frame.camera.distance = 4.8F;
+        m_frame.width = 640;
+        m_frame.height = 480;
+        sizeAxes(m_frame);
         return m_offscreen->render(m_upload.prepare(m_frame, m_offscreen->renderer()), 640, 480);
     }
 

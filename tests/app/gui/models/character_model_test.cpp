@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/character_model.h"
 
+#include "app/gui/theme/character_mark.h"
+
 #include "app/gui/models/column.h"
 #include "app/gui/models/display_filter.h"
 #include "tests/app/gui/models/stage.h"
@@ -63,7 +65,7 @@ TEST_F(CharacterModelTest, ShowsEachCharacterInOneLine) {
     ASSERT_EQ(m_model.rowCount(), 1);
     EXPECT_EQ(text(0, Column::kName), "Factory");
     EXPECT_EQ(m_model.index(0, 0).data(kSuffixRole).toString(), QStringLiteral("· 0"));
-    EXPECT_EQ(m_model.index(0, 0).data(kDotRole).value<QColor>().name(), "#e96417");
+    EXPECT_EQ(m_model.index(0, 0).data(kDotRole).value<CharacterMark>().colour.name(), "#e96417");
     EXPECT_EQ(text(0, Column::kVerdict), QStringLiteral("● good"));
     EXPECT_EQ(text(0, Column::kNominal), "60");
     EXPECT_EQ(text(0, Column::kMeasured), "60.0");

@@ -90,6 +90,32 @@ TEST_F(ClockHistoryTest, TakesReorderingForNoJump) {
     EXPECT_TRUE(m_clock.drift().has_value());
 }
 
+TEST_F(ClockHistoryTest, TakesWhatComesSecondsLateOrWithACorruptCounterForNoJump) {
+    for (std::uint32_t place = 0; place < 1200; ++place) {
+        const std::uint32_t off = place == 700 ? 1U << 20U : 0;
+        m_stage.send(smallPose(), place ^ off, m_firstMs + 10 * place, Stage::kStart + place * 10ms);
+        if (place % 250 == 240) { // 1.7 s after its turn
+            m_stage.send(smallPose(), place - 170, m_firstMs + 10 * (place - 170),
+                         Stage::kStart + place * 10ms + 1ms);
+        }
+    }
+    follow();
+    EXPECT_FALSE(m_clock.lastJump().has_value());
+    EXPECT_EQ(m_clock.frameHz(), 100.0);
+}
+
+TEST_F(ClockHistoryTest, FollowsACounterThatRestarts) {
+    sendPoses(0, 500);
+    for (std::uint32_t sample = 1; sample < 300; ++sample) {
+        m_stage.send(smallPose(), sample, m_firstMs + 60'000 + 10 * sample,
+                     Stage::kStart + 5s + sample * 10ms);
+    }
+    follow();
+    ASSERT_TRUE(m_clock.lastJump().has_value());
+    EXPECT_NEAR(m_clock.lastJump()->milliseconds, 55'000, 200);
+    EXPECT_EQ(m_clock.frameHz(), 100.0);
+}
+
 TEST_F(ClockHistoryTest, ReadsSamplesThatComeInParts) {
     for (std::uint32_t sample = 0; sample < 201; ++sample) {
         for (const std::uint8_t part : std::initializer_list<std::uint8_t>{0x00, 0x01, 0x82}) {

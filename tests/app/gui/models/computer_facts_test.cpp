@@ -87,7 +87,7 @@ TEST_F(ComputerFactsTest, CountIncompleteSamplesAsLostInARangeAsInReports) {
     const QString all = text("Lost by cause");
     EXPECT_TRUE(all.endsWith(" 1")) << all.toStdString();
     m_stage.session.setRange({0s, model::TimeRange{Stage::kStart + 2s, Stage::kStart + 4s}});
-    EXPECT_EQ(text("Lost by cause"), QStringLiteral("▲ unknown 1"));
+    EXPECT_EQ(text("Lost by cause"), QStringLiteral("▲ network 1"));
 }
 
 TEST_F(ComputerFactsTest, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
@@ -98,6 +98,13 @@ TEST_F(ComputerFactsTest, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
     EXPECT_EQ(text("Processor"), QStringLiteral("receiving 2.1 % · program 150 %"));
     EXPECT_EQ(text("Accounting"), QStringLiteral("0.92 µs a packet · 1.2 %"));
     EXPECT_TRUE(text("Memory").startsWith("412 MB"));
+}
+
+TEST_F(ComputerFactsTest, TellHowPicturesAreDrawnAndWhy) {
+    EXPECT_EQ(text("Picture"), QStringLiteral("–"));
+    m_program.health.picture = {"step 7 of 7: half rate · 31 ms", "a picture took 60 ms", true};
+    EXPECT_EQ(text("Picture"), QStringLiteral("▲ step 7 of 7: half rate · 31 ms"));
+    EXPECT_EQ(fact("Picture").toolTip, QStringLiteral("a picture took 60 ms"));
 }
 
 TEST_F(ComputerFactsTest, TellTheMemoryByItsPartsAndItsBudget) {

@@ -54,6 +54,9 @@ public:
     }
     void goBack() override { m_session.goBack(); }
     void frameCharacter(const model::CharacterKey& key) override { framed.push_back(key); }
+    void setLifted(const model::CharacterKey& key, bool isLifted) override {
+        m_session.setLifted(key, isLifted);
+    }
     void setCharacterVisible(const model::CharacterKey& key, bool isVisible) override {
         m_session.setHidden(key, !isVisible);
     }

@@ -47,6 +47,17 @@ TEST_F(FittingHeaderTest, GivesUpFiguresBeforeItMakesNamesNarrower) {
     EXPECT_FALSE(scrolls());
 }
 
+TEST_F(FittingHeaderTest, MakesNamesNarrowerBeforeItGivesUpFiguresWhereThatIsWanted) {
+    m_table.columns().addElastic(kName, "A perf", "A performer's name that is long", "A perf");
+    makeWide(2000);
+    int width = 2000;
+    while (!m_table.isColumnHidden(kAge)) {
+        EXPECT_FALSE(scrolls()) << width;
+        makeWide(--width);
+    }
+    EXPECT_LT(width, widthOf("A performer's name") + widthOf(kVerdictSample) + widthOf("1000.099.9"));
+}
+
 TEST_F(FittingHeaderTest, MakesNamesNarrowerBeforeItCutsTheVerdict) {
     makeWide(widthOf("A perf") + widthOf(kVerdictSample) + widthOf("xxxxxxxxx"));
     EXPECT_TRUE(m_table.isColumnHidden(kRate));

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 namespace posewire::gui {
 namespace {
@@ -75,6 +76,44 @@ TEST(CameraMotion, FollowsUntilTheOperatorPansOrZooms) {
     const glm::vec3 framed = motion.camera().target;
     motion.follow(there, kAspect, 1);
     EXPECT_NE(motion.camera().target, framed) << "framing all follows again";
+}
+
+TEST(CameraMotion, HoldsStillWhileAllStayWellInThePicture) {
+    CameraMotion motion;
+    motion.follow(std::array{personAt(0, 0), personAt(1, 1)}, kAspect, 0);
+    const render::Camera held = motion.camera();
+    for (int i = 0; i < 200; ++i) {
+        const float sway = 0.06F * std::sin(0.1F * static_cast<float>(i));
+        motion.follow(std::array{personAt(sway, -sway), personAt(1 + sway, 1)}, kAspect, 0.016);
+        ASSERT_EQ(motion.camera(), held) << i;
+    }
+}
+
+TEST(CameraMotion, GlidesAfterWhoLeavesAndComesToRest) {
+    CameraMotion motion;
+    motion.follow(std::array{personAt(0, 0)}, kAspect, 0);
+    const std::array there{personAt(1, 2)};
+    motion.follow(there, kAspect, 0.016);
+    EXPECT_LT(glm::distance(motion.camera().target, glm::vec3(0, 0, 0.95F)), 0.2F) << "it does not jump";
+    for (int i = 0; i < 400; ++i) {
+        motion.follow(there, kAspect, 0.016);
+    }
+    const render::Camera rested = motion.camera();
+    EXPECT_NEAR(rested.target.x, 1, 0.15);
+    EXPECT_NEAR(rested.target.y, 2, 0.15);
+    motion.follow(there, kAspect, 0.016);
+    EXPECT_EQ(motion.camera(), rested);
+}
+
+TEST(CameraMotion, ComesCloserWhenAllHaveGathered) {
+    CameraMotion motion;
+    motion.follow(std::array{personAt(-4, -4), personAt(4, 4)}, kAspect, 0);
+    const float distance = motion.camera().distance;
+    const std::array together{personAt(0, 0), personAt(0.8F, 0)};
+    for (int i = 0; i < 400; ++i) {
+        motion.follow(together, kAspect, 0.016);
+    }
+    EXPECT_LT(motion.camera().distance, 0.6F * distance);
 }
 
 TEST(CameraMotion, OrbitKeepsFollowing) {

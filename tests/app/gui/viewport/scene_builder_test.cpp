@@ -18,12 +18,13 @@ protected:
     }
     SceneFrame build() {
         SceneFrame frame;
-        builder.build(axes, frame);
+        builder.build(axes, overlays, frame);
         return frame;
     }
 
     Stage stage;
     AxesMode axes = AxesMode::All;
+    Overlays overlays;
     SceneBuilder builder{stage.session, render::Detail::Medium};
 };
 
@@ -57,6 +58,28 @@ TEST_F(SceneBuilderTest, ThePaletteTakesEachSegmentWhereThePoseHasIt) {
         EXPECT_NEAR(place.x, pose->segments[i].position.x(), 1e-4);
         EXPECT_NEAR(place.y, pose->segments[i].position.y(), 1e-4);
         EXPECT_NEAR(place.z, pose->segments[i].position.z(), 1e-4);
+    }
+}
+
+TEST_F(SceneBuilderTest, FingersOfThePoseMoveTheMesh) {
+    performer::PerformerSettings settings = sending(1, {2, 12, 13});
+    settings.fingers = true;
+    performer::Performer performer(settings);
+    stage.perform(performer, 0, 3);
+    stage.follow();
+    const SceneFrame frame = build();
+    const model::CharacterPose* pose = stage.session.pose(stage.key());
+    ASSERT_NE(pose, nullptr);
+    ASSERT_EQ(pose->layout.fingers, 40);
+    ASSERT_EQ(frame.figures.size(), 1U);
+    EXPECT_TRUE(frame.lines.empty());
+    const auto first = static_cast<std::size_t>(pose->layout.body + pose->layout.props);
+    for (std::size_t i = 0; i < render::kFingerJointCount; ++i) {
+        const glm::vec3 place = render::transformPoint(
+            frame.figures[0].palette[render::kFirstFingerJoint + i], frame.figures[0].mesh->fingerOrigins[i]);
+        EXPECT_NEAR(place.x, pose->segments[first + i].position.x(), 1e-4);
+        EXPECT_NEAR(place.y, pose->segments[first + i].position.y(), 1e-4);
+        EXPECT_NEAR(place.z, pose->segments[first + i].position.z(), 1e-4);
     }
 }
 

@@ -105,6 +105,70 @@ TEST_F(Viewport, ADragTurnsTheCameraAndSelectsNothing) {
     EXPECT_TRUE(QTest::qWaitFor([&] { return viewport.grab().toImage() != before; }));
 }
 
+TEST_F(Viewport, TwoViewsOfOneSessionDrawAtOnce) {
+    ViewportWidget other(stage.session, stage.commands);
+    other.resize(320, 240);
+    other.show();
+    other.start();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return other.picturesShown() > 0; }, 20'000));
+    const std::uint64_t before = viewport.picturesShown();
+    stage.session.setHidden(stage.key(), true);
+    viewport.refresh();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return viewport.picturesShown() > before; }, 20'000));
+    EXPECT_TRUE(other.failure().isEmpty());
+}
+
+TEST_F(Viewport, SaysWhenItsPictureIsOfAnotherSizeThanTheView) {
+    const std::unique_ptr<Presenter> presenter(makeSoftwarePresenter(nullptr));
+    presenter->resize(200, 100);
+    const QSignalSpy outgrown(presenter.get(), &Presenter::outgrown);
+    const auto show = [&](int width, int height) {
+        QSignalSpy presented(presenter.get(), &Presenter::presented);
+        auto frame = std::make_shared<SceneFrame>();
+        frame->width = width; // as for a screen of another scale, or after a resize
+        frame->height = height;
+        presenter->present(std::move(frame));
+        ASSERT_TRUE(presented.wait(20'000));
+        presenter->grab();
+        QCoreApplication::processEvents();
+    };
+    show(400, 200);
+    EXPECT_GT(outgrown.count(), 0);
+    const auto before = outgrown.count();
+    show(200, 100);
+    EXPECT_EQ(outgrown.count(), before);
+}
+
+/// Graphics hardware that is there and fails with the first picture.
+class FailingHardware final : public Presenter {
+public:
+    using Presenter::Presenter;
+    [[nodiscard]] bool isReady() const override { return m_failure.isEmpty(); }
+    void present(std::shared_ptr<const SceneFrame> /*frame*/) override {
+        m_failure = QStringLiteral("The graphics driver was reset.");
+        QMetaObject::invokeMethod(this, &Presenter::presented, Qt::QueuedConnection);
+    }
+    [[nodiscard]] QString rendererName() const override { return QStringLiteral("broken"); }
+    [[nodiscard]] QString failure() const override { return m_failure; }
+    [[nodiscard]] PictureLoad load() const override { return {}; }
+    [[nodiscard]] std::uint64_t pictures() const override { return 0; }
+
+private:
+    QString m_failure;
+};
+
+TEST_F(Viewport, LeavesDrawingToTheProcessorWhereTheHardwareFails) {
+    ViewportWidget other(stage.session, stage.commands);
+    other.resize(320, 240);
+    other.show();
+    other.start([](QWidget* parent) -> Presenter* { return new FailingHardware(parent); });
+    EXPECT_TRUE(QTest::qWaitFor([&] { return other.picturesShown() > 0; }, 20'000));
+    EXPECT_TRUE(other.failure().isEmpty());
+    EXPECT_NE(other.rendererName(), QStringLiteral("broken"));
+    EXPECT_TRUE(other.pictureHealth().why.contains("The graphics driver was reset."))
+        << other.pictureHealth().why.toStdString();
+}
+
 TEST(ViewportLabels, ShowHowACharacterDoesHoweverLongItsName) {
     QWidget window;
     window.resize(480, 360);

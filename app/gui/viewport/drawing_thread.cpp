@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/drawing_thread.h"
+
+#include "render/quality_ladder.h"
+
+#include <algorithm>
+#include <utility>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#endif
+
+namespace posewire::gui {
+
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using render::Simplification;
+
+/// Without movement for so long, what is shown is drawn as well as it can be.
+constexpr std::chrono::milliseconds kStillAfter(250);
+/// The longest that a step which leaves out every other picture waits.
+constexpr std::chrono::milliseconds kLongestPause(150);
+
+/// Software OpenGL takes all the processor it is given: receiving and the window go first. The threads that
+/// the driver starts inherit this.
+void yieldToOthers() {
+#ifdef __linux__
+    constexpr int kNice = 8;
+    setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNice);
+#endif
+}
+
+double secondsOf(SteadyClock::duration duration) {
+    return std::chrono::duration<double>(duration).count();
+}
+
+} // namespace
+
+/// What the thread remembers from one picture to the next.
+class DrawingThread::Painter {
+public:
+    explicit Painter(render::OffscreenRenderer& renderer)
+        : m_renderer(renderer), m_interactive(renderer.renderer().quality()) {}
+
+    Result paint(const Task& task) {
+        Result result;
+        result.frame = task.frame;
+        const std::shared_ptr<const SceneFrame> frame = task.isStill ? m_last : task.frame;
+        const bool isChanged = !task.isStill && (m_last == nullptr || *task.frame != *m_last);
+        if (isChanged || task.isStill) {
+            const SteadyClock::time_point begin = SteadyClock::now();
+            draw(*frame, task.isStill);
+            const SteadyClock::time_point end = SteadyClock::now();
+            if (isChanged) {
+                m_ladder.add(secondsOf(end - begin), secondsOf(end.time_since_epoch()));
+                m_moved = end;
+            }
+            if (m_ladder.step() == Simplification::HalfRate) {
+                const auto took = std::chrono::duration_cast<std::chrono::milliseconds>(end - begin);
+                result.pause = std::min(took, kLongestPause);
+            }
+            result.image = m_renderer.takeImage();
+            m_isStill = task.isStill;
+            m_last = frame;
+        }
+        result.rendererName = m_renderer.renderer().rendererName();
+        result.load = {m_ladder.step(), m_ladder.typical(), m_ladder.cause(), m_ladder.budget(), m_isStill};
+        return result;
+    }
+
+    void giveBack(render::Image image) { m_renderer.giveBack(std::move(image)); }
+
+    /// When the last frame is to be drawn once more; nothing where it has been.
+    [[nodiscard]] std::optional<SteadyClock::time_point> stillDue() const {
+        return m_last == nullptr || m_isStill ? std::nullopt : std::optional(m_moved + kStillAfter);
+    }
+
+private:
+    void draw(const SceneFrame& frame, bool isStill) {
+        render::Scene scene = m_upload.prepare(frame, m_renderer.renderer());
+        const Simplification step = m_ladder.step();
+        render::RenderQuality quality = render::simplified(m_interactive, step);
+        if (isStill) {
+            quality = render::stillQuality(m_interactive, frame.width, frame.height);
+        } else {
+            const bool isMoving = m_last != nullptr && frame.camera != m_last->camera;
+            quality.plainFloor = isMoving && step != Simplification::None;
+            if (step >= Simplification::FewAxes) {
+                scene.axes = scene.axes.subspan(frame.selectedAxes, frame.selectedAxesCount);
+            }
+        }
+        m_renderer.renderer().setQuality(quality);
+        m_renderer.render(scene, frame.width, frame.height, frame.pixelRatio);
+    }
+
+    render::OffscreenRenderer& m_renderer;
+    render::RenderQuality m_interactive;
+    SceneUpload m_upload;
+    render::QualityLadder m_ladder;
+    std::shared_ptr<const SceneFrame> m_last; ///< drawn
+    bool m_isStill = false;                   ///< it was drawn as well as it can be
+    SteadyClock::time_point m_moved;
+};
+
+DrawingThread::DrawingThread(std::function<void()> wake)
+    : m_wake(std::move(wake)), m_thread([this](const std::stop_token& stop) { run(stop); }) {}
+
+void DrawingThread::draw(std::shared_ptr<const SceneFrame> frame) {
+    {
+        const std::lock_guard lock(m_mutex);
+        m_next = std::move(frame);
+    }
+    m_hasWork.notify_one();
+}
+
+DrawingThread::Result DrawingThread::take() {
+    const std::lock_guard lock(m_mutex);
+    return std::exchange(m_result, {});
+}
+
+void DrawingThread::giveBack(render::Image image) {
+    const std::lock_guard lock(m_mutex);
+    m_spare = std::move(image);
+}
+
+void DrawingThread::run(const std::stop_token& stop) {
+    yieldToOthers();
+    auto renderer = render::OffscreenRenderer::create();
+    if (!renderer) {
+        Result failed;
+        failed.failure = renderer.error();
+        give(std::move(failed));
+        return;
+    }
+    Painter painter(*renderer);
+    while (const auto task = next(stop, painter.stillDue())) {
+        std::optional<render::Image> spare;
+        {
+            const std::lock_guard lock(m_mutex);
+            spare = std::exchange(m_spare, std::nullopt);
+        }
+        if (spare) {
+            painter.giveBack(std::move(*spare));
+        }
+        give(painter.paint(*task));
+    }
+}
+
+std::optional<DrawingThread::Task>
+DrawingThread::next(const std::stop_token& stop, const std::optional<SteadyClock::time_point>& stillDue) {
+    std::unique_lock lock(m_mutex);
+    const auto hasWork = [this] { return m_next != nullptr; };
+    if (stillDue) {
+        m_hasWork.wait_until(lock, stop, *stillDue, hasWork);
+    } else {
+        m_hasWork.wait(lock, stop, hasWork);
+    }
+    if (stop.stop_requested()) {
+        return std::nullopt;
+    }
+    return m_next != nullptr ? Task{std::exchange(m_next, nullptr), false} : Task{nullptr, true};
+}
+
+void DrawingThread::give(Result result) {
+    {
+        const std::lock_guard lock(m_mutex);
+        if (!result.image) { // the one before it, where it was not taken yet, is what is shown
+            result.image = std::move(m_result.image);
+        }
+        if (result.frame == nullptr) {
+            result.frame = std::move(m_result.frame);
+        }
+        m_result = std::move(result);
+    }
+    m_wake();
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/label_layout.h"
+
+#include <QStringList>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr qreal kApart = 3;
+/// From the edge of the picture.
+constexpr qreal kEdge = 2;
+/// A plate farther from its head than this has a line to it.
+constexpr qreal kLeader = 6;
+/// What may lie this much deeper is as near, metres.
+constexpr double kAsNear = 0.05;
+/// A form that shows more must have this much more room to come back.
+constexpr qreal kToSpare = 6;
+
+/// In heights of a plate: how far from its head a label may be.
+constexpr qreal kMostWhole = 2.4;
+constexpr qreal kMostBrief = 5;
+
+struct Candidate {
+    QRectF plate;
+    QPointF offset;
+    qreal cost = 0;
+};
+
+qreal distanceTo(const QRectF& plate, const QPointF& point) {
+    const qreal x = std::max({plate.left() - point.x(), point.x() - plate.right(), 0.0});
+    const qreal y = std::max({plate.top() - point.y(), point.y() - plate.bottom(), 0.0});
+    return std::hypot(x, y);
+}
+
+QRectF plateAt(const LabelPlace& place, const QSizeF& size, const QPointF& offset, const QRectF& view) {
+    const QPointF middle = place.anchor + offset;
+    QRectF plate(std::round(middle.x() - size.width() / 2), std::round(middle.y() - size.height()),
+                 std::ceil(size.width()), std::ceil(size.height()));
+    plate.moveLeft(std::clamp(plate.left(), view.left() + kEdge,
+                              std::max(view.left() + kEdge, view.right() - kEdge - plate.width())));
+    plate.moveTop(std::clamp(plate.top(), view.top() + kEdge,
+                             std::max(view.top() + kEdge, view.bottom() - kEdge - plate.height())));
+    return plate;
+}
+
+/// Above the head and aside, row by row, then beside it.
+std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size, qreal most,
+                                    const QRectF& view) {
+    const qreal row = size.height() + kApart;
+    std::vector<Candidate> all;
+    const auto add = [&](const QPointF& offset) {
+        const QRectF plate = plateAt(place, size, offset, view);
+        const qreal distance = distanceTo(plate, place.anchor);
+        if (distance <= most * size.height()) {
+            const qreal aside = std::abs(plate.center().x() - place.anchor.x());
+            all.push_back({plate, offset, distance + aside / 4});
+        }
+    };
+    for (int up = 0; up <= static_cast<int>(most) + 1; ++up) {
+        for (const qreal aside : {0.0, -0.25, 0.25, -0.5, 0.5, -0.75, 0.75}) {
+            add({aside * size.width(), -up * row});
+        }
+    }
+    const qreal beside = size.width() / 2 + place.head.width() / 2 + kApart;
+    const qreal level = place.head.center().y() - place.anchor.y() + size.height() / 2;
+    for (const int side : {-1, 1}) {
+        add({side * beside, level});
+    }
+    std::ranges::stable_sort(all, {}, &Candidate::cost);
+    return all;
+}
+
+class Placing {
+public:
+    Placing(std::span<const LabelPlace> places, const QRectF& view, std::vector<QRectF> taken)
+        : m_places(places), m_view(view), m_taken(std::move(taken)) {}
+
+    PlacedLabel place(std::size_t which) {
+        const LabelPlace& own = m_places[which];
+        if (!m_view.contains(own.anchor)) {
+            return {};
+        }
+        const std::array forms{std::tuple(LabelForm::Whole, own.whole, kMostWhole),
+                               std::tuple(LabelForm::Brief, own.brief, kMostBrief)};
+        for (const auto& [form, size, most] : forms) {
+            if (const auto found = find(which, form, size, most)) {
+                m_taken.push_back(found->plate);
+                return *found;
+            }
+        }
+        const bool isBehind = isOnHead(QRectF(own.anchor - QPointF(4, 4), QSizeF(8, 8)), which, true);
+        return {QRectF(own.anchor, QSizeF()), isBehind ? LabelForm::None : LabelForm::Mark, {}};
+    }
+
+private:
+    std::optional<PlacedLabel> find(std::size_t which, LabelForm form, const QSizeF& size, qreal most) const {
+        const LabelPlace& own = m_places[which];
+        if (own.before && own.before->form == form) {
+            const QRectF plate = plateAt(own, size, own.before->offset, m_view);
+            if (isFree(plate, which, 0) && !isOnHead(plate, which, false)) {
+                return PlacedLabel{plate, form, own.before->offset};
+            }
+        }
+        const qreal spare = own.before && own.before->form > form ? kToSpare : 0;
+        std::optional<PlacedLabel> second;
+        for (const Candidate& one : candidatesOf(own, size, most, m_view)) {
+            if (!isFree(one.plate, which, spare)) {
+                continue;
+            }
+            if (!isOnHead(one.plate, which, false)) {
+                return PlacedLabel{one.plate, form, one.offset};
+            }
+            second = second ? second : std::optional(PlacedLabel{one.plate, form, one.offset});
+        }
+        return second;
+    }
+    /// Whether it lies on nothing that it must not lie on.
+    [[nodiscard]] bool isFree(const QRectF& plate, std::size_t which, qreal spare) const {
+        const QRectF wide = plate.adjusted(-kApart - spare, -kApart, kApart + spare, kApart);
+        return std::ranges::none_of(m_taken, [&](const QRectF& other) { return other.intersects(wide); }) &&
+               !isOnHead(plate, which, true);
+    }
+    /// On the head of somebody else; `isNearer`: only of somebody as near or nearer.
+    [[nodiscard]] bool isOnHead(const QRectF& plate, std::size_t which, bool isNearer) const {
+        for (std::size_t i = 0; i < m_places.size(); ++i) {
+            const bool isMeant = !isNearer || m_places[i].depth <= m_places[which].depth + kAsNear;
+            if (i != which && isMeant && m_places[i].head.intersects(plate)) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    std::span<const LabelPlace> m_places;
+    QRectF m_view;
+    std::vector<QRectF> m_taken;
+};
+
+} // namespace
+
+std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
+                                     std::vector<QRectF> taken) {
+    std::vector<std::size_t> order(places.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::stable_sort(
+        order, {}, [&](std::size_t which) { return std::pair(-places[which].weight, places[which].depth); });
+    Placing placing(places, view, std::move(taken));
+    std::vector<PlacedLabel> placed(places.size());
+    for (const std::size_t which : order) {
+        placed[which] = placing.place(which);
+    }
+    return placed;
+}
+
+std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place) {
+    const bool isAbove = label.plate.bottom() <= place.anchor.y() + kApart;
+    const bool isLeft = label.plate.center().x() < place.head.center().x();
+    const QPointF end =
+        isAbove ? place.anchor
+                : QPointF(isLeft ? place.head.left() : place.head.right(), place.head.center().y());
+    if (label.form > LabelForm::Brief || distanceTo(label.plate, end) <= kLeader) {
+        return std::nullopt;
+    }
+    return QLineF(std::clamp(end.x(), label.plate.left() + kLeader, label.plate.right() - kLeader),
+                  std::clamp(end.y(), label.plate.top(), label.plate.bottom()), end.x(), end.y());
+}
+
+QString initialsOf(const QString& name) {
+    QString initials;
+    int letters = 0;
+    for (const QString& word : name.split(QLatin1Char(' '), Qt::SkipEmptyParts)) {
+        const bool isNumber = word.size() <= 3 && word[0].isDigit();
+        if (isNumber) {
+            initials += word;
+        } else if (letters < 2) {
+            initials += word.left(word[0].isHighSurrogate() ? 2 : 1).toUpper();
+            ++letters;
+        }
+    }
+    return initials.left(5);
+}
+
+} // namespace posewire::gui

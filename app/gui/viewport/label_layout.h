@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QLineF>
+#include <QPointF>
+#include <QRectF>
+#include <QSizeF>
+#include <QString>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace posewire::gui {
+
+/// How much of a label there is room for.
+enum class LabelForm : std::uint8_t {
+    Whole, ///< name and state
+    Brief, ///< initials, and the symbol of the state
+    Mark,  ///< the mark alone, above the head
+    None,  ///< nothing: the head is out of sight, or behind a nearer one
+};
+
+struct PlacedLabel {
+    QRectF plate;
+    LabelForm form = LabelForm::None;
+    QPointF offset; ///< of the plate's lower middle from the head
+};
+
+/// A head in the picture that is to have a label. Pixels of the widget.
+struct LabelPlace {
+    QPointF anchor; ///< just above the head
+    QRectF head;
+    double depth = 0; ///< metres from the eye
+    int weight = 0;   ///< the heaviest is served first, of equal ones the nearest
+    QSizeF whole;
+    QSizeF brief;
+    std::optional<PlacedLabel> before{}; ///< in the picture before, so that nothing flickers
+};
+
+/// Finds a place for each label by its head: nowhere on another, on what is `taken`, or on the head of
+/// somebody nearer, and rather not on any head. Where there is no room for all text, the short form. In the
+/// order given.
+[[nodiscard]] std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
+                                                   std::vector<QRectF> taken);
+
+/// The line from a plate to its head; nothing where they are so close that none is needed.
+[[nodiscard]] std::optional<QLineF> leaderOf(const PlacedLabel& label, const LabelPlace& place);
+
+/// "ML", of "Mira Lindqvist"; "ML2", of "Mira Lindqvist 2"; "C7", of "Character 7".
+[[nodiscard]] QString initialsOf(const QString& name);
+
+} // namespace posewire::gui

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/pose_banner.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme/widgets.h"
+#include "app/gui/theme/words.h"
+#include "core/model/body/character_pose.h"
+#include "core/model/body/pose_remark.h"
+#include "core/model/text.h"
+
+#include <QEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QToolButton>
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+constexpr int kEdge = 12;
+
+/// Characters of whom the same is to be said.
+struct Group {
+    model::PoseRemark remark;
+    std::vector<std::string> names;
+};
+
+std::vector<Group> groupsOf(const model::SessionView& session) {
+    std::vector<Group> groups;
+    for (const model::Character* character : session.currentCharacters()) {
+        if (session.isHidden(character->key)) {
+            continue;
+        }
+        model::PoseRemark remark = session.poseRemark(character->key);
+        if (remark.isEmpty()) {
+            continue;
+        }
+        auto same = std::ranges::find_if(
+            groups, [&remark](const Group& group) { return group.remark.lines == remark.lines; });
+        if (same == groups.end()) {
+            same = groups.insert(groups.end(), {std::move(remark), {}});
+        }
+        same->names.push_back(session.displayName(character->key).shown());
+    }
+    std::ranges::stable_sort(groups, std::ranges::greater(),
+                             [](const Group& group) { return group.remark.isAssumed; });
+    return groups;
+}
+
+QString sentences(const model::PoseRemark& remark) {
+    QString text;
+    for (const std::string& line : remark.lines) {
+        text += (text.isEmpty() ? QString() : QStringLiteral(". ")) + QString::fromStdString(line);
+    }
+    return text;
+}
+
+} // namespace
+
+std::vector<PoseNote> poseNotes(const model::SessionView& session, std::size_t most) {
+    const std::vector<Group> groups = groupsOf(session);
+    std::vector<PoseNote> notes;
+    for (const Group& group : groups) {
+        if (notes.size() + 1 == most && groups.size() > most) {
+            std::size_t left = 0;
+            for (std::size_t i = notes.size(); i < groups.size(); ++i) {
+                left += groups[i].names.size();
+            }
+            notes.push_back(
+                {Health::Unknown, tr("And of %1 more characters something is missing").arg(left)});
+            break;
+        }
+        notes.push_back({group.remark.isAssumed ? Health::Warning : Health::Unknown,
+                         QStringLiteral("%1: %2").arg(QString::fromStdString(model::listed(group.names)),
+                                                      sentences(group.remark))});
+    }
+    return notes;
+}
+
+PoseBanner::PoseBanner(Commands& commands, QWidget* parent)
+    : QWidget(parent),
+      m_floor(framedButton(tr("Place on the floor"),
+                           tr("Lift these by the height of their pelvis above the soles"), this)) {
+    setObjectName(QStringLiteral("poseBanner"));
+    setAccessibleName(tr("What is missing of the poses"));
+    auto* column = tightColumn(this);
+    column->setContentsMargins(10, 8, 10, 8);
+    column->setSpacing(0);
+    for (QLabel*& label : m_labels) {
+        auto* row = spacedRow({}, 6);
+        QLabel*& sign = m_signs[static_cast<std::size_t>(&label - m_labels.data())];
+        sign = plainLabel(this);
+        label = plainLabel(this);
+        label->setWordWrap(true);
+        label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+        label->setContentsMargins(0, 2, 0, 2);
+        sign->setContentsMargins(0, 2, 0, 2);
+        row->addWidget(sign, 0, Qt::AlignTop);
+        row->addWidget(label, 1);
+        column->addLayout(row);
+    }
+    column->addWidget(m_floor, 0, Qt::AlignLeft);
+    connect(m_floor, &QToolButton::clicked, this, [this, &commands] {
+        for (const model::CharacterKey& key : m_below) {
+            commands.setLifted(key, true);
+        }
+    });
+    hide();
+}
+
+void PoseBanner::refresh(const model::SessionView& session) {
+    std::vector<PoseNote> notes = poseNotes(session, kMost);
+    std::vector<model::CharacterKey> below;
+    for (const model::Character* character : session.currentCharacters()) {
+        const model::CharacterPose* pose = session.pose(character->key);
+        if (pose != nullptr && !session.isHidden(character->key) && model::isBelowFloor(*pose)) {
+            below.push_back(character->key);
+        }
+    }
+    if (notes == m_notes && below == m_below) {
+        return;
+    }
+    m_notes = std::move(notes);
+    m_below = std::move(below);
+    showNotes();
+}
+
+void PoseBanner::showNotes() {
+    QStringList all;
+    for (std::size_t i = 0; i < m_labels.size(); ++i) {
+        const bool isUsed = i < m_notes.size();
+        m_labels[i]->setVisible(isUsed);
+        m_signs[i]->setVisible(isUsed);
+        if (isUsed) {
+            const PoseNote& note = m_notes[i];
+            const bool isWarning = note.level == Health::Warning;
+            m_signs[i]->setText(healthSymbol(note.level));
+            setTextColour(*m_signs[i], isWarning ? healthColour(note.level) : theme().dim);
+            m_labels[i]->setText(note.text);
+            setTextColour(*m_labels[i], isWarning ? theme().text : theme().dim);
+            all += note.text;
+        }
+    }
+    setAccessibleDescription(all.join(QStringLiteral(". ")));
+    m_floor->setVisible(!m_below.empty());
+    setVisible(!m_notes.empty());
+    place(parentWidget()->size());
+}
+
+void PoseBanner::place(const QSize& viewport) {
+    const int width = std::min(viewport.width() - 2 * kEdge, fontMetrics().height() * 34);
+    const QSize wanted = layout()->hasHeightForWidth() ? QSize(width, layout()->totalHeightForWidth(width))
+                                                       : layout()->sizeHint();
+    setGeometry(kEdge, viewport.height() - kEdge - wanted.height(), width, wanted.height());
+}
+
+void PoseBanner::paintEvent(QPaintEvent* /*event*/) {
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    const bool isWarning = !m_notes.empty() && m_notes.front().level == Health::Warning;
+    constexpr double kOpacity = 0.9;
+    constexpr double kRadius = 5;
+    painter.setPen(isWarning ? healthColour(Health::Warning) : theme().line);
+    painter.setBrush(withAlpha(theme().raised, kOpacity));
+    painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), kRadius, kRadius);
+}
+
+void PoseBanner::changeEvent(QEvent* event) {
+    if (event->type() == QEvent::PaletteChange || event->type() == QEvent::FontChange) {
+        showNotes();
+    }
+    QWidget::changeEvent(event);
+}
+
+} // namespace posewire::gui

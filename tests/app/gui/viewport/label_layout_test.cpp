@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/label_layout.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace posewire::gui {
+namespace {
+
+constexpr QRectF kView(0, 0, 640, 400);
+
+LabelPlace personAt(qreal x, qreal y, double depth, int weight = 0) {
+    const qreal head = 60 / depth;
+    return {{x, y}, QRectF(x - head / 2, y + 4, head, head * 1.3), depth, weight, {190, 24}, {64, 24}};
+}
+
+std::vector<LabelPlace> crowd(unsigned seed, std::size_t count) {
+    std::mt19937 random(seed);
+    std::vector<LabelPlace> places;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto upTo = [&random](unsigned end) { return static_cast<double>(random() % end); };
+        places.push_back(personAt(10 + upTo(620), 100 + upTo(200), 3 + upTo(90) / 10));
+    }
+    return places;
+}
+
+TEST(LabelLayout, StandsAboveTheHeadWhereThereIsRoom) {
+    const auto placed = placeLabels(std::vector{personAt(300, 200, 5)}, kView, {});
+    EXPECT_EQ(placed[0].form, LabelForm::Whole);
+    EXPECT_NEAR(placed[0].plate.center().x(), 300, 1);
+    EXPECT_NEAR(placed[0].plate.bottom(), 200, 1);
+    EXPECT_FALSE(leaderOf(placed[0], personAt(300, 200, 5)));
+}
+
+TEST(LabelLayout, NeverLiesOnAnotherLabelOnButtonsOrOnANearerHead) {
+    const QRectF buttons(10, 10, 260, 30);
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        const auto places = crowd(seed, 20);
+        const auto placed = placeLabels(places, kView, {buttons});
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            if (placed[i].form > LabelForm::Brief) {
+                continue;
+            }
+            EXPECT_TRUE(kView.contains(placed[i].plate)) << seed;
+            EXPECT_FALSE(buttons.intersects(placed[i].plate)) << seed;
+            for (std::size_t k = 0; k < placed.size(); ++k) {
+                if (k == i) {
+                    continue;
+                }
+                EXPECT_FALSE(placed[k].form <= LabelForm::Brief &&
+                             placed[k].plate.intersects(placed[i].plate))
+                    << seed;
+                EXPECT_FALSE(places[k].depth < places[i].depth && places[k].head.intersects(placed[i].plate))
+                    << "the label of " << i << " on the head of " << k << ", seed " << seed;
+            }
+        }
+    }
+}
+
+TEST(LabelLayout, StaysByItsHeadInACrowdAndGetsShorterInstead) {
+    std::size_t briefs = 0;
+    std::size_t shown = 0;
+    for (unsigned seed = 1; seed <= 60; ++seed) {
+        const auto places = crowd(seed, 20);
+        const auto placed = placeLabels(places, kView, {});
+        for (std::size_t i = 0; i < placed.size(); ++i) {
+            const QRectF& plate = placed[i].plate;
+            const qreal x =
+                std::max({plate.left() - places[i].anchor.x(), places[i].anchor.x() - plate.right(), 0.0});
+            const qreal y =
+                std::max({plate.top() - places[i].anchor.y(), places[i].anchor.y() - plate.bottom(), 0.0});
+            EXPECT_LE(std::hypot(x, y), 6 * 24) << seed;
+            briefs += placed[i].form == LabelForm::Brief ? 1 : 0;
+            shown += placed[i].form <= LabelForm::Brief ? 1 : 0;
+        }
+    }
+    EXPECT_GT(briefs, 60U);
+    EXPECT_GT(shown, 60U * 17U) << "nearly all have text";
+}
+
+TEST(LabelLayout, TheHeaviestKeepsItsText) {
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        auto places = crowd(seed, 20);
+        places[seed % 20].weight = 2;
+        EXPECT_EQ(placeLabels(places, kView, {})[seed % 20].form, LabelForm::Whole) << seed;
+    }
+}
+
+TEST(LabelLayout, StaysWhereItWasWhileThatIsFree) {
+    auto places = crowd(7, 12);
+    auto before = placeLabels(places, kView, {});
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        places[i].before = before[i];
+        places[i].anchor += QPointF(0.4, 0.3);
+        places[i].head.translate(0.4, 0.3);
+    }
+    const auto after = placeLabels(places, kView, {});
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        EXPECT_EQ(after[i].form, before[i].form) << i;
+        EXPECT_LT(std::abs(after[i].plate.left() - before[i].plate.left()), 3) << i;
+    }
+}
+
+TEST(LabelLayout, HasALineToAHeadThatItIsAwayFrom) {
+    const QRectF above(200, 100, 200, 97);
+    const auto placed = placeLabels(std::vector{personAt(300, 195, 5)}, kView, {above});
+    ASSERT_LE(placed[0].form, LabelForm::Brief);
+    EXPECT_TRUE(leaderOf(placed[0], personAt(300, 195, 5)));
+}
+
+TEST(LabelLayout, IsNotThereWhereTheHeadIsOutOfSight) {
+    EXPECT_EQ(placeLabels(std::vector{personAt(-5, 200, 5)}, kView, {})[0].form, LabelForm::None);
+}
+
+TEST(LabelLayout, InitialsTellNamesApart) {
+    EXPECT_EQ(initialsOf("Mira Lindqvist"), "ML");
+    EXPECT_EQ(initialsOf("Mira Lindqvist 2"), "ML2");
+    EXPECT_EQ(initialsOf("Character 17"), "C17");
+    EXPECT_EQ(initialsOf("jonas"), "J");
+    EXPECT_EQ(initialsOf("a b c d"), "AB");
+    EXPECT_EQ(initialsOf(""), "");
+    EXPECT_LE(initialsOf("1 2 3 4 5 6 7 8 9").size(), 5);
+    EXPECT_EQ(initialsOf(QString::fromUtf8("𝔐ira")).size(), 2) << "no half of a character";
+}
+
+} // namespace
+} // namespace posewire::gui
