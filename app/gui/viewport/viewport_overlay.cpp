@@ -195,7 +195,9 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     painter.setFont(tabularFont());
     placeAll();
     for (std::size_t i = 0; i < m_labels.size(); ++i) {
-        const LabelPlace place{m_labels[i].anchor, m_labels[i].head};
+        LabelPlace place;
+        place.anchor = m_labels[i].anchor;
+        place.head = m_labels[i].head;
         if (const auto leader = leaderOf(m_placed[i], place)) {
             painter.setPen(QPen(theme().panel, 3));
             painter.drawLine(*leader);
