@@ -53,8 +53,8 @@ class Monitor:
 def looked_at(table: str) -> int:
     """Datagrams of the last table, and those that it says were dropped."""
     line = [line for line in table.splitlines() if " datagrams " in line][-1]
-    numbers = [int(text.replace(",", "")) for text in re.findall(r"([\d,]+) datagrams|computer ([\d,]+)", line)
-               for text in text if text]
+    numbers = [int(text.replace("\u202f", ""))
+               for text in re.findall(r"([\d\u202f]+) datagrams|computer ([\d\u202f]+)", line) for text in text if text]
     return sum(numbers)
 
 

@@ -22,7 +22,10 @@ std::vector<LabelPlace> crowd(unsigned seed, std::size_t count) {
     std::vector<LabelPlace> places;
     for (std::size_t i = 0; i < count; ++i) {
         const auto upTo = [&random](unsigned end) { return static_cast<double>(random() % end); };
-        places.push_back(personAt(10 + upTo(620), 100 + upTo(200), 3 + upTo(90) / 10));
+        const double depth = 3 + upTo(90) / 10;
+        const double y = 100 + upTo(200);
+        const double x = 10 + upTo(620);
+        places.push_back(personAt(x, y, depth));
     }
     return places;
 }

@@ -284,8 +284,9 @@ TEST_F(MainWindowTest, EntriesOfTheWindowDoWhatTheySay) {
     const auto window = makeWindow();
     action(*window, "orthographic")->trigger();
     EXPECT_EQ(window->viewport().projection(), render::Projection::Orthographic);
-    action(*window, "axes")->trigger();
     EXPECT_EQ(window->viewport().axes(), AxesMode::Selected);
+    action(*window, "axes")->trigger();
+    EXPECT_EQ(window->viewport().axes(), AxesMode::None);
     action(*window, "layoutInspect")->trigger();
     EXPECT_EQ(window->settings().layout, "Inspect");
     action(*window, "themeLight")->trigger();
