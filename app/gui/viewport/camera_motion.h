@@ -30,6 +30,8 @@ public:
     void zoom(double steps, const QPointF& pointer, const QSizeF& view);
 
     void face(render::StandardView view) { m_camera = render::facing(m_camera, view); }
+    /// About the vertical, radians.
+    void turn(float yaw) { m_camera.orbit(yaw, 0); }
     void setProjection(render::Projection projection) { m_camera.projection = projection; }
 
     /// Shows all boxes at once, and keeps showing what follow() is given. Without boxes nothing changes.

@@ -126,7 +126,7 @@ private:
     [[nodiscard]] bool isFree(const QRectF& plate, std::size_t which, qreal spare) const {
         const QRectF wide = plate.adjusted(-kApart - spare, -kApart, kApart + spare, kApart);
         return std::ranges::none_of(m_taken, [&](const QRectF& other) { return other.intersects(wide); }) &&
-               !isOnHead(plate, which, true);
+               !m_places[which].head.intersects(plate) && !isOnHead(plate, which, true);
     }
     /// On the head of somebody else; `isNearer`: only of somebody as near or nearer.
     [[nodiscard]] bool isOnHead(const QRectF& plate, std::size_t which, bool isNearer) const {

@@ -39,9 +39,9 @@ struct LabelPlace {
     std::optional<PlacedLabel> before{}; ///< in the picture before, so that nothing flickers
 };
 
-/// Finds a place for each label by its head: nowhere on another, on what is `taken`, or on the head of
-/// somebody nearer, and rather not on any head. Where there is no room for all text, the short form. In the
-/// order given.
+/// Finds a place for each label by its head: nowhere on another, on what is `taken`, on its own head or
+/// that of somebody nearer, and rather not on any head. Where there is no room for all text, the short form.
+/// In the order given.
 [[nodiscard]] std::vector<PlacedLabel> placeLabels(std::span<const LabelPlace> places, const QRectF& view,
                                                    std::vector<QRectF> taken);
 

@@ -191,8 +191,10 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
         }
         if (overlays.isAny() && (isSelected || !isOneSelected)) {
             addOverlays(overlays,
-                        {m_session, character.key, *pose, figure.look.colour,
-                         isSelected ? selection.segment : -1, isSelected || characters.size() == 1,
+                        {{m_session, character.key, *pose},
+                         figure.look.colour,
+                         isSelected ? selection.segment : -1,
+                         isSelected || characters.size() == 1,
                          1.0F - figure.look.dim},
                         frame);
         }

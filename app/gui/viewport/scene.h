@@ -37,6 +37,7 @@ struct SceneText {
     glm::vec3 position{0.0F};
     QString text;
     QColor colour;
+    bool isScale = false; ///< a number of the floor: it gives way to all others
 
     bool operator==(const SceneText&) const = default;
 };

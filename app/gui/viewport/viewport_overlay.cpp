@@ -95,20 +95,7 @@ public:
         }
         m_axes->setMenu(menu);
         m_axes->setPopupMode(QToolButton::InstantPopup);
-        auto* overlayMenu = new QMenu(m_overlays);
-        for (const OverlayEntry& entry : kOverlayTable) {
-            QAction* action =
-                overlayMenu->addAction(QCoreApplication::translate("Action", entry.title), viewport,
-                                       [viewport, one = entry.overlay] { viewport->toggle(one); });
-            action->setCheckable(true);
-        }
-        connect(overlayMenu, &QMenu::aboutToShow, viewport, [viewport, overlayMenu] {
-            for (std::size_t i = 0; i < kOverlayTable.size(); ++i) {
-                overlayMenu->actions()[static_cast<qsizetype>(i)]->setChecked(
-                    viewport->isOn(kOverlayTable[i].overlay));
-            }
-        });
-        m_overlays->setMenu(overlayMenu);
+        m_overlays->setMenu(overlayMenu(*viewport));
         m_overlays->setPopupMode(QToolButton::InstantPopup);
         connect(m_frame, &QToolButton::clicked, viewport, &ViewportWidget::frameAll);
         connect(m_projection, &QToolButton::clicked, viewport, &ViewportWidget::toggleProjection);
@@ -118,6 +105,29 @@ public:
     }
 
 private:
+    /// Each entry shows whether it is on, also where something else has switched it.
+    QMenu* overlayMenu(ViewportWidget& viewport) {
+        auto* menu = new QMenu(m_overlays);
+        const auto add = [&](const QString& text, auto toggle, auto isOn) {
+            QAction* action = menu->addAction(text, &viewport, toggle);
+            action->setCheckable(true);
+            connect(menu, &QMenu::aboutToShow, action, [action, isOn] { action->setChecked(isOn()); });
+        };
+        for (const OverlayEntry& entry : kOverlayTable) {
+            add(
+                QCoreApplication::translate("Action", entry.title),
+                [&viewport, one = entry.overlay] { viewport.toggle(one); },
+                [&viewport, one = entry.overlay] { return viewport.isOn(one); });
+        }
+        menu->addSeparator();
+        add(
+            tr("Metres on the f&loor"), [&viewport] { viewport.toggleScale(); },
+            [&viewport] { return viewport.hasScale(); });
+        add(
+            tr("&Values of a segment"), [&viewport] { viewport.toggleCard(); },
+            [&viewport] { return viewport.hasCard(); });
+        return menu;
+    }
     void showOptions(const ViewportWidget& viewport) {
         const std::array names{tr("all"), tr("selected"), tr("none")};
         m_axes->setText(tr("Axes: %1 ▾").arg(names[static_cast<std::size_t>(viewport.axes())]));
@@ -167,6 +177,18 @@ void ViewportOverlay::setCard(const EmptyState& card) {
     }
 }
 
+/// By what else stands over the picture.
+std::vector<QRectF> ViewportOverlay::takenRoom() const {
+    std::vector<QRectF> taken;
+    for (const QWidget* other : parentWidget()->findChildren<QWidget*>(Qt::FindDirectChildrenOnly)) {
+        const bool isSmall = other->width() < width() || other->height() < height();
+        if (other != this && other->isVisible() && isSmall) {
+            taken.push_back(other->geometry());
+        }
+    }
+    return taken;
+}
+
 void ViewportOverlay::placeAll() {
     const QFontMetricsF metrics(tabularFont());
     const qreal height = metrics.height() + 8;
@@ -178,11 +200,7 @@ void ViewportOverlay::placeAll() {
                           QSizeF(text.brief, height),
                           before == m_before.end() ? std::nullopt : std::optional(before->second)});
     }
-    std::vector<QRectF> taken;
-    if (const auto* buttons = parentWidget()->findChild<QWidget*>(kButtons, Qt::FindDirectChildrenOnly)) {
-        taken.push_back(buttons->geometry());
-    }
-    m_placed = placeLabels(places, rect(), std::move(taken));
+    m_placed = placeLabels(places, rect(), takenRoom());
     m_before.clear();
     for (std::size_t i = 0; i < m_labels.size(); ++i) {
         m_before[m_labels[i].key] = m_placed[i];
@@ -208,7 +226,7 @@ void ViewportOverlay::paintEvent(QPaintEvent* /*event*/) {
     for (std::size_t i = 0; i < m_labels.size(); ++i) {
         paintLabel(painter, m_labels[i], m_placed[i]);
     }
-    std::vector<QRectF> taken;
+    std::vector<QRectF> taken = takenRoom();
     for (const PlacedLabel& label : m_placed) {
         if (label.form != LabelForm::None) {
             taken.push_back(label.plate);

@@ -57,6 +57,7 @@ protected:
     void paintEvent(QPaintEvent* event) override;
 
 private:
+    [[nodiscard]] std::vector<QRectF> takenRoom() const;
     void placeAll();
     void paintLabel(QPainter& painter, const ViewportLabel& label, const PlacedLabel& placed) const;
     void paintTexts(QPainter& painter, std::vector<QRectF>& taken) const;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_widget.h"
 
-#include "app/gui/viewport/camera_state.h"
-
 #include "app/gui/logging.h"
+#include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
+#include "app/gui/viewport/floor_scale.h"
 #include "app/gui/viewport/overlays/overlays.h"
 #include "app/gui/viewport/picture_health.h"
 #include "app/gui/viewport/pose_banner.h"
+#include "app/gui/viewport/segment_card.h"
 #include "app/gui/viewport/viewport_overlay.h"
 
 #include <QApplication>
@@ -52,7 +53,16 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
       m_session(&session),
       m_commands(commands),
       m_overlay(new ViewportOverlay(this)),
-      m_banner(new PoseBanner(commands, this)) {
+      m_banner(new PoseBanner(commands, this)),
+      m_card(new SegmentCard(this, *m_banner)) {
+    constexpr int kRest = 120; // milliseconds: a pointer that passes by asks nothing
+    m_hoverTimer.setSingleShot(true);
+    m_hoverTimer.setInterval(kRest);
+    connect(&m_hoverTimer, &QTimer::timeout, this, [this] {
+        m_hovered = pickAt(m_pointer);
+        updateCard();
+    });
+    setMouseTracking(true);
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Characters in space"));
     setFocusPolicy(Qt::StrongFocus);
@@ -107,8 +117,9 @@ void ViewportWidget::showSession(model::SessionView& session, const QString& fil
     m_file = file;
     m_shown.reset(); // its figures are of the other session
     m_drawing.reset();
+    m_hovered.reset();
     m_followed = {};
-    m_bannerStamp = {};
+    m_wordsStamp = {};
     if (m_builder != nullptr) {
         m_builder = makeBuilder();
     }
@@ -139,6 +150,9 @@ void ViewportWidget::drawNext() {
     m_followed = m_session->now();
     frame->camera = m_motion.camera();
     sizeAxes(*frame);
+    if (m_hasScale) {
+        addFloorScale(*frame);
+    }
     m_drawingBuilt = m_session->now();
     m_isOutdated = m_builder->meshes().isBehind();
     m_drawing = frame;
@@ -199,7 +213,7 @@ void ViewportWidget::updateOverlay() {
     }
     m_overlay->setLabels(std::move(labels));
     m_overlay->setTexts(textsOf(m_shown.get()));
-    updateBanner();
+    updateWords();
     if (const QString problem = failure(); !problem.isEmpty()) {
         m_overlay->setCard(
             {Health::Error,
@@ -212,30 +226,47 @@ void ViewportWidget::updateOverlay() {
 }
 
 /// Words need not change as often as pictures.
-void ViewportWidget::updateBanner() {
+void ViewportWidget::updateWords() {
     constexpr log::Duration kEvery = std::chrono::milliseconds(100);
     const log::Stamp now = m_session->now();
     const bool isFollowing = m_session->cursor().mode == model::Cursor::Mode::Following;
-    if (!isFollowing || now >= m_bannerStamp + kEvery || now < m_bannerStamp) {
-        m_bannerStamp = now;
+    const bool isAsked = m_session->selection() != m_wordsSelection;
+    if (isAsked || !isFollowing || now >= m_wordsStamp + kEvery || now < m_wordsStamp) {
+        m_wordsStamp = now;
+        m_wordsSelection = m_session->selection();
         m_banner->refresh(*m_session);
+        updateCard();
     }
 }
 
-/// The nearest first.
+/// Of what the pointer rests on, else of the selected segment.
+void ViewportWidget::updateCard() {
+    std::optional<PickedSegment> about = m_hovered;
+    if (const model::Selection& selected = m_session->selection();
+        !about && selected.character && selected.segment >= 0) {
+        about = {*selected.character, selected.segment};
+    }
+    const bool isWanted = m_hasCard && about && !m_session->isHidden(about->key);
+    const model::CharacterPose* pose = isWanted ? m_session->pose(about->key) : nullptr;
+    const bool isThere = pose != nullptr && pose->isPresent(static_cast<std::size_t>(about->segment));
+    m_card->setFacts(isThere ? std::optional(segmentFacts({*m_session, about->key, *pose}, about->segment))
+                             : std::nullopt);
+}
+
+/// The nearest first, numbers of the floor last.
 std::vector<ViewportText> ViewportWidget::textsOf(const SceneFrame* frame) const {
-    std::vector<std::pair<float, ViewportText>> all;
+    std::vector<std::pair<std::pair<bool, float>, ViewportText>> all;
     if (frame != nullptr) {
         for (const SceneText& text : frame->texts) {
             if (const auto place = frame->camera.project(text.position, aspect())) {
                 const float depth = glm::dot(text.position - frame->camera.eye(), frame->camera.forward());
-                all.push_back({depth, {pointerAt(*place, size()), text.text, text.colour}});
+                all.push_back({{text.isScale, depth}, {pointerAt(*place, size()), text.text, text.colour}});
             }
         }
     }
     std::ranges::stable_sort(all, {}, [](const auto& one) { return one.first; });
     std::vector<ViewportText> texts;
-    for (auto& [depth, text] : all) {
+    for (auto& [order, text] : all) {
         texts.push_back(std::move(text));
     }
     return texts;
@@ -276,7 +307,38 @@ void ViewportWidget::toggleProjection() {
 
 void ViewportWidget::face(render::StandardView view) {
     m_motion.face(view);
+    const auto key = shownCharacter(*m_session);
+    const model::CharacterPose* pose = key ? m_session->pose(*key) : nullptr;
+    if (m_hasRelativeViews && pose != nullptr && !pose->isObjects && pose->isPresent(render::Pelvis)) {
+        const Eigen::Vector3d ahead = pose->segments[render::Pelvis].orientation * Eigen::Vector3d::UnitX();
+        m_motion.turn(static_cast<float>(std::atan2(ahead.y(), ahead.x())));
+    }
     refresh();
+}
+
+void ViewportWidget::toggleRelativeViews() {
+    m_hasRelativeViews = !m_hasRelativeViews;
+    emit optionsChanged();
+}
+
+void ViewportWidget::toggleScale() {
+    m_hasScale = !m_hasScale;
+    refresh();
+    emit optionsChanged();
+}
+
+void ViewportWidget::toggleCard() {
+    m_hasCard = !m_hasCard;
+    updateCard();
+    emit optionsChanged();
+}
+
+void ViewportWidget::showKeptView(int index) {
+    if (isKept(index)) {
+        gui::restore(m_motion, m_keptViews[static_cast<std::size_t>(index)]);
+        refresh();
+        emit optionsChanged();
+    }
 }
 
 QJsonObject ViewportWidget::state() const {
@@ -286,7 +348,17 @@ QJsonObject ViewportWidget::state() const {
             on.append(QLatin1String(entry.key));
         }
     }
-    return {{"camera", stateOf(m_motion)}, {"axes", static_cast<int>(m_axes)}, {"overlays", on}};
+    QJsonArray views;
+    for (const QJsonObject& view : m_keptViews) {
+        views.append(view);
+    }
+    return {{"camera", stateOf(m_motion)},
+            {"axes", static_cast<int>(m_axes)},
+            {"overlays", on},
+            {"scale", m_hasScale},
+            {"segmentCard", m_hasCard},
+            {"relativeViews", m_hasRelativeViews},
+            {"views", views}};
 }
 
 void ViewportWidget::restoreState(const QJsonObject& state) {
@@ -297,6 +369,12 @@ void ViewportWidget::restoreState(const QJsonObject& state) {
         if (state["overlays"].toArray().contains(QLatin1String(entry.key))) {
             m_overlays.toggle(entry.overlay);
         }
+    }
+    m_hasScale = state["scale"].toBool(true);
+    m_hasCard = state["segmentCard"].toBool(true);
+    m_hasRelativeViews = state["relativeViews"].toBool(true);
+    for (int i = 0; i < kKeptViews; ++i) {
+        m_keptViews[static_cast<std::size_t>(i)] = state["views"].toArray().at(i).toObject();
     }
     m_axes = static_cast<AxesMode>(std::clamp(axes, 0, static_cast<int>(AxesMode::None)));
     refresh();
@@ -331,6 +409,7 @@ void ViewportWidget::paintEvent(QPaintEvent* /*event*/) {
 void ViewportWidget::resizeEvent(QResizeEvent* /*event*/) {
     m_overlay->setGeometry(rect());
     m_banner->place(size());
+    m_card->place();
     if (m_presenter != nullptr) {
         m_presenter->setGeometry(rect());
     }
@@ -350,6 +429,12 @@ void ViewportWidget::mousePressEvent(QMouseEvent* event) {
 }
 
 void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
+    if (event->buttons() == Qt::NoButton) {
+        m_pointer = event->position();
+        m_hoverTimer.start();
+        return;
+    }
+    m_hoverTimer.stop();
     if (!m_isDragging &&
         (event->position() - m_pressed).manhattanLength() < QApplication::startDragDistance()) {
         return;
@@ -374,15 +459,14 @@ void ViewportWidget::mouseReleaseEvent(QMouseEvent* event) {
     }
     model::Selection selection;
     if (const auto pick = pickAt(event->position())) {
-        const model::CharacterKey key = m_shown->figures[pick->id].key;
-        selection = {key.sender, key, pick->segment};
+        selection = {pick->key.sender, pick->key, pick->segment};
     }
     m_commands.select(selection);
 }
 
 void ViewportWidget::mouseDoubleClickEvent(QMouseEvent* event) {
     if (const auto pick = pickAt(event->position())) {
-        frameCharacter(m_shown->figures[pick->id].key);
+        frameCharacter(pick->key);
     }
 }
 
@@ -392,19 +476,15 @@ void ViewportWidget::wheelEvent(QWheelEvent* event) {
     refresh();
 }
 
-std::optional<render::Pick> ViewportWidget::pickAt(const QPointF& pointer) const {
-    if (m_shown == nullptr) {
-        return std::nullopt;
-    }
-    std::vector<render::PickTarget> targets;
-    for (std::size_t i = 0; i < m_shown->figures.size(); ++i) {
-        const Figure& figure = m_shown->figures[i];
-        if (figure.mesh == nullptr) {
-            continue;
-        }
-        targets.push_back({static_cast<std::uint32_t>(i), &figure.mesh->capsules, figure.palette});
-    }
-    return render::pickSegment(m_shown->camera.rayThrough(screenPoint(pointer, size()), aspect()), targets);
+void ViewportWidget::leaveEvent(QEvent* event) {
+    m_hoverTimer.stop();
+    m_hovered.reset();
+    updateCard();
+    QWidget::leaveEvent(event);
+}
+
+std::optional<PickedSegment> ViewportWidget::pickAt(const QPointF& pointer) const {
+    return m_shown == nullptr ? std::nullopt : pickIn(*m_shown, *m_session, pointer, size());
 }
 
 } // namespace posewire::gui

@@ -4,18 +4,23 @@
 #include "app/gui/commands.h"
 #include "app/gui/program_view.h"
 #include "app/gui/viewport/camera_motion.h"
+#include "app/gui/viewport/camera_state.h"
+#include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/viewport/scene.h"
 #include "core/log/time.h"
 
 #include <QJsonObject>
+#include <QTimer>
 
+#include <array>
 #include <memory>
 #include <optional>
 
 namespace posewire::gui {
 
 class PoseBanner;
+class SegmentCard;
 class ViewportOverlay;
 struct ViewportLabel;
 struct ViewportText;
@@ -47,7 +52,24 @@ public:
     [[nodiscard]] bool isOn(Overlay overlay) const { return m_overlays.has(overlay); }
     void toggleProjection();
     [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
+    /// Of the shown character where views are relative to the pelvis, else of the world.
     void face(render::StandardView view);
+    void toggleRelativeViews();
+    [[nodiscard]] bool hasRelativeViews() const { return m_hasRelativeViews; }
+    /// Metres on the floor.
+    void toggleScale();
+    [[nodiscard]] bool hasScale() const { return m_hasScale; }
+    /// The values of the segment under the pointer, else of the selected one.
+    void toggleCard();
+    [[nodiscard]] bool hasCard() const { return m_hasCard; }
+    /// Keeps how the camera looks now as one of kKeptViews views; or looks like that again, and nothing where
+    /// none was kept.
+    static constexpr int kKeptViews = 4;
+    void keepView(int index) { m_keptViews[static_cast<std::size_t>(index)] = stateOf(m_motion); }
+    void showKeptView(int index);
+    [[nodiscard]] bool isKept(int index) const {
+        return !m_keptViews[static_cast<std::size_t>(index)].isEmpty();
+    }
     /// Camera, axes and overlays, as they are kept from one run to the next.
     [[nodiscard]] QJsonObject state() const;
     void restoreState(const QJsonObject& state);
@@ -88,6 +110,7 @@ protected:
     void mouseDoubleClickEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void changeEvent(QEvent* event) override;
+    void leaveEvent(QEvent* event) override;
 
 private:
     [[nodiscard]] std::unique_ptr<SceneBuilder> makeBuilder() const;
@@ -97,9 +120,10 @@ private:
     void onPresented();
     void updateOverlay();
     [[nodiscard]] std::optional<ViewportLabel> labelOf(const Figure& figure) const;
-    void updateBanner();
+    void updateWords();
+    void updateCard();
     [[nodiscard]] std::vector<ViewportText> textsOf(const SceneFrame* frame) const;
-    [[nodiscard]] std::optional<render::Pick> pickAt(const QPointF& pointer) const;
+    [[nodiscard]] std::optional<PickedSegment> pickAt(const QPointF& pointer) const;
     [[nodiscard]] float aspect() const;
 
     model::SessionView* m_session;
@@ -110,11 +134,17 @@ private:
     AxesMode m_axes = AxesMode::Selected;
     Overlays m_overlays;
     CameraMotion m_motion;
+    bool m_hasRelativeViews = true;
+    bool m_hasScale = true;
+    bool m_hasCard = true;
+    std::array<QJsonObject, kKeptViews> m_keptViews; ///< as by stateOf(); empty where none was kept
     std::unique_ptr<SceneBuilder> m_builder;
     Presenter* m_presenter = nullptr;
     ViewportOverlay* m_overlay;
     PoseBanner* m_banner;
-    log::Stamp m_bannerStamp{}; ///< of what it was made from
+    SegmentCard* m_card;
+    log::Stamp m_wordsStamp{}; ///< of what banner and card were made from
+    model::Selection m_wordsSelection;
     ReceivingState m_receiving;
     std::shared_ptr<const SceneFrame> m_drawing; ///< with the presenter
     std::shared_ptr<const SceneFrame> m_shown;
@@ -126,6 +156,8 @@ private:
     QPointF m_pressed;
     QPointF m_pointer;
     bool m_isDragging = false;
+    QTimer m_hoverTimer;
+    std::optional<PickedSegment> m_hovered; ///< under a pointer that rests
 };
 
 } // namespace posewire::gui

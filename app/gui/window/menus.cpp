@@ -5,10 +5,10 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/saving.h"
 #include "app/gui/theme/words.h"
-#include "app/gui/viewport/overlays/overlays.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/report_saving.h"
 #include "app/gui/window/texts.h"
+#include "app/gui/window/viewport_entries.h"
 #include "core/export/protocol_reference.h"
 
 #include <QAction>
@@ -34,34 +34,6 @@ void toggleDemo(Window& window) {
 
 void togglePaused(Window& window) {
     window.driver().setPaused(!window.driver().isPaused());
-}
-
-void nextAxes(Window& window) {
-    constexpr int kModes = 3;
-    window.viewport().setAxes(
-        static_cast<AxesMode>((static_cast<int>(window.viewport().axes()) + 1) % kModes));
-}
-
-bool isGhostOn(const Window& window) {
-    return window.driver().session().isGhostShown();
-}
-
-void toggleGhost(Window& window) {
-    window.driver().setGhostVisible(!isGhostOn(window));
-}
-
-bool isAnyLifted(const Window& window) {
-    const model::SessionView& session = window.driver().session();
-    return std::ranges::any_of(session.currentCharacters(), [&session](const model::Character* character) {
-        return session.isLifted(character->key);
-    });
-}
-
-void toggleLifted(Window& window) {
-    const bool isOn = !isAnyLifted(window);
-    for (const model::Character* character : window.driver().session().currentCharacters()) {
-        window.driver().setLifted(character->key, isOn);
-    }
 }
 
 void saveScreenshot(Window& window) {
@@ -96,15 +68,6 @@ void showReference(Window& window) {
 template <std::size_t index>
 void useShippedLayout(Window& window) {
     window.useLayout(layoutNames()[index]);
-}
-
-template <int index>
-void selectCharacter(Window& window) {
-    const auto characters = window.driver().session().currentCharacters();
-    if (index < static_cast<int>(characters.size())) {
-        const model::CharacterKey& key = characters[index]->key;
-        window.driver().select({key.sender, key, -1});
-    }
 }
 
 template <Direction direction>
@@ -162,40 +125,10 @@ bool isSinceResetUsed(const Window& window) {
     return window.driver().session().rangeChoice().isSinceReset;
 }
 
-/// Entries that differ by what they choose.
-template <int index>
-constexpr ActionInfo selectEntry(const char* id, const char* text, const char* shortcut) {
-    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Select character"), text, shortcut,
-            Do::call<selectCharacter<index>>};
-}
-template <render::StandardView view>
-constexpr ActionInfo viewEntry(const char* id, const char* text, const char* shortcut) {
-    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera"), text, shortcut,
-            Do::callIn<&Window::viewport, &ViewportWidget::face, view>};
-}
-
-template <Overlay overlay>
-void toggleOverlay(Window& window) {
-    window.viewport().toggle(overlay);
-}
-template <Overlay overlay>
-bool isOverlayOn(const Window& window) {
-    return window.viewport().isOn(overlay);
-}
-template <Overlay overlay>
-constexpr ActionInfo overlayEntry() {
-    constexpr const OverlayEntry& entry = kOverlayTable[static_cast<std::size_t>(overlay)];
-    static_assert(entry.overlay == overlay);
-    return {entry.key,
-            QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),
-            entry.title,
-            "",
-            Do::call<toggleOverlay<overlay>>,
-            Do::is<isOverlayOn<overlay>>};
-}
-
 /// Where the entries of panels go in a menu and in its submenus.
 constexpr const char* kPanels = "panels"; ///< an id
+/// Where those of the viewport go.
+constexpr const char* kViewport = "viewport";
 constexpr ActionInfo panelsIn(const char* menu) {
     return {kPanels, menu, "", ""};
 }
@@ -271,42 +204,7 @@ const ActionInfo kActions[] = {
      Do::call<&Window::useTheme, ThemeChoice::Dark>, Do::is<&Window::themeChoice, ThemeChoice::Dark>},
     {"themeLight", "&View/&Theme", QT_TRANSLATE_NOOP("Action", "&Light"), "",
      Do::call<&Window::useTheme, ThemeChoice::Light>, Do::is<&Window::themeChoice, ThemeChoice::Light>},
-    viewEntry<render::StandardView::Front>("viewFront", QT_TRANSLATE_NOOP("Action", "&Front"), "Alt+1"),
-    viewEntry<render::StandardView::Back>("viewBack", QT_TRANSLATE_NOOP("Action", "&Back"), "Alt+2"),
-    viewEntry<render::StandardView::Left>("viewLeft", QT_TRANSLATE_NOOP("Action", "&Left side"), "Alt+3"),
-    viewEntry<render::StandardView::Right>("viewRight", QT_TRANSLATE_NOOP("Action", "&Right side"), "Alt+4"),
-    viewEntry<render::StandardView::Top>("viewTop", QT_TRANSLATE_NOOP("Action", "&Top"), "Alt+5"),
-    viewEntry<render::StandardView::ThreeQuarter>("viewThreeQuarter",
-                                                  QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6"),
-    lineIn("&View/&Camera"),
-    {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O",
-     Do::callIn<&Window::viewport, &ViewportWidget::toggleProjection>,
-     Do::isIn<&Window::viewport, &ViewportWidget::projection, render::Projection::Orthographic>},
-    {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
-     Do::callIn<&Window::viewport, &ViewportWidget::frameAll>},
-    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
-    overlayEntry<Overlay::SegmentNames>(),
-    overlayEntry<Overlay::JointAngles>(),
-    overlayEntry<Overlay::Markers>(),
-    overlayEntry<Overlay::Trackers>(),
-    overlayEntry<Overlay::CentreOfMass>(),
-    overlayEntry<Overlay::Contacts>(),
-    overlayEntry<Overlay::Velocity>(),
-    overlayEntry<Overlay::Acceleration>(),
-    overlayEntry<Overlay::Trails>(),
-    {"lift", "&View", QT_TRANSLATE_NOOP("Action", "&Place bodies below the floor on it"), "",
-     Do::call<toggleLifted>, Do::is<isAnyLifted>},
-    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", Do::call<toggleGhost>,
-     Do::is<isGhostOn>},
-    selectEntry<0>("select1", QT_TRANSLATE_NOOP("Action", "First"), "1"),
-    selectEntry<1>("select2", QT_TRANSLATE_NOOP("Action", "Second"), "2"),
-    selectEntry<2>("select3", QT_TRANSLATE_NOOP("Action", "Third"), "3"),
-    selectEntry<3>("select4", QT_TRANSLATE_NOOP("Action", "Fourth"), "4"),
-    selectEntry<4>("select5", QT_TRANSLATE_NOOP("Action", "Fifth"), "5"),
-    selectEntry<5>("select6", QT_TRANSLATE_NOOP("Action", "Sixth"), "6"),
-    selectEntry<6>("select7", QT_TRANSLATE_NOOP("Action", "Seventh"), "7"),
-    selectEntry<7>("select8", QT_TRANSLATE_NOOP("Action", "Eighth"), "8"),
-    selectEntry<8>("select9", QT_TRANSLATE_NOOP("Action", "Ninth"), "9"),
+    {kViewport, "&View", "", ""},
     panelsIn("&View"),
     lineIn("&View"),
     {"fullScreen", "&View", QT_TRANSLATE_NOOP("Action", "F&ull screen"), "F11",
@@ -401,6 +299,12 @@ QMenu* childMenu(Parent& parent, const QString& name) {
 std::vector<MenuEntry> menuEntries() {
     std::vector<MenuEntry> entries;
     for (const ActionInfo& info : kActions) {
+        if (std::string_view(info.id) == kViewport) {
+            for (const ActionInfo& entry : viewportEntries()) {
+                entries.push_back({&entry, nullptr});
+            }
+            continue;
+        }
         if (std::string_view(info.id) != kPanels) {
             entries.push_back({&info, nullptr});
             continue;

@@ -3,17 +3,6 @@
 
 namespace posewire::gui {
 
-const model::Message* freshMessage(const OverlaySubject& subject, std::uint8_t type) {
-    constexpr log::Duration kTogether = std::chrono::milliseconds(250);
-    const model::Message* message = subject.session.message(subject.key, type);
-    return message != nullptr && message->stamp + kTogether >= subject.pose.stamp ? message : nullptr;
-}
-
-model::LengthUnit unitOf(const OverlaySubject& subject, std::uint8_t type) {
-    const model::Sender* sender = subject.session.find(subject.key.sender);
-    return sender != nullptr ? sender->positionUnit(type) : model::LengthUnit::Metre;
-}
-
 void addWay(const std::vector<glm::vec3>& places, const glm::vec4& ink, float width, SceneFrame& frame) {
     for (std::size_t i = 1; i < places.size(); ++i) {
         glm::vec4 faded = ink;

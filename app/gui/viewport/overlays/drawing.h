@@ -25,11 +25,6 @@ namespace posewire::gui {
             static_cast<float>(colour.blueF()), alpha};
 }
 
-/// The newest message of the subject's character, where it is not older than its pose by more than types that
-/// are sent together are; null for none. Positions of it are to be moved as the pose was.
-[[nodiscard]] const model::Message* freshMessage(const OverlaySubject& subject, std::uint8_t type);
-[[nodiscard]] model::LengthUnit unitOf(const OverlaySubject& subject, std::uint8_t type);
-
 /// A line that fades towards its beginning.
 void addWay(const std::vector<glm::vec3>& places, const glm::vec4& ink, float width, SceneFrame& frame);
 

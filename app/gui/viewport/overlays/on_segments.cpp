@@ -2,7 +2,6 @@
 #include "app/gui/models/text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/viewport/overlays/drawing.h"
-#include "core/model/body/joint_angles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,39 +25,11 @@ int onlyChild(int segment) {
     return count == 1 ? child : -1;
 }
 
-/// The row of type 20 between a segment and its parent; nothing for the pelvis.
-std::optional<std::size_t> jointOf(int segment) {
-    const auto& joints = model::jointDefinitions();
-    const int parent = model::bodySegments()[static_cast<std::size_t>(segment)].parent;
-    const auto found = std::ranges::find_if(joints, [=](const model::JointDefinition& joint) {
-        return joint.childSegment() == segment && joint.parentSegment() == parent;
-    });
-    return found == joints.end() ? std::nullopt
-                                 : std::optional(static_cast<std::size_t>(found - joints.begin()));
-}
-
-/// As sent in type 20, else from the orientations of the pose. Degrees.
-double flexionOf(const OverlaySubject& subject, std::size_t joint) {
-    if (const model::Message* message = freshMessage(subject, wire::JointAngles::kType)) {
-        const auto* sent = std::get_if<wire::JointAngles>(&message->datagram.body);
-        if (sent != nullptr && joint < sent->joints.size()) {
-            return sent->joints[joint].rotation[2];
-        }
-    }
-    const model::JointDefinition& definition = model::jointDefinitions()[joint];
-    const auto turn = [&](int segment) {
-        return subject.pose.segments[static_cast<std::size_t>(segment)].orientation;
-    };
-    return model::jointAngle(definition, turn(definition.parentSegment()), turn(definition.childSegment()))
-               .z() *
-           model::kDegreesPerRadian;
-}
-
 void drawArc(const OverlaySubject& subject, int segment, SceneFrame& frame) {
     constexpr float kRadius = 0.13F;
     constexpr int kSteps = 16;
     const int child = onlyChild(segment);
-    const auto joint = jointOf(segment);
+    const auto joint = jointReading(subject, segment);
     if (child < 0 || !joint) {
         return;
     }
@@ -82,7 +53,7 @@ void drawArc(const OverlaySubject& subject, int segment, SceneFrame& frame) {
         frame.lines.push_back({before, next, ink, 2.0F});
         before = next;
     }
-    const QString text = QStringLiteral("%1 °").arg(flexionOf(subject, *joint), 0, 'f', 1);
+    const QString text = QStringLiteral("%1 °").arg(joint->degrees[2], 0, 'f', 1);
     frame.texts.push_back(
         {at + 1.4F * kRadius * glm::normalize(along + bone + glm::vec3(0, 0, 1e-3F)), text, theme().warning});
 }

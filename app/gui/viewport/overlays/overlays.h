@@ -2,9 +2,8 @@
 #pragma once
 
 #include "app/gui/viewport/overlays/choice.h"
+#include "app/gui/viewport/readings.h"
 #include "app/gui/viewport/scene.h"
-#include "core/model/body/character_pose.h"
-#include "core/model/session/session_view.h"
 
 #include <QtGlobal>
 
@@ -15,10 +14,7 @@
 namespace posewire::gui {
 
 /// The character that an overlay is about.
-struct OverlaySubject {
-    model::SessionView& session;
-    model::CharacterKey key;
-    const model::CharacterPose& pose;
+struct OverlaySubject : PoseSubject {
     glm::vec3 colour;
     int segment = -1;    ///< the selected one, -1 for none
     bool isAlone = true; ///< no other character has overlays: there is room for words

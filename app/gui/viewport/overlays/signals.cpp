@@ -29,9 +29,7 @@ QString titleOf(const model::PointReference& reference) {
 template <class Vector>
 void drawVectors(const OverlaySubject& subject, const QColor& colour, double scale, Vector vector,
                  SceneFrame& frame) {
-    const model::Message* message = freshMessage(subject, wire::LinearKinematics::kType);
-    const auto* sent =
-        message != nullptr ? std::get_if<wire::LinearKinematics>(&message->datagram.body) : nullptr;
+    const auto* sent = freshBody<wire::LinearKinematics>(subject);
     if (sent == nullptr) {
         return;
     }
@@ -68,9 +66,7 @@ std::optional<Eigen::Vector3d> positionIn(const wire::Body& body, std::size_t se
 } // namespace
 
 void drawMarkers(const OverlaySubject& subject, SceneFrame& frame) {
-    const model::Message* message = freshMessage(subject, wire::PointPositions::kType);
-    const auto* sent =
-        message != nullptr ? std::get_if<wire::PointPositions>(&message->datagram.body) : nullptr;
+    const auto* sent = freshBody<wire::PointPositions>(subject);
     if (sent == nullptr) {
         return;
     }
@@ -95,9 +91,7 @@ void drawTrackers(const OverlaySubject& subject, SceneFrame& frame) {
     constexpr double kAcceleration = 0.01; // metres for 1 m/s²
     constexpr double kField = 0.12;        // metres for the field of calibration
     constexpr double kOut = 0.09;          // metres from the middle of the bone, out of the flesh
-    const model::Message* message = freshMessage(subject, wire::TrackerKinematics::kType);
-    const auto* sent =
-        message != nullptr ? std::get_if<wire::TrackerKinematics>(&message->datagram.body) : nullptr;
+    const auto* sent = freshBody<wire::TrackerKinematics>(subject);
     if (sent == nullptr) {
         return;
     }

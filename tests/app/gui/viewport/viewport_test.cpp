@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_widget.h"
 
+#include "app/gui/viewport/segment_card.h"
 #include "app/gui/viewport/viewport_overlay.h"
 #include "render/offscreen.h"
 #include "tests/app/gui/models/stage.h"
 
+#include <QApplication>
+#include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -52,6 +55,12 @@ protected:
     QPoint middleOfFigure() {
         const QPointF label = viewport.overlay().labels().at(0).anchor;
         return {static_cast<int>(label.x()), viewport.height() / 2};
+    }
+
+    void restOn(const QPoint& place) {
+        QMouseEvent move(QEvent::MouseMove, place, viewport.mapToGlobal(QPointF(place)), Qt::NoButton,
+                         Qt::NoButton, Qt::NoModifier);
+        QApplication::sendEvent(&viewport, &move);
     }
 
     Stage stage;
@@ -103,6 +112,46 @@ TEST_F(Viewport, ADragTurnsTheCameraAndSelectsNothing) {
     QTest::mouseRelease(&viewport, Qt::LeftButton, {}, middle + QPoint(80, 10));
     EXPECT_EQ(stage.commands.selections, 0);
     EXPECT_TRUE(QTest::qWaitFor([&] { return viewport.grab().toImage() != before; }));
+}
+
+TEST_F(Viewport, ShowsTheValuesOfWhatThePointerRestsOn) {
+    const auto* card = viewport.findChild<SegmentCard*>();
+    ASSERT_NE(card, nullptr);
+    viewport.resize(900, 700);
+    ASSERT_TRUE(
+        QTest::qWaitFor([this] { return viewport.overlay().labels().at(0).anchor.x() > 400; }, 20'000));
+    restOn(middleOfFigure());
+    EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts().has_value(); }));
+    restOn(QPoint(5, viewport.height() - 5));
+    EXPECT_TRUE(QTest::qWaitFor([&] { return !card->facts().has_value(); }));
+    stage.session.setSelection({stage.sender(), stage.key(), model::segment::kHead});
+    viewport.refresh();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return card->facts() && card->facts()->segment == "Head"; }));
+}
+
+TEST_F(Viewport, KeepsViewsFromOneRunToTheNext) {
+    viewport.face(render::StandardView::Top);
+    const QJsonObject top = viewport.state()["camera"].toObject();
+    viewport.keepView(2);
+    viewport.face(render::StandardView::Front);
+    ViewportWidget other(stage.session, stage.commands);
+    other.restoreState(viewport.state());
+    EXPECT_FALSE(other.isKept(0));
+    EXPECT_NE(other.state()["camera"].toObject(), top);
+    other.showKeptView(2);
+    EXPECT_EQ(other.state()["camera"].toObject(), top);
+}
+
+TEST_F(Viewport, FacesThePelvisOrTheWorld) {
+    const Eigen::Vector3d ahead =
+        stage.session.pose(stage.key())->segments[0].orientation * Eigen::Vector3d::UnitX();
+    const double heading = std::atan2(ahead.y(), ahead.x());
+    const auto yaw = [this] { return viewport.state()["camera"].toObject()["yaw"].toDouble(); };
+    viewport.face(render::StandardView::Front);
+    EXPECT_NEAR(yaw(), heading, 1e-4);
+    viewport.toggleRelativeViews();
+    viewport.face(render::StandardView::Front);
+    EXPECT_EQ(yaw(), 0);
 }
 
 TEST_F(Viewport, TwoViewsOfOneSessionDrawAtOnce) {

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/floor_scale.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme/theme.h"
+#include "app/gui/theme/words.h"
+#include "app/gui/viewport/overlays/drawing.h"
+
+#include <QRectF>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace posewire::gui {
+namespace {
+
+constexpr double kApart = 64;     ///< logical pixels between two numbers, at the least
+constexpr float kLevel = 0.02F;   ///< radians: a view along the floor
+constexpr int kMostNumbers = 14;  ///< on each side of the origin
+constexpr float kFarthest = 5.0F; ///< of what is numbered, times the camera's distance
+
+float aspectOf(const SceneFrame& frame) {
+    return static_cast<float>(frame.width) / static_cast<float>(frame.height);
+}
+
+double metresPerPixel(const SceneFrame& frame) {
+    const double height = frame.height / static_cast<double>(frame.pixelRatio);
+    return 2.0 * static_cast<double>(frame.camera.distance) *
+           std::tan(0.5 * static_cast<double>(frame.camera.verticalFov)) / height;
+}
+
+QString metres(double value, double step) {
+    return tr("%1 m").arg(fixed(value, step < 1 ? 1 : 0));
+}
+
+/// The part of the picture that a figure takes, −1 … 1 in both directions.
+QRectF roomOf(const Figure& figure, const SceneFrame& frame) {
+    constexpr float kFlesh = 0.15F; // metres about the origins
+    render::Bounds bounds = figure.bounds;
+    bounds.min -= glm::vec3(kFlesh);
+    bounds.max += glm::vec3(kFlesh);
+    QRectF room;
+    for (int corner = 0; corner < 8; ++corner) {
+        if (const auto place = frame.camera.project(bounds.corner(corner), aspectOf(frame))) {
+            const QPointF point(static_cast<double>(place->x), static_cast<double>(place->y));
+            room = room.isNull() ? QRectF(point, QSizeF(1e-6, 1e-6))
+                                 : room.united(QRectF(point, QSizeF(1e-6, 1e-6)));
+        }
+    }
+    return room;
+}
+
+std::vector<QRectF> roomsOf(const SceneFrame& frame) {
+    std::vector<QRectF> rooms;
+    for (const Figure& figure : frame.figures) {
+        if (figure.mesh != nullptr && !figure.bounds.isEmpty()) {
+            rooms.push_back(roomOf(figure, frame));
+        }
+    }
+    return rooms;
+}
+
+void addNumber(const glm::vec3& place, const QString& text, std::span<const QRectF> rooms,
+               SceneFrame& frame) {
+    const auto screen = frame.camera.project(place, aspectOf(frame));
+    const auto isCovered = [&](const QRectF& room) {
+        return room.contains(static_cast<double>(screen->x), static_cast<double>(screen->y));
+    };
+    if (screen && std::ranges::none_of(rooms, isCovered)) {
+        frame.texts.push_back({place, text, theme().dim, true});
+    }
+}
+
+/// "x 1 m" where the axis crosses the lines of the grid.
+void addFloorNumbers(SceneFrame& frame) {
+    const std::vector<QRectF> rooms = roomsOf(frame);
+    const double step = std::max(1.0, scaleStep(metresPerPixel(frame), kApart));
+    for (const auto& [name, axis] : {std::pair{tr("x"), 0}, std::pair{tr("y"), 1}}) {
+        for (int i = -kMostNumbers; i <= kMostNumbers; ++i) {
+            glm::vec3 place(0.0F);
+            place[axis] = static_cast<float>(i * step);
+            const bool isNear = glm::distance(place, frame.camera.target) < kFarthest * frame.camera.distance;
+            if (i != 0 && isNear) {
+                addNumber(place, name + QLatin1Char(' ') + metres(i * step, step), rooms, frame);
+            }
+        }
+    }
+}
+
+/// Numbers grow to the right of the picture and upward; 0 is the origin of the world.
+void addRules(SceneFrame& frame) {
+    const render::Camera& camera = frame.camera;
+    const double pixel = metresPerPixel(frame);
+    const double step = scaleStep(pixel, kApart);
+    const double halfHeight = pixel * frame.height / static_cast<double>(frame.pixelRatio) / 2;
+    const double halfWidth = halfHeight * static_cast<double>(aspectOf(frame));
+    const glm::vec3 right = camera.right();
+    const double middle = static_cast<double>(glm::dot(camera.target, right));
+    const glm::vec3 depth = camera.target - static_cast<float>(middle) * right;
+    const auto at = [&](double along, double height) {
+        glm::vec3 place = depth + static_cast<float>(along) * right;
+        place.z = static_cast<float>(height);
+        return place;
+    };
+    const glm::vec4 ink = inkOf(theme().dim, 0.8F);
+    const double tick = 6 * pixel;
+    const auto line = [&](const glm::vec3& from, const glm::vec3& to) {
+        frame.lines.push_back({from, to, ink, 1.2F, 1.0F});
+    };
+    line(at(middle - 1.2 * halfWidth, 0), at(middle + 1.2 * halfWidth, 0));
+    for (double along = std::ceil((middle - halfWidth) / step) * step; along < middle + halfWidth;
+         along += step) {
+        line(at(along, 0), at(along, -tick));
+        frame.texts.push_back({at(along - 7 * pixel, -3 * tick), metres(along, step), theme().dim, true});
+    }
+    constexpr double kEdge = 18; // logical pixels
+    const double edge = middle - halfWidth + kEdge * pixel;
+    const double top = static_cast<double>(camera.target.z) + halfHeight;
+    line(at(edge, 0), at(edge, top));
+    for (double height = step; height < top; height += step) {
+        line(at(edge, height), at(edge + tick, height));
+        frame.texts.push_back({at(edge + tick, height), metres(height, step), theme().dim, true});
+    }
+}
+
+} // namespace
+
+double scaleStep(double metresPerPixel, double pixels) {
+    const double least = metresPerPixel * pixels;
+    double decade = 0.1;
+    while (decade * 10 <= least) {
+        decade *= 10;
+    }
+    for (const double step : {decade, 2 * decade, 5 * decade}) {
+        if (step >= least) {
+            return step;
+        }
+    }
+    return 10 * decade;
+}
+
+void addFloorScale(SceneFrame& frame) {
+    const bool isLevel =
+        frame.camera.projection == render::Projection::Orthographic && std::abs(frame.camera.pitch) < kLevel;
+    if (isLevel) {
+        addRules(frame);
+    } else {
+        addFloorNumbers(frame);
+    }
+}
+
+} // namespace posewire::gui

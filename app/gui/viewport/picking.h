@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/viewport/scene.h"
+
+#include <QPointF>
+#include <QSizeF>
+
+#include <optional>
+
+namespace posewire::gui {
+
+struct PickedSegment {
+    model::CharacterKey key;
+    int segment = -1; ///< position in the pose
+
+    friend bool operator==(const PickedSegment&, const PickedSegment&) = default;
+};
+
+/// What is under the pointer in a picture of that size, in logical pixels: a prop or a tracked object whose
+/// origin is near, else the nearest segment of a body.
+[[nodiscard]] std::optional<PickedSegment> pickIn(const SceneFrame& frame, const model::SessionView& session,
+                                                  const QPointF& pointer, const QSizeF& view);
+
+} // namespace posewire::gui

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/viewport/segment_facts.h"
+
+#include <QWidget>
+
+#include <optional>
+
+namespace posewire::gui {
+
+/// The values of one segment, in the corner of the viewport.
+class SegmentCard final : public QWidget {
+    Q_OBJECT
+
+public:
+    /// Keeps off the banner at the lower edge.
+    SegmentCard(QWidget* parent, const QWidget& banner);
+
+    /// Nothing hides it.
+    void setFacts(std::optional<SegmentFacts> facts);
+    [[nodiscard]] const std::optional<SegmentFacts>& facts() const { return m_facts; }
+    /// At the lower right, where mostly floor is; it is not shown where it would cover most of the viewport.
+    void place();
+
+protected:
+    void paintEvent(QPaintEvent* event) override;
+    void changeEvent(QEvent* event) override;
+
+private:
+    /// Widths in pixels of what stands in columns.
+    struct Columns {
+        qreal name = 0;
+        qreal value = 0;
+        qreal unit = 0;
+        int count = 3; ///< of values
+    };
+    [[nodiscard]] Columns columns() const;
+    [[nodiscard]] QSizeF wantedSize() const;
+    void paintFacts(QPainter& painter, qreal top) const;
+
+    const QWidget& m_banner;
+    std::optional<SegmentFacts> m_facts;
+};
+
+} // namespace posewire::gui

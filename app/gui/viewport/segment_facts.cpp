@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/segment_facts.h"
+
+#include "app/gui/models/shown_character.h"
+#include "app/gui/models/text.h"
+#include "app/gui/theme/words.h"
+#include "core/model/body/source_text.h"
+
+#include <cmath>
+
+namespace posewire::gui {
+namespace {
+
+SegmentFact vectorFact(const QString& name, const Eigen::Vector3d& value, int decimals, const QString& unit) {
+    return {name,
+            {QString(), fixed(value.x(), decimals), fixed(value.y(), decimals), fixed(value.z(), decimals)},
+            unit};
+}
+
+QString sourceOf(const model::CharacterPose& pose, std::size_t segment) {
+    constexpr double kSeen = 0.0005; // metres
+    QString text = fromUtf8(model::sourceText(pose.sources[segment]));
+    if (pose.isPlaceAssumed) {
+        text += tr(", place in the world assumed");
+    }
+    if (std::abs(pose.moved.z()) >= kSeen) {
+        text += tr(", shown %1 m higher").arg(fixed(pose.moved.z(), 2));
+    }
+    return text;
+}
+
+void addMotion(const PoseSubject& subject, std::size_t segment, SegmentFacts& known) {
+    constexpr int kDecimals = 2;
+    if (const auto* linear = freshBody<wire::LinearKinematics>(subject);
+        linear != nullptr && segment < linear->segments.size()) {
+        const double unit = model::metresPer(unitOf(subject, wire::LinearKinematics::kType));
+        const wire::LinearSegment& sent = linear->segments[segment];
+        known.facts.push_back(
+            vectorFact(tr("Velocity"), unit * model::toVector(sent.velocity), kDecimals, tr("m/s")));
+        known.facts.push_back(
+            vectorFact(tr("Acceleration"), unit * model::toVector(sent.acceleration), kDecimals, tr("m/s²")));
+    }
+    if (const auto* angular = freshBody<wire::AngularKinematics>(subject);
+        angular != nullptr && segment < angular->segments.size()) {
+        known.facts.push_back(vectorFact(tr("Angular velocity"),
+                                         model::toVector(angular->segments[segment].angularVelocity),
+                                         kDecimals, tr("rad/s")));
+    }
+}
+
+void addJoint(const PoseSubject& subject, int segment, SegmentFacts& known) {
+    const auto joint = subject.pose.isObjects ? std::nullopt : jointReading(subject, segment);
+    if (!joint) {
+        return;
+    }
+    const std::array names{tr("Abduction"), tr("Axial rotation"), tr("Flexion")};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        known.facts.push_back({joint->isSent ? names[i] : tr("%1 (computed)").arg(names[i]),
+                               {QString(), fixed(joint->degrees[i], 1)},
+                               tr("°")});
+    }
+}
+
+} // namespace
+
+SegmentFacts segmentFacts(const PoseSubject& subject, int segment) {
+    const model::CharacterPose& pose = subject.pose;
+    const auto at = static_cast<std::size_t>(segment);
+    SegmentFacts known;
+    known.mark = characterMark(subject.session, subject.key);
+    known.segment = pose.isObjects ? tr("Object %1").arg(segment + 1)
+                                   : fromUtf8(model::segmentTitle(pose.layout, segment));
+    known.character = characterName(subject.session, subject.key);
+    known.source = sourceOf(pose, at);
+    const bool isDoubtful = pose.isPlaceAssumed || pose.sources[at].weaker() <= model::Provenance::Assumed;
+    known.sourceHealth = isDoubtful ? Health::Warning : Health::Unknown;
+    const model::SegmentPose& place = pose.segments[at];
+    known.facts.push_back(vectorFact(tr("Position"), place.position - pose.moved, 3, tr("m")));
+    const Eigen::Quaterniond& turn = place.orientation;
+    known.facts.push_back({tr("Orientation"),
+                           {fixed(turn.w(), 3), fixed(turn.x(), 3), fixed(turn.y(), 3), fixed(turn.z(), 3)},
+                           {}});
+    addMotion(subject, at, known);
+    addJoint(subject, segment, known);
+    return known;
+}
+
+} // namespace posewire::gui

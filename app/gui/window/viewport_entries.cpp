@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/window/viewport_entries.h"
+
+#include "app/gui/theme/words.h"
+#include "app/gui/viewport/overlays/overlays.h"
+#include "app/gui/window/main_window.h"
+
+#include <algorithm>
+
+namespace posewire::gui {
+
+namespace {
+
+using Window = MainWindow;
+using Do = ActionsOf<MainWindow>;
+
+void nextAxes(Window& window) {
+    constexpr int kModes = 3;
+    window.viewport().setAxes(
+        static_cast<AxesMode>((static_cast<int>(window.viewport().axes()) + 1) % kModes));
+}
+
+bool isGhostOn(const Window& window) {
+    return window.driver().session().isGhostShown();
+}
+
+void toggleGhost(Window& window) {
+    window.driver().setGhostVisible(!isGhostOn(window));
+}
+
+bool isAnyLifted(const Window& window) {
+    const model::SessionView& session = window.driver().session();
+    return std::ranges::any_of(session.currentCharacters(), [&session](const model::Character* character) {
+        return session.isLifted(character->key);
+    });
+}
+
+void toggleLifted(Window& window) {
+    const bool isOn = !isAnyLifted(window);
+    for (const model::Character* character : window.driver().session().currentCharacters()) {
+        window.driver().setLifted(character->key, isOn);
+    }
+}
+
+template <int index>
+void selectCharacter(Window& window) {
+    const auto characters = window.driver().session().currentCharacters();
+    if (index < static_cast<int>(characters.size())) {
+        const model::CharacterKey& key = characters[index]->key;
+        window.driver().select({key.sender, key, -1});
+    }
+}
+
+/// Entries that differ by what they choose.
+template <int index>
+constexpr ActionInfo selectEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Select character"), text, shortcut,
+            Do::call<selectCharacter<index>>};
+}
+template <render::StandardView view>
+constexpr ActionInfo viewEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera"), text, shortcut,
+            Do::callIn<&Window::viewport, &ViewportWidget::face, view>};
+}
+
+template <int index>
+void showView(Window& window) {
+    if (window.viewport().isKept(index)) {
+        window.viewport().showKeptView(index);
+    } else {
+        window.say(tr("No view %1 is kept: View > Camera > Keep view does").arg(index + 1));
+    }
+}
+template <int index>
+void keepView(Window& window) {
+    window.viewport().keepView(index);
+    window.say(tr("View %1 kept").arg(index + 1));
+}
+template <int index>
+constexpr ActionInfo showViewEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Go to view"), text, shortcut,
+            Do::call<showView<index>>};
+}
+template <int index>
+constexpr ActionInfo keepViewEntry(const char* id, const char* text, const char* shortcut) {
+    return {id, QT_TRANSLATE_NOOP("Action", "&View/&Camera/&Keep view"), text, shortcut,
+            Do::call<keepView<index>>};
+}
+
+template <Overlay overlay>
+void toggleOverlay(Window& window) {
+    window.viewport().toggle(overlay);
+}
+template <Overlay overlay>
+bool isOverlayOn(const Window& window) {
+    return window.viewport().isOn(overlay);
+}
+template <Overlay overlay>
+constexpr ActionInfo overlayEntry() {
+    constexpr const OverlayEntry& entry = kOverlayTable[static_cast<std::size_t>(overlay)];
+    static_assert(entry.overlay == overlay);
+    return {entry.key,
+            QT_TRANSLATE_NOOP("Action", "&View/O&verlays"),
+            entry.title,
+            "",
+            Do::call<toggleOverlay<overlay>>,
+            Do::is<isOverlayOn<overlay>>};
+}
+
+const ActionInfo kEntries[] = {
+    viewEntry<render::StandardView::Front>("viewFront", QT_TRANSLATE_NOOP("Action", "&Front"), "Alt+1"),
+    viewEntry<render::StandardView::Back>("viewBack", QT_TRANSLATE_NOOP("Action", "&Back"), "Alt+2"),
+    viewEntry<render::StandardView::Left>("viewLeft", QT_TRANSLATE_NOOP("Action", "&Left side"), "Alt+3"),
+    viewEntry<render::StandardView::Right>("viewRight", QT_TRANSLATE_NOOP("Action", "&Right side"), "Alt+4"),
+    viewEntry<render::StandardView::Top>("viewTop", QT_TRANSLATE_NOOP("Action", "&Top"), "Alt+5"),
+    viewEntry<render::StandardView::ThreeQuarter>("viewThreeQuarter",
+                                                  QT_TRANSLATE_NOOP("Action", "T&hree-quarter"), "Alt+6"),
+    {"relativeViews", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Relative to the &pelvis"), "",
+     Do::callIn<&Window::viewport, &ViewportWidget::toggleRelativeViews>,
+     Do::isIn<&Window::viewport, &ViewportWidget::hasRelativeViews, true>},
+    lineIn("&View/&Camera"),
+    {"orthographic", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "&Orthographic"), "O",
+     Do::callIn<&Window::viewport, &ViewportWidget::toggleProjection>,
+     Do::isIn<&Window::viewport, &ViewportWidget::projection, render::Projection::Orthographic>},
+    {"frame", "&View/&Camera", QT_TRANSLATE_NOOP("Action", "Fr&ame all"), "F",
+     Do::callIn<&Window::viewport, &ViewportWidget::frameAll>},
+    showViewEntry<0>("showView1", QT_TRANSLATE_NOOP("Action", "View &1"), "Alt+7"),
+    showViewEntry<1>("showView2", QT_TRANSLATE_NOOP("Action", "View &2"), "Alt+8"),
+    showViewEntry<2>("showView3", QT_TRANSLATE_NOOP("Action", "View &3"), "Alt+9"),
+    showViewEntry<3>("showView4", QT_TRANSLATE_NOOP("Action", "View &4"), "Alt+0"),
+    keepViewEntry<0>("keepView1", QT_TRANSLATE_NOOP("Action", "As view &1"), "Alt+Shift+7"),
+    keepViewEntry<1>("keepView2", QT_TRANSLATE_NOOP("Action", "As view &2"), "Alt+Shift+8"),
+    keepViewEntry<2>("keepView3", QT_TRANSLATE_NOOP("Action", "As view &3"), "Alt+Shift+9"),
+    keepViewEntry<3>("keepView4", QT_TRANSLATE_NOOP("Action", "As view &4"), "Alt+Shift+0"),
+    {"axes", "&View", QT_TRANSLATE_NOOP("Action", "&Axes: all, selected, none"), "A", Do::call<nextAxes>},
+    overlayEntry<Overlay::SegmentNames>(),
+    overlayEntry<Overlay::JointAngles>(),
+    overlayEntry<Overlay::Markers>(),
+    overlayEntry<Overlay::Trackers>(),
+    overlayEntry<Overlay::CentreOfMass>(),
+    overlayEntry<Overlay::Contacts>(),
+    overlayEntry<Overlay::Velocity>(),
+    overlayEntry<Overlay::Acceleration>(),
+    overlayEntry<Overlay::Trails>(),
+    {"scale", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "Metres on the f&loor"), "",
+     Do::callIn<&Window::viewport, &ViewportWidget::toggleScale>,
+     Do::isIn<&Window::viewport, &ViewportWidget::hasScale, true>},
+    {"segmentCard", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "&Values of a segment"), "",
+     Do::callIn<&Window::viewport, &ViewportWidget::toggleCard>,
+     Do::isIn<&Window::viewport, &ViewportWidget::hasCard, true>},
+    {"lift", "&View", QT_TRANSLATE_NOOP("Action", "&Place bodies below the floor on it"), "",
+     Do::call<toggleLifted>, Do::is<isAnyLifted>},
+    {"ghost", "&View", QT_TRANSLATE_NOOP("Action", "Null pose as &ghost"), "Shift+G", Do::call<toggleGhost>,
+     Do::is<isGhostOn>},
+    selectEntry<0>("select1", QT_TRANSLATE_NOOP("Action", "First"), "1"),
+    selectEntry<1>("select2", QT_TRANSLATE_NOOP("Action", "Second"), "2"),
+    selectEntry<2>("select3", QT_TRANSLATE_NOOP("Action", "Third"), "3"),
+    selectEntry<3>("select4", QT_TRANSLATE_NOOP("Action", "Fourth"), "4"),
+    selectEntry<4>("select5", QT_TRANSLATE_NOOP("Action", "Fifth"), "5"),
+    selectEntry<5>("select6", QT_TRANSLATE_NOOP("Action", "Sixth"), "6"),
+    selectEntry<6>("select7", QT_TRANSLATE_NOOP("Action", "Seventh"), "7"),
+    selectEntry<7>("select8", QT_TRANSLATE_NOOP("Action", "Eighth"), "8"),
+    selectEntry<8>("select9", QT_TRANSLATE_NOOP("Action", "Ninth"), "9"),
+};
+
+} // namespace
+
+std::span<const ActionInfo> viewportEntries() {
+    return kEntries;
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/viewport/floor_scale.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace posewire::gui {
+namespace {
+
+SceneFrame frameOf(render::Camera camera) {
+    SceneFrame frame;
+    frame.width = 1200;
+    frame.height = 800;
+    frame.camera = camera;
+    addFloorScale(frame);
+    return frame;
+}
+
+const SceneText* find(const SceneFrame& frame, const QString& text) {
+    const auto found = std::ranges::find(frame.texts, text, &SceneText::text);
+    return found == frame.texts.end() ? nullptr : &*found;
+}
+
+TEST(FloorScale, StepsAreThoseThatPeopleCountIn) {
+    EXPECT_DOUBLE_EQ(scaleStep(0.001, 60), 0.1);
+    EXPECT_DOUBLE_EQ(scaleStep(0.003, 60), 0.2);
+    EXPECT_DOUBLE_EQ(scaleStep(0.006, 60), 0.5);
+    EXPECT_DOUBLE_EQ(scaleStep(0.01, 60), 1.0);
+    EXPECT_DOUBLE_EQ(scaleStep(0.1, 60), 10.0);
+}
+
+TEST(FloorScale, NumbersStandOnTheFloorWhereTheySay) {
+    const SceneFrame frame = frameOf({});
+    const SceneText* text = find(frame, QStringLiteral("x 1 m"));
+    ASSERT_NE(text, nullptr);
+    EXPECT_EQ(text->position, glm::vec3(1, 0, 0));
+    EXPECT_TRUE(text->isScale);
+    EXPECT_NE(find(frame, QStringLiteral("y −2 m")), nullptr);
+    EXPECT_TRUE(frame.lines.empty());
+}
+
+TEST(FloorScale, AViewAlongTheFloorHasRules) {
+    render::Camera camera = render::facing({}, render::StandardView::Front);
+    camera.projection = render::Projection::Orthographic;
+    const SceneFrame frame = frameOf(camera);
+    ASSERT_FALSE(frame.lines.empty());
+    EXPECT_EQ(frame.lines[0].from.z, 0.0F);
+    EXPECT_EQ(frame.lines[0].to.z, 0.0F);
+    const SceneText* height = find(frame, QStringLiteral("1.5 m"));
+    ASSERT_NE(height, nullptr);
+    EXPECT_TRUE(std::ranges::any_of(frame.texts, [](const SceneText& one) {
+        return one.text == QStringLiteral("1.5 m") && one.position.z == 1.5F;
+    }));
+}
+
+TEST(FloorScale, KeepsOutOfFigures) {
+    SceneFrame frame;
+    frame.width = 1200;
+    frame.height = 800;
+    Figure figure;
+    figure.mesh = std::make_shared<FigureMesh>();
+    figure.bounds.add(glm::vec3(0.8F, -0.4F, 0));
+    figure.bounds.add(glm::vec3(1.2F, 0.4F, 1.8F));
+    frame.figures.push_back(figure);
+    addFloorScale(frame);
+    EXPECT_EQ(find(frame, QStringLiteral("x 1 m")), nullptr);
+    EXPECT_NE(find(frame, QStringLiteral("x 3 m")), nullptr);
+}
+
+} // namespace
+} // namespace posewire::gui
