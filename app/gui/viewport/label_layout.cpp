@@ -51,6 +51,11 @@ QRectF plateAt(const LabelPlace& place, const QSizeF& size, const QPointF& offse
     return plate;
 }
 
+/// How far from its head, above all else, and how far aside.
+qreal costOf(const LabelPlace& place, const QRectF& plate) {
+    return distanceTo(plate, place.anchor) + std::abs(plate.center().x() - place.anchor.x()) / 4;
+}
+
 /// Above the head and aside, row by row, then beside it.
 std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size, qreal most,
                                     const QRectF& view) {
@@ -58,10 +63,8 @@ std::vector<Candidate> candidatesOf(const LabelPlace& place, const QSizeF& size,
     std::vector<Candidate> all;
     const auto add = [&](const QPointF& offset) {
         const QRectF plate = plateAt(place, size, offset, view);
-        const qreal distance = distanceTo(plate, place.anchor);
-        if (distance <= most * size.height()) {
-            const qreal aside = std::abs(plate.center().x() - place.anchor.x());
-            all.push_back({plate, offset, distance + aside / 4});
+        if (distanceTo(plate, place.anchor) <= most * size.height()) {
+            all.push_back({plate, offset, costOf(place, plate)});
         }
     };
     for (int up = 0; up <= static_cast<int>(most) + 1; ++up) {
@@ -103,15 +106,13 @@ public:
 private:
     std::optional<PlacedLabel> find(std::size_t which, LabelForm form, const QSizeF& size, qreal most) const {
         const LabelPlace& own = m_places[which];
-        if (own.before && own.before->form == form) {
-            const QRectF plate = plateAt(own, size, own.before->offset, m_view);
-            if (isFree(plate, which, 0) && !isOnHead(plate, which, false)) {
-                return PlacedLabel{plate, form, own.before->offset};
-            }
-        }
-        const qreal spare = own.before && own.before->form > form ? kToSpare : 0;
+        const std::optional<Candidate> kept = keptPlace(which, form, size);
+        const qreal spare = kept || (own.before && own.before->form > form) ? kToSpare : 0;
         std::optional<PlacedLabel> second;
         for (const Candidate& one : candidatesOf(own, size, most, m_view)) {
+            if (kept && one.cost > kept->cost - size.height()) {
+                return PlacedLabel{kept->plate, form, kept->offset};
+            }
             if (!isFree(one.plate, which, spare)) {
                 continue;
             }
@@ -120,7 +121,22 @@ private:
             }
             second = second ? second : std::optional(PlacedLabel{one.plate, form, one.offset});
         }
+        if (kept) {
+            return PlacedLabel{kept->plate, form, kept->offset};
+        }
         return second;
+    }
+    /// Where it was in the picture before, if it may be there again.
+    [[nodiscard]] std::optional<Candidate> keptPlace(std::size_t which, LabelForm form,
+                                                     const QSizeF& size) const {
+        const LabelPlace& own = m_places[which];
+        if (!own.before || own.before->form != form) {
+            return std::nullopt;
+        }
+        const QRectF plate = plateAt(own, size, own.before->offset, m_view);
+        const bool isGood = isFree(plate, which, 0) && !isOnHead(plate, which, false);
+        return isGood ? std::optional(Candidate{plate, own.before->offset, costOf(own, plate)})
+                      : std::nullopt;
     }
     /// Whether it lies on nothing that it must not lie on.
     [[nodiscard]] bool isFree(const QRectF& plate, std::size_t which, qreal spare) const {

@@ -15,7 +15,7 @@ constexpr int kWidth = 300;
 constexpr int kHeight = 380;
 constexpr std::uint64_t kMoment = 545;
 
-constexpr const char* kThemes[] = {"light", "dark"};
+const std::string kThemes[] = {"light", "dark"};
 
 void useTheme(const std::string& name) {
     applyTheme(*qApp, name == "dark" ? ThemeChoice::Dark : ThemeChoice::Light);
@@ -41,7 +41,7 @@ protected:
 };
 
 class OverlayPictures : public SmallPictures,
-                        public testing::WithParamInterface<std::tuple<std::size_t, const char*>> {
+                        public testing::WithParamInterface<std::tuple<std::size_t, std::string>> {
 protected:
     void SetUp() override {
         SmallPictures::SetUp();
@@ -80,7 +80,7 @@ void PrintTo(const Source& source, std::ostream* out) {
 }
 
 class SourcePictures : public SmallPictures,
-                       public testing::WithParamInterface<std::tuple<Source, const char*>> {
+                       public testing::WithParamInterface<std::tuple<Source, std::string>> {
 protected:
     void SetUp() override {
         SmallPictures::SetUp();

@@ -117,6 +117,15 @@ TEST(LabelLayout, StaysWhereItWasWhileThatIsFree) {
     }
 }
 
+TEST(LabelLayout, ComesBackToItsHeadWhenThereIsRoom) {
+    std::vector places{personAt(300, 200, 5)};
+    const QRectF above(200, 170, 200, 28);
+    places[0].before = placeLabels(places, kView, {above})[0];
+    EXPECT_TRUE(leaderOf(*places[0].before, places[0]));
+    const PlacedLabel back = placeLabels(places, kView, {})[0];
+    EXPECT_FALSE(leaderOf(back, places[0]));
+}
+
 TEST(LabelLayout, HasALineToAHeadThatItIsAwayFrom) {
     const QRectF above(200, 100, 200, 97);
     const auto placed = placeLabels(std::vector{personAt(300, 195, 5)}, kView, {above});
