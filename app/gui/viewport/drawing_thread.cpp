@@ -50,11 +50,12 @@ public:
         result.frame = task.frame;
         const std::shared_ptr<const SceneFrame> frame = task.isStill ? m_last : task.frame;
         const bool isChanged = !task.isStill && (m_last == nullptr || *task.frame != *m_last);
+        const bool isBest = task.isStill || frame->isBest;
         if (isChanged || task.isStill) {
             const SteadyClock::time_point begin = SteadyClock::now();
-            draw(*frame, task.isStill);
+            draw(*frame, isBest);
             const SteadyClock::time_point end = SteadyClock::now();
-            if (isChanged) {
+            if (isChanged && !isBest) {
                 m_ladder.add(secondsOf(end - begin), secondsOf(end.time_since_epoch()));
                 m_moved = end;
             }
@@ -63,7 +64,7 @@ public:
                 result.pause = std::min(took, kLongestPause);
             }
             result.image = m_renderer.takeImage();
-            m_isStill = task.isStill;
+            m_isStill = isBest;
             m_last = frame;
         }
         result.rendererName = m_renderer.renderer().rendererName();
@@ -79,11 +80,11 @@ public:
     }
 
 private:
-    void draw(const SceneFrame& frame, bool isStill) {
+    void draw(const SceneFrame& frame, bool isBest) {
         render::Scene scene = m_upload.prepare(frame, m_renderer.renderer());
         const Simplification step = m_ladder.step();
         render::RenderQuality quality = render::simplified(m_interactive, step);
-        if (isStill) {
+        if (isBest) {
             quality = render::stillQuality(m_interactive, frame.width, frame.height);
         } else {
             const bool isMoving = m_last != nullptr && frame.camera != m_last->camera;

@@ -58,6 +58,7 @@ struct SceneFrame {
     int width = 1; ///< device pixels
     int height = 1;
     float pixelRatio = 1.0F;
+    bool isBest = false; ///< to be drawn as well as it can be, however long that takes
 
     bool operator==(const SceneFrame&) const = default;
 };

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "app/gui/theme/character_mark.h"
 #include "app/gui/theme/theme.h"
-#include "app/gui/viewport/captions.h"
 #include "app/gui/viewport/label_layout.h"
+#include "app/gui/viewport/labels.h"
 
 #include <QWidget>
 
@@ -17,25 +16,6 @@ class ViewportWidget;
 
 /// Lays the few choices over the picture: axes, framing, projection.
 void addViewportButtons(ViewportWidget& viewport);
-
-/// The label over one character.
-struct ViewportLabel {
-    model::CharacterKey key;
-    QPointF anchor; ///< just above its head
-    QRectF head;
-    double depth = 0; ///< of the head, metres from the eye
-    CharacterMark mark;
-    QString name;
-    PropertyValue state; ///< how it does
-    bool isSelected = false;
-};
-
-/// A few words of an overlay.
-struct ViewportText {
-    QPointF place; ///< its left end, at half its height
-    QString text;
-    QColor colour;
-};
 
 /// Drawn over the picture: labels, words of overlays, and a card of text where there is no picture to see.
 class ViewportOverlay final : public QWidget {

@@ -5,7 +5,6 @@
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/viewport/captions.h"
-#include "app/gui/viewport/floor_scale.h"
 #include "app/gui/viewport/overlays/overlays.h"
 #include "app/gui/viewport/picture_health.h"
 #include "app/gui/viewport/pose_banner.h"
@@ -25,26 +24,7 @@ namespace posewire::gui {
 
 namespace {
 
-/// Room about the segment origins for flesh, feet and the label above.
-constexpr float kMargin = 0.22F;
 constexpr double kWheelStep = 120.0;
-
-render::Bounds paddedBounds(const Figure& figure) {
-    render::Bounds bounds = figure.bounds;
-    bounds.min -= glm::vec3(kMargin, kMargin, 0.5F * kMargin);
-    bounds.max += glm::vec3(kMargin, kMargin, 1.6F * kMargin);
-    return bounds;
-}
-
-std::vector<render::Bounds> boxesOf(const SceneFrame& frame) {
-    std::vector<render::Bounds> boxes;
-    for (const Figure& figure : frame.figures) {
-        if (!figure.bounds.isEmpty()) {
-            boxes.push_back(paddedBounds(figure));
-        }
-    }
-    return boxes;
-}
 
 } // namespace
 
@@ -145,14 +125,8 @@ void ViewportWidget::drawNext() {
     frame->pixelRatio = static_cast<float>(devicePixelRatioF());
     frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
-    m_builder->build(m_axes, m_overlays, *frame);
-    m_motion.follow(boxesOf(*frame), aspect(), log::secondsOf(m_session->now() - m_followed));
+    m_look.fill(*m_builder, log::secondsOf(m_session->now() - m_followed), *frame);
     m_followed = m_session->now();
-    frame->camera = m_motion.camera();
-    sizeAxes(*frame);
-    if (m_hasScale) {
-        addFloorScale(*frame);
-    }
     m_drawingBuilt = m_session->now();
     m_isOutdated = m_builder->meshes().isBehind();
     m_drawing = frame;
@@ -175,44 +149,11 @@ void ViewportWidget::onPresented() {
     drawNext();
 }
 
-/// Nothing where the head is behind the eye.
-std::optional<ViewportLabel> ViewportWidget::labelOf(const Figure& figure) const {
-    constexpr float kAboveHead = 0.05F; // metres, and the head below that
-    constexpr float kHeadHeight = 0.3F;
-    const render::Camera& camera = m_shown->camera;
-    const glm::vec3 top = figure.labelPosition - glm::vec3(0, 0, kAboveHead);
-    const auto anchor = camera.project(figure.labelPosition, aspect());
-    const auto crown = camera.project(top, aspect());
-    const auto chin = camera.project(top - kHeadHeight * camera.up(), aspect());
-    if (!anchor || !crown || !chin) {
-        return std::nullopt;
-    }
-    ViewportLabel label;
-    label.key = figure.key;
-    label.anchor = pointerAt(*anchor, size());
-    const QPointF above = pointerAt(*crown, size());
-    const qreal height = std::abs(pointerAt(*chin, size()).y() - above.y());
-    label.head = QRectF(above.x() - 0.4 * height, above.y(), 0.8 * height, height);
-    label.depth = glm::dot(figure.labelPosition - camera.eye(), camera.forward());
-    label.mark = {QColor::fromRgbF(figure.look.colour.r, figure.look.colour.g, figure.look.colour.b),
-                  figure.key.character};
-    label.name = shown(m_session->displayName(figure.key));
-    label.state = characterHealth(*m_session, figure.key);
-    label.isSelected = m_session->isSelected(figure.key);
-    return label;
-}
-
 void ViewportWidget::updateOverlay() {
-    std::vector<ViewportLabel> labels;
-    if (m_shown != nullptr) {
-        for (const Figure& figure : m_shown->figures) {
-            if (auto label = labelOf(figure)) {
-                labels.push_back(std::move(*label));
-            }
-        }
-    }
-    m_overlay->setLabels(std::move(labels));
-    m_overlay->setTexts(textsOf(m_shown.get()));
+    const SceneFrame nothing;
+    const SceneFrame& shown = m_shown == nullptr ? nothing : *m_shown;
+    m_overlay->setLabels(labelsOf(shown, *m_session, size()));
+    m_overlay->setTexts(textsOf(shown, size()));
     updateWords();
     if (const QString problem = failure(); !problem.isEmpty()) {
         m_overlay->setCard(
@@ -253,25 +194,6 @@ void ViewportWidget::updateCard() {
                              : std::nullopt);
 }
 
-/// The nearest first, numbers of the floor last.
-std::vector<ViewportText> ViewportWidget::textsOf(const SceneFrame* frame) const {
-    std::vector<std::pair<std::pair<bool, float>, ViewportText>> all;
-    if (frame != nullptr) {
-        for (const SceneText& text : frame->texts) {
-            if (const auto place = frame->camera.project(text.position, aspect())) {
-                const float depth = glm::dot(text.position - frame->camera.eye(), frame->camera.forward());
-                all.push_back({{text.isScale, depth}, {pointerAt(*place, size()), text.text, text.colour}});
-            }
-        }
-    }
-    std::ranges::stable_sort(all, {}, [](const auto& one) { return one.first; });
-    std::vector<ViewportText> texts;
-    for (auto& [order, text] : all) {
-        texts.push_back(std::move(text));
-    }
-    return texts;
-}
-
 PictureHealth ViewportWidget::pictureHealth() const {
     return m_hasPicture ? pictureHealthOf(m_presenter->load(), m_hardwareFailure) : PictureHealth{};
 }
@@ -287,31 +209,31 @@ float ViewportWidget::aspect() const {
 }
 
 void ViewportWidget::setAxes(AxesMode mode) {
-    m_axes = mode;
+    m_look.axes = mode;
     refresh();
     emit optionsChanged();
 }
 
 void ViewportWidget::toggle(Overlay overlay) {
-    m_overlays.toggle(overlay);
+    m_look.overlays.toggle(overlay);
     refresh();
     emit optionsChanged();
 }
 
 void ViewportWidget::toggleProjection() {
-    m_motion.setProjection(projection() == render::Projection::Perspective ? render::Projection::Orthographic
+    m_look.motion.setProjection(projection() == render::Projection::Perspective ? render::Projection::Orthographic
                                                                            : render::Projection::Perspective);
     refresh();
     emit optionsChanged();
 }
 
 void ViewportWidget::face(render::StandardView view) {
-    m_motion.face(view);
+    m_look.motion.face(view);
     const auto key = shownCharacter(*m_session);
     const model::CharacterPose* pose = key ? m_session->pose(*key) : nullptr;
     if (m_hasRelativeViews && pose != nullptr && !pose->isObjects && pose->isPresent(render::Pelvis)) {
         const Eigen::Vector3d ahead = pose->segments[render::Pelvis].orientation * Eigen::Vector3d::UnitX();
-        m_motion.turn(static_cast<float>(std::atan2(ahead.y(), ahead.x())));
+        m_look.motion.turn(static_cast<float>(std::atan2(ahead.y(), ahead.x())));
     }
     refresh();
 }
@@ -322,7 +244,7 @@ void ViewportWidget::toggleRelativeViews() {
 }
 
 void ViewportWidget::toggleScale() {
-    m_hasScale = !m_hasScale;
+    m_look.hasScale = !m_look.hasScale;
     refresh();
     emit optionsChanged();
 }
@@ -335,7 +257,7 @@ void ViewportWidget::toggleCard() {
 
 void ViewportWidget::showKeptView(int index) {
     if (isKept(index)) {
-        gui::restore(m_motion, m_keptViews[static_cast<std::size_t>(index)]);
+        gui::restore(m_look.motion, m_keptViews[static_cast<std::size_t>(index)]);
         refresh();
         emit optionsChanged();
     }
@@ -344,7 +266,7 @@ void ViewportWidget::showKeptView(int index) {
 QJsonObject ViewportWidget::state() const {
     QJsonArray on;
     for (const OverlayEntry& entry : kOverlayTable) {
-        if (m_overlays.has(entry.overlay)) {
+        if (m_look.overlays.has(entry.overlay)) {
             on.append(QLatin1String(entry.key));
         }
     }
@@ -352,38 +274,38 @@ QJsonObject ViewportWidget::state() const {
     for (const QJsonObject& view : m_keptViews) {
         views.append(view);
     }
-    return {{"camera", stateOf(m_motion)},
-            {"axes", static_cast<int>(m_axes)},
+    return {{"camera", stateOf(m_look.motion)},
+            {"axes", static_cast<int>(m_look.axes)},
             {"overlays", on},
-            {"scale", m_hasScale},
+            {"scale", m_look.hasScale},
             {"segmentCard", m_hasCard},
             {"relativeViews", m_hasRelativeViews},
             {"views", views}};
 }
 
 void ViewportWidget::restoreState(const QJsonObject& state) {
-    gui::restore(m_motion, state["camera"].toObject());
-    const int axes = state["axes"].toInt(static_cast<int>(m_axes));
-    m_overlays = {};
+    gui::restore(m_look.motion, state["camera"].toObject());
+    const int axes = state["axes"].toInt(static_cast<int>(m_look.axes));
+    m_look.overlays = {};
     for (const OverlayEntry& entry : kOverlayTable) {
         if (state["overlays"].toArray().contains(QLatin1String(entry.key))) {
-            m_overlays.toggle(entry.overlay);
+            m_look.overlays.toggle(entry.overlay);
         }
     }
-    m_hasScale = state["scale"].toBool(true);
+    m_look.hasScale = state["scale"].toBool(true);
     m_hasCard = state["segmentCard"].toBool(true);
     m_hasRelativeViews = state["relativeViews"].toBool(true);
     for (int i = 0; i < kKeptViews; ++i) {
         m_keptViews[static_cast<std::size_t>(i)] = state["views"].toArray().at(i).toObject();
     }
-    m_axes = static_cast<AxesMode>(std::clamp(axes, 0, static_cast<int>(AxesMode::None)));
+    m_look.axes = static_cast<AxesMode>(std::clamp(axes, 0, static_cast<int>(AxesMode::None)));
     refresh();
     emit optionsChanged();
 }
 
 void ViewportWidget::frameAll() {
     if (m_shown != nullptr) {
-        m_motion.frame(boxesOf(*m_shown), aspect());
+        m_look.motion.frame(boxesOf(*m_shown), aspect());
         refresh();
     }
 }
@@ -394,7 +316,7 @@ void ViewportWidget::frameCharacter(const model::CharacterKey& key) {
     }
     for (const Figure& figure : m_shown->figures) {
         if (figure.key == key && !figure.bounds.isEmpty()) {
-            m_motion.show(paddedBounds(figure), aspect());
+            m_look.motion.show(paddedBounds(figure), aspect());
             refresh();
         }
     }
@@ -446,9 +368,9 @@ void ViewportWidget::mouseMoveEvent(QMouseEvent* event) {
         event->buttons().testFlag(Qt::MiddleButton) ||
         (event->buttons().testFlag(Qt::LeftButton) && event->modifiers().testFlag(Qt::ShiftModifier));
     if (isPan) {
-        m_motion.pan(movement, size());
+        m_look.motion.pan(movement, size());
     } else if (event->buttons().testFlag(Qt::LeftButton)) {
-        m_motion.orbit(movement);
+        m_look.motion.orbit(movement);
     }
     refresh();
 }
@@ -471,7 +393,7 @@ void ViewportWidget::mouseDoubleClickEvent(QMouseEvent* event) {
 }
 
 void ViewportWidget::wheelEvent(QWheelEvent* event) {
-    m_motion.zoom(event->angleDelta().y() / kWheelStep, event->position(), size());
+    m_look.motion.zoom(event->angleDelta().y() / kWheelStep, event->position(), size());
     event->accept();
     refresh();
 }

@@ -3,11 +3,10 @@
 
 #include "app/gui/commands.h"
 #include "app/gui/program_view.h"
-#include "app/gui/viewport/camera_motion.h"
 #include "app/gui/viewport/camera_state.h"
 #include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/presenter.h"
-#include "app/gui/viewport/scene.h"
+#include "app/gui/viewport/view_look.h"
 #include "core/log/time.h"
 
 #include <QJsonObject>
@@ -22,8 +21,6 @@ namespace posewire::gui {
 class PoseBanner;
 class SegmentCard;
 class ViewportOverlay;
-struct ViewportLabel;
-struct ViewportText;
 
 /// The characters in space: builds a picture whenever the session has moved and the presenter is ready for
 /// the next.
@@ -47,29 +44,30 @@ public:
     void setReceiving(const ReceivingState& receiving);
 
     void setAxes(AxesMode mode);
-    [[nodiscard]] AxesMode axes() const { return m_axes; }
+    [[nodiscard]] AxesMode axes() const { return m_look.axes; }
     void toggle(Overlay overlay);
-    [[nodiscard]] bool isOn(Overlay overlay) const { return m_overlays.has(overlay); }
+    [[nodiscard]] bool isOn(Overlay overlay) const { return m_look.overlays.has(overlay); }
     void toggleProjection();
-    [[nodiscard]] render::Projection projection() const { return m_motion.camera().projection; }
+    [[nodiscard]] render::Projection projection() const { return m_look.motion.camera().projection; }
     /// Of the shown character where views are relative to the pelvis, else of the world.
     void face(render::StandardView view);
     void toggleRelativeViews();
     [[nodiscard]] bool hasRelativeViews() const { return m_hasRelativeViews; }
     /// Metres on the floor.
     void toggleScale();
-    [[nodiscard]] bool hasScale() const { return m_hasScale; }
+    [[nodiscard]] bool hasScale() const { return m_look.hasScale; }
     /// The values of the segment under the pointer, else of the selected one.
     void toggleCard();
     [[nodiscard]] bool hasCard() const { return m_hasCard; }
     /// Keeps how the camera looks now as one of kKeptViews views; or looks like that again, and nothing where
     /// none was kept.
     static constexpr int kKeptViews = 4;
-    void keepView(int index) { m_keptViews[static_cast<std::size_t>(index)] = stateOf(m_motion); }
+    void keepView(int index) { m_keptViews[static_cast<std::size_t>(index)] = stateOf(m_look.motion); }
     void showKeptView(int index);
     [[nodiscard]] bool isKept(int index) const {
         return !m_keptViews[static_cast<std::size_t>(index)].isEmpty();
     }
+    [[nodiscard]] const ViewLook& look() const { return m_look; }
     /// Camera, axes and overlays, as they are kept from one run to the next.
     [[nodiscard]] QJsonObject state() const;
     void restoreState(const QJsonObject& state);
@@ -119,10 +117,8 @@ private:
     void drawNext();
     void onPresented();
     void updateOverlay();
-    [[nodiscard]] std::optional<ViewportLabel> labelOf(const Figure& figure) const;
     void updateWords();
     void updateCard();
-    [[nodiscard]] std::vector<ViewportText> textsOf(const SceneFrame* frame) const;
     [[nodiscard]] std::optional<PickedSegment> pickAt(const QPointF& pointer) const;
     [[nodiscard]] float aspect() const;
 
@@ -131,11 +127,8 @@ private:
     Commands& m_commands;
     bool m_isHardware = false;
     QString m_hardwareFailure; ///< why the processor draws after all; empty where it does not
-    AxesMode m_axes = AxesMode::Selected;
-    Overlays m_overlays;
-    CameraMotion m_motion;
+    ViewLook m_look;
     bool m_hasRelativeViews = true;
-    bool m_hasScale = true;
     bool m_hasCard = true;
     std::array<QJsonObject, kKeptViews> m_keptViews; ///< as by stateOf(); empty where none was kept
     std::unique_ptr<SceneBuilder> m_builder;

@@ -64,6 +64,7 @@ public:
     void editHistory();
     void showReplay();
     void exportMotion();
+    void exportPictures();
     /// What was received by a run that did not end well, to be opened or saved.
     void showRecovered();
     /// The same where there is any.

@@ -163,6 +163,8 @@ const ActionInfo kActions[] = {
     {"saveReport", "&File", QT_TRANSLATE_NOOP("Action", "Save stream &report…"), "", Do::call<saveReport>},
     {"exportMotion", "&File", QT_TRANSLATE_NOOP("Action", "Export &motion…"), "",
      Do::call<&Window::exportMotion>},
+    {"exportPictures", "&File", QT_TRANSLATE_NOOP("Action", "Export pict&ures…"), "",
+     Do::call<&Window::exportPictures>},
     panelsIn("&File"),
     lineIn("&File"),
     {"record", "&File", QT_TRANSLATE_NOOP("Action", "Reco&rd"), "R", Do::call<&Window::toggleRecording>,

@@ -3,6 +3,7 @@
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/motion_export_dialog.h"
+#include "app/gui/window/pictures_dialog.h"
 #include "app/gui/window/recording_dialog.h"
 #include "app/gui/window/recovery_dialog.h"
 #include "app/gui/window/replay_dialog.h"
@@ -77,6 +78,14 @@ void MainWindow::exportMotion() {
         return;
     }
     MotionExportDialog(m_driver.session(), this).exec(); // the file stays open meanwhile
+}
+
+void MainWindow::exportPictures() {
+    if (m_driver.session().charactersNow().empty()) {
+        say(tr("There is nothing to draw: no character has arrived yet."));
+        return;
+    }
+    PicturesDialog(m_driver, *m_viewport, this).exec();
 }
 
 void MainWindow::showRecovered() {
