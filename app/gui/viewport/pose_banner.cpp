@@ -110,8 +110,12 @@ PoseBanner::PoseBanner(Commands& commands, QWidget* parent)
     hide();
 }
 
-void PoseBanner::refresh(const model::SessionView& session) {
-    std::vector<PoseNote> notes = poseNotes(session, kMost);
+void PoseBanner::refresh(const model::SessionView& session, bool isInterpolated) {
+    std::vector<PoseNote> notes = poseNotes(session, isInterpolated ? kMost - 1 : kMost);
+    if (isInterpolated) {
+        notes.push_back(
+            {Health::Unknown, tr("Interpolated between samples: bodies are shown up to one sample late")});
+    }
     std::vector<model::CharacterKey> below;
     for (const model::Character* character : session.currentCharacters()) {
         const model::CharacterPose* pose = session.pose(character->key);

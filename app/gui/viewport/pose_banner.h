@@ -36,7 +36,8 @@ public:
 
     PoseBanner(Commands& commands, QWidget* parent);
 
-    void refresh(const model::SessionView& session);
+    /// `isInterpolated`: between samples bodies are shown where none was sent.
+    void refresh(const model::SessionView& session, bool isInterpolated = false);
     /// Into the lower left corner of a viewport of that size.
     void place(const QSize& viewport);
     [[nodiscard]] const std::vector<PoseNote>& notes() const { return m_notes; }

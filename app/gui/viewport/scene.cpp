@@ -157,17 +157,34 @@ std::shared_ptr<const FigureMesh> SceneBuilder::meshOf(const model::CharacterKey
                                : m_meshes.of(performer, fingerOriginsOf(*nullPose, origins));
 }
 
+bool SceneBuilder::isUnderWay() const {
+    return std::ranges::any_of(m_motions, [](const auto& one) { return one.second.isUnderWay(); });
+}
+
+const model::CharacterPose* SceneBuilder::poseOf(const model::CharacterKey& key) {
+    const model::CharacterPose* pose = m_session.isHidden(key) ? nullptr : m_session.pose(key);
+    const bool isFollowing = m_session.cursor().mode == model::Cursor::Mode::Following;
+    if (pose == nullptr || !m_isInterpolating || !isFollowing || m_session.isRecording()) {
+        m_motions.erase(key);
+        return pose;
+    }
+    return &m_motions[key].at(*pose, m_session.now());
+}
+
 void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& frame) {
     frame.colours = themedSceneColours();
     m_meshes.beginPicture();
     const model::Selection& selection = m_session.selection();
     const std::vector<const model::Character*> characters = m_session.currentCharacters();
+    std::erase_if(m_motions, [&characters](const auto& motion) {
+        return std::ranges::none_of(
+            characters, [&motion](const model::Character* one) { return one->key == motion.first; });
+    });
     const bool isOneSelected = std::ranges::any_of(
         characters, [this](const model::Character* one) { return m_session.isSelected(one->key); });
     for (const model::Character* shown : characters) {
         const model::Character& character = *shown;
-        const model::CharacterPose* pose =
-            m_session.isHidden(character.key) ? nullptr : m_session.pose(character.key);
+        const model::CharacterPose* pose = poseOf(character.key);
         if (pose == nullptr) {
             continue;
         }

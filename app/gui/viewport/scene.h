@@ -5,6 +5,7 @@
 #include "app/gui/viewport/overlays/choice.h"
 #include "core/log/time.h"
 #include "core/model/body/character_pose.h"
+#include "core/model/body/pose_interpolation.h"
 #include "core/model/keys.h"
 #include "core/model/session/session_view.h"
 #include "render/renderer.h"
@@ -101,6 +102,10 @@ public:
     /// Fills figures, axes, lines, points, texts and colours; camera and size are the caller's. Hidden
     /// characters are left out. Overlays are drawn of the selected character, of all where none is selected.
     void build(AxesMode axes, const Overlays& overlays, SceneFrame& frame);
+    /// Bodies glide from sample to sample while what is received is followed.
+    void setInterpolating(bool isInterpolating) { m_isInterpolating = isInterpolating; }
+    /// Whether the same poses would be shown elsewhere a little later.
+    [[nodiscard]] bool isUnderWay() const;
     /// Of the bodies in the scenes.
     [[nodiscard]] const BodyMeshes& meshes() const { return m_meshes; }
 
@@ -115,8 +120,13 @@ private:
     void addAxes(const model::CharacterPose& pose, int selectedSegment, float strength,
                  SceneFrame& frame) const;
 
+    /// The pose at the cursor, or on the way to it.
+    [[nodiscard]] const model::CharacterPose* poseOf(const model::CharacterKey& key);
+
     model::SessionView& m_session;
     BodyMeshes m_meshes;
+    bool m_isInterpolating = false;
+    std::map<model::CharacterKey, model::PoseInterpolation> m_motions; ///< of characters in the last frame
 };
 
 } // namespace posewire::gui

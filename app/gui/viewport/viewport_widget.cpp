@@ -42,6 +42,10 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
         m_hovered = pickAt(m_pointer);
         updateCard();
     });
+    constexpr int kGlide = 12; // milliseconds: faster than displays would show it
+    m_glideTimer.setSingleShot(true);
+    m_glideTimer.setInterval(kGlide);
+    connect(&m_glideTimer, &QTimer::timeout, this, &ViewportWidget::refresh);
     setMouseTracking(true);
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Characters in space"));
@@ -125,10 +129,14 @@ void ViewportWidget::drawNext() {
     frame->pixelRatio = static_cast<float>(devicePixelRatioF());
     frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
+    m_builder->setInterpolating(m_isInterpolating);
     m_look.fill(*m_builder, log::secondsOf(m_session->now() - m_followed), *frame);
     m_followed = m_session->now();
     m_drawingBuilt = m_session->now();
     m_isOutdated = m_builder->meshes().isBehind();
+    if (m_builder->isUnderWay()) {
+        m_glideTimer.start();
+    }
     m_drawing = frame;
     m_presenter->present(std::move(frame));
 }
@@ -175,7 +183,7 @@ void ViewportWidget::updateWords() {
     if (isAsked || !isFollowing || now >= m_wordsStamp + kEvery || now < m_wordsStamp) {
         m_wordsStamp = now;
         m_wordsSelection = m_session->selection();
-        m_banner->refresh(*m_session);
+        m_banner->refresh(*m_session, m_isInterpolating);
         updateCard();
     }
 }
@@ -221,8 +229,9 @@ void ViewportWidget::toggle(Overlay overlay) {
 }
 
 void ViewportWidget::toggleProjection() {
-    m_look.motion.setProjection(projection() == render::Projection::Perspective ? render::Projection::Orthographic
-                                                                           : render::Projection::Perspective);
+    m_look.motion.setProjection(projection() == render::Projection::Perspective
+                                    ? render::Projection::Orthographic
+                                    : render::Projection::Perspective);
     refresh();
     emit optionsChanged();
 }
@@ -240,6 +249,12 @@ void ViewportWidget::face(render::StandardView view) {
 
 void ViewportWidget::toggleRelativeViews() {
     m_hasRelativeViews = !m_hasRelativeViews;
+    emit optionsChanged();
+}
+
+void ViewportWidget::toggleInterpolation() {
+    m_isInterpolating = !m_isInterpolating;
+    refresh();
     emit optionsChanged();
 }
 
@@ -278,6 +293,7 @@ QJsonObject ViewportWidget::state() const {
             {"axes", static_cast<int>(m_look.axes)},
             {"overlays", on},
             {"scale", m_look.hasScale},
+            {"interpolation", m_isInterpolating},
             {"segmentCard", m_hasCard},
             {"relativeViews", m_hasRelativeViews},
             {"views", views}};
@@ -294,6 +310,7 @@ void ViewportWidget::restoreState(const QJsonObject& state) {
     }
     m_look.hasScale = state["scale"].toBool(true);
     m_hasCard = state["segmentCard"].toBool(true);
+    m_isInterpolating = state["interpolation"].toBool(false);
     m_hasRelativeViews = state["relativeViews"].toBool(true);
     for (int i = 0; i < kKeptViews; ++i) {
         m_keptViews[static_cast<std::size_t>(i)] = state["views"].toArray().at(i).toObject();

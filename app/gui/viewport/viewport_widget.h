@@ -53,6 +53,9 @@ public:
     void face(render::StandardView view);
     void toggleRelativeViews();
     [[nodiscard]] bool hasRelativeViews() const { return m_hasRelativeViews; }
+    /// Bodies glide from sample to sample, and a note says so.
+    void toggleInterpolation();
+    [[nodiscard]] bool isInterpolating() const { return m_isInterpolating; }
     /// Metres on the floor.
     void toggleScale();
     [[nodiscard]] bool hasScale() const { return m_look.hasScale; }
@@ -129,6 +132,8 @@ private:
     QString m_hardwareFailure; ///< why the processor draws after all; empty where it does not
     ViewLook m_look;
     bool m_hasRelativeViews = true;
+    bool m_isInterpolating = false;
+    QTimer m_glideTimer; ///< until the next picture of bodies on their way
     bool m_hasCard = true;
     std::array<QJsonObject, kKeptViews> m_keptViews; ///< as by stateOf(); empty where none was kept
     std::unique_ptr<SceneBuilder> m_builder;
