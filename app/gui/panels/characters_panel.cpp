@@ -217,6 +217,9 @@ void CharactersPanel::refresh() {
     // Beside the columns that it is about.
     const bool hasLosses = !m_table->isColumnHidden(CharacterModel::kLostOnNetwork);
     QString span = hasLosses ? tr("lost: %1").arg(boardSpanText(m_view)) : QString();
+    if (hasLosses && m_span->fontMetrics().horizontalAdvance(span) > m_span->width()) {
+        span = boardSpanText(m_view); // the columns say of what
+    }
     if (unproven.characters != 0) {
         span.prepend(tr("%1 unconfirmed").arg(grouped(unproven.characters)) +
                      (hasLosses ? QStringLiteral(" · ") : QString()));
