@@ -139,6 +139,9 @@ void IncidentFollower::noteSampled(const log::Packet& packet, const wire::Header
         stream.excusedUntil = {};
         excuse(stream.key, packet.stamp);
     }
+    if (character.outage == 0) { // whether or not anybody looked meanwhile
+        checkSilence(key, character, packet.stamp);
+    }
     if (character.outage != 0) {
         resume(key, character, packet.stamp);
     } else if (character.lastSampled == log::Stamp()) { // its first sample, or nobody took over after all
@@ -410,15 +413,23 @@ void IncidentFollower::endFile() {
     }
 }
 
+/// Whether more time has passed without a sample than its streams ever leave.
+void IncidentFollower::checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp) {
+    const log::Duration silent =
+        character.lastSampled == log::Stamp() ? kNone : stamp - character.lastSampled;
+    if (silent > kSilent && silent > patienceWith(character.streams, kSilent, 3)) {
+        fallSilent(key, character, stamp);
+    }
+}
+
 void IncidentFollower::check(log::Stamp stamp) {
     m_incidents.advance(stamp);
     for (auto& [key, character] : m_characters) {
         const log::Duration silent =
             character.lastSampled == log::Stamp() ? kNone : stamp - character.lastSampled;
-        if (character.outage == 0 && silent > kSilent &&
-            silent > patienceWith(character.streams, kSilent, 3)) {
-            fallSilent(key, character, stamp);
-        } else if (character.outage != 0 && silent > kLong && !std::exchange(character.isLong, true)) {
+        if (character.outage == 0) {
+            checkSilence(key, character, stamp);
+        } else if (silent > kLong && !std::exchange(character.isLong, true)) {
             Occurrence one =
                 Occurrence::at(IncidentKind::Outage, key.sender, character.lastSampled, character.lastPacket);
             one.character = key.character;

@@ -100,6 +100,7 @@ private:
     };
     void tellClockSets(log::Stamp until);
     void check(log::Stamp stamp);
+    void checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp);
     void checkEnded(log::Stamp stamp);
     void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
     void resume(const CharacterKey& key, Character& character, log::Stamp stamp);

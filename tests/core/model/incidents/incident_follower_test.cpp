@@ -40,6 +40,22 @@ TEST_F(IncidentBounds, ASenderIsSilentAfterAFifthOfASecond) {
     EXPECT_EQ(outages[0].severity(), IncidentSeverity::Error);
 }
 
+TEST_F(IncidentBounds, EverySilenceCountsWhoeverLooked) {
+    constexpr std::uint64_t silences = 12;
+    std::uint32_t sample = 1;
+    for (std::uint64_t i = 0; i < silences; ++i, sample += 40) {
+        poses(sample, sample + 39);
+        m_at += 193ms + i * 1ms; // of 203 to 214 ms, at any place between two looks
+    }
+    poses(sample, sample + 39);
+    follow();
+    std::uint64_t count = 0;
+    for (const auto& outage : of(IncidentKind::Outage)) {
+        count += outage.count;
+    }
+    EXPECT_EQ(count, silences);
+}
+
 TEST_F(IncidentBounds, ASlowSenderHasThreeOfItsSamples) {
     for (std::uint32_t sample = 1; sample <= 20; ++sample, m_at += 500ms) {
         pose(sample);
