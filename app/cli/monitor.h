@@ -100,6 +100,9 @@ public:
     /// Nobody wants more: Ctrl+C, or the reader of the table has gone and nothing is recorded.
     [[nodiscard]] bool isOver() const;
 
+    /// What a recording of this says about how it was received.
+    [[nodiscard]] log::Reception receptionOf(const exporting::MonitorFacts& facts) const;
+
     /// Says how much was recorded, and if not all of it was, how much that is.
     void tellRecorded(const log::RecordingFigures& recorded, bool hasFailed);
 

@@ -77,7 +77,9 @@ Command addMonitorCommand(CommandLine& program) {
              "write a report there as HTML: what was received, what not, and whose fault it was")
         .form("FILE");
     arguments.force(options->replaces);
-    arguments.verbose(options->isVerbose, "where it listens, and of each sender when it is first heard");
+    arguments.verbose(
+        options->isVerbose,
+        "where it listens, of each sender when it is first heard, and in the JSON what is kept in memory");
     addLimits(arguments, options->limits);
     return {"monitor", [options](Console& console) {
                 options->isQuiet = options->record == "-";

@@ -33,6 +33,7 @@ public:
             return;
         }
         m_last = std::max(m_last.value_or(stamp), stamp);
+        m_newest = stamp;
         auto& log = m_run.log();
         const log::SenderId sender =
             log.senders().intern(record.sender.value_or(log::SenderInfo{m_name, log::Transport::File, 0}));
@@ -56,9 +57,31 @@ public:
         m_run.show({.durationS = durationS()}, m_last.value_or(log::Stamp()));
     }
 
-    /// The latest stamp.
+    /// How the recording was received, where it says so and all of it was read.
+    void takeReception(const log::Reception& reception) {
+        if (!m_isDone) {
+            m_reception = reception;
+        }
+    }
+    /// All of it is there.
+    void end() {
+        if (m_last && m_reception) {
+            m_last = std::max(*m_last, m_newest + m_reception->afterLast);
+        }
+        flush();
+    }
+
+    /// The latest stamp, in the end when nothing more was received.
     [[nodiscard]] std::optional<log::Stamp> last() const { return m_last; }
-    [[nodiscard]] double durationS() const { return m_last ? log::secondsOf(*m_last - *m_first) : 0.0; }
+    [[nodiscard]] double durationS() const {
+        const log::Duration time = m_reception ? m_reception->time
+                                   : m_last    ? *m_last - *m_first
+                                               : log::Duration::zero();
+        return log::secondsOf(time);
+    }
+    [[nodiscard]] std::int64_t receiveBufferBytes() const {
+        return m_reception ? static_cast<std::int64_t>(m_reception->receiveBufferBytes) : 0;
+    }
     /// Nothing more is looked at.
     [[nodiscard]] bool isDone() const { return m_isDone; }
     [[nodiscard]] const log::Recorder::Result& recorded() const { return m_recorded; }
@@ -74,9 +97,11 @@ private:
     const log::Duration m_longest;
     DatagramPacer m_pacer{1.0 / 240, 1.0};
     std::size_t m_waiting = 0;
+    log::Stamp m_newest{}; ///< of the packet that came last
     log::Stamp m_flushed{};
     std::optional<log::Stamp> m_first;
     std::optional<log::Stamp> m_last;
+    std::optional<log::Reception> m_reception;
     bool m_isDone = false;
     log::Recorder::Result m_recorded;
 };
@@ -109,8 +134,10 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     }
     Replay replay(options, run, recorder);
     reading = &replay;
-    const auto read = log::readFile(**file, std::ref(replay));
-    replay.flush();
+    const auto read = log::readFile(**file, std::ref(replay), [&replay](const log::Reception& reception) {
+        replay.takeReception(reception);
+    });
+    replay.end();
     log::Recorder::Result recorded = replay.recorded();
     if (recorder && recorded) {
         recorded = recorder->finish();
@@ -124,6 +151,7 @@ ExitStatus monitorFile(const MonitorOptions& options, Console& console) {
     }
     exporting::MonitorFacts facts;
     facts.durationS = replay.durationS();
+    facts.receiveBufferBytes = replay.receiveBufferBytes();
     return run.conclude(facts, status, replay.last());
 }
 

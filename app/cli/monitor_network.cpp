@@ -94,9 +94,9 @@ public:
         }
     }
     [[nodiscard]] bool hasFailed() const { return m_status != ExitStatus::Fine; }
-    ExitStatus stop() {
+    ExitStatus stop(const log::Reception& reception) {
         if (m_recording && m_status == ExitStatus::Fine) {
-            note(finish());
+            note(finish(reception));
         }
         if (m_recording) {
             const log::RecordingFigures recorded = m_recording->figures();
@@ -108,9 +108,10 @@ public:
 
 private:
     /// A slow disk may take its time for what it has still to get. Why the file is not whole, if it is not.
-    std::optional<log::FileError> finish() {
+    std::optional<log::FileError> finish(const log::Reception& reception) {
         constexpr std::chrono::seconds kPatience(1);
-        auto stopped = std::async(std::launch::async, [this] { return m_recording->stop(); });
+        auto stopped = std::async(std::launch::async,
+                                  [&] { return m_recording->stop({log::receptionText(reception)}); });
         if (stopped.wait_for(kPatience) != std::future_status::ready) {
             m_console.complain("the recording is still being written; Ctrl+C again gives up the rest of it");
         }
@@ -298,7 +299,8 @@ ExitStatus monitorNetwork(const MonitorOptions& options, Console& console) {
     inputs.end();
     receiver.reset(); // what is in the sockets still comes into the log
     run.follow(run.log().timeline().now(clock));
-    return run.conclude(facts, recordingWatch.stop(), end);
+    const ExitStatus recorded = recordingWatch.stop(run.receptionOf(facts));
+    return run.conclude(facts, recorded, end);
 }
 
 } // namespace posewire::cli

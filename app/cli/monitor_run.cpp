@@ -5,6 +5,7 @@
 #include "core/export/html.h"
 #include "core/export/reports.h"
 #include "core/export/session_reading.h"
+#include "core/log/log_reader.h"
 #include "core/wire/type_table.h"
 
 #include <QString>
@@ -181,6 +182,14 @@ ExitStatus MonitorRun::finishTable(const exporting::MonitorFacts& facts) {
     return failure.empty() ? ExitStatus::Fine : m_console.unusable(failure);
 }
 
+log::Reception MonitorRun::receptionOf(const exporting::MonitorFacts& facts) const {
+    log::LogReader reader(m_log);
+    const auto last = reader.end() != 0 ? reader.packet(reader.end() - 1) : std::nullopt;
+    return {log::durationOf(facts.durationS),
+            last ? std::max(m_session.now() - last->stamp, log::Duration::zero()) : log::Duration::zero(),
+            static_cast<std::uint64_t>(facts.receiveBufferBytes)};
+}
+
 void MonitorRun::tellRecorded(const log::RecordingFigures& recorded, bool hasFailed) {
     const std::string packets =
         std::to_string(recorded.packets) + (recorded.packets == 1 ? " packet" : " packets");
@@ -205,6 +214,7 @@ ExitStatus MonitorRun::conclude(exporting::MonitorFacts facts, ExitStatus status
     // Nobody may read standard output: all else comes before.
     const ExitStatus reported = m_options.report.empty() ? ExitStatus::Fine : writeReport(facts);
     if (m_options.asJson) {
+        facts.hasMemory = m_options.isVerbose;
         m_console.out.write(exporting::monitorReport(m_session, facts) + '\n');
     }
     status = worse(status, worse(reported, finishTable(facts)));

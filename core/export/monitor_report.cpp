@@ -114,7 +114,7 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                       {"firstBytes", sender.foreignText()}});
         }
     }
-    const JsonValue report{{"durationS", rounded(facts.durationS, 3)},
+    JsonValue report{{"durationS", rounded(facts.durationS, 3)},
                            {"local", JsonValue{{"kernelDropped", all.kernelDrops},
                                                {"receiveBufferBytes", facts.receiveBufferBytes},
                                                {"overtaken", session.overtaken()},
@@ -128,10 +128,12 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
                                                  {"malformed", retired.malformed},
                                                  {"samples", retired.samples},
                                                  {"lost", retired.lost}}},
-                           {"memory", memoryJson(session.memory())},
                            {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
                            {"verdict", verdictJson(session, verdicts.all)},
                            {"incidents", incidentsJson(session)}};
+    if (facts.hasMemory) {
+        report["memory"] = memoryJson(session.memory());
+    }
     return report.text();
 }
 

@@ -17,6 +17,7 @@ struct MonitorFacts {
     std::int64_t receiveBufferBytes = 0; ///< the smallest that a socket was granted; 0 without any
     std::vector<std::string> exceeded{}; ///< one line for each limit that was not kept
     std::uint64_t refusedDatagrams = 0;  ///< from those who are not listened to
+    bool hasMemory = false;              ///< what is kept, too, which no two runs have in common
 };
 
 /// One JSON object without a newline: every sender with its characters, their streams and all their figures.

@@ -28,6 +28,10 @@ constexpr std::array<std::pair<bool PacketFlags::*, std::string_view>, 3> kFlags
 constexpr std::string_view kStampedOnReading = "; stamped on reading";
 constexpr std::string_view kClockSet = "; clock set by ";
 constexpr std::string_view kFrom = "; from ";
+constexpr std::string_view kReceivedFor = "received for ";
+constexpr std::string_view kTheLast = ", the last ";
+constexpr std::string_view kReceiveBuffer = " without a packet; receive buffer ";
+constexpr std::string_view kBytes = " bytes";
 
 bool takes(std::string_view& text, std::string_view prefix) {
     const bool isThere = text.starts_with(prefix);
@@ -215,6 +219,33 @@ std::optional<RecordedOrigin> parseOrigin(std::string_view comment) {
         comment = {};
     }
     return comment.empty() ? std::optional(origin) : std::nullopt;
+}
+
+std::string receptionText(const Reception& reception) {
+    std::string text(kSignature);
+    text.append(kReceivedFor).append(secondsText(reception.time));
+    text.append(kTheLast).append(secondsText(reception.afterLast));
+    return text.append(kReceiveBuffer).append(std::to_string(reception.receiveBufferBytes)).append(kBytes);
+}
+
+std::optional<Reception> parseReception(std::string_view note) {
+    Reception reception;
+    if (!takes(note, kSignature) || !takes(note, kReceivedFor)) {
+        return std::nullopt;
+    }
+    const auto time = takeSeconds(note);
+    const auto afterLast = takes(note, kTheLast) ? takeSeconds(note) : std::nullopt;
+    if (!time || !afterLast || !takes(note, kReceiveBuffer)) {
+        return std::nullopt;
+    }
+    const auto bytes = std::from_chars(note.data(), note.data() + note.size(), reception.receiveBufferBytes);
+    note.remove_prefix(static_cast<std::size_t>(bytes.ptr - note.data()));
+    if (bytes.ec != std::errc() || note != kBytes) {
+        return std::nullopt;
+    }
+    reception.time = *time;
+    reception.afterLast = *afterLast;
+    return reception;
 }
 
 PcapngWriter::Result PcapngWriter::begin(const RecordingInfo& info) {

@@ -62,6 +62,22 @@ struct RecordedOrigin {
 /// The inverse; nothing where somebody else wrote the comment.
 [[nodiscard]] std::optional<RecordedOrigin> parseOrigin(std::string_view comment);
 
+/// What a recording says at its end about how it was received, so that a report on it is the one that was
+/// made then. In a note of the recording, in words: "Posewire: received for 12.031000000 s, the last
+/// 1.700000000 s without a packet; receive buffer 4194304 bytes".
+struct Reception {
+    Duration time{};
+    Duration afterLast{};                 ///< the part of it after the last packet
+    std::uint64_t receiveBufferBytes = 0; ///< 0 without a socket
+
+    friend bool operator==(const Reception&, const Reception&) = default;
+};
+
+[[nodiscard]] std::string receptionText(const Reception& reception);
+
+/// The inverse; nothing where somebody else wrote the note.
+[[nodiscard]] std::optional<Reception> parseReception(std::string_view note);
+
 /// What a recording says about itself; what is empty is left out.
 struct RecordingInfo {
     std::string hardware;

@@ -164,6 +164,10 @@ private:
     std::optional<RecordedOrigin> m_origin;
 };
 
+std::string_view textOf(Bytes bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 struct Interface {
     std::uint32_t linkType = 0;
     std::uint32_t snapLength = 0; ///< the most bytes captured of a packet; 0 for all
@@ -209,8 +213,9 @@ std::optional<WallTime> timeOf(std::uint64_t stamp, const Interface& interface) 
 
 class PcapngReader {
 public:
-    PcapngReader(PieceReader& reader, Reassembly& reassembly, FrameNotes& notes)
-        : m_reader(reader), m_reassembly(reassembly), m_notes(notes) {}
+    PcapngReader(PieceReader& reader, Reassembly& reassembly, FrameNotes& notes,
+                 const ReceptionVisitor& visitReception)
+        : m_reader(reader), m_reassembly(reassembly), m_notes(notes), m_visitReception(visitReception) {}
 
     /// The first four bytes, a section header's type, have been taken.
     void read() {
@@ -269,6 +274,9 @@ private:
             break;
         case PcapngBlockType::EnhancedPacket:
             visitEnhanced(body);
+            break;
+        case PcapngBlockType::InterfaceStatistics:
+            visitStatistics(body);
             break;
         default:
             break;
@@ -346,6 +354,17 @@ private:
         }
     }
 
+    void visitStatistics(Bytes body) const {
+        constexpr std::size_t fixed = 12;
+        visitOptions(body.subspan(std::min(body.size(), fixed)), [this](PcapngOption code, Bytes value) {
+            const auto reception =
+                code == PcapngOption::Comment ? parseReception(textOf(value)) : std::nullopt;
+            if (reception && m_visitReception) {
+                m_visitReception(*reception);
+            }
+        });
+    }
+
     /// Nothing for a time that is further than half of what a duration holds from the first one.
     std::optional<WallTime> near(std::optional<WallTime> time) {
         m_first = m_first ? m_first : time;
@@ -361,7 +380,7 @@ private:
         std::vector<std::string> comments;
         visitOptions(options, [&](PcapngOption code, Bytes value) {
             if (code == PcapngOption::Comment) {
-                comments.emplace_back(reinterpret_cast<const char*>(value.data()), value.size());
+                comments.emplace_back(textOf(value));
             } else if (code == PcapngOption::DropCount && value.size() >= 8) {
                 m_notes.addDrops(read64(value.data()));
             }
@@ -372,11 +391,13 @@ private:
     PieceReader& m_reader;
     Reassembly& m_reassembly;
     FrameNotes& m_notes;
+    const ReceptionVisitor& m_visitReception;
     std::vector<Interface> m_interfaces;
     std::optional<WallTime> m_first; ///< of the file
 };
 
-tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit) {
+tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magic, const FileVisitor& visit,
+                                          const ReceptionVisitor& visitReception) {
     FrameNotes notes;
     const FileVisitor noted = [&](const FileRecord& record) {
         FileRecord complete = record;
@@ -386,7 +407,7 @@ tl::expected<void, FileError> readCapture(ByteSource& source, std::uint32_t magi
     Reassembly reassembly(noted);
     PieceReader reader(source);
     if (magic == kSectionHeader) {
-        PcapngReader(reader, reassembly, notes).read();
+        PcapngReader(reader, reassembly, notes, visitReception).read();
     } else {
         readPcap(reader, magic, reassembly);
     }
@@ -416,7 +437,8 @@ tl::expected<void, FileError> readRaw(ByteSource& source, Bytes front, const Fil
 
 } // namespace
 
-tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit) {
+tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& visit,
+                                       const ReceptionVisitor& visitReception) {
     std::array<std::byte, 4> first{};
     const auto count = readFully(source, first);
     if (!count) {
@@ -424,7 +446,7 @@ tl::expected<void, FileError> readFile(ByteSource& source, const FileVisitor& vi
     }
     const std::uint32_t magic = *count == first.size() ? wire::load32(first.data()) : 0;
     const bool isPcap = std::ranges::find(kPcapMagics, magic) != kPcapMagics.end();
-    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit)
+    return isPcap || magic == kSectionHeader ? readCapture(source, magic, visit, visitReception)
                                              : readRaw(source, std::span(first).first(*count), visit);
 }
 

@@ -87,7 +87,7 @@ def main(page, cli, source):
         take, truth = capture(folder, capture_writer), folder / "truth.json"
         decoded = lines(output(cli, "decode", "--json", str(golden_datagrams(source / "tests" / "golden", folder))))
         decoded += lines(output(cli, "decode", "--json", str(take)))
-        report = json.loads(output(cli, "monitor", str(take), "--json", "--max-loss", "0.1"))
+        report = json.loads(output(cli, "monitor", str(take), "--json", "--verbose", "--max-loss", "0.1"))
         told = lines(output(cli, "monitor", str(take), "--json-lines"))
         output(cli, "send", "--to", "127.0.0.1:9", "--duration", "0.1", "--drop", "0.5", "--truth", str(truth))
         sent = json.loads(truth.read_text(encoding="utf-8"))

@@ -87,7 +87,7 @@ TEST(MonitorCommand, PrintsALineWhenTheVerdictChangesAndEachInterval) {
 }
 
 TEST(MonitorCommand, SaysWhatIsKeptByItsPartsAndTheBudget) {
-    const Json memory = reportOf(faultyRecording())["memory"];
+    const Json memory = reportOf(faultyRecording(), {"--verbose"})["memory"];
     EXPECT_THAT(keysOf(memory), ElementsAre("sum", "budget", "log", "index", "accounting", "messages",
                                             "metadata", "nullPoses", "events"));
     std::uint64_t sum = 0;

@@ -225,5 +225,18 @@ TEST(RecordedOrigin, ReadsOnlyItsOwnWords) {
     }
 }
 
+TEST(Reception, IsReadBackFromItsWords) {
+    const Reception reception{12'031ms, 1'700ms, 4'194'304};
+    const std::string text = receptionText(reception);
+    EXPECT_EQ(text, "Posewire: received for 12.031000000 s, the last 1.700000000 s without a packet; "
+                    "receive buffer 4194304 bytes");
+    EXPECT_EQ(parseReception(text), reception);
+    for (std::size_t size = 0; size < text.size(); ++size) {
+        EXPECT_EQ(parseReception(text.substr(0, size)), std::nullopt) << size;
+    }
+    EXPECT_EQ(parseReception(text + '!'), std::nullopt);
+    EXPECT_EQ(parseReception("Posewire: TCP"), std::nullopt);
+}
+
 } // namespace
 } // namespace posewire::log
