@@ -82,8 +82,7 @@ JsonValue incidentsJson(const model::SessionView& session) {
 
 std::optional<std::string> VerdictLines::lineAt(const model::SessionView& session, log::Stamp now) {
     const model::TakeVerdict verdict = model::verdictOf(session, model::recentSpan(session));
-    const bool isSame = verdict.state == m_verdict.state && verdict.incident == m_verdict.incident;
-    if (m_next && now < *m_next && isSame) {
+    if (m_next && now < *m_next && sayTheSame(verdict, m_verdict)) {
         return std::nullopt;
     }
     return line(session, now, verdict);

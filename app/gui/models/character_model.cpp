@@ -140,8 +140,8 @@ QString boardSpanText(const model::SessionView& view) {
         return tr("whole recording");
     }
     const log::Duration recent = model::VerdictSpan::kRecent;
-    return view.now() - view.reset() < recent ? tr("since the reset")
-                                              : tr("last %1 s").arg(recent / std::chrono::seconds(1));
+    const bool isAll = view.reset() != log::Stamp() && view.now() - view.reset() < recent;
+    return isAll ? tr("since the reset") : tr("last %1 s").arg(recent / std::chrono::seconds(1));
 }
 
 std::vector<model::CharacterKey> boardOf(const model::SessionView& view, BoardOrder order) {
@@ -258,7 +258,8 @@ std::vector<TableColumn<BoardRow>> CharacterModel::columns(model::SessionView& v
                     [](const BoardRow& row) { return verdictState(row.verdict); })
             .withMore([](const BoardRow& row, int role) {
                 if (role == kShortTextRole) { // whose loss it is stands beside it, in the columns of losses
-                    return QVariant(verdictState(row.verdict).display().section(QLatin1Char(','), 0, 0));
+                    return QVariant(verdictState(row.verdict).display().section(QLatin1Char(','), 0, 0) +
+                                    (row.verdict.isOver ? tr(", over") : QString()));
                 }
                 if (row.restarts == 0) {
                     return QVariant();

@@ -129,7 +129,9 @@ void ClockHistory::add(const Reading& reading) {
             return;
         }
         m_doubtful.clear();
-        findJump(reading);
+        if (isCorrupt(reading)) {
+            return;
+        }
     }
     m_rate.add(reading.sample, reading.timeCode);
     m_readings.push_back(reading);
@@ -151,8 +153,8 @@ bool ClockHistory::isStraggler(const Reading& reading) {
     return m_doubtful.size() < kAgreeing;
 }
 
-void ClockHistory::findJump(const Reading& reading) {
-    const Reading& before = m_readings.back();
+/// How far the time code is off, in ms; nothing where it advanced with the samples.
+std::optional<double> ClockHistory::jumpBetween(const Reading& before, const Reading& reading) const {
     const auto samples = static_cast<std::int32_t>(reading.sample - before.sample);
     const auto advanced = static_cast<std::int32_t>(reading.timeCode - before.timeCode);
     const auto hz = m_rate.frameHz();
@@ -162,11 +164,31 @@ void ClockHistory::findJump(const Reading& reading) {
         byStamps ? log::millisecondsOf(reading.stamp - before.stamp) : samples * 1000.0 / *hz;
     const double difference = advanced - expected;
     const double tolerance = byStamps ? 250.0 : std::max(kLeastJumpMs, hz ? 3000.0 / *hz : 0.0);
-    if (std::abs(difference) > tolerance) {
-        m_jump = {difference, reading.stamp};
-        m_readings.clear();
-        m_rate = {};
+    return std::abs(difference) > tolerance ? std::optional(difference) : std::nullopt;
+}
+
+/// One time code that is off is, until the next agrees with it; or where none in a row agrees with any.
+bool ClockHistory::isCorrupt(const Reading& reading) {
+    constexpr std::size_t kMostCorrupt = 8;
+    if (!jumpBetween(m_readings.back(), reading)) {
+        m_jumped.clear();
+        return false;
     }
+    const bool agrees = !m_jumped.empty() && !jumpBetween(m_jumped.back(), reading);
+    if (!agrees && m_jumped.size() < kMostCorrupt) {
+        m_jumped.push_back(reading);
+        return true;
+    }
+    const Reading first = agrees ? m_jumped.back() : reading;
+    m_jump = {jumpBetween(m_readings.back(), first).value_or(0), first.stamp};
+    m_readings.clear();
+    m_jumped.clear();
+    m_rate = {};
+    if (agrees) {
+        m_rate.add(first.sample, first.timeCode);
+        m_readings.push_back(first);
+    }
+    return false;
 }
 
 void ClockHistory::readType25(const model::Message* message) {

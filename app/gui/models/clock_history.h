@@ -84,7 +84,8 @@ private:
     };
     void add(const Reading& reading);
     [[nodiscard]] bool isStraggler(const Reading& reading);
-    void findJump(const Reading& reading);
+    [[nodiscard]] std::optional<double> jumpBetween(const Reading& before, const Reading& reading) const;
+    [[nodiscard]] bool isCorrupt(const Reading& reading);
     void readType25(const model::Message* message);
     [[nodiscard]] std::optional<Drift> fitDrift() const;
 
@@ -92,6 +93,7 @@ private:
     log::Stamp m_lastStamp{};
     std::deque<Reading> m_readings;
     std::vector<Reading> m_doubtful; ///< from far away, in a row: late or corrupt, or the counter restarted
+    std::vector<Reading> m_jumped;   ///< in a row: corrupt, or the time code has jumped
     NominalRate m_rate;
     std::optional<Jump> m_jump;
     std::optional<Drift> m_drift;

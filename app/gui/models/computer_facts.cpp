@@ -96,7 +96,7 @@ PropertyValue computer(const Source& from) {
     if (dropped != 0) {
         state = Health::Error;
     }
-    return {tr("buffer %1 · dropped %2 · %3 fps")
+    return {tr("buffer %1 · dropped %2 in all · %3 fps")
                 .arg(percent(health.bufferFill), grouped(dropped), fixed(health.framesPerSecond, 0)),
             state,
             tr("The most that the receive buffers were filled in the last half second, datagrams that this "

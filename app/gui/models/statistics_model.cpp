@@ -160,15 +160,27 @@ TableColumn<StreamRow> StatisticsModel::figureColumn(const StatisticsModel& mode
                              ? tr(about.help)
                              : QStringLiteral("%1. %2").arg(
                                    tr(about.help), tr("Double click: %1").arg(tr(about.packets).toLower()));
-    const auto text = [&model, figure](const StreamRow& row) {
+    const auto value = [&model, figure](const StreamRow& row) {
         const model::StreamFigures& figures = model.figures(model.indexOf(row));
-        const QString shown = figureText(figures, figure);
-        return shown.isEmpty() ? shown : PropertyValue{shown, figureHealth(figures, figure)}.display();
+        return PropertyValue{figureText(figures, figure), figureHealth(figures, figure)};
+    };
+    const auto text = [value](const StreamRow& row) {
+        const PropertyValue shown = value(row);
+        return shown.text.isEmpty() ? shown.text : shown.display();
+    };
+    const auto spoken = [value](const StreamRow& row) {
+        const PropertyValue shown = value(row);
+        return shown.text.isEmpty() ? shown.text : shown.spoken();
     };
     const auto colour = [&model, figure](const StreamRow& row) {
         return figureColour(model.figures(model.indexOf(row)), figure);
     };
-    return {.title = tr(about.shortTitle()), .help = help, .isNumber = true, .text = text, .colour = colour};
+    return {.title = tr(about.shortTitle()),
+            .help = help,
+            .isNumber = true,
+            .text = text,
+            .colour = colour,
+            .spoken = spoken};
 }
 
 TableColumn<StreamRow> StatisticsModel::curveColumn(const StatisticsModel& model) {

@@ -135,6 +135,9 @@ void paintText(QPainter& painter, QRect rect, const QStyleOptionViewItem& option
         const QString brief = index.data(kShortSuffixRole).toString();
         suffix = brief.isEmpty() ? suffix : brief;
     }
+    if (shorter.isValid() && widthWith(suffix) > rect.width() - metrics.horizontalAdvance(whole)) {
+        suffix.clear(); // what it is added to matters more
+    }
     const int suffixWidth = widthWith(suffix);
     const int reserved = suffixWidth <= rect.width() / 3 ? suffixWidth : 0;
     const QString text = metrics.elidedText(whole, Qt::ElideRight, std::max(0, rect.width() - reserved));

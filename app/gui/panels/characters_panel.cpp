@@ -204,7 +204,7 @@ void CharactersPanel::refresh() {
     m_isFollowing = true;
     m_model.refresh();
     showEmptyState();
-    constexpr qsizetype kMostKept = 24; // characters
+    constexpr qsizetype kMostKept = 18; // characters: names need room, too
     QString longest;
     for (int row = 0; row < m_model.rowCount(); ++row) {
         const QString verdict = m_model.index(row, CharacterModel::kVerdict).data(kShortTextRole).toString();

@@ -101,7 +101,7 @@ void HealthBar::refresh(const ReceivingState& receiving) {
                                 tr("%1 MB/s").arg(fixed(receiving.bytesPerSecond / 1e6, 2))));
     m_history->setContent(Health::Unknown, historyText(m_session));
     m_dropped->setContent(receiving.kernelDropped == 0 ? Health::Good : Health::Error,
-                          tr("dropped here %1").arg(grouped(receiving.kernelDropped)));
+                          tr("dropped here %1 in all").arg(grouped(receiving.kernelDropped)));
     for (ColourText* text :
          {m_rate, m_history, m_dropped}) { // numbers grow and shrink; their neighbours stay
         text->setMinimumWidth(std::max(text->minimumWidth(), text->sizeHint().width()));

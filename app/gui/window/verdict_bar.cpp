@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/verdict_bar.h"
 
+#include "app/gui/models/character_model.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
@@ -42,6 +43,16 @@ QString liveText(const model::SessionView& live, const model::TakeVerdict& verdi
     return static_cast<std::size_t>(good) == characters.size()
                ? VerdictBar::tr("%1 good").arg(good)
                : VerdictBar::tr("%1 of %2 good").arg(good).arg(characters.size());
+}
+
+/// What time the verdict is of, and when the operator began to count anew.
+QString spanOf(const model::SessionView& live) {
+    if (live.reset() == log::Stamp()) {
+        return boardSpanText(live);
+    }
+    const bool isAll = live.now() - live.reset() < model::VerdictSpan::kRecent;
+    return (isAll ? VerdictBar::tr("since the reset at %1") : VerdictBar::tr("last 10 s · reset at %1"))
+        .arg(timeOfDay(live.wallOf(live.reset())).chopped(4));
 }
 
 } // namespace
@@ -153,6 +164,7 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
       m_goLive(buttonFor(actions.live, {}, m_strip)),
       m_closeFile(buttonFor(actions.closeFile, tr("Close recording"), m_strip)) {
     setObjectName(QStringLiteral("verdictBar"));
+    m_span->setObjectName(QStringLiteral("verdictSpan"));
     m_span->setFont(tabularFont());
     m_strip->setObjectName(QStringLiteral("strip"));
     m_what->setObjectName(QStringLiteral("stripText"));
@@ -196,9 +208,7 @@ void VerdictBar::refresh(const ShownFile& file, bool hasInputs) {
 void VerdictBar::showVerdict(bool isBehindFile) {
     m_headline->setLarge(m_isLarge && !isBehindFile);
     m_headline->setVerdict(m_verdict, isBehindFile ? tr("Live: ") : QString());
-    m_span->setText(m_live.reset() == log::Stamp()
-                        ? tr("last 10 s")
-                        : tr("reset at %1").arg(timeOfDay(m_live.wallOf(m_live.reset())).chopped(4)));
+    m_span->setText(spanOf(m_live));
     m_reset->setEnabled(m_live.end() != 0);
 }
 

@@ -75,8 +75,10 @@ void addBody(const CharacterPose& pose, const BodyOrigins& body, PoseRemark& rem
     const bool isMeasured = body.source == BodySource::Poses;
     remark.lines.emplace_back(isMeasured ? "No scale message yet: bone lengths are measured on poses"
                                          : "No scale message yet: the reference body of 1.75 m is drawn");
-    // Where positions are sent, the reference body is only what the skin hangs on.
-    const bool restsOnBones = pose.type == wire::PoseUnity::kType || pose.isPlaceAssumed;
+    // Where positions are sent, the reference body is only what the skin hangs on. Markers are fitted to it.
+    const bool isOfMarkers = holds(pose, wire::PointPositions::kType) &&
+                             !holds(pose, wire::LinearKinematics::kType) && !hasWholePoses(pose.type);
+    const bool restsOnBones = pose.type == wire::PoseUnity::kType || pose.isPlaceAssumed || isOfMarkers;
     if (!isMeasured && restsOnBones) {
         remark.isAssumed = true;
         remark.reason = remark.lines.back();

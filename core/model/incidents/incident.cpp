@@ -135,12 +135,15 @@ Incident Incident::of(std::uint8_t which) const {
     std::erase_if(own.parts, [which](const Part& part) { return part.character.value_or(which) != which; });
     const bool isShared =
         std::ranges::any_of(parts, [](const Part& part) { return part.character.has_value(); });
-    if (isShared) {
+    if (isShared && !own.parts.empty()) {
         own.samples = own.count = 0;
         for (const Part& part : own.parts) {
             own.samples += part.samples;
             own.count += part.count;
         }
+        own.firstStamp = std::ranges::min(own.parts, {}, &Part::from).from;
+        own.lastStamp = std::ranges::max(own.parts, {}, &Part::to).to;
+        own.isCurrent = isCurrent && std::ranges::any_of(own.parts, &Part::isCurrent);
     }
     return own;
 }

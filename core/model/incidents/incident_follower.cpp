@@ -21,6 +21,9 @@ constexpr log::Duration kNone = log::Duration::zero();
 /// What happened is not seen in any window of a limit any more.
 constexpr double kWindowAndMore = 1.5;
 constexpr std::int64_t kJumpMs = 500;
+/// A time code that is back where it belongs sooner did not jump: one datagram was corrupt, or some were held
+/// up together on their way.
+constexpr log::Duration kJumped = std::chrono::milliseconds(200);
 /// A time code that has stood still for as long while samples came.
 constexpr log::Duration kFrozen = std::chrono::seconds(1);
 
@@ -301,13 +304,19 @@ void IncidentFollower::noteTimeCode(const log::StreamKey& stream, const Verdict&
     Occurrence one = occurrenceOf(IncidentKind::TimeCode, stream, verdict);
     if (isBeginning) {
         character.moved = {};
+        character.jump.reset();
     } else if (!isSame) {
         if (moved < Probation::kMostForward && std::abs(jumpMs) > kJumpMs &&
             character.moved != log::Stamp()) {
             one.value = static_cast<double>(jumpMs);
             one.detail = "The time code jumped by " + fixedText(one.value, 0) + " ms.";
-            m_incidents.report(one);
+            character.jump = character.jump.value_or(one);
+            if (verdict.stamp - character.jump->from < kJumped) {
+                return; // it is measured against what was before
+            }
+            m_incidents.report(*character.jump);
         }
+        character.jump.reset();
         character.moved = verdict.stamp;
     } else if (character.moved != log::Stamp() && verdict.stamp - character.moved >= kFrozen) {
         one.count = m_incidents.currentLike(one) != nullptr ? 0 : 1;

@@ -87,7 +87,8 @@ private:
         std::uint32_t sample = 0;
         std::uint32_t timeCode = 0;
         log::Stamp stamp{};
-        log::Stamp moved{}; ///< when the time code last changed; 0 before it ever did
+        log::Stamp moved{};             ///< when the time code last changed; 0 before it ever did
+        std::optional<Occurrence> jump; ///< of the time code, while it may be none
     };
     /// Who sends a character in a type, and who did before; without a stamp where there is none.
     struct Claim {

@@ -15,6 +15,21 @@ constexpr std::size_t kMostPartsOfOne = 1'024;
 /// Fewer samples are no share of anything.
 constexpr std::uint64_t kFew = 3;
 
+/// The newest, where it is over and was like this: a figure that hovers about its limit is one incident,
+/// however often it comes back under it.
+Incident* hoveringBefore(std::deque<Incident>& incidents, const Occurrence& one) {
+    constexpr std::ptrdiff_t kMostLooked = 256;
+    if (factsOf(one.kind).group != IncidentGroup::Limit) {
+        return nullptr;
+    }
+    const auto end =
+        std::ssize(incidents) > kMostLooked ? incidents.rbegin() + kMostLooked : incidents.rend();
+    const auto newest = std::find_if(incidents.rbegin(), end, [&](const Incident& incident) {
+        return incident.kind == one.kind && incident.sender == one.sender;
+    });
+    return newest != end && one.from - newest->lastStamp < Incidents::kQuiet ? &*newest : nullptr;
+}
+
 } // namespace
 
 Incidents::Episode Incidents::episodeOf(const Occurrence& one) {
@@ -101,6 +116,12 @@ void Incidents::addTo(std::uint64_t number, const Occurrence& one) {
 }
 
 Incident& Incidents::begin(const Occurrence& one) {
+    if (Incident* again = hoveringBefore(m_incidents, one)) {
+        again->isCurrent = true;
+        std::ranges::for_each(again->parts, [](Incident::Part& part) { part.isCurrent = false; });
+        m_current.emplace(episodeOf(one), again->number);
+        return *again;
+    }
     std::uint64_t number = 0;
     const auto reserved = one.kind == IncidentKind::Loss ? m_reserved.find(one.sender) : m_reserved.end();
     if (reserved != m_reserved.end()) {

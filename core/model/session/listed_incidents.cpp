@@ -2,6 +2,7 @@
 #include "core/model/session/listed_incidents.h"
 
 #include "core/model/incidents/incident_kinds.h"
+#include "core/model/session/loss_amount.h"
 #include "core/model/session/losses.h"
 #include "core/model/text.h"
 
@@ -114,9 +115,8 @@ std::string whom(const SessionView& session, const Incident& incident) {
     return listed(names);
 }
 
-/// "2.3 %" where that says more than "37 samples"; `noun` is for a number.
+/// Of all of it.
 std::string amountOf(const SessionView& session, const Incident& incident, std::string_view noun) {
-    constexpr std::uint64_t kFew = 10;
     StreamCounts sum;
     for (const Incident::Part& part : incident.parts) {
         const bool isStream = part.character && part.type;
@@ -127,13 +127,7 @@ std::string amountOf(const SessionView& session, const Incident& incident, std::
                                                     incident.lastStamp + std::chrono::seconds(1));
         }
     }
-    const double percent = 100.0 * static_cast<double>(incident.samples) /
-                           static_cast<double>(std::max<std::uint64_t>(1, sum.expected()));
-    const bool isShare = incident.samples > kFew && sum.expected() > 10 * kFew && percent <= 100;
-    if (isShare) {
-        return fixedText(percent, percent < 10 ? 1 : 0) + " %";
-    }
-    return noun.empty() ? grouped(incident.samples) : counted(incident.samples, noun);
+    return lossAmount(incident.samples, sum.expected(), noun);
 }
 
 std::string causeOf(const Incident& incident) {

@@ -27,7 +27,13 @@ Losses::Losses(const SessionView& session, const std::optional<TimeRange>& range
     if (!range) {
         return;
     }
-    for (const Gap& gap : session.gaps()) {
+    // Newest first: stamps grow, but for those of several sockets.
+    constexpr log::Duration kApart = std::chrono::seconds(1);
+    for (auto one = session.gaps().rbegin(); one != session.gaps().rend(); ++one) {
+        const Gap& gap = *one;
+        if (gap.toStamp + kApart < range->from) {
+            break;
+        }
         if (gap.toStamp >= range->from && gap.toStamp < range->to && gap.cause != LossCause::Unknown) {
             m_known[gap.stream][static_cast<std::size_t>(gap.cause)] += gap.lost;
         }

@@ -3,6 +3,8 @@
 
 #include "core/model/body/character_pose.h"
 #include "core/model/body/pose_remark.h"
+#include "core/model/session/fault_matrix.h"
+#include "core/model/session/loss_amount.h"
 #include "core/model/text.h"
 #include "core/wire/messages.h"
 #include "core/wire/type_table.h"
@@ -29,7 +31,9 @@ using Line = std::vector<CharacterKey>;
 
 bool concerns(const Incident& incident, const CharacterKey& character) {
     return incident.sender == character.sender &&
-           (incident.parts.empty() || incident.concerns(character.character));
+           (incident.parts.empty() || std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
+                return part.character.value_or(character.character) == character.character;
+            }));
 }
 
 bool concerns(const Incident& incident, const Line& line) {
@@ -37,7 +41,59 @@ bool concerns(const Incident& incident, const Line& line) {
            std::ranges::any_of(line, [&](const CharacterKey& one) { return concerns(incident, one); });
 }
 
-TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst) {
+/// What streams lost in the time that a verdict is of: read once, where it is asked for.
+class RecentLosses {
+public:
+    RecentLosses(const SessionView& session, const VerdictSpan& span) : m_session(session) {
+        if (span.from != log::Stamp::min()) {
+            m_range = TimeRange{span.from, session.now() + log::Duration(1)}; // also what comes right now
+        }
+    }
+
+    /// "2.1 %", or "37": as much as the columns of losses beside the verdict have of that cause. Empty for
+    /// what is no loss.
+    [[nodiscard]] std::string amountOf(const ListedIncident& one) {
+        const Incident& incident = one.incident;
+        const bool isLoss = incident.kind == IncidentKind::Loss || incident.kind == IncidentKind::Local;
+        if (!isLoss || one.state == State::Provisional || !incident.cause) {
+            return {};
+        }
+        FaultCounts sum;
+        for (const Incident::Part& part : incident.parts) {
+            sum += countsOf(incident.sender, part);
+        }
+        const std::uint64_t samples = sum.lost[static_cast<std::size_t>(*incident.cause)];
+        return samples == 0 ? std::string() : lossAmount(samples, sum.expected, {});
+    }
+
+    /// Whether a stream of it is above its limit: that of another may have been.
+    [[nodiscard]] bool isAboveLimit(const Incident& incident) {
+        return std::ranges::any_of(incident.parts, [&](const Incident::Part& part) {
+            const FaultCounts counts = countsOf(incident.sender, part);
+            return 100 * counts.shareOf(counts.total()) > incident.limit;
+        });
+    }
+
+private:
+    [[nodiscard]] FaultCounts countsOf(log::SenderId sender, const Incident::Part& part) {
+        const bool isStream = part.character && part.type;
+        const Stream* stream =
+            isStream ? m_session.find(log::StreamKey{sender, *part.character, *part.type}) : nullptr;
+        if (stream == nullptr) {
+            return {};
+        }
+        if (!m_losses) {
+            m_losses.emplace(m_session, m_range);
+        }
+        return {m_losses->of(*stream).byCause, 0, stream->accounting.counts(m_range).expected()};
+    }
+
+    const SessionView& m_session;
+    std::optional<TimeRange> m_range;
+    std::optional<Losses> m_losses;
+};
+
+TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst, RecentLosses& losses) {
     const bool isBad = worst.state == State::Ongoing && worst.incident.severity() == IncidentSeverity::Error;
     TakeVerdict verdict;
     verdict.state = isBad ? TakeVerdict::State::Bad : TakeVerdict::State::Warning;
@@ -47,7 +103,13 @@ TakeVerdict fromIncident(const SessionView& session, const ListedIncident& worst
     const std::string what = headlineOf(session, worst) + whenOf(session, worst);
     verdict.text = answer + ": " + what + lasts;
     verdict.narrow = answer + lasts + ": " + what;
-    verdict.brief = briefOf(session, worst) + (verdict.isOver ? ", over" : "");
+    const std::string amount = losses.amountOf(worst);
+    verdict.brief = amount.empty() ? briefOf(session, worst)
+                                   : amount + " lost, " +
+                                         (worst.incident.cause == LossCause::Unknown
+                                              ? "cause unknown"
+                                              : std::string(nameOf(*worst.incident.cause)));
+    verdict.brief += (verdict.isOver ? ", over" : "");
     verdict.since = worst.incident.firstStamp;
     verdict.incident = worst.incident.number;
     if (const auto character = worst.incident.character()) {
@@ -67,9 +129,30 @@ TakeVerdict lasting(TakeVerdict::State state, const std::string& text, std::stri
     return verdict;
 }
 
+/// Of the streams that are on the air while the character is; a stream that ended is not.
+std::vector<const Stream*> streamsOnAir(const Character& character) {
+    constexpr log::Duration kEnded = std::chrono::seconds(1);
+    log::Stamp newest{};
+    for (const Stream* stream : character.streams) {
+        newest = countsSamples(stream->key.type) ? std::max(newest, stream->accounting.lastStamp()) : newest;
+    }
+    std::vector<const Stream*> onAir = character.streams;
+    std::erase_if(onAir, [&](const Stream* stream) {
+        const double rateHz = stream->statistics.rateHz();
+        const log::Duration patience =
+            std::max(kEnded, rateHz > 0 ? log::durationOf(3 / rateHz) : log::Duration::zero());
+        return countsSamples(stream->key.type) && newest - stream->accounting.lastStamp() > patience;
+    });
+    return onAir;
+}
+
 /// What speaks against the body that is drawn of a character; nothing where all of it was sent.
 std::optional<TakeVerdict> onPose(const SessionView& session, const Character& character, log::Stamp since) {
-    const std::optional<PoseRemark> remark = session.poseRemarkNow(character.key);
+    const std::vector<const Stream*> onAir = streamsOnAir(character);
+    const bool isPosed =
+        std::ranges::any_of(onAir, [](const Stream* one) { return hasPoses(one->key.type); });
+    const std::optional<PoseRemark> remark =
+        isPosed ? session.poseRemarkNow(character.key) : std::nullopt; // else it is that of long ago
     if (remark && !remark->isAssumed) {
         return std::nullopt;
     }
@@ -79,7 +162,7 @@ std::optional<TakeVerdict> onPose(const SessionView& session, const Character& c
         text += name + ": " + remark->reason;
     } else {
         std::vector<std::string> types;
-        for (const Stream* stream : character.streams) {
+        for (const Stream* stream : onAir) {
             types.push_back(wire::typeDigits(stream->key.type));
         }
         text += "no pose to draw of " + name + ", which sends " + (types.size() == 1 ? "type " : "types ") +
@@ -112,6 +195,18 @@ bool isPast(const ListedIncident& one, const VerdictSpan& span) {
     return isOnlyComing(one) || (one.state == State::Over && one.incident.lastStamp < span.from);
 }
 
+/// What of it is to one character: that may be over while others still have it.
+ListedIncident ofOne(const SessionView& session, RecentLosses& losses, const ListedIncident& one,
+                     std::uint8_t character) {
+    ListedIncident own{one.incident.of(character), one.state};
+    const bool isLimited = own.incident.kind == IncidentKind::Loss && own.incident.limit > 0;
+    if (isLimited && !losses.isAboveLimit(own.incident)) {
+        own.incident.value = 0;
+    }
+    own.state = one.state == State::Provisional ? one.state : stateOf(session, own.incident);
+    return own;
+}
+
 /// Lists once what several verdicts are about.
 class Judge {
 public:
@@ -140,15 +235,13 @@ public:
             if (!concerns(one.incident, line)) {
                 continue;
             }
-            ListedIncident mine = one;
-            if (character) {
-                mine.incident = one.incident.of(character->character);
-            }
-            if (!worst || rankOf(*worst) < rankOf(mine)) {
+            ListedIncident mine = character ? ofOne(m_session, m_losses, one, character->character) : one;
+            const bool isMeant = !character || !isPast(mine, m_span);
+            if (isMeant && (!worst || rankOf(*worst) < rankOf(mine))) {
                 worst = std::move(mine);
             }
         }
-        return worst ? fromIncident(m_session, *worst)
+        return worst ? fromIncident(m_session, *worst, m_losses)
                      : withoutIncident(m_session, character, endOfTheLast(line));
     }
 
@@ -163,6 +256,7 @@ private:
 
     const SessionView& m_session;
     VerdictSpan m_span;
+    mutable RecentLosses m_losses{m_session, m_span};
     std::vector<ListedIncident> m_listed;
     std::vector<const Incident*> m_past; ///< that ended last first
 };

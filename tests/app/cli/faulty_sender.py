@@ -115,6 +115,7 @@ class Plan:
     restart: tuple = None  # time, counter
     change: tuple = None  # time, spacing before, spacing after
     pause: tuple = None  # start, length
+    outage: tuple = None  # start, length: of what is sent then nothing arrives
 
 
 def draw_plan(pick, seconds):
@@ -147,10 +148,13 @@ def lasts(plan):
 
 
 class FaultySender:
-    def __init__(self, seed, seconds, characters=4):
+    """With a plan of its own, or one that the seed draws; `performance` makes the datagrams."""
+
+    def __init__(self, seed, seconds, characters=4, plan=None, types=tuple(SAMPLED), performance=None):
         self.pick = random.Random(seed)
-        self.plan = draw_plan(self.pick, seconds)
-        self.characters = characters
+        self.plan = plan or draw_plan(self.pick, seconds)
+        self.characters, self.types = characters, types
+        self.performance = performance or Performance(self.pick, self.plan.splits)
         self.runs = [Run(self.plan.change[1] if self.plan.change else 1, False)]
         self.good = self.perform()
         self.sent = self.clear_up(self.go_wrong(self.good))
@@ -162,7 +166,7 @@ class FaultySender:
 
     def perform(self):
         plan, pick, datagrams = self.plan, self.pick, []
-        performance = Performance(pick, plan.splits)
+        performance = self.performance
         shift, run, next_index, due = 0, 0, 0, 0.0
         changed = restarted = False
         for index in range(int(plan.seconds * plan.rate)):
@@ -187,7 +191,7 @@ class FaultySender:
                 continue
             sample = (plan.first + index + shift) & 0xFFFFFFFF
             for character in range(self.characters):
-                for kind in SAMPLED:
+                for kind in self.types:
                     clock = 36_000_000 + round(moment * 1000)
                     for part, last, raw in performance.sampled(kind, sample, clock, character):
                         datagrams.append(Datagram(moment, raw, kind, character, sample, part, last, run, "good", moment))
@@ -224,6 +228,8 @@ class FaultySender:
     def go_wrong(self, datagrams):
         plan, pick, sent, left_of_burst = self.plan, self.pick, [], 0
         for datagram in datagrams:
+            if plan.outage and plan.outage[0] <= datagram.time < sum(plan.outage):
+                continue
             if self.is_quiet(datagram.time):
                 left_of_burst = 0
                 sent.append(datagram)
@@ -355,14 +361,18 @@ def truth_of(sent, runs):
 
 
 def write_capture(path, sent, source=("192.0.2.1", 40001), target=("192.0.2.9", 9763)):
-    """A pcap with nanoseconds and bare IPv4 packets."""
+    write_packets(path, [(datagram.time, datagram.raw, source) for datagram in sent], target)
+
+
+def write_packets(path, packets, target=("192.0.2.9", 9763)):
+    """A pcap with nanoseconds and bare IPv4 packets, each of a time, bytes and a source."""
     with open(path, "wb") as file:
         file.write(struct.pack("<IHHiIII", 0xA1B23C4D, 2, 4, 0, 0, 65535, 101))
-        for datagram in sent:
-            udp = struct.pack(">HHHH", source[1], target[1], 8 + len(datagram.raw), 0) + datagram.raw
+        for time_s, raw, source in packets:
+            udp = struct.pack(">HHHH", source[1], target[1], 8 + len(raw), 0) + raw
             packet = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(udp), 0, 0, 64, 17, 0, socket.inet_aton(source[0]),
                                  socket.inet_aton(target[0])) + udp
-            stamp = FIRST_STAMP + round(datagram.time * 1e9)
+            stamp = FIRST_STAMP + round(time_s * 1e9)
             file.write(struct.pack("<IIII", stamp // 10**9, stamp % 10**9, len(packet), len(packet)) + packet)
 
 

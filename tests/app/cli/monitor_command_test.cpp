@@ -86,6 +86,26 @@ TEST(MonitorCommand, PrintsALineWhenTheVerdictChangesAndEachInterval) {
     EXPECT_EQ(sum, 10U);
 }
 
+TEST(MonitorCommand, PrintsALineAtOnceWhenWhatWentOnIsOver) {
+    RecordingFile file;
+    for (std::uint32_t sample = 0; sample < 1500; ++sample) {
+        if (sample < 900 || sample > 902) {
+            file.addPose(sample);
+        }
+    }
+    const ProgramRun run = runProgram({"monitor", file.finish(), "--json-lines", "--interval", "60"});
+    const auto begin = RecordingFile::kStart.time_since_epoch() / std::chrono::nanoseconds(1);
+    std::istringstream text(run.out);
+    double overAt = 0; // it is as bad as before: a warning
+    for (std::string one; overAt == 0 && std::getline(text, one);) {
+        const Json line = Json::parse(one, nullptr, false);
+        const bool isOver = line["verdict"]["text"].get<std::string>().ends_with(", over");
+        overAt = isOver ? static_cast<double>(line["timeNs"].get<std::int64_t>() - begin) / 1e9 : 0;
+    }
+    EXPECT_GE(overAt, 4.7) << run.out;
+    EXPECT_LE(overAt, 5.1) << run.out;
+}
+
 TEST(MonitorCommand, SaysWhatIsKeptByItsPartsAndTheBudget) {
     const Json memory = reportOf(faultyRecording(), {"--verbose"})["memory"];
     EXPECT_THAT(keysOf(memory), ElementsAre("sum", "budget", "log", "index", "accounting", "messages",

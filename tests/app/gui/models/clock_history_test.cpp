@@ -65,6 +65,17 @@ TEST_F(ClockHistoryTest, SeesAJumpOfTheTimeCodeAndWhenItCame) {
     EXPECT_EQ(m_clock.frameHz(), 100.0);
 }
 
+TEST_F(ClockHistoryTest, TakesOneCorruptTimeCodeForNoJump) {
+    sendPoses(0, 300);
+    m_firstMs += 90'000;
+    sendPoses(300, 301);
+    m_firstMs -= 90'000;
+    sendPoses(301, 600);
+    follow();
+    EXPECT_FALSE(m_clock.lastJump().has_value());
+    EXPECT_EQ(m_clock.frameHz(), 100.0);
+}
+
 TEST_F(ClockHistoryTest, TakesMissingSamplesForNoJump) {
     sendPoses(0, 300);
     sendPoses(340, 600);

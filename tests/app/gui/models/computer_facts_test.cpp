@@ -91,10 +91,10 @@ TEST_F(ComputerFactsTest, CountIncompleteSamplesAsLostInARangeAsInReports) {
 }
 
 TEST_F(ComputerFactsTest, TellFillProcessorAndMemoryAndNothingThatIsNotKnown) {
-    EXPECT_EQ(text("This computer"), QStringLiteral("● buffer – · dropped 0 · 0 fps"));
+    EXPECT_EQ(text("This computer"), QStringLiteral("● buffer – · dropped 0 in all · 0 fps"));
     EXPECT_EQ(text("Processor"), QStringLiteral("receiving – · program –"));
     m_program.health = {0.61, 0.021, 1.5, std::uint64_t{412} << 20, 0.92, 0.0123, 59.6};
-    EXPECT_EQ(text("This computer"), QStringLiteral("▲ buffer 61 % · dropped 0 · 60 fps"));
+    EXPECT_EQ(text("This computer"), QStringLiteral("▲ buffer 61 % · dropped 0 in all · 60 fps"));
     EXPECT_EQ(text("Processor"), QStringLiteral("receiving 2.1 % · program 150 %"));
     EXPECT_EQ(text("Accounting"), QStringLiteral("0.92 µs a packet · 1.2 %"));
     EXPECT_TRUE(text("Memory").startsWith("412 MB"));

@@ -47,6 +47,13 @@ protected:
     QAbstractItemModelTester m_tester{&m_model, QAbstractItemModelTester::FailureReportingMode::Fatal};
 };
 
+TEST_F(StatisticsModelTest, SpeaksWordsForShapes) {
+    performSeconds(10);
+    EXPECT_EQ(text(stream(), Column::Lost), "▲ 1");
+    EXPECT_EQ(cell(stream(), Column::Lost).data(Qt::AccessibleTextRole).toString(), "warning, 1");
+    EXPECT_EQ(cell(stream(), Column::Duplicates).data(Qt::AccessibleTextRole).toString(), "0");
+}
+
 TEST_F(StatisticsModelTest, ShowsRateSpacingAndBandwidthOfAStream) {
     for (std::uint32_t i = 0; i < 200; ++i) {
         const auto late = i % 2 == 0 ? 0ms : 1ms;

@@ -5,6 +5,7 @@
 #include "tests/app/gui/models/stage.h"
 
 #include <QAction>
+#include <QLabel>
 #include <QSignalSpy>
 #include <QTest>
 
@@ -108,6 +109,20 @@ TEST_F(VerdictBarTest, LeadsToItsEvidenceByMouseAndKeyboard) {
     ASSERT_EQ(asked.size(), 3U);
     ASSERT_TRUE(asked[0]);
     EXPECT_NE(m_stage.session.incidents().find(*asked[0]), nullptr);
+}
+
+TEST_F(VerdictBarTest, SaysWhichTimeItIsOfAndWhenThereWasAReset) {
+    const auto span = [this] { return m_bar.findChild<QLabel*>("verdictSpan")->text().toStdString(); };
+    send(0, 60);
+    refresh();
+    EXPECT_EQ(span(), "last 10 s");
+    m_stage.session.resetForTake();
+    send(60, 120);
+    refresh();
+    EXPECT_THAT(span(), StartsWith("since the reset at "));
+    send(120, 900); // it is never of more than the board beside it
+    refresh();
+    EXPECT_THAT(span(), StartsWith("last 10 s · reset at "));
 }
 
 TEST_F(VerdictBarTest, AResetForgetsWhatIsOver) {

@@ -81,6 +81,10 @@ TEST(PoseRemarks, TellWhoseBodyIsDrawn) {
               (Lines{"No scale message yet: the reference body of 1.75 m is drawn"}));
     EXPECT_FALSE(remarkOn(standing({2}), body).isAssumed) << "its joints were sent";
     EXPECT_TRUE(remarkOn(standing({5}), body).isAssumed) << "its joints rest on the bones";
+    EXPECT_TRUE(remarkOn(standing({3}), body).isAssumed) << "whose markers these are is not known";
+    EXPECT_EQ(remarkOn(standing({3}), body).reason,
+              "No scale message yet: the reference body of 1.75 m is drawn");
+    EXPECT_FALSE(remarkOn(standing({21, 3}), body).isAssumed) << "its joints were sent";
     body.source = BodySource::Poses;
     EXPECT_EQ(remarkOn(standing({5}), body).lines,
               (Lines{"No scale message yet: bone lengths are measured on poses"}));

@@ -207,6 +207,21 @@ TEST(IncidentList, EndsAConditionOnce) {
     EXPECT_EQ(incidents.version(), version);
 }
 
+TEST(IncidentList, AFigureThatHoversAboutItsLimitIsOne) {
+    Incidents incidents;
+    for (const log::Duration time : {1s, 5s, 9s}) {
+        const std::uint64_t number = incidents.report(occurrenceAt(IncidentKind::JitterLimit, at(time)));
+        EXPECT_EQ(number, 1U);
+        EXPECT_EQ(numbersOf(incidents.current()), (std::vector<std::uint64_t>{1}));
+        incidents.end(number, at(time + 1s));
+        EXPECT_TRUE(incidents.current().empty());
+    }
+    EXPECT_EQ(incidents.all().front().count, 3U);
+    EXPECT_EQ(incidents.report(occurrenceAt(IncidentKind::JitterLimit, at(15s))), 2U) << "long after";
+    incidents.end(2, at(16s));
+    EXPECT_EQ(incidents.report(occurrenceAt(IncidentKind::GapLimit, at(17s))), 3U) << "another limit";
+}
+
 TEST(IncidentList, KnowsWhatLastedAtATimeOfThePast) {
     Incidents incidents;
     const Occurrence down = occurrenceAt(IncidentKind::Outage, at(10s));

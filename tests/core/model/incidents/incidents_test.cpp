@@ -2,6 +2,8 @@
 #include "core/model/session/verdict.h"
 #include "tests/core/model/incidents/incidents_fixture.h"
 
+#include <utility>
+
 namespace posewire::model {
 namespace {
 
@@ -215,6 +217,32 @@ TEST_F(IncidentsTest, TellAJumpOfTheTimeCode) {
     poses(101, 200);
     ASSERT_EQ(of(IncidentKind::TimeCode).size(), 1U);
     EXPECT_EQ(of(IncidentKind::TimeCode)[0].text(), "The time code jumped by 5000 ms.");
+}
+
+TEST_F(IncidentsTest, TakeNoCorruptTimeCodeForAJump) {
+    poses(1, 100);
+    m_timeCodeOff = 90s;
+    pose(101);
+    m_timeCodeOff = 0s;
+    m_at += 10ms;
+    poses(102, 200);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
+}
+
+TEST_F(IncidentsTest, TakeNoDatagramsThatWereHeldUpTogetherForAJumpOfTheTimeCode) {
+    poses(1, 100);
+    const log::Stamp released = m_at + 700ms;
+    for (std::uint32_t sample = 101; sample <= 170; ++sample) { // each says when it was due
+        const log::Stamp due = m_at + (sample - 101) * 10ms;
+        m_timeCodeOff = due - released;
+        const log::Stamp before = std::exchange(m_at, released);
+        pose(sample);
+        m_at = before;
+    }
+    m_timeCodeOff = 0s;
+    m_at = released;
+    poses(171, 300);
+    EXPECT_TRUE(of(IncidentKind::TimeCode).empty());
 }
 
 TEST_F(IncidentsTest, TakeNoDatagramThatComesLateForAJumpOfTheTimeCode) {

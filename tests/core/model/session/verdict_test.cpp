@@ -23,6 +23,19 @@ protected:
         m_session.follow(m_at - 10ms + silence);
         return verdictOf(m_session, recentSpan(m_session));
     }
+    /// The same as pose(), of the character with the ID 1.
+    void poseOfOther(std::uint32_t sample) {
+        wire::Datagram datagram{{}, standingAt(0), {}};
+        datagram.header.sampleCounter = sample;
+        datagram.header.character = 1;
+        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
+        wire::completeHeader(datagram, wire::HeaderEra::Counted);
+        sendBytes(*wire::encode(datagram), m_at);
+    }
+    TakeVerdict verdictOn(std::uint8_t character) {
+        follow();
+        return verdictOf(m_session, recentSpan(m_session), CharacterKey{sender(), character});
+    }
     /// What incidents say was lost, by cause.
     std::array<std::uint64_t, kLossCauses> told() {
         std::array<std::uint64_t, kLossCauses> sums{};
@@ -60,6 +73,18 @@ TEST_F(VerdictTest, IsNotGoodWithoutAPoseToDraw) {
     }
     EXPECT_EQ(verdict().state, State::Warning);
     EXPECT_EQ(verdict().text, "Not quite good: no pose to draw of Character 0, which sends types 24 and 21");
+}
+
+TEST_F(VerdictTest, IsNotGoodWhereOnlyThePoseIsNotSentAnyMore) {
+    for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
+        if (sample <= 300) {
+            pose(sample);
+        }
+        send(wire::CentreOfMass{}, sample, m_at);
+    }
+    EXPECT_EQ(verdict().state, State::Warning);
+    EXPECT_EQ(verdict().text, "Not quite good: no pose to draw of Character 0, which sends type 24");
+    EXPECT_EQ(verdict().brief, "no pose");
 }
 
 TEST_F(VerdictTest, CallsNoBodyGoodThatIsPartlyAssumed) {
@@ -255,19 +280,37 @@ TEST_F(VerdictTest, SaysTheSameWhileOnlyItsNumbersGrow) {
     EXPECT_TRUE(sayTheSame(lost, more)) << lost.text << '\n' << more.text;
 }
 
+TEST_F(VerdictTest, OneThatLostLittleIsNotAsBadAsOneThatIsAboveItsLimit) {
+    for (std::uint32_t sample = 1; sample <= 2'000; ++sample, m_at += 10ms) {
+        if (sample != 1'500) {
+            pose(sample);
+        }
+        if (sample % 50 != 0) {
+            poseOfOther(sample);
+        }
+    }
+    EXPECT_EQ(verdictOn(0).state, State::Warning) << verdictOn(0).text;
+    EXPECT_EQ(verdictOn(1).state, State::Bad) << verdictOn(1).text;
+    EXPECT_EQ(verdict().state, State::Bad);
+}
+
+TEST_F(VerdictTest, ItsFigureInBriefIsOfTheTimeThatItIsOf) {
+    for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 10ms) {
+        if (sample < 500 ? sample % 7 > 2 : sample % 20 != 1) {
+            pose(sample);
+        }
+    }
+    EXPECT_TRUE(verdict().brief.starts_with("5.0 % lost, ")) << verdict().brief;
+    EXPECT_NE(verdict().text.find("11 % lost on "), std::string::npos)
+        << "the whole says since when: " << verdict().text;
+    EXPECT_EQ(of(IncidentKind::Loss).size(), 1U);
+}
+
 TEST_F(VerdictTest, IsOfOneCharacterWhereItIsAskedFor) {
-    const auto other = [this](std::uint32_t sample) {
-        wire::Datagram datagram{{}, standingAt(0), {}};
-        datagram.header.sampleCounter = sample;
-        datagram.header.character = 1;
-        datagram.header.timeCode = static_cast<std::uint32_t>(m_at.time_since_epoch() / 1ms);
-        wire::completeHeader(datagram, wire::HeaderEra::Counted);
-        sendBytes(*wire::encode(datagram), m_at);
-    };
     for (std::uint32_t sample = 1; sample <= 500; ++sample, m_at += 10ms) {
         pose(sample);
         if (sample % 20 != 0) {
-            other(sample);
+            poseOfOther(sample);
         }
     }
     follow();
@@ -275,6 +318,39 @@ TEST_F(VerdictTest, IsOfOneCharacterWhereItIsAskedFor) {
     const TakeVerdict bad = verdictOf(m_session, {}, CharacterKey{sender(), 1});
     EXPECT_EQ(bad.state, State::Bad);
     EXPECT_EQ(bad.character, (CharacterKey{sender(), 1}));
+}
+
+TEST_F(VerdictTest, MentionsTheOutageOfOneThatIsBackWhileAnotherIsStillSilent) {
+    for (std::uint32_t sample = 1; sample <= 300; ++sample, m_at += 10ms) {
+        pose(sample);
+        poseOfOther(sample);
+    }
+    m_at += 900ms;
+    poses(301, 301);
+    EXPECT_EQ(verdictOn(0).state, State::Warning);
+    EXPECT_TRUE(verdictOn(0).isOver) << verdictOn(0).text;
+    EXPECT_FALSE(verdictOn(1).isOver) << verdictOn(1).text;
+    poses(302, 1'500);
+    EXPECT_EQ(verdictOn(0).state, State::Good) << verdictOn(0).text;
+    EXPECT_FALSE(verdictOn(1).isOver) << verdictOn(1).text;
+}
+
+TEST_F(VerdictTest, LossThatGoesOnForAnotherIsOverForOneThatHasNoneAnyMore) {
+    for (std::uint32_t sample = 1; sample <= 3'000; ++sample, m_at += 10ms) {
+        if (sample > 305 || sample < 301) {
+            pose(sample);
+        }
+        if (sample < 200 || sample % 20 != 0) {
+            poseOfOther(sample);
+        }
+        if (sample == 700) {
+            EXPECT_TRUE(verdictOn(0).isOver) << verdictOn(0).text;
+            EXPECT_FALSE(verdictOn(1).isOver) << verdictOn(1).text;
+        }
+    }
+    EXPECT_EQ(of(IncidentKind::Loss).size(), 1U) << "it is one incident all the same";
+    EXPECT_EQ(verdictOn(0).state, State::Good) << verdictOn(0).text;
+    EXPECT_EQ(verdictOn(1).state, State::Bad) << verdictOn(1).text;
 }
 
 TEST_F(VerdictTest, DoesNotBelieveACharacterOfOneCorruptHeader) {
