@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -12,11 +13,12 @@ namespace posewire::render {
 namespace {
 
 /// The segment that a vertex follows most, twist joints counted for theirs.
-std::size_t leadingSegment(const JointIndices& joints, const glm::vec4& weights) {
+std::size_t leadingSegment(const JointIndices& joints, const glm::vec4& weights,
+                           std::span<const Segment> jointSegments) {
     std::array<float, kSegmentCount> shares{};
     for (int i = 0; i < 4; ++i) {
-        if (joints[i] < kJointCount) {
-            shares[jointSegment(joints[i])] += weights[i];
+        if (joints[i] < jointSegments.size()) {
+            shares[jointSegments[joints[i]]] += weights[i];
         }
     }
     return static_cast<std::size_t>(std::ranges::max_element(shares) - shares.begin());
@@ -31,7 +33,7 @@ Capsule capsuleIn(const Bounds& box) {
     int axis = size.x > size.y ? 0 : 1;
     axis = size.z > size[axis] ? 2 : axis;
     const float across = 0.5F * (size[(axis + 1) % 3] + size[(axis + 2) % 3]);
-    Capsule capsule{box.centre(), box.centre(), 0.5F * across};
+    Capsule capsule{box.centre(), box.centre(), 0.5F * across, 0};
     const float half = std::max(0.5F * size[axis] - capsule.radius, 0.0F);
     capsule.from[axis] -= half;
     capsule.to[axis] += half;
@@ -84,18 +86,35 @@ std::optional<float> intersectSide(const Ray& ray, const Capsule& capsule) {
 
 } // namespace
 
-SegmentCapsules segmentCapsules(const SkinnedMesh& mesh) {
+SegmentCapsules segmentCapsules(const SkinnedMesh& mesh, std::span<const Segment> jointSegments,
+                                std::span<const int> segmentJoints) {
     std::array<Bounds, kSegmentCount> boxes;
     for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
-        boxes[leadingSegment(mesh.joints[i], mesh.weights[i])].add(mesh.positions[i]);
+        boxes[leadingSegment(mesh.joints[i], mesh.weights[i], jointSegments)].add(mesh.positions[i]);
     }
     SegmentCapsules capsules;
-    std::ranges::transform(boxes, capsules.begin(), capsuleIn);
+    for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
+        if (segmentJoints[segment] >= 0) {
+            capsules[segment] = capsuleIn(boxes[segment]);
+            capsules[segment].joint = static_cast<std::size_t>(segmentJoints[segment]);
+        }
+    }
     return capsules;
 }
 
+SegmentCapsules segmentCapsules(const SkinnedMesh& mesh) {
+    std::array<Segment, kJointCount> jointSegments{};
+    std::array<int, kSegmentCount> segmentJoints{};
+    for (std::size_t joint = 0; joint < kJointCount; ++joint) {
+        jointSegments[joint] = jointSegment(joint);
+    }
+    std::iota(segmentJoints.begin(), segmentJoints.end(), 0);
+    return segmentCapsules(mesh, jointSegments, segmentJoints);
+}
+
 Capsule posed(const Capsule& capsule, const DualQuaternion& motion) {
-    return {transformPoint(motion, capsule.from), transformPoint(motion, capsule.to), capsule.radius};
+    return {transformPoint(motion, capsule.from), transformPoint(motion, capsule.to), capsule.radius,
+            capsule.joint};
 }
 
 std::optional<float> intersect(const Ray& ray, const Capsule& capsule) {
@@ -115,11 +134,15 @@ std::optional<float> intersect(const Ray& ray, const Capsule& capsule) {
 std::optional<Pick> pickSegment(const Ray& ray, std::span<const PickTarget> targets) {
     std::optional<Pick> nearest;
     for (const PickTarget& target : targets) {
-        if (target.capsules == nullptr || target.palette.size() < kSegmentCount) {
+        if (target.capsules == nullptr) {
             continue;
         }
         for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
-            const Capsule capsule = posed((*target.capsules)[segment], target.palette[segment]);
+            const Capsule& own = (*target.capsules)[segment];
+            if (own.joint >= target.palette.size()) {
+                continue;
+            }
+            const Capsule capsule = posed(own, target.palette[own.joint]);
             const std::optional<float> hit = intersect(ray, capsule);
             if (hit && (!nearest || *hit < nearest->distance)) {
                 nearest = Pick{target.id, static_cast<int>(segment), *hit};

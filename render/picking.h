@@ -16,18 +16,24 @@ struct Capsule {
     glm::vec3 to{0.0F};
     /// Negative: there is nothing.
     float radius = -1.0F;
+    /// Whose motion it follows.
+    std::size_t joint = 0;
 };
 
 /// One capsule per segment around the vertices that follow it most, in the mesh's null pose.
 using SegmentCapsules = std::array<Capsule, kSegmentCount>;
 SegmentCapsules segmentCapsules(const SkinnedMesh& mesh);
-/// The capsule of a segment where the palette puts it.
+/// The same for other joints than the mannequin's: the segment that each follows, and the joint of each
+/// segment, or -1.
+SegmentCapsules segmentCapsules(const SkinnedMesh& mesh, std::span<const Segment> jointSegments,
+                                std::span<const int> segmentJoints);
+/// The capsule where its joint's motion puts it.
 Capsule posed(const Capsule& capsule, const DualQuaternion& motion);
 
 struct PickTarget {
     std::uint32_t id = 0;
     const SegmentCapsules* capsules = nullptr;
-    /// kJointCount.
+    /// As for drawing.
     std::span<const DualQuaternion> palette;
 };
 

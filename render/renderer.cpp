@@ -190,6 +190,10 @@ MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> 
     return m_impl->meshes.add(mesh, templatePositions);
 }
 
+MeshId Renderer::uploadMesh(const SkinnedMesh& mesh, const MeshDress& dress) {
+    return m_impl->meshes.add(mesh, dress);
+}
+
 void Renderer::releaseMesh(MeshId id) {
     m_impl->meshes.remove(id);
 }
@@ -246,10 +250,10 @@ void Renderer::observePasses(std::function<void(std::string_view)> passed) {
 
 std::vector<glm::vec3> Renderer::skinnedPositions(MeshId id, std::span<const DualQuaternion> palette) {
     const GpuMesh* mesh = m_impl->meshes.find(id);
-    if (mesh == nullptr || palette.size() < kJointCount) {
+    if (mesh == nullptr || palette.size() < mesh->jointBoxes.size()) {
         return {};
     }
-    m_impl->palettes.upload(palette.first(kJointCount));
+    m_impl->palettes.upload(palette.first(mesh->jointBoxes.size()));
     m_impl->palettes.bind();
     return m_impl->skinned->record(*mesh);
 }

@@ -80,9 +80,11 @@ public:
     void setQuality(const RenderQuality& quality);
 
     /// `templatePositions` says where each vertex sits on the mannequin in its reference null pose: the suit
-    /// is painted there, so that a fitted mesh keeps its seams. Empty paints without a suit, as for imported
-    /// meshes. MeshId::None where mesh.validate() fails.
+    /// is painted there, so that a fitted mesh keeps its seams. Empty paints without a suit.
+    /// MeshId::None where mesh.validate() fails.
     MeshId uploadMesh(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
+    /// A mesh with joints, colours and textures of its own. MeshId::None where they do not fit together.
+    MeshId uploadMesh(const SkinnedMesh& mesh, const MeshDress& dress);
     void releaseMesh(MeshId id);
 
     /// Whether the driver was reset and all that this holds is lost, as far as the context tells: it must

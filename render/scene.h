@@ -2,11 +2,13 @@
 #pragma once
 
 #include "render/camera.h"
+#include "render/mesh/character_file.h"
 #include "render/skinning.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/vec3.hpp>
@@ -18,6 +20,26 @@ namespace posewire::render {
 
 /// A mesh that a renderer holds.
 enum class MeshId : std::uint32_t { None = 0 };
+
+/// A picture on a mesh: red, green, blue and alpha of each texel as display values, the top row first.
+struct TextureImage {
+    int width = 0;
+    int height = 0;
+    std::vector<std::uint8_t> texels;
+};
+
+/// What a mesh has of its own where it is no mannequin.
+struct MeshDress {
+    /// By joint.
+    std::span<const Segment> jointSegments;
+    /// By segment: the joint that it is picked by, or -1.
+    std::span<const int> segmentJoints;
+    /// Of each vertex; may be empty.
+    std::span<const glm::vec2> texturePlaces;
+    std::span<const MeshPart> parts;
+    /// Those that could not be had are empty.
+    std::span<const TextureImage> textures;
+};
 
 /// The colours of everything that has none of its own; they come from the program's theme.
 struct SceneColours {
@@ -86,7 +108,8 @@ struct SkinnedInstance {
     /// The same body in fewer triangles, for its shadow and for where it is small in the picture; None where
     /// there is only one.
     MeshId lowMesh = MeshId::None;
-    /// kJointCount rigid motions from the mesh's null pose to the world, as PaletteJob makes them.
+    /// Rigid motions from the mesh's null pose to the world, one for each of its joints: kJointCount, as
+    /// PaletteJob makes them, or those of OwnPaletteJob.
     std::span<const DualQuaternion> palette;
     CharacterLook look;
 };

@@ -23,14 +23,6 @@ std::optional<glm::quat> unitQuaternion(const glm::quat& q) {
     return q / length;
 }
 
-/// The motion v → R (v − origin) + position (Kavan et al., Geometric Skinning with Approximate Dual
-/// Quaternion Blending).
-DualQuaternion makeMotion(const glm::quat& rotation, const glm::vec3& origin, const glm::vec3& position) {
-    const glm::vec3 t = position - rotation * origin;
-    const glm::quat dual = glm::quat(0.0F, t.x, t.y, t.z) * rotation * 0.5F;
-    return {{rotation.x, rotation.y, rotation.z, rotation.w}, {dual.x, dual.y, dual.z, dual.w}};
-}
-
 /// The part of a rotation that turns about the axis (swing-twist decomposition).
 glm::quat twistAbout(const glm::quat& rotation, const glm::vec3& axis) {
     const float along = glm::dot(glm::vec3(rotation.x, rotation.y, rotation.z), axis);
@@ -82,7 +74,7 @@ void placeTwistJoints(const PaletteJob& job, const PlacedBody& body) {
         const glm::quat& parent = body.rotations[kSegmentParents[segment]];
         const glm::quat rotation =
             alignedSign(parent * swingOf(body, segment, axis), body.rotations[segment]);
-        job.palette[kSegmentCount + i] = makeMotion(rotation, job.origins[segment], body.places[segment]);
+        job.palette[kSegmentCount + i] = rigidMotion(rotation, job.origins[segment], body.places[segment]);
     }
 }
 
@@ -112,7 +104,7 @@ void placeHalfJoints(const PaletteJob& job, const PlacedBody& body) {
                 body.rotations[parent] * (size * mirror * shoulderShift(mirror * (swing * (mirror * axis))));
         }
         job.palette[kFirstHalfJoint + i] =
-            makeMotion(body.rotations[parent] * half, job.origins[segment], place);
+            rigidMotion(body.rotations[parent] * half, job.origins[segment], place);
     }
 }
 
@@ -164,7 +156,7 @@ void placeHand(const PaletteJob& job, const PlacedBody& body, std::span<const gl
                 alignedSign(unitQuaternion(pose.orientations[i]).value_or(parentRotation), parentRotation);
             fingers.places[i] = isFinite(pose.positions[i]) ? pose.positions[i] : fingers.places[i];
         }
-        job.palette[first + i] = makeMotion(fingers.rotations[i], origin, fingers.places[i]);
+        job.palette[first + i] = rigidMotion(fingers.rotations[i], origin, fingers.places[i]);
     }
 }
 
@@ -195,6 +187,12 @@ DualQuaternion blend(std::span<const DualQuaternion> palette, const JointIndices
 
 } // namespace
 
+DualQuaternion rigidMotion(const glm::quat& rotation, const glm::vec3& origin, const glm::vec3& position) {
+    const glm::vec3 t = position - rotation * origin;
+    const glm::quat dual = glm::quat(0.0F, t.x, t.y, t.z) * rotation * 0.5F;
+    return {{rotation.x, rotation.y, rotation.z, rotation.w}, {dual.x, dual.y, dual.z, dual.w}};
+}
+
 glm::vec3 transformPoint(const DualQuaternion& motion, const glm::vec3& point) {
     const glm::vec3 real(motion.real);
     const glm::vec3 dual(motion.dual);
@@ -223,7 +221,7 @@ tl::expected<void, std::string> PaletteJob::validate() const {
 void PaletteJob::run() const {
     const PlacedBody body = placedBody(*this);
     for (std::size_t i = 0; i < kSegmentCount; ++i) {
-        palette[i] = makeMotion(body.rotations[i], origins[i], body.places[i]);
+        palette[i] = rigidMotion(body.rotations[i], origins[i], body.places[i]);
     }
     placeTwistJoints(*this, body);
     placeHalfJoints(*this, body);

@@ -21,6 +21,10 @@ struct DualQuaternion {
 };
 static_assert(sizeof(DualQuaternion) == 2 * sizeof(glm::vec4));
 
+/// The motion v → R (v − origin) + position (Kavan et al., Geometric Skinning with Approximate Dual
+/// Quaternion Blending).
+DualQuaternion rigidMotion(const glm::quat& rotation, const glm::vec3& origin, const glm::vec3& position);
+
 /// Where a rigid motion takes a point.
 glm::vec3 transformPoint(const DualQuaternion& motion, const glm::vec3& point);
 

@@ -51,6 +51,25 @@ Texture Texture::create2D(Format format, int width, int height) {
     return texture;
 }
 
+Texture Texture::ofPicture(int width, int height, std::span<const std::uint8_t> texels) {
+    unsigned name = 0;
+    glGenTextures(1, &name);
+    Texture texture;
+    texture.m_handle = Handle<deleteTexture>(name);
+    texture.m_target = GL_TEXTURE_2D;
+    texture.m_width = width;
+    texture.m_height = height;
+    glBindTexture(GL_TEXTURE_2D, name);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
+    glGenerateMipmap(GL_TEXTURE_2D);
+    return texture;
+}
+
 Texture Texture::overBuffer(const Buffer& buffer) {
     unsigned name = 0;
     glGenTextures(1, &name);

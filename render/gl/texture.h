@@ -3,9 +3,12 @@
 
 #include "render/gl/buffer.h"
 
+#include <cstdint>
+#include <span>
+
 namespace posewire::render::gl {
 
-/// A texture of one level whose content is drawn or copied, or a buffer seen as one.
+/// A texture of one level whose content is drawn or copied, a picture in all levels, or a buffer seen as one.
 class Texture {
 public:
     enum class Format {
@@ -16,6 +19,8 @@ public:
     };
 
     static Texture create2D(Format format, int width, int height);
+    /// A picture of red, green, blue and alpha, the top row first, which repeats; four bytes a texel.
+    static Texture ofPicture(int width, int height, std::span<const std::uint8_t> texels);
     /// RGBA32F texels: one vec4 each.
     static Texture overBuffer(const Buffer& buffer);
 

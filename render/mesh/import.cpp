@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "render/mesh/import.h"
 
+#include "render/mesh/import_materials.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -18,7 +21,6 @@
 namespace posewire::render {
 namespace {
 
-constexpr std::size_t kMostBones = 256;
 constexpr unsigned kSteps = aiProcess_Triangulate | aiProcess_SortByPType | aiProcess_GenSmoothNormals |
                             aiProcess_JoinIdenticalVertices | aiProcess_GlobalScale |
                             aiProcess_ValidateDataStructure;
@@ -52,6 +54,12 @@ glm::quat rotationOf(const glm::mat4& m) {
     return glm::normalize(glm::quat_cast(axes));
 }
 
+/// Triangles made of other polygons are marked as such beside their kind.
+bool isOfTriangles(const aiMesh& mesh) {
+    return (mesh.mPrimitiveTypes & ~static_cast<unsigned>(aiPrimitiveType_NGONEncodingFlag)) ==
+           aiPrimitiveType_TRIANGLE;
+}
+
 struct Influence {
     std::uint8_t bone;
     float weight;
@@ -59,10 +67,13 @@ struct Influence {
 
 class Conversion {
 public:
-    explicit Conversion(const aiScene& scene) : m_scene(scene) {}
+    Conversion(const aiScene& scene, std::filesystem::path folder)
+        : m_scene(scene), m_materials(scene, std::move(folder)) {}
 
     tl::expected<ImportedCharacter, std::string> run() {
+        std::size_t vertices = 0;
         for (unsigned i = 0; i < m_scene.mNumMeshes; ++i) {
+            vertices += m_scene.mMeshes[i]->mNumBones > 0 ? m_scene.mMeshes[i]->mNumVertices : 0;
             for (unsigned b = 0; b < m_scene.mMeshes[i]->mNumBones; ++b) {
                 m_boneIndex.emplace(m_scene.mMeshes[i]->mBones[b]->mName.C_Str(), -1);
             }
@@ -70,15 +81,22 @@ public:
         if (m_boneIndex.empty()) {
             return tl::make_unexpected("the file has no mesh with bones");
         }
-        if (m_boneIndex.size() > kMostBones) {
+        if (vertices > kMostImportedVertices) {
+            return tl::make_unexpected("the file has more than 500,000 vertices");
+        }
+        if (!hasNodes()) {
+            return tl::make_unexpected("a bone of the file has no node");
+        }
+        addJoiningNodes(*m_scene.mRootNode);
+        if (m_boneIndex.size() > kMostImportedBones) {
             return tl::make_unexpected("the file has more than 256 bones");
         }
         addBones(*m_scene.mRootNode, kZUpFromYUp, -1);
-        if (m_character.bones.size() != m_boneIndex.size()) {
-            return tl::make_unexpected("a bone of the file has no node");
-        }
         for (unsigned i = 0; i < m_scene.mNumMeshes; ++i) {
             addMesh(*m_scene.mMeshes[i]);
+        }
+        if (!m_hasTexturePlaces) {
+            m_character.texturePlaces.clear();
         }
         if (const auto sound = m_character.mesh.validate(m_character.bones.size()); !sound) {
             return tl::make_unexpected(sound.error());
@@ -87,13 +105,33 @@ public:
     }
 
 private:
+    bool hasNodes() const {
+        return std::ranges::all_of(m_boneIndex, [this](const auto& bone) {
+            return m_scene.mRootNode->FindNode(bone.first.c_str()) != nullptr;
+        });
+    }
+
+    /// Nodes between bones are bones without vertices: exporters leave those out. Returns whether there is a
+    /// bone in the branch.
+    bool addJoiningNodes(const aiNode& node) {
+        unsigned branches = 0;
+        for (unsigned i = 0; i < node.mNumChildren; ++i) {
+            branches += addJoiningNodes(*node.mChildren[i]) ? 1U : 0U;
+        }
+        const bool isBone = m_boneIndex.contains(node.mName.C_Str());
+        if (!isBone && branches > 1) {
+            m_boneIndex.emplace(node.mName.C_Str(), -1);
+        }
+        return isBone || branches > 0;
+    }
+
     void addBones(const aiNode& node, const glm::mat4& worldFromParent, int parentBone) {
         const glm::mat4 worldFromNode = worldFromParent * matrixOf(node.mTransformation);
         const auto entry = m_boneIndex.find(node.mName.C_Str());
         if (entry != m_boneIndex.end() && entry->second < 0) {
             entry->second = static_cast<int>(m_character.bones.size());
             m_character.bones.push_back(
-                {entry->first, parentBone, glm::vec3(worldFromNode[3]), rotationOf(worldFromNode)});
+                {entry->first, parentBone, glm::vec3(worldFromNode[3]), rotationOf(worldFromNode), false});
             m_worldFromBone.push_back(worldFromNode);
             parentBone = entry->second;
         }
@@ -103,11 +141,12 @@ private:
     }
 
     void addMesh(const aiMesh& source) {
-        if (source.mNumBones == 0 || source.mPrimitiveTypes != aiPrimitiveType_TRIANGLE ||
-            !source.HasNormals()) {
+        if (source.mNumBones == 0 || !isOfTriangles(source) || !source.HasNormals()) {
             return;
         }
         const auto first = static_cast<std::uint32_t>(m_character.mesh.vertexCount());
+        MeshPart part;
+        part.firstIndex = static_cast<std::uint32_t>(m_character.mesh.indices.size());
         collectInfluences(source);
         for (unsigned v = 0; v < source.mNumVertices; ++v) {
             addVertex(source, v);
@@ -118,6 +157,9 @@ private:
                 m_character.mesh.indices.push_back(first + face.mIndices[i]);
             }
         }
+        part.indexCount = static_cast<std::uint32_t>(m_character.mesh.indices.size()) - part.firstIndex;
+        m_materials.dress(source.mMaterialIndex, part, m_character.textures);
+        m_character.parts.push_back(part);
     }
 
     void collectInfluences(const aiMesh& source) {
@@ -153,6 +195,7 @@ private:
         for (const Influence& influence : influences) {
             sum += influence.weight;
         }
+        m_character.bones[influences[0].bone].hasWeights = true;
         JointIndices joints{};
         glm::vec4 weights(0.0F);
         for (std::size_t i = 0; i < influences.size(); ++i) {
@@ -178,11 +221,24 @@ private:
         const float length = glm::length(normal);
         const bool hasLength = std::isfinite(length) && length > 0.0F;
         mesh.normals.push_back(hasLength ? normal / length : glm::vec3(0.0F, 0.0F, 1.0F));
-        const float red = source.HasVertexColors(0) ? source.mColors[0][v].r : 1.0F;
-        mesh.occlusion.push_back(std::isfinite(red) ? std::clamp(red, 0.0F, 1.0F) : 1.0F);
+        mesh.occlusion.push_back(1.0F);
+        if (source.HasVertexColors(0)) {
+            const aiColor4D& colour = source.mColors[0][v];
+            const float bright = std::max({colour.r, colour.g, colour.b});
+            mesh.occlusion.back() = std::isfinite(bright) ? std::clamp(bright, 0.0F, 1.0F) : 1.0F;
+        }
+        glm::vec2 place(0.0F);
+        if (source.HasTextureCoords(0)) {
+            const aiVector3D& uv = source.mTextureCoords[0][v];
+            m_hasTexturePlaces = true;
+            place = std::isfinite(uv.x) && std::isfinite(uv.y) ? glm::vec2(uv.x, 1.0F - uv.y) : place;
+        }
+        m_character.texturePlaces.push_back(place);
     }
 
     const aiScene& m_scene;
+    ImportedMaterials m_materials;
+    bool m_hasTexturePlaces = false;
     ImportedCharacter m_character;
     std::map<std::string, int> m_boneIndex;
     std::vector<glm::mat4> m_worldFromBone;
@@ -192,14 +248,40 @@ private:
     std::uint8_t m_firstBone = 0;
 };
 
-tl::expected<ImportedCharacter, std::string> converted(const Assimp::Importer& importer,
-                                                       const aiScene* scene) {
+/// Opens the file itself, and regular files within its folder: what a file names may be anything.
+class OwnFolder final : public Assimp::DefaultIOSystem {
+public:
+    explicit OwnFolder(std::filesystem::path file)
+        : m_file(std::move(file)), m_folder(std::filesystem::absolute(m_file).parent_path()) {}
+
+    const std::filesystem::path& folder() const { return m_folder; }
+
+    Assimp::IOStream* Open(const char* path, const char* mode) override {
+        if (m_file == path) {
+            return DefaultIOSystem::Open(path, mode);
+        }
+        const std::filesystem::path relative =
+            std::filesystem::path(path).lexically_relative(m_file.parent_path());
+        const auto beside = fileBeside(m_folder, relative.empty() ? std::string(path) : relative.string());
+        std::error_code problem;
+        const bool isSmall =
+            beside && std::filesystem::file_size(*beside, problem) <= kMostImportedBytes && !problem;
+        return isSmall ? DefaultIOSystem::Open(beside->string().c_str(), mode) : nullptr;
+    }
+
+private:
+    std::filesystem::path m_file;
+    std::filesystem::path m_folder;
+};
+
+tl::expected<ImportedCharacter, std::string> converted(const Assimp::Importer& importer, const aiScene* scene,
+                                                       const std::filesystem::path& folder) {
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string reason = importer.GetErrorString();
         return tl::make_unexpected(reason.empty() ? std::string("the file cannot be read as a mesh")
                                                   : reason);
     }
-    return Conversion(*scene).run();
+    return Conversion(*scene, folder).run();
 }
 
 void configure(Assimp::Importer& importer) {
@@ -211,9 +293,19 @@ void configure(Assimp::Importer& importer) {
 } // namespace
 
 tl::expected<ImportedCharacter, std::string> importCharacter(const std::string& path) {
+    std::error_code problem;
+    if (!std::filesystem::is_regular_file(path, problem)) {
+        return tl::make_unexpected("there is no file " + path);
+    }
+    if (std::filesystem::file_size(path, problem) > kMostImportedBytes || problem) {
+        return tl::make_unexpected("the file is larger than 256 MB");
+    }
     Assimp::Importer importer;
     configure(importer);
-    return converted(importer, importer.ReadFile(path, kSteps));
+    auto* files = new OwnFolder(path); // the importer's own from here on
+    const std::filesystem::path folder = files->folder();
+    importer.SetIOHandler(files);
+    return converted(importer, importer.ReadFile(path, kSteps), folder);
 }
 
 tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std::byte> bytes,
@@ -221,7 +313,7 @@ tl::expected<ImportedCharacter, std::string> importCharacter(std::span<const std
     Assimp::Importer importer;
     configure(importer);
     return converted(importer,
-                     importer.ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, extension.c_str()));
+                     importer.ReadFileFromMemory(bytes.data(), bytes.size(), kSteps, extension.c_str()), {});
 }
 
 } // namespace posewire::render

@@ -28,7 +28,7 @@ bool isAboveFloor(const Camera& camera) {
 /// Calls `visit` with the corners of the boxes around the joints, where the palette puts them.
 template <typename Visit>
 void forEachCorner(const DrawnCharacter& character, Visit visit) {
-    for (std::size_t joint = 0; joint < kJointCount; ++joint) {
+    for (std::size_t joint = 0; joint < character.mesh->jointBoxes.size(); ++joint) {
         const Bounds& box = character.mesh->jointBoxes[joint];
         for (int corner = 0; corner < 8 && !box.isEmpty(); ++corner) {
             const glm::vec3 world = transformPoint(character.instance->palette[joint], box.corner(corner));
@@ -39,19 +39,26 @@ void forEachCorner(const DrawnCharacter& character, Visit visit) {
     }
 }
 
+/// Null where there is none that the same palette moves.
+const GpuMesh* lowMesh(const SkinnedInstance& instance, const GpuMesh& mesh, const MeshStore& meshes) {
+    const GpuMesh* low = meshes.find(instance.lowMesh);
+    return low != nullptr && low->jointBoxes.size() == mesh.jointBoxes.size() ? low : nullptr;
+}
+
 void findDrawable(const Scene& scene, const MeshStore& meshes, const RenderQuality& quality,
                   std::vector<DrawnCharacter>& characters) {
     characters.clear();
     int paletteBase = 0;
     for (const SkinnedInstance& instance : scene.characters) {
         const GpuMesh* mesh = meshes.find(instance.mesh);
-        if (mesh == nullptr || instance.palette.size() < kJointCount || !(instance.look.opacity > 0.0F)) {
+        if (mesh == nullptr || instance.palette.size() < mesh->jointBoxes.size() ||
+            !(instance.look.opacity > 0.0F)) {
             continue;
         }
-        const GpuMesh* low = meshes.find(instance.lowMesh);
+        const GpuMesh* low = lowMesh(instance, *mesh, meshes);
         const GpuMesh* caster = quality.lowShadows && low != nullptr ? low : mesh;
         characters.push_back({&instance, mesh, mesh, caster, paletteBase, Bounds{}, Bounds{}});
-        paletteBase += kTexelsPerJoint * static_cast<int>(kJointCount);
+        paletteBase += kTexelsPerJoint * static_cast<int>(mesh->jointBoxes.size());
     }
 }
 
@@ -126,7 +133,7 @@ void placeOnScreen(Frame& frame, const MeshStore& meshes, float lowBodiesBelow) 
             character.onScreen = {glm::max(box.min, -1.0F), glm::min(box.max, 1.0F)};
         }
         const float height = 0.5F * (box.max.y - box.min.y) * frame.block.viewport.y;
-        const GpuMesh* low = meshes.find(character.instance->lowMesh);
+        const GpuMesh* low = lowMesh(*character.instance, *character.mesh, meshes);
         if (isVisible && low != nullptr && height < lowBodiesBelow) {
             character.drawn = low;
         }

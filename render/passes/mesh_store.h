@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "render/gl/texture.h"
 #include "render/gl/vertex_array.h"
 #include "render/picking.h"
 #include "render/scene.h"
 
-#include <array>
 #include <optional>
 #include <vector>
 
@@ -20,20 +20,28 @@ struct GpuMesh {
     int vertexCount = 0;
     bool hasSuit = false;
     /// Null-pose box of the vertices that each joint moves noticeably.
-    std::array<Bounds, kJointCount> jointBoxes;
+    std::vector<Bounds> jointBoxes;
     SegmentCapsules capsules;
+    /// Of a user's own character; else empty.
+    std::vector<MeshPart> parts;
+    gl::Buffer texturePlaces;
+    std::vector<gl::Texture> textures;
 
     void draw() const;
+    void draw(const MeshPart& part) const;
 };
 
 class MeshStore {
 public:
     MeshId add(const SkinnedMesh& mesh, std::span<const glm::vec3> templatePositions);
+    MeshId add(const SkinnedMesh& mesh, const MeshDress& dress);
     void remove(MeshId id);
     /// Null where there is none.
     const GpuMesh* find(MeshId id) const;
 
 private:
+    MeshId keep(std::optional<GpuMesh> gpu);
+
     /// MeshId n is at n − 1; a place that is free is used again.
     std::vector<std::optional<GpuMesh>> m_meshes;
 };

@@ -17,7 +17,8 @@ void Palettes::upload(const Frame& frame) {
     std::vector<DualQuaternion> all;
     all.reserve(frame.characters.size() * kJointCount);
     for (const DrawnCharacter& character : frame.characters) {
-        const std::span<const DualQuaternion> palette = character.instance->palette.first(kJointCount);
+        const std::span<const DualQuaternion> palette =
+            character.instance->palette.first(character.mesh->jointBoxes.size());
         all.insert(all.end(), palette.begin(), palette.end());
     }
     upload(all);

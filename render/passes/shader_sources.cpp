@@ -1,27 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "render/passes/shader_sources.h"
 
-#include "render/mesh/joints.h"
 #include "shader_files.h"
 
 namespace posewire::render {
-namespace {
-
-/// kJointCount and kJointSegments of joints.h for the shaders.
-const std::string& jointTable() {
-    static const std::string kText = [] {
-        const std::string count = std::to_string(kJointCount);
-        std::string text = "const int kJointCount = " + count + ";\nconst int kJointSegments[" + count +
-                           "] = int[" + count + "](";
-        for (std::size_t joint = 0; joint < kJointCount; ++joint) {
-            text += (joint == 0 ? "" : ", ") + std::to_string(jointSegment(joint));
-        }
-        return text + ");\n";
-    }();
-    return kText;
-}
-
-} // namespace
 
 tl::expected<gl::Program, std::string> createProgram(const ProgramParts& parts) {
     std::vector<std::string_view> vertex;
@@ -30,7 +12,6 @@ tl::expected<gl::Program, std::string> createProgram(const ProgramParts& parts) 
     }
     vertex.push_back(shaders::frameGlsl());
     if (parts.skins) {
-        vertex.push_back(jointTable());
         vertex.push_back(shaders::skinningGlsl());
     }
     if (parts.isFloor) {
@@ -62,6 +43,7 @@ tl::expected<gl::Program, std::string> createProgram(const ProgramParts& parts) 
     program->set("shadowMap", static_cast<int>(kShadowMapUnit));
     program->set("floorShadow", static_cast<int>(kFloorShadowUnit));
     program->set("shadowDepth", static_cast<int>(kShadowDepthUnit));
+    program->set("partTexture", static_cast<int>(kPartTextureUnit));
     program->set("picture", static_cast<int>(kPictureUnit));
     return program;
 }

@@ -16,6 +16,7 @@ inline constexpr unsigned kShadowMapUnit = 1;
 inline constexpr unsigned kFloorShadowUnit = 2;
 inline constexpr unsigned kShadowDepthUnit = 3;
 inline constexpr unsigned kPictureUnit = 4;
+inline constexpr unsigned kPartTextureUnit = 5;
 
 struct ProgramParts {
     std::string_view name;

@@ -20,8 +20,8 @@ constexpr float kContactHeight = 0.30F;
 std::vector<glm::vec4> contacts(const DrawnCharacter& character) {
     std::vector<Capsule> near;
     for (std::size_t segment = 0; segment < kSegmentCount; ++segment) {
-        const Capsule capsule =
-            posed(character.mesh->capsules[segment], character.instance->palette[segment]);
+        const Capsule& own = character.mesh->capsules[segment];
+        const Capsule capsule = posed(own, character.instance->palette[own.joint]);
         const float height = std::min(capsule.from.z, capsule.to.z) - capsule.radius;
         if (capsule.radius > 0.0F && height < kContactHeight && height > -1.0F) {
             near.push_back(capsule);

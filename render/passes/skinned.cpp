@@ -20,6 +20,17 @@ constexpr int kFineShadowMap = 1024;
 constexpr std::array<std::string_view, 3> kShadeDefines{"#define HARD_SELF_SHADOW\n", "",
                                                         "#define WIDE_SELF_SHADOW\n"};
 
+tl::expected<gl::Program, std::string> paintingProgram(std::string_view shadeDefine, bool marks, bool isOwn) {
+    const std::string defines = std::string(shadeDefine) + (marks ? "#define MARKS_SEGMENTS\n" : "") +
+                                (isOwn ? "#define OWN_CHARACTER\n" : "");
+    return createProgram({.name = isOwn ? "own character" : "skinned",
+                          .vertex = shaders::skinnedVert(),
+                          .fragment = shaders::skinnedFrag(),
+                          .skins = true,
+                          .paints = true,
+                          .defines = defines});
+}
+
 /// A bit for each segment of that provenance.
 int segmentsOf(const CharacterLook& look, Provenance provenance) {
     unsigned bits = 0;
@@ -33,18 +44,10 @@ int segmentsOf(const CharacterLook& look, Provenance provenance) {
 
 tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
     static constexpr std::array<const char*, 1> kRecorded{"recordedPosition"};
-    ProgramParts parts{.name = "skinned",
-                       .vertex = shaders::skinnedVert(),
-                       .fragment = shaders::skinnedFrag(),
-                       .skins = true,
-                       .paints = true};
     SkinnedPass pass;
     for (std::size_t shade = 0; shade < kShadeCount; ++shade) {
         for (const bool marks : {false, true}) {
-            const std::string defines =
-                std::string(kShadeDefines[shade]) + (marks ? "#define MARKS_SEGMENTS\n" : "");
-            parts.defines = defines;
-            auto program = createProgram(parts);
+            auto program = paintingProgram(kShadeDefines[shade], marks, false);
             if (!program) {
                 return tl::unexpected(program.error());
             }
@@ -60,6 +63,8 @@ tl::expected<SkinnedPass, std::string> SkinnedPass::create() {
         return tl::unexpected(record.error());
     }
     pass.m_recordProgram = std::move(*record);
+    constexpr std::array<std::uint8_t, 4> kWhite{255, 255, 255, 255};
+    pass.m_white = gl::Texture::ofPicture(1, 1, kWhite);
     return pass;
 }
 
@@ -69,7 +74,12 @@ void SkinnedPass::drawCharacter(Shade shade, const DrawnCharacter& character) {
     const int solved = segmentsOf(look, Provenance::Solved);
     const int assumed = segmentsOf(look, Provenance::Assumed);
     const bool marks = (selected | solved | assumed) != 0;
-    gl::Program& program = m_programs[static_cast<std::size_t>(shade)][marks ? 1 : 0];
+    const bool isOwn = !character.drawn->parts.empty();
+    gl::Program* const chosen = program(shade, marks, isOwn);
+    if (chosen == nullptr) {
+        return;
+    }
+    gl::Program& program = *chosen;
     program.use();
     program.set("paletteBase", character.paletteBase);
     program.set("colour", look.colour);
@@ -82,7 +92,44 @@ void SkinnedPass::drawCharacter(Shade shade, const DrawnCharacter& character) {
         program.set("solvedSegments", solved);
         program.set("assumedSegments", assumed);
     }
-    character.drawn->draw();
+    if (isOwn) {
+        drawParts(program, character);
+    } else {
+        character.drawn->draw();
+    }
+}
+
+gl::Program* SkinnedPass::program(Shade shade, bool marks, bool isOwn) {
+    const auto index = static_cast<std::size_t>(shade);
+    if (!isOwn) {
+        return &m_programs[index][marks ? 1 : 0];
+    }
+    std::optional<gl::Program>& own = m_ownPrograms[index][marks ? 1 : 0];
+    if (!own) {
+        auto made = paintingProgram(kShadeDefines[index], marks, true);
+        if (!made) {
+            return nullptr;
+        }
+        own = std::move(*made);
+    }
+    return &*own;
+}
+
+void SkinnedPass::drawParts(gl::Program& program, const DrawnCharacter& character) {
+    constexpr float kHoleAlpha = 0.5F;
+    const GpuMesh& mesh = *character.drawn;
+    for (const MeshPart& part : mesh.parts) {
+        const bool hasTexture = part.texture >= 0;
+        // A material that names neither is in the character's own colour.
+        const bool isPlain = !hasTexture && !part.hasColour;
+        program.set("partColour", isPlain ? character.instance->look.colour * 0.86F + 0.10F : part.colour);
+        program.set("hasTexture", hasTexture ? 1.0F : 0.0F);
+        program.set("leastAlpha", part.isMasked ? kHoleAlpha : 0.0F);
+        (hasTexture ? mesh.textures[static_cast<std::size_t>(part.texture)] : m_white).bind(kPartTextureUnit);
+        (part.isTwoSided ? glDisable : glEnable)(GL_CULL_FACE);
+        mesh.draw(part);
+    }
+    glEnable(GL_CULL_FACE);
 }
 
 void SkinnedPass::drawSolid(const Frame& frame, const RenderQuality& quality, bool isFloorThere) {

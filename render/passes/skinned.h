@@ -2,10 +2,12 @@
 #pragma once
 
 #include "render/gl/program.h"
+#include "render/gl/texture.h"
 #include "render/passes/frame.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -30,10 +32,17 @@ private:
     static constexpr std::size_t kShadeCount = 3;
 
     void drawCharacter(Shade shade, const DrawnCharacter& character);
+    void drawParts(gl::Program& program, const DrawnCharacter& character);
+    /// Null where the driver refuses it.
+    gl::Program* program(Shade shade, bool marks, bool isOwn);
 
     /// The second of each pair also shows selected, solved and assumed segments, which costs time for every
     /// vertex and pixel.
     std::array<std::array<gl::Program, 2>, kShadeCount> m_programs;
+    /// The same for users' own characters, made when the first is drawn.
+    std::array<std::array<std::optional<gl::Program>, 2>, kShadeCount> m_ownPrograms;
+    /// Bound where a part has no texture: some drivers want one.
+    gl::Texture m_white;
     gl::Program m_recordProgram;
 };
 

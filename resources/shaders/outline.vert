@@ -4,6 +4,8 @@ layout(location = 0) in vec4 positionAndOcclusion;
 layout(location = 1) in vec3 normal;
 layout(location = 3) in uvec4 joints;
 layout(location = 4) in vec4 weights;
+// Those of the joints.
+layout(location = 5) in uvec4 segments;
 
 // A bit for each segment to be outlined.
 uniform int outlinedSegments;
@@ -12,16 +14,15 @@ uniform float width;
 
 out float share;
 
-float shareOf(uint joint, float weight) {
-    int segment = kJointSegments[min(int(joint), kJointCount - 1)];
-    return weight * float((outlinedSegments >> segment) & 1);
+float shareOf(uint segment, float weight) {
+    return weight * float((outlinedSegments >> int(segment)) & 1);
 }
 
 void main() {
     Motion motion = blendMotion(joints, weights);
     vec3 world = transform(motion, positionAndOcclusion.xyz);
-    share = shareOf(joints.x, weights.x) + shareOf(joints.y, weights.y) + shareOf(joints.z, weights.z) +
-            shareOf(joints.w, weights.w);
+    share = shareOf(segments.x, weights.x) + shareOf(segments.y, weights.y) + shareOf(segments.z, weights.z) +
+            shareOf(segments.w, weights.w);
     vec4 clip = viewProjection * vec4(world, 1.0);
     vec4 ahead = viewProjection * vec4(world + 0.01 * rotate(motion, normal), 1.0);
     vec2 aside = (ahead.xy * clip.w - clip.xy * ahead.w) * viewport.xy;

@@ -6,6 +6,15 @@ in float occlusion;
 #ifdef MARKS_SEGMENTS
 in vec3 shares;
 #endif
+#ifdef OWN_CHARACTER
+in vec2 texturePlace;
+
+uniform sampler2D partTexture;
+uniform vec3 partColour;
+uniform float hasTexture;
+// Below this alpha a texel is a hole.
+uniform float leastAlpha;
+#endif
 
 uniform sampler2DShadow shadowMap;
 uniform vec3 colour;
@@ -143,12 +152,24 @@ void showProvenance(inout Paint paint, vec2 solvedAndAssumed, float metresPerPix
 
 void main() {
     vec3 normal = normalize(worldNormal);
+#ifdef OWN_CHARACTER
+    // Of thin cloth the other side is seen, too.
+    normal = gl_FrontFacing ? normal : -normal;
+#endif
     vec3 view = towardsEye(worldPosition);
     float metresPerPixel = length(fwidth(suitPosition)) * 0.7;
     Paint paint = Paint(colour * 0.86 + 0.10, 1.0, 0.0);
+#ifdef OWN_CHARACTER
+    vec4 texel = mix(vec4(1.0), texture(partTexture, texturePlace), hasTexture);
+    if (texel.a < leastAlpha) {
+        discard;
+    }
+    paint = Paint(partColour * texel.rgb, 0.35, 0.0);
+#else
     if (hasSuit > 0.5) {
         paint = paintSuit(suitPosition, colour, metresPerPixel);
     }
+#endif
 #ifdef MARKS_SEGMENTS
     showProvenance(paint, smoothstep(0.42, 0.58, shares.yz), metresPerPixel);
     float selection = shares.x;

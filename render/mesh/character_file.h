@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "render/mesh/mesh.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
+
+namespace posewire::render {
+
+/// A bone of an imported character, in the character's rest pose.
+struct ImportedBone {
+    std::string name;
+    /// Index of the closest ancestor that is a bone, or -1.
+    int parent = -1;
+    glm::vec3 position{0.0F};
+    glm::quat orientation{1.0F, 0.0F, 0.0F, 0.0F};
+    /// Whether a vertex follows it.
+    bool hasWeights = false;
+};
+
+/// A texture as it came: a whole PNG, JPEG …, or texels.
+struct ImportedTexture {
+    /// As the file calls it, for messages.
+    std::string name;
+    /// The bytes of a picture file; empty where there are texels, or where it could not be had.
+    std::vector<std::byte> encoded;
+    /// Where `width` is not 0: red, green, blue, alpha of each texel, the top row first.
+    std::vector<std::uint8_t> texels;
+    int width = 0;
+    int height = 0;
+    /// Why there is neither; empty where there is.
+    std::string problem;
+};
+
+/// Consecutive triangles of one material.
+struct MeshPart {
+    std::uint32_t firstIndex = 0;
+    std::uint32_t indexCount = 0;
+    /// Display values (sRGB, 0 … 1); white where the material names none.
+    glm::vec3 colour{1.0F};
+    /// Whether the material names a colour.
+    bool hasColour = false;
+    /// Index of its texture, or -1.
+    int texture = -1;
+    bool isTwoSided = false;
+    /// Texels of little alpha are holes.
+    bool isMasked = false;
+};
+
+/// A user's own character: one mesh in its rest pose, Z-up where the file says what is up, with the unit and
+/// the heading that the file has.
+struct ImportedCharacter {
+    /// Its joints are indices into `bones`; occlusion is the brightest channel of the vertex colour, or 1
+    /// where there is none.
+    SkinnedMesh mesh;
+    /// Of each vertex, v downwards; empty where no mesh has any.
+    std::vector<glm::vec2> texturePlaces;
+    /// All triangles of the mesh in their order.
+    std::vector<MeshPart> parts;
+    std::vector<ImportedTexture> textures;
+    /// Parents come before their children; at most 256. With what joins them: nodes between bones are bones
+    /// too.
+    std::vector<ImportedBone> bones;
+};
+
+} // namespace posewire::render
