@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/byte_io.h"
 
-#include "core/log/descriptor.h"
+#include "core/log/descriptor_sink.h"
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <istream>
 
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 namespace posewire::log {
 namespace {
 
 constexpr std::size_t kBuffer = std::size_t{64} << 10;
+constexpr int kStandardInput = 0;
+
+bool isFile(const Descriptor& descriptor) {
+    const auto status = statusOf(descriptor.number());
+    return status && status->kind == FileStatus::Kind::File;
+}
 
 class StreamSource final : public ByteSource {
 public:
@@ -42,10 +43,8 @@ public:
     DescriptorSource(Descriptor descriptor, std::string name, IsCancelled isCancelled)
         : m_descriptor(std::move(descriptor)),
           m_name(std::move(name)),
-          m_isCancelled(std::move(isCancelled)) {
-        struct stat status {};
-        m_mayBlock = ::fstat(m_descriptor.number(), &status) != 0 || !S_ISREG(status.st_mode);
-    }
+          m_isCancelled(std::move(isCancelled)),
+          m_mayBlock(!isFile(m_descriptor)) {}
 
     tl::expected<std::size_t, FileError> read(std::span<std::byte> into) override {
         if (m_rest.empty() && !into.empty()) {
@@ -67,10 +66,10 @@ private:
                 return tl::unexpected(
                     FileError{m_name + ": reading was interrupted", FileError::Kind::Cancelled});
             }
-            if (m_mayBlock && !hasNews()) {
+            if (m_mayBlock && !hasNews(m_descriptor, kPause)) {
                 continue;
             }
-            const ssize_t count = ::read(m_descriptor.number(), m_buffer.data(), m_buffer.size());
+            const std::ptrdiff_t count = readSome(m_descriptor, m_buffer);
             if (count >= 0) {
                 m_rest = std::span(m_buffer).first(static_cast<std::size_t>(count));
                 return {};
@@ -81,17 +80,13 @@ private:
             }
         }
     }
-    /// Waits a little for bytes, or the end.
-    [[nodiscard]] bool hasNews() const {
-        constexpr int waitMs = 100;
-        pollfd state{m_descriptor.number(), POLLIN, 0};
-        return ::poll(&state, 1, waitMs) > 0;
-    }
+    /// Between two looks at whether it is cancelled.
+    static constexpr std::chrono::milliseconds kPause{100};
 
     Descriptor m_descriptor;
     std::string m_name;
     IsCancelled m_isCancelled;
-    bool m_mayBlock = false;
+    bool m_mayBlock;
     std::vector<std::byte> m_buffer = std::vector<std::byte>(kBuffer);
     std::span<const std::byte> m_rest;
 };
@@ -103,8 +98,7 @@ public:
     [[nodiscard]] std::size_t readAt(std::uint64_t offset, std::span<std::byte> into) const override {
         std::size_t filled = 0;
         while (filled < into.size()) {
-            const ssize_t count = ::pread(m_descriptor.number(), into.data() + filled, into.size() - filled,
-                                          static_cast<off_t>(offset + filled));
+            const std::ptrdiff_t count = readSomeAt(m_descriptor, offset + filled, into.subspan(filled));
             if (count > 0) {
                 filled += static_cast<std::size_t>(count);
             } else if (count == 0 || errno != EINTR) {
@@ -140,32 +134,31 @@ tl::unexpected<FileError> unreadable(const std::string& path, int error) {
 
 tl::expected<std::unique_ptr<ByteSource>, FileError> openFile(const std::string& path,
                                                               IsCancelled isCancelled) {
-    // Opening a pipe that nobody writes to must not wait: reading does, and can be cancelled.
-    Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    Descriptor descriptor = openToRead(path);
     if (!descriptor.isOpen()) {
         return unreadable(path, errno);
     }
-    struct stat status {};
-    if (::fstat(descriptor.number(), &status) == 0 && S_ISDIR(status.st_mode)) {
+    if (const auto status = statusOf(descriptor.number());
+        status && status->kind == FileStatus::Kind::Folder) {
         return unreadable(path, EISDIR);
     }
     return std::make_unique<DescriptorSource>(std::move(descriptor), path, std::move(isCancelled));
 }
 
 tl::expected<std::shared_ptr<const ByteStore>, FileError> openStore(const std::string& path) {
-    Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+    Descriptor descriptor = openToRead(path);
     if (!descriptor.isOpen()) {
         return unreadable(path, errno);
     }
-    struct stat status {};
-    if (::fstat(descriptor.number(), &status) != 0 || !S_ISREG(status.st_mode)) {
-        return unreadable(path, S_ISDIR(status.st_mode) ? EISDIR : ESPIPE);
+    if (!isFile(descriptor)) {
+        const auto status = statusOf(descriptor.number());
+        return unreadable(path, status && status->kind == FileStatus::Kind::Folder ? EISDIR : ESPIPE);
     }
     return std::make_shared<DescriptorStore>(std::move(descriptor));
 }
 
 std::unique_ptr<ByteSource> openStandardInput(IsCancelled isCancelled) {
-    return std::make_unique<DescriptorSource>(Descriptor(::dup(STDIN_FILENO)), "standard input",
+    return std::make_unique<DescriptorSource>(duplicateOf(kStandardInput), "standard input",
                                               std::move(isCancelled));
 }
 
@@ -173,17 +166,12 @@ std::unique_ptr<ByteSource> readingFrom(std::istream& stream, std::string name) 
     return std::make_unique<StreamSource>(stream, std::move(name));
 }
 
-Descriptor::~Descriptor() {
-    if (isOpen()) {
-        ::close(m_number);
-    }
-}
-
 DescriptorSink::DescriptorSink(Descriptor descriptor, std::string name, std::string consequence)
-    : m_descriptor(std::move(descriptor)), m_name(std::move(name)), m_consequence(std::move(consequence)) {
+    : m_descriptor(std::move(descriptor)),
+      m_name(std::move(name)),
+      m_consequence(std::move(consequence)),
+      m_isFile(isFile(m_descriptor)) {
     m_waiting.reserve(kBuffer);
-    struct stat status {};
-    m_isFile = ::fstat(m_descriptor.number(), &status) == 0 && S_ISREG(status.st_mode);
 }
 
 DescriptorSink::~DescriptorSink() {
@@ -213,14 +201,7 @@ tl::expected<void, FileError> DescriptorSink::sync() {
     if (auto flushed = flush(); !flushed) {
         return flushed;
     }
-#ifdef __linux__
-    const int result = ::fdatasync(m_descriptor.number());
-#else
-    const int result = ::fsync(m_descriptor.number());
-#endif
-    // Pipes, terminals and devices have nothing to be brought to a disk.
-    const bool isNoDisk = result != 0 && (errno == EINVAL || errno == EROFS || errno == ENOTSUP);
-    return result == 0 || isNoDisk ? tl::expected<void, FileError>() : failure();
+    return bringToDisk(m_descriptor) ? tl::expected<void, FileError>() : failure();
 }
 
 tl::expected<void, FileError> DescriptorSink::put(std::span<const std::byte> bytes) {
@@ -231,7 +212,7 @@ tl::expected<void, FileError> DescriptorSink::put(std::span<const std::byte> byt
             return failure();
         }
         const std::size_t most = m_isFile ? bytes.size() : std::min(bytes.size(), piece);
-        const ssize_t count = ::write(m_descriptor.number(), bytes.data(), most);
+        const std::ptrdiff_t count = writeSome(m_descriptor.number(), bytes.first(most));
         if (count >= 0) {
             bytes = bytes.subspan(static_cast<std::size_t>(count));
         } else if (errno != EINTR && errno != EAGAIN) {
@@ -243,13 +224,12 @@ tl::expected<void, FileError> DescriptorSink::put(std::span<const std::byte> byt
 
 /// False where there is none for a second although somebody waits for the end.
 bool DescriptorSink::waitForRoom() const {
-    constexpr int stepMs = 50;
-    constexpr int patienceMs = 1000;
-    int waitedMs = 0;
-    pollfd state{m_descriptor.number(), POLLOUT, 0};
-    while (::poll(&state, 1, stepMs) == 0) { // an error counts as room: writing says what it is
-        waitedMs = m_isHurried ? waitedMs + stepMs : 0;
-        if (waitedMs >= patienceMs) {
+    constexpr std::chrono::milliseconds step{50};
+    constexpr std::chrono::milliseconds patience{1000};
+    std::chrono::milliseconds waited{};
+    while (!hasRoom(m_descriptor.number(), step)) {
+        waited = m_isHurried ? waited + step : std::chrono::milliseconds();
+        if (waited >= patience) {
             return false;
         }
     }
@@ -262,7 +242,9 @@ tl::unexpected<FileError> DescriptorSink::failure() {
     std::string why;
     switch (error) {
     case ENOSPC:
+#ifdef EDQUOT
     case EDQUOT:
+#endif
         why = "the disk is full; make room or choose another disk";
         break;
     case EFBIG:

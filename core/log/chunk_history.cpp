@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/chunk_history.h"
 
+#include "core/log/system_memory.h"
+
 #include <algorithm>
 #include <new>
-
-#ifdef __linux__
-#include <sys/mman.h>
-#endif
 
 namespace posewire::log {
 namespace {
@@ -28,9 +26,7 @@ Chunk::Chunk(std::size_t size)
     : m_memory(static_cast<std::byte*>(::operator new (size, std::align_val_t{kAlignment}))),
       m_size(size),
       m_bytesBegin(size) {
-#ifdef __linux__
-    ::madvise(m_memory, size, MADV_HUGEPAGE); // a hint: where it is refused, ordinary pages do
-#endif
+    useLargePages(m_memory, size);
 }
 
 Chunk::~Chunk() {

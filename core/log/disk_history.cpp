@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/disk_history.h"
 
+#include "core/log/file_names.h"
 #include "core/log/output_file.h"
 #include "core/log/recording_file.h"
+#include "core/log/system_files.h"
 
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <string_view>
 #include <utility>
-
-#include <unistd.h>
 
 namespace posewire::log {
 namespace {
@@ -26,7 +26,7 @@ constexpr std::string_view kPrefix = "history-";
 constexpr std::string_view kSuffix = ".pcapng";
 
 bool isHistory(const fs::directory_entry& entry) {
-    const std::string name = entry.path().filename().string();
+    const std::string name = nameOf(entry.path().filename());
     std::error_code failed;
     return name.starts_with(kPrefix) && name.ends_with(kSuffix) && entry.is_regular_file(failed);
 }
@@ -51,7 +51,7 @@ DiskHistory::~DiskHistory() {
     m_log.past().dropBefore(UINT64_MAX);
     std::error_code ignored;
     for (const File& file : m_files) {
-        fs::remove(file.path, ignored);
+        fs::remove(pathOf(file.path), ignored);
     }
 }
 
@@ -135,15 +135,15 @@ DiskHistory::Result DiskHistory::beginFile(std::uint64_t first) {
 /// Opens a file under a name that nothing has, and returns that.
 tl::expected<std::string, FileError> DiskHistory::createNext() {
     while (true) {
-        const std::string name = std::string(kPrefix) + std::to_string(::getpid()) + "-" +
+        const std::string name = std::string(kPrefix) + std::to_string(processNumber()) + "-" +
                                  std::to_string(++m_fileCount) + std::string(kSuffix);
-        const std::string path = fs::path(m_choice.folder) / name;
+        const std::string path = nameOf(pathOf(m_choice.folder) / name);
         auto sink = createFile(path);
         if (sink) {
             m_sink = std::move(*sink);
             return path;
         }
-        if (std::error_code failed; !fs::exists(path, failed)) {
+        if (std::error_code failed; !fs::exists(pathOf(path), failed)) {
             return tl::unexpected(sink.error());
         }
     }
@@ -165,14 +165,14 @@ DiskHistory::Result DiskHistory::makeRoom(const FileError& why) {
 
 void DiskHistory::dropOldest() {
     std::error_code ignored;
-    fs::remove(m_files.front().path, ignored);
+    fs::remove(pathOf(m_files.front().path), ignored);
     m_files.pop_front();
     m_log.past().dropBefore(m_files.empty() ? UINT64_MAX : m_files.front().first);
 }
 
 bool DiskHistory::isDiskFull() const {
     std::error_code failed;
-    const fs::space_info space = fs::space(m_choice.folder, failed);
+    const fs::space_info space = fs::space(pathOf(m_choice.folder), failed);
     return !failed && space.available < m_choice.leaveFree;
 }
 
@@ -191,12 +191,12 @@ void DiskHistory::note(const Result& result) {
 std::vector<LostHistory> lostHistories(const std::string& folder) {
     std::vector<LostHistory> lost;
     std::error_code failed;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(pathOf(folder), failed)) {
         // An empty one may be about to be locked.
-        if (isHistory(entry) && entry.file_size(failed) > 0 && FileLock::take(entry.path())) {
+        if (isHistory(entry) && entry.file_size(failed) > 0 && FileLock::take(nameOf(entry.path()))) {
             const auto end = std::chrono::file_clock::to_sys(entry.last_write_time(failed));
             lost.push_back(
-                {entry.path(), entry.file_size(failed), std::chrono::time_point_cast<Duration>(end)});
+                {nameOf(entry.path()), entry.file_size(failed), std::chrono::time_point_cast<Duration>(end)});
         }
     }
     std::ranges::sort(lost, {}, &LostHistory::end);
@@ -220,12 +220,13 @@ void discardHistories(const std::string& folder, std::uint64_t most) {
     for (auto file = lost.rbegin(); file != lost.rend(); ++file) { // the newest first
         bytes += file->bytes;
         if (bytes > most) {
-            fs::remove(file->path, failed);
+            fs::remove(pathOf(file->path), failed);
         }
     }
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(pathOf(folder), failed)) {
         const bool isOld = fs::file_time_type::clock::now() - entry.last_write_time(failed) > kUnused;
-        if (isHistory(entry) && entry.file_size(failed) == 0 && isOld && FileLock::take(entry.path())) {
+        if (isHistory(entry) && entry.file_size(failed) == 0 && isOld &&
+            FileLock::take(nameOf(entry.path()))) {
             fs::remove(entry.path(), failed);
         }
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "core/log/descriptor.h"
+#include "core/log/system_files.h"
 
 #include <optional>
 #include <string>

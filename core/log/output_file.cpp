@@ -1,26 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/output_file.h"
 
-#include "core/log/descriptor.h"
+#include "core/log/descriptor_sink.h"
+#include "core/log/file_names.h"
 
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <optional>
-#include <string_view>
 #include <system_error>
 #include <vector>
-
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace posewire::log {
 namespace {
 
-using Status = struct stat;
+using Kind = FileStatus::Kind;
 
+constexpr int kStandardInput = 0;
 constexpr const char* kStays = "what was written before can be read";
 constexpr const char* kIsGone = "the file was not written";
 
@@ -29,46 +25,11 @@ tl::unexpected<FileError> unwritable(const std::string& path, int error) {
                                     "); choose another file or folder"});
 }
 
-std::optional<Status> statusOf(const std::string& path) {
-    Status status{};
-    return ::stat(path.c_str(), &status) == 0 ? std::optional(status) : std::nullopt;
-}
-
-std::optional<Status> statusOf(int descriptor) {
-    Status status{};
-    return ::fstat(descriptor, &status) == 0 ? std::optional(status) : std::nullopt;
-}
-
-/// What holds bytes that can be lost; the rest are pipes, terminals, devices.
-bool holdsData(const Status& status) {
-    return S_ISREG(status.st_mode) || S_ISBLK(status.st_mode);
-}
-
-/// Names of what this process has open: writing there goes on where others are.
-std::optional<int> descriptorNamed(std::string_view path) {
-    if (path == "/dev/stdout") {
-        return STDOUT_FILENO;
-    }
-    if (path == "/dev/stderr") {
-        return STDERR_FILENO;
-    }
-    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
-        int number = 0;
-        const std::string_view rest = path.starts_with(folder) ? path.substr(folder.size()) : "";
-        const char* end = rest.data() + rest.size();
-        const auto read = std::from_chars(rest.data(), end, number);
-        if (!rest.empty() && read.ec == std::errc{} && read.ptr == end && number >= 0) {
-            return number;
-        }
-    }
-    return std::nullopt;
-}
-
-tl::expected<void, FileError> checkInUse(const std::string& path, const Status& status,
+tl::expected<void, FileError> checkInUse(const std::string& path, const FileStatus& status,
                                          const OutputRules& rules) {
     for (const std::string& other : rules.inUse) {
-        const auto used = other == "-" ? statusOf(STDIN_FILENO) : statusOf(other);
-        if (used && holdsData(*used) && used->st_dev == status.st_dev && used->st_ino == status.st_ino) {
+        const auto used = other == "-" ? statusOf(kStandardInput) : statusOf(other);
+        if (used && used->holdsData() && used->isSameFileAs(status)) {
             const std::string which = other == path  ? ": is an input as well"
                                       : other == "-" ? ": is the same file as standard input"
                                                      : ": is the same file as " + other;
@@ -80,29 +41,29 @@ tl::expected<void, FileError> checkInUse(const std::string& path, const Status& 
 
 /// Where a path leads.
 struct Target {
-    std::optional<int> descriptor; ///< of this process
-    std::optional<Status> status;  ///< nothing where there is no file yet
+    std::optional<int> descriptor;    ///< of this process
+    std::optional<FileStatus> status; ///< nothing where there is no file yet
 };
 
 tl::expected<Target, FileError> targetOf(const std::string& path, const OutputRules& rules) {
     Target target{descriptorNamed(path), std::nullopt};
     target.status = target.descriptor ? statusOf(*target.descriptor) : statusOf(path);
     if (!target.status) {
-        Status link{};
-        if (errno == ENOENT && !target.descriptor && ::lstat(path.c_str(), &link) == 0) {
+        const int error = errno;
+        const bool isMissing = error == ENOENT && !target.descriptor;
+        if (isMissing && isLink(path)) {
             return tl::unexpected(
                 FileError{path + ": is a link to a file that does not exist; name that file instead"});
         }
-        const bool isNew = errno == ENOENT && !target.descriptor && !path.empty();
-        return isNew ? tl::expected<Target, FileError>(target) : unwritable(path, errno);
+        return isMissing && !path.empty() ? tl::expected<Target, FileError>(target) : unwritable(path, error);
     }
-    if (S_ISDIR(target.status->st_mode)) {
+    if (target.status->kind == Kind::Folder) {
         return unwritable(path, EISDIR);
     }
     if (const auto checked = checkInUse(path, *target.status, rules); !checked) {
         return tl::unexpected(checked.error());
     }
-    if (!target.descriptor && holdsData(*target.status) && !rules.mayReplace) {
+    if (!target.descriptor && target.status->holdsData() && !rules.mayReplace) {
         return tl::unexpected(
             FileError{path + ": exists already; choose another name, or add --force to replace it"});
     }
@@ -110,25 +71,25 @@ tl::expected<Target, FileError> targetOf(const std::string& path, const OutputRu
 }
 
 std::string folderOf(const std::string& path) {
-    const auto folder = std::filesystem::path(path).parent_path();
-    return folder.empty() ? "." : folder.string();
+    const std::string folder = nameOf(pathOf(path).parent_path());
+    return folder.empty() ? "." : folder;
 }
 
 /// What is written in place: streams, and files that grow.
 tl::expected<Descriptor, FileError> openTarget(const std::string& path, const Target& target,
                                                const OutputRules& rules) {
-    constexpr int mode = 0666;
-    const int flags = O_WRONLY | O_CLOEXEC | (target.status ? 0 : O_CREAT | O_EXCL);
-    Descriptor descriptor(target.descriptor ? ::dup(*target.descriptor) : ::open(path.c_str(), flags, mode));
+    Descriptor descriptor = target.descriptor ? duplicateOf(*target.descriptor)
+                            : target.status   ? openToWrite(path)
+                                              : createToWrite(path);
     if (!descriptor.isOpen()) {
         return unwritable(path, errno);
     }
     const auto status = statusOf(descriptor.number()); // another file may be there by now
-    if (!target.descriptor && status && S_ISREG(status->st_mode)) {
+    if (!target.descriptor && status && status->kind == Kind::File) {
         if (const auto checked = checkInUse(path, *status, rules); !checked) {
             return tl::unexpected(checked.error());
         }
-        if (::ftruncate(descriptor.number(), 0) != 0) {
+        if (!makeEmpty(descriptor)) {
             return unwritable(path, errno);
         }
     }
@@ -139,33 +100,14 @@ tl::expected<Descriptor, FileError> openTarget(const std::string& path, const Ta
 Descriptor openBeside(const std::string& path, std::string& name) {
     constexpr int attempts = 1000;
     for (int number = 0; number < attempts; ++number) {
-        name = folderOf(path) + "/.posewire-" + std::to_string(::getpid()) + '-' + std::to_string(number) +
-               ".part";
-        Descriptor descriptor(::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+        name = folderOf(path) + "/.posewire-" + std::to_string(processNumber()) + '-' +
+               std::to_string(number) + ".part";
+        Descriptor descriptor = createToWrite(name);
         if (descriptor.isOpen() || errno != EEXIST) {
             return descriptor;
         }
     }
     return Descriptor();
-}
-
-/// Gives a file its name; fails with EEXIST where that is taken and may not be.
-bool giveName(const std::string& from, const std::string& to, bool mayReplace) {
-    if (!mayReplace) {
-        if (::link(from.c_str(), to.c_str()) == 0) {
-            ::unlink(from.c_str());
-            return true;
-        }
-        const bool isTaken = errno == EEXIST || ::access(to.c_str(), F_OK) == 0;
-        if (isTaken) {
-            errno = EEXIST;
-            return false;
-        }
-    }
-    std::error_code error;
-    std::filesystem::rename(from, to, error); // some disks know no links
-    errno = error.value();
-    return !error;
 }
 
 class WholeFileSink final : public DescriptorSink {
@@ -179,7 +121,7 @@ public:
     ~WholeFileSink() override {
         if (!m_temporary.empty()) {
             discard();
-            ::unlink(m_temporary.c_str());
+            removeFile(m_temporary);
         }
     }
 
@@ -192,10 +134,7 @@ public:
                                    : unwritable(name(), errno);
         }
         m_temporary.clear();
-        const Descriptor folder(::open(folderOf(m_target).c_str(), O_RDONLY | O_CLOEXEC));
-        if (folder.isOpen()) {
-            ::fsync(folder.number());
-        }
+        bringNameToDisk(m_target);
         return {};
     }
 
@@ -212,7 +151,7 @@ tl::expected<void, FileError> checkOutput(const std::string& path, const OutputR
     if (!target) {
         return tl::unexpected(target.error());
     }
-    if (!target->status && ::access(folderOf(path).c_str(), W_OK | X_OK) != 0) {
+    if (!target->status && !mayCreateIn(folderOf(path))) {
         return unwritable(path, errno);
     }
     return {};
@@ -235,22 +174,20 @@ tl::expected<std::unique_ptr<ByteSink>, FileError> createWholeFile(const std::st
     if (!target) {
         return tl::unexpected(target.error());
     }
-    const bool isFile = !target->descriptor && (!target->status || S_ISREG(target->status->st_mode));
+    const bool isFile = !target->descriptor && (!target->status || target->status->kind == Kind::File);
     if (!isFile) {
         return createFile(path, rules);
     }
     std::error_code ignored;
-    const std::string real = target->status ? std::filesystem::canonical(path, ignored).string() : path;
+    const std::string real =
+        target->status ? nameOf(std::filesystem::canonical(pathOf(path), ignored)) : path;
     std::string temporary;
     Descriptor descriptor = openBeside(real, temporary);
     if (!descriptor.isOpen()) {
         return unwritable(path, errno);
     }
     if (target->status) {
-        // Who could read it can read it again; where that may not be told, it stays ours.
-        static_cast<void>(::fchmod(descriptor.number(), target->status->st_mode & 07777U));
-        [[maybe_unused]] const int given =
-            ::fchown(descriptor.number(), target->status->st_uid, target->status->st_gid);
+        takeRights(descriptor, *target->status);
     }
     return std::make_unique<WholeFileSink>(std::move(descriptor), path, real, temporary, rules.mayReplace);
 }

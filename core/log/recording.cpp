@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/recording.h"
 
+#include "core/log/file_names.h"
 #include "core/log/packet_log.h"
 
 #include <algorithm>
@@ -67,10 +68,10 @@ std::string partPath(const std::string& path, unsigned part) {
     if (part <= 1) {
         return path;
     }
-    const std::filesystem::path whole(path);
+    const std::filesystem::path whole = pathOf(path);
     const std::string name =
-        whole.stem().string() + " part " + std::to_string(part) + whole.extension().string();
-    return (whole.parent_path() / name).string();
+        nameOf(whole.stem()) + " part " + std::to_string(part) + nameOf(whole.extension());
+    return nameOf(whole.parent_path() / pathOf(name));
 }
 
 tl::expected<std::unique_ptr<Recording>, FileError>
@@ -206,7 +207,7 @@ Recording::Result Recording::goOn() {
 
 Recording::Result Recording::checkRoom() const {
     std::error_code failed;
-    const auto folder = std::filesystem::path(m_path).parent_path();
+    const auto folder = pathOf(m_path).parent_path();
     const auto space = m_limits.leaveFree == 0
                            ? std::filesystem::space_info{}
                            : std::filesystem::space(folder.empty() ? "." : folder, failed);

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/scratch.h"
 
+#include "core/log/system_memory.h"
+
 #include <algorithm>
 #include <functional>
-
-#ifdef __linux__
-#include <fcntl.h>
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
 
 namespace posewire::log {
 namespace {
@@ -20,59 +16,17 @@ constexpr std::size_t roundedUp(std::size_t size) {
     return (size + kLeast - 1) / kLeast * kLeast;
 }
 
-#ifdef __linux__
-
-int openScratch(const std::string& folder) {
-    return ::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-}
-
-/// Null where there is no room for it: the disk has room for what was mapped, so that no access can fail.
-std::byte* mapSegment(int file, std::uint64_t offset) {
-    if (::posix_fallocate(file, static_cast<off_t>(offset), Scratch::kSegment) != 0) {
-        return nullptr;
-    }
-    void* memory = ::mmap(nullptr, Scratch::kSegment, PROT_READ | PROT_WRITE, MAP_SHARED, file,
-                          static_cast<off_t>(offset));
-    return memory == MAP_FAILED ? nullptr : static_cast<std::byte*>(memory);
-}
-
-/// It stays where it is, and in the memory of this process no longer.
-void letGo(std::byte* segment) {
-    ::madvise(segment, Scratch::kSegment, MADV_DONTNEED);
-}
-
-void unmapSegment(std::byte* segment) {
-    ::munmap(segment, Scratch::kSegment);
-}
-
-void closeScratch(int file) {
-    ::close(file);
-}
-
-#else // elsewhere it is ordinary memory
-
-int openScratch(const std::string&) {
-    return -1;
-}
-std::byte* mapSegment(int, std::uint64_t) {
-    return nullptr;
-}
-void letGo(std::byte*) {}
-void unmapSegment(std::byte*) {}
-void closeScratch(int) {}
-
-#endif
-
 } // namespace
 
-Scratch::Scratch(const std::string& folder, std::uint64_t most) : m_file(openScratch(folder)), m_most(most) {}
+Scratch::Scratch(const std::string& folder, std::uint64_t most)
+    : m_file(openMemoryFile(folder)), m_most(most) {}
 
 Scratch::~Scratch() {
     for (std::byte* segment : m_segments) {
-        unmapSegment(segment);
+        unmapSegment(segment, kSegment);
     }
-    if (m_file >= 0) {
-        closeScratch(m_file);
+    if (m_file != kNoMemoryFile) {
+        closeMemoryFile(m_file);
     }
 }
 
@@ -82,7 +36,7 @@ std::shared_ptr<std::byte[]> Scratch::bytes(std::size_t size) {
 
 bool Scratch::hasFile() const {
     const std::lock_guard lock(m_mutex);
-    return m_file >= 0;
+    return m_file != kNoMemoryFile;
 }
 
 ScratchFigures Scratch::figures() const {
@@ -98,7 +52,8 @@ std::byte* Scratch::take(std::size_t size) {
         spare->second.pop_back();
         return memory;
     }
-    if (m_file >= 0 && rounded <= kSegment && (m_used + rounded <= kSegment || grow() != nullptr)) {
+    if (m_file != kNoMemoryFile && rounded <= kSegment &&
+        (m_used + rounded <= kSegment || grow() != nullptr)) {
         std::byte* memory = m_segments.back() + m_used;
         m_used += rounded;
         return memory;
@@ -121,13 +76,13 @@ void Scratch::give(std::byte* memory, std::size_t size) {
 /// instead is bounded by others, and not twice.
 std::byte* Scratch::grow() {
     const std::uint64_t end = m_segments.size() * kSegment;
-    std::byte* segment = end + kSegment <= m_most ? mapSegment(m_file, end) : nullptr;
+    std::byte* segment = end + kSegment <= m_most ? mapSegment(m_file, end, kSegment) : nullptr;
     if (segment == nullptr) {
-        closeScratch(m_file);
-        m_file = -1;
+        closeMemoryFile(m_file);
+        m_file = kNoMemoryFile;
         return nullptr;
     }
-    std::ranges::for_each(m_segments, letGo);
+    std::ranges::for_each(m_segments, [](std::byte* full) { letGo(full, kSegment); });
     m_segments.push_back(segment);
     m_used = 0;
     return segment;

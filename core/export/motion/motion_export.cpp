@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/export/motion/motion_export.h"
 
+#include "core/log/file_names.h"
 #include "core/wire/text.h"
 
 #include <algorithm>
@@ -164,7 +165,7 @@ std::string countText(std::uint64_t count, const char* one, const char* several)
 
 tl::expected<void, FileError> checkAll(const MotionRequest& request, const std::vector<std::string>& paths) {
     std::error_code error;
-    const auto kind = std::filesystem::status(request.path, error).type();
+    const auto kind = std::filesystem::status(log::pathOf(request.path), error).type();
     const bool isOrdinary =
         kind == std::filesystem::file_type::regular || kind == std::filesystem::file_type::not_found;
     if (!isOrdinary && !paths.empty() && paths.front() != request.path) {
@@ -203,16 +204,16 @@ std::vector<std::string> motionPaths(const MotionRequest& request) {
     if (request.format.holdsSeveral || characters.size() < 2) {
         return paths;
     }
-    const std::filesystem::path path = request.path;
+    const std::filesystem::path path = log::pathOf(request.path);
     std::set<std::string> taken; // in small letters: some file systems see no difference
     for (std::size_t i = 0; i < characters.size(); ++i) {
         const std::string id = "Character " + std::to_string(characters[i].key.character);
-        const std::string stem = path.stem().string() + '-' + characters[i].name.fileName(id);
+        const std::string stem = log::nameOf(path.stem()) + '-' + characters[i].name.fileName(id);
         std::string name = stem;
         for (int next = 2; !taken.insert(wire::lowered(name)).second; ++next) {
             name = stem + '-' + std::to_string(next);
         }
-        paths[i] = (path.parent_path() / (name + path.extension().string())).string();
+        paths[i] = log::nameOf(path.parent_path() / log::pathOf(name + log::nameOf(path.extension())));
     }
     return paths;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/model/session/listed_incidents.h"
 
+#include "core/log/local_time.h"
 #include "core/model/incidents/incident_kinds.h"
 #include "core/model/session/loss_amount.h"
 #include "core/model/session/losses.h"
@@ -23,8 +24,7 @@ constexpr std::size_t kUnknown = static_cast<std::size_t>(LossCause::Unknown);
 std::string clockText(log::WallTime time) {
     const std::time_t seconds =
         std::chrono::floor<std::chrono::seconds>(time).time_since_epoch() / std::chrono::seconds(1);
-    std::tm local{};
-    localtime_r(&seconds, &local);
+    const std::tm local = log::localTime(seconds);
     std::array<char, 16> text{};
     std::strftime(text.data(), text.size(), "%H:%M:%S", &local);
     return text.data();

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/byte_io.h"
+#include "core/log/file_names.h"
 #include "core/log/output_file.h"
 
 #include "tests/core/log/log_fixture.h"
+#include "tests/support/temporary_folder.h"
 
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <random>
 #include <sstream>
 
+#ifndef _WIN32
 #include <sys/stat.h>
 #include <unistd.h>
+#endif
 
 namespace posewire::log {
 namespace {
@@ -23,7 +26,7 @@ using testing::StartsWith;
 class ByteFiles : public testing::Test {
 protected:
     ~ByteFiles() override { std::filesystem::remove_all(m_folder); }
-    [[nodiscard]] std::string path(const std::string& name) const { return (m_folder / name).string(); }
+    [[nodiscard]] std::string path(const std::string& name) const { return nameOf(m_folder) + '/' + name; }
     void write(const std::string& name, std::span<const std::byte> bytes) const {
         auto file = createFile(path(name), {.mayReplace = true});
         ASSERT_TRUE(file) << file.error().text;
@@ -48,14 +51,7 @@ protected:
     }
 
 private:
-    static std::filesystem::path newFolder() {
-        static std::random_device random; // every test is a process of its own, and they run side by side
-        const auto folder = std::filesystem::path(testing::TempDir()) /
-                            ("byte_files_" + std::to_string(random()) + std::to_string(random()));
-        std::filesystem::create_directories(folder);
-        return folder;
-    }
-    std::filesystem::path m_folder = newFolder();
+    std::filesystem::path m_folder = test::newTemporaryFolder("byte_files");
 };
 
 TEST_F(ByteFiles, GiveBackWhatWasWritten) {
@@ -92,7 +88,11 @@ TEST_F(ByteFiles, GoByTheNameTheyWereOpenedWith) {
 }
 
 TEST_F(ByteFiles, CanHaveAnyName) {
-    for (const std::string name : {"with space", "\u00e9\U0001f600", "-", "a.b.c", "new\nline"}) {
+    std::vector<std::string> names{"with space", "\u00e9\U0001f600", "-", "a.b.c"};
+#ifndef _WIN32
+    names.emplace_back("new\nline");
+#endif
+    for (const std::string& name : names) {
         write(name, pattern(10, 1));
         EXPECT_EQ(read(name, 100), pattern(10, 1)) << name;
     }
@@ -107,17 +107,10 @@ TEST_F(ByteFiles, SayWhatIsWrongWithTheName) {
     EXPECT_THAT(openFile(path("file/inside")).error().text, HasSubstr("no such file"));
     EXPECT_THAT(openFile("").error().text, HasSubstr("no such file"));
     const std::string tooLong = path(std::string(300, 'x'));
+    EXPECT_FALSE(openFile(tooLong));
+#ifndef _WIN32
     EXPECT_EQ(openFile(tooLong).error().text, tooLong + ": File name too long");
-}
-
-TEST_F(ByteFiles, SayThatTheyMayNotBeRead) {
-    if (::geteuid() == 0) {
-        GTEST_SKIP() << "root may read any file";
-    }
-    write("secret", pattern(10, 1));
-    std::filesystem::permissions(path("secret"), std::filesystem::perms::none);
-    EXPECT_EQ(openFile(path("secret")).error().text,
-              path("secret") + ": no permission to read it; ask its owner");
+#endif
 }
 
 TEST_F(ByteFiles, SayWhyTheyCannotBeWritten) {
@@ -128,6 +121,17 @@ TEST_F(ByteFiles, SayWhyTheyCannotBeWritten) {
         EXPECT_THAT(file.error().text, StartsWith(path(name) + ": cannot be written ("));
         EXPECT_THAT(file.error().text, HasSubstr("choose another file or folder"));
     }
+}
+
+#ifndef _WIN32 // where folders say who may read, and pipes have names of their own
+TEST_F(ByteFiles, SayThatTheyMayNotBeRead) {
+    if (::geteuid() == 0) {
+        GTEST_SKIP() << "root may read any file";
+    }
+    write("secret", pattern(10, 1));
+    std::filesystem::permissions(path("secret"), std::filesystem::perms::none);
+    EXPECT_EQ(openFile(path("secret")).error().text,
+              path("secret") + ": no permission to read it; ask its owner");
 }
 
 /// Says no twice, then yes.
@@ -164,6 +168,8 @@ TEST_F(ByteFiles, CanBePipesThatAreWrittenLater) {
     EXPECT_EQ(*(*file)->read(into), 10U);
     EXPECT_EQ(*(*file)->read(into), 0U);
 }
+
+#endif
 
 /// A stream whose device goes away amidst.
 class FailingBuffer final : public std::stringbuf {

@@ -2,6 +2,7 @@
 #include "core/log/disk_history.h"
 
 #include "core/log/recording_file.h"
+#include "core/log/system_files.h"
 #include "tests/core/log/log_fixture.h"
 
 #include <gtest/gtest.h>
@@ -10,8 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
-
-#include <unistd.h>
 
 namespace posewire::log {
 namespace {
@@ -74,7 +73,7 @@ protected:
 };
 
 TEST_F(DiskHistoryTest, WhatMemoryDropsIsReadFromTheFiles) {
-    const auto history = start(m_log, m_folder);
+    const auto history = start(m_log, m_folder.string());
     ASSERT_NE(history, nullptr);
     appendInStep(*history, 12'000);
     EXPECT_GT(m_log.figures().begin, 9'000U);
@@ -91,7 +90,7 @@ TEST_F(DiskHistoryTest, WhatMemoryDropsIsReadFromTheFiles) {
 }
 
 TEST_F(DiskHistoryTest, TheOldestFileGoesAtTheCap) {
-    const auto history = start(m_log, m_folder);
+    const auto history = start(m_log, m_folder.string());
     ASSERT_NE(history, nullptr);
     appendInStep(*history, 25'000); // about 25 MB
     EXPECT_LE(history->figures().bytes, kMost + (kMost >> 4));
@@ -105,7 +104,7 @@ TEST_F(DiskHistoryTest, TheOldestFileGoesAtTheCap) {
 }
 
 TEST_F(DiskHistoryTest, LeavesNoFileAndTheLogItsMemory) {
-    auto history = start(m_log, m_folder);
+    auto history = start(m_log, m_folder.string());
     ASSERT_NE(history, nullptr);
     appendInStep(*history, 6'000);
     history.reset();
@@ -115,7 +114,7 @@ TEST_F(DiskHistoryTest, LeavesNoFileAndTheLogItsMemory) {
 }
 
 TEST_F(DiskHistoryTest, ItsFilesAreRecordingsThatSurviveTheProcess) {
-    const auto history = start(m_log, m_folder);
+    const auto history = start(m_log, m_folder.string());
     ASSERT_NE(history, nullptr);
     append(900);
     ASSERT_TRUE(waitUntil([&] { return history->figures().end == m_next; }));
@@ -129,13 +128,13 @@ TEST_F(DiskHistoryTest, ItsFilesAreRecordingsThatSurviveTheProcess) {
     });
     EXPECT_TRUE(result) << result.error().text;
     EXPECT_EQ(read, m_next);
-    EXPECT_EQ(beginOf(files().front()), WallTime(Duration(0)));
-    EXPECT_FALSE(beginOf(m_folder / "none"));
+    EXPECT_EQ(beginOf(files().front().string()), WallTime(Duration(0)));
+    EXPECT_FALSE(beginOf((m_folder / "none").string()));
 }
 
 /// Whatever number its process has: another process may have it by now, and containers number their own.
 TEST_F(DiskHistoryTest, FilesThatNobodyUsesAreFoundAndNoOthers) {
-    const std::string own = "history-" + std::to_string(::getpid()) + "-";
+    const std::string own = "history-" + std::to_string(processNumber()) + "-";
     for (const std::string& name : {own + "1.pcapng", own + "2.pcapng"}) {
         std::ofstream(m_folder / name) << "x";
     }
@@ -143,15 +142,15 @@ TEST_F(DiskHistoryTest, FilesThatNobodyUsesAreFoundAndNoOthers) {
     std::ofstream(m_folder / "history-1-1.pcapng").flush(); // may be about to be used
     fs::last_write_time(m_folder / (own + "2.pcapng"),
                         fs::file_time_type::clock::now() - std::chrono::hours(1));
-    const auto history = start(m_log, m_folder);
+    const auto history = start(m_log, m_folder.string());
     ASSERT_NE(history, nullptr);
     appendInStep(*history, 750);
     EXPECT_TRUE(fs::exists(m_folder / (own + "3.pcapng"))) << "a name of its own";
-    const std::vector<LostHistory> lost = lostHistories(m_folder);
+    const std::vector<LostHistory> lost = lostHistories(m_folder.string());
     ASSERT_EQ(lost.size(), 2U);
     EXPECT_EQ(lost[0].path, m_folder / (own + "2.pcapng")) << "the oldest first";
     EXPECT_EQ(lost[1].path, m_folder / (own + "1.pcapng"));
-    EXPECT_TRUE(lostHistories(m_folder / "none").empty());
+    EXPECT_TRUE(lostHistories((m_folder / "none").string()).empty());
 }
 
 TEST_F(DiskHistoryTest, OfDeadProcessesTheNewestFilesStay) {
@@ -167,25 +166,25 @@ TEST_F(DiskHistoryTest, OfDeadProcessesTheNewestFilesStay) {
     };
     empty("history-1-1.pcapng", std::chrono::minutes(0));
     empty("history-1-2.pcapng", std::chrono::minutes(2));
-    discardHistories(m_folder, 2'500);
+    discardHistories(m_folder.string(), 2'500);
     EXPECT_TRUE(fs::exists(m_folder / "history-1-1.pcapng")) << "it may be about to be used";
     EXPECT_FALSE(fs::exists(m_folder / "history-1-2.pcapng"));
     fs::remove(m_folder / "history-1-1.pcapng");
-    EXPECT_EQ(lostHistories(m_folder).size(), 2U);
+    EXPECT_EQ(lostHistories(m_folder.string()).size(), 2U);
     EXPECT_FALSE(fs::exists(m_folder / "history-999999999-1.pcapng"));
-    discardHistories(m_folder, 0);
+    discardHistories(m_folder.string(), 0);
     EXPECT_TRUE(files().empty());
 }
 
 TEST_F(DiskHistoryTest, SaysWhereNoFileCanBeMade) {
-    const auto history = DiskHistory::start(m_log, {m_folder / "none", kMost, 0}, {});
+    const auto history = DiskHistory::start(m_log, {(m_folder / "none").string(), kMost, 0}, {});
     ASSERT_FALSE(history);
     EXPECT_NE(history.error().text.find("none"), std::string::npos) << history.error().text;
 }
 
 /// A disk that has too little room gives up all but the newest file.
 TEST_F(DiskHistoryTest, LeavesRoomOnTheDisk) {
-    auto history = DiskHistory::start(m_log, {m_folder, kMost, UINT64_MAX}, {});
+    auto history = DiskHistory::start(m_log, {m_folder.string(), kMost, UINT64_MAX}, {});
     ASSERT_TRUE(history);
     appendInStep(**history, 9'000);
     EXPECT_LE(files().size(), 2U);

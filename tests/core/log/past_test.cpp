@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <string>
 
 namespace posewire::log {
@@ -209,8 +210,9 @@ TEST_F(PastTest, KeepsTheSendersOfItsPackets) {
 
 TEST(FilesThatCanBeReadAnywhere, AreNoPipesAndNoFolders) {
     EXPECT_FALSE(openStore("/dev/stdin/none"));
-    EXPECT_FALSE(openStore("/tmp"));
+    EXPECT_FALSE(openStore(std::filesystem::temp_directory_path().string()));
     EXPECT_FALSE(openStore("/dev/null"));
+    EXPECT_FALSE(openStore("NUL"));
 }
 
 } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "core/log/file_names.h"
 #include "core/log/recording.h"
 
 #include "tests/core/log/log_fixture.h"
@@ -11,8 +12,10 @@
 #include <random>
 #include <thread>
 
+#ifndef _WIN32
 #include <csignal>
 #include <sys/resource.h>
+#endif
 
 namespace posewire::log {
 namespace {
@@ -113,7 +116,8 @@ TEST(Recording, EndsWithNotesOnAllOfIt) {
 
 TEST(Recording, PartsHaveNamesOfTheirOwn) {
     EXPECT_EQ(partPath("/a/take 3.pcapng", 1), "/a/take 3.pcapng");
-    EXPECT_EQ(partPath("/a/take 3.pcapng", 2), "/a/take 3 part 2.pcapng");
+    EXPECT_EQ(pathOf(partPath("/a/take 3.pcapng", 2)), pathOf("/a/take 3 part 2.pcapng"));
+    EXPECT_EQ(pathOf(partPath("/a/J\u00f6rg.pcapng", 2)), pathOf("/a/J\u00f6rg part 2.pcapng"));
     EXPECT_EQ(partPath("take", 12), "take part 12");
 }
 
@@ -134,6 +138,7 @@ TEST(Recording, SaysThatTheDiskIsFull) {
     EXPECT_THAT(recording.error().text, testing::HasSubstr("the disk is full"));
 }
 
+#ifndef _WIN32 // which has no such limit
 /// No file of this process may grow beyond `bytes` while it lives.
 class FileSizeLimit {
 public:
@@ -180,6 +185,7 @@ TEST(Recording, KeepsWhatWasWrittenBeforeAFailureAndReportsItAgainAndAgain) {
         ASSERT_EQ(seen[sample].bytes, poseDatagram(sample));
     }
 }
+#endif
 
 } // namespace
 } // namespace posewire::log

@@ -37,7 +37,7 @@ protected:
         }
     }
 
-    std::string m_folder = std::filesystem::temp_directory_path();
+    std::string m_folder = std::filesystem::temp_directory_path().string();
     std::shared_ptr<Scratch> m_scratch = std::make_shared<Scratch>(m_folder, 64 * kMiB);
 };
 
@@ -85,17 +85,19 @@ TEST_F(ScratchTest, LeavesNothingInItsFolder) {
     const auto names = [this] {
         std::set<std::string> all;
         for (const auto& entry : std::filesystem::directory_iterator(m_folder)) {
-            all.insert(entry.path());
+            all.insert(entry.path().string());
         }
         return all;
     };
     const std::filesystem::path own = std::filesystem::path(m_folder) / "posewire_scratch_test";
     std::filesystem::create_directory(own);
-    m_folder = own;
+    m_folder = own.string();
     {
-        const auto scratch = std::make_shared<Scratch>(own, 64 * kMiB);
+        const auto scratch = std::make_shared<Scratch>(m_folder, 64 * kMiB);
         const auto block = filled(*scratch, 1);
+#ifndef _WIN32 // where it has a name as long as it is open
         EXPECT_TRUE(names().empty());
+#endif
     }
     EXPECT_TRUE(names().empty());
     std::filesystem::remove(own);

@@ -2,32 +2,13 @@
 #pragma once
 
 #include "core/log/byte_io.h"
+#include "core/log/system_files.h"
 
 #include <atomic>
 #include <string>
-#include <utility>
 #include <vector>
 
-/// Files as the system knows them (POSIX); only for the units that read and write them.
 namespace posewire::log {
-
-/// A file descriptor, closed with its owner.
-class Descriptor {
-public:
-    explicit Descriptor(int number = -1) : m_number(number) {}
-    ~Descriptor();
-    Descriptor(Descriptor&& other) noexcept : m_number(std::exchange(other.m_number, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(m_number, other.m_number);
-        return *this;
-    }
-
-    [[nodiscard]] int number() const { return m_number; }
-    [[nodiscard]] bool isOpen() const { return m_number >= 0; }
-
-private:
-    int m_number;
-};
 
 /// Gathers small pieces, so that the system is called seldom.
 class DescriptorSink : public ByteSink {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "core/log/clock.h"
 
-#ifdef __linux__
-#include <ctime>
-#endif
+#include <time.h>
 
 namespace posewire::log {
 
@@ -12,14 +10,12 @@ WallTime SystemClock::wall() const {
 }
 
 Moment SystemClock::monotonic() const {
-#ifdef __linux__
     // The steady clock of the library stands still while the computer sleeps, and the wall clock does not:
     // waking up would look as if somebody had set it.
     timespec now{};
     if (::clock_gettime(CLOCK_BOOTTIME, &now) == 0) {
         return Moment(std::chrono::seconds(now.tv_sec) + Duration(now.tv_nsec));
     }
-#endif
     return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
 }
 

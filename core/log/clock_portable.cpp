@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/clock.h"
+
+namespace posewire::log {
+
+WallTime SystemClock::wall() const {
+    return std::chrono::time_point_cast<Duration>(std::chrono::system_clock::now());
+}
+
+Moment SystemClock::monotonic() const {
+    return std::chrono::time_point_cast<Duration>(std::chrono::steady_clock::now());
+}
+
+} // namespace posewire::log

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+#include "core/log/file_names.h"
+#include "core/log/system_files.h"
+
+#include <cerrno>
+#include <charconv>
+#include <system_error>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace posewire::log {
+namespace {
+
+using Status = struct stat;
+
+FileStatus statusFrom(const Status& status) {
+    using Kind = FileStatus::Kind;
+    FileStatus result;
+    result.kind = S_ISREG(status.st_mode)   ? Kind::File
+                  : S_ISDIR(status.st_mode) ? Kind::Folder
+                  : S_ISBLK(status.st_mode) ? Kind::Disk
+                                            : Kind::Stream;
+    result.volume = status.st_dev;
+    result.number = status.st_ino;
+    result.rights = status.st_mode & 07777U;
+    result.owner = status.st_uid;
+    result.group = status.st_gid;
+    return result;
+}
+
+bool isReady(int descriptor, short events, std::chrono::milliseconds most) {
+    pollfd state{descriptor, events, 0};
+    return ::poll(&state, 1, static_cast<int>(most.count())) > 0;
+}
+
+} // namespace
+
+Descriptor::~Descriptor() {
+    if (isOpen()) {
+        ::close(m_number);
+    }
+}
+
+std::optional<FileStatus> statusOf(const std::string& path) {
+    Status status{};
+    return ::stat(path.c_str(), &status) == 0 ? std::optional(statusFrom(status)) : std::nullopt;
+}
+
+std::optional<FileStatus> statusOf(int descriptor) {
+    Status status{};
+    return ::fstat(descriptor, &status) == 0 ? std::optional(statusFrom(status)) : std::nullopt;
+}
+
+bool isLink(const std::string& path) {
+    Status status{};
+    return ::lstat(path.c_str(), &status) == 0 && S_ISLNK(status.st_mode);
+}
+
+std::optional<int> descriptorNamed(std::string_view path) {
+    if (path == "/dev/stdout") {
+        return STDOUT_FILENO;
+    }
+    if (path == "/dev/stderr") {
+        return STDERR_FILENO;
+    }
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        int number = 0;
+        const std::string_view rest = path.starts_with(folder) ? path.substr(folder.size()) : "";
+        const char* end = rest.data() + rest.size();
+        const auto read = std::from_chars(rest.data(), end, number);
+        if (!rest.empty() && read.ec == std::errc{} && read.ptr == end && number >= 0) {
+            return number;
+        }
+    }
+    return std::nullopt;
+}
+
+Descriptor openToRead(const std::string& path) {
+    return Descriptor(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+}
+
+Descriptor openToWrite(const std::string& path) {
+    return Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+}
+
+Descriptor createToWrite(const std::string& path) {
+    constexpr int mode = 0666;
+    return Descriptor(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+}
+
+Descriptor duplicateOf(int descriptor) {
+    return Descriptor(::dup(descriptor));
+}
+
+std::ptrdiff_t readSome(const Descriptor& file, std::span<std::byte> into) {
+    return ::read(file.number(), into.data(), into.size());
+}
+
+std::ptrdiff_t readSomeAt(const Descriptor& file, std::uint64_t offset, std::span<std::byte> into) {
+    return ::pread(file.number(), into.data(), into.size(), static_cast<off_t>(offset));
+}
+
+std::ptrdiff_t writeSome(int descriptor, std::span<const std::byte> bytes) {
+    return ::write(descriptor, bytes.data(), bytes.size());
+}
+
+bool hasNews(const Descriptor& file, std::chrono::milliseconds most) {
+    return isReady(file.number(), POLLIN, most);
+}
+
+bool hasRoom(int descriptor, std::chrono::milliseconds most) {
+    return isReady(descriptor, POLLOUT, most);
+}
+
+bool bringToDisk(const Descriptor& file) {
+#ifdef __linux__
+    const int result = ::fdatasync(file.number());
+#else
+    const int result = ::fsync(file.number());
+#endif
+    // Pipes, terminals and devices have nothing to be brought to a disk.
+    return result == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
+}
+
+void bringNameToDisk(const std::string& path) {
+    const std::string folder = nameOf(pathOf(path).parent_path());
+    const Descriptor descriptor(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_CLOEXEC));
+    if (descriptor.isOpen()) {
+        ::fsync(descriptor.number());
+    }
+}
+
+bool makeEmpty(const Descriptor& file) {
+    return ::ftruncate(file.number(), 0) == 0;
+}
+
+void takeRights(const Descriptor& file, const FileStatus& from) {
+    static_cast<void>(::fchmod(file.number(), from.rights));
+    [[maybe_unused]] const int given = ::fchown(file.number(), from.owner, from.group);
+}
+
+bool mayCreateIn(const std::string& folder) {
+    return ::access(folder.c_str(), W_OK | X_OK) == 0;
+}
+
+bool giveName(const std::string& from, const std::string& to, bool mayReplace) {
+    if (!mayReplace) {
+        if (::link(from.c_str(), to.c_str()) == 0) {
+            ::unlink(from.c_str());
+            return true;
+        }
+        const bool isTaken = errno == EEXIST || ::access(to.c_str(), F_OK) == 0;
+        if (isTaken) {
+            errno = EEXIST;
+            return false;
+        }
+    }
+    std::error_code error;
+    std::filesystem::rename(from, to, error); // some disks know no links
+    errno = error.value();
+    return !error;
+}
+
+void removeFile(const std::string& path) {
+    ::unlink(path.c_str());
+}
+
+Descriptor openToLock(const std::string& path) {
+    return Descriptor(::open(path.c_str(), O_RDWR | O_CLOEXEC));
+}
+
+bool lockForOne(const Descriptor& file) {
+    return ::flock(file.number(), LOCK_EX | LOCK_NB) == 0;
+}
+
+std::uint64_t processNumber() {
+    return static_cast<std::uint64_t>(::getpid());
+}
+
+} // namespace posewire::log
