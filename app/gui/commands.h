@@ -8,6 +8,8 @@
 
 namespace posewire::gui {
 
+struct ComparisonChoice;
+
 /// What a panel may ask for. Each command is carried out before the next display tick; panels never change
 /// the session themselves.
 class Commands {
@@ -47,6 +49,14 @@ public:
     /// character alone where there is one.
     virtual void showIncident(std::optional<std::uint64_t> number,
                               std::optional<model::CharacterKey> of = {}) = 0;
+    /// Asks which recording what is shown is to be compared with, and compares it.
+    virtual void askForComparison() = 0;
+    virtual void endComparison() = 0;
+    virtual void setComparison(const ComparisonChoice& choice) = 0;
+    /// Gives up what is worked out of the range, or begins with it again.
+    virtual void setComparing(bool isOn) = 0;
+    /// Writes the differences to a file; its place was chosen in askWhereToSave().
+    virtual void saveComparison(const QString& path) = 0;
     virtual void copyText(const QString& text) = 0;
     /// Brings a dock before the others, by its object name.
     virtual void showDock(const QString& dock) = 0;

@@ -49,18 +49,40 @@ Settings startSettings(SettingsFile& file, const Options& options, QString* prob
     return settings;
 }
 
-/// What is asked for; where nothing is, what was shown when the program ended, if it is still there.
-QString fileToOpen(const Options& options, const Settings& settings) {
+/// Nothing that tells what to show: it is what was shown when the program ended.
+bool isToRestore(const Options& options) {
     const bool asksForInputs =
         !options.udpPorts.empty() || !options.tcpInputs.empty() || options.demoCharacters > 0;
-    const bool isToRestore = options.file.isEmpty() && !asksForInputs && QFileInfo(settings.file).isFile();
-    return isToRestore ? settings.file : options.file;
+    return options.file.isEmpty() && options.comparedFile.isEmpty() && !asksForInputs;
+}
+
+/// What is asked for; where nothing is, what was shown, if it is still there.
+QString fileToOpen(const Options& options, const Settings& settings) {
+    return isToRestore(options) && QFileInfo(settings.file).isFile() ? settings.file : options.file;
+}
+
+void openComparison(MainWindow& window, const Options& options, const Settings& settings) {
+    const QString file = isToRestore(options) ? settings.comparedFile : options.comparedFile;
+    if (file.isEmpty()) {
+        return;
+    }
+    if (!isToRestore(options)) {
+        window.compareWith(file);
+    } else if (QFileInfo(file).isFile()) {
+        window.driver().compareWith(file); // docks are as they were
+    } else {
+        window.say(QCoreApplication::translate(
+                       "main",
+                       "%1 is not there any more, so that nothing is compared with it. File > Compare "
+                       "with a recording takes another one.")
+                       .arg(file));
+    }
 }
 
 /// What takes its time waits until the window can be seen.
-void openInputs(MainWindow& window, const Options& options) {
+void openInputs(MainWindow& window, const Options& options, const Settings& settings) {
     SessionDriver& driver = window.driver();
-    const InputChoices choices = window.settings().inputs;
+    const InputChoices& choices = settings.inputs;
     driver.receiving().listenTo(allowedAtStart(options, choices)); // before the first port is open
     for (const InputAddress& input : inputsToOpen(options, choices)) {
         driver.receiving().addPort(input);
@@ -71,7 +93,7 @@ void openInputs(MainWindow& window, const Options& options) {
     if (options.demoCharacters > 0) {
         driver.setDemo(options.demoCharacters);
     }
-    const QString file = fileToOpen(options, window.settings());
+    const QString file = fileToOpen(options, settings);
     if (!file.isEmpty()) {
         window.openPath(file);
         if (options.seekSeconds) {
@@ -85,6 +107,7 @@ void openInputs(MainWindow& window, const Options& options) {
                 Qt::SingleShotConnection);
         }
     }
+    openComparison(window, options, settings);
 }
 
 /// Takes the picture once the file is open and the viewport has one to show; after some seconds without, as
@@ -105,12 +128,12 @@ void takeScreenshot(MainWindow& window, const QString& path, int attempts) {
     QCoreApplication::exit(problem.isEmpty() ? 0 : 1);
 }
 
-void begin(MainWindow& window, const Options& options) {
+void begin(MainWindow& window, const Options& options, const Settings& settings) {
     if (options.printsStartupTime) {
         std::printf("window on screen after %.0f ms\n", processAgeMs());
         std::fflush(stdout);
     }
-    openInputs(window, options);
+    openInputs(window, options, settings);
     window.viewport().start();
     window.driver().start();
     if (options.screenshotFile.isEmpty()) {
@@ -154,7 +177,7 @@ int main(int argc, char** argv) {
     }
     new EventWatch(&window, QEvent::Paint, [&, isFirst = true]() mutable {
         if (std::exchange(isFirst, false)) {
-            QTimer::singleShot(0, &window, [&] { begin(window, *options); });
+            QTimer::singleShot(0, &window, [&] { begin(window, *options, settings); });
         }
     });
     const EndingSignals ending;

@@ -73,6 +73,7 @@ QList<QCommandLineOption> optionTable() {
         {"demo", tr("Send walking characters to the listening port, by UDP on this computer; 2 by default."),
          "[CHARACTERS]"},
         {"seek", tr("Stop this many seconds after the beginning of FILE instead of at its end."), "SECONDS"},
+        {"compare", tr("Compare what is shown with this recording."), "FILE"},
         {"layout", tr("Begin with a layout that ships, or with one from a file."),
          layoutNames().join(QLatin1Char('|')) + QStringLiteral("|FILE")},
         {"reset-layout", tr("Forget where windows and docks were.")},
@@ -194,7 +195,7 @@ struct Reader {
     /// Nothing that is read is written.
     void checkOutputs() {
         const auto encoded = [](const QString& path) { return QFile::encodeName(path).toStdString(); };
-        const std::vector<std::string> inUse{encoded(options.file)};
+        const std::vector<std::string> inUse{encoded(options.file), encoded(options.comparedFile)};
         const auto check = [&](const QString& path, bool mayReplace) {
             const auto checked = log::checkOutput(encoded(path), {mayReplace, inUse});
             if (!path.isEmpty() && !checked) {
@@ -213,6 +214,7 @@ struct Reader {
             refuse(tr("one file at a time; '%1' is one too many.").arg(files[1]));
         }
         options.file = files.value(0);
+        options.comparedFile = parser.value(QStringLiteral("compare"));
         options.layout = parser.value(QStringLiteral("layout"));
         options.resetsLayout = parser.isSet(QStringLiteral("reset-layout"));
         options.settingsFile = parser.value(QStringLiteral("settings"));

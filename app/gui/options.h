@@ -22,6 +22,7 @@ namespace posewire::gui {
 /// What the command line asks for.
 struct Options {
     QString file;
+    QString comparedFile;
     std::vector<InputAddress> udpPorts;  ///< multicast groups are joined at each
     std::vector<InputAddress> tcpInputs; ///< listening first
     QStringList allowed;                 ///< hosts and nets to listen to; none: as kept in the settings

@@ -16,6 +16,8 @@
 
 namespace posewire::gui {
 
+struct ComparisonState;
+
 /// One input that the operator wants to hear.
 struct PortState {
     InputAddress port;
@@ -83,6 +85,8 @@ public:
     [[nodiscard]] virtual ReceivingState receivingState() const = 0;
     /// What this program itself costs.
     [[nodiscard]] virtual MonitorHealth monitorHealth() const = 0;
+    /// What is shown against a second recording, where there is one.
+    [[nodiscard]] virtual const ComparisonState& comparison() const = 0;
 };
 
 } // namespace posewire::gui

@@ -46,7 +46,7 @@ std::uint64_t tenthOfFree(const QString& folder) {
     return freeBytes(folder) / 10;
 }
 
-std::shared_ptr<log::Scratch> newScratch(const QString& folder) {
+std::shared_ptr<log::Scratch> scratchIn(const QString& folder) {
     if (folder.isEmpty() || !QDir().mkpath(folder)) {
         return std::make_shared<log::Scratch>();
     }
@@ -91,7 +91,7 @@ SessionDriver::SessionDriver(const log::Clock& clock, QString cacheFolder, QObje
     : QObject(parent),
       m_clock(clock),
       m_cacheFolder(std::move(cacheFolder)),
-      m_log({}, newScratch(m_cacheFolder)),
+      m_log({}, newScratch()),
       m_live(m_log),
       m_receiving(m_log, clock) {
     m_timer.setTimerType(Qt::PreciseTimer);
@@ -106,6 +106,10 @@ SessionDriver::SessionDriver(const log::Clock& clock, QString cacheFolder, QObje
     });
 }
 
+std::shared_ptr<log::Scratch> SessionDriver::newScratch() const {
+    return scratchIn(m_cacheFolder);
+}
+
 void SessionDriver::tick() {
     const log::Stamp now = m_log.timeline().now(m_clock);
     const std::uint64_t endBefore = m_live.end();
@@ -114,8 +118,9 @@ void SessionDriver::tick() {
     }
     const bool hasNew = m_live.end() != endBefore;
     m_meter.addFollow(m_clock.monotonic() - begin, m_live.end() - endBefore);
-    m_isChanged = (isOpening() && readFile()) || m_isChanged;
+    m_isChanged = (isReading(m_file.get()) && readFile()) || m_isChanged;
     playOn();
+    followComparison();
     const bool isTableTick = now - m_tableTick >= kTableTick;
     if (now - m_retry >= kRetry) {
         m_retry = now;
@@ -217,7 +222,7 @@ void SessionDriver::openFile(const QString& path) {
     closeFile();
     qCInfo(filesLog).noquote() << "opening" << path;
     keepFromSaving(path);
-    m_file = std::make_unique<OpenedFile>(m_clock, path, newScratch(m_cacheFolder));
+    m_file = std::make_unique<OpenedFile>(m_clock, path, newScratch());
     m_file->session().setThresholds(m_live.thresholds());
 }
 
@@ -245,12 +250,14 @@ void SessionDriver::tellOpened() {
 }
 
 QString SessionDriver::openingText() const {
-    return isOpening() ? tr("Opening %1: %2 %").arg(m_file->name()).arg(std::floor(100 * m_file->share()))
+    const OpenedFile* file = isReading(m_file.get()) ? m_file.get() : compared();
+    return isOpening() ? tr("Opening %1: %2 %").arg(file->name()).arg(std::floor(100 * file->share()))
                        : QString();
 }
 
 void SessionDriver::cancelOpening() {
-    if (!isOpening()) {
+    if (!isReading(m_file.get())) {
+        stopReadingCompared();
         return;
     }
     m_file->stop();
@@ -285,6 +292,7 @@ void SessionDriver::closeFile() {
     if (m_file != nullptr) {
         showLive();
         emit fileClosing();
+        m_comparing.endOf(m_file->session().log());
         m_replaying.endOf(m_file->session().log());
         m_file.reset();
     }

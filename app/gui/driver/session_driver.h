@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "app/gui/driver/comparing.h"
 #include "app/gui/driver/opened_file.h"
 #include "app/gui/driver/program_health.h"
 #include "app/gui/driver/receiving.h"
@@ -69,7 +70,7 @@ public:
     /// Begins to read a file of datagrams, instead of one that is open; fileOpened() says how it went. It is
     /// shown as soon as there is something of it.
     void openFile(const QString& path);
-    [[nodiscard]] bool isOpening() const { return m_file != nullptr && m_file->isReading(); }
+    [[nodiscard]] bool isOpening() const { return isReading(m_file.get()) || isReading(compared()); }
     /// Reads no further: what was read of the file is there, and fileOpened() says so.
     void cancelOpening();
     /// "Opening take.pcapng: 43 %"; empty where nothing is opened.
@@ -80,6 +81,12 @@ public:
     void showFile();
     void showLive();
     void closeFile();
+
+    /// Begins to read a second recording, which what is shown is compared with; comparisonChanged() says how
+    /// it went.
+    void compareWith(const QString& path);
+    /// Null where nothing is compared.
+    [[nodiscard]] const OpenedFile* compared() const { return m_comparing.file(); }
 
     /// Sends the performer's characters to a port of this computer, through a real socket; 0 ends that.
     void setDemo(int characters);
@@ -165,6 +172,11 @@ public:
     void forgetSender(log::SenderId sender) override { change(&model::Session::forget, sender); }
     void setGhostVisible(bool isVisible) override;
     void showIncident(std::optional<std::uint64_t> number, std::optional<model::CharacterKey> of) override;
+    void askForComparison() override { emit comparisonRequested(); }
+    void endComparison() override;
+    void setComparison(const ComparisonChoice& choice) override;
+    void setComparing(bool isOn) override;
+    void saveComparison(const QString& path) override;
     void copyText(const QString& text) override;
     void showDock(const QString& dock) override { emit dockRequested(dock); }
 
@@ -177,6 +189,7 @@ public:
         return health;
     }
     [[nodiscard]] ReceivingState receivingState() const override { return m_receiving.state(); }
+    [[nodiscard]] const ComparisonState& comparison() const override { return m_comparing.state(); }
 
 signals:
     /// The view moved: at most once a tick.
@@ -192,6 +205,9 @@ signals:
     void relayStopped();
     /// A file was read, or could not be. `text` is what is to be said about it, empty for nothing.
     void fileOpened(bool isRead, const QString& text);
+    void comparisonRequested();
+    /// A second recording is open, or none any more; `text` is what is to be said, empty for nothing.
+    void comparisonChanged(const QString& text);
     void demoChanged(bool isRunning);
     /// A take began or ended; `problem` is why it ended by itself, empty where it did not.
     void recordingChanged(const QString& problem);
@@ -222,6 +238,12 @@ private:
     void watchTakes(log::Stamp now);
     /// A packet with its sender and character; nothing where there is no such packet.
     [[nodiscard]] std::optional<model::Selection> selectionOf(std::uint64_t packet) const;
+    [[nodiscard]] static bool isReading(const OpenedFile* file) {
+        return file != nullptr && file->isReading();
+    }
+    [[nodiscard]] std::shared_ptr<log::Scratch> newScratch() const;
+    void followComparison();
+    void stopReadingCompared();
     /// True if there was anything new of the file.
     bool readFile();
     void tellOpened();
@@ -238,6 +260,7 @@ private:
     Receiving m_receiving;
     std::unique_ptr<OpenedFile> m_file; ///< null where none is open
     Replaying m_replaying{m_clock};     ///< of one of the two
+    Comparing m_comparing{m_clock};     ///< after the logs that it reads
     bool m_isFileShown = false;
     std::optional<model::Playback> m_playback; ///< while something plays
     double m_playSpeed = 1;

@@ -2,6 +2,7 @@
 #include "app/gui/panel.h"
 
 #include "app/gui/panels/characters_panel.h"
+#include "app/gui/panels/compare_panel.h"
 #include "app/gui/panels/faults_panel.h"
 #include "app/gui/panels/incidents_panel.h"
 #include "app/gui/panels/inspector_panel.h"
@@ -44,6 +45,7 @@ constexpr PanelInfo kPanels[] = {
     dock<StatisticsPanel>("statistics", QT_TRANSLATE_NOOP("Panel", "Statistics"), kRight),
     dock<InspectorPanel>("inspector", QT_TRANSLATE_NOOP("Panel", "Inspector"), kRight),
     dock<TrackersPanel>("trackers", QT_TRANSLATE_NOOP("Panel", "Trackers"), kRight),
+    dock<ComparePanel>("compare", QT_TRANSLATE_NOOP("Panel", "Comparison"), kRight),
     dock<PacketsPanel>("packets", QT_TRANSLATE_NOOP("Panel", "Packets"), kBottom),
     dock<NullPosePanel>("nullpose", QT_TRANSLATE_NOOP("Panel", "Null pose"), kRight),
     dock<IncidentsPanel>("events", QT_TRANSLATE_NOOP("Panel", "Incidents"), kBottom),

@@ -46,12 +46,13 @@ struct TimePlot::Parts {
     std::vector<Curve> curves;
     QCPGraph* marks = nullptr; ///< gaps too short to be hatched
     std::vector<QCPItemRect*> hatches;
-    std::vector<double> shortGaps; ///< their middles
+    std::vector<double> shortGaps;             ///< their middles
+    std::vector<QCPItemStraightLine*> cursors; ///< one in each chart; none before a cursor was set
 };
 
 TimePlot::TimePlot(const QString& name, double secondsShown, QWidget* parent)
     : QWidget(parent),
-      m_parts(new Parts{secondsShown, new QCustomPlot(this), nullptr, {}, {}, nullptr, {}, {}}) {
+      m_parts(new Parts{secondsShown, new QCustomPlot(this), nullptr, {}, {}, nullptr, {}, {}, {}}) {
     setAccessibleName(name);
     QCustomPlot* plot = m_parts->plot;
     auto* layout = new QVBoxLayout(this);
@@ -104,6 +105,48 @@ int TimePlot::addCurve(int chart, QColor Theme::*colour) {
     m_parts->curves.push_back({m_parts->plot->addGraph(Parts::time(at), Parts::values(at)), colour, number});
     applyColours();
     return static_cast<int>(m_parts->curves.size()) - 1;
+}
+
+void TimePlot::setTitle(int chart, const QString& title) {
+    m_parts->charts[static_cast<std::size_t>(chart)].title->setText(title);
+}
+
+void TimePlot::setSpan(double from, double to) {
+    for (const Parts::Chart& chart : m_parts->charts) {
+        Parts::time(chart)->setRange(from, to);
+    }
+}
+
+void TimePlot::setCursor(std::optional<double> time) {
+    while (m_parts->cursors.size() < m_parts->charts.size()) {
+        const Parts::Chart& chart = m_parts->charts[m_parts->cursors.size()];
+        auto* line = new QCPItemStraightLine(m_parts->plot);
+        line->setClipAxisRect(chart.axes);
+        line->setAntialiased(false); // one pixel, sharp
+        for (QCPItemPosition* point : {line->point1, line->point2}) {
+            point->setAxisRect(chart.axes);
+            point->setAxes(Parts::time(chart), Parts::values(chart));
+        }
+        m_parts->cursors.push_back(line);
+        m_parts->plot->installEventFilter(this);
+        applyColours();
+    }
+    for (QCPItemStraightLine* line : m_parts->cursors) {
+        line->setVisible(time.has_value());
+        line->point1->setCoords(time.value_or(0), 0);
+        line->point2->setCoords(time.value_or(0), 1);
+    }
+}
+
+bool TimePlot::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == m_parts->plot && event->type() == QEvent::MouseButtonPress) {
+        const QPointF at = static_cast<QMouseEvent*>(event)->position();
+        const auto* axes = m_parts->charts.front().axes;
+        if (at.x() >= axes->left() && at.x() <= axes->right()) {
+            emit momentPicked(Parts::time(m_parts->charts.front())->pixelToCoord(at.x()));
+        }
+    }
+    return QWidget::eventFilter(watched, event);
 }
 
 void TimePlot::setCurve(int curve, std::span<const Point> points) {
@@ -224,6 +267,9 @@ void TimePlot::applyColours() {
     m_parts->plot->setBackground(colours.panel);
     for (const Parts::Curve& curve : m_parts->curves) {
         curve.graph->setPen(QPen(colours.*curve.colour, 1));
+    }
+    for (QCPItemStraightLine* line : m_parts->cursors) {
+        line->setPen(QPen(colours.text, 1));
     }
     m_parts->marks->setScatterStyle(
         QCPScatterStyle(QCPScatterStyle::ssTriangle, colours.warning, colours.warning, 5));

@@ -6,14 +6,16 @@
 #include <QWidget>
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
 
 namespace posewire::gui {
 
-/// Curves over the last seconds before a moment: charts one below the other with one time axis that ends at
-/// 0. Colours follow the theme. Where samples are missing, curves break and the gap is hatched, or marked at
-/// the bottom of the first chart where it is too short for that.
+/// Curves over the last seconds before a moment, or over a span of time: charts one below the other with one
+/// time axis, which ends at 0 unless a span is set. Colours follow the theme. Where samples are missing,
+/// curves break and the gap is hatched, or marked at the bottom of the first chart where it is too short for
+/// that.
 ///
 /// Make the charts and curves first, then give each its points and call replot() whenever they change.
 class TimePlot final : public QWidget {
@@ -21,7 +23,7 @@ class TimePlot final : public QWidget {
 
 public:
     struct Point {
-        double time;  ///< s, 0 or less
+        double time;  ///< s, 0 or less where no span is set
         double value; ///< NaN breaks the curve
     };
     using Gap = std::pair<double, double>; ///< from, to (s)
@@ -35,6 +37,13 @@ public:
     int addChart(const QString& title, int share, double leastRange);
     /// Adds a curve to a chart, in a colour of the theme, and returns its number.
     int addCurve(int chart, QColor Theme::*colour);
+
+    void setTitle(int chart, const QString& title);
+    /// From when to when (s), instead of the last seconds.
+    void setSpan(double from, double to);
+    /// A line through all charts, where a moment is shown; nothing for none. From now on a click asks for
+    /// another one.
+    void setCursor(std::optional<double> time);
 
     /// Points in order of time.
     void setCurve(int curve, std::span<const Point> points);
@@ -56,7 +65,12 @@ public:
         return {fontMetrics().height() * 20, fontMetrics().height() * 12};
     }
 
+signals:
+    /// Of a click, where setCursor() was called.
+    void momentPicked(double time);
+
 protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
     void changeEvent(QEvent* event) override;
 
 private:

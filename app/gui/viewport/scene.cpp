@@ -146,13 +146,14 @@ float dimFor(double ageSeconds) {
     return share < 0 ? 0.0F : kGreatestDim * static_cast<float>(0.4 + 0.6 * std::min(share, 1.0));
 }
 
-std::shared_ptr<const FigureMesh> SceneBuilder::meshOf(const model::CharacterKey& key) {
+std::shared_ptr<const FigureMesh> SceneBuilder::meshOf(const model::SessionView& session,
+                                                       const model::CharacterKey& key) {
     render::NullPose performer{};
-    const model::BodyOrigins& origins = m_session.bodyOrigins(key);
+    const model::BodyOrigins& origins = session.bodyOrigins(key);
     static_assert(std::tuple_size_v<decltype(origins.places)> == std::tuple_size_v<render::NullPose>);
     std::ranges::transform(origins.places, performer.begin(),
                            [](const Eigen::Vector3d& origin) { return vectorOf(origin); });
-    const model::NullPose* nullPose = m_session.nullPose(key);
+    const model::NullPose* nullPose = session.nullPose(key);
     return nullPose == nullptr ? m_meshes.of(performer)
                                : m_meshes.of(performer, fingerOriginsOf(*nullPose, origins));
 }
@@ -219,19 +220,28 @@ void SceneBuilder::build(AxesMode axes, const Overlays& overlays, SceneFrame& fr
             addGhost(figure, *pose, frame);
         }
     }
+    addCompared(frame);
 }
 
 void SceneBuilder::addFigure(const model::Character& character, const model::CharacterPose& pose,
                              SceneFrame& frame) {
-    Figure figure;
-    figure.key = character.key;
-    figure.mesh = meshOf(character.key);
+    Figure figure = bodyOf(m_session, character.key, pose);
+    const auto provenance = figure.look.provenance;
     figure.look = lookOf(character.key);
+    figure.look.provenance = provenance;
+    frame.figures.push_back(std::move(figure));
+}
+
+Figure SceneBuilder::bodyOf(const model::SessionView& session, const model::CharacterKey& key,
+                            const model::CharacterPose& pose) {
+    Figure figure;
+    figure.key = key;
+    figure.mesh = meshOf(session, key);
     makePalette(pose, figure);
     const glm::vec3 head = figure.mesh->origins[render::Head];
     figure.labelPosition =
         render::transformPoint(figure.palette[render::Head], head) + glm::vec3(0, 0, kLabelHeight);
-    frame.figures.push_back(std::move(figure));
+    return figure;
 }
 
 render::CharacterLook SceneBuilder::lookOf(const model::CharacterKey& key) const {

@@ -21,6 +21,8 @@
 
 namespace posewire::gui {
 
+struct ComparisonState;
+
 /// One character in a picture.
 struct Figure {
     model::CharacterKey key;
@@ -104,18 +106,28 @@ public:
     void build(AxesMode axes, const Overlays& overlays, SceneFrame& frame);
     /// Bodies glide from sample to sample while what is received is followed.
     void setInterpolating(bool isInterpolating) { m_isInterpolating = isInterpolating; }
+    /// What is compared is drawn as well, through: it outlives this. Null for nothing.
+    void setComparison(const ComparisonState* comparison) { m_comparison = comparison; }
     /// Whether the same poses would be shown elsewhere a little later.
     [[nodiscard]] bool isUnderWay() const;
     /// Of the bodies in the scenes.
     [[nodiscard]] const BodyMeshes& meshes() const { return m_meshes; }
 
 private:
-    [[nodiscard]] std::shared_ptr<const FigureMesh> meshOf(const model::CharacterKey& key);
+    [[nodiscard]] std::shared_ptr<const FigureMesh> meshOf(const model::SessionView& session,
+                                                           const model::CharacterKey& key);
+    /// With mesh, palette and place, as yet without a look.
+    [[nodiscard]] Figure bodyOf(const model::SessionView& session, const model::CharacterKey& key,
+                                const model::CharacterPose& pose);
     [[nodiscard]] render::CharacterLook lookOf(const model::CharacterKey& key) const;
     void addFigure(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     void addObjects(const model::Character& character, const model::CharacterPose& pose, SceneFrame& frame);
     /// On the floor under the live pelvis, turned as it is; nothing where no null pose was sent.
     void addGhost(const Figure& figure, const model::CharacterPose& pose, SceneFrame& frame) const;
+    /// The bodies of the second recording, and how far the segments of the compared one are apart.
+    void addCompared(SceneFrame& frame);
+    void addDifferences(const model::CharacterPose& first, const model::CharacterPose& second,
+                        SceneFrame& frame) const;
     /// `strength` below 1 for data that have faded.
     void addAxes(const model::CharacterPose& pose, int selectedSegment, float strength,
                  SceneFrame& frame) const;
@@ -126,6 +138,7 @@ private:
     model::SessionView& m_session;
     BodyMeshes m_meshes;
     bool m_isInterpolating = false;
+    const ComparisonState* m_comparison = nullptr;
     std::map<model::CharacterKey, model::PoseInterpolation> m_motions; ///< of characters in the last frame
 };
 

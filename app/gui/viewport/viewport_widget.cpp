@@ -111,6 +111,11 @@ void ViewportWidget::showSession(model::SessionView& session, const QString& fil
     refresh();
 }
 
+void ViewportWidget::setComparison(const ComparisonState& comparison) {
+    m_comparison = &comparison;
+    refresh();
+}
+
 void ViewportWidget::setReceiving(const ReceivingState& receiving) {
     m_receiving = receiving;
     updateOverlay();
@@ -130,6 +135,7 @@ void ViewportWidget::drawNext() {
     frame->width = std::max(1, qRound(width() * devicePixelRatioF()));
     frame->height = std::max(1, qRound(height() * devicePixelRatioF()));
     m_builder->setInterpolating(m_isInterpolating);
+    m_builder->setComparison(m_comparison);
     m_look.fill(*m_builder, log::secondsOf(m_session->now() - m_followed), *frame);
     m_followed = m_session->now();
     m_drawingBuilt = m_session->now();

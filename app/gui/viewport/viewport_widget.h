@@ -39,6 +39,9 @@ public:
     /// Shows another session from now on; `file` is the name of the file that it is of, empty for none.
     void showSession(model::SessionView& session, const QString& file);
 
+    /// What is compared is drawn as well; it outlives the widget.
+    void setComparison(const ComparisonState& comparison);
+
     /// For when the session, the selection or the view itself has changed.
     void refresh();
     void setReceiving(const ReceivingState& receiving);
@@ -133,6 +136,7 @@ private:
     ViewLook m_look;
     bool m_hasRelativeViews = true;
     bool m_isInterpolating = false;
+    const ComparisonState* m_comparison = nullptr;
     QTimer m_glideTimer; ///< until the next picture of bodies on their way
     bool m_hasCard = true;
     std::array<QJsonObject, kKeptViews> m_keptViews; ///< as by stateOf(); empty where none was kept

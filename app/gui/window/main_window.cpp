@@ -3,6 +3,7 @@
 
 #include "app/gui/dock_layout.h"
 #include "app/gui/inputs/inputs_page.h"
+#include "app/gui/models/comparison_text.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
@@ -69,6 +70,7 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     m_driver.setThresholds(m_settings.alerts.thresholds);
     m_driver.setDisplayFilter(m_settings.filter);
     m_viewport->restoreState(m_settings.viewport);
+    m_viewport->setComparison(m_driver.comparison());
     new PressingKeys(this);
     keepHistory();
     restore();
@@ -104,10 +106,11 @@ void MainWindow::makeBars() {
     m_transport->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Transport"), QStringLiteral("transportBar"), m_transport));
 
-    m_verdict = new VerdictBar(m_driver.live(),
-                               {m_menus.action("resetForTake"), m_menus.action("live"),
-                                m_menus.action("showFile"), m_menus.action("closeFile")},
-                               this);
+    m_verdict =
+        new VerdictBar(m_driver.live(),
+                       {m_menus.action("resetForTake"), m_menus.action("live"), m_menus.action("showFile"),
+                        m_menus.action("closeFile"), m_menus.action("endComparison")},
+                       this);
     m_verdict->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     addToolBarBreak(Qt::TopToolBarArea);
     addToolBar(Qt::TopToolBarArea, fixedBar(tr("Verdict"), QStringLiteral("verdict"), m_verdict));
@@ -213,6 +216,14 @@ void MainWindow::connectDriver() {
         say(isRead ? QString()
                    : text); // what there is to know of one that was read is told as long as it shows
     });
+    connect(&m_driver, &SessionDriver::comparisonRequested, this, &MainWindow::chooseComparison);
+    connect(&m_driver, &SessionDriver::comparisonChanged, this, [this](const QString& text) {
+        showOpening();
+        showReceiving();
+        if (!text.isEmpty()) {
+            say(text);
+        }
+    });
     connect(&m_driver, &SessionDriver::relayStopped, this, &MainWindow::keepRelays);
     connect(&m_driver, &SessionDriver::demoChanged, this, showStates);
     connect(&m_driver, &SessionDriver::recordingChanged, this, [this](const QString& problem) {
@@ -288,7 +299,11 @@ Settings MainWindow::settings() const {
     }
     settings.viewport = m_viewport->state();
     settings.filter = QString::fromStdString(m_driver.live().ownFilter());
-    settings.file = m_driver.isFileShown() ? QDir().absoluteFilePath(m_driver.file()->path()) : QString();
+    const auto pathOf = [](const OpenedFile* file) {
+        return file != nullptr ? QDir().absoluteFilePath(file->path()) : QString();
+    };
+    settings.file = pathOf(m_driver.isFileShown() ? m_driver.file() : nullptr);
+    settings.comparedFile = pathOf(m_driver.compared());
     return settings;
 }
 
@@ -331,11 +346,13 @@ void MainWindow::showVerdict() {
         file = {opened->name(), m_driver.isFileShown(), QString::fromStdString(opened->verdict().text),
                 opened->notes()};
     }
+    file.comparison = comparisonText(m_driver.comparison());
     const bool hasInputs = !m_driver.receiving().state().ports.empty() || m_driver.live().end() != 0;
     m_menus.action("pause")->setEnabled(!file.isShown);
     m_menus.action("live")->setEnabled(hasInputs || !file.isShown);
     m_menus.action("showFile")->setEnabled(!file.name.isEmpty() && !file.isShown);
     m_menus.action("closeFile")->setEnabled(!file.name.isEmpty());
+    m_menus.action("endComparison")->setEnabled(m_driver.comparison().isOpen);
     m_menus.action("resetForTake")->setEnabled(m_driver.live().end() != 0);
     m_verdict->refresh(file, hasInputs);
 }

@@ -43,6 +43,9 @@ public:
     // What the actions do.
     void openFile();
     void openPath(const QString& path);
+    /// Asks for the recording that what is shown is to be compared with.
+    void chooseComparison();
+    void compareWith(const QString& path);
     void listRecentFiles(QMenu& menu);
     void toggleRecording();
     void editRecording();

@@ -9,6 +9,7 @@
 #include "app/gui/window/replay_dialog.h"
 
 #include <QDir>
+#include <QDockWidget>
 #include <QFileDialog>
 #include <QMenu>
 #include <QToolButton>
@@ -34,6 +35,23 @@ void MainWindow::openPath(const QString& path) {
     m_settings.recentFiles.prepend(whole);
     m_settings.recentFiles = m_settings.recentFiles.mid(0, Settings::kMostRecentFiles);
     m_driver.openFile(path);
+}
+
+void MainWindow::chooseComparison() {
+    const QString path = QFileDialog::getOpenFileName(this, tr("Compare with a recording"));
+    if (!path.isEmpty()) {
+        compareWith(path);
+    }
+}
+
+void MainWindow::compareWith(const QString& path) {
+    m_driver.compareWith(path);
+    const Dock* dock = findDock(QStringLiteral("compare"));
+    const Dock* beside = findDock(QStringLiteral("inspector"));
+    if (dock->dock->isHidden() && !beside->dock->isHidden() && !beside->dock->isFloating()) {
+        tabifyDockWidget(beside->dock, dock->dock); // a place of its own would leave too little for others
+    }
+    showDock(QStringLiteral("compare"));
 }
 
 void MainWindow::listRecentFiles(QMenu& menu) {

@@ -162,7 +162,8 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
       m_strip(new QWidget(this)),
       m_what(new ElidedLabel(Qt::AlignLeft | Qt::AlignVCenter, m_strip)),
       m_goLive(buttonFor(actions.live, {}, m_strip)),
-      m_closeFile(buttonFor(actions.closeFile, tr("Close recording"), m_strip)) {
+      m_closeFile(buttonFor(actions.closeFile, tr("Close recording"), m_strip)),
+      m_endComparison(buttonFor(actions.endComparison, tr("End comparison"), m_strip)) {
     setObjectName(QStringLiteral("verdictBar"));
     m_span->setObjectName(QStringLiteral("verdictSpan"));
     m_span->setFont(tabularFont());
@@ -176,6 +177,7 @@ VerdictBar::VerdictBar(model::SessionView& live, const Actions& actions, QWidget
     row->addWidget(m_showFile);
     auto* strip = spacedRow({12, 3, 12, 3}, 10, m_strip);
     strip->addWidget(m_what, 1);
+    strip->addWidget(m_endComparison);
     strip->addWidget(m_goLive);
     strip->addWidget(m_closeFile);
     auto* column = tightColumn(this);
@@ -214,7 +216,8 @@ void VerdictBar::showVerdict(bool isBehindFile) {
 
 void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
     const bool isPaused = !file.isShown && m_live.cursor().mode == model::Cursor::Mode::Paused;
-    m_strip->setVisible(file.isShown || isPaused);
+    const QString compared = file.comparison.isEmpty() ? QString() : QLatin1Char(' ') + file.comparison;
+    m_strip->setVisible(file.isShown || isPaused || !compared.isEmpty());
     m_showFile->setVisible(!file.isShown && !file.name.isEmpty());
     m_showFile->setText(tr("Show %1").arg(
         fontMetrics().elidedText(file.name, Qt::ElideMiddle, fontMetrics().averageCharWidth() * 24)));
@@ -222,17 +225,22 @@ void VerdictBar::showStrip(const ShownFile& file, bool hasInputs) {
         QStringList lines{file.verdict};
         lines += file.notes;
         lines.removeAll(QString());
-        m_what->setText(tr("Recording %1").arg(file.name),
+        m_what->setText(tr("Recording %1").arg(file.name) + compared,
                         QStringLiteral(" · ") + lines.join(QStringLiteral(" · ")));
     } else if (isPaused) {
         const double speed = m_live.cursor().speed;
         m_what->setText((speed == 0 ? tr("▮▮ Display paused at %1") : tr("▶ The past is played, now %1"))
-                            .arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))),
+                                .arg(timeOfDay(m_live.wallOf(m_live.cursorStamp()))) +
+                            compared,
                         tr(" · receiving goes on, and so does the verdict above"));
     }
+    if (!file.isShown && !isPaused) {
+        m_what->setText(tr("What is received,") + compared);
+    }
+    m_endComparison->setVisible(!compared.isEmpty());
     m_what->setToolTip(toolTipText(m_what->text()));
     m_what->setAccessibleName(m_what->text());
-    m_goLive->setVisible(isPaused || hasInputs);
+    m_goLive->setVisible(isPaused || (file.isShown && hasInputs));
     m_goLive->setText(file.isShown ? tr("Back to live (%1)").arg(liveText(m_live, m_verdict))
                                    : tr("Go live"));
     m_closeFile->setVisible(file.isShown);

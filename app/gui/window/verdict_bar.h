@@ -48,10 +48,11 @@ private:
 
 /// What is shown instead of what is received, if anything.
 struct ShownFile {
-    QString name; ///< of the file that is open; empty where none is
+    QString name{}; ///< of the file that is open; empty where none is
     bool isShown = false;
-    QString verdict{};   ///< on all of it
-    QStringList notes{}; ///< what else the operator must know of it
+    QString verdict{};    ///< on all of it
+    QStringList notes{};  ///< what else the operator must know of it
+    QString comparison{}; ///< what is shown is compared with, and how; empty for nothing
 };
 
 /// Above everything: whether what is on the wire now is good for the take, whatever is shown; and, where the
@@ -65,6 +66,7 @@ public:
         QAction* live;
         QAction* showFile;
         QAction* closeFile;
+        QAction* endComparison;
     };
     /// `live` is the session of what is received.
     VerdictBar(model::SessionView& live, const Actions& actions, QWidget* parent = nullptr);
@@ -95,6 +97,7 @@ private:
     ElidedLabel* m_what;
     QToolButton* m_goLive;
     QToolButton* m_closeFile;
+    QToolButton* m_endComparison;
     model::TakeVerdict m_verdict;
     bool m_isLarge = false;
 };

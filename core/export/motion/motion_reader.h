@@ -44,9 +44,12 @@ struct MotionSurvey {
     log::Stamp first{};                      ///< of all
 };
 
-/// Looks through a range once: what writers must know before the first sample. Fails as cancelled only.
-[[nodiscard]] tl::expected<MotionSurvey, log::FileError>
-surveyMotion(const MotionSource& source, MotionContent content, const ExportProgress& progress);
+/// Looks through a range once: what writers must know before the first sample. Each sample goes to `take` as
+/// well, where that is set. Fails as cancelled only.
+[[nodiscard]] tl::expected<MotionSurvey, log::FileError> surveyMotion(const MotionSource& source,
+                                                                      MotionContent content,
+                                                                      const ExportProgress& progress,
+                                                                      const TakeSample& take = {});
 
 /// Hands out all samples that were surveyed with the gaps between them, those of each character in the order
 /// of their counters; of several characters about as they came. A frame is valid during the call. Fails as

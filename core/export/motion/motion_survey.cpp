@@ -130,7 +130,8 @@ private:
 } // namespace
 
 tl::expected<MotionSurvey, log::FileError> surveyMotion(const MotionSource& source, MotionContent content,
-                                                        const ExportProgress& progress) {
+                                                        const ExportProgress& progress,
+                                                        const TakeSample& take) {
     MotionSurvey survey;
     survey.characters.resize(source.characters.size());
     std::vector<Surveying> sums(survey.characters.begin(), survey.characters.end());
@@ -138,6 +139,9 @@ tl::expected<MotionSurvey, log::FileError> surveyMotion(const MotionSource& sour
         source, content,
         [&](std::size_t character, const MotionSample& sample, bool beginsRun) {
             sums[character].add(sample, beginsRun);
+            if (take) {
+                take(character, sample, beginsRun);
+            }
         },
         progress);
     if (!walked) {

@@ -13,7 +13,7 @@ namespace {
 
 /// As in SessionView: a type is read where none that is preferred came within this time.
 constexpr log::Duration kTypeTie = std::chrono::milliseconds(250);
-/// Packets between two looks at whether to go on.
+/// Packets that are read in one step.
 constexpr std::uint64_t kPacketsAtOnce = 2048;
 
 std::optional<std::size_t> rankOf(MotionContent content, std::uint8_t type) {
@@ -101,37 +101,30 @@ private:
 
 } // namespace
 
-tl::expected<void, log::FileError> walkMotion(const MotionSource& source, MotionContent content,
-                                              const TakeSample& take, const ExportProgress& progress) {
+struct MotionWalk::Parts {
     struct Place {
         std::size_t character;
         std::size_t part;
     };
-    std::unordered_map<model::CharacterKey, Place> places;
-    std::vector<CharacterFeed> feeds;
-    for (std::size_t i = 0; i < source.characters.size(); ++i) {
-        const MotionCharacter& character = source.characters[i];
-        for (std::size_t part = 0; part < character.parts.size(); ++part) {
-            places.emplace(character.parts[part].key, Place{i, part});
-        }
-        feeds.emplace_back(character, content, [&take, i](const MotionSample& sample, bool beginsRun) {
-            take(i, sample, beginsRun);
-        });
-    }
-    log::LogReader reader(*source.log);
-    for (std::uint64_t number = source.firstPacket; number < source.endPacket; ++number) {
-        const std::uint64_t done = number - source.firstPacket;
-        if (done % kPacketsAtOnce == 0) {
-            reader.refresh(); // lets go of what was looked at
-            const auto all = static_cast<double>(source.endPacket - source.firstPacket);
-            if (progress && !progress(static_cast<double>(done) / all)) {
-                return tl::unexpected(log::FileError{"cancelled", log::FileError::Kind::Cancelled});
+
+    Parts(const MotionSource& from, MotionContent content, TakeSample to)
+        : source(from), take(std::move(to)), reader(*from.log), next(from.firstPacket) {
+        for (std::size_t i = 0; i < source.characters.size(); ++i) {
+            const MotionCharacter& character = source.characters[i];
+            for (std::size_t part = 0; part < character.parts.size(); ++part) {
+                places.emplace(character.parts[part].key, Place{i, part});
             }
+            feeds.emplace_back(character, content, [this, i](const MotionSample& sample, bool beginsRun) {
+                take(i, sample, beginsRun);
+            });
         }
+    }
+
+    void read(std::uint64_t number) {
         const auto packet = reader.packet(number);
         if (!packet || packet->flags.skipped ||
             packet->bytes.size() > model::SessionView::kMostMessageBytes) {
-            continue;
+            return;
         }
         const auto header = wire::decodeHeader(packet->bytes);
         const auto place = header ? places.find({packet->sender, header->character}) : places.end();
@@ -139,7 +132,52 @@ tl::expected<void, log::FileError> walkMotion(const MotionSource& source, Motion
             feeds[place->second.character].take(*packet, *header, place->second.part);
         }
     }
-    std::ranges::for_each(feeds, &CharacterFeed::finish);
+
+    const MotionSource& source;
+    TakeSample take;
+    std::unordered_map<model::CharacterKey, Place> places;
+    std::vector<CharacterFeed> feeds;
+    log::LogReader reader;
+    std::uint64_t next;
+};
+
+MotionWalk::MotionWalk(const MotionSource& source, MotionContent content, TakeSample take)
+    : m_parts(std::make_unique<Parts>(source, content, std::move(take))) {}
+
+MotionWalk::~MotionWalk() = default;
+
+bool MotionWalk::advance() {
+    const std::uint64_t end = m_parts->source.endPacket;
+    if (m_parts->next >= end) {
+        return false;
+    }
+    m_parts->reader.refresh(); // lets go of what was looked at
+    const std::uint64_t until = std::min(end, m_parts->next + kPacketsAtOnce);
+    for (; m_parts->next < until; ++m_parts->next) {
+        m_parts->read(m_parts->next);
+    }
+    if (until == end) {
+        std::ranges::for_each(m_parts->feeds, &CharacterFeed::finish);
+    }
+    return true;
+}
+
+double MotionWalk::share() const {
+    const MotionSource& source = m_parts->source;
+    return source.endPacket <= source.firstPacket
+               ? 1
+               : static_cast<double>(m_parts->next - source.firstPacket) /
+                     static_cast<double>(source.endPacket - source.firstPacket);
+}
+
+tl::expected<void, log::FileError> walkMotion(const MotionSource& source, MotionContent content,
+                                              const TakeSample& take, const ExportProgress& progress) {
+    MotionWalk walk(source, content, take);
+    do {
+        if (progress && !progress(walk.share())) {
+            return tl::unexpected(log::FileError{"cancelled", log::FileError::Kind::Cancelled});
+        }
+    } while (walk.advance());
     return {};
 }
 

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace posewire::exporting {
 
@@ -22,8 +23,27 @@ using ExportProgress = std::function<bool(double share)>;
 /// A sample of the character at a place of the source.
 using TakeSample = std::function<void(std::size_t character, const MotionSample& sample, bool beginsRun)>;
 
-/// Hands out all whole samples of a range, those of each character in the order of their counters. Fails as
-/// cancelled only.
+/// Hands out all whole samples of a range, those of each character in the order of their counters, for who
+/// reads several logs in step.
+class MotionWalk {
+public:
+    /// The source outlives this.
+    MotionWalk(const MotionSource& source, MotionContent content, TakeSample take);
+    ~MotionWalk();
+    MotionWalk(const MotionWalk&) = delete;
+    MotionWalk& operator=(const MotionWalk&) = delete;
+
+    /// Reads on for some packets; false where there were none left: all samples were handed out.
+    bool advance();
+    /// How much of the range was read, from 0 to 1.
+    [[nodiscard]] double share() const;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> m_parts;
+};
+
+/// The same at once. Fails as cancelled only.
 [[nodiscard]] tl::expected<void, log::FileError> walkMotion(const MotionSource& source, MotionContent content,
                                                             const TakeSample& take,
                                                             const ExportProgress& progress);

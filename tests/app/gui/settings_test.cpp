@@ -49,6 +49,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     written.viewport = QJsonObject{{"axes", 1}};
     written.filter = "type == 02 && gap > 0";
     written.file = "/takes/take 3.pcapng";
+    written.comparedFile = "/takes/reference.pcapng";
     ASSERT_EQ(file.write(written), "");
     const Settings read = file.read(&problem);
     EXPECT_TRUE(problem.isEmpty()) << problem.toStdString();
@@ -62,6 +63,7 @@ TEST_F(SettingsFileTest, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read.viewport, written.viewport);
     EXPECT_EQ(read.filter, written.filter);
     EXPECT_EQ(read.file, written.file);
+    EXPECT_EQ(read.comparedFile, written.comparedFile);
 }
 
 TEST_F(SettingsFileTest, DoesNotWaitForAPipe) {

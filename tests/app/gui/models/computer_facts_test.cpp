@@ -11,7 +11,7 @@ namespace posewire::gui {
 namespace {
 
 /// A program that says of itself what a test wants.
-class StatedProgram : public ProgramView {
+class StatedProgram : public IdleProgram {
 public:
     [[nodiscard]] ReceivingState receivingState() const override { return receiving; }
     [[nodiscard]] MonitorHealth monitorHealth() const override { return health; }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/commands.h"
+#include "app/gui/comparison.h"
 #include "app/gui/program_view.h"
 #include "core/log/packet_log.h"
 #include "core/log/time.h"
@@ -67,10 +68,19 @@ public:
         m_session.askForIncident(number, of);
     }
     void copyText(const QString& text) override { copied = text; }
+    void askForComparison() override { ++comparisonsAskedFor; }
+    void endComparison() override { comparison = {}; }
+    void setComparison(const ComparisonChoice& choice) override { comparison = choice; }
+    void setComparing(bool isOn) override { isComparing = isOn; }
+    void saveComparison(const QString& path) override { comparisonFile = path; }
 
     int selections = 0;
     std::vector<model::CharacterKey> framed;
     QString copied;
+    int comparisonsAskedFor = 0;
+    ComparisonChoice comparison;
+    bool isComparing = true;
+    QString comparisonFile;
 
 private:
     model::Session& m_session;
@@ -81,6 +91,9 @@ class IdleProgram : public ProgramView {
 public:
     [[nodiscard]] ReceivingState receivingState() const override { return {}; }
     [[nodiscard]] MonitorHealth monitorHealth() const override { return {}; }
+    [[nodiscard]] const ComparisonState& comparison() const override { return compared; }
+
+    ComparisonState compared;
 };
 
 /// A log to which tests send datagrams at stamps of their choosing, and a session that follows it.

@@ -100,5 +100,22 @@ TEST_F(TimePlotTest, FollowsTheTheme) {
     applyTheme(*qApp, ThemeChoice::Dark);
 }
 
+TEST_F(TimePlotTest, AClickAsksForTheMomentThatItIsAt) {
+    m_plot.setSpan(0, 20);
+    m_plot.setCursor(5.0);
+    EXPECT_GT(pixelsOf(painted(), theme().text), 100) << "a line through both charts";
+    m_plot.setCursor(std::nullopt);
+    EXPECT_LT(pixelsOf(painted(), theme().text), 100);
+    std::vector<double> picked;
+    QObject::connect(&m_plot, &TimePlot::momentPicked, &m_plot, [&](double time) { picked.push_back(time); });
+    QWidget* inner = m_plot.findChildren<QWidget*>().front();
+    QTest::mouseClick(inner, Qt::LeftButton, {}, QPoint(inner->width() - 20, 100));
+    QTest::mouseClick(inner, Qt::LeftButton, {}, QPoint(inner->width() / 2, 100));
+    ASSERT_EQ(picked.size(), 2U);
+    EXPECT_GT(picked[0], 18);
+    EXPECT_GT(picked[1], 7);
+    EXPECT_LT(picked[1], 13);
+}
+
 } // namespace
 } // namespace posewire::gui

@@ -172,5 +172,57 @@ TEST(DimFor, IsNothingForLiveDataAndNeverFalls) {
     EXPECT_LT(before, 1.0F);
 }
 
+TEST_F(SceneBuilderTest, ASecondRecordingIsDrawnThroughWithLinesToWhereItDiffers) {
+    perform(1);
+    Stage second;
+    performer::Performer performer(sending(1, {2, 12, 13}));
+    second.perform(performer, 0, 200);
+    second.follow();
+    ComparisonState state;
+    state.isOpen = true;
+    state.name = "take-2.pcapng";
+    state.second = &second.session;
+    state.pair.emplace(stage.key(), second.key());
+    const auto compare = [&](model::DifferenceFrame frame) {
+        state.choice.frame = frame;
+        state.atCursor.emplace();
+        ASSERT_TRUE(model::differenceOf(*stage.session.pose(stage.key()), *second.session.pose(second.key()),
+                                        frame, *state.atCursor));
+    };
+    EXPECT_TRUE(build().ghosts.empty());
+    builder.setComparison(&state);
+    EXPECT_TRUE(build().ghosts.empty()) << "no partner";
+
+    compare(model::DifferenceFrame::World);
+    const auto placeOf = [](const Figure& figure, int segment) {
+        const auto place = static_cast<std::size_t>(segment);
+        return render::transformPoint(figure.palette[place], figure.mesh->origins[place]);
+    };
+    SceneFrame frame = build();
+    ASSERT_EQ(frame.ghosts.size(), 1U);
+    EXPECT_LT(frame.ghosts[0].look.opacity, 1);
+    EXPECT_EQ(frame.lines.size(), 23U);
+    EXPECT_EQ(frame.points.size(), 23U);
+    ASSERT_EQ(frame.texts.size(), 1U);
+    EXPECT_TRUE(frame.texts[0].text.startsWith("take-2.pcapng · "));
+    const auto sent = second.session.pose(second.key())->segments[model::segment::kHead].position;
+    EXPECT_NEAR(placeOf(frame.ghosts[0], model::segment::kHead).x, sent.x(), 1e-4);
+
+    compare(model::DifferenceFrame::Pelvis);
+    frame = build();
+    EXPECT_NEAR(glm::length(placeOf(frame.ghosts[0], 0) - placeOf(frame.figures[0], 0)), 0, 1e-4);
+
+    state.choice.isBeside = true;
+    stage.session.setSelection({stage.sender(), stage.key(), model::segment::kHead});
+    frame = build();
+    EXPECT_NEAR(glm::length(placeOf(frame.ghosts[0], 0) - placeOf(frame.figures[0], 0)), 1.2, 1e-3);
+    EXPECT_TRUE(frame.lines.empty());
+    EXPECT_EQ(frame.points.size(), 46U);
+    ASSERT_EQ(frame.texts.size(), 2U);
+    EXPECT_TRUE(frame.texts[0].text.contains(" °") || frame.texts[1].text.contains(" °"));
+    stage.session.setHidden(stage.key(), true);
+    EXPECT_TRUE(build().ghosts.empty());
+}
+
 } // namespace
 } // namespace posewire::gui

@@ -50,7 +50,8 @@ protected:
         return action;
     }
     VerdictBar m_bar{m_stage.session,
-                     {named("resetForTake"), named("live"), named("showFile"), named("closeFile")}};
+                     {named("resetForTake"), named("live"), named("showFile"), named("closeFile"),
+                      named("endComparison")}};
 };
 
 TEST_F(VerdictBarTest, SaysNeitherGoodNorBadBeforeAnythingCame) {
@@ -134,6 +135,18 @@ TEST_F(VerdictBarTest, AResetForgetsWhatIsOver) {
     send(180, 200);
     refresh();
     EXPECT_THAT(headline(), StartsWith("Good for the take"));
+}
+
+TEST_F(VerdictBarTest, NamesWhatIsComparedAndOffersToEndIt) {
+    send(0, 60);
+    refresh();
+    EXPECT_TRUE(button("endComparisonButton")->isHidden());
+    refresh({.comparison = "compared with b.pcapng by time code"});
+    EXPECT_EQ(stripText(), "What is received, compared with b.pcapng by time code");
+    EXPECT_FALSE(strip()->isHidden());
+    EXPECT_FALSE(button("endComparisonButton")->isHidden());
+    refresh({.name = "a.pcapng", .isShown = true, .comparison = "compared with b.pcapng by time code"});
+    EXPECT_THAT(stripText(), StartsWith("Recording a.pcapng compared with b.pcapng by time code"));
 }
 
 } // namespace

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/driver/comparing.h"
+
+#include <QFile>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace posewire::gui {
+namespace {
+
+/// Between the end of one comparison and the begin of the next, where only the moment has moved on; and as
+/// often as long as it took, so that it never takes more than a tenth of a processor.
+constexpr log::Duration kPause = std::chrono::milliseconds(500);
+constexpr int kRest = 9;
+
+exporting::SampleMoment momentOf(const model::CharacterPose& pose) {
+    return {pose.sample, pose.timeCode, pose.stamp, pose.packet};
+}
+
+} // namespace
+
+void Comparing::open(const QString& path, const std::shared_ptr<log::Scratch>& scratch) {
+    close();
+    m_file = std::make_unique<OpenedFile>(m_clock, path, scratch);
+    m_state.isOpen = true;
+    m_state.name = m_file->name();
+}
+
+void Comparing::close() {
+    forgetResults();
+    m_ending.clear();
+    m_saving.reset();
+    m_file.reset();
+    ComparisonState none;
+    none.choice.frame = m_state.choice.frame; // the rest was of this recording
+    none.choice.isBeside = m_state.choice.isBeside;
+    m_state = std::move(none);
+}
+
+void Comparing::choose(const ComparisonChoice& choice) {
+    m_state.choice = choice;
+    m_state.isStopped = false;
+    m_nextWork = {};
+    m_pairChosen = {};
+}
+
+void Comparing::stop() {
+    if (m_work != nullptr) {
+        m_work->cancel();
+        m_ending.push_back(std::move(m_work));
+        m_subject.reset();
+        m_state.isStopped = true;
+    }
+}
+
+void Comparing::workAgain() {
+    m_state.isStopped = false;
+    m_subject.reset();
+    m_nextWork = {};
+}
+
+void Comparing::endOf(const log::PacketLog& log) {
+    if (m_known.log == &log) {
+        forgetResults();
+    }
+    m_ending.clear();
+    if (m_savingOf == &log) {
+        m_saving.reset();
+    }
+}
+
+/// Threads that still read end on their own.
+void Comparing::forgetResults() {
+    if (m_work != nullptr) {
+        m_work->cancel();
+        m_ending.push_back(std::move(m_work));
+    }
+    m_subject.reset();
+    m_known = {};
+    m_firstTable.reset();
+    m_secondTable.reset();
+    m_partners.reset();
+    m_order = {};
+    m_shown = {};
+    m_state.alignment.reset();
+    m_state.atCursor.reset();
+    m_state.range.reset();
+    m_state.pair.reset();
+    m_nextWork = {};
+}
+
+bool Comparing::follow(model::SessionView& shown, log::Duration most) {
+    if (m_file == nullptr) {
+        return false;
+    }
+    const bool hasRead = m_file->isReading() && m_file->follow(most);
+    m_state.second = m_file->session().end() != 0 ? &m_file->session() : nullptr;
+    std::erase_if(m_ending, [](const auto& one) { return one->isDone(); });
+    updatePair(shown);
+    const bool hasResult = takeResult();
+    if (m_state.pair && !m_file->isReading() && isWorkDue(shown)) {
+        beginWork(shown);
+    }
+    const auto before = m_file->session().cursor();
+    const bool hadPartner = m_state.atCursor.has_value();
+    followCursor(shown);
+    describe(shown);
+    return hasRead || hasResult || before != m_file->session().cursor() ||
+           hadPartner != m_state.atCursor.has_value();
+}
+
+/// Not each tick: names of many characters are compared.
+void Comparing::updatePair(model::SessionView& shown) {
+    constexpr log::Duration kEvery = std::chrono::milliseconds(250);
+    const log::Moment now = m_clock.monotonic();
+    const bool isOther = m_known.log != &shown.log();
+    const bool isAsBefore = m_state.pair && shown.selection() == m_pairSelection;
+    if (!isOther && isAsBefore && now < m_pairChosen + kEvery) {
+        return;
+    }
+    m_pairSelection = shown.selection();
+    m_pairChosen = now;
+    const auto pair = choosePair(shown);
+    if (isOther || pair != m_state.pair) {
+        forgetResults();
+        m_state.pair = pair;
+        m_known = subjectOf(shown);
+    }
+}
+
+/// Of the selected character; without one, or where that has no partner, the first pair.
+std::optional<exporting::CharacterPair> Comparing::choosePair(model::SessionView& shown) const {
+    const auto& selected = shown.selection().character;
+    const auto pairs = exporting::pairCharacters(shown, m_file->session());
+    const auto isShown = [&](const exporting::CharacterPair& one) {
+        return selected && shown.isSame(one.first, *selected);
+    };
+    const auto found = std::ranges::find_if(pairs, isShown);
+    auto pair = found != pairs.end() ? std::optional(*found)
+                : pairs.empty()      ? std::nullopt
+                                     : std::optional(pairs.front());
+    const auto& chosen = m_state.choice.pair;
+    const bool isChosen = pair && chosen && shown.isSame(chosen->first, pair->first) &&
+                          m_file->session().find(chosen->second) != nullptr;
+    return isChosen ? exporting::CharacterPair{pair->first, chosen->second} : pair;
+}
+
+Comparing::Subject Comparing::subjectOf(const model::SessionView& shown) const {
+    return {&shown.log(), m_state.pair.value_or(exporting::CharacterPair{}), m_state.choice.by,
+            m_state.choice.offset, m_state.choice.frame};
+}
+
+bool Comparing::isWorkDue(const model::SessionView& shown) const {
+    if (m_state.isStopped || shown.end() == 0) {
+        return false;
+    }
+    if (!m_subject || *m_subject != subjectOf(shown)) {
+        return true; // something else was chosen
+    }
+    const Reach reach{shown.range(), shown.end()};
+    return m_work == nullptr && reach != m_reach && m_clock.monotonic() >= m_nextWork;
+}
+
+ComparisonOrder Comparing::orderFor(const model::SessionView& shown) const {
+    const auto& [first, second] = *m_state.pair;
+    const auto sourceOf = [](const model::SessionView& session, const model::TimeRange& range,
+                             const model::CharacterKey& key) {
+        return exporting::motionSourceOf(session, range, std::span(&key, 1));
+    };
+    return {sourceOf(shown, model::kAllTime, first),
+            sourceOf(shown, shown.range().value_or(model::kAllTime), first),
+            sourceOf(m_file->session(), model::kAllTime, second),
+            m_firstTableEnd == shown.end() ? m_firstTable : nullptr,
+            m_secondTable,
+            m_state.choice.by,
+            m_state.choice.offset,
+            m_state.choice.frame};
+}
+
+void Comparing::beginWork(model::SessionView& shown) {
+    if (m_work != nullptr) {
+        m_work->cancel();
+        m_ending.push_back(std::move(m_work));
+    }
+    m_subject = subjectOf(shown);
+    m_reach = {shown.range(), shown.end()};
+    m_order = orderFor(shown);
+    m_begun = m_clock.monotonic();
+    m_work = std::make_unique<ComparisonWork>(m_order);
+}
+
+bool Comparing::takeResult() {
+    if (m_work == nullptr || !m_work->isDone()) {
+        return false;
+    }
+    const ComparisonOutcome outcome = m_work->take();
+    m_work.reset();
+    const log::Moment now = m_clock.monotonic();
+    m_nextWork = now + std::max(kPause, kRest * (now - m_begun));
+    if (outcome.partners == nullptr) {
+        return false;
+    }
+    m_firstTable = outcome.firstTable;
+    m_firstTableEnd = m_reach.end;
+    m_secondTable = outcome.secondTable;
+    m_partners = *outcome.partners;
+    if (outcome.comparison != nullptr) {
+        m_state.range = outcome.comparison;
+        m_shown = std::move(m_order);
+        m_shown.firstTable = m_firstTable;
+        m_shown.secondTable = m_secondTable;
+        m_shown.by = m_partners->alignment().by;
+    }
+    return true;
+}
+
+/// The second recording to the moment of the first.
+void Comparing::followCursor(model::SessionView& shown) {
+    m_state.atCursor.reset();
+    const auto& choice = m_state.choice;
+    const bool isKnown = m_partners && (!choice.by || *choice.by == m_partners->alignment().by);
+    if (!isKnown || !m_state.pair) {
+        m_state.alignment.reset();
+        return;
+    }
+    if (m_partners->alignment().offset != choice.offset) {
+        m_partners = m_partners->withOffset(choice.offset);
+    }
+    m_state.alignment = m_partners->alignment();
+    m_state.step = exporting::stepOf(m_state.alignment->by, m_partners->second());
+    const model::CharacterPose* first = shown.pose(m_state.pair->first);
+    const auto place = first != nullptr ? m_partners->of(momentOf(*first)) : std::nullopt;
+    if (!place) {
+        return;
+    }
+    model::Session& session = m_file->session();
+    const exporting::SampleMoment& partner = m_partners->second().samples()[*place];
+    const model::Cursor cursor{model::Cursor::Mode::Paused, partner.packet};
+    if (session.cursor() != cursor) {
+        session.setCursor(cursor);
+    }
+    const model::CharacterPose* second = session.pose(m_state.pair->second);
+    model::PoseDifference difference;
+    if (second != nullptr && second->sample == partner.sample &&
+        differenceOf(*first, *second, choice.frame, difference)) {
+        m_state.atCursor = std::move(difference);
+    }
+}
+
+void Comparing::describe(model::SessionView& shown) {
+    m_state.isWorking = m_work != nullptr || m_file->isReading();
+    m_state.share = m_file->isReading() ? m_file->share() : m_work != nullptr ? m_work->share() : 0;
+    m_state.problem = problemOf(shown);
+    addNotes();
+}
+
+QString Comparing::problemOf(model::SessionView& shown) const {
+    if (m_file->isReading()) {
+        return {};
+    }
+    if (m_file->session().charactersNow().empty()) {
+        return tr("There is no character in %1. Choose another recording.").arg(m_state.name);
+    }
+    if (shown.charactersNow().empty()) {
+        return tr("There is no character yet to compare with %1.").arg(m_state.name);
+    }
+    const bool hasTables = m_firstTable != nullptr && m_secondTable != nullptr;
+    const QString types = tr("poses of types 01, 02 or 05");
+    if (hasTables && m_secondTable->samples().empty()) {
+        return tr("This character has no %1 in %2. Choose another one, or another recording.")
+            .arg(types, m_state.name);
+    }
+    if (hasTables && m_firstTable->samples().empty()) {
+        return tr("The shown character has no %1. Choose another one.").arg(types);
+    }
+    if (m_state.range != nullptr && m_state.range->pairs == 0 && m_work == nullptr) {
+        return m_state.range->apart != 0
+                   ? tr("These characters have no segment in common. Choose others.")
+                   : tr("No sample of the one has a partner in the other. Align them otherwise, or choose "
+                        "another range.");
+    }
+    return {};
+}
+
+void Comparing::addNotes() {
+    m_state.notes = m_file->notes();
+    if (m_partners) {
+        const exporting::Timetable& first = m_partners->first();
+        const exporting::Timetable& second = m_partners->second();
+        constexpr double kSame = 0.02;
+        if (first.rateHz() > 0 && second.rateHz() > 0 &&
+            std::abs(first.rateHz() / second.rateHz() - 1) > kSame) {
+            m_state.notes += tr("%1 Hz and %2 Hz: samples of the same moment are compared")
+                                 .arg(first.rateHz(), 0, 'f', 0)
+                                 .arg(second.rateHz(), 0, 'f', 0);
+        }
+        if (first.isCut() || second.isCut()) {
+            m_state.notes += tr("Only the first %1 samples are compared").arg(exporting::Timetable::kMost);
+        }
+    }
+}
+
+QString Comparing::save(const QString& path, const log::OutputRules& rules) {
+    if (m_state.range == nullptr || m_state.range->segments.empty()) {
+        return tr("There are no differences to save yet.");
+    }
+    m_savingTo = path;
+    m_savingOf = m_shown.first.log;
+    m_saving = std::make_unique<ComparisonSaving>(m_shown, m_state.range->segments,
+                                                  QFile::encodeName(path).toStdString(), rules);
+    return {};
+}
+
+std::optional<QString> Comparing::takeSaved() {
+    if (m_saving == nullptr || !m_saving->isDone()) {
+        return std::nullopt;
+    }
+    const QString problem = QString::fromStdString(m_saving->take());
+    m_saving.reset();
+    return problem.isEmpty() ? tr("Saved %1").arg(m_savingTo) : problem;
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/comparison.h"
+#include "app/gui/driver/comparison_work.h"
+#include "app/gui/driver/opened_file.h"
+
+#include <QCoreApplication>
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace posewire::gui {
+
+/// Compares what is shown with a second recording: keeps that at the same moment, and has a thread work out
+/// the range that figures are of. Neither ever waits for that thread, but where a log goes that it reads.
+class Comparing {
+    Q_DECLARE_TR_FUNCTIONS(Comparing)
+
+public:
+    explicit Comparing(const log::Clock& clock) : m_clock(clock) {}
+
+    /// Begins to read the second recording, instead of one that is open.
+    void open(const QString& path, const std::shared_ptr<log::Scratch>& scratch);
+    void close();
+    /// Null where none is open.
+    [[nodiscard]] OpenedFile* file() const { return m_file.get(); }
+
+    void choose(const ComparisonChoice& choice);
+    /// Ends the work on the range until it is asked for again, or something else is chosen.
+    void stop();
+    void workAgain();
+    /// Nothing reads this log any more once it returns.
+    void endOf(const log::PacketLog& log);
+
+    /// One display tick, for about as long as `most`; true where there is something new to show.
+    bool follow(model::SessionView& shown, log::Duration most);
+    [[nodiscard]] const ComparisonState& state() const { return m_state; }
+
+    /// Writes the differences of the range that was worked out last. The answer is why not, empty where it
+    /// begins; takeSaved() says how it went.
+    QString save(const QString& path, const log::OutputRules& rules);
+    /// A sentence for the operator, once it is done.
+    [[nodiscard]] std::optional<QString> takeSaved();
+
+private:
+    /// What a result is of.
+    struct Subject {
+        const log::PacketLog* log = nullptr;
+        exporting::CharacterPair pair;
+        std::optional<exporting::AlignBy> by;
+        double offset = 0;
+        model::DifferenceFrame frame = model::DifferenceFrame::World;
+        friend bool operator==(const Subject&, const Subject&) = default;
+    };
+    /// How far that was there.
+    struct Reach {
+        std::optional<model::TimeRange> range;
+        std::uint64_t end = 0;
+        friend bool operator==(const Reach&, const Reach&) = default;
+    };
+
+    void updatePair(model::SessionView& shown);
+    [[nodiscard]] std::optional<exporting::CharacterPair> choosePair(model::SessionView& shown) const;
+    void forgetResults();
+    [[nodiscard]] bool takeResult();
+    void beginWork(model::SessionView& shown);
+    [[nodiscard]] bool isWorkDue(const model::SessionView& shown) const;
+    [[nodiscard]] Subject subjectOf(const model::SessionView& shown) const;
+    [[nodiscard]] ComparisonOrder orderFor(const model::SessionView& shown) const;
+    void followCursor(model::SessionView& shown);
+    void describe(model::SessionView& shown);
+    [[nodiscard]] QString problemOf(model::SessionView& shown) const;
+    void addNotes();
+
+    const log::Clock& m_clock;
+    std::unique_ptr<OpenedFile> m_file;
+    ComparisonState m_state;
+    model::Selection m_pairSelection; ///< that the pair was chosen for, and when
+    log::Moment m_pairChosen{};
+    // What is known of the pair:
+    Subject m_known; ///< by and offset mean nothing here
+    std::shared_ptr<const exporting::Timetable> m_firstTable;
+    std::uint64_t m_firstTableEnd = 0; ///< packets that it is of
+    std::shared_ptr<const exporting::Timetable> m_secondTable;
+    std::optional<exporting::Partners> m_partners;
+    // What was worked out last, or is:
+    std::optional<Subject> m_subject;
+    Reach m_reach;
+    ComparisonOrder m_order;   ///< that is worked on
+    ComparisonOrder m_shown{}; ///< of the range in the state
+    log::Moment m_begun{};
+    log::Moment m_nextWork{};
+    // Last: their threads read the logs.
+    std::unique_ptr<ComparisonWork> m_work;
+    std::vector<std::unique_ptr<ComparisonWork>> m_ending;
+    std::unique_ptr<ComparisonSaving> m_saving;
+    QString m_savingTo;
+    const log::PacketLog* m_savingOf = nullptr;
+};
+
+} // namespace posewire::gui

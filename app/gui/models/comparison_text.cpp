@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/gui/models/comparison_text.h"
+
+#include "app/gui/models/text.h"
+#include "app/gui/theme/theme.h"
+#include "app/gui/theme/words.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace posewire::gui {
+namespace {
+
+QColor between(const QColor& from, const QColor& to, double share) {
+    const auto mix = [share](double a, double b) { return static_cast<float>(a + share * (b - a)); };
+    return QColor::fromRgbF(mix(from.redF(), to.redF()), mix(from.greenF(), to.greenF()),
+                            mix(from.blueF(), to.blueF()));
+}
+
+} // namespace
+
+QString alignedByText(exporting::AlignBy by) {
+    switch (by) {
+    case exporting::AlignBy::TimeCode:
+        return tr("Time code");
+    case exporting::AlignBy::Sample:
+        return tr("Sample counter");
+    case exporting::AlignBy::Begin:
+        break;
+    }
+    return tr("Beginnings");
+}
+
+QString frameText(model::DifferenceFrame frame) {
+    switch (frame) {
+    case model::DifferenceFrame::World:
+        return tr("As sent");
+    case model::DifferenceFrame::Heading:
+        return tr("On the spot");
+    case model::DifferenceFrame::Pelvis:
+        break;
+    }
+    return tr("Without the pelvis");
+}
+
+QString offsetText(const exporting::Alignment& alignment) {
+    if (alignment.offset == 0) {
+        return {};
+    }
+    if (alignment.by != exporting::AlignBy::Sample) {
+        return tr("%1 ms").arg(signedFixed(alignment.offset, 1));
+    }
+    return std::abs(alignment.offset) == 1 ? tr("%1 sample").arg(signedFixed(alignment.offset, 0))
+                                           : tr("%1 samples").arg(signedFixed(alignment.offset, 0));
+}
+
+QString comparisonText(const ComparisonState& state) {
+    if (!state.isOpen) {
+        return {};
+    }
+    if (!state.alignment) {
+        return tr("compared with %1").arg(state.name);
+    }
+    const QString by = alignedByText(state.alignment->by).toLower();
+    const QString offset = offsetText(*state.alignment);
+    const QString text = tr("compared with %1 by %2").arg(state.name, by);
+    return offset.isEmpty() ? text : text + QStringLiteral(", ") + offset;
+}
+
+QColor DifferenceScale::colourOf(double millimetres) const {
+    const double share = std::clamp(millimetres / full, 0.0, 1.0);
+    const Theme& colours = theme();
+    return share < 0.5 ? between(colours.good, colours.warning, 2 * share)
+                       : between(colours.warning, colours.error, 2 * share - 1);
+}
+
+DifferenceScale scaleOf(const ComparisonState& state) {
+    const double most = state.range != nullptr ? state.range->all.millimetres.p95
+                        : state.atCursor       ? state.atCursor->meanMillimetres()
+                                               : 0;
+    double full = 1;
+    for (const double next : {2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0, 2.0, 2.5, 2.0}) { // 1 2 5 10 …
+        if (full >= most) {
+            break;
+        }
+        full *= next;
+    }
+    return {full};
+}
+
+} // namespace posewire::gui

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "app/gui/comparison.h"
+#include "app/gui/models/difference_model.h"
+#include "app/gui/panel.h"
+#include "app/gui/panels/compare_bar.h"
+#include "app/gui/panels/table_view.h"
+#include "app/gui/plots/time_plot.h"
+#include "app/gui/theme/widgets.h"
+
+#include <QSplitter>
+
+namespace posewire::gui {
+
+/// Dock `compare`: how far the poses of what is shown are from those of a second recording, segment by
+/// segment, at the moment that is shown and over the range, with how they went.
+class ComparePanel : public Panel {
+    Q_OBJECT
+
+public:
+    ComparePanel(model::SessionView& view, Commands& commands, const ProgramView& program, QWidget* parent);
+
+    [[nodiscard]] static std::span<const ActionInfo> actionTable();
+    void refresh() override;
+    [[nodiscard]] QString summary() const override;
+    [[nodiscard]] QJsonObject state() const override;
+    void restoreState(const QJsonObject& state) override;
+
+    // What the actions do; nothing while nothing is compared but what is asked for then.
+    using By = std::optional<exporting::AlignBy>;
+    void alignBy(By by);
+    [[nodiscard]] By alignedBy() const { return choice().by; }
+    /// By samples of the second recording.
+    void nudge(int samples);
+    void clearOffset();
+    void setFrame(model::DifferenceFrame frame);
+    [[nodiscard]] model::DifferenceFrame frame() const { return choice().frame; }
+    void toggleBeside();
+    [[nodiscard]] bool isBeside() const { return choice().isBeside; }
+    void workAgain() { m_commands.setComparing(true); }
+    void stopWork() { m_commands.setComparing(false); }
+    void save();
+
+protected:
+    void resizeEvent(QResizeEvent* event) override;
+
+private:
+    [[nodiscard]] const ComparisonState& comparison() const { return m_program.comparison(); }
+    [[nodiscard]] const ComparisonChoice& choice() const { return comparison().choice; }
+    /// Changes one thing of the choice.
+    template <class Change>
+    void change(Change change);
+    void layOut();
+    void connectParts();
+    void showEmpty(const QString& text, bool isOpen);
+    void showFigures();
+    void plot();
+    void followSelection();
+    void select(const QModelIndex& index);
+    [[nodiscard]] int shownSlot() const;
+
+    const ProgramView& m_program;
+    DifferenceModel m_differences;
+    QWidget* m_empty;
+    QLabel* m_emptyText;
+    QToolButton* m_begin;
+    QWidget* m_content;
+    CompareBar* m_bar;
+    ElidedLabel* m_figures;
+    ElidedLabel* m_counts;
+    DifferenceLegend* m_legend;
+    QToolButton* m_stop;
+    QSplitter* m_splitter;
+    TableView* m_table;
+    TimePlot* m_plot;
+    std::shared_ptr<const exporting::MotionComparison> m_plotted;
+    int m_plottedSlot = -2;
+    bool m_isFollowing = false;
+};
+
+} // namespace posewire::gui

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "core/export/comparison/alignment.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace posewire::exporting {
+namespace {
+
+constexpr std::array<const char*, 3> kKeys{"timecode", "sample", "begin"};
+
+double measureOf(AlignBy by, const Timetable& table, const SampleMoment& moment) {
+    switch (by) {
+    case AlignBy::TimeCode:
+        return moment.timeCode;
+    case AlignBy::Sample:
+        return moment.sample;
+    case AlignBy::Begin:
+        break;
+    }
+    return table.millisecondsOf(moment);
+}
+
+/// Half the shorter of both periods: what is further away was made at another moment.
+double toleranceFor(AlignBy by, const Timetable& first, const Timetable& second) {
+    if (by == AlignBy::Sample) {
+        return 0.5;
+    }
+    constexpr double kLeast = 1.0; // ms: time codes are whole ones
+    const double one = first.periodMs();
+    const double other = second.periodMs();
+    const double shorter = one > 0 && other > 0 ? std::min(one, other) : std::max(one, other);
+    return std::max(shorter / 2, kLeast / 2) + 1e-6;
+}
+
+} // namespace
+
+const char* keyOf(AlignBy by) {
+    return kKeys[static_cast<std::size_t>(by)];
+}
+
+std::optional<AlignBy> alignByOf(std::string_view key) {
+    const auto found = std::ranges::find(kKeys, key, [](const char* one) { return std::string_view(one); });
+    return found == kKeys.end() ? std::nullopt : std::optional(static_cast<AlignBy>(found - kKeys.begin()));
+}
+
+double stepOf(AlignBy by, const Timetable& second) {
+    constexpr double kUsual = 1000.0 / 240; // ms, where no rate is known
+    if (by == AlignBy::Sample) {
+        return std::max<std::uint32_t>(second.step(), 1);
+    }
+    return second.periodMs() > 0 ? second.periodMs() : kUsual;
+}
+
+AlignBy naturalAlignment(const Timetable& first, const Timetable& second) {
+    const auto hasCommon = [&](AlignBy by) {
+        const auto borrowed = [](const Timetable& table) {
+            return std::shared_ptr<const Timetable>(std::shared_ptr<void>(), &table);
+        };
+        const Partners partners(borrowed(first), borrowed(second), {by, 0});
+        return std::ranges::any_of(first.samples(),
+                                   [&](const SampleMoment& one) { return partners.of(one).has_value(); });
+    };
+    // Senders without a time code leave it at 0.
+    const auto isTelling = [](const Timetable& table) {
+        return std::ranges::any_of(table.samples(), [&](const SampleMoment& one) {
+            return one.timeCode != table.samples().front().timeCode;
+        });
+    };
+    if (isTelling(first) && isTelling(second) && hasCommon(AlignBy::TimeCode)) {
+        return AlignBy::TimeCode;
+    }
+    return hasCommon(AlignBy::Sample) ? AlignBy::Sample : AlignBy::Begin;
+}
+
+Partners::Partners(std::shared_ptr<const Timetable> first, std::shared_ptr<const Timetable> second,
+                   const Alignment& alignment)
+    : m_first(std::move(first)),
+      m_second(std::move(second)),
+      m_alignment(alignment),
+      m_tolerance(toleranceFor(alignment.by, *m_first, *m_second)) {
+    Places places;
+    places.reserve(m_second->samples().size());
+    for (const SampleMoment& moment : m_second->samples()) {
+        places.emplace_back(measure(*m_second, moment), static_cast<std::uint32_t>(places.size()));
+    }
+    if (!std::ranges::is_sorted(places)) { // counters begin again, and so do time codes of what is looped
+        std::ranges::sort(places);
+    }
+    m_places = std::make_shared<const Places>(std::move(places));
+}
+
+Partners Partners::withOffset(double offset) const {
+    Partners moved = *this;
+    moved.m_alignment.offset = offset;
+    return moved;
+}
+
+double Partners::measure(const Timetable& table, const SampleMoment& moment) const {
+    return measureOf(m_alignment.by, table, moment);
+}
+
+std::optional<std::size_t> Partners::of(const SampleMoment& moment) const {
+    const Places& places = *m_places;
+    const double wanted = measure(*m_first, moment) + m_alignment.offset;
+    const auto place = [&](double from) {
+        return std::ranges::lower_bound(places, std::pair(from, std::uint32_t{0}));
+    };
+    auto best = place(wanted);
+    if (best != places.begin()) {
+        const auto before = place(std::prev(best)->first); // the first of equals
+        if (best == places.end() || wanted - before->first <= best->first - wanted) {
+            best = before;
+        }
+    }
+    const bool isNear = best != places.end() && std::abs(best->first - wanted) <= m_tolerance;
+    return isNear ? std::optional<std::size_t>(best->second) : std::nullopt;
+}
+
+bool Partners::isCommon(const SampleMoment& moment) const {
+    const Places& places = *m_places;
+    const double wanted = measure(*m_first, moment) + m_alignment.offset;
+    return !places.empty() && wanted >= places.front().first - m_tolerance &&
+           wanted <= places.back().first + m_tolerance;
+}
+
+} // namespace posewire::exporting
