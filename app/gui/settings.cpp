@@ -83,6 +83,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.viewport = object["viewport"].toObject();
     settings.filter = object["filter"].toString().left(Settings::kLongestFilter);
     settings.file = object["file"].toString();
+    settings.tour = std::max(0, object["tour"].toInt());
     for (const auto& path : object["recentFiles"].toArray()) {
         if (path.isString() && settings.recentFiles.size() < Settings::kMostRecentFiles) {
             settings.recentFiles += path.toString();
@@ -130,6 +131,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"viewport", settings.viewport},
                              {"filter", settings.filter},
                              {"file", settings.file},
+                             {"tour", settings.tour},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
     return QJsonDocument(object).toJson();
 }
