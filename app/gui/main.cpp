@@ -112,16 +112,23 @@ void openInputs(MainWindow& window, const Options& options, const Settings& sett
 
 /// Takes the picture once the file is open and the viewport has one to show; after some seconds without, as
 /// it is.
-void takeScreenshot(MainWindow& window, const QString& path, int attempts) {
+void takeScreenshot(MainWindow& window, const Options& options, int attempts) {
+    const QString& path = options.screenshotFile;
     constexpr int kAgainMs = 50;
     const bool isOpening = window.driver().isOpening();
     const bool isUnsettled = window.viewport().failure().isEmpty() && !window.viewport().isSettled();
     if (isOpening || (attempts > 0 && isUnsettled)) {
         const int left = isOpening ? attempts : attempts - 1;
-        QTimer::singleShot(kAgainMs, &window, [&window, path, left] { takeScreenshot(window, path, left); });
+        QTimer::singleShot(kAgainMs, &window,
+                           [&window, options, left] { takeScreenshot(window, options, left); });
         return;
     }
-    const QString problem = savePicture(window.grab(), path);
+    QWidget* part =
+        options.screenshotPart.isEmpty() ? &window : window.findChild<QWidget*>(options.screenshotPart);
+    const QString problem =
+        part == nullptr
+            ? QStringLiteral("--part: there is no '%1' in the window.").arg(options.screenshotPart)
+            : savePicture(part->grab(), path);
     if (!problem.isEmpty()) {
         std::fprintf(stderr, "posewire: %s\n", qUtf8Printable(problem));
     }
@@ -138,10 +145,13 @@ void begin(MainWindow& window, const Options& options, const Settings& settings)
     window.driver().start();
     if (options.screenshotFile.isEmpty()) {
         window.offerRecovered();
+        if (options.hasTour && window.driver().lostHistories().empty()) {
+            window.offerTour();
+        }
     } else {
         constexpr int kAttempts = 100;
         QTimer::singleShot(static_cast<int>(options.screenshotAfterSeconds * 1000), &window,
-                           [&window, options] { takeScreenshot(window, options.screenshotFile, kAttempts); });
+                           [&window, options] { takeScreenshot(window, options, kAttempts); });
     }
 }
 
@@ -187,7 +197,7 @@ int main(int argc, char** argv) {
     });
     window.show();
     if (!problem.isEmpty()) {
-        window.say(problem);
+        window.say(problem, HelpTopic::SettingsUnusable);
     }
     return QApplication::exec();
 }

@@ -81,8 +81,12 @@ QList<QCommandLineOption> optionTable() {
         {"theme", tr("Colours; those of the system by default."), themeForms()},
         {"screenshot", tr("Save a picture of the window and end."), "FILE.png"},
         {"force", tr("Replace the file of --screenshot also where it is no picture.")},
+        {"part",
+         tr("Take the screenshot of this dock or bar alone, by its name, such as packets or healthBar."),
+         "NAME"},
         {"after", tr("Seconds to wait before the screenshot; 3 by default."), "SECONDS"},
         {"size", tr("Size of the window."), "WxH"},
+        {"no-tour", tr("Do not lead through the window at the first start.")},
         {"verbose", tr("Tell on standard error what is done with inputs, files, settings and OpenGL.")},
         {"startup-time", tr("Print how long it took until the window was on screen.")},
         {{"h", "help"}, tr("Show this text.")},
@@ -145,7 +149,7 @@ struct Reader {
         const QString name = parser.value(QStringLiteral("theme"));
         options.theme = themeNamed(name);
         if (!options.theme && parser.isSet(QStringLiteral("theme"))) {
-            refuse(tr("--theme: '%1' is none of dark, light, system.").arg(name));
+            refuse(tr("--theme: '%1' is none of %2.").arg(name, themeForms().replace(u'|', QStringLiteral(", "))));
         }
     }
 
@@ -219,6 +223,8 @@ struct Reader {
         options.resetsLayout = parser.isSet(QStringLiteral("reset-layout"));
         options.settingsFile = parser.value(QStringLiteral("settings"));
         options.screenshotFile = parser.value(QStringLiteral("screenshot"));
+        options.screenshotPart = parser.value(QStringLiteral("part"));
+        options.hasTour = !parser.isSet(QStringLiteral("no-tour"));
         options.replaces = parser.isSet(QStringLiteral("force"));
         checkOutputs();
         options.printsStartupTime = parser.isSet(QStringLiteral("startup-time"));

@@ -36,6 +36,8 @@ struct Options {
     std::optional<double> seekSeconds; ///< from the beginning of the file
     QSize size;
     std::optional<ThemeChoice> theme;
+    QString screenshotPart; ///< name of the dock or bar that the picture is of; empty for the window
+    bool hasTour = true;    ///< where it was not seen yet
     bool printsStartupTime = false;
     bool isVerbose = false;
 };

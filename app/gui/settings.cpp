@@ -84,6 +84,7 @@ Settings settingsOf(const QJsonObject& object) {
     settings.filter = object["filter"].toString().left(Settings::kLongestFilter);
     settings.file = object["file"].toString();
     settings.comparedFile = object["comparedFile"].toString();
+    settings.tour = std::max(0, object["tour"].toInt());
     for (const auto& path : object["recentFiles"].toArray()) {
         if (path.isString() && settings.recentFiles.size() < Settings::kMostRecentFiles) {
             settings.recentFiles += path.toString();
@@ -132,6 +133,7 @@ QByteArray jsonOf(const Settings& settings) {
                              {"filter", settings.filter},
                              {"file", settings.file},
                              {"comparedFile", settings.comparedFile},
+                             {"tour", settings.tour},
                              {"recentFiles", QJsonArray::fromStringList(settings.recentFiles)}};
     return QJsonDocument(object).toJson();
 }

@@ -40,6 +40,7 @@ struct Settings {
     QString filter;          ///< the display filter that the operator chose; empty for none
     QString file;            ///< the recording that was shown at the end; empty for none
     QString comparedFile;    ///< what that, or what was received, was compared with; empty for none
+    int tour = 0;            ///< version of the tour that was seen or skipped; 0 for none
     QStringList recentFiles; ///< paths, the newest first, at most kMostRecentFiles
     static constexpr int kMostRecentFiles = 8;
     static constexpr qsizetype kLongestFilter = 10'000;

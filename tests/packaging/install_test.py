@@ -15,6 +15,7 @@ import tempfile
 
 ICON_SIZES = (16, 22, 24, 32, 48, 64, 128, 256, 512)
 PROGRAMS = ("posewire", "posewire-cli")
+RESOURCES = pathlib.Path(__file__).resolve().parents[2] / "resources"
 PACKAGES = PROGRAMS + ("wireshark-mxtp",)
 
 
@@ -24,6 +25,9 @@ def expected():
               "share/metainfo/org.posewire.posewire.metainfo.xml", "share/mime/packages/posewire.xml",
               "share/licenses/posewire/MIT.txt", "share/licenses/posewire/GPL-3.0-or-later.txt",
               "share/doc/posewire-cli/formats.md"}
+    files |= {f"share/doc/posewire/html/{name}" for name in ("pages.js", "guide.js", "guide.css")}
+    files |= {f"share/doc/posewire/html/{page.stem}.html" for page in (RESOURCES / "help").glob("*.md")}
+    files |= {f"share/doc/posewire/html/pictures/{one.name}" for one in (RESOURCES / "pictures/help").glob("*.png")}
     for name in PROGRAMS:
         files |= {f"bin/{name}", f"share/man/man1/{name}.1.gz", f"share/bash-completion/completions/{name}",
                   f"share/fish/vendor_completions.d/{name}.fish", f"share/zsh/vendor-completions/_{name}"}
@@ -55,6 +59,13 @@ def check_texts(root, version):
     assert f'<release version="{version}" date="' in (root / "share/metainfo/org.posewire.posewire.metainfo.xml").read_text()
 
 
+def check_guide(root):
+    pages = root / "share/doc/posewire/html"
+    start = (pages / "index.html").read_text()
+    assert "<h1" in start and 'href="causes.html"' in start, start[:400]
+    assert (pages / "pages.js").read_text().startswith("const guide = [")
+
+
 def check_programs(root, version):
     environment = dict(os.environ, QT_QPA_PLATFORM="none")
     for name in PROGRAMS:
@@ -71,6 +82,7 @@ def main(cmake, build, version):
         check_files(root)
         check_icons(root)
         check_texts(root, version)
+        check_guide(root)
         check_programs(root, version)
     return 0
 

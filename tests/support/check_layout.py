@@ -23,11 +23,13 @@ MAY_INCLUDE = [
     ("core/filter", ["core/wire", "core/log", "core/model"]),
     ("render", []),
     ("packaging/mannequin", ["render/mesh"]),
+    ("packaging/help", ["core/export", "app/gui/help", "app/gui/window"]),
     ("app/usage", []),
     ("app/net", ["core"]),
     ("app/figure", ["core", "render/mesh"]),
     ("app/cli", ["core", "app/net", "app/figure", "app/usage"]),
     ("app/gui/theme", []),
+    ("app/gui/help", ["core", "app/gui/theme"]),
     ("app/gui/models", ["core", "app/gui/*", "app/gui/theme"]),
     ("app/gui/plots", ["app/gui/theme"]),
     ("app/gui/panels", ["core", "app/gui/*", "app/gui/theme", "app/gui/models", "app/gui/plots"]),
@@ -64,7 +66,9 @@ PLAIN_TEXT_PLACES = ("app/gui/theme/widgets.cpp", "app/gui/theme/plain_text.cpp"
 # HTML and Markdown of ours, with the names in it escaped.
 MARKUP = re.compile(r"\b(setHtml|setMarkdown|insertHtml|appendHtml)\(|\brichLabel\(")
 MARKUP_PLACES = PLAIN_TEXT_PLACES + ("app/gui/theme/widgets.h", "app/gui/panels/inspector_panel.cpp",
-                                     "app/gui/panels/nullpose_panel.cpp", "app/gui/window/texts.cpp")
+                                     "app/gui/panels/nullpose_panel.cpp",
+                                     # Texts of the program itself: the guide and the reference.
+                                     "app/gui/help/help_pages.cpp", "app/gui/help/markdown_view.cpp")
 PANEL_HEADER = re.compile(r'"app/gui/panels/(\w+_panel)\.h"')
 MAY_INCLUDE_PANELS = ("app/gui/panels/panels.cpp", "app/gui/window/main_window.cpp", "tests/")
 LIMITS = [("tests/", 600), (".h", 300), (".cpp", 500)]
@@ -171,7 +175,7 @@ def main(arguments):
         return self_test()
     root = pathlib.Path(arguments[0])
     found = []
-    for folder in ("core", "render", "app", "packaging/mannequin", "tests"):
+    for folder in ("core", "render", "app", "packaging/help", "packaging/mannequin", "tests"):
         for file in sorted((root / folder).rglob("*")):
             if file.suffix in SOURCES:
                 path = file.relative_to(root).as_posix()

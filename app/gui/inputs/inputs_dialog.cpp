@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/inputs/inputs_dialog.h"
 
+#include "app/gui/help_topics.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
@@ -31,6 +33,7 @@ struct Entry {
     Health level;
     QString text;
     QString remedy;
+    QString helpPlace{}; ///< empty for none
 };
 
 QLabel* proseLabel(QWidget* parent) {
@@ -50,6 +53,26 @@ Health healthOf(net::Finding::Kind kind) {
         return Health::Unknown;
     default:
         return Health::Warning;
+    }
+}
+
+HelpTopic topicOf(net::Finding::Kind kind) {
+    using Kind = net::Finding::Kind;
+    switch (kind) {
+    case Kind::NoInput:
+        return HelpTopic::NoInput;
+    case Kind::CannotOpen:
+        return HelpTopic::CannotListen;
+    case Kind::NotMxtp:
+    case Kind::GarbledPeer:
+        return HelpTopic::NotMxtp;
+    case Kind::NotJoined:
+        return HelpTopic::GroupNotJoined;
+    case Kind::NotReachable:
+    case Kind::SilentPeer:
+        return HelpTopic::TcpTrouble;
+    default:
+        return HelpTopic::NothingArrives;
     }
 }
 
@@ -76,7 +99,8 @@ Entry allIsWell(const ReceivingState& receiving) {
 std::vector<Entry> entriesOf(const ReceivingState& receiving) {
     std::vector<Entry> entries;
     for (const net::Finding& finding : receiving.findings) {
-        entries.push_back({healthOf(finding.kind), sentence(finding.text), sentence(finding.remedy)});
+        entries.push_back({healthOf(finding.kind), sentence(finding.text), sentence(finding.remedy),
+                           placeOf(topicOf(finding.kind))});
     }
     if (entries.empty()) {
         entries.push_back(allIsWell(receiving));
@@ -88,7 +112,13 @@ std::vector<Entry> entriesOf(const ReceivingState& receiving) {
 class FindingView final : public QWidget {
 public:
     explicit FindingView(QWidget* parent)
-        : QWidget(parent), m_symbol(plainLabel(this)), m_text(proseLabel(this)), m_remedy(proseLabel(this)) {
+        : QWidget(parent),
+          m_symbol(plainLabel(this)),
+          m_text(proseLabel(this)),
+          m_remedy(proseLabel(this)),
+          m_help(flatButton(QStringLiteral("?"), tr("Help on this"), this)) {
+        m_help->setFocusPolicy(Qt::TabFocus);
+        connect(m_help, &QToolButton::clicked, this, [this] { openHelp(m_place); });
         QFont font = m_text->font();
         font.setWeight(QFont::DemiBold);
         m_text->setFont(font);
@@ -101,6 +131,7 @@ public:
         grid->addWidget(m_symbol, 0, 0, Qt::AlignTop);
         grid->addWidget(m_text, 0, 1);
         grid->addWidget(m_remedy, 1, 1);
+        grid->addWidget(m_help, 0, 2, Qt::AlignTop);
         new EventWatch(this, QEvent::PaletteChange, [this] { applyColours(); });
     }
 
@@ -109,6 +140,8 @@ public:
         m_symbol->setText(m_level == Health::Unknown ? QStringLiteral("ⓘ") : healthSymbol(m_level));
         m_text->setText(entry.text);
         m_remedy->setText(entry.remedy);
+        m_place = entry.helpPlace;
+        m_help->setVisible(!m_place.isEmpty());
         applyColours();
         setVisible(true);
     }
@@ -132,6 +165,8 @@ private:
     QLabel* m_symbol;
     QLabel* m_text;
     QLabel* m_remedy;
+    QToolButton* m_help;
+    QString m_place;
     Health m_level = Health::Unknown;
 };
 
@@ -206,6 +241,7 @@ InputsDialog::InputsDialog(Receiving& receiving, QWidget* parent)
     column->addWidget(m_tabs, 1);
     column->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::Inputs));
     connect(m_tabs, &QTabWidget::currentChanged, this, &InputsDialog::refresh);
     connect(m_inputs, &InputsPage::choicesChanged, this, &InputsDialog::choicesChanged);
     connect(m_inputs, &InputsPage::openFileRequested, this, &InputsDialog::openFileRequested);

@@ -34,6 +34,11 @@ QString lossWords(const model::Incident& incident) {
                : lost;
 }
 
+/// The heading of that name.
+QString causePlace(std::string_view name) {
+    return QStringLiteral("causes#") + fromUtf8(name).replace(u' ', u'-');
+}
+
 } // namespace
 
 Health healthOf(model::IncidentSeverity severity) {
@@ -101,6 +106,19 @@ QString briefWords(const model::Incident& incident) {
     default:
         return fromUtf8(model::nameOf(incident.kind));
     }
+}
+
+QString helpPlaceOf(const model::Incident& incident) {
+    return incident.kind == IncidentKind::Loss && incident.cause ? helpPlaceOf(*incident.cause)
+                                                                 : helpPlaceOf(incident.kind);
+}
+
+QString helpPlaceOf(model::IncidentKind kind) {
+    return causePlace(model::nameOf(kind));
+}
+
+QString helpPlaceOf(model::LossCause cause) {
+    return causePlace(model::nameOf(cause));
 }
 
 std::optional<std::uint64_t> incidentPacket(model::SessionView& view, const model::Incident& incident) {

@@ -22,6 +22,11 @@ namespace posewire::gui {
 /// A few words for a cell or a chip: "31 lost · network", "jitter 12.1 ms", "stale".
 [[nodiscard]] QString briefWords(const model::Incident& incident);
 
+/// Where the guide says what it means and what to do about it: its cause where it is a loss, else its kind.
+[[nodiscard]] QString helpPlaceOf(const model::Incident& incident);
+[[nodiscard]] QString helpPlaceOf(model::IncidentKind kind);
+[[nodiscard]] QString helpPlaceOf(model::LossCause cause);
+
 /// The packet where the newest of it is to be seen: its own, or the last one before where it has none.
 /// Nothing where the log has dropped it.
 [[nodiscard]] std::optional<std::uint64_t> incidentPacket(model::SessionView& view,

@@ -5,6 +5,7 @@
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/help_link.h"
 
 #include <QEvent>
 #include <QHeaderView>
@@ -155,6 +156,8 @@ std::span<const ActionInfo> IncidentsPanel::actionTable() {
          QT_TRANSLATE_NOOP("Action", "Export &incidents…"), "", Do::call<&IncidentsPanel::exportFile>},
         {"onlyIncident", "&Go", QT_TRANSLATE_NOOP("Action", "Show only the &incident's packets"),
          "Ctrl+Return", Do::call<&IncidentsPanel::showOnlyCurrent>},
+        {"incidentMeaning", "&Help", QT_TRANSLATE_NOOP("Action", "What the selected &incident means"), "",
+         Do::call<&IncidentsPanel::explain>},
     };
     return kActions;
 }
@@ -296,11 +299,20 @@ void IncidentsPanel::showOnlyCurrent() {
     }
 }
 
+void IncidentsPanel::explain() {
+    if (const auto line = m_incidents.line(m_table->currentIndex())) {
+        openHelp(helpPlaceOf(line->incident()));
+    } else {
+        m_message->say(tr("No incident is selected."));
+    }
+}
+
 void IncidentsPanel::addActions(QMenu& menu, const QModelIndex& index) {
     if (index.isValid()) {
         const QPersistentModelIndex row(index);
         menu.addAction(tr("Show the packets"), this, [this, row] { jump(row); });
         menu.addAction(tr("Show only these packets"), this, [this, row] { jump(row, PacketLook::Alone); });
+        menu.addAction(tr("What this means"), this, &IncidentsPanel::explain);
         menu.addSeparator();
     }
     menu.addAction(tr("Mark all as seen"), this, &IncidentsPanel::markSeen);

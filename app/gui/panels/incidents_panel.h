@@ -72,6 +72,8 @@ public:
     void jump(const QModelIndex& index, PacketLook look = PacketLook::InContext);
     /// Of the current row, and nothing else.
     void showOnlyCurrent();
+    /// Opens the guide where it explains the selected incident.
+    void explain();
     /// Saves the listed incidents in the format of the name's suffix. Returns what went wrong, empty for
     /// nothing.
     [[nodiscard]] QString save(const QString& path);

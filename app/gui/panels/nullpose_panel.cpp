@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/panels/nullpose_panel.h"
 
+#include "app/gui/help_topics.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/cell_delegate.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QItemSelectionModel>
@@ -385,7 +387,9 @@ void NullPosePanel::chooseFile(const SheetFormat& format, const QString& filters
         QStringLiteral("%1 null pose.%2").arg(fromUtf8(name), QLatin1String(format.suffix)), filters);
     const QString problem = path.isEmpty() ? QString() : save(path);
     if (!problem.isEmpty()) {
-        MessageBox(tr("Save null pose"), problem, QMessageBox::Ok, this).exec();
+        MessageBox box(tr("Save null pose"), problem, QMessageBox::Ok, this);
+        offerHelp(box, placeOf(HelpTopic::SavingFailed));
+        box.exec();
     }
 }
 

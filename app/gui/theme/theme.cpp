@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/theme.h"
 
+#include "app/gui/theme/desktop_theme.h"
+
 #include <QFontDatabase>
 #include <QFontMetrics>
 #include <QPalette>
@@ -38,16 +40,35 @@ Theme themeOf(bool isDark) {
             .plotFourth = either("#c79bff", "#8a4fd0")};
 }
 
+/// No grey but where something is secondary, lines that can be seen, and colours that are far from the
+/// ground.
+Theme highContrastOf(bool isDark) {
+    const auto either = [isDark](const char* dark, const char* light) {
+        return QColor(isDark ? dark : light);
+    };
+    Theme theme = themeOf(isDark);
+    theme.window = theme.panel = theme.header = either("#000000", "#ffffff");
+    theme.raised = either("#141414", "#f2f2f2");
+    theme.line = either("#a0a0a0", "#5a5a5a");
+    theme.text = either("#ffffff", "#000000");
+    theme.dim = either("#d6d6d6", "#333333");
+    theme.accent = either("#6cb8ff", "#0040c0");
+    theme.selection = either("#00366e", "#b9d6ff");
+    theme.good = either("#63f2a5", "#00552a");
+    theme.warning = either("#ffd24a", "#633f00");
+    theme.error = either("#ff9c92", "#980000");
+    return theme;
+}
+
 Theme& current() {
     static Theme theme = themeOf(true);
     return theme;
 }
 
-/// As the desktop had it before this program set its own palette.
-bool desktopIsDark(const QApplication& application) {
-    static const bool isDark = application.palette().color(QPalette::WindowText).lightness() >
-                               application.palette().color(QPalette::Window).lightness();
-    return isDark;
+/// That of the desktop as it is now, whatever this program has set for itself: which is taken away for that.
+QPalette desktopPalette() {
+    QApplication::setPalette(QPalette());
+    return QApplication::palette();
 }
 
 QPalette paletteOf(const Theme& theme) {
@@ -258,10 +279,19 @@ QColor onSelection(const QColor& colour) {
     return readable;
 }
 
+Theme themeFor(ThemeChoice choice, const QPalette& desktop) {
+    constexpr double kBlackOnWhite = 20;
+    if (choice != ThemeChoice::System) {
+        return themeOf(choice == ThemeChoice::Dark);
+    }
+    const QColor text = desktop.color(QPalette::WindowText);
+    const QColor ground = desktop.color(QPalette::Window);
+    const bool isDark = text.lightness() > ground.lightness();
+    return contrast(text, ground) >= kBlackOnWhite ? highContrastOf(isDark) : themeOf(isDark);
+}
+
 void applyTheme(QApplication& application, ThemeChoice choice) {
-    const bool desktopDark = desktopIsDark(application);
-    const bool isDark = choice == ThemeChoice::Dark || (choice == ThemeChoice::System && desktopDark);
-    current() = themeOf(isDark);
+    current() = themeFor(choice, choice == ThemeChoice::System ? desktopPalette() : QPalette());
     QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
     QApplication::setPalette(paletteOf(current()));
     application.setStyleSheet(styleSheet(current(), QFontMetrics(QApplication::font())));

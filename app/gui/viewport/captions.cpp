@@ -62,12 +62,14 @@ QString openPorts(const ReceivingState& receiving) {
 EmptyState withoutPort(const ReceivingState& receiving) {
     EmptyState state;
     state.level = Health::Error;
+    state.topic = HelpTopic::CannotListen;
     for (const PortState& port : receiving.ports) {
         state.title = tr("Cannot listen on %1").arg(displayText(port.port));
         state.lines += port.problem;
     }
     if (receiving.ports.empty()) {
         state.level = Health::Unknown;
+        state.topic = HelpTopic::NoInput;
         state.title = tr("Nothing to listen to");
         state.lines += tr("Choose Input > Inputs or File > Open.");
     }
@@ -82,7 +84,8 @@ EmptyState foreign(const model::Sender& sender) {
             tr("These datagrams are not MXTP"),
             {tr("%1 from %2, the newest begins with").arg(grouped(sender.foreign), shown(sender.address())),
              bytesText(sender.foreignHead),
-             tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what}};
+             tr("MXTP datagrams begin with 4d 58 54 50, \"MXTP\".") + QLatin1Char(' ') + what},
+            HelpTopic::NotMxtp};
 }
 
 /// What is found beside the silence itself, and worth a line: the rest is in Help > Connection help.
@@ -109,7 +112,10 @@ EmptyState waiting(const ReceivingState& receiving) {
     const auto listening = std::ranges::find_if(receiving.ports, [](const PortState& state) {
         return state.problem.isEmpty() && state.port.kind != InputAddress::Kind::TcpConnection;
     });
-    EmptyState state{Health::Unknown, tr("Waiting for MXTP on %1").arg(openPorts(receiving)), {}};
+    EmptyState state{Health::Unknown,
+                     tr("Waiting for MXTP on %1").arg(openPorts(receiving)),
+                     {},
+                     HelpTopic::NothingArrives};
     if (listening != receiving.ports.end()) {
         const bool isUdp = listening->port.kind == InputAddress::Kind::Udp;
         state.lines = {tr("In MVN: Options > Preferences > Network Streamer"),
@@ -138,12 +144,14 @@ EmptyState withoutPose(model::SessionView& session, const QString& file) {
     if (!file.isEmpty()) {
         return {Health::Warning,
                 tr("No pose in %1").arg(file),
-                {tr("Types in it: %1.").arg(types.join(QStringLiteral(", ")))}};
+                {tr("Types in it: %1.").arg(types.join(QStringLiteral(", ")))},
+                HelpTopic::NoPose};
     }
     return {Health::Warning,
             tr("Datagrams arrive, but no pose"),
             {tr("Types on the air: %1.").arg(types.join(QStringLiteral(", "))),
-             tr("In MVN's Network Streamer, switch on Position + Orientation (Quaternion).")}};
+             tr("In MVN's Network Streamer, switch on Position + Orientation (Quaternion).")},
+            HelpTopic::NoPose};
 }
 
 } // namespace
@@ -187,7 +195,7 @@ EmptyState emptyState(model::SessionView& session, const ReceivingState& receivi
         return foreign(*stranger);
     }
     if (!file.isEmpty()) {
-        return {Health::Warning, tr("No character in %1").arg(file), {}};
+        return {Health::Warning, tr("No character in %1").arg(file), {}, HelpTopic::EmptyFile};
     }
     return openPorts(receiving).isEmpty() ? withoutPort(receiving) : waiting(receiving);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "app/gui/help_topics.h"
 #include "app/gui/models/column.h"
 #include "app/gui/program_view.h"
 #include "app/gui/theme/theme.h"
@@ -23,6 +24,7 @@ struct EmptyState {
     Health level = Health::Unknown;
     QString title;
     QStringList lines;
+    HelpTopic topic = HelpTopic::NothingArrives;
 };
 
 /// `file` is the name of the file that the session is of; empty where it is received.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/viewport/viewport_overlay.h"
 
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/overlays/overlays.h"
 #include "app/gui/viewport/viewport_widget.h"
@@ -153,7 +154,14 @@ void addViewportButtons(ViewportWidget& viewport) {
     new ViewportButtons(&viewport);
 }
 
-ViewportOverlay::ViewportOverlay(QWidget* parent) : QWidget(parent) {
+ViewportOverlay::ViewportOverlay(QWidget* parent)
+    : QWidget(parent),
+      m_cardHelp(framedButton(tr("Help"), tr("What this means, and what to do about it"), parent)) {
+    m_cardHelp->setObjectName(QStringLiteral("cardHelp"));
+    m_cardHelp->setAccessibleName(tr("Help on this message"));
+    m_cardHelp->setFocusPolicy(Qt::TabFocus);
+    m_cardHelp->hide();
+    connect(m_cardHelp, &QToolButton::clicked, this, [this] { openHelp(placeOf(m_card.topic)); });
     setAttribute(Qt::WA_TransparentForMouseEvents);
     setAttribute(Qt::WA_NoSystemBackground);
 }
@@ -173,8 +181,21 @@ void ViewportOverlay::setCard(const EmptyState& card) {
         m_card = card;
         setAccessibleName(card.title);
         setAccessibleDescription(card.lines.join(QLatin1Char(' ')));
+        placeCardHelp();
         update();
     }
+}
+
+void ViewportOverlay::placeCardHelp() {
+    m_cardHelp->setVisible(!m_card.title.isEmpty());
+    m_cardHelp->adjustSize();
+    m_cardHelp->move(layOutCard().button);
+    m_cardHelp->raise();
+}
+
+void ViewportOverlay::resizeEvent(QResizeEvent* event) {
+    QWidget::resizeEvent(event);
+    placeCardHelp();
 }
 
 /// By what else stands over the picture.
@@ -284,33 +305,46 @@ void ViewportOverlay::paintTexts(QPainter& painter, std::vector<QRectF>& taken) 
     }
 }
 
-void ViewportOverlay::paintCard(QPainter& painter) const {
+ViewportOverlay::CardLayout ViewportOverlay::layOutCard() const {
     QFont titleFont = font();
     titleFont.setWeight(QFont::DemiBold);
-    const qreal unit = QFontMetricsF(font()).height();
+    const QFontMetricsF metrics(font());
+    const qreal unit = metrics.height();
     const qreal most = std::min(0.86 * width(), 34 * unit);
     const QString text = m_card.lines.join(QLatin1Char('\n'));
     const QRectF room(0, 0, most - 3 * unit, height());
     const QRectF titleRoom =
         QFontMetricsF(titleFont).boundingRect(room, Qt::AlignHCenter | Qt::TextWordWrap, m_card.title);
-    const QFontMetricsF metrics(font());
     const QRectF narrow(0, 0, balancedWidth(metrics, text, room.width()), height());
     const QRectF textRoom = metrics.boundingRect(narrow, Qt::AlignHCenter | Qt::TextWordWrap, text);
+    const QSizeF button = m_cardHelp->sizeHint();
     const qreal cardWidth = std::min(most, std::max(titleRoom.width(), textRoom.width()) + 3.2 * unit);
-    const qreal cardHeight = titleRoom.height() + textRoom.height() + 2.4 * unit;
-    const QRectF card(std::round((width() - cardWidth) / 2), std::round((height() - cardHeight) / 2),
-                      cardWidth, cardHeight);
+    const qreal cardHeight = titleRoom.height() + textRoom.height() + button.height() + 3.2 * unit;
+    CardLayout layout;
+    layout.card = {std::round((width() - cardWidth) / 2), std::round((height() - cardHeight) / 2), cardWidth,
+                   cardHeight};
+    layout.title = layout.card.adjusted(1.2 * unit, 0.9 * unit, -1.2 * unit, -0.9 * unit);
+    layout.text = layout.title.adjusted(0, titleRoom.height() + 0.6 * unit, 0, 0);
+    layout.button = QPointF(layout.card.center().x() - button.width() / 2,
+                            layout.card.bottom() - button.height() - 0.9 * unit)
+                        .toPoint();
+    return layout;
+}
+
+void ViewportOverlay::paintCard(QPainter& painter) const {
+    const CardLayout layout = layOutCard();
     const bool isPlain = m_card.level == Health::Unknown || m_card.level == Health::Good;
-    paintPlate(painter, card, isPlain ? theme().line : healthColour(m_card.level), 1.4 * kRadius);
-    const QRectF inside = card.adjusted(1.2 * unit, 0.9 * unit, -1.2 * unit, -0.9 * unit);
+    paintPlate(painter, layout.card, isPlain ? theme().line : healthColour(m_card.level), 1.4 * kRadius);
+    QFont titleFont = font();
+    titleFont.setWeight(QFont::DemiBold);
     painter.setFont(titleFont);
     painter.setPen(isPlain ? theme().text : healthColour(m_card.level));
     const QString symbol = isPlain ? QString() : healthSymbol(m_card.level) + QLatin1Char(' ');
-    painter.drawText(inside, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, symbol + m_card.title);
+    painter.drawText(layout.title, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, symbol + m_card.title);
     painter.setFont(font());
     painter.setPen(theme().dim);
-    painter.drawText(inside.adjusted(0, titleRoom.height() + 0.6 * unit, 0, 0),
-                     Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap, text);
+    painter.drawText(layout.text, Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap,
+                     m_card.lines.join(QLatin1Char('\n')));
 }
 
 } // namespace posewire::gui

@@ -10,6 +10,8 @@
 #include <map>
 #include <vector>
 
+class QToolButton;
+
 namespace posewire::gui {
 
 class ViewportWidget;
@@ -27,6 +29,7 @@ public:
     void setLabels(std::vector<ViewportLabel> labels);
     /// The first are the last to give way where they would lie on each other.
     void setTexts(std::vector<ViewportText> texts);
+    /// With a button that opens its page of the guide, beside this widget, which lets the mouse through.
     void setCard(const EmptyState& card);
     [[nodiscard]] const EmptyState& card() const { return m_card; }
     [[nodiscard]] const std::vector<ViewportLabel>& labels() const { return m_labels; }
@@ -35,8 +38,18 @@ public:
 
 protected:
     void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
 
 private:
+    /// Where the card and what is on it are.
+    struct CardLayout {
+        QRectF card;
+        QRectF title;
+        QRectF text;
+        QPoint button;
+    };
+    [[nodiscard]] CardLayout layOutCard() const;
+    void placeCardHelp();
     [[nodiscard]] std::vector<QRectF> takenRoom() const;
     void placeAll();
     void paintLabel(QPainter& painter, const ViewportLabel& label, const PlacedLabel& placed) const;
@@ -48,6 +61,7 @@ private:
     std::map<model::CharacterKey, PlacedLabel> m_before;
     std::vector<ViewportText> m_texts;
     EmptyState m_card;
+    QToolButton* m_cardHelp;
 };
 
 } // namespace posewire::gui

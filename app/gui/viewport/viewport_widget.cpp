@@ -174,7 +174,8 @@ void ViewportWidget::updateOverlay() {
             {Health::Error,
              tr("No picture: OpenGL 3.3 could not be used"),
              {problem, tr("Everything else in this window works. Installing Mesa's drivers (package "
-                          "libgl1-mesa-dri) usually helps.")}});
+                          "libgl1-mesa-dri) usually helps.")},
+             HelpTopic::NoPicture});
     } else {
         m_overlay->setCard(emptyState(*m_session, m_receiving, m_file));
     }

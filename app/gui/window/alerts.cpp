@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/alerts.h"
 
+#include "app/gui/help_topics.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 
@@ -107,6 +109,7 @@ ThresholdsDialog::ThresholdsDialog(const AlertChoices& choices, QWidget* parent)
         QDialogButtonBox::Ok | QDialogButtonBox::Cancel | QDialogButtonBox::RestoreDefaults, this);
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::Thresholds));
     connect(buttons->button(QDialogButtonBox::RestoreDefaults), &QPushButton::clicked, this,
             [this] { setChoices({}); });
     auto* column = new QVBoxLayout(this);

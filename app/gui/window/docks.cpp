@@ -2,6 +2,7 @@
 #include "app/gui/window/docks.h"
 
 #include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
@@ -90,6 +91,7 @@ DockTitle::DockTitle(QDockWidget* dock)
     : QWidget(dock),
       m_title(plainLabel(dock->windowTitle(), this)),
       m_summary(new ElidedLabel(Qt::AlignRight, this)),
+      m_help(helpButton(dock->windowTitle(), dock->objectName(), this)),
       m_float(flatButton(tr("Float or dock"), this)),
       m_close(flatButton(tr("Close"), this)) {
     auto* row = new QHBoxLayout(this);
@@ -99,6 +101,7 @@ DockTitle::DockTitle(QDockWidget* dock)
     row->addSpacing(8);
     row->addWidget(m_summary, 1);
     row->addSpacing(2);
+    row->addWidget(m_help);
     row->addWidget(m_float);
     row->addWidget(m_close);
     connect(m_float, &QToolButton::clicked, dock, [dock] { dock->setFloating(!dock->isFloating()); });
@@ -121,12 +124,17 @@ void DockTitle::restyle() {
     font.setWeight(QFont::DemiBold);
     m_title->setFont(font);
     m_summary->setFont(tabularFont());
+    const QColor sign = theme().dim;
+    QPalette dim = palette();
+    dim.setColor(QPalette::ButtonText, sign);
+    m_help->setPalette(dim);
+    m_help->setFont(font);
     const int side = fontMetrics().height() - 2;
     for (auto* button : {m_float, m_close}) {
         button->setIconSize({side, side});
     }
-    m_float->setIcon(themedIcon(QStringLiteral("float"), theme().dim));
-    m_close->setIcon(themedIcon(QStringLiteral("close"), theme().dim));
+    m_float->setIcon(themedIcon(QStringLiteral("float"), sign));
+    m_close->setIcon(themedIcon(QStringLiteral("close"), sign));
     updateGeometry();
 }
 
@@ -135,7 +143,7 @@ QSize DockTitle::sizeHint() const {
 }
 
 QSize DockTitle::minimumSizeHint() const {
-    return {m_title->sizeHint().width() + 18, sizeHint().height()};
+    return {m_title->sizeHint().width() + m_help->sizeHint().width() + 20, sizeHint().height()};
 }
 
 void DockTitle::setSummary(const QString& summary) {

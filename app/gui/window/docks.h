@@ -11,12 +11,13 @@ namespace posewire::gui {
 
 class ElidedLabel;
 
-/// The title of a dock: its name, a short summary at the right, and under the pointer what floats and closes
-/// it. An edge shows where the keyboard is.
+/// The title of a dock: its name, a short summary at the right, "?" that opens its page of the guide, and
+/// under the pointer what floats and closes it. An edge shows where the keyboard is.
 class DockTitle final : public QWidget {
     Q_OBJECT
 
 public:
+    /// The dock has its object name already: the page is called so.
     explicit DockTitle(QDockWidget* dock);
 
     void setSummary(const QString& summary);
@@ -37,6 +38,7 @@ private:
 
     QLabel* m_title;
     ElidedLabel* m_summary;
+    QToolButton* m_help;
     QToolButton* m_float;
     QToolButton* m_close;
 };

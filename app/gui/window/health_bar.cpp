@@ -4,6 +4,8 @@
 #include "app/gui/models/character_model.h"
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/event_watch.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
@@ -11,6 +13,7 @@
 #include "app/gui/window/health_popup.h"
 
 #include <QHBoxLayout>
+#include <QToolButton>
 
 #include <algorithm>
 
@@ -60,6 +63,7 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
       m_entriesArea(new QWidget(this)),
       m_more(new ColourText(ColourText::Look::Plain, m_entriesArea)),
       m_message(new PassingMessage(kMessageMs, this)),
+      m_about(flatButton(QStringLiteral("?"), tr("Help on this message"), this)),
       m_rate(new ColourText(ColourText::Look::Plain, this)),
       m_history(new ColourText(ColourText::Look::Plain, this)),
       m_dropped(new ColourText(ColourText::Look::Plain, this)) {
@@ -81,7 +85,13 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
         toolTipText(tr("More characters than fit here. Click for a list of all, the worst first.")));
     connect(m_more, &ColourText::clicked, this, &HealthBar::showList);
     row->addWidget(m_entriesArea, 1);
+    row->addWidget(m_about);
     row->addWidget(m_message, 1);
+    m_about->setObjectName(QStringLiteral("messageHelp"));
+    m_about->setFocusPolicy(Qt::TabFocus);
+    m_about->hide();
+    connect(m_about, &QToolButton::clicked, this, [this] { openHelp(m_helpPlace); });
+    new EventWatch(m_message, QEvent::Hide, [this] { m_about->hide(); });
     m_message->setObjectName(QStringLiteral("message"));
     m_message->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
     for (ColourText* text : {m_rate, m_history, m_dropped}) {
@@ -91,6 +101,12 @@ HealthBar::HealthBar(model::SessionView& session, Commands& commands, QWidget* p
         tr("Datagrams that reached this computer and were dropped because its receive buffer was full."));
     m_history->setToolTip(
         tr("How far back packets can be looked at, in memory or on disk, and how much memory they use."));
+}
+
+void HealthBar::say(const QString& text, const QString& helpPlace) {
+    m_helpPlace = helpPlace;
+    m_message->say(text);
+    m_about->setVisible(!text.isEmpty() && !helpPlace.isEmpty());
 }
 
 void HealthBar::refresh(const ReceivingState& receiving) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 class QHBoxLayout;
+class QToolButton;
 
 namespace posewire::gui {
 
@@ -31,8 +32,9 @@ public:
     /// What the keyboard goes to here; null without characters.
     [[nodiscard]] QWidget* firstEntry() const;
 
-    /// Shows a line for a while, beside the rest.
-    void say(const QString& text) { m_message->say(text); }
+    /// Shows a line for a while, beside the rest; with the place in the guide that tells more, where there is
+    /// one.
+    void say(const QString& text, const QString& helpPlace = {});
 
 private:
     /// Selects a character, and says in a popup why it is as it is.
@@ -53,6 +55,8 @@ private:
     ColourText* m_more;                       ///< how many there is no room for
     QPointer<HealthList> m_list;              ///< while it is open
     PassingMessage* m_message;
+    QToolButton* m_about; ///< opens m_helpPlace, while the message is there
+    QString m_helpPlace;
     ColourText* m_rate;
     ColourText* m_history;
     ColourText* m_dropped;

@@ -6,6 +6,7 @@
 #include "app/gui/models/stream_state.h"
 #include "app/gui/models/text.h"
 #include "app/gui/panels/table_view.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
@@ -203,6 +204,12 @@ private:
         });
         add(QStringLiteral("allEvents"), tr("Show incidents"),
             [this] { m_commands.showIncident(m_session.verdict(m_key).incident, m_key); });
+        if (const auto incident = m_session.verdict(m_key).incident) {
+            if (const model::Incident* found = m_session.incidents().find(*incident)) {
+                add(QStringLiteral("meaning"), tr("What it means"),
+                    [place = helpPlaceOf(*found)] { openHelp(place); });
+            }
+        }
         column.addLayout(row);
     }
 

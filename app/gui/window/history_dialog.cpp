@@ -2,7 +2,9 @@
 #include "app/gui/window/history_dialog.h"
 
 #include "app/gui/driver/session_driver.h"
+#include "app/gui/help_topics.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QCheckBox>
@@ -52,6 +54,7 @@ HistoryDialog::HistoryDialog(SessionDriver& driver, const HistoryChoice& choice,
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::History));
     auto* column = new QVBoxLayout(this);
     column->setSpacing(fontMetrics().height());
     column->addWidget(dimText(tr("What was received can be looked back at as long as it is in memory or on "

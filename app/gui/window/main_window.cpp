@@ -2,8 +2,10 @@
 #include "app/gui/window/main_window.h"
 
 #include "app/gui/dock_layout.h"
+#include "app/gui/help/help_pages.h"
 #include "app/gui/inputs/inputs_page.h"
 #include "app/gui/models/comparison_text.h"
+#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/icons.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/viewport/viewport_overlay.h"
@@ -67,14 +69,18 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     makeBars();
     makeDocks();
     connectDriver();
+    connectHelp();
     m_driver.setThresholds(m_settings.alerts.thresholds);
     m_driver.setDisplayFilter(m_settings.filter);
     m_viewport->restoreState(m_settings.viewport);
     m_viewport->setComparison(m_driver.comparison());
     new PressingKeys(this);
+    new EventWatch(this, QEvent::ThemeChange, [this] { useTheme(m_settings.theme); }); // of the desktop
     keepHistory();
     restore();
 }
+
+MainWindow::~MainWindow() = default;
 
 void MainWindow::makeBars() {
     auto* name = plainLabel(QStringLiteral("Posewire"), this);
@@ -213,8 +219,8 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::tableTick, this, &MainWindow::showOpening);
     connect(&m_driver, &SessionDriver::fileOpened, this, [this](bool isRead, const QString& text) {
         showOpening();
-        say(isRead ? QString()
-                   : text); // what there is to know of one that was read is told as long as it shows
+        // What there is to know of one that was read is told as long as it shows.
+        say(isRead ? QString() : text, HelpTopic::OpeningFailed);
     });
     connect(&m_driver, &SessionDriver::comparisonRequested, this, &MainWindow::chooseComparison);
     connect(&m_driver, &SessionDriver::comparisonChanged, this, [this](const QString& text) {
@@ -229,7 +235,7 @@ void MainWindow::connectDriver() {
     connect(&m_driver, &SessionDriver::recordingChanged, this, [this](const QString& problem) {
         m_menus.showStates();
         m_transport->showTake(m_driver.take());
-        say(problem);
+        say(problem, HelpTopic::RecordingFailed);
     });
     connect(&m_driver, &SessionDriver::tableTick, m_transport,
             [this] { m_transport->showTake(m_driver.take()); });
@@ -361,7 +367,7 @@ void MainWindow::showVerdict() {
 void MainWindow::keepRelays() {
     m_settings.inputs.relays = m_driver.receiving().choices().relays;
     if (const QString problem = m_file.write(settings()); !problem.isEmpty()) {
-        say(problem);
+        say(problem, HelpTopic::SettingsUnusable);
     }
 }
 
@@ -400,11 +406,12 @@ void MainWindow::useTheme(ThemeChoice choice) {
 void MainWindow::useLayout(const QString& nameOrFile) {
     const auto layout = findLayout(nameOrFile);
     if (!layout) {
-        say(layout.error());
+        say(layout.error(), HelpTopic::UnknownLayout);
         return;
     }
     if (const QStringList unknown = applyLayout(*layout, *this); !unknown.isEmpty()) {
-        say(tr("Layout %1: there is no dock named %2").arg(layout->name, unknown.join(tr(" or "))));
+        say(tr("Layout %1: there is no dock named %2").arg(layout->name, unknown.join(tr(" or "))),
+            HelpTopic::UnknownLayout);
     }
     m_verdict->setLarge(layout->hasLargeVerdict);
     m_settings.layout = layoutNames().contains(layout->name) ? layout->name : nameOrFile;
@@ -440,7 +447,7 @@ void MainWindow::keepHistory() {
     const HistoryChoice& choice = m_settings.history;
     const std::uint64_t most = static_cast<std::uint64_t>(choice.gigabytes) * gigabyte;
     if (const QString problem = m_driver.keepHistory(choice.isOnDisk ? most : 0); !problem.isEmpty()) {
-        say(problem);
+        say(problem, HelpTopic::HistoryOff);
     }
 }
 
@@ -470,6 +477,10 @@ bool MainWindow::isOn(const MenuEntry& entry) const {
 
 void MainWindow::say(const QString& text) {
     m_health->say(text);
+}
+
+void MainWindow::say(const QString& text, HelpTopic topic) {
+    m_health->say(text, placeOf(topic));
 }
 
 } // namespace posewire::gui

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/gui/driver/session_driver.h"
+#include "app/gui/help_topics.h"
 #include "app/gui/inputs/inputs_dialog.h"
 #include "app/gui/panel.h"
 #include "app/gui/settings.h"
@@ -11,15 +12,18 @@
 
 #include <QMainWindow>
 
+#include <memory>
 #include <vector>
 
 class QDockWidget;
 class QToolButton;
+class QUrl;
 
 namespace posewire::gui {
 
 class DockTitle;
 class HealthBar;
+class HelpPages;
 class TransportBar;
 class VerdictBar;
 
@@ -30,6 +34,7 @@ class MainWindow final : public QMainWindow {
 public:
     /// `settings` are what was kept of the last run. The driver and the file must outlive the window.
     MainWindow(SessionDriver& driver, const SettingsFile& file, const Settings& settings);
+    ~MainWindow() override;
 
     [[nodiscard]] SessionDriver& driver() const { return m_driver; }
     [[nodiscard]] ViewportWidget& viewport() const { return *m_viewport; }
@@ -74,15 +79,32 @@ public:
     void offerRecovered();
     /// Brings a dock to the front, by its object name.
     void showDock(const QString& dock);
+    /// Shows a place of the user guide, its first page for none; over a dialog that waits for an answer where
+    /// there is one.
+    void showHelp(const QString& place);
+    /// That of the dock, bar or viewport that has the keyboard.
+    void showHelpHere();
+    /// Leads a newcomer through the parts of the window.
+    void showTour();
+    /// The same at the first start.
+    void offerTour();
     void toggleFullScreen() { setWindowState(windowState() ^ Qt::WindowFullScreen); }
 
     /// A line at the bottom for a while, for what went wrong or was done.
     void say(const QString& text);
+    /// The same with a way to what the guide says about it.
+    void say(const QString& text, HelpTopic topic);
 
     /// As it would be kept now.
     [[nodiscard]] Settings settings() const;
 
+public slots:
+    /// Of links into the guide: see openHelp().
+    void followHelpLink(const QUrl& link);
+
 protected:
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
     void showEvent(QShowEvent* event) override;
     void closeEvent(QCloseEvent* event) override;
 
@@ -126,6 +148,7 @@ private:
     void keepRelays();
     void keepHistory();
     void alert();
+    void connectHelp();
 
     SessionDriver& m_driver;
     const SettingsFile& m_file;
@@ -143,6 +166,7 @@ private:
     AlertSounds m_sounds;
     VerdictNotifier m_notifier{this};
     std::vector<Dock> m_docks;
+    std::unique_ptr<HelpPages> m_helpPages; ///< once the guide was asked for
     QString m_covered; ///< dock that the newest request for another one hid; empty for none
     bool m_isRestored = false;
 };

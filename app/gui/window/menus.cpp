@@ -44,7 +44,11 @@ void saveScreenshot(Window& window) {
         return;
     }
     const QString problem = savePicture(picture, path);
-    window.say(problem.isEmpty() ? tr("Saved %1").arg(path) : problem);
+    if (problem.isEmpty()) {
+        window.say(tr("Saved %1").arg(path));
+    } else {
+        window.say(problem, HelpTopic::SavingFailed);
+    }
 }
 
 void saveReport(Window& window) {
@@ -63,6 +67,15 @@ void copyDiagnostics(Window& window) {
 void showReference(Window& window) {
     const QString text = QString::fromStdString(exporting::protocolReference());
     (new ReferenceWindow(tr("Protocol reference"), text, &window))->show();
+}
+
+void showGuide(Window& window) {
+    window.showHelp({});
+}
+
+template <HelpTopic topic>
+void showPage(Window& window) {
+    window.showHelp(placeOf(topic));
 }
 
 template <std::size_t index>
@@ -279,10 +292,19 @@ const ActionInfo kActions[] = {
     {"findCommand", "T&ools", QT_TRANSLATE_NOOP("Action", "&Find a command…"), "Ctrl+Shift+P",
      Do::call<&Window::findCommand>},
 
-    {"connectionHelp", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Connection help"),
-     "Shift+F1", Do::call<&Window::openInputs, InputsDialog::Page::Help>},
-    {"shortcuts", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&Keyboard shortcuts"),
-     "F1", Do::call<showShortcuts>},
+    {"guide", QT_TRANSLATE_NOOP("Action", "&Help"), QT_TRANSLATE_NOOP("Action", "&User guide"), "Ctrl+F1",
+     Do::call<showGuide>},
+    {"helpHere", "&Help", QT_TRANSLATE_NOOP("Action", "&Help on this part of the window"), "F1",
+     Do::call<&Window::showHelpHere>},
+    {"causes", "&Help", QT_TRANSLATE_NOOP("Action", "&What a cause means"), "",
+     Do::call<showPage<HelpTopic::Causes>>},
+    panelsIn("&Help"),
+    {"shortcuts", "&Help", QT_TRANSLATE_NOOP("Action", "&Keyboard shortcuts"), "",
+     Do::call<showPage<HelpTopic::Shortcuts>>},
+    {"tour", "&Help", QT_TRANSLATE_NOOP("Action", "&First steps"), "", Do::call<&Window::showTour>},
+    lineIn("&Help"),
+    {"connectionHelp", "&Help", QT_TRANSLATE_NOOP("Action", "&Connection help"), "Shift+F1",
+     Do::call<&Window::openInputs, InputsDialog::Page::Help>},
     {"reference", "&Help", QT_TRANSLATE_NOOP("Action", "&Protocol reference"), "", Do::call<showReference>},
     lineIn("&Help"),
     {"about", "&Help", QT_TRANSLATE_NOOP("Action", "&About Posewire"), "", Do::call<showAbout>},

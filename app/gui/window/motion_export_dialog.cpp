@@ -2,8 +2,10 @@
 #include "app/gui/window/motion_export_dialog.h"
 
 #include "app/figure/mannequin_body.h"
+#include "app/gui/help_topics.h"
 #include "app/gui/models/shown_character.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/range_box.h"
 #include "core/model/accounting/stream_figures.h"
@@ -77,6 +79,7 @@ MotionExportDialog::MotionExportDialog(model::SessionView& view, QWidget* parent
     connect(m_characters, &QListWidget::itemChanged, this, &MotionExportDialog::describe);
     connect(m_button, &QPushButton::clicked, this, &MotionExportDialog::toggle);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::MotionExport));
     m_watch->setInterval(kLook);
     connect(m_watch, &QTimer::timeout, this, &MotionExportDialog::watch);
     describe();

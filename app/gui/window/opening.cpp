@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which files the window opens, records and sends.
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/window/main_window.h"
 #include "app/gui/window/motion_export_dialog.h"
@@ -10,15 +11,26 @@
 
 #include <QDir>
 #include <QDockWidget>
+#include <QDragEnterEvent>
 #include <QFileDialog>
+#include <QFileInfo>
 #include <QMenu>
+#include <QMimeData>
 #include <QToolButton>
+#include <QUrl>
 
 namespace posewire::gui {
 
 namespace {
 
 constexpr int kLongestPath = 480; // logical pixels
+
+/// The file of this computer that is dragged; empty for none and for several.
+QString droppedFile(const QMimeData& data) {
+    const QList<QUrl> urls = data.urls();
+    const QString path = urls.size() == 1 ? urls.first().toLocalFile() : QString();
+    return QFileInfo(path).isFile() ? path : QString();
+}
 
 } // namespace
 
@@ -54,6 +66,19 @@ void MainWindow::compareWith(const QString& path) {
     showDock(QStringLiteral("compare"));
 }
 
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (!droppedFile(*event->mimeData()).isEmpty()) {
+        event->acceptProposedAction();
+    }
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    if (const QString path = droppedFile(*event->mimeData()); !path.isEmpty()) {
+        event->acceptProposedAction();
+        openPath(path);
+    }
+}
+
 void MainWindow::listRecentFiles(QMenu& menu) {
     for (const QString& path : m_settings.recentFiles) {
         const QString name = QDir::toNativeSeparators(path).replace(u'&', QStringLiteral("&&"));
@@ -68,7 +93,9 @@ void MainWindow::listRecentFiles(QMenu& menu) {
 
 void MainWindow::toggleRecording() {
     if (const QString problem = m_driver.toggleRecording(m_settings.recording); !problem.isEmpty()) {
-        MessageBox(tr("Record"), problem, QMessageBox::Ok, this).exec();
+        MessageBox box(tr("Record"), problem, QMessageBox::Ok, this);
+        offerHelp(box, placeOf(HelpTopic::RecordingFailed));
+        box.exec();
     }
 }
 
@@ -92,7 +119,7 @@ void MainWindow::showReplay() {
 
 void MainWindow::exportMotion() {
     if (m_driver.session().charactersNow().empty()) {
-        say(tr("There is no motion to export: no character has arrived yet."));
+        say(tr("There is no motion to export: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }
     MotionExportDialog(m_driver.session(), this).exec(); // the file stays open meanwhile
@@ -100,7 +127,7 @@ void MainWindow::exportMotion() {
 
 void MainWindow::exportPictures() {
     if (m_driver.session().charactersNow().empty()) {
-        say(tr("There is nothing to draw: no character has arrived yet."));
+        say(tr("There is nothing to draw: no character has arrived yet."), HelpTopic::NothingToExport);
         return;
     }
     PicturesDialog(m_driver, *m_viewport, this).exec();

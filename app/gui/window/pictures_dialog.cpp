@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/pictures_dialog.h"
 
+#include "app/gui/help_topics.h"
 #include "app/gui/models/text.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 
@@ -79,6 +81,7 @@ PicturesDialog::PicturesDialog(SessionDriver& driver, const ViewportWidget& view
     connect(m_rate, &QSpinBox::valueChanged, this, &PicturesDialog::describe);
     connect(m_button, &QPushButton::clicked, this, &PicturesDialog::toggle);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::PicturesExport));
     connect(&driver, &SessionDriver::shownChanged, this, [this] {
         if (m_series != nullptr) {
             m_series->leave();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/recording_dialog.h"
 
+#include "app/gui/help_topics.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/widgets.h"
 
@@ -48,6 +50,7 @@ RecordingDialog::RecordingDialog(const RecordingChoice& choice, QWidget* parent)
     m_ok = buttons->button(QDialogButtonBox::Ok);
     connect(buttons, &QDialogButtonBox::accepted, this, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::RecordingOptions));
     connect(choose, &QPushButton::clicked, this, &RecordingDialog::chooseFolder);
     connect(m_pattern, &QLineEdit::textChanged, this, &RecordingDialog::check);
     connect(m_folder, &QLineEdit::textChanged, this, &RecordingDialog::check);

@@ -2,8 +2,10 @@
 #include "app/gui/window/recovery_dialog.h"
 
 #include "app/gui/driver/session_driver.h"
+#include "app/gui/help_topics.h"
 #include "app/gui/models/text.h"
 #include "app/gui/saving.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/theme/widgets.h"
 
 #include <QDialogButtonBox>
@@ -61,6 +63,7 @@ RecoveryDialog::RecoveryDialog(SessionDriver& driver, QWidget* parent)
     column->addWidget(m_message);
     column->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::Recovered));
     connect(m_open, &QPushButton::clicked, this, &RecoveryDialog::open);
     connect(m_save, &QPushButton::clicked, this, &RecoveryDialog::askWhereToSave);
     connect(m_discard, &QPushButton::clicked, this, &RecoveryDialog::discard);

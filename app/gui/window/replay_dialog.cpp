@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/replay_dialog.h"
 
+#include "app/gui/help_topics.h"
 #include "app/gui/inputs/relay_page.h"
 #include "app/gui/models/text.h"
+#include "app/gui/theme/help_link.h"
 #include "app/gui/window/range_box.h"
 
 #include <QCheckBox>
@@ -96,6 +98,7 @@ ReplayDialog::ReplayDialog(SessionDriver& driver, QWidget* parent)
     setMinimumWidth(fontMetrics().averageCharWidth() * 62);
     connect(m_button, &QPushButton::clicked, this, &ReplayDialog::toggle);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    offerHelp(*this, *buttons, placeOf(HelpTopic::Replay));
     auto* look = new QTimer(this);
     connect(look, &QTimer::timeout, this, &ReplayDialog::refresh);
     look->start(kLook);

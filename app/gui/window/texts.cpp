@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/window/texts.h"
 
+#include "app/gui/help/markdown_view.h"
 #include "app/gui/models/receiving_models.h"
 #include "app/gui/models/text.h"
-#include "app/gui/theme/event_watch.h"
 #include "app/gui/theme/plain_text.h"
 #include "app/gui/theme/theme.h"
 #include "app/gui/theme/widgets.h"
 #include "app/gui/theme/words.h"
 #include "app/gui/window/menus.h"
-#include "core/export/protocol_reference.h"
 
-#include <QAbstractTextDocumentLayout>
 #include <QDialog>
 #include <QDialogButtonBox>
 #include <QGuiApplication>
@@ -23,10 +21,8 @@
 #include <QScrollBar>
 #include <QShortcut>
 #include <QSysInfo>
-#include <QTextBlock>
 #include <QTextDocument>
 #include <QTextStream>
-#include <QTextTable>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <QtMath>
@@ -40,34 +36,6 @@ namespace {
 
 constexpr int kPlaceRole = Qt::UserRole;
 constexpr int kDeepestListed = 2; ///< headings below that are not in the contents
-
-/// Gives Markdown's tables, which come with raised white borders, the look of the theme.
-void styleTables(QTextDocument& document) {
-    constexpr qreal kPadding = 4;
-    for (QTextFrame* frame : document.rootFrame()->childFrames()) {
-        auto* table = qobject_cast<QTextTable*>(frame);
-        if (table == nullptr) {
-            continue;
-        }
-        QTextTableFormat format = table->format();
-        format.setBorderStyle(QTextFrameFormat::BorderStyle_Solid);
-        format.setBorderBrush(theme().line);
-        format.setBorder(1);
-        format.setBorderCollapse(true);
-        format.setCellPadding(kPadding);
-        format.setCellSpacing(0);
-        table->setFormat(format);
-        for (int column = 0; column < table->columns(); ++column) {
-            QTextTableCell cell = table->cellAt(0, column);
-            QTextCharFormat header = cell.format();
-            header.setBackground(theme().raised);
-            header.setForeground(theme().dim);
-            cell.setFormat(header);
-        }
-    }
-    // Else headings behind tables keep the height that they had while these were changed: none.
-    document.markContentsDirty(0, document.characterCount());
-}
 
 QToolButton* arrow(Qt::ArrowType type, const QString& toolTip, QWidget* parent) {
     auto* button = new QToolButton(parent);
@@ -135,11 +103,8 @@ void showText(const QString& title, const QString& markdown, QWidget& parent) {
     auto* dialog = new QDialog(&parent);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->setWindowTitle(title);
-    auto* browser = new QTextBrowser(dialog);
-    browser->setFrameShape(QFrame::NoFrame);
-    browser->setOpenExternalLinks(true);
-    browser->setMarkdown(markdown);
-    styleTables(*browser->document());
+    auto* browser = new MarkdownView(dialog);
+    browser->showText(markdown);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, dialog);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
     auto* column = new QVBoxLayout(dialog);
@@ -149,36 +114,58 @@ void showText(const QString& title, const QString& markdown, QWidget& parent) {
     dialog->show();
 }
 
+/// All keys of the menus.
+QString shortcutsMarkdown() {
+    QString text = tr("| Key | Menu | What it does |\n|---|---|---|\n");
+    for (const MenuEntry& entry : menuEntries()) {
+        const ActionInfo& info = *entry.action;
+        const QKeySequence keys(QLatin1String(info.shortcut), QKeySequence::PortableText);
+        if (!keys.isEmpty()) {
+            text += QStringLiteral("| %1 | %2 | %3 |\n")
+                        .arg(keys.toString(QKeySequence::NativeText),
+                             plainText(info.menu).replace(QLatin1Char('/'), QStringLiteral(" > ")),
+                             plainText(info.text));
+        }
+    }
+    return text;
+}
+
+/// What the figures of streams are, in the words of their tooltips.
+QString figuresMarkdown() {
+    QString text = tr("| Figure | What it says |\n|---|---|\n");
+    for (const model::FigureRow& row : model::figureTable()) {
+        text += QStringLiteral("| %1 | %2 |\n").arg(tr(row.title), tr(row.help));
+    }
+    return text;
+}
+
 } // namespace
 
 ReferenceWindow::ReferenceWindow(const QString& title, const QString& markdown, QWidget* parent)
     : QDialog(parent),
-      m_browser(new QTextBrowser(this)),
+      m_browser(new MarkdownView(this)),
       m_contents(new QListWidget(this)),
       m_search(new QLineEdit(this)),
       m_found(plainLabel(this)) {
     setAttribute(Qt::WA_DeleteOnClose);
     setWindowTitle(title);
     setWindowFlag(Qt::WindowMaximizeButtonHint);
-    m_browser->setFrameShape(QFrame::NoFrame);
     m_browser->setAccessibleName(title);
-    m_browser->setOpenLinks(false);
-    m_browser->setMarkdown(markdown);
+    m_browser->showText(markdown);
     m_contents->setAccessibleName(tr("Contents"));
     m_search->setPlaceholderText(tr("Find in the reference"));
     m_search->setClearButtonEnabled(true);
+    listHeadings();
     layOut();
-    readHeadings();
-    applyColours();
     connect(m_contents, &QListWidget::currentItemChanged, this, [this](const QListWidgetItem* item) {
         if (item != nullptr) {
-            showPlace(item->data(kPlaceRole).toInt());
+            m_browser->showPlace(item->data(kPlaceRole).toInt());
         }
     });
-    connect(m_browser, &QTextBrowser::anchorClicked, this, [this](const QUrl& url) { goTo(url.fragment()); });
+    connect(m_browser, &QTextBrowser::anchorClicked, m_browser,
+            [this](const QUrl& url) { m_browser->goTo(url.fragment()); });
     connect(m_search, &QLineEdit::textChanged, this, &ReferenceWindow::search);
     m_browser->setFocus();
-    new EventWatch(this, QEvent::PaletteChange, [this] { applyColours(); });
 }
 
 void ReferenceWindow::layOut() {
@@ -216,73 +203,19 @@ void ReferenceWindow::layOut() {
     resize(metrics.averageCharWidth() * 165, metrics.lineSpacing() * 48);
 }
 
-void ReferenceWindow::readHeadings() {
-    for (QTextBlock block = m_browser->document()->begin(); block.isValid(); block = block.next()) {
-        const int level = block.blockFormat().headingLevel();
-        if (level == 0) {
-            continue;
-        }
-        m_places.insert(QString::fromStdString(exporting::headingAnchor(block.text().toStdString())),
-                        block.position());
-        if (level == kDeepestListed) {
-            auto* item = new QListWidgetItem(block.text(), m_contents);
-            item->setData(kPlaceRole, block.position());
+void ReferenceWindow::listHeadings() {
+    for (const MarkdownView::Heading& heading : m_browser->headings()) {
+        if (heading.level == kDeepestListed) {
+            auto* item = new QListWidgetItem(heading.text, m_contents);
+            item->setData(kPlaceRole, heading.position);
         }
     }
     const int margin = m_contents->fontMetrics().averageCharWidth() * 4;
     m_contents->setFixedWidth(m_contents->sizeHintForColumn(0) + margin);
 }
 
-void ReferenceWindow::applyColours() {
-    QTextDocument& document = *m_browser->document();
-    QTextCursor cursor(&document);
-    cursor.beginEditBlock();
-    styleTables(document);
-    for (QTextBlock block = document.begin(); block.isValid(); block = block.next()) {
-        if (block.blockFormat().headingLevel() != 0) {
-            QTextBlockFormat format;
-            format.setTopMargin(fontMetrics().height());
-            format.setBottomMargin(fontMetrics().height() / 3.0);
-            cursor.setPosition(block.position());
-            cursor.mergeBlockFormat(format);
-        }
-        for (auto at = block.begin(); !at.atEnd(); ++at) {
-            const QTextFragment fragment = at.fragment();
-            if (fragment.charFormat().isAnchor()) {
-                cursor.setPosition(fragment.position());
-                cursor.setPosition(fragment.position() + fragment.length(), QTextCursor::KeepAnchor);
-                QTextCharFormat format;
-                format.setForeground(theme().accent);
-                format.setFontUnderline(false);
-                cursor.mergeCharFormat(format);
-            }
-        }
-    }
-    cursor.endEditBlock();
-}
-
-bool ReferenceWindow::goTo(const QString& anchor) {
-    const auto place = m_places.constFind(anchor);
-    if (place == m_places.cend()) {
-        return false;
-    }
-    showPlace(*place);
-    return true;
-}
-
-void ReferenceWindow::showPlace(int position) {
-    QTextDocument& document = *m_browser->document();
-    const QRectF block = document.documentLayout()->blockBoundingRect(document.findBlock(position));
-    m_browser->verticalScrollBar()->setValue(static_cast<int>(block.top()));
-    QTextCursor cursor(&document);
-    cursor.setPosition(position);
-    m_browser->setTextCursor(cursor);
-    m_browser->verticalScrollBar()->setValue(static_cast<int>(block.top()));
-}
-
 void ReferenceWindow::search(const QString& text) {
-    const qsizetype count =
-        text.isEmpty() ? 0 : m_browser->document()->toPlainText().count(text, Qt::CaseInsensitive);
+    const qsizetype count = m_browser->countOf(text);
     QString found = count == 1 ? tr("1 place") : tr("%1 places").arg(count);
     if (count == 0) {
         found = text.isEmpty() ? QString() : tr("not found");
@@ -294,39 +227,21 @@ void ReferenceWindow::search(const QString& text) {
     find(false);
 }
 
-bool ReferenceWindow::find(bool isBackward) {
-    const QString text = m_search->text();
-    if (text.isEmpty()) {
-        return false;
-    }
-    const auto flags = isBackward ? QTextDocument::FindBackward : QTextDocument::FindFlags();
-    if (m_browser->find(text, flags)) {
-        return true;
-    }
-    const QTextCursor before = m_browser->textCursor();
-    m_browser->moveCursor(isBackward ? QTextCursor::End : QTextCursor::Start);
-    const bool isFound = m_browser->find(text, flags);
-    if (!isFound) {
-        m_browser->setTextCursor(before);
-    }
-    return isFound;
+bool ReferenceWindow::goTo(const QString& anchor) {
+    return m_browser->goTo(anchor);
 }
 
-void showShortcuts(QWidget& parent) {
-    QString text = tr("| Key | Menu | What it does |\n|---|---|---|\n");
-    for (const MenuEntry& entry : menuEntries()) {
-        const ActionInfo& info = *entry.action;
-        const QKeySequence keys(QLatin1String(info.shortcut), QKeySequence::PortableText);
-        if (!keys.isEmpty()) {
-            text += QStringLiteral("| %1 | %2 | %3 |\n")
-                        .arg(keys.toString(QKeySequence::NativeText),
-                             plainText(info.menu).replace(QLatin1Char('/'), QStringLiteral(" > ")),
-                             plainText(info.text));
-        }
-    }
-    text += tr("\nIn the viewport: drag to orbit, Shift or the middle button to pan, the wheel to zoom "
-               "towards the pointer; click to select a segment, double click to frame a character.\n");
-    showText(tr("Keyboard shortcuts"), text, parent);
+bool ReferenceWindow::find(bool isBackward) {
+    return m_browser->findAgain(m_search->text(), isBackward);
+}
+
+QTextBrowser& ReferenceWindow::browser() const {
+    return *m_browser;
+}
+
+QMap<QString, QString> madeHelpParts() {
+    return {{QStringLiteral("shortcuts"), shortcutsMarkdown()},
+            {QStringLiteral("figures"), figuresMarkdown()}};
 }
 
 void showAbout(QWidget& parent) {

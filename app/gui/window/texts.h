@@ -5,16 +5,18 @@
 #include "core/model/session/session_view.h"
 
 #include <QDialog>
-#include <QHash>
+#include <QMap>
 #include <QString>
-#include <QTextBrowser>
 
 class QLabel;
 class QLineEdit;
 class QListWidget;
+class QTextBrowser;
 
 /// Texts to read, and windows to read them in.
 namespace posewire::gui {
+
+class MarkdownView;
 
 /// A long text in Markdown to look things up in: contents at the left, search above, links that lead to
 /// headings.
@@ -24,7 +26,7 @@ class ReferenceWindow final : public QDialog {
 public:
     ReferenceWindow(const QString& title, const QString& markdown, QWidget* parent);
 
-    [[nodiscard]] QTextBrowser& browser() const { return *m_browser; }
+    [[nodiscard]] QTextBrowser& browser() const;
     [[nodiscard]] QListWidget& contents() const { return *m_contents; }
     [[nodiscard]] QLineEdit& searchEdit() const { return *m_search; }
 
@@ -36,20 +38,18 @@ public:
 
 private:
     void layOut();
-    void applyColours();
-    void readHeadings();
+    void listHeadings();
     void search(const QString& text);
-    void showPlace(int position);
 
-    QTextBrowser* m_browser;
+    MarkdownView* m_browser;
     QListWidget* m_contents;
     QLineEdit* m_search;
     QLabel* m_found;
-    QHash<QString, int> m_places; ///< where in the text each heading is, by its anchor
 };
 
-/// All keys of the menus, in a window that deletes itself when closed.
-void showShortcuts(QWidget& parent);
+/// What the program itself writes into the user guide, in Markdown: the keys of the menus, the overlays, the
+/// figures of streams.
+[[nodiscard]] QMap<QString, QString> madeHelpParts();
 void showAbout(QWidget& parent);
 
 /// What someone who helps from afar wants to know, as plain text: program, system, ports, senders, streams.

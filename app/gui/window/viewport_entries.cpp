@@ -68,7 +68,8 @@ void showView(Window& window) {
     if (window.viewport().isKept(index)) {
         window.viewport().showKeptView(index);
     } else {
-        window.say(tr("No view %1 is kept: View > Camera > Keep view does").arg(index + 1));
+        window.say(tr("No view %1 is kept: View > Camera > Keep view does").arg(index + 1),
+                   HelpTopic::ViewNotKept);
     }
 }
 template <int index>

@@ -17,7 +17,8 @@ def start(program: str, folder: Path, *more: str) -> subprocess.Popen:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         probe.bind(("127.0.0.1", 0))
         place = f"127.0.0.1:{probe.getsockname()[1]}"
-    return subprocess.Popen([program, "--settings", str(folder / "settings.json"), "--udp", place, *more],
+    return subprocess.Popen([program, "--settings", str(folder / "settings.json"), "--udp", place, "--no-tour",
+                             *more],
                             env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 

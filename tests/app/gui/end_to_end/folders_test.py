@@ -51,7 +51,7 @@ def check_verbose(program: str, folder: Path) -> None:
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as taken:
         taken.bind(("127.0.0.1", 0))
         port = taken.getsockname()[1]
-        window = start(program, folder, "--verbose", "--udp", f"127.0.0.1:{free_port()}", "--udp",
+        window = start(program, folder, "--verbose", "--no-tour", "--udp", f"127.0.0.1:{free_port()}", "--udp",
                        f"127.0.0.1:{port}")
         lines = told(window)
     assert set(lines) == {"posewire.inputs", "posewire.files", "posewire.settings", "posewire.drawing"}, lines

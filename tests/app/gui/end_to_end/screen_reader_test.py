@@ -43,7 +43,7 @@ def free_port():
 class Window:
     def __init__(self, program, folder, port, layout):
         self.process = subprocess.Popen([program, "--settings", folder + "/settings.json", "--layout", layout,
-                                         "--size", "1500x900", "--udp", str(port)], env=dict(os.environ))
+                                         "--size", "1500x900", "--no-tour", "--udp", str(port)], env=dict(os.environ))
         self.root = None
 
     def find(self):

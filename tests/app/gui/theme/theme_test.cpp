@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/theme/theme.h"
 
+#include "app/gui/theme/desktop_theme.h"
+
 #include <gtest/gtest.h>
 
 namespace posewire::gui {
@@ -28,6 +30,46 @@ TEST_P(ThemeTest, TextStandsOutOnASelectedRow) {
         EXPECT_GE(contrast(onSelection(text), theme().selection), 4.5) << text.name().toStdString();
     }
     EXPECT_EQ(onSelection(theme().text), theme().text);
+}
+
+QPalette desktop(const char* text, const char* ground) {
+    QPalette palette;
+    palette.setColor(QPalette::WindowText, QColor(text));
+    palette.setColor(QPalette::Window, QColor(ground));
+    return palette;
+}
+
+TEST(ThemeFor, TheSystemsIsThatOfTheDesktop) {
+    const Theme dark = themeFor(ThemeChoice::Dark, {});
+    const Theme light = themeFor(ThemeChoice::Light, {});
+    EXPECT_EQ(themeFor(ThemeChoice::System, desktop("#eeeeee", "#303030")).text, dark.text);
+    EXPECT_EQ(themeFor(ThemeChoice::System, desktop("#202020", "#efefef")).text, light.text);
+    EXPECT_EQ(themeFor(ThemeChoice::System, desktop("#000000", "#efefef")).text, light.text);
+    EXPECT_EQ(themeFor(ThemeChoice::Dark, desktop("#000000", "#ffffff")).text, dark.text)
+        << "a choice counts more than the desktop";
+}
+
+TEST(ThemeFor, ADesktopOfHighContrastGetsItAsTheGuidelinesAskForAtMost) {
+    for (const Theme& theme : {themeFor(ThemeChoice::System, desktop("#ffffff", "#000000")),
+                               themeFor(ThemeChoice::System, desktop("#000000", "#ffffff"))}) {
+        EXPECT_GE(contrast(theme.text, theme.panel), 20);
+        for (const QColor& colour : {theme.dim, theme.good, theme.warning, theme.error, theme.accent}) {
+            EXPECT_GE(contrast(colour, theme.panel), 7) << colour.name().toStdString();
+        }
+        EXPECT_GE(contrast(theme.line, theme.panel), 3) << "edges are seen";
+        EXPECT_GE(contrast(theme.text, theme.selection), 7);
+    }
+    EXPECT_TRUE(themeFor(ThemeChoice::System, desktop("#ffffff", "#000000")).isDark);
+    EXPECT_FALSE(themeFor(ThemeChoice::System, desktop("#000000", "#ffffff")).isDark);
+}
+
+TEST(ApplyTheme, ReadsTheDesktopAgainAfterAnotherThemeWasChosen) {
+    applyTheme(*qApp, ThemeChoice::System);
+    const bool isDark = theme().isDark;
+    applyTheme(*qApp, isDark ? ThemeChoice::Light : ThemeChoice::Dark);
+    EXPECT_NE(theme().isDark, isDark);
+    applyTheme(*qApp, ThemeChoice::System);
+    EXPECT_EQ(theme().isDark, isDark) << "our own palette is not that of the desktop";
 }
 
 TEST(Contrast, IsThatOfTheGuidelines) {
