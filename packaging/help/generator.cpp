@@ -2,9 +2,9 @@
 #include "app/gui/window/texts.h"
 #include "packaging/help/help_html.h"
 
-#include <QCoreApplication>
 #include <QDir>
 #include <QFile>
+#include <QGuiApplication>
 
 #include <iostream>
 
@@ -28,7 +28,8 @@ bool write(const QString& path, const QString& text) {
 
 /// help_generator OUTPUT: writes the pages of the user guide, and what their search looks through, as HTML.
 int main(int argc, char** argv) {
-    const QCoreApplication application(argc, argv);
+    qputenv("QT_QPA_PLATFORM", "offscreen"); // pages are read as documents, which have fonts
+    const QGuiApplication application(argc, argv);
     if (argc != 2) {
         std::cerr << "usage: help_generator OUTPUT\n";
         return 2;

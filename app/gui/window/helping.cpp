@@ -19,6 +19,10 @@
 
 namespace posewire::gui {
 
+MainWindow::~MainWindow() {
+    QDesktopServices::unsetUrlHandler(QLatin1String(kHelpScheme));
+}
+
 void MainWindow::connectHelp() {
     QDesktopServices::setUrlHandler(QLatin1String(kHelpScheme), this, "followHelpLink");
     setHelpPlace(*m_viewport, placeOf(HelpTopic::Viewport));
@@ -42,7 +46,7 @@ void MainWindow::showHelp(const QString& place) {
     // A dialog that waits for its answer lets only its own windows be used.
     QWidget* parent = QApplication::activeModalWidget();
     parent = parent == nullptr ? this : parent;
-    auto* guide = parent->findChild<HelpWindow*>(Qt::FindDirectChildrenOnly);
+    auto* guide = parent->findChild<HelpWindow*>(QString(), Qt::FindDirectChildrenOnly);
     if (guide == nullptr) {
         guide = new HelpWindow(*m_helpPages, parent);
     }

@@ -78,8 +78,6 @@ MainWindow::MainWindow(SessionDriver& driver, const SettingsFile& file, const Se
     restore();
 }
 
-MainWindow::~MainWindow() = default;
-
 void MainWindow::makeBars() {
     auto* name = plainLabel(QStringLiteral("Posewire"), this);
     QFont font = name->font();
