@@ -108,7 +108,7 @@ QString contentsOf(const HelpPages& pages, const HelpPage& shown) {
 } // namespace
 
 QString helpHtml(const HelpPages& pages, const HelpPage& page) {
-    QString html = QLatin1String(kFrame);
+    QString html = QString::fromUtf8(kFrame);
     html.replace(QLatin1String("@title"), escaped(page.title));
     html.replace(QLatin1String("@contents"), contentsOf(pages, page));
     html.replace(QLatin1String("@body"), bodyOf(page));

@@ -79,7 +79,7 @@ HelpWindow::HelpWindow(const HelpPages& pages, QWidget* parent)
     connect(m_hits, &QListWidget::itemClicked, this, openRow);
     connect(m_view, &QTextBrowser::anchorClicked, this, &HelpWindow::follow);
     connect(m_search, &QLineEdit::textChanged, this, &HelpWindow::search);
-    connect(m_search, &QLineEdit::returnPressed, this, [this] { findInPage(false); });
+    connect(m_search, &QLineEdit::returnPressed, this, &HelpWindow::openBest);
 }
 
 void HelpWindow::layOut() {
@@ -228,6 +228,7 @@ void HelpWindow::showInContents(const QString& page) {
 
 void HelpWindow::search(const QString& words) {
     const std::vector<HelpHit> hits = m_pages.search(words);
+    m_isNewSearch = true;
     const QSignalBlocker quiet(m_hits);
     m_hits->clear();
     for (const HelpHit& hit : hits) {
@@ -245,7 +246,16 @@ void HelpWindow::search(const QString& words) {
     m_view->highlight(searchedWords(words));
 }
 
+void HelpWindow::openBest() {
+    if (m_isNewSearch && m_hits->count() != 0) {
+        m_hits->setCurrentRow(0); // which opens it
+    } else {
+        findInPage(false);
+    }
+}
+
 void HelpWindow::openHit(const QString& page) {
+    m_isNewSearch = false;
     visit(page);
     findInPage(false);
 }

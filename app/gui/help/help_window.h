@@ -57,6 +57,8 @@ private:
     void show(const Visit& visit);
     void showInContents(const QString& page);
     void search(const QString& words);
+    /// The best page of a new search; its next place, once that was opened.
+    void openBest();
     void openHit(const QString& page);
     void findInPage(bool isBackward);
 
@@ -72,6 +74,7 @@ private:
     std::vector<Visit> m_visits;
     std::size_t m_current = 0;
     QString m_page; ///< that the view holds
+    bool m_isNewSearch = false;
 };
 
 } // namespace posewire::gui

@@ -42,7 +42,7 @@ TEST_F(HelpWindowTest, ShowsAPlaceOnAPage) {
     EXPECT_EQ(firstBlock(), "What a cause means");
     EXPECT_EQ(window.view().textCursor().block().text(), "Network");
     EXPECT_GT(window.view().verticalScrollBar()->value(), 0);
-    EXPECT_EQ(window.contents().currentItem()->text(0), "What a cause means, and what to do");
+    EXPECT_EQ(window.contents().currentItem()->text(0), "What a cause means");
 }
 
 TEST_F(HelpWindowTest, ShowsTheFirstPageForAPlaceThatIsNone) {
@@ -119,6 +119,7 @@ TEST_F(HelpWindowTest, TheKeyboardReachesEverything) {
     QTest::keyClick(&window.view(), Qt::Key_Home, Qt::AltModifier);
     EXPECT_EQ(window.place(), "index");
     window.contents().setFocus();
+    QTest::keyClick(&window.contents(), Qt::Key_Down); // the chapter
     QTest::keyClick(&window.contents(), Qt::Key_Down);
     EXPECT_NE(window.place(), "index") << "the contents open what is chosen";
 }
