@@ -224,6 +224,9 @@ void Tour::mousePressEvent(QMouseEvent* event) {
 bool Tour::focusNextPrevChild(bool isNext) {
     std::vector<QPushButton*> stops{m_skip, m_back, m_next};
     std::erase_if(stops, [](const QPushButton* one) { return !one->isVisible() || !one->isEnabled(); });
+    if (stops.empty()) { // it is going: Qt looks for another place for the focus
+        return QWidget::focusNextPrevChild(isNext);
+    }
     const auto now = std::ranges::find(stops, QApplication::focusWidget());
     const auto at = static_cast<std::size_t>(now == stops.end() ? 0 : now - stops.begin());
     const std::size_t to = (at + (isNext ? 1 : stops.size() - 1)) % stops.size();
