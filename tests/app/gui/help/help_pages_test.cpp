@@ -34,7 +34,7 @@ TEST_F(HelpPagesTest, OnlyPagesWithAllWordsAreFound) {
     EXPECT_FALSE(pages.search("firewall").empty());
     EXPECT_TRUE(pages.search("firewall zebra").empty());
     EXPECT_TRUE(pages.search("  ").empty());
-    EXPECT_TRUE(pages.search("[").empty()) << "what is typed is no pattern";
+    EXPECT_TRUE(pages.search("[a-z]").empty()) << "what is typed is no pattern";
 }
 
 TEST_F(HelpPagesTest, AnExcerptIsALineWithTheWord) {

@@ -13,6 +13,7 @@
 #include <QPixmap>
 #include <QScrollBar>
 #include <QTextBlock>
+#include <QTextBrowser>
 
 #include <gtest/gtest.h>
 
