@@ -63,7 +63,9 @@ Tour::Tour(std::vector<TourStep> steps, QWidget* window)
     makeCard();
     restyle();
     new EventWatch(this, QEvent::PaletteChange, [this] { restyle(); });
-    window->installEventFilter(this);
+    for (QWidget* watched : std::initializer_list<QWidget*>{window, m_skip, m_back, m_next}) {
+        watched->installEventFilter(this);
+    }
     goTo(0);
 }
 
@@ -177,8 +179,17 @@ void Tour::end() {
     deleteLater();
 }
 
-/// The parts of the window get their places after it has got its own.
-bool Tour::eventFilter(QObject* /*window*/, QEvent* event) {
+/// The parts of the window get their places after it has got its own. To the buttons, arrows would mean the
+/// button beside.
+bool Tour::eventFilter(QObject* /*watched*/, QEvent* event) {
+    if (event->type() == QEvent::KeyPress) {
+        auto* key = static_cast<QKeyEvent*>(event);
+        const bool isStep = key->key() == Qt::Key_Left || key->key() == Qt::Key_Right;
+        if (isStep) {
+            keyPressEvent(key);
+        }
+        return isStep;
+    }
     if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) {
         QTimer::singleShot(0, this, &Tour::place);
     }

@@ -375,6 +375,10 @@ TEST_F(MainWindowTest, EveryButtonOfADockIsInAMenu) {
                                              {"›", "nextOfStream"},
                                              {"Hold", "holdPacket"},
                                              {"Compare ▾", "comparePrevious"},
+                                             {"Compare with a recording…", "compareWith"},
+                                             {"◀", "nudgeEarlier"},
+                                             {"▶", "nudgeLater"},
+                                             {"Beside", "compareBeside"},
                                              {"Ghost", "ghost"},
                                              {"Export ▾", "exportNullPose"},
                                              {"Current", "currentIncidents"},
@@ -451,6 +455,7 @@ TEST_F(MainWindowTest, SpacePausesAndEndGoesBackToLive) {
 
 TEST_F(MainWindowTest, F6GoesThroughTheDocksAndBackToTheViewport) {
     const auto window = makeWindow();
+    dock(*window, "compare")->show(); // the only one that no layout opens
     window->viewport().setFocus();
     std::set<QWidget*> visited;
     for (std::size_t i = 0; i <= panelTable().size(); ++i) {
