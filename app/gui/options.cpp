@@ -149,7 +149,8 @@ struct Reader {
         const QString name = parser.value(QStringLiteral("theme"));
         options.theme = themeNamed(name);
         if (!options.theme && parser.isSet(QStringLiteral("theme"))) {
-            refuse(tr("--theme: '%1' is none of %2.").arg(name, themeForms().replace(u'|', QStringLiteral(", "))));
+            refuse(tr("--theme: '%1' is none of %2.")
+                       .arg(name, themeForms().replace(u'|', QStringLiteral(", "))));
         }
     }
 

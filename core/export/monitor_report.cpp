@@ -115,22 +115,22 @@ std::string monitorReport(const model::SessionView& session, const MonitorFacts&
         }
     }
     JsonValue report{{"durationS", rounded(facts.durationS, 3)},
-                           {"local", JsonValue{{"kernelDropped", all.kernelDrops},
-                                               {"receiveBufferBytes", facts.receiveBufferBytes},
-                                               {"overtaken", session.overtaken()},
-                                               {"refusedDatagrams", facts.refusedDatagrams}}},
-                           {"foreignDatagrams", all.foreign},
-                           {"sources", std::move(senders)},
-                           {"foreignSources", std::move(foreignSenders)},
-                           {"retired", JsonValue{{"sources", retired.senders},
-                                                 {"streams", retired.streams},
-                                                 {"datagrams", retired.wellFormed()},
-                                                 {"malformed", retired.malformed},
-                                                 {"samples", retired.samples},
-                                                 {"lost", retired.lost}}},
-                           {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
-                           {"verdict", verdictJson(session, verdicts.all)},
-                           {"incidents", incidentsJson(session)}};
+                     {"local", JsonValue{{"kernelDropped", all.kernelDrops},
+                                         {"receiveBufferBytes", facts.receiveBufferBytes},
+                                         {"overtaken", session.overtaken()},
+                                         {"refusedDatagrams", facts.refusedDatagrams}}},
+                     {"foreignDatagrams", all.foreign},
+                     {"sources", std::move(senders)},
+                     {"foreignSources", std::move(foreignSenders)},
+                     {"retired", JsonValue{{"sources", retired.senders},
+                                           {"streams", retired.streams},
+                                           {"datagrams", retired.wellFormed()},
+                                           {"malformed", retired.malformed},
+                                           {"samples", retired.samples},
+                                           {"lost", retired.lost}}},
+                     {"exceeded", JsonValue::List(facts.exceeded.begin(), facts.exceeded.end())},
+                     {"verdict", verdictJson(session, verdicts.all)},
+                     {"incidents", incidentsJson(session)}};
     if (facts.hasMemory) {
         report["memory"] = memoryJson(session.memory());
     }

@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 # Values and options, not keys.
-WORDS = {"none", "good", "warning", "bad", "provisional", "ongoing", "over", "encode", "--from", "MXTP",
+WORDS = {"none", "good", "warning", "bad", "provisional", "ongoing", "over", "encode", "--from", "--verbose", "MXTP",
          "(lastSample - firstSample) / step + 1 = samples + incomplete + lost"}
 NOT_PROMISED = "memory"
 

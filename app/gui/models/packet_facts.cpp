@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/gui/models/packet_facts.h"
 
+#include "app/gui/models/column.h"
 #include "app/gui/models/text.h"
 #include "app/gui/theme/words.h"
 #include "core/model/accounting/attribution.h"
@@ -182,18 +183,37 @@ QString packetPart(model::SessionView& view, const PacketFacts& facts) {
     return place + QStringLiteral("/?");
 }
 
-QString packetNote(model::SessionView& view, const PacketFacts& facts) {
-    QString note = facts.findings.isEmpty() ? QString() : healthText(packetHealth(facts), facts.findings);
-    const model::Annotations& annotations = view.annotations();
-    if (annotations.marks.contains(facts.number)) {
-        note.prepend(note.isEmpty() ? tr("◆ marked") : QStringLiteral("◆ "));
-    }
+namespace {
+
+/// With what the operator wrote about the packet.
+QString withComment(QString note, const model::Annotations& annotations, const PacketFacts& facts) {
     if (const auto comment = annotations.comments.find(facts.number); comment != annotations.comments.end()) {
         note += (note.isEmpty() ? QStringLiteral("“") : QStringLiteral(" · “")) +
                 shownText(QString::fromStdString(comment->second).simplified().toStdString()) +
                 QStringLiteral("”");
     }
     return note;
+}
+
+} // namespace
+
+QString packetNote(model::SessionView& view, const PacketFacts& facts) {
+    QString note = facts.findings.isEmpty() ? QString() : healthText(packetHealth(facts), facts.findings);
+    const model::Annotations& annotations = view.annotations();
+    if (annotations.marks.contains(facts.number)) {
+        note.prepend(note.isEmpty() ? tr("◆ marked") : QStringLiteral("◆ "));
+    }
+    return withComment(std::move(note), annotations, facts);
+}
+
+QString spokenNote(model::SessionView& view, const PacketFacts& facts) {
+    QString note =
+        facts.findings.isEmpty() ? QString() : PropertyValue{facts.findings, packetHealth(facts)}.spoken();
+    const model::Annotations& annotations = view.annotations();
+    if (annotations.marks.contains(facts.number)) {
+        note.prepend(note.isEmpty() ? tr("marked") : tr("marked, "));
+    }
+    return withComment(std::move(note), annotations, facts);
 }
 
 } // namespace posewire::gui

@@ -100,6 +100,7 @@ std::vector<PacketColumn> PacketModel::columns(const PacketModel& model) {
     columns[kSize].colour = [](const PacketFacts& facts) {
         return packetHealth(facts) == Health::Error ? QVariant(theme().error) : QVariant();
     };
+    columns[kNote].spoken = [&model](const PacketFacts& facts) { return spokenNote(model.m_view, facts); };
     for (const Column column : {kNumber, kTime, kSender, kCharacter, kPart}) {
         columns[column].colour = dimWhereStrange;
     }

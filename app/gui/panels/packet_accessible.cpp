@@ -52,7 +52,11 @@ public:
     [[nodiscard]] QAccessible::Role role() const override { return QAccessible::Cell; }
     [[nodiscard]] QString text(QAccessible::Text text) const override {
         const QModelIndex at = m_view == nullptr ? QModelIndex() : index();
-        return text == QAccessible::Name && at.isValid() ? cellText(at) : QString();
+        if (text != QAccessible::Name || !at.isValid()) {
+            return {};
+        }
+        const QString spoken = at.data(Qt::AccessibleTextRole).toString();
+        return spoken.isEmpty() ? cellText(at) : spoken;
     }
     void setText(QAccessible::Text, const QString&) override {}
     [[nodiscard]] QRect rect() const override {
