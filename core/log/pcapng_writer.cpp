@@ -235,7 +235,12 @@ std::optional<Reception> parseReception(std::string_view note) {
     }
     const auto time = takeSeconds(note);
     const auto afterLast = takes(note, kTheLast) ? takeSeconds(note) : std::nullopt;
-    if (!time || !afterLast || !takes(note, kReceiveBuffer)) {
+    // A year after any stamp that readFile() gives is still a stamp.
+    constexpr Duration most = std::chrono::hours(24) * 365;
+    const auto isSound = [most](const std::optional<Duration>& one) {
+        return one && *one >= Duration::zero() && *one <= most;
+    };
+    if (!isSound(time) || !isSound(afterLast) || !takes(note, kReceiveBuffer)) {
         return std::nullopt;
     }
     const auto bytes = std::from_chars(note.data(), note.data() + note.size(), reception.receiveBufferBytes);

@@ -75,7 +75,7 @@ struct Reception {
 
 [[nodiscard]] std::string receptionText(const Reception& reception);
 
-/// The inverse; nothing where somebody else wrote the note.
+/// The inverse; nothing where somebody else wrote the note, or it tells of more than a year.
 [[nodiscard]] std::optional<Reception> parseReception(std::string_view note);
 
 /// What a recording says about itself; what is empty is left out.

@@ -236,6 +236,11 @@ TEST(Reception, IsReadBackFromItsWords) {
     }
     EXPECT_EQ(parseReception(text + '!'), std::nullopt);
     EXPECT_EQ(parseReception("Posewire: TCP"), std::nullopt);
+    for (const Reception& strange : {Reception{-1ns, 0ns, 0}, Reception{1s, -1ns, 0},
+                                     Reception{8'761h, 1s, 0}, Reception{1s, 2'500'000h, 0}}) {
+        EXPECT_EQ(parseReception(receptionText(strange)), std::nullopt) << receptionText(strange);
+    }
+    EXPECT_NE(parseReception(receptionText({8'760h, 8'760h, 0})), std::nullopt);
 }
 
 } // namespace
