@@ -422,10 +422,14 @@ void IncidentFollower::endFile() {
     }
 }
 
+/// For how long nothing of a character has come of which something is expected.
+log::Duration IncidentFollower::silenceOf(const Character& character, log::Stamp stamp) {
+    return character.lastSampled == log::Stamp() ? kNone : stamp - character.lastSampled;
+}
+
 /// Whether more time has passed without a sample than its streams ever leave.
 void IncidentFollower::checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp) {
-    const log::Duration silent =
-        character.lastSampled == log::Stamp() ? kNone : stamp - character.lastSampled;
+    const log::Duration silent = silenceOf(character, stamp);
     if (silent > kSilent && silent > patienceWith(character.streams, kSilent, 3)) {
         fallSilent(key, character, stamp);
     }
@@ -434,8 +438,7 @@ void IncidentFollower::checkSilence(const CharacterKey& key, Character& characte
 void IncidentFollower::check(log::Stamp stamp) {
     m_incidents.advance(stamp);
     for (auto& [key, character] : m_characters) {
-        const log::Duration silent =
-            character.lastSampled == log::Stamp() ? kNone : stamp - character.lastSampled;
+        const log::Duration silent = silenceOf(character, stamp);
         if (character.outage == 0) {
             checkSilence(key, character, stamp);
         } else if (silent > kLong && !std::exchange(character.isLong, true)) {

@@ -101,6 +101,7 @@ private:
     };
     void tellClockSets(log::Stamp until);
     void check(log::Stamp stamp);
+    [[nodiscard]] static log::Duration silenceOf(const Character& character, log::Stamp stamp);
     void checkSilence(const CharacterKey& key, Character& character, log::Stamp stamp);
     void checkEnded(log::Stamp stamp);
     void fallSilent(const CharacterKey& key, Character& character, log::Stamp stamp);
