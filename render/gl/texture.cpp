@@ -27,16 +27,22 @@ Layout layoutOf(Texture::Format format) {
 
 } // namespace
 
-Texture Texture::create2D(Format format, int width, int height) {
+/// A new name, bound; without texels.
+Texture Texture::begin(unsigned target, int width, int height) {
     unsigned name = 0;
     glGenTextures(1, &name);
     Texture texture;
     texture.m_handle = Handle<deleteTexture>(name);
-    texture.m_target = GL_TEXTURE_2D;
+    texture.m_target = target;
     texture.m_width = width;
     texture.m_height = height;
+    glBindTexture(target, name);
+    return texture;
+}
+
+Texture Texture::create2D(Format format, int width, int height) {
+    Texture texture = begin(GL_TEXTURE_2D, width, height);
     const Layout layout = layoutOf(format);
-    glBindTexture(GL_TEXTURE_2D, name);
     glTexImage2D(GL_TEXTURE_2D, 0, layout.internalFormat, width, height, 0, layout.format, layout.type,
                  nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -52,14 +58,7 @@ Texture Texture::create2D(Format format, int width, int height) {
 }
 
 Texture Texture::ofPicture(int width, int height, std::span<const std::uint8_t> texels) {
-    unsigned name = 0;
-    glGenTextures(1, &name);
-    Texture texture;
-    texture.m_handle = Handle<deleteTexture>(name);
-    texture.m_target = GL_TEXTURE_2D;
-    texture.m_width = width;
-    texture.m_height = height;
-    glBindTexture(GL_TEXTURE_2D, name);
+    Texture texture = begin(GL_TEXTURE_2D, width, height);
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
     glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels.data());
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
@@ -71,12 +70,7 @@ Texture Texture::ofPicture(int width, int height, std::span<const std::uint8_t> 
 }
 
 Texture Texture::overBuffer(const Buffer& buffer) {
-    unsigned name = 0;
-    glGenTextures(1, &name);
-    Texture texture;
-    texture.m_handle = Handle<deleteTexture>(name);
-    texture.m_target = GL_TEXTURE_BUFFER;
-    glBindTexture(GL_TEXTURE_BUFFER, name);
+    Texture texture = begin(GL_TEXTURE_BUFFER, 0, 0);
     glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.name());
     return texture;
 }

@@ -33,6 +33,8 @@ public:
     void copyFromFramebuffer(int x, int y, int width, int height);
 
 private:
+    [[nodiscard]] static Texture begin(unsigned target, int width, int height);
+
     Handle<deleteTexture> m_handle;
     unsigned m_target = 0;
     int m_width = 0;
