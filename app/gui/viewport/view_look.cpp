@@ -6,6 +6,7 @@
 namespace posewire::gui {
 
 void ViewLook::fill(SceneBuilder& builder, double seconds, SceneFrame& frame) {
+    builder.setWardrobe(wardrobe);
     builder.build(axes, overlays, frame);
     motion.follow(boxesOf(frame), aspectOf(frame), seconds);
     frame.camera = motion.camera();

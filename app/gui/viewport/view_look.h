@@ -13,6 +13,7 @@ struct ViewLook {
     AxesMode axes = AxesMode::Selected;
     Overlays overlays;
     bool hasScale = true; ///< metres on the floor
+    Wardrobe wardrobe;
     CameraMotion motion;
 
     /// The frame at the cursor of the builder's session, for its width, height and ratio of pixels.

@@ -46,6 +46,10 @@ ViewportWidget::ViewportWidget(model::SessionView& session, Commands& commands, 
     m_glideTimer.setSingleShot(true);
     m_glideTimer.setInterval(kGlide);
     connect(&m_glideTimer, &QTimer::timeout, this, &ViewportWidget::refresh);
+    connect(&m_ownCharacters, &OwnCharacters::changed, this, [this] {
+        m_look.wardrobe = m_ownCharacters.wardrobe();
+        refresh();
+    });
     setMouseTracking(true);
     setObjectName(QStringLiteral("viewport"));
     setAccessibleName(tr("Characters in space"));
@@ -296,6 +300,7 @@ QJsonObject ViewportWidget::state() const {
             {"interpolation", m_isInterpolating},
             {"segmentCard", m_hasCard},
             {"relativeViews", m_hasRelativeViews},
+            {"ownCharacters", m_ownCharacters.state()},
             {"views", views}};
 }
 
@@ -312,6 +317,7 @@ void ViewportWidget::restoreState(const QJsonObject& state) {
     m_hasCard = state["segmentCard"].toBool(true);
     m_isInterpolating = state["interpolation"].toBool(false);
     m_hasRelativeViews = state["relativeViews"].toBool(true);
+    m_ownCharacters.restoreState(state["ownCharacters"].toArray());
     for (int i = 0; i < kKeptViews; ++i) {
         m_keptViews[static_cast<std::size_t>(i)] = state["views"].toArray().at(i).toObject();
     }

@@ -4,6 +4,7 @@
 #include "app/gui/commands.h"
 #include "app/gui/program_view.h"
 #include "app/gui/viewport/camera_state.h"
+#include "app/gui/viewport/own_characters.h"
 #include "app/gui/viewport/picking.h"
 #include "app/gui/viewport/presenter.h"
 #include "app/gui/viewport/view_look.h"
@@ -71,6 +72,8 @@ public:
         return !m_keptViews[static_cast<std::size_t>(index)].isEmpty();
     }
     [[nodiscard]] const ViewLook& look() const { return m_look; }
+    /// Who is drawn by a body of the user's own.
+    [[nodiscard]] OwnCharacters& ownCharacters() { return m_ownCharacters; }
     /// Camera, axes and overlays, as they are kept from one run to the next.
     [[nodiscard]] QJsonObject state() const;
     void restoreState(const QJsonObject& state);
@@ -90,9 +93,7 @@ public:
     /// How they are drawn now, for the statistics; nothing before start().
     [[nodiscard]] PictureHealth pictureHealth() const;
     /// Null before start().
-    [[nodiscard]] const BodyMeshes* meshes() const {
-        return m_builder == nullptr ? nullptr : &m_builder->meshes();
-    }
+    [[nodiscard]] const SceneBuilder* builder() const { return m_builder.get(); }
     /// Why there is no picture; empty where there is one.
     [[nodiscard]] QString failure() const {
         return m_presenter == nullptr ? QString() : m_presenter->failure();
@@ -131,6 +132,7 @@ private:
     bool m_isHardware = false;
     QString m_hardwareFailure; ///< why the processor draws after all; empty where it does not
     ViewLook m_look;
+    OwnCharacters m_ownCharacters;
     bool m_hasRelativeViews = true;
     bool m_isInterpolating = false;
     QTimer m_glideTimer; ///< until the next picture of bodies on their way

@@ -148,6 +148,8 @@ const ActionInfo kEntries[] = {
     {"segmentCard", "&View/O&verlays", QT_TRANSLATE_NOOP("Action", "&Values of a segment"), "",
      Do::callIn<&Window::viewport, &ViewportWidget::toggleCard>,
      Do::isIn<&Window::viewport, &ViewportWidget::hasCard, true>},
+    {"ownCharacter", "&View", QT_TRANSLATE_NOOP("Action", "O&wn character…"), "",
+     Do::call<&Window::editOwnCharacter>},
     {"interpolation", "&View", QT_TRANSLATE_NOOP("Action", "&Interpolate between samples"), "",
      Do::callIn<&Window::viewport, &ViewportWidget::toggleInterpolation>,
      Do::isIn<&Window::viewport, &ViewportWidget::isInterpolating, true>},
