@@ -70,12 +70,18 @@ struct SceneFrame {
     std::vector<render::LineInstance> lines;
     std::vector<render::PointInstance> points;
     std::vector<SceneText> texts;
+    int x = 0; ///< of a pane in the picture, device pixels
+    int y = 0;
     int width = 1; ///< device pixels
     int height = 1;
     float pixelRatio = 1.0F;
-    bool isBest = false; ///< to be drawn as well as it can be, however long that takes
+    std::vector<SceneFrame> panes; ///< the views of a split picture, drawn instead of this one; else empty
+    bool isBest = false;           ///< to be drawn as well as it can be, however long that takes
 
     bool operator==(const SceneFrame&) const = default;
+
+    /// Where it is drawn in the picture that it is a pane of.
+    [[nodiscard]] render::Pane place() const { return {x, y, width, height}; }
 };
 
 /// Turns frames into scenes for one renderer: uploads meshes when they are first seen, releases those no
